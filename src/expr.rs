@@ -39,7 +39,8 @@ mod unicode;
 mod zero_test;
 
 pub use function::{
-    Branches, Convolution, Divisor, FUNCTIONS, Form, Function, Operand, Recurrence, Rule,
+    BilinearEquation, Branches, Convolution, Divisor, FUNCTIONS, Function, Operand, Recurrence,
+    Rule,
 };
 pub use node::{Expr, FunctionId, Node};
 pub use notation::{latex_name, latex_of_unicode, unicode_name};

@@ -20,7 +20,7 @@ pub use convolution::Row;
 pub use double_double::DoubleDouble;
 pub use extended_range::ExtendedRange;
 pub use format::{short, significant};
-pub use horner::polynomial;
+pub use horner::{Polynomial, polynomial};
 pub use instruction_set::{Kernel, vectorized};
 pub use number::Number;
 pub use prime_field::{PRIMES, PrimeField, Residue, rational};

@@ -26,7 +26,7 @@ mod tanh;
 use super::node::{Expr, FunctionId, Node};
 use super::pool::Pool;
 use crate::num::{Number, Real};
-pub use recurrence::{Convolution, Divisor, Form, Operand, Recurrence};
+pub use recurrence::{BilinearEquation, Convolution, Divisor, Operand, Recurrence};
 
 /// The functions, in the order of [`FunctionId`].
 pub const FUNCTIONS: [Function; 18] = [
@@ -104,22 +104,22 @@ impl FunctionId {
     /// The value of the function and that of its companion in its Taylor recurrence (cos for sin,
     /// 1 + u² for atan, …), which is zero where it has none. A function of one argument ignores the
     /// second.
-    pub fn begin<R: Real>(self, u: [R; 2]) -> (R, R) {
+    pub fn with_companion<R: Real>(self, u: [R; 2]) -> (R, R) {
         let positive = |x: R| x.value() > 0.0;
         match self {
-            FunctionId::Sin => sin::begin(u),
-            FunctionId::Cos => cos::begin(u),
-            FunctionId::Tan => tan::begin(u),
-            FunctionId::Cot => cot::begin(u),
-            FunctionId::Asin => asin::begin(u),
-            FunctionId::Acos => acos::begin(u),
-            FunctionId::Atan => atan::begin(u),
-            FunctionId::Atan2 => atan2::begin(u),
-            FunctionId::Sinh => sinh::begin(u),
-            FunctionId::Cosh => cosh::begin(u),
-            FunctionId::Tanh => tanh::begin(u),
-            FunctionId::Exp => exp::begin(u),
-            FunctionId::Ln => ln::begin(u),
+            FunctionId::Sin => sin::with_companion(u),
+            FunctionId::Cos => cos::with_companion(u),
+            FunctionId::Tan => tan::with_companion(u),
+            FunctionId::Cot => cot::with_companion(u),
+            FunctionId::Asin => asin::with_companion(u),
+            FunctionId::Acos => acos::with_companion(u),
+            FunctionId::Atan => atan::with_companion(u),
+            FunctionId::Atan2 => atan2::with_companion(u),
+            FunctionId::Sinh => sinh::with_companion(u),
+            FunctionId::Cosh => cosh::with_companion(u),
+            FunctionId::Tanh => tanh::with_companion(u),
+            FunctionId::Exp => exp::with_companion(u),
+            FunctionId::Ln => ln::with_companion(u),
             FunctionId::Sqrt => (u[0].sqrt(), R::ZERO),
             FunctionId::Abs => (if positive(u[0]) { u[0] } else { -u[0] }, R::ZERO),
             FunctionId::Sign => match u[0].value() {

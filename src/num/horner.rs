@@ -13,10 +13,14 @@ pub fn polynomial(low: &[DoubleDouble], high: &[f64], x: DoubleDouble) -> Double
     vectorized(Polynomial { low, high, x })
 }
 
-struct Polynomial<'a> {
-    low: &'a [DoubleDouble],
-    high: &'a [f64],
-    x: DoubleDouble,
+/// The kernel of [`polynomial`].
+pub struct Polynomial<'a> {
+    /// The terms of low order.
+    pub low: &'a [DoubleDouble],
+    /// Those after them.
+    pub high: &'a [f64],
+    /// The argument.
+    pub x: DoubleDouble,
 }
 
 impl Kernel for Polynomial<'_> {

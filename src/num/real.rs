@@ -6,7 +6,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::convolution::{Row, Single};
 use super::double_double::DoubleDouble;
-use super::instruction_set::vectorized;
+use super::instruction_set::Kernel;
 use crate::num::math;
 
 /// A real number of some precision, with the functions an expression may call.
@@ -54,8 +54,9 @@ pub trait Real:
         self * other
     }
     /// `out_i = Σ_{j<n} a_j b_j`, where a begins in `forward` and b in `reversed` at the places of
-    /// the i-th row, that of b moved on by `shift`.
-    fn inner_products(
+    /// the i-th row, that of b moved on by `shift`. To be inlined into a [`Kernel`].
+    #[inline(always)]
+    fn inner_products<const FUSED: bool>(
         forward: &[Self],
         reversed: &[Self],
         rows: &[Row],
@@ -106,15 +107,15 @@ impl Real for f64 {
     const ZERO: f64 = 0.0;
     const ONE: f64 = 1.0;
 
-    #[inline]
-    fn inner_products(
+    #[inline(always)]
+    fn inner_products<const FUSED: bool>(
         forward: &[f64],
         reversed: &[f64],
         rows: &[Row],
         (shift, n): (usize, usize),
         out: &mut [f64],
     ) {
-        vectorized(Single { forward, reversed, rows, shift, n, out });
+        Single { forward, reversed, rows, shift, n, out }.run::<FUSED>();
     }
 
     fn of(x: DoubleDouble) -> f64 {

@@ -7,7 +7,7 @@ use super::jet::{Jet, Side};
 use super::program::Singular;
 use super::solve::Factored;
 use crate::cancel::Cancel;
-use crate::num::{DoubleDouble, ExtendedRange, Real};
+use crate::num::{DoubleDouble, ExtendedRange, Kernel, Real, vectorized};
 
 /// The time of the origin, and the unit of time.
 #[derive(Clone, Copy)]
@@ -97,13 +97,16 @@ impl<R: Real> SeriesBuilder<R> {
         self.jet.copy(&wide.jet, self.order + 1);
     }
 
-    /// Computes order `k + 1` of the state from order `k`.
-    pub(super) fn grow(&mut self, k: usize, clock: Clock, cancel: &Cancel) -> Result<(), Halt> {
-        if cancel.is_cancelled() {
-            return Err(Halt::Cancelled);
+    /// Computes the orders above `first` of the state, each from the one before.
+    pub(super) fn grow(&mut self, first: usize, clock: Clock, cancel: &Cancel) -> Result<(), Halt> {
+        if self.kept.is_empty() {
+            return vectorized(Grow { builder: self, first, clock, cancel });
         }
-        self.extend(k, clock)?;
-        if !self.kept.is_empty() {
+        for k in first..self.order {
+            if cancel.is_cancelled() {
+                return Err(Halt::Cancelled);
+            }
+            self.extend(k, clock)?;
             self.solve_weights(k, clock)?;
             self.extend(k, clock)?;
         }
@@ -111,11 +114,16 @@ impl<R: Real> SeriesBuilder<R> {
     }
 
     fn extend(&mut self, k: usize, clock: Clock) -> Result<(), Singular> {
+        vectorized(Extend { builder: self, k, clock })
+    }
+
+    #[inline(always)]
+    fn extend_with<const FUSED: bool>(&mut self, k: usize, clock: Clock) -> Result<(), Singular> {
         let stride = self.order + 1;
         for i in 0..self.inputs {
             self.jet.set_input(i, k, self.state[i * stride + k]);
         }
-        self.jet.advance(k, R::of(clock.time), clock.scale)?;
+        self.jet.advance_with::<FUSED>(k, R::of(clock.time), clock.scale)?;
         for i in 0..self.len() {
             self.state[i * stride + k + 1] = self.jet.output(i, k).scaled(clock.scale).over(k + 1);
         }
@@ -201,5 +209,44 @@ impl<R: Real> SeriesBuilder<R> {
         }
         self.jet.advance(last, R::of(clock.time), clock.scale)?;
         Ok(kept.iter().map(|&switch| self.jet.switch(switch)[last]).collect())
+    }
+}
+
+/// One order of a series.
+struct Extend<'a, R> {
+    builder: &'a mut SeriesBuilder<R>,
+    k: usize,
+    clock: Clock,
+}
+
+impl<R: Real> Kernel for Extend<'_, R> {
+    type Output = Result<(), Singular>;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> Result<(), Singular> {
+        self.builder.extend_with::<FUSED>(self.k, self.clock)
+    }
+}
+
+/// All orders of a series without weights.
+struct Grow<'a, R> {
+    builder: &'a mut SeriesBuilder<R>,
+    first: usize,
+    clock: Clock,
+    cancel: &'a Cancel,
+}
+
+impl<R: Real> Kernel for Grow<'_, R> {
+    type Output = Result<(), Halt>;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> Result<(), Halt> {
+        for k in self.first..self.builder.order {
+            if self.cancel.is_cancelled() {
+                return Err(Halt::Cancelled);
+            }
+            self.builder.extend_with::<FUSED>(k, self.clock)?;
+        }
+        Ok(())
     }
 }

@@ -9,7 +9,7 @@
 
 use std::sync::Arc;
 
-use super::live_power::{self, vanishes};
+use super::parametric_power::{self, vanishes};
 use super::program::{Block, Op, Program, Register, Singular};
 use super::schedule::{Denominator, Direct, Ends, Factor, Relation, Schedule, Step};
 use super::solve::Factored;
@@ -145,14 +145,24 @@ impl<R: Real> Jet<R> {
     /// Evaluates all registers at order `k`, at a time that advances in units of `scale`. The lower
     /// orders must have been evaluated, and the inputs' coefficients of order `k` set.
     pub fn advance(&mut self, k: usize, time: R, scale: f64) -> Result<(), Singular> {
-        let (program, tables) = (&*self.program, &mut self.tables);
+        vectorized(Advance { jet: self, k, time, scale })
+    }
+
+    /// The same inside a [`Kernel`].
+    #[inline(always)]
+    pub(super) fn advance_with<const FUSED: bool>(
+        &mut self,
+        k: usize,
+        time: R,
+        scale: f64,
+    ) -> Result<(), Singular> {
+        let (program, schedule, tables) = (&*self.program, &*self.schedule, &mut self.tables);
         if k == 0 {
             return tables.begin(program, time);
         }
-        tables.multiply(k);
+        tables.multiply::<FUSED>(k);
         let rate = if k == 1 { R::ONE * scale } else { R::ZERO };
-        let schedule = &*self.schedule;
-        vectorized(Finish { tables: &mut *tables, program, schedule, k, rate });
+        tables.finish::<FUSED>(program, schedule, k, rate);
         tables.mirror(schedule, k);
         Ok(())
     }
@@ -218,29 +228,30 @@ impl<R: Real> Jet<R> {
     }
 }
 
-/// The finishing pass of one order.
-struct Finish<'a, R> {
-    tables: &'a mut Tables<R>,
-    program: &'a Program,
-    schedule: &'a Schedule,
+/// One order of a jet.
+struct Advance<'a, R> {
+    jet: &'a mut Jet<R>,
     k: usize,
-    rate: R,
+    time: R,
+    scale: f64,
 }
 
-impl<R: Real> Kernel for Finish<'_, R> {
-    type Output = ();
+impl<R: Real> Kernel for Advance<'_, R> {
+    type Output = Result<(), Singular>;
 
     #[inline(always)]
-    fn run<const FUSED: bool>(self) {
-        self.tables.finish::<FUSED>(self.program, self.schedule, self.k, self.rate);
+    fn run<const FUSED: bool>(self) -> Result<(), Singular> {
+        self.jet.advance_with::<FUSED>(self.k, self.time, self.scale)
     }
 }
 
 impl<R: Real> Tables<R> {
     /// Computes all inner products of order `k`.
-    fn multiply(&mut self, k: usize) {
+    #[inline(always)]
+    fn multiply<const FUSED: bool>(&mut self, k: usize) {
         let range = (self.stride - k, k - 1);
-        R::inner_products(&self.forward, &self.reversed, &self.rows, range, &mut self.products);
+        let (forward, reversed) = (&self.forward, &self.reversed);
+        R::inner_products::<FUSED>(forward, reversed, &self.rows, range, &mut self.products);
     }
 
     fn set_value(&mut self, register: Register, value: R) {
@@ -416,9 +427,13 @@ impl<R: Real> Tables<R> {
         let (below, own) = self.forward.split_at_mut(at * stride);
         let series = |r: Register| &below[r as usize * stride..][..stride];
         own[k] = match program.ops[at] {
-            Op::ParametricPower(a, exponent) => {
-                live_power::coefficient(series(a), series(exponent)[0].double(), own, k, stride)
-            }
+            Op::ParametricPower(a, exponent) => parametric_power::coefficient(
+                series(a),
+                series(exponent)[0].double(),
+                own,
+                k,
+                stride,
+            ),
             Op::Select { switch, mode, positive, negative } => {
                 let (positive, negative) = (series(positive), series(negative));
                 let side = match mode {
@@ -448,6 +463,7 @@ impl<R: Real> Tables<R> {
     }
 
     /// Stores order `k` once more where inner products read it.
+    #[inline(always)]
     fn mirror(&mut self, schedule: &Schedule, k: usize) {
         let (stride, registers) = (self.stride, self.values.len());
         for (slot, &r) in schedule.reversed.iter().enumerate() {

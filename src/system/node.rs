@@ -4,7 +4,7 @@
 //! operations.
 
 use super::lower::Lowering;
-use super::program::{LIVE_POWER_BITS, Op, Register};
+use super::program::{Op, PARAMETRIC_POWER_BITS, Register};
 use crate::expr::{Branches, Expr, FunctionId, Node, Pool, Rule};
 use crate::num::{DoubleDouble, Number};
 
@@ -140,7 +140,7 @@ impl Lowering<'_> {
     fn lower_power(&mut self, base: Register, exponent: Register) -> Register {
         if self.is_fixed(exponent) {
             let register = self.push(Op::ParametricPower(base, exponent));
-            self.make_room(register, 2 * LIVE_POWER_BITS);
+            self.make_room(register, 2 * PARAMETRIC_POWER_BITS);
             return register;
         }
         // b^e = exp(e ln b)

@@ -12,7 +12,7 @@ use crate::num::DoubleDouble;
 pub(super) type Register = u32;
 
 /// The number of squarings for an integer power with a live exponent: exponents up to 63.
-pub(super) const LIVE_POWER_BITS: usize = 6;
+pub(super) const PARAMETRIC_POWER_BITS: usize = 6;
 
 /// One operation. It writes the register of its own index.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]

@@ -17,7 +17,7 @@
 use std::collections::HashMap;
 
 use super::program::{Op, Program, Register};
-use crate::expr::{Divisor, Form, Operand, Rule};
+use crate::expr::{BilinearEquation, Divisor, Operand, Rule};
 use crate::num::DoubleDouble;
 
 /// An inner product of the first phase: the places of a series in the table of those stored
@@ -244,7 +244,7 @@ impl Writer<'_> {
         register: Register,
         value: Register,
         arguments: [Register; 2],
-        form: &Form,
+        equation: &BilinearEquation,
     ) -> Step {
         let of = |operand: Operand| match operand {
             Operand::First => arguments[0],
@@ -253,17 +253,17 @@ impl Writer<'_> {
             Operand::Companion => value + 1,
         };
         let factor = |sign: f64| if sign < 0.0 { Factor::Minus } else { Factor::Plus };
-        let direct = match form.slope {
+        let direct = match equation.slope {
             Some((sign, operand)) => Direct::Slope(factor(sign), of(operand)),
             None => Direct::None,
         };
-        let denominator = match form.divisor {
+        let denominator = match equation.divisor {
             Divisor::One => Denominator::One,
             Divisor::Order => Denominator::Order,
             Divisor::OrderTimes(operand) => Denominator::OrderTimes(of(operand)),
             Divisor::Twice(operand) => Denominator::Twice(of(operand)),
         };
-        let sums = form.sums.iter();
+        let sums = equation.sums.iter();
         let summands: Vec<Summand> = sums
             .map(|c| {
                 let pair = (of(c.left), of(c.right));

@@ -14,7 +14,7 @@ use super::jet::{Jet, Side};
 use super::program::Program;
 use super::state::State;
 use crate::expr::FunctionId;
-use crate::num::{DoubleDouble, ExtendedRange, math, polynomial};
+use crate::num::{DoubleDouble, ExtendedRange, Kernel, Polynomial, math, polynomial, vectorized};
 
 /// The series of all numbers of a state, in the native form of its system.
 #[derive(Clone, Debug)]
@@ -161,9 +161,7 @@ impl Series {
             wide
         });
         wide.begin(&self.origin, &self.sides);
-        for k in 0..order {
-            wide.grow(k, clock, self.system.cancel())?;
-        }
+        wide.grow(0, clock, self.system.cancel())?;
         if !self.sides.is_empty() {
             wide.watch(clock)?;
         }
@@ -180,18 +178,14 @@ impl Series {
         let cancel = self.system.cancel();
         if let Some(low) = &mut self.low {
             low.begin(&self.origin, &self.sides);
-            for k in 0..low.order {
-                low.grow(k, clock, cancel)?;
-            }
+            low.grow(0, clock, cancel)?;
             // a weight that acts two orders later is not yet known at the last order
             first = if low.kept.is_empty() { low.order } else { low.order + 1 - low.depth };
             self.high.take_over(low)?;
         } else {
             self.high.begin(&self.origin, &self.sides);
         }
-        for k in first..self.high.order {
-            self.high.grow(k, clock, cancel)?;
-        }
+        self.high.grow(first, clock, cancel)?;
         if !self.sides.is_empty() {
             self.high.watch(clock)?;
         }
@@ -269,11 +263,29 @@ impl Series {
     /// Writes the state at a time `after` the origin into `out`, by the polynomials.
     pub fn state_after(&self, after: DoubleDouble, out: &mut State) {
         let x = after * self.scale.recip();
-        for i in 0..self.origin.len() {
-            let exact = self.low.as_ref().map_or(&self.origin[i..=i], |low| low.series(i));
-            out.set(i, polynomial(exact, &self.high.series(i)[exact.len()..], x));
-        }
+        vectorized(Sum { series: self, x, out: &mut *out });
         let time = self.time + after;
         (out.time, out.time_carry) = (time.high, time.low);
+    }
+}
+
+/// The polynomials of a state, at a time in the unit of the series.
+struct Sum<'a> {
+    series: &'a Series,
+    x: DoubleDouble,
+    out: &'a mut State,
+}
+
+impl Kernel for Sum<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        let Sum { series, x, out } = self;
+        for i in 0..series.origin.len() {
+            let low = series.low.as_ref().map_or(&series.origin[i..=i], |low| low.series(i));
+            let high = &series.high.series(i)[low.len()..];
+            out.set(i, Polynomial { low, high, x }.run::<FUSED>());
+        }
     }
 }

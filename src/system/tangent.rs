@@ -11,7 +11,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::program::{Block, LIVE_POWER_BITS, Op, Program, Register, Term};
+use super::program::{Block, Op, PARAMETRIC_POWER_BITS, Program, Register, Term};
 use crate::expr::FunctionId;
 use crate::num::DoubleDouble;
 
@@ -155,8 +155,8 @@ impl Builder {
                     // δ(a/b) = (δa − (a/b) δb)/b
                     let (da, db) = (d(a), d(b));
                     let product = self.product(register, db);
-                    let above = self.combination(&[(1.0, da), (-1.0, product)]);
-                    delta[r] = self.quotient(above, b);
+                    let numerator = self.combination(&[(1.0, da), (-1.0, product)]);
+                    delta[r] = self.quotient(numerator, b);
                 }
                 Op::Root(a) => {
                     let half = self.combination(&[(0.5, d(a))]);
@@ -168,7 +168,7 @@ impl Builder {
                 }
                 Op::ParametricPower(a, exponent) => {
                     let da = d(a);
-                    delta[r] = self.live_power(register, (a, exponent), da);
+                    delta[r] = self.parametric_power(register, (a, exponent), da);
                 }
                 Op::Call(function, [a, b]) => {
                     let (da, db) = (d(a), d(b));
@@ -185,10 +185,10 @@ impl Builder {
                     }
                 }
                 Op::Select { switch, mode, positive, negative } => {
-                    let (above, below) = (d(positive), d(negative));
-                    if above.is_some() || below.is_some() {
-                        let positive = above.unwrap_or_else(|| self.constant(0.0));
-                        let negative = below.unwrap_or_else(|| self.constant(0.0));
+                    let (on_one, on_other) = (d(positive), d(negative));
+                    if on_one.is_some() || on_other.is_some() {
+                        let positive = on_one.unwrap_or_else(|| self.constant(0.0));
+                        let negative = on_other.unwrap_or_else(|| self.constant(0.0));
                         delta[r] = Some(self.push(Op::Select { switch, mode, positive, negative }));
                     }
                 }
@@ -249,7 +249,7 @@ impl Builder {
     }
 
     /// The same with an exponent that depends on parameters.
-    fn live_power(
+    fn parametric_power(
         &mut self,
         register: Register,
         (a, exponent): (Register, Register),
@@ -266,7 +266,7 @@ impl Builder {
             let negative = self.linear(1.0, &[opposite]);
             let exponent_less = self.push(Op::Select { switch, mode: None, positive, negative });
             let less = self.push(Op::ParametricPower(a, exponent_less));
-            for _ in 0..2 * LIVE_POWER_BITS {
+            for _ in 0..2 * PARAMETRIC_POWER_BITS {
                 self.push(Op::Written);
             }
             self.push(Op::Scale(exponent, less))
@@ -298,21 +298,21 @@ impl Builder {
             FunctionId::Tanh => self.by_square(y, du, 1.0, -1.0),
             FunctionId::Atan => {
                 du?;
-                let below = self.slope(y, |builder| builder.one_and_square(u, 1.0, 1.0));
-                self.quotient(du, below)
+                let denominator = self.slope(y, |builder| builder.one_and_square(u, 1.0, 1.0));
+                self.quotient(du, denominator)
             }
             FunctionId::Atan2 => {
                 // of (y, x): (x δy − y δx)/(x² + y²)
                 let products = [self.product(v, du), self.product(u, dv)];
-                let above = self.combination(&[(1.0, products[0]), (-1.0, products[1])]);
-                above?;
-                let below = self.slope(y, |builder| {
+                let numerator = self.combination(&[(1.0, products[0]), (-1.0, products[1])]);
+                numerator?;
+                let denominator = self.slope(y, |builder| {
                     let squares = [u, v].map(|r| builder.push(Op::Square(r)));
                     let one = DoubleDouble::ONE;
                     let terms = squares.map(|register| Term { coefficient: one, register });
                     builder.linear(0.0, &terms)
                 });
-                self.quotient(above, below)
+                self.quotient(numerator, denominator)
             }
             // pairs are led by their first, the others are powers or branches
             FunctionId::Cos

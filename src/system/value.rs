@@ -172,7 +172,7 @@ pub(super) fn value_of<R: Real>(
         Op::Power(a, exponent) => get(a).power(program.constants[exponent as usize]),
         Op::ParametricPower(a, exponent) => get(a).power(get(exponent).double()),
         Op::Call(function, [a, b]) => {
-            let (value, companion) = function.begin([get(a), get(b)]);
+            let (value, companion) = function.with_companion([get(a), get(b)]);
             return Some((value, Some(companion)));
         }
         Op::Select { switch, positive, negative, .. } => {

@@ -1,20 +1,25 @@
 //! The inverse cosine.
 
 use super::asin::{COSINE, cosine_of, slope};
-use super::recurrence::{COMPANION, Convolution, FIRST, Form, Recurrence, VALUE};
+use super::recurrence::{BilinearEquation, COMPANION, Convolution, FIRST, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule};
 use crate::expr::Expr;
 use crate::num::{Real, math};
 
 /// The value, and that of the companion.
-pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+pub(super) fn with_companion<R: Real>(u: [R; 2]) -> (R, R) {
     (u[0].acos(), cosine_of(u[0]))
 }
 
 /// y = arccos u, w = √(1 − u²): y′ w = −u′.
 const RECURRENCE: Recurrence = Recurrence {
     companion_first: false,
-    value: Form::slope(-1.0, FIRST, &[Convolution::of_slope(-1.0, VALUE, COMPANION)], COMPANION),
+    value: BilinearEquation::slope(
+        -1.0,
+        FIRST,
+        &[Convolution::of_slope(-1.0, VALUE, COMPANION)],
+        COMPANION,
+    ),
     companion: Some(COSINE),
 };
 

@@ -1,12 +1,14 @@
 //! The inverse sine.
 
-use super::recurrence::{COMPANION, Convolution, Divisor, FIRST, Form, Recurrence, VALUE};
+use super::recurrence::{
+    BilinearEquation, COMPANION, Convolution, Divisor, FIRST, Recurrence, VALUE,
+};
 use super::{Function, FunctionId, Rule};
 use crate::expr::{Expr, Pool};
 use crate::num::{Number, Real, math};
 
 /// The value, and that of the companion.
-pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+pub(super) fn with_companion<R: Real>(u: [R; 2]) -> (R, R) {
     (u[0].asin(), cosine_of(u[0]))
 }
 
@@ -23,16 +25,21 @@ pub(super) fn cosine_of<R: Real>(u: R) -> R {
 }
 
 /// w = √(1 − u²): w² = 1 − u².
-pub(super) const COSINE: Form = Form {
+pub(super) const COSINE: BilinearEquation = BilinearEquation {
     sums: &[Convolution::of(-1.0, FIRST, FIRST), Convolution::of(-1.0, COMPANION, COMPANION)],
     divisor: Divisor::Twice(COMPANION),
-    ..Form::NONE
+    ..BilinearEquation::NONE
 };
 
 /// y = arcsin u, w = √(1 − u²): y′ w = u′.
 const RECURRENCE: Recurrence = Recurrence {
     companion_first: false,
-    value: Form::slope(1.0, FIRST, &[Convolution::of_slope(-1.0, VALUE, COMPANION)], COMPANION),
+    value: BilinearEquation::slope(
+        1.0,
+        FIRST,
+        &[Convolution::of_slope(-1.0, VALUE, COMPANION)],
+        COMPANION,
+    ),
     companion: Some(COSINE),
 };
 

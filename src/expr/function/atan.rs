@@ -1,19 +1,24 @@
 //! The inverse tangent.
 
-use super::recurrence::{COMPANION, Convolution, FIRST, Form, Recurrence, VALUE};
+use super::recurrence::{BilinearEquation, COMPANION, Convolution, FIRST, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule};
 use crate::num::{Number, Real, math};
 
 /// The value, and that of the companion.
-pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+pub(super) fn with_companion<R: Real>(u: [R; 2]) -> (R, R) {
     (u[0].atan2(R::ONE), R::ONE + u[0] * u[0])
 }
 
 /// y = arctan u, w = 1 + u²: y′ w = u′.
 const RECURRENCE: Recurrence = Recurrence {
     companion_first: true,
-    value: Form::slope(1.0, FIRST, &[Convolution::of_slope(-1.0, VALUE, COMPANION)], COMPANION),
-    companion: Some(Form::sum(&[Convolution::of(1.0, FIRST, FIRST)])),
+    value: BilinearEquation::slope(
+        1.0,
+        FIRST,
+        &[Convolution::of_slope(-1.0, VALUE, COMPANION)],
+        COMPANION,
+    ),
+    companion: Some(BilinearEquation::sum(&[Convolution::of(1.0, FIRST, FIRST)])),
 };
 
 pub(super) const FUNCTION: Function = Function {

@@ -1,27 +1,29 @@
 //! The angle of a point: `atan2(y, x)`, in (−π, π].
 
-use super::recurrence::{COMPANION, Convolution, Divisor, FIRST, Form, Recurrence, SECOND, VALUE};
+use super::recurrence::{
+    BilinearEquation, COMPANION, Convolution, Divisor, FIRST, Recurrence, SECOND, VALUE,
+};
 use super::{Function, FunctionId, Rule};
 use crate::num::{Number, Real, math};
 
 /// The value, and that of the companion.
-pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+pub(super) fn with_companion<R: Real>(u: [R; 2]) -> (R, R) {
     (u[0].atan2(u[1]), u[1] * u[1] + u[0] * u[0])
 }
 
 /// θ = atan2(y, x), w = x² + y²: θ′ w = x y′ − y x′.
 const RECURRENCE: Recurrence = Recurrence {
     companion_first: true,
-    value: Form {
+    value: BilinearEquation {
         sums: &[
             Convolution::of_slope(1.0, FIRST, SECOND),
             Convolution::of_slope(-1.0, SECOND, FIRST),
             Convolution::of_slope(-1.0, VALUE, COMPANION),
         ],
         divisor: Divisor::OrderTimes(COMPANION),
-        ..Form::NONE
+        ..BilinearEquation::NONE
     },
-    companion: Some(Form::sum(&[
+    companion: Some(BilinearEquation::sum(&[
         Convolution::of(1.0, SECOND, SECOND),
         Convolution::of(1.0, FIRST, FIRST),
     ])),

@@ -1,11 +1,11 @@
 //! The cosine.
 
-use super::recurrence::{COMPANION, Convolution, FIRST, Form, Recurrence, VALUE};
+use super::recurrence::{BilinearEquation, COMPANION, Convolution, FIRST, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule, exact_sine};
 use crate::num::{Number, Real, math};
 
 /// The value, and that of the companion.
-pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+pub(super) fn with_companion<R: Real>(u: [R; 2]) -> (R, R) {
     let (sine, cosine) = u[0].sin_cos();
     (cosine, sine)
 }
@@ -13,8 +13,8 @@ pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
 /// y = cos u, w = sin u: y′ = −w u′, w′ = y u′.
 const RECURRENCE: Recurrence = Recurrence {
     companion_first: false,
-    value: Form::over_order(&[Convolution::of_slope(-1.0, FIRST, COMPANION)]),
-    companion: Some(Form::over_order(&[Convolution::of_slope(1.0, FIRST, VALUE)])),
+    value: BilinearEquation::over_order(&[Convolution::of_slope(-1.0, FIRST, COMPANION)]),
+    companion: Some(BilinearEquation::over_order(&[Convolution::of_slope(1.0, FIRST, VALUE)])),
 };
 
 pub(super) const FUNCTION: Function = Function {

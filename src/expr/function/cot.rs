@@ -1,12 +1,12 @@
 //! The cotangent.
 
-use super::recurrence::{COMPANION, Convolution, FIRST, Form, Recurrence, VALUE};
+use super::recurrence::{BilinearEquation, COMPANION, Convolution, FIRST, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule};
 use crate::expr::Expr;
 use crate::num::{Number, Real, math};
 
 /// The value, and that of the companion.
-pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+pub(super) fn with_companion<R: Real>(u: [R; 2]) -> (R, R) {
     let y = R::ONE / u[0].tan();
     (y, R::ONE + y * y)
 }
@@ -14,8 +14,8 @@ pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
 /// y = cot u, w = 1 + y²: y′ = −w u′.
 const RECURRENCE: Recurrence = Recurrence {
     companion_first: false,
-    value: Form::over_order(&[Convolution::of_slope(-1.0, FIRST, COMPANION)]),
-    companion: Some(Form::sum(&[Convolution::of(1.0, VALUE, VALUE)])),
+    value: BilinearEquation::over_order(&[Convolution::of_slope(-1.0, FIRST, COMPANION)]),
+    companion: Some(BilinearEquation::sum(&[Convolution::of(1.0, VALUE, VALUE)])),
 };
 
 pub(super) const FUNCTION: Function = Function {

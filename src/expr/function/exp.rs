@@ -1,19 +1,19 @@
 //! The exponential.
 
-use super::recurrence::{Convolution, FIRST, Form, Recurrence, VALUE};
+use super::recurrence::{BilinearEquation, Convolution, FIRST, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule};
 use crate::expr::Expr;
 use crate::num::{Real, math};
 
 /// The value, and that of the companion.
-pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+pub(super) fn with_companion<R: Real>(u: [R; 2]) -> (R, R) {
     (u[0].exp(), R::ZERO)
 }
 
 /// y = exp u: y′ = y u′.
 const RECURRENCE: Recurrence = Recurrence {
     companion_first: false,
-    value: Form::over_order(&[Convolution::of_slope(1.0, FIRST, VALUE)]),
+    value: BilinearEquation::over_order(&[Convolution::of_slope(1.0, FIRST, VALUE)]),
     companion: None,
 };
 

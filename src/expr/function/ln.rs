@@ -1,19 +1,19 @@
 //! The natural logarithm.
 
-use super::recurrence::{Convolution, FIRST, Form, Recurrence, VALUE};
+use super::recurrence::{BilinearEquation, Convolution, FIRST, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule};
 use crate::expr::{Expr, Node};
 use crate::num::{Real, math};
 
 /// The value, and that of the companion.
-pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+pub(super) fn with_companion<R: Real>(u: [R; 2]) -> (R, R) {
     (u[0].ln(), R::ZERO)
 }
 
 /// y = ln u: y′ u = u′.
 const RECURRENCE: Recurrence = Recurrence {
     companion_first: false,
-    value: Form::slope(1.0, FIRST, &[Convolution::of_slope(-1.0, VALUE, FIRST)], FIRST),
+    value: BilinearEquation::slope(1.0, FIRST, &[Convolution::of_slope(-1.0, VALUE, FIRST)], FIRST),
     companion: None,
 };
 

@@ -68,7 +68,7 @@ pub enum Divisor {
 
 /// The recurrence of one series f.
 #[derive(Clone, Copy, Debug)]
-pub struct Form {
+pub struct BilinearEquation {
     /// `± k u_k` of a series.
     pub slope: Option<(f64, Operand)>,
     /// The convolutions; what they contain of f_k is left out.
@@ -77,17 +77,18 @@ pub struct Form {
     pub divisor: Divisor,
 }
 
-impl Form {
-    pub(super) const NONE: Form = Form { slope: None, sums: &[], divisor: Divisor::One };
+impl BilinearEquation {
+    pub(super) const NONE: BilinearEquation =
+        BilinearEquation { slope: None, sums: &[], divisor: Divisor::One };
 
     /// f = Σ left · right.
-    pub(super) const fn sum(sums: &'static [Convolution]) -> Form {
-        Form { slope: None, sums, divisor: Divisor::One }
+    pub(super) const fn sum(sums: &'static [Convolution]) -> BilinearEquation {
+        BilinearEquation { slope: None, sums, divisor: Divisor::One }
     }
 
     /// f′ = Σ left′ · right.
-    pub(super) const fn over_order(sums: &'static [Convolution]) -> Form {
-        Form { slope: None, sums, divisor: Divisor::Order }
+    pub(super) const fn over_order(sums: &'static [Convolution]) -> BilinearEquation {
+        BilinearEquation { slope: None, sums, divisor: Divisor::Order }
     }
 
     /// f′ g = ± u′.
@@ -96,8 +97,8 @@ impl Form {
         of: Operand,
         sums: &'static [Convolution],
         divisor: Operand,
-    ) -> Form {
-        Form { slope: Some((sign, of)), sums, divisor: Divisor::OrderTimes(divisor) }
+    ) -> BilinearEquation {
+        BilinearEquation { slope: Some((sign, of)), sums, divisor: Divisor::OrderTimes(divisor) }
     }
 }
 
@@ -107,7 +108,7 @@ pub struct Recurrence {
     /// Whether the companion's coefficient is the first of the two to be computed.
     pub companion_first: bool,
     /// That of the function.
-    pub value: Form,
+    pub value: BilinearEquation,
     /// That of the companion, where there is one.
-    pub companion: Option<Form>,
+    pub companion: Option<BilinearEquation>,
 }

@@ -1,19 +1,19 @@
 //! The hyperbolic sine.
 
-use super::recurrence::{COMPANION, Convolution, FIRST, Form, Recurrence, VALUE};
+use super::recurrence::{BilinearEquation, COMPANION, Convolution, FIRST, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule};
 use crate::num::{Real, math};
 
 /// The value, and that of the companion.
-pub(super) fn begin<R: Real>(u: [R; 2]) -> (R, R) {
+pub(super) fn with_companion<R: Real>(u: [R; 2]) -> (R, R) {
     u[0].sinh_cosh()
 }
 
 /// y = sinh u, w = cosh u: y′ = w u′, w′ = y u′.
 const RECURRENCE: Recurrence = Recurrence {
     companion_first: false,
-    value: Form::over_order(&[Convolution::of_slope(1.0, FIRST, COMPANION)]),
-    companion: Some(Form::over_order(&[Convolution::of_slope(1.0, FIRST, VALUE)])),
+    value: BilinearEquation::over_order(&[Convolution::of_slope(1.0, FIRST, COMPANION)]),
+    companion: Some(BilinearEquation::over_order(&[Convolution::of_slope(1.0, FIRST, VALUE)])),
 };
 
 pub(super) const FUNCTION: Function = Function {

@@ -81,24 +81,7 @@ impl StepSize {
     /// The longest step that the tolerance allows, in the unit of the series; infinite for a
     /// polynomial. Returns `None` if a coefficient is not finite.
     pub(super) fn longest(&mut self, series: &Series) -> Option<f64> {
-        let mut shortest = f64::INFINITY;
-        if let Some(c) = numbers(series).nth(self.least) {
-            shortest = of_one(c, &self.motion, shortest)?;
-        }
-        let least = self.least;
-        for (i, c) in numbers(series).enumerate().filter(|&(i, _)| i != least) {
-            let found = of_one(c, &self.motion, shortest)?;
-            if found < shortest {
-                (shortest, self.least) = (found, i);
-            }
-        }
-        for i in 0..series.switches() {
-            shortest = of_one(series.switch(i), &self.motion, shortest)?;
-        }
-        for c in integrals(series) {
-            shortest = of_one(c, &self.integrals, shortest)?;
-        }
-        let mut shortest = math::exp(shortest);
+        let mut shortest = math::exp(vectorized(ByCoefficients { rule: self, series })?);
         for (function, u) in series.arguments() {
             // most arguments are far from their bound, which is costly to compute
             let far = |k: usize, h: f64| u[k].abs() * h > FARTHEST_ARGUMENT;
@@ -108,6 +91,44 @@ impl StepSize {
             }
         }
         Some(shortest)
+    }
+
+    /// The logarithm of the step that the coefficients allow.
+    #[inline(always)]
+    fn by_coefficients<const FUSED: bool>(&mut self, series: &Series) -> Option<f64> {
+        let mut shortest = f64::INFINITY;
+        if let Some(c) = numbers(series).nth(self.least) {
+            shortest = of_one::<FUSED>(c, &self.motion, shortest)?;
+        }
+        let least = self.least;
+        for (i, c) in numbers(series).enumerate().filter(|&(i, _)| i != least) {
+            let found = of_one::<FUSED>(c, &self.motion, shortest)?;
+            if found < shortest {
+                (shortest, self.least) = (found, i);
+            }
+        }
+        for i in 0..series.switches() {
+            shortest = of_one::<FUSED>(series.switch(i), &self.motion, shortest)?;
+        }
+        for c in integrals(series) {
+            shortest = of_one::<FUSED>(c, &self.integrals, shortest)?;
+        }
+        Some(shortest)
+    }
+}
+
+/// The kernel of the rule.
+struct ByCoefficients<'a> {
+    rule: &'a mut StepSize,
+    series: &'a Series,
+}
+
+impl Kernel for ByCoefficients<'_> {
+    type Output = Option<f64>;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> Option<f64> {
+        self.rule.by_coefficients::<FUSED>(self.series)
     }
 }
 
@@ -200,9 +221,14 @@ impl Shares {
 /// For each of the last orders k it is the largest of `(ln |c_j| − ln |c_k|)/(k − j) + ln ε/(p − j)`
 /// over all j < k, but no more than the radius of convergence, that is the largest of the first
 /// terms alone, allows. Mostly the lowest orders show already that it is longer than another.
-fn of_one(coefficients: &[f64], shares: &Shares, mut shortest: f64) -> Option<f64> {
+#[inline(always)]
+fn of_one<const FUSED: bool>(
+    coefficients: &[f64],
+    shares: &Shares,
+    mut shortest: f64,
+) -> Option<f64> {
     let p = coefficients.len() - 1;
-    let logs = vectorized(Logarithms(coefficients))?;
+    let logs = Logarithms(coefficients).run::<FUSED>()?;
     for k in ((p + 1).saturating_sub(LAST + BEFORE).max(3)..=p).rev() {
         let own = logs[k];
         if own == f64::NEG_INFINITY {
@@ -291,7 +317,7 @@ mod tests {
     /// The step that a series of order 28 allows.
     fn step_of(coefficients: &[f64], tolerance: f64) -> f64 {
         let shares = Shares::new(tolerance, coefficients.len() - 1);
-        of_one(coefficients, &shares, f64::INFINITY).map_or(f64::NAN, math::exp)
+        of_one::<false>(coefficients, &shares, f64::INFINITY).map_or(f64::NAN, math::exp)
     }
 
     #[test]
@@ -305,11 +331,11 @@ mod tests {
     #[test]
     fn a_longer_step_changes_nothing() {
         let shares = Shares::new(1e-14, 28);
-        let longer = of_one(&geometric(0.5), &shares, f64::INFINITY).expect("finite");
-        let shorter = of_one(&geometric(3.0), &shares, f64::INFINITY).expect("finite");
+        let longer = of_one::<false>(&geometric(0.5), &shares, f64::INFINITY).expect("finite");
+        let shorter = of_one::<false>(&geometric(3.0), &shares, f64::INFINITY).expect("finite");
         assert!(longer > shorter);
-        assert_eq!(of_one(&geometric(0.5), &shares, shorter), Some(shorter));
-        assert_eq!(of_one(&geometric(3.0), &shares, longer), Some(shorter));
+        assert_eq!(of_one::<false>(&geometric(0.5), &shares, shorter), Some(shorter));
+        assert_eq!(of_one::<false>(&geometric(3.0), &shares, longer), Some(shorter));
     }
 
     #[test]

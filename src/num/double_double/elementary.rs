@@ -3,7 +3,7 @@
 
 use super::DoubleDouble;
 use crate::num::convolution::{Double, Row};
-use crate::num::instruction_set::vectorized;
+use crate::num::instruction_set::Kernel;
 use crate::num::math;
 use crate::num::real::Real;
 
@@ -38,6 +38,45 @@ const RECIPROCALS: [DoubleDouble; 65] = {
     table
 };
 
+/// The coefficients of the cosine in powers of the square of its argument, from the second on, …
+const COSINE: [DoubleDouble; 8] = [
+    DoubleDouble { high: -0.5, low: 0.0 },
+    DoubleDouble { high: 0.041_666_666_666_666_664, low: 2.312_964_634_635_742_7e-18 },
+    DoubleDouble { high: -0.001_388_888_888_888_889, low: 5.300_543_954_373_577e-20 },
+    DoubleDouble { high: 2.480_158_730_158_73e-05, low: 2.151_194_786_677_588_2e-23 },
+    DoubleDouble { high: -2.755_731_922_398_589e-07, low: -2.376_771_462_225_029_7e-23 },
+    DoubleDouble { high: 2.087_675_698_786_81e-09, low: -1.207_345_059_113_26e-25 },
+    DoubleDouble { high: -1.147_074_559_772_972_5e-11, low: -2.065_551_275_283_074_5e-28 },
+    DoubleDouble { high: 4.779_477_332_387_385e-14, low: 4.399_205_485_834_081e-31 },
+];
+/// … and those after them, whose terms are below 10⁻¹⁷ up to π/4.
+const COSINE_TAIL: [f64; 5] = [
+    -1.561_920_696_858_622_5e-16,
+    4.110_317_623_312_165e-19,
+    -8.896_791_392_450_574e-22,
+    1.611_737_571_096_118_4e-24,
+    -2.479_596_263_224_797_6e-27,
+];
+/// The same of the sine over its argument.
+const SINE: [DoubleDouble; 8] = [
+    DoubleDouble { high: -0.166_666_666_666_666_66, low: -9.251_858_538_542_97e-18 },
+    DoubleDouble { high: 0.008_333_333_333_333_333, low: 1.156_482_317_317_871_4e-19 },
+    DoubleDouble { high: -0.000_198_412_698_412_698_4, low: -1.720_955_829_342_070_5e-22 },
+    DoubleDouble { high: 2.755_731_922_398_589_3e-06, low: -1.858_393_274_046_472e-22 },
+    DoubleDouble { high: -2.505_210_838_544_172e-08, low: 1.448_814_070_935_912e-24 },
+    DoubleDouble { high: 1.605_904_383_682_161_3e-10, low: 1.258_529_458_875_209_8e-26 },
+    DoubleDouble { high: -7.647_163_731_819_816e-13, low: -7.038_728_777_334_53e-30 },
+    DoubleDouble { high: 2.811_457_254_345_520_6e-15, low: 1.650_884_273_086_143_3e-31 },
+];
+/// … and its tail.
+const SINE_TAIL: [f64; 5] = [
+    -8.220_635_246_624_33e-18,
+    1.957_294_106_339_126_3e-20,
+    -3.868_170_170_630_684e-23,
+    6.446_950_284_384_474e-26,
+    -9.183_689_863_795_546e-29,
+];
+
 impl DoubleDouble {
     /// `self · 2^n`.
     fn scaled(self, n: i32) -> DoubleDouble {
@@ -71,21 +110,18 @@ impl DoubleDouble {
 
     /// Sine and cosine of an argument up to π/4, by their series.
     fn sin_cos_reduced(self) -> (DoubleDouble, DoubleDouble) {
-        let square = -(self * self);
-        let (mut sine, mut cosine) = (self, DoubleDouble::ONE);
-        let (mut odd, mut even) = (self, DoubleDouble::ONE);
-        for n in 1..15 {
-            let n = f64::from(2 * n);
-            even = even * square / (n * (n - 1.0));
-            odd = odd * square / (n * (n + 1.0));
-            cosine = cosine + even;
-            sine = sine + odd;
-            if even.high.abs() < 1e-34 {
-                break;
-            }
-        }
-        (sine, cosine)
+        let square = self * self;
+        let sine = square * even_series(&SINE, &SINE_TAIL, square);
+        let cosine = square * even_series(&COSINE, &COSINE_TAIL, square);
+        (self + self * sine, DoubleDouble::ONE + cosine)
     }
+}
+
+/// `Σ first_j x^j + Σ tail_j x^{j + n}`, where n is the number of `first`.
+fn even_series(first: &[DoubleDouble], tail: &[f64], x: DoubleDouble) -> DoubleDouble {
+    let rest = tail.iter().rev().fold(0.0, |sum, c| sum * x.high + c) * x.high;
+    let (last, before) = first.split_last().unwrap_or((&DoubleDouble::ZERO, &[]));
+    before.iter().rev().fold(*last + DoubleDouble::from(rest), |sum, &c| sum * x + c)
 }
 
 impl Real for DoubleDouble {
@@ -105,15 +141,15 @@ impl Real for DoubleDouble {
         let p = DoubleDouble::product_by::<FUSED>(self.high, other.high);
         DoubleDouble::ordered_sum(p.high, p.low + (self.high * other.low + self.low * other.high))
     }
-    #[inline]
-    fn inner_products(
+    #[inline(always)]
+    fn inner_products<const FUSED: bool>(
         forward: &[DoubleDouble],
         reversed: &[DoubleDouble],
         rows: &[Row],
         (shift, n): (usize, usize),
         out: &mut [DoubleDouble],
     ) {
-        vectorized(Double { forward, reversed, rows, shift, n, out });
+        Double { forward, reversed, rows, shift, n, out }.run::<FUSED>();
     }
 
     fn of(x: DoubleDouble) -> DoubleDouble {
@@ -233,5 +269,42 @@ impl Real for DoubleDouble {
             return DoubleDouble::from(math::powf(self.high, n));
         }
         (self.ln() * exponent).exp()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_coefficients_are_those_of_taylors_series() {
+        let rows: [(&[DoubleDouble], &[f64], u32); 2] =
+            [(&COSINE, &COSINE_TAIL, 2), (&SINE, &SINE_TAIL, 3)];
+        for (first, tail, start) in rows {
+            let tail = tail.iter().map(|&c| DoubleDouble::from(c));
+            for (j, c) in first.iter().copied().chain(tail).enumerate() {
+                let n = start + 2 * j as u32;
+                let sign = if n % 4 < 2 { 1.0 } else { -1.0 };
+                let factors = (1..=n).map(f64::from);
+                let expected = factors.fold(DoubleDouble::from(sign), |x, factor| x / factor);
+                let allowed = if j < first.len() { 1e-31 } else { 1e-15 };
+                let off = ((c - expected) / expected).high.abs();
+                assert!(off < allowed, "1/{n}!: {off:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn sine_and_cosine_have_thirty_digits_on_the_whole_circle() {
+        for i in -40..=40 {
+            let x = DoubleDouble::from(f64::from(i)) * 0.07 + DoubleDouble::from(1e-19);
+            let (sine, cosine) = x.sin_cos();
+            let one = sine * sine + cosine * cosine - DoubleDouble::ONE;
+            assert!(one.high.abs() < 1e-30, "{i}: {one:?}");
+            // the angle tripled, by the addition theorem and by the series
+            let tripled = (x * 3.0).sin_cos().0;
+            let by_sine = sine * 3.0 - sine * sine * sine * 4.0;
+            assert!((tripled - by_sine).high.abs() < 3e-30, "{i}: {:?}", tripled - by_sine);
+        }
     }
 }

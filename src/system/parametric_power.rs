@@ -5,7 +5,7 @@
 //! registers after that of the power contain, for each bit of the exponent, the square and the
 //! product of the factors so far.
 
-use super::program::LIVE_POWER_BITS;
+use super::program::PARAMETRIC_POWER_BITS;
 use crate::num::{DoubleDouble, Real};
 
 /// The coefficient of order `k` of `a^exponent`. `own` begins with the register of the power.
@@ -17,12 +17,12 @@ pub(super) fn coefficient<R: Real>(
     stride: usize,
 ) -> R {
     let n = exponent.high;
-    if exponent.low != 0.0 || n.fract() != 0.0 || n.abs() >= f64::from(1 << LIVE_POWER_BITS) {
+    if exponent.low != 0.0 || n.fract() != 0.0 || n.abs() >= f64::from(1 << PARAMETRIC_POWER_BITS) {
         return power(a, exponent, own, k);
     }
     let size = n.abs() as u32;
     let mut last: Option<usize> = None;
-    for bit in 0..LIVE_POWER_BITS {
+    for bit in 0..PARAMETRIC_POWER_BITS {
         let (squares, products) = (stride * (1 + 2 * bit), stride * (2 + 2 * bit));
         if size >> bit == 0 {
             break;
