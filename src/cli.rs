@@ -34,6 +34,7 @@ mod motion_options;
 mod open;
 mod orbit;
 mod output;
+mod path;
 mod play;
 mod record;
 mod report;

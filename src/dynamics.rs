@@ -4,19 +4,25 @@
 //! In: a system, a method, a state. Out: numbers, with what they are sure of. Never here: text,
 //! files, threads.
 
+mod action;
 mod carrier;
+mod conjugate;
 mod equilibria;
 mod error;
 mod family;
 mod flow_map;
 mod linear;
+mod lobatto;
 mod lyapunov;
 mod orbit;
 mod phase_space;
 mod quadrature;
+mod stationary_path;
 mod transverse;
 
+pub use action::{Lagrangian, Path};
 pub use carrier::Carrier;
+pub use conjugate::conjugate_points;
 pub use equilibria::{Equilibria, Equilibrium, Kind, Mode, equilibria};
 pub use error::DynamicsError;
 pub use family::{Along, Bifurcation, Family, Member, family};
@@ -24,4 +30,5 @@ pub use flow_map::{FlowMap, flow_map};
 pub use lyapunov::{Chaos, Lyapunov, lyapunov};
 pub use orbit::{Fixed, Orbit, periodic_orbit};
 pub use phase_space::{PhaseSpace, VectorField};
+pub use stationary_path::{PathKind, StationaryPath, morse_index, stationary_path};
 pub use transverse::Removed;

@@ -41,6 +41,11 @@ impl Assignment {
         Assignment { name: name.to_owned(), value: value.to_owned() }
     }
 
+    /// What is assigned, as it is written.
+    pub(super) fn text(&self) -> &str {
+        &self.value
+    }
+
     /// The name.
     pub(super) fn name(&self) -> &str {
         &self.name

@@ -28,6 +28,7 @@ use super::lyapunov;
 use super::manual;
 use super::methods;
 use super::orbit;
+use super::path;
 use super::play;
 use super::record;
 use super::run;
@@ -88,6 +89,7 @@ enum Command {
     Equilibria(Box<equilibria::Arguments>),
     Section(Box<section::Arguments>),
     Sweep(Box<sweep::Arguments>),
+    Path(Box<path::Arguments>),
     Actions(Box<actions::Arguments>),
     Record(Box<record::Arguments>),
     Script(demo::Arguments),
@@ -152,6 +154,7 @@ fn execute(command: Command, interrupt: &Interrupt) -> Result<(), CommandError> 
         Command::Equilibria(arguments) => equilibria::perform(&arguments, interrupt),
         Command::Section(arguments) => section::perform(&arguments, interrupt),
         Command::Sweep(arguments) => sweep::perform(&arguments, interrupt),
+        Command::Path(arguments) => path::perform(&arguments, interrupt),
         Command::Actions(arguments) => actions::perform(&arguments, interrupt),
         Command::Record(arguments) => record::perform(&arguments),
         Command::Script(arguments) => demo::perform(&arguments),

@@ -13,6 +13,7 @@ mod hostile;
 mod invariants;
 mod list;
 mod manual;
+mod path;
 mod ramp;
 mod record;
 mod run;

@@ -1,0 +1,431 @@
+//! `phaselab path`: paths between configurations, and their action.
+
+use std::path::PathBuf;
+
+use serde_json::{Value, json};
+
+use super::assignment::{self, Assignment, number};
+use super::cells::{self, Cell, TableFormat};
+use super::crowd;
+use super::decimal::divisions;
+use super::failure::CommandError;
+use super::interrupt::Interrupt;
+use super::motion_options::{Laid, MotionOptions};
+use super::output::Output;
+use super::{stderr, study};
+use crate::dynamics::{
+    DynamicsError, Lagrangian, PathKind, PhaseSpace, conjugate_points, morse_index, stationary_path,
+};
+use crate::expr::Expr;
+use crate::mechanics::{Equations, Valuation, body_constants};
+use crate::model::{Allowed, Model, Scope};
+use crate::printable;
+use crate::system::InitialOverride;
+
+/// The path between two configurations that makes the action stationary, or the action of a path.
+///
+/// With --to the motion that takes the time --in from one configuration to the other: its action
+/// ∫ L dt, its Morse index (how many ways of varying it lessen the action), and the conjugate
+/// points, beyond which it is not least. With --along the action of a path that you write, t
+/// counted from its beginning; --vary adds ε times a variation to either.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab path pendulum --in 1.5 --from theta=0 --to theta=1
+  phaselab path pendulum --in 4 --from theta=0 --to theta=0 --near 'theta=sin(pi*t/4)'
+  phaselab path harmonic-oscillator --in 10 --along 'x=cos(t)' --vary 'x=sin(pi*t/10)'")]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    motion: MotionOptions,
+    /// How long the path takes.
+    #[arg(long = "in", value_name = "T", value_parser = number, allow_hyphen_values = true)]
+    duration: f64,
+    /// Where the path ends, one coordinate; needed for each.
+    #[arg(long, value_name = "X=VALUE", allow_hyphen_values = true, conflicts_with = "along")]
+    to: Vec<Assignment>,
+    /// Where it begins, if not at the start of the file.
+    #[arg(long, value_name = "X=VALUE", allow_hyphen_values = true, conflicts_with = "along")]
+    from: Vec<Assignment>,
+    /// The path to begin the search with, in place of the straight one: a coordinate as a function of t.
+    #[arg(long, value_name = "X=EXPR", allow_hyphen_values = true, conflicts_with = "along")]
+    near: Vec<Assignment>,
+    /// A path: a coordinate as a function of t, 0 … T, and parameters.
+    #[arg(long, value_name = "X=EXPR", allow_hyphen_values = true)]
+    along: Vec<Assignment>,
+    /// A variation, which is added ε times.
+    #[arg(long, value_name = "X=EXPR", allow_hyphen_values = true)]
+    vary: Vec<Assignment>,
+    /// The values of ε.
+    #[arg(long, value_name = "FROM:TO:COUNT", allow_hyphen_values = true, requires = "vary")]
+    #[arg(default_value = "-0.2:0.2:9", value_parser = Epsilons::parse)]
+    epsilons: Epsilons,
+    /// How the result is written.
+    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
+    format: TableFormat,
+    /// Writes to a file, which appears when it is complete and takes the place of an old one.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// Evenly spaced values of ε.
+#[derive(Clone, Debug)]
+struct Epsilons(Vec<f64>);
+
+impl Epsilons {
+    fn parse(text: &str) -> Result<Epsilons, String> {
+        let form = "write it as from:to:count";
+        let parts: Vec<&str> = text.split(':').collect();
+        let &[from, to, count] = parts.as_slice() else { return Err(form.to_owned()) };
+        let (from, to) = (number(from)?, number(to)?);
+        let count: u32 = count.trim().parse().map_err(|_| form.to_owned())?;
+        match count {
+            0 => Err("there is at least one ε".to_owned()),
+            1 => Ok(Epsilons(vec![from])),
+            2..=10_000 => Ok(Epsilons(divisions(from, to, count - 1).collect())),
+            _ => Err("there are at most 10000 of ε".to_owned()),
+        }
+    }
+}
+
+/// The number of intervals between rows.
+const INTERVALS: u32 = 200;
+
+/// The equations of motion hold along a written path if what is left of them is below this part of their terms.
+const HOLDS: f64 = 1e-9;
+
+/// A path with what is known of it.
+struct Found {
+    action: f64,
+    /// `None` if it does not make the action stationary.
+    nature: Option<(usize, PathKind)>,
+    conjugate: Option<Vec<f64>>,
+    rows: Vec<Vec<f64>>,
+    varied: Vec<(f64, f64)>,
+}
+
+/// Functions of the time, one for each coordinate, with their first two derivatives.
+struct Written {
+    values: [Vec<Expr>; 3],
+}
+
+pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+    let duration = arguments.duration;
+    if duration <= 0.0 {
+        return Err(CommandError::WrongUse("--in: a path takes a time above zero".to_owned()));
+    }
+    if arguments.to.is_empty() && arguments.along.is_empty() {
+        let why = "say where the path ends, --to x=VALUE, or write one, --along x=EXPR";
+        return Err(CommandError::WrongUse(why.to_owned()));
+    }
+    let reading = arguments.motion.read()?;
+    let laid = arguments.motion.compile(reading, &[], "--observe", interrupt)?;
+    let model = &*laid.model;
+    let mut equations = (*laid.equations).clone();
+    let parameters = laid.start.parameters.clone();
+    let constants =
+        Valuation::of_parameters(model, &parameters).with(body_constants(model, &parameters));
+    let mut lagrangian =
+        Lagrangian::of(model, &mut equations, &parameters).map_err(study::failed)?;
+    let read = |equations: &mut Equations, given: &[Assignment], option: &str| {
+        Written::read(model, equations, given, option)
+    };
+    let along = read(&mut equations, &arguments.along, "--along")?;
+    let near = read(&mut equations, &arguments.near, "--near")?;
+    let vary = read(&mut equations, &arguments.vary, "--vary")?;
+    interrupt.ends_by_itself(|| ());
+    let time = model.symbols.time;
+    let at = |equations: &Equations, written: &Written, t: f64, order: usize| -> Vec<f64> {
+        let point = constants.clone().with([(time, t)]);
+        written.values[order].iter().map(|&e| point.value(&equations.pool, e)).collect()
+    };
+    let pair = |equations: &Equations, written: &Written, t: f64| {
+        [at(equations, written, t, 0), at(equations, written, t, 1)].concat()
+    };
+    let mut solved = None;
+    let stationary = match &along {
+        Some(along) => stationary(model, &mut equations, along, &constants, duration),
+        None => {
+            let ends = ends(arguments, &laid)?;
+            let [from, to] = &ends;
+            let guess = |t: f64| -> Vec<f64> {
+                let part = t / duration;
+                let straight = from
+                    .iter()
+                    .zip(to)
+                    .map(|(a, b)| if part == 1.0 { *b } else { a + part * (b - a) });
+                match &near {
+                    // the ends are those that are asked for
+                    Some(near) if part > 0.0 && part < 1.0 => at(&equations, near, t, 0),
+                    _ => straight.collect(),
+                }
+            };
+            let path = stationary_path(&mut lagrangian, &guess, duration).map_err(study::failed)?;
+            solved = Some(path);
+            true
+        }
+    };
+    let base = |t: f64| -> Vec<f64> {
+        match (&solved, &along) {
+            (Some(path), _) => path.at(t),
+            (None, Some(along)) => pair(&equations, along, t),
+            (None, None) => Vec::new(),
+        }
+    };
+    let failed = study::failed;
+    let action = match &solved {
+        Some(path) => path.action,
+        None => lagrangian.action(&mut |t: f64| base(t), duration).map_err(failed)?,
+    };
+    let nature = match &solved {
+        Some(path) => Some((path.index, path.kind)),
+        None if stationary => Some(morse_index(&mut lagrangian, &base, duration).map_err(failed)?),
+        None => None,
+    };
+    let mut rows = Vec::new();
+    for t in divisions(0.0, duration, INTERVALS) {
+        let state = base(t);
+        let momenta = lagrangian.momenta(t, &state);
+        let energy = lagrangian.energy(t, &state);
+        rows.push([&[t][..], &state, &momenta, &[energy]].concat());
+    }
+    let conjugate = if stationary {
+        let state = base(0.0);
+        let momenta = lagrangian.momenta(0.0, &state);
+        let n = model.coordinates.len();
+        match conjugates(&laid, &equations, &[&state[..n], &momenta].concat(), duration) {
+            Ok(times) => Some(times),
+            Err(why) => {
+                stderr::tell(&format!("conjugate points are not known: {why}"));
+                None
+            }
+        }
+    } else {
+        Some(Vec::new())
+    };
+    let mut varied = Vec::new();
+    for &epsilon in vary.iter().flat_map(|_| &arguments.epsilons.0) {
+        let mut path = |t: f64| -> Vec<f64> {
+            let by = vary.as_ref().map_or_else(Vec::new, |vary| pair(&equations, vary, t));
+            base(t).iter().zip(by).map(|(x, d)| x + epsilon * d).collect()
+        };
+        varied.push((epsilon, lagrangian.action(&mut path, duration).map_err(failed)?));
+    }
+    let found = Found { action, nature, conjugate, rows, varied };
+    let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
+    crowd::write(out, &found.written(arguments.format, &laid), interrupt)
+}
+
+impl Written {
+    /// Reads functions of the time, one for each coordinate; `None` if there are none.
+    fn read(
+        model: &Model,
+        equations: &mut Equations,
+        given: &[Assignment],
+        option: &str,
+    ) -> Result<Option<Written>, CommandError> {
+        if given.is_empty() {
+            return Ok(None);
+        }
+        let wrong = |why: String| CommandError::WrongUse(format!("{option}: {why}"));
+        let mut first: Vec<Option<Expr>> = vec![None; model.coordinates.len()];
+        for assignment in given {
+            let (name, text) = (assignment.name(), assignment.text());
+            let Some(i) = model.coordinate(name) else {
+                let names: Vec<&str> = model.coordinates.iter().map(|c| c.name.as_str()).collect();
+                let name = printable::quoted(name);
+                return Err(wrong(format!(
+                    "there is no coordinate `{name}`; there are {}",
+                    names.join(", ")
+                )));
+            };
+            if first[i].is_some() {
+                return Err(wrong(format!("`{name}` is given twice: keep one of them")));
+            }
+            let mut scope = Scope::new(model, Allowed::Configuration, "a path");
+            let read = scope.read(&mut equations.pool, text);
+            let mistake = scope.mistakes.first().map(|mistake| mistake.message.clone());
+            let e = read.ok_or_else(|| {
+                let why = mistake.unwrap_or_else(|| "it cannot be read".to_owned());
+                wrong(format!("{}: {}", printable::quoted(text), printable::line(&why)))
+            })?;
+            let moving: Vec<_> = model.coordinates.iter().map(|c| c.position).collect();
+            if equations.pool.depends_on_any(e, &moving) {
+                let why = "a path is a function of t and parameters";
+                return Err(wrong(format!("{}: {why}", printable::quoted(text))));
+            }
+            first[i] = Some(e);
+        }
+        if option != "--vary"
+            && let Some(i) = first.iter().position(Option::is_none)
+        {
+            return Err(wrong(format!("`{}` is missing", model.coordinates[i].name)));
+        }
+        // what is not varied stays
+        let first: Vec<Expr> = first.into_iter().map(|e| e.unwrap_or(Expr::ZERO)).collect();
+        let pool = &mut equations.pool;
+        let slope = |pool: &mut crate::expr::Pool, all: &[Expr]| -> Vec<Expr> {
+            all.iter().map(|&e| pool.derivative(e, model.symbols.time)).collect()
+        };
+        let second = slope(pool, &first);
+        let third = slope(pool, &second);
+        Ok(Some(Written { values: [first, second, third] }))
+    }
+}
+
+/// Both ends of the path.
+fn ends(arguments: &Arguments, laid: &Laid) -> Result<[Vec<f64>; 2], CommandError> {
+    let (model, parameters) = (&*laid.model, &laid.start.parameters);
+    let state =
+        laid.start.state(&laid.system).map_err(|why| CommandError::CouldNot(why.to_string()))?;
+    let n = model.coordinates.len();
+    let own: Vec<f64> = state.values[..n].to_vec();
+    let place = |given: &[Assignment], option: &str, before: Option<&[f64]>| {
+        let mut values: Vec<Option<f64>> = match before {
+            Some(own) => own.iter().map(|&x| Some(x)).collect(),
+            None => vec![None; n],
+        };
+        for one in assignment::initial(model, parameters, given)? {
+            let InitialOverride::Position(i, x) = one else {
+                let why = "the ends of a path are coordinates";
+                return Err(CommandError::WrongUse(format!("{option}: {why}")));
+            };
+            values[i] = Some(x);
+        }
+        let missing = values.iter().position(Option::is_none);
+        if let Some(i) = missing {
+            let name = &model.coordinates[i].name;
+            let message = format!("{option}: say where `{name}` ends, too: {option} {name}=VALUE");
+            return Err(CommandError::WrongUse(message));
+        }
+        Ok(values.into_iter().flatten().collect::<Vec<f64>>())
+    };
+    Ok([place(&arguments.from, "--from", Some(&own))?, place(&arguments.to, "--to", None)?])
+}
+
+/// Whether d/dt ∂L/∂q̇ − ∂L/∂q vanishes along a written path.
+fn stationary(
+    model: &Model,
+    equations: &mut Equations,
+    along: &Written,
+    constants: &Valuation,
+    duration: f64,
+) -> bool {
+    let Ok(lagrangian) = equations.lagrangian().clone() else { return false };
+    let time = model.symbols.time;
+    let mut seeds = vec![(time, Expr::ONE)];
+    let pool = &mut equations.pool;
+    for c in &model.coordinates {
+        seeds.push((c.position, pool.variable(c.velocity)));
+        seeds.push((c.velocity, pool.variable(c.acceleration)));
+    }
+    let mut residuals = Vec::new();
+    for c in &model.coordinates {
+        let momentum = pool.derivative(lagrangian, c.velocity);
+        let rate = pool.derivation(momentum, &seeds);
+        let force = pool.derivative(lagrangian, c.position);
+        residuals.push(pool.sub(rate, force));
+    }
+    divisions(0.0, duration, 37).all(|t| {
+        let on_path = constants.clone().with([(time, t)]);
+        let mut point = constants.clone().with([(time, model.run.start + t)]);
+        for (i, c) in model.coordinates.iter().enumerate() {
+            let symbols = [c.position, c.velocity, c.acceleration];
+            for (symbol, values) in symbols.into_iter().zip(&along.values) {
+                point.set(symbol, on_path.value(pool, values[i]));
+            }
+        }
+        residuals.iter().all(|&e| {
+            let (value, size) = pool.evaluate_with_size(e, &|s| point.at(s));
+            value.abs() <= HOLDS * size.max(f64::MIN_POSITIVE)
+        })
+    })
+}
+
+/// The conjugate points of the motion from these canonical variables.
+fn conjugates(
+    laid: &Laid,
+    equations: &Equations,
+    variables: &[f64],
+    duration: f64,
+) -> Result<Vec<f64>, DynamicsError> {
+    let parameters = &laid.start.parameters;
+    let space = PhaseSpace::of(&laid.model, equations, &laid.system, parameters)?;
+    let state =
+        laid.start.state(&laid.system).map_err(|why| DynamicsError::Unsuited(why.to_string()))?;
+    let start = space.state_at(&space.state(&state)?, variables);
+    conjugate_points(&space, (laid.method, laid.settings), &start, duration)
+}
+
+fn word(kind: PathKind) -> &'static str {
+    match kind {
+        PathKind::Minimum => "minimum",
+        PathKind::Saddle => "saddle",
+        PathKind::Degenerate => "degenerate",
+    }
+}
+
+impl Found {
+    fn columns(model: &Model) -> Vec<String> {
+        let all = model.coordinates.iter();
+        let positions = all.clone().map(|c| c.name.clone());
+        let velocities = all.clone().map(|c| format!("{}'", c.name));
+        let momenta = all.map(|c| format!("p_{}", c.name));
+        let inner = positions.chain(velocities).chain(momenta);
+        ["t".to_owned()].into_iter().chain(inner).chain(["energy".to_owned()]).collect()
+    }
+
+    /// The result in a format.
+    fn written(&self, format: TableFormat, laid: &Laid) -> String {
+        let columns = Found::columns(&laid.model);
+        let (index, kind) = (self.nature.map(|n| n.0), self.nature.map(|n| word(n.1)));
+        if format == TableFormat::Json {
+            let mut members = crowd::members(&laid.header());
+            let varied = self.varied.iter().map(|(e, s)| json!({ "epsilon": e, "action": s }));
+            let fields = [
+                ("action", json!(self.action)),
+                ("stationary", json!(self.nature.is_some())),
+                ("kind", json!(kind)),
+                ("index", json!(index)),
+                ("conjugate", json!(self.conjugate)),
+                ("columns", json!(columns)),
+                ("rows", json!(self.rows)),
+                ("varied", varied.collect::<Value>()),
+            ];
+            for (name, value) in fields {
+                members.insert(name.to_owned(), value);
+            }
+            return cells::object(&members);
+        }
+        let csv = format == TableFormat::Csv;
+        let lead = if csv { "# " } else { "" };
+        let shown = |x: f64| if csv { printable::number(x) } else { crate::num::short(x) };
+        let mut text = format!("{lead}action {}\n", shown(self.action));
+        match (kind, index) {
+            (Some(kind), Some(index)) => {
+                text.push_str(&format!("{lead}stationary: {kind}, index {index}\n"));
+            }
+            _ => text.push_str(&format!("{lead}not stationary\n")),
+        }
+        if let Some(times) = self.conjugate.as_ref().filter(|times| !times.is_empty()) {
+            let times: Vec<String> = times.iter().map(|&t| shown(t)).collect();
+            text.push_str(&format!("{lead}conjugate points at t = {}\n", times.join(", ")));
+        }
+        for &(epsilon, action) in &self.varied {
+            let (epsilon, action) = (shown(epsilon), shown(action));
+            text.push_str(&format!("{lead}varied by ε = {epsilon}: action {action}\n"));
+        }
+        let every = if csv { 1 } else { 20 };
+        let table: Vec<Vec<Cell>> = self
+            .rows
+            .iter()
+            .step_by(every)
+            .map(|row| row.iter().map(|&x| Cell::Number(x)).collect())
+            .collect();
+        if csv {
+            let rows = cells::csv(table.iter().map(Vec::as_slice));
+            crowd::lead(&laid.header()) + &text + &cells::record(columns) + &rows
+        } else {
+            text + "\n" + &cells::text(&columns, &table)
+        }
+    }
+}

@@ -1,0 +1,234 @@
+//! The action ∫ L dt of paths, and its first and second derivatives.
+//!
+//! In: a system with its Lagrangian, a path. Out: numbers. Never here: which paths.
+
+use std::sync::Arc;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::error::DynamicsError;
+use super::lobatto::Lobatto;
+use super::quadrature::gauss;
+use crate::expr::{Expr, Symbol};
+use crate::mechanics::{Equations, body_constants};
+use crate::model::Model;
+use crate::num::DoubleDouble;
+use crate::system::{Evaluator, Program};
+
+/// A Lagrangian at fixed parameters, as a function of (t, q, q̇).
+pub struct Lagrangian {
+    degrees: usize,
+    values: Evaluator<f64>,
+    first: Evaluator<f64>,
+    second: Evaluator<f64>,
+    start: f64,
+}
+
+/// A path: q and q̇ at a time from its beginning.
+pub trait Path {
+    /// q, then q̇.
+    fn at(&mut self, time: f64) -> Vec<f64>;
+}
+
+impl<F: FnMut(f64) -> Vec<f64>> Path for F {
+    fn at(&mut self, time: f64) -> Vec<f64> {
+        self(time)
+    }
+}
+
+/// The action of a path on nodes with its derivatives by the inner nodes.
+pub(super) struct Expansion {
+    pub(super) action: f64,
+    pub(super) gradient: DVector<f64>,
+    pub(super) hessian: DMatrix<f64>,
+    /// The mean of the largest entry of ∂²L/∂q̇².
+    pub(super) inertia: f64,
+}
+
+fn unsuited(why: &str) -> DynamicsError {
+    DynamicsError::Unsuited(why.to_owned())
+}
+
+impl Lagrangian {
+    /// The Lagrangian of a model; of a Hamiltonian system by the inverse Legendre transform.
+    ///
+    /// # Errors
+    /// Returns an error if there is none, or the system is held to constraints.
+    pub fn of(
+        model: &Model,
+        equations: &mut Equations,
+        parameters: &[f64],
+    ) -> Result<Lagrangian, DynamicsError> {
+        if model.is_poisson() {
+            return Err(unsuited("variables given by their brackets have no Lagrangian"));
+        }
+        if !model.constraints.is_empty() {
+            return Err(unsuited(
+                "a path held to constraints is not varied freely: choose coordinates that need none",
+            ));
+        }
+        let lagrangian = equations
+            .lagrangian()
+            .clone()
+            .map_err(|why| unsuited(&format!("there is no Lagrangian: {why}")))?;
+        let body = body_constants(model, parameters);
+        let n = model.coordinates.len();
+        let positions = model.coordinates.iter().map(|c| c.position);
+        let inputs: Vec<Symbol> =
+            positions.chain(model.coordinates.iter().map(|c| c.velocity)).collect();
+        let mut named: Vec<(Symbol, f64)> =
+            model.parameters.iter().zip(parameters).map(|(p, &value)| (p.symbol, value)).collect();
+        named.extend(body);
+        let symbols: Vec<Symbol> = named.iter().map(|(s, _)| *s).collect();
+        let values: Vec<DoubleDouble> =
+            named.iter().map(|(_, x)| DoubleDouble::written(*x)).collect();
+        let pool = &mut equations.pool;
+        let slopes: Vec<Expr> = inputs.iter().map(|&s| pool.derivative(lagrangian, s)).collect();
+        let mut curvatures = Vec::new();
+        for (i, &slope) in slopes.iter().enumerate() {
+            for &s in &inputs[..=i] {
+                curvatures.push(pool.derivative(slope, s));
+            }
+        }
+        let mut program = |outputs: &[Expr]| -> Result<Evaluator<f64>, DynamicsError> {
+            let program: Arc<Program> =
+                Program::compile(pool, &symbols, model.symbols.time, &inputs, outputs)
+                    .map_err(|_| unsuited("L has no value where it is used"))?;
+            let mut evaluator = Evaluator::new(program);
+            evaluator.set_parameters(&values);
+            Ok(evaluator)
+        };
+        Ok(Lagrangian {
+            degrees: n,
+            values: program(&[lagrangian])?,
+            first: program(&slopes)?,
+            second: program(&curvatures)?,
+            start: model.run.start,
+        })
+    }
+
+    /// The number of coordinates.
+    pub fn degrees(&self) -> usize {
+        self.degrees
+    }
+
+    /// L at a time from the beginning of a path.
+    fn value(&mut self, time: f64, state: &[f64]) -> f64 {
+        match self.values.evaluate(self.start + time, state) {
+            Ok(()) => self.values.output(0),
+            Err(_) => f64::NAN,
+        }
+    }
+
+    /// ∂L/∂q̇.
+    pub fn momenta(&mut self, time: f64, state: &[f64]) -> Vec<f64> {
+        let n = self.degrees;
+        match self.first.evaluate(self.start + time, state) {
+            Ok(()) => (n..2 * n).map(|i| self.first.output(i)).collect(),
+            Err(_) => vec![f64::NAN; n],
+        }
+    }
+
+    /// Jacobi's h = Σ q̇ ∂L/∂q̇ − L.
+    pub fn energy(&mut self, time: f64, state: &[f64]) -> f64 {
+        let momenta = self.momenta(time, state);
+        let product: f64 = momenta.iter().zip(&state[self.degrees..]).map(|(p, v)| p * v).sum();
+        product - self.value(time, state)
+    }
+
+    /// ∫ L dt along a path of a duration, by Gauss's rule on parts that are halved until nothing
+    /// changes.
+    ///
+    /// # Errors
+    /// Returns an error if L is not finite on the path, or the integral does not settle.
+    pub fn action(&mut self, path: &mut dyn Path, duration: f64) -> Result<f64, DynamicsError> {
+        let rule = gauss(12);
+        let mut before = f64::NAN;
+        let mut parts = 2;
+        while parts <= 4096 {
+            let width = duration / f64::from(parts);
+            let (mut sum, mut lost, mut size) = (0.0_f64, 0.0_f64, 0.0_f64);
+            for part in 0..parts {
+                for &(x, weight) in &rule {
+                    let time = width * (f64::from(part) + x);
+                    let state = path.at(time);
+                    let term = width * weight * self.value(time, &state);
+                    size += term.abs();
+                    // compensated, so that many parts lose no digits
+                    let corrected = term - lost;
+                    let total = sum + corrected;
+                    lost = (total - sum) - corrected;
+                    sum = total;
+                }
+            }
+            if !sum.is_finite() {
+                return Err(unsuited("L is not finite on this path"));
+            }
+            if (sum - before).abs() <= 4e-15 * size {
+                return Ok(sum);
+            }
+            before = sum;
+            parts *= 2;
+        }
+        Err(unsuited("the integral of L along this path does not settle: the path is not smooth"))
+    }
+
+    /// The action of a path given at nodes, column by column, with its derivatives.
+    pub(super) fn expand(
+        &mut self,
+        rule: &Lobatto,
+        path: &DMatrix<f64>,
+        duration: f64,
+    ) -> Option<Expansion> {
+        let (n, last) = (self.degrees, rule.nodes.len() - 1);
+        let rate = 2.0 / duration;
+        let velocities = path * rule.derivative.transpose() * rate;
+        let inner = last - 1;
+        let mut gradient: DVector<f64> = DVector::zeros(n * inner);
+        let mut hessian: DMatrix<f64> = DMatrix::zeros(n * inner, n * inner);
+        let (mut action, mut inertia) = (0.0, 0.0);
+        let mut state = vec![0.0; 2 * n];
+        for k in 0..=last {
+            let time = 0.5 * duration * (1.0 + rule.nodes[k]);
+            for a in 0..n {
+                state[a] = path[(a, k)];
+                state[n + a] = velocities[(a, k)];
+            }
+            let weight = 0.5 * duration * rule.weights[k];
+            let value = self.value(time, &state);
+            action += weight * value;
+            self.first.evaluate(self.start + time, &state).ok()?;
+            self.second.evaluate(self.start + time, &state).ok()?;
+            let first = |i: usize| self.first.output(i);
+            let second = |i: usize, j: usize| {
+                let (i, j) = (i.max(j), i.min(j));
+                self.second.output(i * (i + 1) / 2 + j)
+            };
+            inertia +=
+                weight / duration * (0..n).map(|a| second(n + a, n + a).abs()).fold(0.0, f64::max);
+            let slope = |j: usize| rate * rule.derivative[(k, j + 1)];
+            for j in 0..inner {
+                let own = f64::from(u8::from(j + 1 == k));
+                for a in 0..n {
+                    gradient[j * n + a] += weight * (own * first(a) + slope(j) * first(n + a));
+                }
+                for l in 0..=j {
+                    let other = f64::from(u8::from(l + 1 == k));
+                    for a in 0..n {
+                        for b in 0..n {
+                            hessian[(j * n + a, l * n + b)] += weight
+                                * (own * other * second(a, b)
+                                    + own * slope(l) * second(a, n + b)
+                                    + slope(j) * other * second(n + a, b)
+                                    + slope(j) * slope(l) * second(n + a, n + b));
+                        }
+                    }
+                }
+            }
+        }
+        hessian.fill_upper_triangle_with_lower_triangle();
+        let finite = action.is_finite()
+            && gradient.iter().chain(hessian.iter()).all(|x: &f64| x.is_finite());
+        finite.then_some(Expansion { action, gradient, hessian, inertia })
+    }
+}

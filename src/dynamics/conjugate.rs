@@ -1,0 +1,146 @@
+//! Conjugate points: where neighbouring motions from the same place meet again to first order.
+//!
+//! In: a motion from a state. Out: the times at which ∂q(t)/∂p(0) is singular, each as often as it
+//! loses rank. Never here: the path between two ends.
+//! Source: V. I. Arnold, Mathematical Methods of Classical Mechanics, app. 11.
+
+use nalgebra::DMatrix;
+
+use super::carrier::Carrier;
+use super::error::DynamicsError;
+use super::phase_space::PhaseSpace;
+use crate::integrate::{Method, Settings};
+use crate::system::State;
+
+/// The parts of a step at which the determinant is looked at.
+const PARTS: u32 = 16;
+
+/// A matrix has lost rank where a singular value is this small beside the largest that it has had.
+const LOST: f64 = 1e-5;
+
+/// The times after the start, up to a duration, at which ∂q/∂p(0) is singular.
+///
+/// # Errors
+/// Returns an error if the motion cannot be followed.
+pub fn conjugate_points(
+    space: &PhaseSpace,
+    (method, settings): (&'static Method, Settings),
+    start: &State,
+    duration: f64,
+) -> Result<Vec<f64>, DynamicsError> {
+    let n = space.dimension() / 2;
+    let mut carrier = Carrier::new(space, method, settings, n)?;
+    let momenta = DMatrix::from_fn(2 * n, n, |i, j| if i == n + j { 1.0 } else { 0.0 });
+    carrier.start(start, &momenta)?;
+    let until = start.time + duration;
+    let mut found: Vec<f64> = Vec::new();
+    let mut largest = 0.0_f64;
+    // at the start the determinant grows like tⁿ, with one sign
+    let mut seen: Vec<(f64, f64)> = Vec::new();
+    while carrier.time() < until {
+        carrier.step(until)?;
+        let (begin, end) = carrier.interval();
+        let end = end.min(until);
+        for part in 1..=PARTS {
+            let time = begin + (end - begin) * f64::from(part) / f64::from(PARTS);
+            let matrix = block(&mut carrier, time)?;
+            largest = largest.max(matrix.amax());
+            let value = (matrix / largest).determinant();
+            seen.push((time, value));
+            let [.., a, b] = seen[..] else { continue };
+            let earlier = if seen.len() > 2 { Some(seen[seen.len() - 3]) } else { None };
+            let inside = |time: f64| time >= begin;
+            if a.1 != 0.0 && a.1.signum() != b.1.signum() && inside(a.0) {
+                let time = root(&mut carrier, largest, a, b)?;
+                add(&mut carrier, largest, time, start.time, &mut found)?;
+            } else if let Some(c) = earlier
+                && c.1.signum() == a.1.signum()
+                && a.1.abs() < c.1.abs()
+                && a.1.abs() <= b.1.abs()
+                && n > 1
+                && inside(c.0)
+            {
+                // a double zero has no change of sign
+                let time = least(&mut carrier, largest, c.0, b.0)?;
+                let smallest = singular_values(&mut carrier, time)?;
+                if smallest[1] <= LOST * largest {
+                    add(&mut carrier, largest, time, start.time, &mut found)?;
+                }
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// ∂q/∂p(0) at a time within the last step.
+fn block(carrier: &mut Carrier, time: f64) -> Result<DMatrix<f64>, DynamicsError> {
+    let (_, vectors) = carrier.at(time)?;
+    let n = vectors.ncols();
+    Ok(vectors.rows(0, n).into_owned())
+}
+
+/// Its singular values, ascending.
+fn singular_values(carrier: &mut Carrier, time: f64) -> Result<Vec<f64>, DynamicsError> {
+    let mut values: Vec<f64> = block(carrier, time)?.singular_values().iter().copied().collect();
+    values.sort_by(f64::total_cmp);
+    Ok(values)
+}
+
+/// Adds a time as often as the matrix loses rank there.
+fn add(
+    carrier: &mut Carrier,
+    largest: f64,
+    time: f64,
+    start: f64,
+    found: &mut Vec<f64>,
+) -> Result<(), DynamicsError> {
+    let values = singular_values(carrier, time)?;
+    let lost = values.iter().filter(|&&value| value <= LOST * largest).count().max(1);
+    found.extend(std::iter::repeat_n(time - start, lost));
+    Ok(())
+}
+
+/// The zero of the determinant between two times.
+fn root(
+    carrier: &mut Carrier,
+    largest: f64,
+    (mut a, mut at_a): (f64, f64),
+    (mut b, mut at_b): (f64, f64),
+) -> Result<f64, DynamicsError> {
+    for k in 0..200 {
+        // a secant, and every other time the middle
+        let secant = b - at_b * (b - a) / (at_b - at_a);
+        let time = if k % 2 == 0 && secant > a && secant < b { secant } else { 0.5 * (a + b) };
+        if time <= a || time >= b {
+            break;
+        }
+        let value = (block(carrier, time)? / largest).determinant();
+        if value == 0.0 {
+            return Ok(time);
+        }
+        if value.signum() == at_a.signum() {
+            (a, at_a) = (time, value);
+        } else {
+            (b, at_b) = (time, value);
+        }
+    }
+    Ok(if at_a.abs() < at_b.abs() { a } else { b })
+}
+
+/// Where the determinant is least between two times, by golden sections.
+fn least(
+    carrier: &mut Carrier,
+    largest: f64,
+    mut a: f64,
+    mut b: f64,
+) -> Result<f64, DynamicsError> {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    for _ in 0..60 {
+        let (left, right) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
+        let value = |carrier: &mut Carrier, time| -> Result<f64, DynamicsError> {
+            Ok((block(carrier, time)? / largest).determinant().abs())
+        };
+        if value(carrier, left)? < value(carrier, right)? { b = right } else { a = left }
+    }
+    Ok(0.5 * (a + b))
+}
