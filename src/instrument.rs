@@ -10,6 +10,8 @@ mod picture;
 mod plot;
 mod potential;
 mod present;
+mod section;
+mod seed;
 mod sight;
 mod space;
 mod table;
@@ -19,7 +21,9 @@ pub use picture::{Across, Entry, Heading, Ink, Layer, Level, Picture, Sign, Stro
 pub use plot::{Columns, Plot, Quantity, SavedPlot};
 pub use potential::Along;
 pub use present::{Physics, Present};
+pub use seed::{MOST_SEEDS, Seed};
 pub use sight::{CameraPose, Sight, Viewport};
 pub use table::{
-    Answer, Axis, INSTRUMENTS, Instrument, Measure, NOT_YET, Need, Offer, listed, named, offers,
+    Answer, Axis, INSTRUMENTS, Instrument, Measure, NOT_YET, Need, NoStart, Offer, listed, named,
+    offers,
 };

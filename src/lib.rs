@@ -12,6 +12,7 @@ pub mod claims;
 pub mod cli;
 pub mod diagnostic;
 pub mod dynamics;
+pub mod ensemble;
 pub mod experiment;
 pub mod expr;
 pub mod file;

@@ -83,6 +83,12 @@ pub enum Action {
     Zoom,
     /// Choose what the focused pane shows.
     ChooseAxes,
+    /// Begin the motion at the cursor of the focused plot, or choose what it shows.
+    StartHere,
+    /// Add orbits to a section: the one through its cursor, or some spread over what is seen.
+    AddOrbits,
+    /// Remove the orbits that were added to a section, and the past crossings of the motion.
+    ClearOrbits,
     /// Move within the focused element.
     Move(Direction),
     /// Go to the first line.

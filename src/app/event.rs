@@ -73,7 +73,7 @@ pub enum Event {
 }
 
 /// What drawing the screen has determined.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Drawn {
     /// The number of rows of the text page beyond the screen when it is scrolled to its start.
     pub beyond: u16,
@@ -83,6 +83,8 @@ pub struct Drawn {
     pub columns: u16,
     /// The position of the terminal's cursor, column and row: in the text being typed, or at the line being read.
     pub cursor: Option<(u16, u16)>,
+    /// The coordinates of the cursor of the focused plot.
+    pub reading: Option<[f64; 2]>,
 }
 
 /// A system ready to be shown.

@@ -249,7 +249,10 @@ pub const KEYS: &[Binding] = &[
     row(Place::Space, &[HOME, c('0')], Action::Home, "", "the initial view"),
     row(Place::Space, &[ENTER, c('v')], Action::ChooseAxes, "axes", "choose what this pane shows"),
 
-    row(Place::Plot, &[ENTER, c('v')], Action::ChooseAxes, "axes", "choose what this pane shows: which variable on which axis"),
+    row(Place::Plot, &[c('v')], Action::ChooseAxes, "axes", "choose what this pane shows: which variable on which axis"),
+    row(Place::Plot, &[ENTER], Action::StartHere, "", "begin the motion at the cursor; without a cursor, choose what this pane shows"),
+    row(Place::Plot, &[c('n')], Action::AddOrbits, "", "add orbits to a section: the one through the cursor, or some spread over what is seen"),
+    row(Place::Plot, &[c('N')], Action::ClearOrbits, "", "clear a section: the orbits added to it, and the past crossings of the motion"),
     row(Place::Plot, &[c('+'), c('=')], Action::Closer(Axes::Both), "closer", "look closer"),
     row(Place::Plot, &[c('-')], Action::Farther(Axes::Both), "", "look from farther away"),
     row(Place::Plot, &[c('x')], Action::Closer(Axes::Across), "", "stretch the horizontal axis"),

@@ -169,6 +169,9 @@ impl Lab {
             parameters: &snapshot.parameters,
             values: &snapshot.values,
             bounds: &snapshot.bounds,
+            crossed: snapshot.crossings.counts(),
+            method: snapshot.method.name,
+            settings: snapshot.setup.settings,
         }
     }
 

@@ -129,6 +129,9 @@ impl App {
                 Vec::new()
             }
             Action::ChooseAxes => self.open_axes(),
+            Action::StartHere => self.start_here(),
+            Action::AddOrbits => self.add_orbits(),
+            Action::ClearOrbits => self.clear_orbits(),
             Action::Change { sign, coarse } => {
                 let Some(target) = lab.selected() else { return Vec::new() };
                 let to = lab.stepped(target, sign, coarse);

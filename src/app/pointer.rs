@@ -1,12 +1,16 @@
-//! Mouse input: it selects, clicks, drags, turns and zooms, and restarts the motion from another point.
+//! Pointing: the mouse selects, clicks, drags, turns and zooms, and restarts the motion from another point; so does the
+//! cursor of a plot, where orbits are added to a section too.
 //!
-//! In: what the left button or the wheel did, and the hit target. Out: the changed state and the effects.
+//! In: what the left button or the wheel did, and the hit target; the coordinates of the cursor, as the last drawing
+//! found them. Out: the changed state and the effects.
 //! Never here: bytes, or hit testing.
 
 use crossterm::event::{MouseButton, MouseEventKind};
 
 use super::hit_target::{Grab, HitTarget};
 use super::{Action, App, Effect, Lab, Overlay, Page, Pane, ValueId};
+use crate::experiment::Command;
+use crate::instrument::NoStart;
 use crate::system::InitialOverride;
 
 /// The number of lines of text or of a list per notch of the wheel.
@@ -109,13 +113,12 @@ impl App {
         let effects = match (grabbed, hit) {
             (Some(Grab::Picture { moved: false, .. }), HitTarget::Plot { index, place, at }) => {
                 match lab.beginning_at(index, at) {
-                    Some(_) if !lab.loaded.model.constraints.is_empty() => {
-                        let why =
-                            "Constraints tie the initial values together; type them one by one.";
+                    Ok(given) => lab.start(&given),
+                    Err(NoStart::Refused(why)) => {
+                        lab.history.end_group();
                         return self.notify(why);
                     }
-                    Some(given) => lab.start(&given),
-                    None => {
+                    Err(NoStart::Nothing) => {
                         lab.redraw(index, |plot, _| {
                             if let Some(viewport) = plot.viewport_mut() {
                                 viewport.cursor = Some(place);
@@ -174,10 +177,83 @@ impl App {
     }
 }
 
+/// What keys do at the cursor of a plot, and on a section.
+impl App {
+    /// Begins the motion at the cursor of the focused plot. Without a cursor, chooses what the plot shows.
+    pub(super) fn start_here(&mut self) -> Vec<Effect> {
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        let Some((index, plot)) = lab.focused_plot() else { return Vec::new() };
+        let has_cursor = plot.viewport().is_some_and(|viewport| viewport.cursor.is_some());
+        let Some(at) = self.drawn.reading.filter(|_| has_cursor) else { return self.open_axes() };
+        match lab.beginning_at(index, at) {
+            Ok(given) => lab.start(&given),
+            Err(NoStart::Refused(why)) => self.notify(why),
+            Err(NoStart::Nothing) => self.notify(
+                "A point of this plot is no start: that takes a coordinate and a rate, or a section.",
+            ),
+        }
+    }
+
+    /// Adds orbits to the focused section.
+    pub(super) fn add_orbits(&mut self) -> Vec<Effect> {
+        let reading = self.drawn.reading;
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        let Some((index, plot)) = lab.focused_plot() else { return Vec::new() };
+        if !plot.kind.is_section() {
+            return self
+                .notify("Orbits are added to a section; v chooses one, if the file has it.");
+        }
+        let cursor = plot.viewport().and_then(|viewport| viewport.cursor);
+        let through = reading.filter(|_| cursor.is_some());
+        if let Some(at) = through
+            && let Err(NoStart::Refused(why)) = lab.beginning_at(index, at)
+        {
+            return self.notify(why);
+        }
+        let mut changed = plot.clone();
+        let added = match lab.present() {
+            Some(present) => changed.add_orbits(&present, lab.answer(plot), through),
+            None => false,
+        };
+        if !added {
+            let why = if plot.seeds.is_empty() {
+                "No orbits can be added here: points of this section are no starts."
+            } else {
+                "No more orbits can be added; N removes those that were."
+            };
+            return self.notify(why);
+        }
+        lab.redraw(index, |plot, _| *plot = changed);
+        Vec::new()
+    }
+
+    /// Removes the orbits that were added to the focused section, and the past crossings of the motion.
+    pub(super) fn clear_orbits(&mut self) -> Vec<Effect> {
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        let Some((index, plot)) = lab.focused_plot() else { return Vec::new() };
+        if !plot.kind.is_section() {
+            return self.notify("Only a section has orbits and crossings to clear.");
+        }
+        lab.redraw(index, |plot, _| plot.seeds.clear());
+        vec![Effect::Tell(Command::ForgetCrossings)]
+    }
+}
+
 impl Lab {
-    /// Returns the initial values that a point of a plot represents, if it does represent some.
-    fn beginning_at(&self, index: usize, at: [f64; 2]) -> Option<[InitialOverride; 2]> {
-        let plot = self.plots.get(index)?;
-        plot.kind.start(plot, self.loaded.physics(), at)
+    /// Returns the initial values that a point of a plot represents, or why it represents none.
+    pub(super) fn beginning_at(
+        &self,
+        index: usize,
+        at: [f64; 2],
+    ) -> Result<Vec<InitialOverride>, NoStart> {
+        let (Some(plot), Some(present)) = (self.plots.get(index), self.present()) else {
+            return Err(NoStart::Nothing);
+        };
+        let given = plot.kind.start(plot, &present, at)?;
+        if self.loaded.model.constraints.is_empty() {
+            return Ok(given);
+        }
+        let why = "Constraints tie the initial values together; type them one by one.";
+        Err(NoStart::Refused(why.to_owned()))
     }
 }

@@ -14,6 +14,9 @@ use crate::mechanics::Equations;
 /// A job that takes longer than this is reported as under way.
 const PATIENCE: Duration = Duration::from_millis(300);
 
+/// A picture is computed in so many parts at most, where there is no background.
+const PARTS: usize = 1024;
+
 /// The requester of a job; each has at most one job at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Asker {
@@ -138,8 +141,9 @@ impl Lab {
         self.answers.of(plot)?.under_way.as_ref()
     }
 
-    /// Returns the jobs that plots need and that are not yet under way, numbered from `tickets` on.
-    fn needs(&mut self, tickets: &mut u64) -> Vec<Computation> {
+    /// Returns the jobs that plots need and that are not yet under way, numbered from `tickets` on; `aside` says whether
+    /// there is a background.
+    fn needs(&mut self, tickets: &mut u64, aside: bool) -> Vec<Computation> {
         let mut entries = Vec::new();
         let mut wanted: Vec<Computation> = Vec::new();
         for (place, plot) in self.plots.iter().enumerate() {
@@ -155,8 +159,9 @@ impl Lab {
             let answer = entry.and_then(|entry| entry.answer.clone());
             let under_way = match plot.kind.job(plot, &present, answer.as_ref()) {
                 Need::Nothing => continue,
+                Need::Addition(_) if !aside => None,
                 Need::Held => None,
-                Need::Job(job) => {
+                Need::Job(job) | Need::Addition(job) => {
                     *tickets += 1;
                     let asker = Asker::Plot(place);
                     let computation = Computation { ticket: *tickets, asker, job };
@@ -219,12 +224,22 @@ impl App {
         let Some(lab) = &mut self.lab else { return };
         // Keys that change no picture cost nothing here.
         let stale = std::mem::take(&mut lab.answers.stale);
-        let wanted = if stale { lab.needs(&mut self.jobs) } else { Vec::new() };
+        let wanted = if stale { lab.needs(&mut self.jobs, self.aside) } else { Vec::new() };
         effects.extend(wanted.into_iter().map(Effect::Compute));
         effects.extend(lab.ask_for_closed_forms(&mut self.jobs).map(Effect::Compute));
         if self.aside {
             return;
         }
+        for _ in 0..PARTS {
+            self.run_jobs(effects);
+            let Some(lab) = self.lab.as_mut().filter(|lab| lab.answers.stale) else { return };
+            lab.answers.stale = false;
+            effects.extend(lab.needs(&mut self.jobs, false).into_iter().map(Effect::Compute));
+        }
+    }
+
+    /// Runs the requested jobs at once.
+    fn run_jobs(&mut self, effects: &mut Vec<Effect>) {
         let (jobs, rest) = std::mem::take(effects)
             .into_iter()
             .partition(|effect| matches!(effect, Effect::Compute(_) | Effect::StopComputing(_)));

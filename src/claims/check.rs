@@ -437,6 +437,11 @@ impl<'a> Motion<'a> {
                     return Err(Short::Long(self.allowed, self.course.state().time));
                 }
                 Reached::Ended => return Err(Short::Ended(self.course.state().time)),
+                // no claim is made of the crossings of a picture
+                Reached::Happened(integrate::Occurrence {
+                    kind: integrate::OccurrenceKind::Crossing(_),
+                    ..
+                }) => {}
                 Reached::Happened(occurrence) => {
                     if self.budget < EVENT {
                         return Err(Short::Long(self.allowed, occurrence.time));

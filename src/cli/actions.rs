@@ -13,11 +13,11 @@ use super::motion_options::{Laid, MotionOptions};
 use super::output::Output;
 use super::section::surface;
 use crate::diagnostic::nearest;
+use crate::ensemble::add_section;
 use crate::expr::Expr;
 use crate::model::{Direction, Model};
 use crate::orbits::{
     ActionRow, ActionSystems, EffectivePotential, Region, RegionKind, action_between, action_row,
-    add_section,
 };
 use crate::printable;
 use crate::system::ChannelKind;

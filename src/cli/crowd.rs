@@ -15,7 +15,7 @@ use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::output::Output;
 use super::report::Header;
-use crate::orbits::in_order;
+use crate::ensemble::in_order;
 use crate::printable;
 
 /// How many orbits are computed at once.

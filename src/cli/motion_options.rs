@@ -13,11 +13,11 @@ use super::report::Header;
 use super::run::{header, misplaced, refuse_twins, settings};
 use super::{open, stderr};
 use crate::diagnostic::Document;
+use crate::ensemble::Start;
 use crate::experiment::{Derived, choose_method};
 use crate::integrate::{Method, Settings};
 use crate::mechanics::Equations;
 use crate::model::Model;
-use crate::orbits::Start;
 use crate::system::System;
 
 /// A system, its start and its method.

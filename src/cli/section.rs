@@ -14,11 +14,11 @@ use super::output::Output;
 use super::starts::Starts;
 use super::stderr;
 use crate::diagnostic::{Diagnostic, report};
-use crate::expr::Expr;
-use crate::model::{Allowed, Direction, Model, Scope};
-use crate::orbits::{
+use crate::ensemble::{
     Crossings, EnergyShell, OrbitStatus, Root, SectionPlan, Start, add_section, crossings,
 };
+use crate::expr::Expr;
+use crate::model::{Allowed, Direction, Model, Scope};
 use crate::printable;
 use crate::system::InitialOverride;
 

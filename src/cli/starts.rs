@@ -8,9 +8,9 @@ use std::str::FromStr;
 use super::assignment::{self, Assignment, number};
 use super::decimal::divisions;
 use super::failure::CommandError;
+use crate::ensemble::Start;
 use crate::file;
 use crate::model::Model;
-use crate::orbits::Start;
 use crate::printable;
 
 /// The longest table.

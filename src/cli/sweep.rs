@@ -21,7 +21,7 @@ use super::motion_options::MotionOptions;
 use super::output::{Form, Output};
 use super::starts::{Axis, Starts};
 use super::stderr;
-use crate::orbits::{PoolError, in_order};
+use crate::ensemble::{PoolError, in_order};
 use crate::printable;
 
 use identity::{Identity, Shard};

@@ -182,7 +182,8 @@ fn refuse(system: &System) -> Result<(), DynamicsError> {
             "impulses act on the way, across which derivatives of the motion are not computed",
         );
     }
-    if discontinuities.events.iter().any(|event| event.action != Action::Mark) {
+    let passive = |action: Action| matches!(action, Action::Mark | Action::Section(_));
+    if !discontinuities.events.iter().all(|event| passive(event.action)) {
         return unsuited("events act on the motion, across which its derivatives are not computed");
     }
     if !system.has_tangents_in(Form::Momentum) && system.form() == Form::Velocity {

@@ -49,6 +49,8 @@ pub enum Command {
     Settings(Settings),
     /// Takes the current values as the gauges' reference.
     Reference,
+    /// Forgets the crossings of the surfaces of section so far.
+    ForgetCrossings,
     /// Resumes from a checkpoint.
     TakeUp(Box<Checkpoint>),
 }

@@ -5,6 +5,7 @@
 
 use std::sync::Arc;
 
+use super::crossing_log::CrossingLog;
 use super::event_log::EventLog;
 use super::gauges::{Gauges, Present};
 use super::observed_motion::ObservedMotion;
@@ -36,6 +37,8 @@ pub struct Experiment {
     pub(super) notices: Vec<String>,
     /// The events and impulses since the last restart.
     occurrences: EventLog,
+    /// The crossings of the surfaces of section since then.
+    pub(super) crossings: CrossingLog,
     /// The names of occurrences that have been reported.
     reported_names: Vec<String>,
     /// The event that ended the motion.
@@ -86,6 +89,7 @@ impl Experiment {
             epoch: 0,
             notices: Vec::new(),
             occurrences: EventLog::default(),
+            crossings: CrossingLog::new(model.sections.len()),
             reported_names: Vec::new(),
             ended: None,
             taken_up: false,
@@ -177,9 +181,15 @@ impl Experiment {
         &self.occurrences
     }
 
+    /// The crossings of the surfaces of section since the last restart, in order of time.
+    pub fn crossings(&self) -> &CrossingLog {
+        &self.crossings
+    }
+
     /// Only counts occurrences from now on, without storing them.
     pub fn only_count_occurrences(&mut self) {
         self.occurrences.only_count();
+        self.crossings.only_count();
     }
 
     /// A sentence about the singular configurations of the constraints that the motion has passed.
@@ -235,6 +245,7 @@ impl Experiment {
             method: self.method_fact(),
             notices: self.notices.as_slice().into(),
             occurrences: self.occurrences.clone(),
+            crossings: self.crossings.clone(),
             released: (0..self.system().constraints())
                 .filter(|&k| self.system().is_released(k))
                 .collect(),
@@ -250,6 +261,7 @@ impl Experiment {
         self.fault = None;
         self.ended = None;
         self.occurrences.clear();
+        self.crossings.clear();
         self.reported_names.clear();
         self.notices.clear();
         self.motion.forget(self.setup.start);
@@ -288,6 +300,11 @@ impl Experiment {
         let reached = loop {
             let gauges = (&mut self.gauges, self.recorder.spacing());
             match self.motion.reach(time, limit, budget, gauges) {
+                Ok(Reached::Happened(Occurrence {
+                    kind: OccurrenceKind::Crossing(surface),
+                    time,
+                    ..
+                })) => self.crossings.push(surface, time, self.motion.values()),
                 Ok(Reached::Happened(occurrence)) => {
                     let name = occurrence.name.clone();
                     match self.note(occurrence) {
@@ -322,7 +339,7 @@ impl Experiment {
     pub(super) fn note(&mut self, occurrence: Occurrence) -> Result<String, system::MotionError> {
         let lead = format!("{} at t = {}", occurrence.name, short(occurrence.time));
         let sentence = match &occurrence.kind {
-            OccurrenceKind::Mark => lead,
+            OccurrenceKind::Mark | OccurrenceKind::Crossing(_) => lead,
             OccurrenceKind::Stop => {
                 self.ended = Some(occurrence.name.clone());
                 format!("{lead}: the motion ends")

@@ -105,7 +105,10 @@ impl EventLog {
 fn size(chunk: &[Occurrence]) -> usize {
     let numbers = |occurrence: &Occurrence| match &occurrence.kind {
         OccurrenceKind::Impulse { jump, reaction } => jump.len() + reaction.len(),
-        OccurrenceKind::Mark | OccurrenceKind::Stop | OccurrenceKind::Release(_) => 0,
+        OccurrenceKind::Mark
+        | OccurrenceKind::Crossing(_)
+        | OccurrenceKind::Stop
+        | OccurrenceKind::Release(_) => 0,
     };
     let own = |occurrence: &Occurrence| {
         size_of::<Occurrence>() + occurrence.name.len() + size_of::<f64>() * numbers(occurrence)

@@ -45,6 +45,7 @@ impl Experiment {
             Command::StepSize(step) => self.change_step(step),
             Command::Tolerance(tolerance) => self.change_tolerance(tolerance),
             Command::TakeUp(moment) => self.restore(&moment),
+            Command::ForgetCrossings => self.crossings.clear(),
             Command::Settings(settings) => self.change_method(self.motion.method(), settings),
             Command::Reference => {
                 self.gauge(Gauges::refer);
@@ -88,6 +89,8 @@ impl Experiment {
         }
         let old = self.setup.parameters.clone();
         self.setup.parameters[index] = value;
+        // what crossed before belongs to another system
+        self.crossings.clear();
         if !self.motion.has_begun() {
             return self.restart();
         }

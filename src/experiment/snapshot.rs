@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{EventLog, Setup, Trail};
+use super::{CrossingLog, EventLog, Setup, Trail};
 use crate::analysis::Verdict;
 use crate::system::{Form, State};
 
@@ -39,6 +39,8 @@ pub struct Snapshot {
     pub notices: Arc<[String]>,
     /// The events and impulses since the last restart, in order of time.
     pub occurrences: EventLog,
+    /// The crossings of the surfaces of section since the last restart or change of a parameter.
+    pub crossings: CrossingLog,
     /// The indices of the released constraints.
     pub released: Vec<usize>,
     /// Whether the motion was resumed from a checkpoint.
@@ -64,6 +66,7 @@ impl Snapshot {
             method: MethodFact { name: "", step: 0.0, steps: 0, tolerance: None },
             notices: Arc::default(),
             occurrences: EventLog::default(),
+            crossings: CrossingLog::default(),
             released: Vec::new(),
             taken_up: false,
         }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::{
     Across, Answer, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need,
-    Offer, Physics, Picture, Plot, Present, Sign, Upwards,
+    NoStart, Offer, Physics, Picture, Plot, Present, Sign, Upwards,
 };
 use crate::analysis::{Landscape, Plane};
 use crate::job::Job;
@@ -118,18 +118,10 @@ impl Instrument for Phase {
     fn start(
         &self,
         plot: &Plot,
-        physics: Physics<'_>,
+        present: &Present<'_>,
         at: [f64; 2],
-    ) -> Option<[InitialOverride; 2]> {
-        let kind = |axis| Some(physics.system.channels().get(plot.column(axis)?)?.kind);
-        let given = |kind: ChannelKind, value: f64| match kind {
-            ChannelKind::Position(i) => Some(((i, false), InitialOverride::Position(i, value))),
-            ChannelKind::Velocity(i) => Some(((i, true), InitialOverride::Velocity(i, value))),
-            ChannelKind::Momentum(i) => Some(((i, true), InitialOverride::Momentum(i, value))),
-            _ => None,
-        };
-        let ((place, first), (other, second)) = (given(kind(0)?, at[0])?, given(kind(1)?, at[1])?);
-        (place != other).then_some([first, second])
+    ) -> Result<Vec<InitialOverride>, NoStart> {
+        initial_values(plot, present.physics, at).ok_or(NoStart::Nothing)
     }
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
@@ -192,6 +184,19 @@ fn plane(system: &System, plot: &Plot) -> Option<(Form, [usize; 2])> {
         (ChannelKind::Position(0), ChannelKind::Momentum(0)) => Some((Form::Momentum, channels)),
         _ => None,
     }
+}
+
+/// The initial values of a point, if both axes belong to the state and are not the same.
+fn initial_values(plot: &Plot, physics: Physics<'_>, at: [f64; 2]) -> Option<Vec<InitialOverride>> {
+    let kind = |axis| Some(physics.system.channels().get(plot.column(axis)?)?.kind);
+    let given = |kind: ChannelKind, value: f64| match kind {
+        ChannelKind::Position(i) => Some(((i, false), InitialOverride::Position(i, value))),
+        ChannelKind::Velocity(i) => Some(((i, true), InitialOverride::Velocity(i, value))),
+        ChannelKind::Momentum(i) => Some(((i, true), InitialOverride::Momentum(i, value))),
+        _ => None,
+    };
+    let ((place, first), (other, second)) = (given(kind(0)?, at[0])?, given(kind(1)?, at[1])?);
+    (place != other).then(|| vec![first, second])
 }
 
 impl Survey {

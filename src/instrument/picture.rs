@@ -91,6 +91,26 @@ pub enum Layer {
     },
     /// A line through points.
     Line(Vec<[f64; 2]>, Stroke),
+    /// Single points.
+    Points(Arc<Vec<[f64; 2]>>, Ink),
+    /// Where the running motion has crossed a surface of section.
+    Crossings {
+        /// The index of the surface.
+        section: usize,
+        /// The channels of the axes.
+        channels: [usize; 2],
+        /// The colour.
+        ink: Ink,
+    },
+    /// The last of these points.
+    LastCrossing {
+        /// The index of the surface.
+        section: usize,
+        /// The channels of the axes.
+        channels: [usize; 2],
+        /// The marker.
+        sign: Sign,
+    },
     /// A marker at a point.
     Point([f64; 2], Sign, Ink),
 }

@@ -9,7 +9,10 @@ use std::f64::consts::PI;
 use serde::{Deserialize, Serialize};
 
 use super::table::is_view_of;
-use super::{CameraPose, INSTRUMENTS, Instrument, Physics, Sight, Viewport, named};
+use super::{
+    Answer, CameraPose, INSTRUMENTS, Instrument, MOST_SEEDS, Physics, Present, Seed, Sight,
+    Viewport, named,
+};
 use crate::model::Model;
 use crate::system::{Channel, ChannelKind};
 
@@ -27,6 +30,8 @@ pub struct Plot {
     pub view: Option<usize>,
     /// The camera or the window.
     pub sight: Sight,
+    /// The orbits added to a section.
+    pub seeds: Vec<Seed>,
 }
 
 /// A plot as saved in a session, with quantities by name.
@@ -44,6 +49,9 @@ pub struct SavedPlot {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[serde(rename = "lens")]
     pub viewport: Option<Viewport>,
+    /// The orbits added to a section.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub seeds: Vec<Seed>,
     /// The quantities chosen for each axis, by the axis's key.
     #[serde(flatten)]
     pub axes: BTreeMap<String, Chosen>,
@@ -78,7 +86,7 @@ impl Plot {
         } else {
             (view, Sight::Axes(Viewport::WHOLE))
         };
-        Self { kind, columns, view, sight }
+        Self { kind, columns, view, sight, seeds: Vec::new() }
     }
 
     /// The plots that the lab opens with: the file's views, then those that every system has, to fill a large screen.
@@ -110,7 +118,7 @@ impl Plot {
             })
             .collect();
         let whole = columns.iter().all(|column| !column.is_empty());
-        let view = chosen.is_empty().then_some(index);
+        let view = (chosen.is_empty() || kind.shows_a_view()).then_some(index);
         whole.then(|| Self::new(kind, (columns, view), physics.model).opened(physics))
     }
 
@@ -227,6 +235,21 @@ impl Plot {
         }
     }
 
+    /// Adds orbits to a section: the one through a point, or some spread over what is seen. Returns whether there is a
+    /// section to add them to, and room for them.
+    pub fn add_orbits(
+        &mut self,
+        present: &Present<'_>,
+        answer: Option<&Answer>,
+        through: Option<[f64; 2]>,
+    ) -> bool {
+        let seen = self.kind.seed(self, present, answer);
+        let seed = through.map_or(seen, |at| seen.map(|_| Seed::Through(at)));
+        let added = seed.filter(|_| self.seeds.len() < MOST_SEEDS);
+        self.seeds.extend(added);
+        added.is_some()
+    }
+
     /// The camera, if it has one.
     pub fn eye(&self) -> Option<CameraPose> {
         match self.sight {
@@ -283,6 +306,7 @@ impl SavedPlot {
             view: plot.view,
             eye: plot.eye(),
             viewport: plot.viewport(),
+            seeds: plot.seeds.clone(),
             axes: axes.collect(),
         }
     }
@@ -316,10 +340,15 @@ impl SavedPlot {
             (false, _, Some(viewport)) => Sight::Axes(viewport),
             _ => return None,
         };
-        // a kind without choices shows a view of the file
-        let needs_view = kind.chosen().is_empty() && !kind.is_scene();
+        let needs_view = kind.shows_a_view();
         let viewed = self.view.is_some_and(|view| is_view_of(model, view, kind));
         let view = self.view.filter(|_| needs_view);
-        (!needs_view || viewed).then_some(Plot { kind, columns, view, sight })
+        let finite = |seed: &Seed| match seed {
+            Seed::Spread(window) => window.as_flattened().iter().all(|x| x.is_finite()),
+            Seed::Through(point) => point.iter().all(|x| x.is_finite()),
+        };
+        let seeds: Vec<Seed> =
+            self.seeds.iter().filter(|seed| finite(seed)).take(MOST_SEEDS).copied().collect();
+        (!needs_view || viewed).then_some(Plot { kind, columns, view, sight, seeds })
     }
 }

@@ -4,6 +4,7 @@
 
 use std::sync::Arc;
 
+use crate::integrate::Settings;
 use crate::mechanics::{Equations, Valuation};
 use crate::model::Model;
 use crate::system::{Channel, ChannelKind, System};
@@ -32,6 +33,12 @@ pub struct Present<'a> {
     pub values: &'a [f64],
     /// The least and greatest value of each channel since the start.
     pub bounds: &'a [(f64, f64)],
+    /// How often each surface of section was crossed.
+    pub crossed: &'a [u64],
+    /// The name of the method.
+    pub method: &'static str,
+    /// Its step and tolerance, as they were set.
+    pub settings: Settings,
 }
 
 impl<'a> Physics<'a> {

@@ -6,18 +6,18 @@ use std::any::Any;
 use std::fmt;
 use std::sync::Arc;
 
-use super::{Across, Columns, Heading, Physics, Picture, Plot, Present};
-use super::{phase, potential, space, time};
+use super::{Across, Columns, Heading, Physics, Picture, Plot, Present, Seed};
+use super::{phase, potential, section, space, time};
 use crate::job::Job;
 use crate::model::Model;
 use crate::system::InitialOverride;
 
 /// All kinds, in the order in which the lab opens with them.
-pub static INSTRUMENTS: [&dyn Instrument; 4] =
-    [&space::Space, &phase::Phase, &potential::Potential, &time::Time];
+pub static INSTRUMENTS: [&dyn Instrument; 5] =
+    [&space::Space, &phase::Phase, &section::Section, &potential::Potential, &time::Time];
 
 /// Kinds that the file format names but this version does not support.
-pub const NOT_YET: [&str; 5] = ["section", "spectrum", "ensemble", "transformation", "action"];
+pub const NOT_YET: [&str; 4] = ["spectrum", "ensemble", "transformation", "action"];
 
 /// A kind of plot: one row of [`INSTRUMENTS`]. Common behaviour has defaults.
 pub trait Instrument: Sync {
@@ -37,6 +37,16 @@ pub trait Instrument: Sync {
     /// Whether it shows shapes through a camera, so that a file may give it a frame and its own shapes.
     fn is_scene(&self) -> bool {
         false
+    }
+
+    /// Whether it shows a surface of section, which a file specifies beside its axes.
+    fn is_section(&self) -> bool {
+        false
+    }
+
+    /// Whether it shows a view of the file, besides what is chosen. A kind without choices does.
+    fn shows_a_view(&self) -> bool {
+        self.chosen().is_empty() && !self.is_scene()
     }
 
     /// Whether its axes share a unit that can be drawn at the same scale on both.
@@ -80,13 +90,21 @@ pub trait Instrument: Sync {
         answer: Option<&Answer>,
     ) -> Option<Picture>;
 
-    /// The initial values that a point of the picture represents, if any.
+    /// The initial values that a point of the picture represents.
+    ///
+    /// # Errors
+    /// Returns an error if points of the picture are no initial values, or if this one is none.
     fn start(
         &self,
         _plot: &Plot,
-        _physics: Physics<'_>,
+        _present: &Present<'_>,
         _at: [f64; 2],
-    ) -> Option<[InitialOverride; 2]> {
+    ) -> Result<Vec<InitialOverride>, NoStart> {
+        Err(NoStart::Nothing)
+    }
+
+    /// The further orbits that are spread over what a viewport shows, if it is a section of orbits.
+    fn seed(&self, _plot: &Plot, _present: &Present<'_>, _answer: Option<&Answer>) -> Option<Seed> {
         None
     }
 
@@ -136,6 +154,15 @@ pub struct Offer {
     pub view: Option<usize>,
 }
 
+/// Why a point of a picture does not begin a motion.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NoStart {
+    /// No point of the picture does.
+    Nothing,
+    /// This one does not, for the reason given in a sentence.
+    Refused(String),
+}
+
 /// A number of a plot that a script can assert: `Assert KIND.WORD > 2`.
 pub struct Measure {
     /// Its word.
@@ -159,6 +186,8 @@ pub enum Need {
     Held,
     /// This job is needed. The last result stays until it has finished.
     Job(Job<Answer>),
+    /// This job adds to the picture and may take long: where there is no background it is left out.
+    Addition(Job<Answer>),
 }
 
 impl Answer {

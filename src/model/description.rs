@@ -38,6 +38,9 @@ pub struct Model {
     pub impulses: Vec<Impulse>,
     /// The events: crossings to be located.
     pub events: Vec<Event>,
+    /// The surfaces of section of the views, in their order: crossings to be located and recorded, without effect on
+    /// the motion and no part of what happens in it.
+    pub sections: Vec<Event>,
     /// The body assembled from pieces.
     pub body: Option<Body>,
     /// The attitude of a body.
@@ -227,6 +230,7 @@ impl Model {
             constraints: Vec::new(),
             impulses: Vec::new(),
             events: Vec::new(),
+            sections: Vec::new(),
             body: None,
             attitude: None,
             comparison: None,

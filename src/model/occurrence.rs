@@ -58,4 +58,6 @@ pub enum Action {
     Release(usize),
     /// The impulse of this index is applied.
     Impulse(usize),
+    /// The surface of section of this index is crossed, which is recorded for its picture only.
+    Section(usize),
 }

@@ -25,6 +25,10 @@ pub struct View {
     pub frame: Option<usize>,
     /// The shapes that a picture in space draws instead of the model's.
     pub shapes: Option<Vec<Shape>>,
+    /// The surface of section, by its index among the model's.
+    pub section: Option<usize>,
+    /// The range of each axis, if the file gives it: expressions of the parameters.
+    pub ranges: [Option<[Expr; 2]>; 2],
 }
 
 /// A point in space: three expressions, with z up; the third is zero for a plane system.

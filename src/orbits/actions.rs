@@ -8,8 +8,8 @@
 
 use std::f64::consts::PI;
 
-use super::section::{SectionPlan, crossings};
-use super::{Crossings, EffectivePotential, NotOnShell, OrbitStatus, Region, Root, Start};
+use super::{EffectivePotential, Region};
+use crate::ensemble::{Crossings, NotOnShell, OrbitStatus, Root, SectionPlan, Start, crossings};
 use crate::integrate::{Method, Settings};
 use crate::num::{math, short};
 use crate::system::System;

@@ -3,7 +3,7 @@
 //!
 //! In: a system, a start, a coordinate. Out: regions and tops at an energy. Never here: times, actions.
 
-use super::{EnergyShell, NotOnShell, Root, Start};
+use crate::ensemble::{EnergyShell, NotOnShell, Root, Start};
 use crate::num::math;
 use crate::system::{ChannelKind, Form, InitialOverride, MotionError, Observer, System};
 

@@ -4,8 +4,7 @@
 //! the orbit has none. A new measure is a constant below and a line in [`MEASURES`]; what it needs of the system beyond
 //! the equations of motion, it does with the [`System`] that it is handed. Never here: tables, names of columns.
 
-use super::section::{OrbitStatus, SectionPlan, crossings};
-use super::{Crossings, Start};
+use crate::ensemble::{Crossings, OrbitStatus, SectionPlan, Start, crossings};
 use crate::integrate::{Method, Settings};
 use crate::system::System;
 

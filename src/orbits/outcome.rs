@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::{OrbitStatus, Start};
+use crate::ensemble::{OrbitStatus, Start};
 use crate::experiment::{Experiment, Setup, Status};
 use crate::integrate::Settings;
 use crate::mechanics::Equations;

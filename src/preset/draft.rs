@@ -35,7 +35,7 @@ pub(super) use constraint::DraftConstraint;
 pub(super) use frame::DraftFrame;
 pub(super) use law::{DraftBracket, DraftMechanics, Law};
 pub(super) use occurrence::{DraftEvent, DraftImpulse};
-pub(super) use picture::{DraftShape, DraftShapeKind, DraftView};
+pub(super) use picture::{DraftSection, DraftShape, DraftShapeKind, DraftView};
 pub(super) use run::DraftRun;
 pub(super) use system::{DraftCoordinate, DraftMoving, DraftParameter, NamedFormula};
 pub(super) use table::Table;

@@ -481,15 +481,23 @@ const VIEW: Section = Section {
     head: "[[views]]",
     about: "A `potential` is `y` over the coordinate `x`, all else held.",
     keys: &[
-        key("kind", Text, "`phase`, `space`, `time` or `potential`")
-            .needed("write kind = \"phase\", \"space\", \"time\" or \"potential\""),
+        key("kind", Text, "`phase`, `space`, `time`, `potential` or `section`")
+            .needed("write kind = \"phase\", \"space\", \"time\", \"potential\" or \"section\""),
         key("title", Text, "what it is called"),
-        key("x", Formula, "the horizontal axis").only(&["phase", "potential"]),
+        key("x", Formula, "the horizontal axis").only(&["phase", "potential", "section"]),
         key("y", Formulas, "the vertical axis; several in a time series").only(&[
             "phase",
             "time",
             "potential",
+            "section",
         ]),
+        key("on", Formula, "vanishes on the surface of section")
+            .needed("write on = \"...\", which vanishes on the surface")
+            .only(&["section"]),
+        key("direction", Text, "of the crossings: `rising`, `falling` or `either`; `rising`")
+            .only(&["section"]),
+        key("x_range", Formulas, "the two ends of the horizontal axis").only(&["section"]),
+        key("y_range", Formulas, "the two ends of the vertical axis").only(&["section"]),
         key("frame", Text, "the frame it is seen from").only(&["space"]),
         key("shapes", List(&SHAPE), "what is drawn in place of the shapes of [space]")
             .only(&["space"]),

@@ -122,6 +122,12 @@ impl System {
         Ok(System { shared, holding, cancel, tangents: None })
     }
 
+    /// The same system, whose work another token cancels.
+    #[must_use]
+    pub fn with_cancel(&self, cancel: Cancel) -> System {
+        System { cancel, ..self.clone() }
+    }
+
     /// The token that cancels work with this system. It is the token of the pool the system was
     /// compiled from.
     pub fn cancel(&self) -> &Cancel {

@@ -113,13 +113,12 @@ impl Discontinuities {
             outputs.push(lowering.lower(impulse.period.unwrap_or(Expr::ZERO)));
         }
         let schedule = lowering.finish(outputs)?;
-        let functions = model.events.iter().map(|e| Some(e.when)).collect::<Vec<_>>();
+        let located = || model.events.iter().chain(&model.sections);
+        let functions = located().map(|e| Some(e.when)).collect::<Vec<_>>();
         let changes = model.impulses.iter().flat_map(|i| i.change.iter().map(|&e| Some(e)));
         let changes: Vec<_> = changes.collect();
         Ok(Discontinuities {
-            events: model
-                .events
-                .iter()
+            events: located()
                 .map(|e| CompiledEvent {
                     name: e.name.clone(),
                     direction: e.direction,

@@ -25,6 +25,8 @@ pub(super) struct Canvas<'a> {
     pub(super) regions: Option<Vec<(Rect, Region)>>,
     /// The position of the terminal's cursor.
     pub(super) cursor: Option<Position>,
+    /// The coordinates of the cursor of the focused plot.
+    pub(super) reading: Option<[f64; 2]>,
     /// What is kept from the last frame.
     pub(super) kept: Kept,
 }
@@ -35,7 +37,7 @@ pub(super) type Span = (String, Style);
 impl<'a> Canvas<'a> {
     /// Creates a canvas that draws on `buffer`.
     pub(super) fn over(buffer: &'a mut Buffer, look: &'a RenderStyle) -> Self {
-        Self { buffer, look, regions: None, cursor: None, kept: Kept::default() }
+        Self { buffer, look, regions: None, cursor: None, reading: None, kept: Kept::default() }
     }
 }
 

@@ -11,16 +11,17 @@ use super::plot::Frame;
 use super::theme::Role;
 use crate::instrument::Viewport;
 
-/// Draws the cursor, if there is one, and in the upper right corner its coordinates and what happened there.
+/// Draws the cursor, if there is one, and in the upper right corner its coordinates and what happened there. Returns
+/// the coordinates.
 pub(super) fn draw(
     canvas: &mut Canvas<'_>,
     area: Rect,
     frame: &Frame,
     (viewport, marks): (Viewport, &Marks<'_>),
-) {
-    let Some([right, up]) = viewport.cursor else { return };
+) -> Option<[f64; 2]> {
+    let [right, up] = viewport.cursor?;
     if frame.area.is_empty() {
-        return;
+        return None;
     }
     let place = |fraction: f64, count: u16| ((fraction * f64::from(count)) as u16).min(count - 1);
     let at = Position::new(
@@ -44,4 +45,5 @@ pub(super) fn draw(
     let what = marks.at(frame, at).map_or_else(String::new, |name| format!("{name}: "));
     let reading = format!(" {what}{}, {} ", readable(x, 4, glyphs), readable(y, 4, glyphs));
     canvas.right(Rect { height: 1, ..area }, Role::Focus, &reading);
+    Some([x, y])
 }

@@ -212,7 +212,10 @@ pub(super) fn draw(
         marks
     });
     raster.draw(canvas.buffer);
-    cursor::draw(canvas, area, &frame, (viewport, &marks));
+    let reading = cursor::draw(canvas, area, &frame, (viewport, &marks));
+    if q.lab.focused_plot().is_some_and(|(_, focused)| std::ptr::eq(focused, plot)) {
+        canvas.reading = reading;
+    }
     Some(frame)
 }
 
@@ -277,14 +280,38 @@ fn draw_layer(
             };
             raster.polyline(frame, points.iter().copied(), &pen);
         }
+        Layer::Points(points, ink) => {
+            raster.points(frame, points.iter().copied(), &pen(canvas, *ink, level));
+        }
+        Layer::Crossings { section, channels, ink } => {
+            raster.points(frame, crossings(q, *section, *channels), &pen(canvas, *ink, level));
+        }
+        Layer::LastCrossing { section, channels, sign } => {
+            if let Some(at) = crossings(q, *section, *channels).next_back() {
+                raster.marker(frame, at, marker(*sign), &pen(canvas, Ink::Accent, level));
+            }
+        }
         Layer::Point(at, sign, ink) => {
-            let marker = match sign {
-                Sign::Disc => Marker::Disc,
-                Sign::Ring => Marker::Ring,
-            };
-            raster.marker(frame, *at, marker, &pen(canvas, *ink, level));
+            raster.marker(frame, *at, marker(*sign), &pen(canvas, *ink, level));
         }
     }
+}
+
+fn marker(sign: Sign) -> Marker {
+    match sign {
+        Sign::Disc => Marker::Disc,
+        Sign::Ring => Marker::Ring,
+    }
+}
+
+/// Where the running motion has crossed a surface of section.
+fn crossings<'a>(
+    q: &Quantities<'a>,
+    section: usize,
+    channels: [usize; 2],
+) -> impl DoubleEndedIterator<Item = [f64; 2]> + 'a {
+    let rows = q.snapshot.crossings.rows(section, q.snapshot.values.len());
+    rows.map(move |row| channels.map(|channel| row[1 + channel]))
 }
 
 fn pen(canvas: &Canvas<'_>, ink: Ink, level: Level) -> Pen {

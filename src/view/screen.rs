@@ -55,7 +55,7 @@ impl Painter {
         let cursor = canvas.cursor.map(|at| (at.x, at.y));
         self.kept = canvas.kept;
         self.kept.end();
-        Drawn { cursor, ..drawn }
+        Drawn { cursor, reading: canvas.reading, ..drawn }
     }
 }
 

@@ -14,7 +14,12 @@ use phaselab::preset;
 use crate::hand::{catalog, in_lab, loaded, pendulum, press, snapshot};
 use crate::screen::{rich, rows};
 
-/// The first plot of a kind on the pendulum's initial screen, which has all kinds.
+/// The kinds that the pendulum has: all but sections, whose surface a file names; `section` tests those.
+fn kinds() -> impl Iterator<Item = &'static dyn phaselab::instrument::Instrument> {
+    INSTRUMENTS.into_iter().filter(|kind| !kind.is_section())
+}
+
+/// The first plot of a kind on the pendulum's initial screen.
 fn plot(app: &App, name: &str) -> (usize, Plot) {
     let plots = app.lab.as_ref().unwrap().plots.iter().enumerate();
     let of_kind = plots.filter(|(_, plot)| plot.kind.name() == name);
@@ -46,7 +51,7 @@ fn every_kind_has_a_name_of_its_own() {
 
 #[test]
 fn every_kind_is_drawn_told_of_and_kept() {
-    for kind in INSTRUMENTS {
+    for kind in kinds() {
         let mut app = in_lab();
         let (index, shown) = plot(&app, kind.name());
         press(&mut app, &["Tab"].repeat(3 + index).join(" "));
@@ -80,7 +85,7 @@ fn every_kind_is_kept_in_a_session() {
     let text = toml::to_string(&saved).expect("it can be written");
     let read: Saved = toml::from_str(&text).expect("it can be read");
     let kinds: BTreeSet<&str> = read.plots.iter().map(|plot| plot.kind.as_str()).collect();
-    assert_eq!(kinds, INSTRUMENTS.iter().map(|kind| kind.name()).collect(), "{text}");
+    assert_eq!(kinds, self::kinds().map(|kind| kind.name()).collect(), "{text}");
     let pendulum = pendulum();
     let plots: Vec<Option<Plot>> =
         read.plots.iter().map(|plot| plot.place(pendulum.physics())).collect();
@@ -115,7 +120,7 @@ fn sessions_are_read_as_they_were_written_before() {
 fn every_kind_can_be_chosen() {
     let pendulum = pendulum();
     let offered = offers(pendulum.physics());
-    for kind in INSTRUMENTS {
+    for kind in kinds() {
         let own: Vec<_> = offered.iter().filter(|(of, _)| *of == kind).collect();
         assert!(!own.is_empty(), "{kind:?}");
         for (_, offer) in own {

@@ -54,7 +54,7 @@ fn table_of(text: &str) -> Table {
 const OUTSIDE: [(&str, &[&str], &[&str]); 5] = [
     ("the clock", &["Instant", "SystemTime"], &["worker", "shell", "cli"]),
     ("threads", &["thread::", "mpsc"], &["worker", "shell", "cli"]),
-    ("a pool of threads", &["rayon::"], &["orbits"]),
+    ("a pool of threads", &["rayon::"], &["ensemble"]),
     ("files", &["std::fs", "fs::", "File::"], &["file", "preset", "shell", "cli"]),
     (
         "the terminal",

@@ -34,6 +34,7 @@ mod record;
 mod reference;
 mod rigid_body;
 mod screen;
+mod section;
 mod starts;
 mod system;
 mod tangent;

@@ -236,6 +236,7 @@ fn events(model: &Model) -> Vec<Value> {
         };
         let action = match event.action {
             Action::Mark => "mark".to_owned(),
+            Action::Section(_) => "section".to_owned(),
             Action::Stop => "stop".to_owned(),
             Action::Release(k) => format!("release:{}", model.constraints[k].name),
             Action::Impulse(k) => format!("impulse:{}", model.impulses[k].name),

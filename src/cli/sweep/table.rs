@@ -13,11 +13,9 @@ use super::super::report::Header;
 use super::super::section::surface;
 use super::super::starts::Starts;
 use crate::diagnostic::nearest;
+use crate::ensemble::{OrbitStatus, Start, add_section};
 use crate::model::Direction;
-use crate::orbits::{
-    MEASURES, Measure, MeasuredOrbit, OrbitStatus, RunPlan, Start, Zeros, add_section,
-    measure_named,
-};
+use crate::orbits::{MEASURES, Measure, MeasuredOrbit, RunPlan, Zeros, measure_named};
 use crate::printable;
 use crate::system::{InitialOverride, System};
 

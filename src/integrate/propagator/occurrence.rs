@@ -24,6 +24,8 @@ pub struct Occurrence {
 pub enum OccurrenceKind {
     /// An event without effect on the motion.
     Mark,
+    /// The surface of section of this index was crossed.
+    Crossing(usize),
     /// An event ended the motion.
     Stop,
     /// An event released the constraint of this index.
@@ -86,6 +88,7 @@ impl Propagator {
         let trigger = self.system.discontinuities().events[found.event].clone();
         let kind = match trigger.action {
             Action::Mark => OccurrenceKind::Mark,
+            Action::Section(section) => OccurrenceKind::Crossing(section),
             Action::Stop => {
                 self.ended = true;
                 OccurrenceKind::Stop
@@ -128,6 +131,11 @@ impl Propagator {
     /// Returns an error if an event recurs at ever shorter intervals, without end.
     fn check_accumulation(&mut self, found: LocatedEvent) -> Result<(), MotionError> {
         let time = found.exact.high;
+        // a picture does not end a motion
+        let action = self.system.discontinuities().events[found.event].action;
+        if matches!(action, Action::Section(_)) {
+            return Ok(());
+        }
         if !self.accumulation[found.event].record(time, self.start) {
             return Ok(());
         }

@@ -147,7 +147,7 @@ impl Check<'_> {
     }
 
     /// Whether an event can ever happen, as far as its symbols show.
-    fn changes(&mut self, e: Expr, formula: &Formula) -> bool {
+    pub(super) fn changes(&mut self, e: Expr, formula: &Formula) -> bool {
         let constant = |s| {
             let body = self.model.body.as_ref();
             self.model.parameters.iter().any(|p| p.symbol == s)
@@ -162,7 +162,7 @@ impl Check<'_> {
         moves
     }
 
-    fn sense(&mut self, written: &Spanned<String>) -> Direction {
+    pub(super) fn sense(&mut self, written: &Spanned<String>) -> Direction {
         match written.get_ref().as_str() {
             "rising" => Direction::Rising,
             "falling" => Direction::Falling,

@@ -6,10 +6,13 @@ use toml::Spanned;
 
 use super::Check;
 use crate::diagnostic::Diagnostic;
+use crate::ensemble::section_name;
 use crate::expr::Expr;
 use crate::instrument::Instrument;
-use crate::model::{Allowed, Channel, Point, Scope, Shape, View};
-use crate::preset::draft::{DraftShape, DraftShapeKind, DraftView, Formula, Formulas};
+use crate::model::{Action, Allowed, Channel, Direction, Event, Point, Scope, Shape, View};
+use crate::preset::draft::{
+    DraftSection, DraftShape, DraftShapeKind, DraftView, Formula, Formulas,
+};
 
 /// The default number of segments of a path.
 const SAMPLES: usize = 96;
@@ -43,8 +46,49 @@ impl Check<'_> {
             let (kind, title) = (kind.name().to_owned(), view.title.clone());
             let frame = view.frame.as_ref().and_then(|name| self.frame_of_view(name));
             let shapes = view.shapes.as_ref().map(|written| self.shapes(written, nodes));
-            self.model.views.push(View { kind, title, axes, frame, shapes });
+            let ranges = view.section.as_ref().map_or([None, None], |section| {
+                [0, 1].map(|axis| self.axis_range(section.ranges[axis].as_ref()))
+            });
+            let section = match &view.section {
+                None => None,
+                Some(written) => {
+                    let Some((on, section)) = self.section(written, &view.place) else { continue };
+                    axes.push(vec![on]);
+                    Some(section)
+                }
+            };
+            self.model.views.push(View { kind, title, axes, frame, shapes, section, ranges });
         }
+    }
+
+    /// Reads a surface of section: the expression, and its index among the model's surfaces.
+    fn section(
+        &mut self,
+        written: &DraftSection,
+        place: &std::ops::Range<usize>,
+    ) -> Option<(Channel, usize)> {
+        let mut scope = Scope::new(&self.model, Allowed::Event, "a section");
+        let direction = written.direction.as_ref().map_or(Direction::Rising, |d| self.sense(d));
+        let on = written.on.as_ref()?;
+        let when = self.formula(&mut scope, "a section", on)?;
+        if !self.changes(when, on) {
+            return None;
+        }
+        let name = section_name(&self.model);
+        let index = self.model.sections.len();
+        let action = Action::Section(index);
+        let place = place.clone();
+        self.model.sections.push(Event { name, when, direction, action, place });
+        Some((Channel { written: on.get_ref().trim().to_owned(), expression: when }, index))
+    }
+
+    /// Reads the two ends of an axis, which may use the parameters.
+    fn axis_range(&mut self, written: Option<&[Formula; 2]>) -> Option<[Expr; 2]> {
+        let mut scope = Scope::new(&self.model, Allowed::Parameters, "a range");
+        let [from, to] = written?;
+        let from = self.formula(&mut scope, "a range", from);
+        let to = self.formula(&mut scope, "a range", to);
+        Some([from?, to?])
     }
 
     /// The horizontal axis of this kind must be a coordinate, because everything else is fixed while it varies.

@@ -24,6 +24,18 @@ pub(in crate::preset) struct DraftView {
     pub(in crate::preset) frame: Option<Spanned<String>>,
     /// The shapes drawn in place of those of `[space]`.
     pub(in crate::preset) shapes: Option<Vec<DraftShape>>,
+    /// The surface of a section.
+    pub(in crate::preset) section: Option<DraftSection>,
+}
+
+/// The surface of a section as written.
+pub(in crate::preset) struct DraftSection {
+    /// The expression that vanishes on it.
+    pub(in crate::preset) on: Option<Formula>,
+    /// Which crossings count.
+    pub(in crate::preset) direction: Option<Spanned<String>>,
+    /// The ranges of the axes.
+    pub(in crate::preset) ranges: [Option<[Formula; 2]>; 2],
 }
 
 /// A shape as written.
@@ -88,7 +100,8 @@ fn view(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftView> {
     let help = format!("write kind = {}", listed("\"", "or"));
     let Some((_, found)) = table.require("kind", &help) else {
         let axes = INSTRUMENTS.into_iter().flat_map(Instrument::written);
-        for key in axes.map(|axis| axis.key).chain(["title", "frame", "shapes"]) {
+        for key in axes.map(|axis| axis.key).chain(["title", "frame", "shapes"]).chain(SECTION_KEYS)
+        {
             table.take(key);
         }
         table.finish(mistakes);
@@ -105,8 +118,8 @@ fn view(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftView> {
             found.and_then(|(_, v)| value::formula(v, &format!("`{key}`"), mistakes))
         };
         let axes = ["x", "y"].map(|key| axis(key).into_iter().collect()).to_vec();
-        let (frame, shapes) = (None, None);
-        return Some(DraftView { place, kind: None, title, axes, frame, shapes });
+        let (frame, shapes, section) = (None, None, None);
+        return Some(DraftView { place, kind: None, title, axes, frame, shapes, section });
     };
     let axes = kind.written().iter().map(|axis| several(&mut table, axis, mistakes)).collect();
     let (mut frame, mut shapes) = (None, None);
@@ -114,8 +127,41 @@ fn view(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftView> {
         frame = table.text("frame", mistakes);
         shapes = table.has("shapes").then(|| shapes_of(&mut table, mistakes));
     }
+    let section = kind.is_section().then(|| section(&mut table, mistakes));
     table.finish(mistakes);
-    Some(DraftView { place, kind: Some(kind), title, axes, frame, shapes })
+    Some(DraftView { place, kind: Some(kind), title, axes, frame, shapes, section })
+}
+
+/// The keys of a section besides its axes.
+const SECTION_KEYS: [&str; 4] = ["on", "direction", "x_range", "y_range"];
+
+fn section(table: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftSection {
+    let on = table.require("on", "write on = \"...\", which vanishes on the surface");
+    let on = on.and_then(|(_, found)| value::formula(found, "`on`", mistakes));
+    let direction = table.text("direction", mistakes);
+    let ranges = ["x_range", "y_range"].map(|key| range(table, key, mistakes));
+    DraftSection { on, direction, ranges }
+}
+
+/// The two ends of an axis.
+fn range(
+    table: &mut Table<'_>,
+    key: &'static str,
+    mistakes: &mut Diagnostics,
+) -> Option<[Formula; 2]> {
+    let (_, found) = table.take(key)?;
+    let items = match found.get_ref() {
+        DeValue::Array(items) if items.len() == 2 => items,
+        _ => {
+            let message = format!("`{key}` must be the two ends of the axis");
+            let help = format!("write {key} = [\"-pi\", \"pi\"]");
+            mistakes.push(Diagnostic::error(found.span(), message).with_help(help));
+            return None;
+        }
+    };
+    let mut end = |place: usize| value::formula(&items[place], &format!("`{key}`"), mistakes);
+    let (from, to) = (end(0), end(1));
+    Some([from?, to?])
 }
 
 /// The expressions of an axis: one, or a list if the axis takes several.

@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use phaselab::cancel::Cancel;
-use phaselab::orbits::in_order;
+use phaselab::ensemble::in_order;
 
 /// Work that takes longer the earlier the item, so that later ones are done first.
 fn uneven(i: usize) -> f64 {

@@ -290,11 +290,19 @@ y = "x'"
 kind = "section"
 on = "x"
 x = "x"
+y = "p_x"
+x_range = ["-k", "k"]
+[[views]]
+kind = "spectrum"
+x = "x"
 "#,
     );
     let Checked { model, warnings } = checked(&text);
     let kinds: Vec<&str> = model.views.iter().map(|v| v.kind.as_str()).collect();
-    assert_eq!(kinds, ["space", "phase", "time", "time"]);
+    assert_eq!(kinds, ["space", "phase", "time", "time", "section"]);
+    assert_eq!((model.views[4].section, model.sections.len()), (Some(0), 1));
+    assert!(model.views[4].ranges[0].is_some() && model.views[4].ranges[1].is_none());
+    assert!(model.events.is_empty(), "a surface is no event of the file");
     assert_eq!(model.views[0].title, "the thing itself");
     let written: Vec<&str> = model.views[2].axes[0].iter().map(|c| c.written.as_str()).collect();
     assert_eq!(written, ["x", "energy", "x''"]);
@@ -302,7 +310,7 @@ x = "x"
     assert_eq!(warnings[0].severity, Severity::Warning);
     assert_eq!(
         warnings[0].message,
-        "views of kind `section` are not supported yet by this version"
+        "views of kind `spectrum` are not supported yet by this version"
     );
 }
 

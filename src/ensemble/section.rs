@@ -73,14 +73,7 @@ impl Crossings {
 /// Adds the event of a section to a model before its equations are derived, and returns the event's name, which no
 /// other event or impulse has.
 pub fn add_section(model: &mut Model, when: Expr, direction: Direction) -> String {
-    let mut name = "section".to_owned();
-    let taken = |name: &str| {
-        model.events.iter().any(|event| event.name == name)
-            || model.impulses.iter().any(|impulse| impulse.name == name)
-    };
-    while taken(&name) {
-        name.push('\'');
-    }
+    let name = section_name(model);
     model.events.push(Event {
         name: name.clone(),
         when,
@@ -88,6 +81,19 @@ pub fn add_section(model: &mut Model, when: Expr, direction: Direction) -> Strin
         action: Action::Mark,
         place: 0..0,
     });
+    name
+}
+
+/// A name for the event of a section, which no other event, section or impulse has.
+pub fn section_name(model: &Model) -> String {
+    let mut name = "section".to_owned();
+    let taken = |name: &str| {
+        model.events.iter().chain(&model.sections).any(|event| event.name == name)
+            || model.impulses.iter().any(|impulse| impulse.name == name)
+    };
+    while taken(&name) {
+        name.push('\'');
+    }
     name
 }
 

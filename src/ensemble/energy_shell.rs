@@ -94,7 +94,7 @@ impl EnergyShell {
     ///
     /// # Errors
     /// Returns the errors of [`EnergyShell::complete`].
-    pub(super) fn complete_by(
+    pub fn complete_by(
         &self,
         system: &System,
         observer: &mut Observer,
@@ -110,6 +110,16 @@ impl EnergyShell {
         let rate = self.corrected(&mut energies, rate)?;
         start.replace(with_value(self.by, rate));
         Ok(())
+    }
+
+    /// Whether some value of the number gives a start this energy.
+    pub fn allows(&self, system: &System, observer: &mut Observer, start: &Start) -> bool {
+        let mut energies =
+            Energies { system, observer, values: vec![0.0; system.columns()], start, by: self.by };
+        match energies.quadratic() {
+            Some([a, b, c]) => self.root_of([a, b, c - self.energy], "").is_ok(),
+            None => self.bracketed(&mut energies, "").is_ok(),
+        }
     }
 
     /// The root of a v² + b v + c, without cancellation: Press et al., Numerical Recipes, §5.6.

@@ -74,7 +74,7 @@ impl<T> Bench<T> {
     }
 }
 
-/// Does `work` on each of `count` items with so many threads, and hands the results to `take` in the order of the
+/// Does `work` on each of `count` items with so many threads, or 0 for all cores, and hands the results to `take` in the order of the
 /// items, on the calling thread. Once cancelled, or once `take` breaks off, no further item is begun; what was begun
 /// before is finished and handed on up to the first gap.
 ///
@@ -90,9 +90,10 @@ pub fn in_order<T: Send>(
     work: impl Fn(usize) -> T + Sync,
     mut take: impl FnMut(usize, T) -> ControlFlow<()>,
 ) -> Result<(), PoolError> {
-    let threads = threads.clamp(1, count.max(1));
+    let threads = threads.min(count.max(1));
     let builder = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK);
     let pool = builder.build().map_err(|why| PoolError(why.to_string()))?;
+    let threads = pool.current_num_threads();
     let (next, over) = (AtomicUsize::new(0), AtomicBool::new(false));
     let done = Done { results: BTreeMap::new(), first: 0, working: threads };
     let bench = Bench { done: Mutex::new(done), changed: Condvar::new() };

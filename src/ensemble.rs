@@ -1,0 +1,19 @@
+//! Many starts of one system, and where their orbits cross a surface of section.
+//!
+//! In: a compiled [`System`](crate::system::System), a method, a [`Start`] for each orbit. Out: one result an orbit, in
+//! the order asked for and the same to the last bit whatever the number of threads. Never here: whole runs with their
+//! gauges (`orbits`), files, what is printed.
+
+mod energy_shell;
+mod plane;
+mod pool;
+mod region;
+mod section;
+mod start;
+
+pub use energy_shell::{EnergyShell, NotOnShell, Root};
+pub use plane::{NotInPlane, SectionPlane};
+pub use pool::{PoolError, in_order};
+pub use region::{Region, spread};
+pub use section::{Crossings, OrbitStatus, SectionPlan, add_section, crossings, section_name};
+pub use start::Start;

@@ -1,0 +1,277 @@
+//! A plane of section: two quantities of a motion, where it crosses a surface.
+//!
+//! In: a surface of a model, two channels, the energy of the motion. Out: for a point of the plane the start whose orbit
+//! passes it, completed by the surface and the energy, or why there is none. Never here: orbits, what is drawn.
+//!
+//! On a surface that fixes one coordinate an autonomous system of two degrees of freedom has two numbers left beside the
+//! two of the plane: the coordinate, from the surface, and a rate, from the energy (M. Hénon and C. Heiles, Astronomical
+//! Journal 69, 73 (1964)). On a stroboscope, a surface of the time alone, a system of one degree of freedom has none.
+
+use super::{EnergyShell, NotOnShell, Root, Start};
+use crate::model::{Direction, Model};
+use crate::num::short;
+use crate::system::{ChannelKind, InitialOverride, MotionError, Observer, System};
+
+/// A plane of section at one energy and one set of parameters.
+#[derive(Clone, PartialEq, Debug)]
+pub struct SectionPlane {
+    /// The two numbers that a point gives.
+    axes: [ChannelKind; 2],
+    surface: Surface,
+    direction: Direction,
+    time: f64,
+    parameters: Vec<f64>,
+}
+
+/// What the surface fixes.
+#[derive(Clone, PartialEq, Debug)]
+enum Surface {
+    /// A coordinate; the energy fixes the rate that is left.
+    Place {
+        /// Its index.
+        coordinate: usize,
+        /// Its value on the surface.
+        value: f64,
+        /// Whether the expression of the surface grows with it.
+        grows: bool,
+        /// The rate that completes a start.
+        solved: InitialOverride,
+        /// The energy.
+        energy: f64,
+    },
+    /// Only the time.
+    Stroboscope {
+        /// Whether the initial values lie on it.
+        begins: bool,
+    },
+}
+
+/// Why a point of a plane is no start.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum NotInPlane {
+    /// The energy forbids the point, or does not determine the start.
+    #[error(transparent)]
+    Shell(#[from] NotOnShell),
+    /// There is no state.
+    #[error(transparent)]
+    NoState(#[from] MotionError),
+    /// The motions through it cross in the other direction.
+    #[error("no motion of this energy crosses the surface there in the direction that is shown")]
+    OtherDirection,
+    /// The motion begins at another phase of the drive.
+    #[error("the picture shows another phase of the drive than that of the start, t = {}", short(*.0))]
+    OtherPhase(f64),
+}
+
+/// The largest value of a surface's expression, relative to its change over a period, at which it counts as zero.
+const ON: f64 = 1e-9;
+
+/// Corrections of a root by Newton's method.
+const CORRECTIONS: u32 = 60;
+
+impl SectionPlane {
+    /// The plane of two channels on a surface of the model, for starts at a time, if its points are starts: if the
+    /// surface fixes one coordinate, or only the time, and all numbers of the state follow.
+    pub fn new(
+        (model, system): (&Model, &System),
+        section: usize,
+        axes: [usize; 2],
+        (time, parameters, energy): (f64, &[f64], f64),
+    ) -> Option<SectionPlane> {
+        let event = model.sections.get(section)?;
+        let axes = [system.channels().get(axes[0])?.kind, system.channels().get(axes[1])?.kind];
+        let degrees = model.coordinates.len();
+        if model.is_poisson() || !model.constraints.is_empty() {
+            return None;
+        }
+        let mut free: Vec<(usize, bool)> =
+            (0..degrees).flat_map(|i| [(i, false), (i, true)]).collect();
+        for axis in axes {
+            let slot = slot(axis)?;
+            let place = free.iter().position(|other| *other == slot)?;
+            free.remove(place);
+        }
+        let symbols = model.pool.symbols_of(event.when);
+        let held: Vec<usize> =
+            (0..degrees).filter(|&i| symbols.contains(&model.coordinates[i].position)).collect();
+        let known = |coordinate: Option<(usize, f64)>, time: f64| {
+            let value = |symbol| {
+                if symbol == model.symbols.time {
+                    return time;
+                }
+                if let Some((i, value)) = coordinate
+                    && symbol == model.coordinates[i].position
+                {
+                    return value;
+                }
+                let place = model.parameters.iter().position(|p| p.symbol == symbol);
+                place.and_then(|i| parameters.get(i).copied()).unwrap_or(f64::NAN)
+            };
+            model.pool.evaluate(event.when, &value)
+        };
+        let driven = symbols.contains(&model.symbols.time);
+        let surface = match (held[..].first(), driven) {
+            (None, true) if free.is_empty() => {
+                let at = known(None, time);
+                let width = 1e-6 * time.abs().max(1.0);
+                let rises = known(None, time + width) > known(None, time - width);
+                let wanted = match event.direction {
+                    Direction::Either => true,
+                    Direction::Rising => rises,
+                    Direction::Falling => !rises,
+                };
+                Surface::Stroboscope { begins: at.abs() <= ON && wanted }
+            }
+            (Some(&coordinate), false) if held.len() == 1 => {
+                let place = free.iter().position(|slot| *slot == (coordinate, false))?;
+                free.remove(place);
+                let [(rate, true)] = free[..] else { return None };
+                let value = root(|x| known(Some((coordinate, x)), time))?;
+                let width = 1e-6 * value.abs().max(1.0);
+                let [below, above] =
+                    [value - width, value + width].map(|x| known(Some((coordinate, x)), time));
+                let solved = if model.is_lagrangian() {
+                    InitialOverride::Velocity(rate, 0.0)
+                } else {
+                    InitialOverride::Momentum(rate, 0.0)
+                };
+                Surface::Place { coordinate, value, grows: above > below, solved, energy }
+            }
+            _ => return None,
+        };
+        let parameters = parameters.to_vec();
+        Some(SectionPlane { axes, surface, direction: event.direction, time, parameters })
+    }
+
+    /// Whether the energy bounds the plane.
+    pub fn is_bounded(&self) -> bool {
+        matches!(self.surface, Surface::Place { .. })
+    }
+
+    /// The parameters.
+    pub fn parameters(&self) -> &[f64] {
+        &self.parameters
+    }
+
+    /// Whether the energy allows a motion through a point, in either direction.
+    pub fn is_accessible(&self, system: &System, observer: &mut Observer, at: [f64; 2]) -> bool {
+        let start = self.given(at);
+        match self.surface {
+            Surface::Place { solved, energy, .. } => {
+                let shell = EnergyShell { energy, by: solved, root: Root::Positive };
+                shell.allows(system, observer, &start)
+            }
+            Surface::Stroboscope { .. } => start.state(system).is_ok(),
+        }
+    }
+
+    /// The start whose orbit begins at a point of the plane.
+    ///
+    /// # Errors
+    /// Returns an error if the energy forbids the point, or if no motion crosses there in the direction shown.
+    pub fn start(
+        &self,
+        system: &System,
+        observer: &mut Observer,
+        at: [f64; 2],
+    ) -> Result<Start, NotInPlane> {
+        let given = self.given(at);
+        let Surface::Place { coordinate, grows, solved, energy, .. } = self.surface else {
+            given.state(system)?;
+            return Ok(given);
+        };
+        for root in [Root::Positive, Root::Negative] {
+            let mut start = given.clone();
+            let shell = EnergyShell { energy, by: solved, root };
+            shell.complete_by(system, observer, &mut start)?;
+            let rising = (self.velocity(system, observer, &start, coordinate)? >= 0.0) == grows;
+            let wanted = match self.direction {
+                Direction::Either => true,
+                Direction::Rising => rising,
+                Direction::Falling => !rising,
+            };
+            if wanted {
+                return Ok(start);
+            }
+        }
+        Err(NotInPlane::OtherDirection)
+    }
+
+    /// The initial values of a motion that begins at a point of the picture.
+    ///
+    /// # Errors
+    /// Returns the errors of [`SectionPlane::start`], or an error if initial values lie at another phase of the drive.
+    pub fn beginning(
+        &self,
+        system: &System,
+        at: [f64; 2],
+    ) -> Result<Vec<InitialOverride>, NotInPlane> {
+        if let Surface::Stroboscope { begins: false } = self.surface {
+            return Err(NotInPlane::OtherPhase(self.time));
+        }
+        let mut observer = system.observer(&self.parameters);
+        Ok(self.start(system, &mut observer, at)?.overrides)
+    }
+
+    /// A start without the rate that the energy determines.
+    fn given(&self, at: [f64; 2]) -> Start {
+        let mut overrides = Vec::new();
+        if let Surface::Place { coordinate, value, .. } = self.surface {
+            overrides.push(InitialOverride::Position(coordinate, value));
+        }
+        for (kind, value) in self.axes.into_iter().zip(at) {
+            overrides.extend(match kind {
+                ChannelKind::Position(i) => Some(InitialOverride::Position(i, value)),
+                ChannelKind::Velocity(i) => Some(InitialOverride::Velocity(i, value)),
+                ChannelKind::Momentum(i) => Some(InitialOverride::Momentum(i, value)),
+                _ => None,
+            });
+        }
+        Start { time: self.time, parameters: self.parameters.clone(), overrides }
+    }
+
+    fn velocity(
+        &self,
+        system: &System,
+        observer: &mut Observer,
+        start: &Start,
+        coordinate: usize,
+    ) -> Result<f64, MotionError> {
+        let kind = ChannelKind::Velocity(coordinate);
+        let place = system.channels().iter().position(|channel| channel.kind == kind);
+        let mut values = vec![f64::NAN; system.columns()];
+        observer.observe_columns(&start.state(system)?, &mut values)?;
+        Ok(place.and_then(|place| values.get(place).copied()).unwrap_or(f64::NAN))
+    }
+}
+
+/// The coordinate that a number of the state belongs to, and whether it is a rate.
+fn slot(kind: ChannelKind) -> Option<(usize, bool)> {
+    match kind {
+        ChannelKind::Position(i) => Some((i, false)),
+        ChannelKind::Velocity(i) | ChannelKind::Momentum(i) => Some((i, true)),
+        _ => None,
+    }
+}
+
+/// The root of a function next to zero, by Newton's method with the slopes of secants.
+fn root(function: impl Fn(f64) -> f64) -> Option<f64> {
+    let mut x = 0.0_f64;
+    for _ in 0..CORRECTIONS {
+        let value = function(x);
+        if value == 0.0 {
+            return Some(x);
+        }
+        let width = 1e-6 * x.abs().max(1.0);
+        let slope = (function(x + width) - function(x - width)) / (2.0 * width);
+        let next = x - value / slope;
+        if !next.is_finite() {
+            return None;
+        }
+        if (next - x).abs() <= 4.0 * f64::EPSILON * x.abs() {
+            return Some(next);
+        }
+        x = next;
+    }
+    (function(x).abs() <= ON).then_some(x)
+}

@@ -1,0 +1,467 @@
+//! `section`: where orbits cross a surface, or the instants of a stroboscope.
+//!
+//! The crossings of the running motion are its own, located while it is computed. Its job computes many other orbits of
+//! the same energy, their starts spread over what the energy allows, and the boundary of that region; it is done in
+//! parts, so that the picture fills as one looks, and begun anew when a parameter, the method or the energy changes.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use super::{
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
+    Offer, Physics, Picture, Plot, Present, Seed, Sign, Upwards,
+};
+use crate::ensemble::{Crossings, Region, SectionPlan, SectionPlane, crossings, in_order, spread};
+use crate::expr::Expr;
+use crate::integrate::{Method, Settings};
+use crate::job::{Job, Progress};
+use crate::mechanics::Valuation;
+use crate::model::{Direction, View};
+use crate::system::{ChannelKind, InitialOverride, System};
+
+/// The levels of the picture.
+const BOUNDARY: Level = 0;
+const ORBITS: Level = 1;
+const OWN: Level = 2;
+const NOW: Level = 3;
+
+/// The orbits of a picture at first and those of each addition, and the crossings of each.
+const BATCH: usize = 16;
+const COUNT: u64 = 60;
+
+/// The orbits of one part of the work, after which the picture is drawn anew.
+const PART: usize = 4;
+
+/// The crossings of an orbit through a point that a person chose.
+const COUNT_CHOSEN: u64 = 240;
+
+/// The crossings that are left out where friction draws all orbits to an attractor.
+const TRANSIENT: usize = 20;
+
+/// How many points are tried for each start that is found.
+const TRIES: usize = 24;
+
+/// An orbit ends after so many steps without a crossing.
+const IDLE: u64 = 4000;
+
+/// The relative change of the energy beyond which the other orbits are computed again.
+const DRIFT: f64 = 1e-3;
+
+/// The row.
+pub(super) struct Section;
+
+/// The orbits computed so far, and the conditions they were computed for.
+struct Portrait {
+    conditions: Conditions,
+    /// The additions whose orbits are there, and those at first.
+    seeds: Vec<Seed>,
+    region: Region,
+    orbits: Vec<Arc<Vec<[f64; 2]>>>,
+    /// The starts of the orbits to come, and the crossings of each.
+    pending: (Vec<[f64; 2]>, u64),
+}
+
+#[derive(Clone, PartialEq, Debug)]
+struct Conditions {
+    parameters: Vec<f64>,
+    energy: f64,
+    method: &'static str,
+    settings: Settings,
+}
+
+impl Conditions {
+    fn of(present: &Present<'_>) -> Self {
+        let kind = ChannelKind::Energy;
+        let energy = present.physics.channel(kind).map_or(f64::NAN, |c| present.value(c));
+        Self {
+            parameters: present.parameters.to_vec(),
+            energy,
+            method: present.method,
+            settings: present.settings,
+        }
+    }
+
+    /// Whether the orbits of one are those of the other. Where the plane has no bound the energy does not matter.
+    fn still_hold(&self, now: &Self, bounded: bool) -> bool {
+        let scale = self.energy.abs().max(1e-9);
+        let near = !bounded || (self.energy - now.energy).abs() <= DRIFT * scale;
+        near && (&self.parameters, self.method, self.settings)
+            == (&now.parameters, now.method, now.settings)
+    }
+}
+
+impl Instrument for Section {
+    fn name(&self) -> &'static str {
+        "section"
+    }
+
+    fn written(&self) -> &'static [Axis] {
+        &[Axis::ACROSS, Axis::UPWARDS]
+    }
+
+    fn is_section(&self) -> bool {
+        true
+    }
+
+    fn shows_a_view(&self) -> bool {
+        true
+    }
+
+    fn has_equal_axes(&self) -> bool {
+        true
+    }
+
+    fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
+        let views = physics.model.views.iter().enumerate();
+        let offer = |(index, view): (usize, &View)| {
+            view.section?;
+            Some(Offer {
+                label: format!("section at {}", surface(physics, view)),
+                about: "where orbits cross a surface, two quantities of your choice".to_owned(),
+                columns: Vec::new(),
+                view: Some(index),
+            })
+        };
+        views.filter_map(offer).collect()
+    }
+
+    fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
+        let [x, y] = [0, 1].map(|k| plot.column(k).map_or("?", |channel| physics.shown(channel)));
+        let on = view(plot, physics).map_or_else(String::new, |view| surface(physics, view));
+        format!("section at {on}, {y} against {x}")
+    }
+
+    fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
+        let view = view(plot, present.physics)?;
+        let title = plot.title(present.physics);
+        let count = present.crossed.get(view.section?).copied().unwrap_or(0);
+        Some(Heading {
+            title: title.unwrap_or("Section").to_owned(),
+            given: title.is_some(),
+            entries: vec![
+                Entry::Words(surface(present.physics, view)),
+                Entry::Words(match count {
+                    1 => "1 crossing".to_owned(),
+                    _ => format!("{count} crossings"),
+                }),
+            ],
+        })
+    }
+
+    fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
+        let range = range(plot, present, answer, 0);
+        plot.column(0).map_or(Across::Nothing, |x| Across::Channel(x, range))
+    }
+
+    fn picture(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        _seen: [f64; 2],
+        answer: Option<&Answer>,
+    ) -> Option<Picture> {
+        let channels = [plot.column(0)?, plot.column(1)?];
+        let section = view(plot, present.physics)?.section?;
+        let mut layers = Vec::new();
+        if let Some(portrait) = portrait(answer) {
+            let line = |pair: &[[f64; 2]; 2]| Layer::Line(pair.to_vec(), Ink::Separatrix.into());
+            layers.extend(portrait.region.boundary.iter().map(|pair| (BOUNDARY, line(pair))));
+            // orbits on an attractor show one thing
+            let dissipates = dissipates(present.physics);
+            let points = |(index, orbit): (usize, &Arc<Vec<[f64; 2]>>)| {
+                let ink = if dissipates { Ink::Curve(0) } else { Ink::Curve(index + 1) };
+                (ORBITS, Layer::Points(Arc::clone(orbit), ink))
+            };
+            layers.extend(portrait.orbits.iter().enumerate().map(points));
+        }
+        layers.push((OWN, Layer::Crossings { section, channels, ink: Ink::Accent }));
+        layers.push((NOW, Layer::LastCrossing { section, channels, sign: Sign::Disc }));
+        let upwards = Upwards::Channel(channels[1], range(plot, present, answer, 1));
+        Some(Picture::Axes { upwards, layers, occurrences: None })
+    }
+
+    fn start(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        at: [f64; 2],
+    ) -> Result<Vec<InitialOverride>, NoStart> {
+        let plane = plane(plot, present).ok_or(NoStart::Nothing)?;
+        let found = plane.beginning(present.physics.system, at);
+        found.map_err(|why| NoStart::Refused(capitalised(&why.to_string())))
+    }
+
+    fn seed(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Option<Seed> {
+        plane(plot, present)?;
+        let viewport = plot.viewport()?;
+        let window = [range(plot, present, answer, 0)?, range(plot, present, answer, 1)?];
+        let part = |axis: usize| {
+            let [from, to] = window[axis];
+            let half = (to - from) / viewport.zoom[axis] / 2.0;
+            let middle = f64::midpoint(from, to) + viewport.pan[axis] * 2.0 * half;
+            [middle - half, middle + half]
+        };
+        Some(Seed::Spread([part(0), part(1)]))
+    }
+
+    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+        let Some(plane) = plane(plot, present) else { return Need::Nothing };
+        let Physics { model, equations, system } = present.physics;
+        // without a constant energy there is no shell to spread starts over
+        if plane.is_bounded() && equations.energy_rate != Expr::ZERO {
+            return Need::Nothing;
+        }
+        let Some(section) = view(plot, present.physics).and_then(|view| view.section) else {
+            return Need::Nothing;
+        };
+        let (Some(x), Some(y), Some(method)) =
+            (plot.column(0), plot.column(1), crate::integrate::method_named(present.method))
+        else {
+            return Need::Nothing;
+        };
+        let conditions = Conditions::of(present);
+        let known = portrait(answer).filter(|known| {
+            known.conditions.still_hold(&conditions, plane.is_bounded())
+                && plot.seeds.starts_with(&known.seeds)
+        });
+        let seed = match known {
+            None => None,
+            Some(known) if !known.pending.0.is_empty() => None,
+            Some(known) => match plot.seeds.get(known.seeds.len()) {
+                None => return Need::Held,
+                seed => seed.copied(),
+            },
+        };
+        let bounds = |channel: usize| {
+            let known = present.bounds.get(channel);
+            known.map_or([f64::NAN; 2], |(lo, hi)| [*lo, *hi])
+        };
+        let task = Task {
+            plane,
+            // the token of the motion is not that of a picture
+            system: Arc::clone(system),
+            method,
+            conditions: known.map_or(conditions, |known| known.conditions.clone()),
+            plan: SectionPlan {
+                event: model.sections[section].name.clone(),
+                count: Some(COUNT),
+                until: None,
+                idle: IDLE,
+            },
+            columns: [x, y],
+            transient: if dissipates(present.physics) { TRANSIENT } else { 0 },
+            // orbits of a picture that was begun go on in it
+            known: known.map(|known| Begun {
+                region: known.region.clone(),
+                orbits: known.orbits.clone(),
+                pending: known.pending.clone(),
+            }),
+            given: [given(plot, present, 0), given(plot, present, 1)],
+            around: [bounds(x), bounds(y)],
+            seed,
+            seeds: known.iter().flat_map(|known| known.seeds.clone()).chain(seed).collect(),
+        };
+        let job = Job::new("orbits", move |progress| Answer::new(task.portrait(progress)));
+        // what a person asks for is computed in any case
+        if plot.seeds.is_empty() { Need::Addition(job) } else { Need::Job(job) }
+    }
+
+    fn measures(&self) -> &'static [Measure] {
+        &[
+            Measure {
+                word: "points",
+                about: "how often the running motion has crossed the surface",
+                value: |plot, present, _| {
+                    let section = view(plot, present.physics)?.section?;
+                    present.crossed.get(section).map(|count| *count as f64)
+                },
+            },
+            Measure {
+                word: "orbits",
+                about: "how many other orbits are drawn",
+                value: |_, _, answer| portrait(answer).map(|p| p.orbits.len() as f64),
+            },
+            Measure {
+                word: "crossings",
+                about: "how many crossings of other orbits are drawn",
+                value: |_, _, answer| {
+                    let orbits = &portrait(answer)?.orbits;
+                    Some(orbits.iter().map(|orbit| orbit.len()).sum::<usize>() as f64)
+                },
+            },
+        ]
+    }
+}
+
+/// What a job computes: the orbits of a picture at first, or those of its next addition.
+struct Task {
+    plane: SectionPlane,
+    system: Arc<System>,
+    method: &'static Method,
+    conditions: Conditions,
+    plan: SectionPlan,
+    columns: [usize; 2],
+    transient: usize,
+    known: Option<Begun>,
+    given: [Option<[f64; 2]>; 2],
+    around: [[f64; 2]; 2],
+    seed: Option<Seed>,
+    seeds: Vec<Seed>,
+}
+
+/// A picture that was begun.
+struct Begun {
+    region: Region,
+    orbits: Vec<Arc<Vec<[f64; 2]>>>,
+    pending: (Vec<[f64; 2]>, u64),
+}
+
+impl Task {
+    fn portrait(&self, progress: &Progress) -> Portrait {
+        let system = self.system.with_cancel(progress.token().clone());
+        let begun = self.known.as_ref();
+        let region = begun.map_or_else(
+            || Region::of(&self.plane, &system, self.given, self.around, progress.token()),
+            |begun| begun.region.clone(),
+        );
+        let mut orbits = begun.map_or_else(Vec::new, |begun| begun.orbits.clone());
+        let (mut points, count) = match (self.seed, begun) {
+            // each addition goes on where the one before ended
+            (Some(Seed::Spread(window)), _) => {
+                (self.starts(&system, &region, window, self.seeds.len() * BATCH * TRIES), COUNT)
+            }
+            (Some(Seed::Through(point)), _) => (vec![point], COUNT_CHOSEN),
+            (None, Some(begun)) => begun.pending.clone(),
+            (None, None) => (self.starts(&system, &region, region.window, 0), COUNT),
+        };
+        let pending = (points.split_off(points.len().min(PART)), count);
+        let plan = SectionPlan { count: Some(count), ..self.plan.clone() };
+        progress.expect(points.len() as u64);
+        let one = |i: usize| {
+            let mut observer = system.observer(self.plane.parameters());
+            match self.plane.start(&system, &mut observer, points[i]) {
+                Ok(start) => {
+                    let settings = self.conditions.settings;
+                    let found = crossings(&system, self.method, settings, &start, &plan);
+                    self.drawn(&found, points[i])
+                }
+                Err(_) => Vec::new(),
+            }
+        };
+        let take = |i: usize, orbit: Vec<[f64; 2]>| {
+            progress.reach(i as u64 + 1);
+            // an orbit that never comes back is no part of a section
+            if orbit.len() > 1 {
+                orbits.push(Arc::new(orbit));
+            }
+            ControlFlow::Continue(())
+        };
+        // without threads the picture has no further orbits
+        let _ = in_order(0, points.len(), progress.token(), one, take);
+        let seeds = self.seeds.clone();
+        Portrait { conditions: self.conditions.clone(), seeds, region, orbits, pending }
+    }
+
+    /// Points of a window that are starts.
+    fn starts(
+        &self,
+        system: &System,
+        region: &Region,
+        window: [[f64; 2]; 2],
+        from: usize,
+    ) -> Vec<[f64; 2]> {
+        let mut observer = system.observer(self.plane.parameters());
+        let points = (from..from + BATCH * TRIES).map(|index| spread(index, window));
+        points
+            .filter(|&at| {
+                region.contains(at) && self.plane.start(system, &mut observer, at).is_ok()
+            })
+            .take(BATCH)
+            .collect()
+    }
+
+    /// The points of an orbit: its start, if that is a crossing, and its crossings.
+    fn drawn(&self, found: &Crossings, start: [f64; 2]) -> Vec<[f64; 2]> {
+        let [x, y] = self.columns;
+        let first = (self.plane.is_bounded()).then_some(start);
+        let crossed =
+            found.rows.iter().filter_map(|row| Some([*row.get(1 + x)?, *row.get(1 + y)?]));
+        first.into_iter().chain(crossed).skip(self.transient).collect()
+    }
+}
+
+fn portrait(answer: Option<&Answer>) -> Option<&Portrait> {
+    answer?.of::<Portrait>()
+}
+
+/// The view of the file that has the surface.
+fn view<'a>(plot: &Plot, physics: Physics<'a>) -> Option<&'a View> {
+    physics.model.views.get(plot.view?).filter(|view| view.section.is_some())
+}
+
+/// The surface in words: `x = 0, rising`.
+fn surface(physics: Physics<'_>, view: &View) -> String {
+    let on = view.axes.get(2).and_then(|axis| axis.first()).map_or("?", |on| &on.written);
+    let section = view.section.and_then(|index| physics.model.sections.get(index));
+    let direction = match section.map_or(Direction::Either, |section| section.direction) {
+        Direction::Rising => ", rising",
+        Direction::Falling => ", falling",
+        Direction::Either => "",
+    };
+    format!("{on} = 0{direction}")
+}
+
+/// The plane of a plot, if its points are starts and its quantities are columns of an orbit.
+fn plane(plot: &Plot, present: &Present<'_>) -> Option<SectionPlane> {
+    let Physics { model, system, .. } = present.physics;
+    let axes = [plot.column(0)?, plot.column(1)?];
+    if axes.iter().any(|axis| *axis >= system.columns()) {
+        return None;
+    }
+    let section = view(plot, present.physics)?.section?;
+    let energy = Conditions::of(present).energy;
+    let at = (model.run.start, present.parameters, energy);
+    let plane = SectionPlane::new((model, system), section, axes, at);
+    plane.filter(|plane| energy.is_finite() || !plane.is_bounded())
+}
+
+/// The range that the file gives an axis, if it shows the same quantity.
+fn given(plot: &Plot, present: &Present<'_>, axis: usize) -> Option<[f64; 2]> {
+    let Physics { model, system, .. } = present.physics;
+    let view = view(plot, present.physics)?;
+    let channel = plot.column(axis)?;
+    let written = view.axes.get(axis)?.first()?;
+    if let Some(ends) = view.ranges[axis]
+        && system.channel_of(written.expression) == Some(channel)
+    {
+        let known = Valuation::of_parameters(model, present.parameters);
+        let [from, to] = ends.map(|end| known.value(&model.pool, end));
+        if from.is_finite() && to.is_finite() && from < to {
+            return Some([from, to]);
+        }
+    }
+    let period = system.period(channel, present.parameters)?;
+    Some([-period / 2.0, period / 2.0])
+}
+
+/// The range of an axis: the file's, or that of the region.
+fn range(
+    plot: &Plot,
+    present: &Present<'_>,
+    answer: Option<&Answer>,
+    axis: usize,
+) -> Option<[f64; 2]> {
+    let region = portrait(answer).map(|portrait| portrait.region.window[axis]);
+    given(plot, present, axis).or(region)
+}
+
+/// Whether friction acts.
+fn dissipates(physics: Physics<'_>) -> bool {
+    physics.model.mechanics.dissipation() != Expr::ZERO
+}
+
+fn capitalised(sentence: &str) -> String {
+    let mut letters = sentence.chars();
+    let first = letters.next().map(|letter| letter.to_uppercase().collect::<String>());
+    format!("{}{}.", first.unwrap_or_default(), letters.as_str())
+}
