@@ -41,7 +41,7 @@ pub use equations::{
     CoordinateSymbols, Equations, Flow, NoClosedForm, Reason, Separable, Supplements, Vakonomic,
 };
 pub use flaw::StructureError;
-pub use invariants::casimir_rate;
+pub use invariants::{casimir_rate, is_changed_by_impulse};
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
 pub use poisson_structure::flaws;
 pub use report::{
