@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use super::equations::{Conserved, Equations, Flow, Reason};
 use super::symmetry;
-use crate::expr::{Expr, FunctionId, Node, Symbol, Zero};
+use crate::expr::{Expr, FunctionId, Node, Pool, Symbol, Zero};
 use crate::model::{Action, Mechanics, Model, Observable};
 
 /// Fills `cyclic` and `conserved`.
@@ -125,6 +125,20 @@ pub fn is_changed_by_impulse(equations: &mut Equations, model: &Model, quantity:
         }
     }
     equations.pool.depends_on_any(quantity, &moved)
+}
+
+/// Whether two expressions as they stand are multiples of each other.
+fn is_multiple(pool: &Pool, a: Expr, b: Expr) -> bool {
+    let (Node::Sum(c, terms), Node::Sum(d, others)) = (pool.node(a), pool.node(b)) else {
+        return a == b;
+    };
+    let Some(ratio) = terms.first().zip(others.first()).map(|(a, b)| a.0 * b.0.recip()) else {
+        return a == b;
+    };
+    let pairs = || terms.iter().zip(others);
+    terms.len() == others.len()
+        && *c == ratio * *d
+        && pairs().all(|(&(m, a), &(n, b))| a == b && m == ratio * n)
 }
 
 /// Returns whether nothing but the law acts: no forces, no dissipation, no constraints.
@@ -366,9 +380,9 @@ impl Equations {
             let node = pool.node(e);
             node.parts().into_iter().filter_map(steps).any(|argument| match node {
                 // u sign(u) = |u|
-                Node::Product(_, factors) => {
-                    !factors.iter().any(|(base, n)| *base == argument && !n.is_negative())
-                }
+                Node::Product(_, factors) => !factors
+                    .iter()
+                    .any(|&(e, n)| !n.is_negative() && is_multiple(pool, e, argument)),
                 _ => true,
             })
         };
