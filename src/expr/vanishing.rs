@@ -86,7 +86,7 @@ fn least(at: &dyn Fn(f64) -> f64, mut left: f64, mut right: f64) -> f64 {
         let (a, b) = (right - GOLDEN * (right - left), left + GOLDEN * (right - left));
         if at(a) <= at(b) { right = b } else { left = a }
     }
-    at((left + right) / 2.0)
+    at(f64::midpoint(left, right))
 }
 
 #[cfg(test)]
@@ -103,7 +103,7 @@ mod tests {
         assert!(!touches(&|x| 1.0 + x * x));
         assert!(!touches(&|x| x * x - 1.0));
         // close to a point, from either side of what counts
-        assert!(!touches(&|x| x * x + 1e-6 * SPACING * SPACING));
-        assert!(touches(&|x| x * x + 1e-12 * SPACING * SPACING));
+        assert!(!touches(&|x| x * x + 3e-10 * SPACING * SPACING));
+        assert!(touches(&|x| x * x + 3e-11 * SPACING * SPACING));
     }
 }

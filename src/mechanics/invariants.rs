@@ -113,7 +113,9 @@ pub fn is_changed_by_impulse(equations: &mut Equations, model: &Model, quantity:
         if more.is_empty() {
             break;
         }
-        more.into_iter().for_each(|j| coupled[j] = true);
+        for j in more {
+            coupled[j] = true;
+        }
     }
     let mut moved = vec![energy];
     for (i, c) in equations.coordinates.iter().enumerate() {
