@@ -36,6 +36,7 @@ mod text;
 mod token;
 mod trigonometry;
 mod unicode;
+mod vanishing;
 mod zero_test;
 
 pub use function::{

@@ -49,7 +49,7 @@ pub use equations::{
 pub use flaw::StructureError;
 pub use generator::{GeneratorFlow, flow_of};
 pub use hamilton_jacobi::HamiltonJacobi;
-pub use invariants::casimir_rate;
+pub use invariants::{casimir_rate, is_changed_by_impulse};
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
 pub use poisson_structure::flaws;
 pub use report::{

@@ -369,11 +369,18 @@ impl<'a> Motion<'a> {
             if let Err(short) = self.reach(time, last) {
                 let values = schedule[k..].iter().filter_map(|(_, value)| *value);
                 let values = values.map(|value| (&value.name, &value.place));
-                let left = values.chain(claims.iter().map(|claim| (&claim.name, &claim.place)));
-                return mistakes.extend(left.map(|(name, place)| {
+                let unchecked = |(name, place): (&String, &SourceRange)| {
                     let message = format!("`{name}` cannot be checked: {short}");
                     Diagnostic::error(place.clone(), message)
-                }));
+                };
+                mistakes.extend(values.map(unchecked));
+                // what is conserved is so until the motion ends
+                if matches!(short, Short::Ended(_)) {
+                    self.sample(model, equations, &mut claims);
+                    break;
+                }
+                let claims = claims.iter().map(|claim| (&claim.name, &claim.place));
+                return mistakes.extend(claims.map(unchecked));
             }
             match value {
                 Some(value) => mistakes.extend(self.compare(value)),

@@ -90,8 +90,13 @@ fn text(model: &Model, equations: &Equations, found: &Symmetries, script: Script
         if symmetry.gauge != Expr::ZERO {
             text.push_str(&format!("  L changes by the derivative of {}\n", math(symmetry.gauge)));
         }
-        let proof = if symmetry.proved { "proved" } else { "not proved" };
-        text.push_str(&format!("  constant: {}   ({proof})\n", math(symmetry.conserved)));
+        let proof = match (symmetry.proved, symmetry.for_all_parameters) {
+            (true, true) => "proved",
+            (true, false) => "proved at these parameters",
+            (false, _) => "not proved",
+        };
+        let between = if symmetry.between_impulses { ", between impulses" } else { "" };
+        text.push_str(&format!("  constant: {}   ({proof}{between})\n", math(symmetry.conserved)));
     }
     let count = found.found.len();
     let complete = if found.complete { ", and there are no others (proved)" } else { "" };
@@ -125,6 +130,8 @@ fn json(model: &Model, equations: &Equations, found: &Symmetries) -> String {
             "gauge": text(s.gauge),
             "conserved": text(s.conserved),
             "proved": s.proved,
+            "for_all_parameters": s.proved && s.for_all_parameters,
+            "between_impulses": s.between_impulses,
         })
     };
     let parameters: Map<String, Value> =

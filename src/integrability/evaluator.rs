@@ -193,6 +193,12 @@ impl Evaluator {
                 _ => {}
             }
         }
+        for (&base, _) in roots_of.iter().filter(|(_, d)| **d > 1) {
+            if pool.touches_zero(base, moving) {
+                let why = "no search is made through a root with a kink, where";
+                return Err(Unsupported(format!("{why} {} touches zero", pool.text(base))));
+            }
+        }
         let turns = circles.order.iter().position(|&t| *pool.node(t) == Node::Pi);
         let mut steps = Vec::with_capacity(nodes.len());
         for &e in &nodes {

@@ -18,7 +18,7 @@ use super::formula::cleared;
 use super::law;
 use super::transformations::{generators_of, products};
 use crate::expr::{Expr, Node, Pool, Symbol, Zero};
-use crate::mechanics::Equations;
+use crate::mechanics::{Equations, is_changed_by_impulse};
 use crate::model::Model;
 use crate::num::{Number, PRIMES, PrimeField, Residue, rational};
 
@@ -47,6 +47,10 @@ pub struct Symmetry {
     pub conserved: Expr,
     /// Whether that is proved symbolically.
     pub proved: bool,
+    /// Whether it is so for all values of the parameters, and not only at the present ones.
+    pub for_all_parameters: bool,
+    /// Whether an impulse of the file may change the constant.
+    pub between_impulses: bool,
 }
 
 /// The symmetries that were found, and where.
@@ -96,14 +100,18 @@ pub fn symmetries(
         equations.coordinates.iter().map(|c| (c.position, c.velocity)).unzip();
     let mut problem = Problem::of(pool, lagrangian, time, positions, velocities);
     let vectors = problem.solve(pool, is_over)?;
-    let mut found = Vec::new();
+    let mut found: Vec<Symmetry> = Vec::new();
     let mut complete = !problem.overgeneral;
     // the same changes with the parameters' names, where they are symmetries for all their values
     let named = (symbolic != lagrangian).then(|| problem.with(pool, symbolic));
     for vector in vectors {
         let by_name = named.as_ref().and_then(|named| named.exact(pool, &vector));
         let by_name = by_name.filter(|symmetry| symmetry.proved);
-        match by_name.or_else(|| problem.exact(pool, &vector)) {
+        let here = |pool: &mut Pool| {
+            let symmetry = problem.exact(pool, &vector)?;
+            Some(Symmetry { for_all_parameters: named.is_none(), ..symmetry })
+        };
+        match by_name.or_else(|| here(pool)) {
             Some(symmetry) => found.push(symmetry),
             None => complete = false,
         }
@@ -113,7 +121,11 @@ pub fn symmetries(
         let rest = s.coordinates.iter().chain([&s.time, &s.gauge]);
         rest.map(|&e| pool.weight(e)).sum::<u64>()
     });
-    Ok(Symmetries { found, searched: problem.words(pool), complete })
+    let searched = problem.words(pool);
+    for symmetry in &mut found {
+        symmetry.between_impulses = is_changed_by_impulse(equations, model, symmetry.conserved);
+    }
+    Ok(Symmetries { found, searched, complete })
 }
 
 /// The condition on the coefficients of ξ, η and f.
@@ -339,7 +351,16 @@ impl Problem {
         let conserved = pool.sum(&constant);
         let conserved = pool.simplify(conserved);
         let name = self.name(pool, xi, &eta);
-        Some(Symmetry { name, time: xi, coordinates: eta, gauge: f, conserved, proved })
+        Some(Symmetry {
+            name,
+            time: xi,
+            coordinates: eta,
+            gauge: f,
+            conserved,
+            proved,
+            for_all_parameters: true,
+            between_impulses: false,
+        })
     }
 
     /// What a symmetry is called.

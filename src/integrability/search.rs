@@ -18,7 +18,7 @@ use super::law::{self, Law};
 use super::level::{self, Broken, Ground};
 use super::scope::{Scope, constants_of};
 use crate::expr::{Expr, Pool, Symbol, Zero};
-use crate::mechanics::{Class, Equations, class_of};
+use crate::mechanics::{Class, Equations, class_of, is_changed_by_impulse};
 use crate::model::Model;
 use crate::num::{Number, PRIMES, PrimeField};
 
@@ -68,6 +68,8 @@ pub struct Constant {
     pub proof: Proof,
     /// Whether it is functionally independent of those known and those found before it.
     pub independent: bool,
+    /// Whether an impulse of the file may change it.
+    pub between_impulses: bool,
     /// With the parameters' values put in.
     pub(super) here: Expr,
 }
@@ -142,6 +144,9 @@ pub fn invariants(
         }
     }
     search.judge(equations, &mut answer);
+    for constant in &mut answer.found {
+        constant.between_impulses = is_changed_by_impulse(equations, model, constant.expression);
+    }
     Ok(answer)
 }
 
@@ -291,11 +296,25 @@ impl<'a> Search<'a> {
             let constant = match (named, here) {
                 (Some(expression), _) => {
                     let here = equations.pool.substitute(expression, &self.values);
-                    Constant { expression, degree, proof: Proof::Proved, independent: false, here }
+                    Constant {
+                        expression,
+                        degree,
+                        proof: Proof::Proved,
+                        independent: false,
+                        between_impulses: false,
+                        here,
+                    }
                 }
                 (None, Some(here)) => {
                     let proof = self.proof_here(model, equations, here);
-                    Constant { expression: here, degree, proof, independent: false, here }
+                    Constant {
+                        expression: here,
+                        degree,
+                        proof,
+                        independent: false,
+                        between_impulses: false,
+                        here,
+                    }
                 }
                 (None, None) => {
                     answer.ended = Some(

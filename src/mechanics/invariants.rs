@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use super::equations::{Conserved, Equations, Flow, Reason};
 use super::symmetry;
-use crate::expr::{Expr, FunctionId, Node, Symbol, Zero};
+use crate::expr::{Expr, FunctionId, Node, Pool, Symbol, Zero};
 use crate::model::{Action, Mechanics, Model, Observable};
 
 /// Fills `cyclic` and `conserved`.
@@ -68,27 +68,79 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
         name_observable(equations, model, observable, released);
     }
     for i in 0..equations.conserved.len() {
-        if is_changed_by_impulse(equations, model, equations.conserved[i].expression) {
+        let quantity = equations.conserved[i].expression;
+        if is_changed_by_impulse(equations, model, quantity) {
             let reason = Box::new(equations.conserved[i].reason.clone());
             equations.conserved[i].reason = Reason::BetweenImpulses(reason);
         }
     }
 }
 
-/// Returns whether an impulse of the file may change a quantity.
-fn is_changed_by_impulse(equations: &Equations, model: &Model, quantity: Expr) -> bool {
-    let after_impulse =
-        |i: usize| model.impulses.iter().any(|impulse| impulse.change[i] != Expr::ZERO);
-    let depends = |i: usize| {
-        let c = &equations.coordinates[i];
-        let moved = if model.is_poisson() {
-            vec![c.position, equations.symbols.energy]
-        } else {
-            vec![c.velocity, c.momentum, equations.symbols.energy]
-        };
-        equations.pool.depends_on_any(quantity, &moved)
+/// Returns whether an impulse of the file may change a quantity. An impulse on one momentum changes every velocity that
+/// the kinetic energy couples to it, and under constraints, whose reactions are impulses too, all of them.
+pub fn is_changed_by_impulse(equations: &mut Equations, model: &Model, quantity: Expr) -> bool {
+    let n = equations.coordinates.len();
+    let struck: Vec<bool> = (0..n)
+        .map(|i| model.impulses.iter().any(|impulse| impulse.change[i] != Expr::ZERO))
+        .collect();
+    if !struck.contains(&true) {
+        return false;
+    }
+    let energy = equations.symbols.energy;
+    if model.is_poisson() {
+        let variables = equations.coordinates.iter().map(|c| c.position);
+        let moved: Vec<Symbol> =
+            variables.zip(&struck).filter(|(_, struck)| **struck).map(|(s, _)| s).collect();
+        return equations.pool.depends_on_any(quantity, &moved)
+            || equations.pool.depends(quantity, energy);
+    }
+    let constrained = !model.constraints.is_empty();
+    let quantity = if equations.is_lagrangian() { quantity } else { equations.open(quantity) };
+    if !constrained && (0..n).any(|i| !struck[i] && equations.momenta[i] == quantity) {
+        return false;
+    }
+    // the velocities that the kinetic energy couples to a momentum that is struck
+    let mut coupled = struck.clone();
+    let depends = |i: usize, j: usize| {
+        equations.pool.depends(equations.momenta[i], equations.coordinates[j].velocity)
     };
-    (0..equations.coordinates.len()).any(|i| after_impulse(i) && depends(i))
+    loop {
+        let more: Vec<usize> = (0..n)
+            .filter(|&j| {
+                !coupled[j] && (0..n).any(|i| coupled[i] && (depends(i, j) || depends(j, i)))
+            })
+            .collect();
+        if more.is_empty() {
+            break;
+        }
+        for j in more {
+            coupled[j] = true;
+        }
+    }
+    let mut moved = vec![energy];
+    for (i, c) in equations.coordinates.iter().enumerate() {
+        if struck[i] || constrained {
+            moved.push(c.momentum);
+        }
+        if coupled[i] || constrained {
+            moved.extend([c.velocity, c.acceleration]);
+        }
+    }
+    equations.pool.depends_on_any(quantity, &moved)
+}
+
+/// Whether two expressions as they stand are multiples of each other.
+fn is_multiple(pool: &Pool, a: Expr, b: Expr) -> bool {
+    let (Node::Sum(c, terms), Node::Sum(d, others)) = (pool.node(a), pool.node(b)) else {
+        return a == b;
+    };
+    let Some(ratio) = terms.first().zip(others.first()).map(|(a, b)| a.0 * b.0.recip()) else {
+        return a == b;
+    };
+    let pairs = || terms.iter().zip(others);
+    terms.len() == others.len()
+        && *c == ratio * *d
+        && pairs().all(|(&(m, a), &(n, b))| a == b && m == ratio * n)
 }
 
 /// Returns whether nothing but the law acts: no forces, no dissipation, no constraints.
@@ -244,7 +296,7 @@ impl Equations {
 
     /// Returns whether an observable may jump, so that its rate is not the whole answer: the
     /// observable, or the law by which it is conserved, contains a sign or an angle of something
-    /// that is not constant.
+    /// that is not constant, or a quotient that is a sign in disguise, as x/√(x²) and x/|x|.
     pub(super) fn may_jump(&mut self, observable: Expr) -> bool {
         if self.law_jumps() {
             return true;
@@ -256,7 +308,7 @@ impl Equations {
             .into_iter()
             .flat_map(|part| match self.pool.node(part) {
                 Node::Call(FunctionId::Sign | FunctionId::Atan2, arguments) => arguments.to_vec(),
-                _ => Vec::new(),
+                _ => self.steep_divisors(part),
             })
             .collect();
         arguments.into_iter().any(|argument| {
@@ -265,14 +317,78 @@ impl Equations {
         })
     }
 
+    /// Divisors that vanish on a surface at which the quotient may have another limit on each side without a pole: the
+    /// quotient has kinks, or the divisor stands under a root that has one, or in an arctangent.
+    fn steep_divisors(&self, part: Expr) -> Vec<Expr> {
+        let pool = &self.pool;
+        let moving = self.moving();
+        let has_kink = |e: Expr| {
+            pool.reachable(&[e]).into_iter().any(|part| match pool.node(part) {
+                Node::Call(function, _) => matches!(
+                    function,
+                    FunctionId::Abs | FunctionId::Max | FunctionId::Min | FunctionId::Sign
+                ),
+                Node::Product(_, factors) => {
+                    let mut factors = factors.iter();
+                    factors.any(|(e, n)| n.as_integer().is_none() && pool.touches_zero(*e, &moving))
+                }
+                _ => false,
+            })
+        };
+        let divisors = |e: Expr| match pool.node(e) {
+            Node::Product(_, factors) => {
+                let below = factors.iter().filter(|(_, power)| power.is_negative());
+                below.map(|&(base, power)| (base, power.as_integer().is_none())).collect()
+            }
+            _ => Vec::new(),
+        };
+        match pool.node(part) {
+            Node::Call(FunctionId::Atan, argument) => {
+                let parts = pool.reachable(argument).into_iter().flat_map(divisors);
+                parts.map(|(e, _)| e).filter(|&e| pool.vanishes(e, &moving)).collect()
+            }
+            _ => {
+                let below = divisors(part);
+                let kinked = !below.is_empty() && has_kink(part);
+                below
+                    .into_iter()
+                    .filter(|&(e, root)| {
+                        root && pool.touches_zero(e, &moving) || kinked && pool.vanishes(e, &moving)
+                    })
+                    .map(|(e, _)| e)
+                    .collect()
+            }
+        }
+    }
+
+    /// The time, coordinates, velocities and momenta.
+    fn moving(&self) -> Vec<Symbol> {
+        let mut moving = vec![self.symbols.time];
+        moving.extend(self.coordinates.iter().flat_map(|c| [c.position, c.velocity, c.momentum]));
+        moving
+    }
+
     /// Returns whether L (or H) has a step, where the force is an impulse that no derivative shows.
     fn law_jumps(&self) -> bool {
-        let mut moving: Vec<Symbol> = vec![self.symbols.time];
-        moving.extend(self.coordinates.iter().flat_map(|c| [c.position, c.velocity, c.momentum]));
-        self.pool.reachable(&[self.law]).into_iter().any(|part| {
-            matches!(self.pool.node(part), Node::Call(FunctionId::Sign, _))
-                && self.pool.depends_on_any(part, &moving)
-        })
+        let moving = self.moving();
+        let pool = &self.pool;
+        let steps = |e: Expr| match pool.node(e) {
+            Node::Call(FunctionId::Sign, argument) => {
+                pool.depends_on_any(e, &moving).then_some(argument[0])
+            }
+            _ => None,
+        };
+        let jumps = |e: Expr| {
+            let node = pool.node(e);
+            node.parts().into_iter().filter_map(steps).any(|argument| match node {
+                // u sign(u) = |u|
+                Node::Product(_, factors) => !factors
+                    .iter()
+                    .any(|&(e, n)| !n.is_negative() && is_multiple(pool, e, argument)),
+                _ => true,
+            })
+        };
+        steps(self.law).is_some() || pool.reachable(&[self.law]).into_iter().any(jumps)
     }
 
     /// dG/dt of a function of q, p, t and the energy of a Lagrangian system, in the symbols of q,

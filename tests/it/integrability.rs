@@ -3,6 +3,7 @@
 
 mod absent;
 mod found;
+mod negatives;
 mod noether;
 mod textbook;
 

@@ -36,6 +36,7 @@ pub(super) fn write(answer: &Answer<'_>) -> String {
             "degree": constant.degree,
             "proved": constant.proof != Proof::Unproved,
             "for_all_parameters": constant.proof == Proof::Proved,
+            "between_impulses": constant.between_impulses,
             "independent": constant.independent,
             "commutes_with": commutes(first + i),
         })

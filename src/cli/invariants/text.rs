@@ -60,9 +60,10 @@ pub(super) fn write(answer: &Answer<'_>, script: Script) -> String {
         for (i, constant) in invariants.found.iter().enumerate() {
             let name = &names[first + i];
             text.push_str(&format!("  {name} = {}\n", math(constant.expression)));
+            let between = if constant.between_impulses { ", between impulses" } else { "" };
             let dependent = if constant.independent { "" } else { ", depends on those above" };
             text.push_str(&format!(
-                "       degree {}, {}{dependent}\n",
+                "       degree {}, {}{between}{dependent}\n",
                 constant.degree,
                 proof(constant.proof)
             ));

@@ -199,7 +199,7 @@ mod tests {
             if !self.cuts {
                 return Err(io::ErrorKind::StorageFull.into());
             }
-            self.text.truncate(usize::try_from(length).unwrap());
+            self.text.truncate(usize::try_from(length).map_err(io::Error::other)?);
             Ok(())
         }
     }
@@ -209,13 +209,13 @@ mod tests {
         for cuts in [true, false] {
             let file = Disk { text: Vec::new(), room: 12, cuts };
             let mut lines = Lines { file, complete: 0, torn: false };
-            lines.add("0 1,2,3\n").unwrap();
-            let failed = lines.add("1 4,5,6\n").unwrap_err();
+            lines.add("0 1,2,3\n").expect("there is room");
+            let failed = lines.add("1 4,5,6\n").expect_err("there is no room");
             assert_eq!(failed.kind(), io::ErrorKind::StorageFull);
             // there is room again, for another row
             lines.file.room = 100;
             lines.file.cuts = true;
-            lines.add("2 7,8,9\n").unwrap();
+            lines.add("2 7,8,9\n").expect("there is room again");
             assert_eq!(String::from_utf8_lossy(&lines.file.text), "0 1,2,3\n2 7,8,9\n");
         }
     }

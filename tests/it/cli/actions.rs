@@ -171,3 +171,18 @@ fn what_has_no_action_is_refused() {
     assert_eq!(below.code, 1);
     assert!(below.stderr.contains("cannot move"), "{}", below.stderr);
 }
+
+/// The column of the action gives way to a coordinate or an observable of the same name.
+#[test]
+fn names_of_the_file_are_free() {
+    let plain = "title = \"A\"\n[coordinates]\nx = { initial = 1.0, momentum = 0.0 }\n\
+                 [hamiltonian]\nH = \"1/2*p_x^2 + 1/2*x^2\"\n";
+    let expected = actions(plain, &[])["rows"].clone();
+    let coordinate = plain.replace("p_x", "p_S").replace("x =", "S =").replace("x^2", "S^2");
+    let observable =
+        |name: &str| format!("{plain}[[observables]]\nname = \"{name}\"\nexpression = \"3*x\"\n");
+    let both = observable("S") + "[[observables]]\nname = \"S_\"\nexpression = \"4*x\"\n";
+    for file in [coordinate, observable("S"), observable("action_"), both] {
+        assert_eq!(actions(&file, &[])["rows"], expected, "{file}");
+    }
+}

@@ -245,3 +245,19 @@ fn a_claim_that_holds_by_a_short_run_only_is_false() {
     let denied = "[[observables]]\nname = \"v\"\nexpression = \"x'\"\nconserved = false";
     assert_eq!(with_file(&barrier(denied), &["check", "system.toml"]).success(), "");
 }
+
+/// A claim of what is conserved holds until an event ends the motion, and is checked until there.
+#[test]
+fn what_is_conserved_is_checked_until_an_event_ends_the_motion() {
+    let file = |l: &str| {
+        format!(
+            "title = \"E\"\n[coordinates]\nx = {{ initial = 1.0, velocity = -0.4 }}\n\
+             [lagrangian]\nL = \"1/2*x'^2 - {l}\"\n\
+             [[events]]\nname = \"end\"\nwhen = \"x - 0.7\"\naction = \"stop\"\n\
+             [expect]\nconserves = [\"energy\"]\n"
+        )
+    };
+    with_file(&file("max(x, 0)^2*exp(-(x + 5)^2)"), &["check", "system.toml"]).success();
+    with_file(&file("sin(t)*x"), &["check", "system.toml"])
+        .fails(65, &["`energy` is said to be conserved, but it is not"]);
+}

@@ -308,3 +308,46 @@ fn a_signal_leaves_no_half_of_a_file_and_a_kill_leaves_one_that_is_swept() {
     assert!([Some(130), Some(143)].contains(&end(&mut child)));
     assert!(!names().iter().any(|name| name.to_string_lossy().ends_with(".partial")));
 }
+
+/// Whatever a command does, a signal ends it with its own exit code: the failure of the work that it stopped is not
+/// reported in its place.
+#[test]
+fn every_command_that_computes_is_ended_with_the_code_of_the_signal() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("long.demo"), "Open double-pendulum\nSize 80x24\nWait 3000s\n")
+        .unwrap();
+    let commands: [&[&str]; 11] = [
+        &["run", "double-pendulum", "--until", "1e9", "-o", "/dev/null"],
+        &["section", "henon-heiles", "--on", "x", "--until", "1e9"],
+        &[
+            "sweep",
+            "double-pendulum",
+            "--until=1e6",
+            "--grid=theta1=1:2:9",
+            "--measure=crossings=theta1",
+        ],
+        &["lyapunov", "double-pendulum", "--until", "1e9"],
+        &["flow", "double-pendulum", "--until", "1e9"],
+        &["orbit", "pendulum", "--along", "energy=-9:9:10000"],
+        &["equilibria", "triple-pendulum"],
+        &["invariants", "henon-heiles", "--degree", "12"],
+        &["symmetries", "heavy-top", "--budget", "1e9"],
+        &["record", "double-pendulum", "--script", "long.demo"],
+        &["script", "check", "long.demo"],
+    ];
+    for (i, arguments) in commands.iter().enumerate() {
+        for delay in [0, 40, 160] {
+            let (by, code) = SIGNALS[(i + delay) % SIGNALS.len()];
+            let mut child = command(home.path(), arguments).spawn().unwrap();
+            watching(&mut child);
+            thread::sleep(Duration::from_millis(delay as u64));
+            if child.try_wait().unwrap().is_some() {
+                // it was done before
+                continue;
+            }
+            signal(&child, by);
+            let ended = end(&mut child);
+            assert!(ended == Some(code) || ended == Some(0), "{arguments:?}: {ended:?}");
+        }
+    }
+}

@@ -124,3 +124,52 @@ fn a_quantity_of_odd_degree_under_a_mass_that_is_odd_is_not_missed() {
         found.none_up_to
     );
 }
+
+/// The names of the symmetries, sorted.
+fn names(coordinates: &[&str], lagrangian: &str) -> Vec<String> {
+    let (_, _, found) = find(coordinates, lagrangian);
+    let mut names: Vec<String> = found.found.into_iter().map(|s| s.name).collect();
+    names.sort();
+    names
+}
+
+/// A rotation turns, a boost adds a velocity: what does something else is not called so.
+#[test]
+fn a_symmetry_is_called_what_it_is() {
+    let oscillations = "translation that depends on the time";
+    // a fall: the translation changes L by a derivative, and is no boost
+    let fall = names(&["x"], "1/2*x'^2 - x");
+    assert!(fall.contains(&"translation".to_owned()), "{fall:?}");
+    // in Minkowski's plane x ∂_y + y ∂_x turns nothing
+    let hyperbolic = names(&["x", "y"], "1/2*(x'^2 - y'^2) - (x^2 - y^2)^2");
+    assert_eq!(hyperbolic, ["linear transformation of the coordinates", "time shift"]);
+    let circular = names(&["x", "y"], "1/2*(x'^2 + y'^2) - (x^2 + y^2)^2");
+    assert_eq!(circular, ["rotation", "time shift"]);
+    let free = names(&["x"], "1/2*x'^2");
+    let expected = ["boost", "conformal transformation", "dilation", "time shift", "translation"];
+    assert_eq!(free, expected);
+    // solutions of an oscillator added to each other are no boosts
+    let oscillator = names(&["x"], "1/2*x'^2 - 1/2*x^2");
+    assert_eq!(oscillator.iter().filter(|name| *name == oscillations).count(), 2, "{oscillator:?}");
+    assert!(!oscillator.contains(&"boost".to_owned()), "{oscillator:?}");
+}
+
+/// What an impulse changes, and what holds at these parameters only, is said so.
+#[test]
+fn constants_are_constant_where_they_are() {
+    let model = model(
+        "title = \"test\"\n[coordinates]\nx = { initial = 0.0, velocity = 1.0 }\n\
+         y = { initial = 0.0, velocity = 1.5 }\n[parameters]\nk = 0.0\n\
+         [lagrangian]\nL = \"1/2*x'^2 + 1/2*y'^2 - k*y\"\n\
+         [[impulses]]\nname = \"tap\"\nat = [1.0]\nchange = { p_x = \"1\" }\n",
+    );
+    let mut equations = mechanics::derive(&model).expect("derivable");
+    let found = symmetries(&model, &mut equations, &|| false).expect("it can be searched").found;
+    let of = |constant: &str| {
+        let at =
+            |s: &&phaselab::integrability::Symmetry| equations.pool.text(s.conserved) == constant;
+        found.iter().find(at).unwrap_or_else(|| panic!("{constant}"))
+    };
+    assert!(of("-x'").between_impulses && of("-x'").for_all_parameters);
+    assert!(!of("-y'").between_impulses && !of("-y'").for_all_parameters);
+}
