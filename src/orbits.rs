@@ -13,7 +13,9 @@ mod pool;
 mod section;
 mod start;
 
-pub use actions::{ActionRow, ActionSystems, NoAction, RegionKind, action_between, action_row};
+pub use actions::{
+    ActionRow, ActionSystems, NoAction, RegionKind, action_between, action_row, cyclic_row,
+};
 pub use effective_potential::{EffectivePotential, Region};
 pub use energy_shell::{EnergyShell, NotOnShell, Root};
 pub use measure::{MEASURES, Measure, MeasuredOrbit, Zeros, measure_named};
