@@ -9,7 +9,9 @@ mod effective_potential;
 mod measure;
 mod outcome;
 
-pub use actions::{ActionRow, ActionSystems, NoAction, RegionKind, action_between, action_row};
+pub use actions::{
+    ActionRow, ActionSystems, NoAction, RegionKind, action_between, action_row, cyclic_row,
+};
 pub use effective_potential::{EffectivePotential, Region};
 pub use measure::{MEASURES, Measure, MeasuredOrbit, Zeros, measure_named};
 pub use outcome::{Outcome, RunPlan};

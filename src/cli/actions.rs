@@ -9,15 +9,16 @@ use super::cells::{self, Cell, TableFormat};
 use super::crowd;
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
-use super::motion_options::{Laid, MotionOptions};
+use super::motion_options::{Laid, MotionOptions, Reading};
 use super::output::Output;
 use super::section::surface;
-use crate::diagnostic::nearest;
-use crate::ensemble::add_section;
+use crate::diagnostic::{Document, nearest};
+use crate::ensemble::{Start, add_section};
 use crate::expr::Expr;
 use crate::model::{Direction, Model};
 use crate::orbits::{
-    ActionRow, ActionSystems, EffectivePotential, Region, RegionKind, action_between, action_row,
+    ActionRow, ActionSystems, EffectivePotential, NoAction, Region, RegionKind, action_between,
+    action_row, cyclic_row,
 };
 use crate::printable;
 use crate::system::ChannelKind;
@@ -27,7 +28,8 @@ use crate::system::ChannelKind;
 /// For each energy one row for every region that it allows, from left to right: libration between
 /// two turning points, or rotation; the action ∮ p dq, the period T, the frequency dE/dJ = 1/T.
 /// The separatrices follow, with the actions of their lobes. Without --energy there is the region
-/// in which the start lies. Of several coordinates one is taken in which the system separates.
+/// in which the start lies. Of several coordinates one is taken in which the system separates;
+/// of a cyclic one the frequency is that of its mean advance.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -59,44 +61,15 @@ struct Separatrix {
 }
 
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
-    let mut reading = arguments.motion.read()?;
+    let reading = arguments.motion.read()?;
     let index = coordinate(&reading.model, arguments.coordinate.as_deref())?;
-    // the time of the return is counted from zero
-    reading.start.time = 0.0;
-    reading.model.run.start = 0.0;
     let name = reading.model.coordinates[index].name.clone();
-    let plain = reading.clone();
-    let rotates = plain.model.coordinates[index].period.is_some();
     let motion = &arguments.motion;
-    let zero = surface(&mut reading.model, &format!("{name}'"), "--coordinate")?;
-    let turns = add_section(&mut reading.model, zero, Direction::Either);
-    let columns = [format!("{} = action", unused_column(&plain.model))];
-    let turning = motion.compile(reading, &columns, "--coordinate", interrupt)?;
-    refuse_where_energy_is_not_conserved(&turning)?;
-    let start = &turning.start;
-    let mut potential = EffectivePotential::survey(&turning.system, start, index)
-        .map_err(|why| CommandError::CouldNot(why.to_string()))?;
-    let rotating = match potential.period().filter(|_| rotates) {
-        None => None,
-        Some(period) => {
-            let mut reading = plain;
-            let sine = format!("sin(pi*{name}/{period:?})");
-            let zero = surface(&mut reading.model, &sine, "--coordinate")?;
-            let event = add_section(&mut reading.model, zero, Direction::Either);
-            Some((motion.compile(reading, &columns, "--coordinate", interrupt)?, event))
-        }
-    };
-    let place = |kind| turning.system.channels().iter().position(|c| c.kind == kind).unwrap_or(0);
-    let systems = ActionSystems {
-        turning: &turning.system,
-        turns: &turns,
-        rotating: rotating.as_ref().map(|(laid, event)| (&laid.system, event.as_str())),
-        column: 1 + place(ChannelKind::Position(index)),
-        method: turning.method,
-        settings: turning.settings,
-    };
+    let along = partner(motion, &reading, index, interrupt)?;
+    let systems = Systems::compile(motion, reading, along.unwrap_or(index), interrupt)?;
     let could_not = |why: String| CommandError::CouldNot(why);
-    let own = own_start(&turning, index).map_err(could_not)?;
+    let mut potential = systems.potential()?;
+    let own = own_start(&systems.turning, systems.index).map_err(could_not)?;
     let mut rows: Vec<ActionRow> = Vec::new();
     for &energy in arguments.energy.as_deref().unwrap_or(&[own.energy]) {
         let mut regions = potential.regions(energy);
@@ -104,12 +77,15 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
             regions = containing(&regions, own.place, potential.period());
         }
         for region in regions {
-            let row = action_row(&mut potential, &systems, region, energy);
+            let row = match along {
+                None => action_row(&mut potential, &systems.systems(), region, energy),
+                Some(_) => systems.of_cyclic(&mut potential, index, region, energy),
+            };
             rows.push(row.map_err(|why| could_not(why.to_string()))?);
         }
     }
     let mut separatrices = Vec::new();
-    for top in potential.tops() {
+    for top in potential.tops().into_iter().filter(|_| along.is_none()) {
         let mut actions = Vec::new();
         for lobe in potential.lobes(top) {
             actions.push(match (lobe.left, lobe.right) {
@@ -124,7 +100,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         return Err(CommandError::Signal(signal));
     }
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
-    crowd::write(out, &written(arguments.format, &turning, &rows, &separatrices), interrupt)?;
+    let text = written(arguments.format, &systems.turning, &rows, &separatrices);
+    crowd::write(out, &text, interrupt)?;
     if rows.is_empty() {
         return Err(could_not(format!("{name} cannot move at that energy")));
     }
@@ -140,6 +117,121 @@ fn unused_column(model: &Model) -> String {
         name.push('_');
     }
     name
+}
+
+/// The action variable at a start of one degree of freedom whose parameters stand still; `None` where the motion from there
+/// does not return.
+pub(super) fn of_start(
+    document: &Document,
+    model: Model,
+    start: Start,
+    interrupt: &Interrupt,
+) -> Option<ActionRow> {
+    let reading = Reading::of(document, model, start);
+    let systems = Systems::compile(&MotionOptions::plain(), reading, 0, interrupt).ok()?;
+    let mut potential = systems.potential().ok()?;
+    let own = own_start(&systems.turning, 0).ok()?;
+    let regions = containing(&potential.regions(own.energy), own.place, potential.period());
+    let region = *regions.first()?;
+    action_row(&mut potential, &systems.systems(), region, own.energy).ok()
+}
+
+/// The only coordinate that is not cyclic, if the one that is asked for is: its motion repeats itself, and the other one
+/// advances by the same angle each time.
+fn partner(
+    motion: &MotionOptions,
+    reading: &Reading,
+    index: usize,
+    interrupt: &Interrupt,
+) -> Result<Option<usize>, CommandError> {
+    if reading.model.coordinates.len() == 1 || reading.model.coordinates[index].period.is_none() {
+        return Ok(None);
+    }
+    let laid = motion.compile(reading.clone(), &[], "--coordinate", interrupt)?;
+    let cyclic = &laid.equations.cyclic;
+    let others: Vec<usize> =
+        (0..laid.model.coordinates.len()).filter(|i| !cyclic.contains(i)).collect();
+    Ok(match others[..] {
+        [one] if cyclic.contains(&index) => Some(one),
+        _ => None,
+    })
+}
+
+/// A system compiled with the events by which the return of a coordinate is located.
+struct Systems {
+    index: usize,
+    turning: Laid,
+    turns: String,
+    rotating: Option<(Laid, String)>,
+}
+
+impl Systems {
+    fn compile(
+        motion: &MotionOptions,
+        mut reading: Reading,
+        index: usize,
+        interrupt: &Interrupt,
+    ) -> Result<Systems, CommandError> {
+        // the time of the return is counted from zero
+        reading.start.time = 0.0;
+        reading.model.run.start = 0.0;
+        let name = reading.model.coordinates[index].name.clone();
+        let plain = reading.clone();
+        let rotates = plain.model.coordinates[index].period.is_some();
+        let zero = surface(&mut reading.model, &format!("{name}'"), "--coordinate")?;
+        let turns = add_section(&mut reading.model, zero, Direction::Either);
+        let columns = [format!("{} = action", unused_column(&reading.model))];
+        let turning = motion.compile(reading, &columns, "--coordinate", interrupt)?;
+        refuse_where_energy_is_not_conserved(&turning)?;
+        let mut systems = Systems { index, turning, turns, rotating: None };
+        let period = systems.potential()?.period().filter(|_| rotates);
+        if let Some(period) = period {
+            let mut reading = plain;
+            let sine = format!("sin(pi*{name}/{period:?})");
+            let zero = surface(&mut reading.model, &sine, "--coordinate")?;
+            let event = add_section(&mut reading.model, zero, Direction::Either);
+            let laid = motion.compile(reading, &columns, "--coordinate", interrupt)?;
+            systems.rotating = Some((laid, event));
+        }
+        Ok(systems)
+    }
+
+    fn potential(&self) -> Result<EffectivePotential<'_>, CommandError> {
+        EffectivePotential::survey(&self.turning.system, &self.turning.start, self.index)
+            .map_err(|why| CommandError::CouldNot(why.to_string()))
+    }
+
+    /// The column of a quantity in a row of crossings.
+    fn column(&self, kind: ChannelKind) -> usize {
+        let channels = self.turning.system.channels();
+        1 + channels.iter().position(|c| c.kind == kind).unwrap_or(0)
+    }
+
+    fn systems(&self) -> ActionSystems<'_> {
+        ActionSystems {
+            turning: &self.turning.system,
+            turns: &self.turns,
+            rotating: self.rotating.as_ref().map(|(laid, event)| (&laid.system, event.as_str())),
+            column: self.column(ChannelKind::Position(self.index)),
+            method: self.turning.method,
+            settings: self.turning.settings,
+        }
+    }
+
+    /// The row of a cyclic coordinate beside the one that librates.
+    fn of_cyclic(
+        &self,
+        potential: &mut EffectivePotential<'_>,
+        cyclic: usize,
+        region: Region,
+        energy: f64,
+    ) -> Result<ActionRow, NoAction> {
+        let columns =
+            [ChannelKind::Position(cyclic), ChannelKind::Momentum(cyclic)].map(|k| self.column(k));
+        let parameters = &self.turning.start.parameters;
+        let turn = self.turning.system.period(cyclic, parameters).unwrap_or(f64::NAN);
+        cyclic_row(potential, &self.systems(), region, energy, columns, turn)
+    }
 }
 
 /// The coordinate that is asked for.

@@ -1,5 +1,6 @@
 //! `phaselab run`: the motion as rows of numbers.
 
+mod adiabatic;
 mod cautions;
 mod clock;
 mod execution;
@@ -28,6 +29,8 @@ use crate::model::{Model, replace_by_ramps};
 use crate::printable;
 use crate::system::System;
 
+pub(super) use adiabatic::ActionOf;
+use adiabatic::Adiabatic;
 use execution::{Run, STEPS_PER_LOOK};
 use times::Times;
 
@@ -100,7 +103,12 @@ pub(super) struct Arguments {
 /// The number of times that the gauges are sampled, whatever the rows.
 const LOOKS: f64 = 1000.0;
 
-pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+/// Runs; `action` finds the action variable of a run with a ramp.
+pub(super) fn perform(
+    arguments: &Arguments,
+    action: ActionOf,
+    interrupt: &Interrupt,
+) -> Result<(), CommandError> {
     let document = open::find(&arguments.name)?;
     let mut model = open::read(&document)?;
     let mut parameters = assignment::parameters(&model, &arguments.set)?;
@@ -114,6 +122,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let given = assignment::initial(&model, &parameters, &arguments.init)?;
     model.run.start = start;
     assignment::begin_at(&mut model, &given);
+    let found = (action, interrupt);
+    let adiabatic = Adiabatic::of(&document, &model, &ramps, &parameters, found);
     let ramped = replace_by_ramps(&mut model, &ramps)
         .map_err(|why| CommandError::WrongUse(format!("--ramp: {why}")))?;
     let mut run = model.run.clone();
@@ -190,7 +200,10 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     };
     let out = Output::open(arguments.output.as_deref(), form)?;
     let (columns, strict) = (system.columns(), arguments.strict);
-    let run = Run { experiment, times, columns, interrupt, steps: STEPS_PER_LOOK, strict };
+    let first = experiment.snapshot().state.clone();
+    let adiabatic = adiabatic.map(|known| (known, first, system.clone()));
+    let steps = STEPS_PER_LOOK;
+    let run = Run { experiment, times, columns, interrupt, steps, strict, adiabatic };
     match (run.write(arguments.format, out, &header), interrupt.signal()) {
         // a signal takes precedence over any other failure
         (Err(_), Some(signal)) => Err(CommandError::Signal(signal)),

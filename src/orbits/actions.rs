@@ -158,6 +158,45 @@ fn libration(
     Ok(ActionRow { energy, kind: RegionKind::Libration, turning_points, action, period })
 }
 
+/// The row of a cyclic coordinate while another one librates: the action is its momentum times a turn, and the frequency
+/// is its mean rate, in turns, by the advance from one return of the other to the next. `columns` are those of the cyclic
+/// coordinate and its momentum in a row of crossings; `turn` is the period of the coordinate.
+///
+/// # Errors
+/// Returns an error if the other coordinate does not librate, or does not return.
+pub fn cyclic_row(
+    potential: &mut EffectivePotential<'_>,
+    systems: &ActionSystems<'_>,
+    region: Region,
+    energy: f64,
+    [position, momentum]: [usize; 2],
+    turn: f64,
+) -> Result<ActionRow, NoAction> {
+    let (Some(left), Some(right)) = (region.left, region.right) else {
+        return Err(NoAction::NoReturn("the other coordinate does not return".to_owned()));
+    };
+    if potential.is_separatrix(region, energy) {
+        return Err(NoAction::NoReturn("the other coordinate is on a separatrix".to_owned()));
+    }
+    let start = potential.at_rest(left);
+    let found = follow(systems, (systems.turning, systems.turns), &start, 3)?;
+    for (row, expected) in found.iter().zip([right, left, right]) {
+        let place = row[systems.column];
+        if (place - expected).abs() > RETURNS * (right - left) {
+            return Err(NoAction::NotSeparable { found: place, expected });
+        }
+    }
+    let (first, last) = (&found[0], &found[2]);
+    let turns = (last[position] - first[position]).abs() / turn;
+    Ok(ActionRow {
+        energy,
+        kind: RegionKind::Rotation,
+        turning_points: Vec::new(),
+        action: (last[momentum] * turn).abs(),
+        period: (last[0] - first[0]) / turns,
+    })
+}
+
 fn rotation(
     potential: &mut EffectivePotential<'_>,
     systems: &ActionSystems<'_>,

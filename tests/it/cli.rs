@@ -1,6 +1,7 @@
 //! The command line, run as a program: its output and its exit codes.
 
 mod actions;
+mod adiabatic;
 mod bracket;
 mod check;
 mod completions;

@@ -12,12 +12,14 @@ use super::super::output::Output;
 use super::super::report::{Closing, Header, Status};
 use super::super::rows::{Format, Rows};
 use super::super::stderr;
+use super::adiabatic::Adiabatic;
 use super::invariants::Departure;
 use super::progress::Bar;
 use super::times::Times;
 use super::{cautions, invariants};
 use crate::experiment::{self, Experiment, Progress};
 use crate::printable;
+use crate::system::{State, System};
 
 /// The most steps between two checks for the time and for signals, and the longest time between two checks: if steps
 /// are slow, fewer are taken.
@@ -34,6 +36,8 @@ pub(super) struct Run<'i> {
     pub(super) steps: u64,
     /// Whether a motion that violates its conservation laws is a failure.
     pub(super) strict: bool,
+    /// Where parameters are ramped, what the action variable is found by: with the first state.
+    pub(super) adiabatic: Option<(Adiabatic<'i>, Arc<State>, System)>,
 }
 
 /// Why a run ended early.
@@ -191,9 +195,14 @@ impl Run<'_> {
                 _ => (Status::Completed, None),
             },
         };
-        let gauges = self.experiment.snapshot().gauges;
+        let snapshot = self.experiment.snapshot();
+        let mut invariants = invariants::of(&snapshot.gauges);
+        // what a signal has ended is not followed any further
+        if let (Some((known, first, system)), None) = (&self.adiabatic, end) {
+            invariants.extend(known.invariant(system, first, &snapshot.state));
+        }
         let events = Events::of(self.experiment.model(), self.experiment.occurrences());
-        Closing { invariants: invariants::of(&gauges), events, status, message }
+        Closing { invariants, events, status, message }
     }
 }
 

@@ -63,6 +63,16 @@ fn the_radial_action_of_the_isochrone() {
     // M. Hénon, Annales d'Astrophysique 22, 126 (1959), with GM = b = 1
     let action = 2.0 * PI * (1.0 / f64::sqrt(0.4) - 0.5 * (0.5 + f64::sqrt(4.25)));
     near(&row["action"], action, 1e-13);
+    // the angle advances by Ω_φ on the mean, and its action is 2π times its momentum
+    let object = actions(file, &["--coordinate=phi", "--energy=-0.2"]);
+    let row = &object["rows"][0];
+    assert_eq!((&row["kind"], object["rows"].as_array().unwrap().len()), (&"rotation".into(), 1));
+    near(&row["frequency"], 0.15716970596062999 / (2.0 * PI), 1e-14);
+    near(&row["period"], 2.0 * PI / 0.15716970596062999, 1e-12);
+    near(&row["action"], PI, 1e-14);
+    // Ω_φ/Ω_r = ½ (1 + L/√(L² + 4)), of Hénon
+    let ratio = 0.5 * (1.0 + 0.5 / f64::sqrt(4.25));
+    near(&row["frequency"], ratio * 0.25298221281347035 / (2.0 * PI), 1e-14);
 }
 
 #[test]

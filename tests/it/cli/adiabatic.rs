@@ -1,0 +1,132 @@
+//! Adiabatic invariants: how ∮ p dq changes with the smoothness of a ramp, and what a run says of it.
+
+use serde_json::Value;
+
+use super::{phaselab, with_file};
+
+const OSCILLATOR: &str = "title = \"Oscillator\"\n[coordinates]\nq = { initial = 1.0, momentum = 0.0 }\n\
+                          [parameters]\nw = 1.0\n[hamiltonian]\nH = \"p_q^2/2 + w^2*q^2/2\"\n";
+
+/// E/w at the end of a run, by the last row.
+fn action(file: &str, words: &[&str]) -> f64 {
+    let words =
+        [&["run", "system.toml", "--format", "json", "--observe", "J=energy/w"], words].concat();
+    let found = with_file(file, &words).json();
+    let names = found["columns"].as_array().unwrap();
+    let at = names.iter().position(|name| name == "J").unwrap();
+    found["rows"].as_array().unwrap().last().unwrap()[at].as_f64().unwrap()
+}
+
+/// The greatest change of the action over all phases, which is sinusoidal in twice the phase.
+fn swing(file: &str, words: &[&str]) -> f64 {
+    let [along, across, between] =
+        [(1.0_f64, 0.0_f64), (0.0, 1.0), (0.5_f64.sqrt(), 0.5_f64.sqrt())].map(|(q, p)| {
+            let start = [format!("q={q:?}"), format!("p_q={p:?}")];
+            let words = [words, &["--init", &start[0], "--init", &start[1]]].concat();
+            2.0 * action(file, &words)
+        });
+    let mean = 0.5 * (along + across);
+    (along - mean).hypot(between - mean)
+}
+
+/// The exponents of the change in ε = 1/T, at times after which the phases of both ends agree.
+fn slopes(of: impl Fn(f64) -> f64) -> [f64; 2] {
+    let changes = [5.0, 10.0, 20.0].map(|turns| of(std::f64::consts::TAU * turns));
+    [(changes[0] / changes[1]).log2(), (changes[1] / changes[2]).log2()]
+}
+
+#[test]
+fn the_change_of_the_action_follows_the_smoothness_of_the_ramp() {
+    // jumps of the first, the second and the third derivative: ε, ε², ε³
+    let ramped = |form: &'static str| {
+        move |time: f64| {
+            let (ramp, end) = (format!("w=1:2:0:{time:?}{form}"), format!("{time:?}"));
+            swing(OSCILLATOR, &["--ramp", &ramp, "--at", &end])
+        }
+    };
+    let cubic = OSCILLATOR.replace("w = 1.0", "T = 1.0").replace(
+        "[hamiltonian]",
+        "[definitions]\nu = \"min(max(t/T, 0), 1)\"\nw = \"1 + u^2*(3 - 2*u)\"\n[hamiltonian]",
+    );
+    let cubic = |time: f64| {
+        let (set, end) = (format!("T={time:?}"), format!("{time:?}"));
+        swing(&cubic, &["--set", &set, "--at", &end])
+    };
+    for (found, expected) in
+        [(slopes(ramped(":linear")), 1.0), (slopes(cubic), 2.0), (slopes(ramped("")), 3.0)]
+    {
+        for slope in found {
+            assert!((slope - expected).abs() < 0.1, "{slope} is not {expected}");
+        }
+    }
+    // without a jump in any derivative: less than any power
+    let smooth = OSCILLATOR.replace("w = 1.0", "T = 1.0").replace(
+        "[hamiltonian]",
+        "[definitions]\nw = \"sqrt(2.5 + 1.5*tanh(t/T))\"\n[hamiltonian]",
+    );
+    let smooth = |time: f64| {
+        let [set, start, end] =
+            [format!("T={time:?}"), format!("t={:?}", -18.0 * time), format!("{:?}", 18.0 * time)];
+        swing(&smooth, &["--set", &set, "--init", &start, "--at", &end])
+    };
+    // closed form of N. D. Birrell and P. C. W. Davies, Quantum Fields in Curved Space, § 3.4: 2|αβ|
+    for time in [0.5, 1.0] {
+        let pi = std::f64::consts::PI;
+        let sinh = |x: f64| (pi * time * x).sinh();
+        let beta = sinh(0.5) * sinh(0.5) / (sinh(1.0) * sinh(2.0));
+        let exact = 2.0 * (beta * (1.0 + beta)).sqrt();
+        let found = smooth(time);
+        assert!((found - exact).abs() < 1e-9, "{found} is not {exact}");
+    }
+    assert!(smooth(2.0) < smooth(1.0) / 16.0);
+}
+
+fn gauge(found: &Value) -> Value {
+    let all = found["invariants"].as_array().unwrap().iter();
+    all.filter(|one| one["name"] == "action variable").cloned().next().unwrap_or(Value::Null)
+}
+
+#[test]
+fn a_run_with_a_ramp_says_what_became_of_the_action() {
+    let run = |ramp: &str, until: &str| {
+        let words = ["run", "pendulum", "--init", "theta=1", "--init", "theta'=0", "--ramp", ramp];
+        let rest = ["--at", until, "--format", "json"];
+        gauge(&phaselab(&[&words[..], &rest].concat()).json())
+    };
+    let slow = run("l=1:2:0:60", "60");
+    assert_eq!(slow["verdict"], "adiabatic", "{slow}");
+    let [first, last] = ["initial", "final"].map(|name| slow[name].as_f64().unwrap());
+    assert!((last / first - 1.0).abs() < 1e-4 && last != first, "{slow}");
+    let change = slow["max_drift"].as_f64().unwrap();
+    assert!((change - (last - first).abs() / first).abs() < 1e-15);
+    assert_eq!(run("l=1:2:0:0.2", "0.2")["verdict"], "broken by the physics");
+    assert_eq!(run("l=1:2:5:10", "2")["verdict"], "open");
+    // without a ramp there is nothing to say
+    let still = phaselab(&["run", "pendulum", "--at", "1", "--format", "json"]).json();
+    assert_eq!(gauge(&still), Value::Null);
+    // of an oscillator it is 2π E/w
+    let words = ["run", "system.toml", "--ramp", "w=1:3:0:40", "--at", "40", "--format", "json"];
+    let found = with_file(OSCILLATOR, &words).json();
+    let row = found["rows"][0].as_array().unwrap();
+    let energy = row[row.len() - 2].as_f64().unwrap();
+    let known = gauge(&found);
+    assert!(
+        (known["final"].as_f64().unwrap() - std::f64::consts::TAU * energy / 3.0).abs() < 1e-12
+    );
+    assert!((known["initial"].as_f64().unwrap() - std::f64::consts::PI).abs() < 1e-13);
+}
+
+/// A well that divides into two: the motion is left in one of them, with half its action.
+#[test]
+fn a_well_that_opens_halves_the_action() {
+    let file = "title = \"Well\"\n[coordinates]\nq = { initial = 1.0, momentum = 0.0 }\n[parameters]\n\
+                a = 0.5\n[hamiltonian]\nH = \"p_q^2/2 + q^4/4 - a*q^2/2\"\n";
+    for start in ["q=1.3", "q=1.35", "q=-1.4"] {
+        let words = ["run", "system.toml", "--ramp", "a=0.5:2.5:0:600", "--at", "600"];
+        let rest = ["--init", start, "--format", "json"];
+        let known = gauge(&with_file(file, &[&words[..], &rest].concat()).json());
+        let [first, last] = ["initial", "final"].map(|name| known[name].as_f64().unwrap());
+        assert!((last / first - 0.5).abs() < 0.02, "{known}");
+        assert_eq!(known["verdict"], "broken by the physics");
+    }
+}
