@@ -184,7 +184,7 @@ impl SectionPlane {
             let mut start = given.clone();
             let shell = EnergyShell { energy, by: solved, root };
             shell.complete_by(system, observer, &mut start)?;
-            let rising = (self.velocity(system, observer, &start, coordinate)? >= 0.0) == grows;
+            let rising = (velocity(system, observer, &start, coordinate)? >= 0.0) == grows;
             let wanted = match self.direction {
                 Direction::Either => true,
                 Direction::Rising => rising,
@@ -229,20 +229,20 @@ impl SectionPlane {
         }
         Start { time: self.time, parameters: self.parameters.clone(), overrides }
     }
+}
 
-    fn velocity(
-        &self,
-        system: &System,
-        observer: &mut Observer,
-        start: &Start,
-        coordinate: usize,
-    ) -> Result<f64, MotionError> {
-        let kind = ChannelKind::Velocity(coordinate);
-        let place = system.channels().iter().position(|channel| channel.kind == kind);
-        let mut values = vec![f64::NAN; system.columns()];
-        observer.observe_columns(&start.state(system)?, &mut values)?;
-        Ok(place.and_then(|place| values.get(place).copied()).unwrap_or(f64::NAN))
-    }
+/// The velocity of a coordinate at a start.
+fn velocity(
+    system: &System,
+    observer: &mut Observer,
+    start: &Start,
+    coordinate: usize,
+) -> Result<f64, MotionError> {
+    let kind = ChannelKind::Velocity(coordinate);
+    let place = system.channels().iter().position(|channel| channel.kind == kind);
+    let mut values = vec![f64::NAN; system.columns()];
+    observer.observe_columns(&start.state(system)?, &mut values)?;
+    Ok(place.and_then(|place| values.get(place).copied()).unwrap_or(f64::NAN))
 }
 
 /// The coordinate that a number of the state belongs to, and whether it is a rate.

@@ -6,7 +6,9 @@ use std::time::Duration;
 
 use phaselab::app::{App, Asker, Computation, Effect, Event, Saved};
 use phaselab::experiment::{Command, Snapshot};
-use phaselab::instrument::{Answer, INSTRUMENTS, NOT_YET, Plot, SavedPlot, named, offers};
+use phaselab::instrument::{
+    Answer, INSTRUMENTS, Instrument, NOT_YET, Plot, SavedPlot, named, offers,
+};
 use phaselab::job::{Outcome, Progress, Share};
 use phaselab::mechanics::derive_for_motion;
 use phaselab::preset;
@@ -15,7 +17,7 @@ use crate::hand::{catalog, in_lab, loaded, pendulum, press, snapshot};
 use crate::screen::{rich, rows};
 
 /// The kinds that the pendulum has: all but sections, whose surface a file names; `section` tests those.
-fn kinds() -> impl Iterator<Item = &'static dyn phaselab::instrument::Instrument> {
+fn kinds() -> impl Iterator<Item = &'static dyn Instrument> {
     INSTRUMENTS.into_iter().filter(|kind| !kind.is_section())
 }
 
@@ -85,7 +87,7 @@ fn every_kind_is_kept_in_a_session() {
     let text = toml::to_string(&saved).expect("it can be written");
     let read: Saved = toml::from_str(&text).expect("it can be read");
     let kinds: BTreeSet<&str> = read.plots.iter().map(|plot| plot.kind.as_str()).collect();
-    assert_eq!(kinds, self::kinds().map(|kind| kind.name()).collect(), "{text}");
+    assert_eq!(kinds, self::kinds().map(Instrument::name).collect(), "{text}");
     let pendulum = pendulum();
     let plots: Vec<Option<Plot>> =
         read.plots.iter().map(|plot| plot.place(pendulum.physics())).collect();
