@@ -34,7 +34,7 @@ pub(super) use constraint::DraftConstraint;
 pub(super) use frame::DraftFrame;
 pub(super) use law::{DraftBracket, DraftMechanics, Law};
 pub(super) use occurrence::{DraftEvent, DraftImpulse};
-pub(super) use picture::{DraftShape, DraftShapeKind, DraftView};
+pub(super) use picture::{DraftFollow, DraftShape, DraftShapeKind, DraftView};
 pub(super) use run::DraftRun;
 pub(super) use system::{DraftCoordinate, DraftMoving, DraftParameter, NamedFormula};
 pub(super) use table::Table;
@@ -79,6 +79,8 @@ pub(super) struct Draft {
     pub(super) views: Vec<DraftView>,
     /// The shapes of the picture in space.
     pub(super) shapes: Vec<DraftShape>,
+    /// The point that the camera follows.
+    pub(super) follow: Option<DraftFollow>,
     /// The settings of a run.
     pub(super) run: DraftRun,
 }
@@ -104,6 +106,7 @@ pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Diagnostics) -> D
             mistakes.push(Diagnostic::error(key, message));
         }
     }
+    let (shapes, follow) = picture::space(&mut top, mistakes);
     let draft = Draft {
         info,
         moving: system::moving(&mut top, mistakes),
@@ -120,7 +123,8 @@ pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Diagnostics) -> D
         expect: claims::expect(&mut top, mistakes),
         frames: frame::frames(&mut top, mistakes),
         views: picture::views(&mut top, mistakes),
-        shapes: picture::shapes(&mut top, mistakes),
+        shapes,
+        follow,
         run: run::read(&mut top, mistakes),
     };
     top.finish(mistakes);
