@@ -112,12 +112,14 @@ fn is_plane(shape: &Shape) -> bool {
     let flat = |point: &[Expr; 3]| point[2] == Expr::ZERO;
     match shape {
         Shape::Line { from, to } | Shape::Spring { from, to } => flat(from) && flat(to),
-        Shape::Circle { centre, normal, .. } => {
+        Shape::Circle { centre, normal, .. } | Shape::Disc { centre, normal, .. } => {
             flat(centre) && normal[0] == Expr::ZERO && normal[1] == Expr::ZERO
         }
         Shape::Mass { at, .. } | Shape::Trace { at } => flat(at),
-        Shape::Vector { at, components } => flat(at) && flat(components),
+        Shape::Vector { at, components, .. } => flat(at) && flat(components),
         Shape::Path { points } => points.iter().all(flat),
-        Shape::Plane { .. } | Shape::Body { .. } => false,
+        Shape::Plane { .. } | Shape::Body { .. } | Shape::Sphere { .. } | Shape::Cone { .. } => {
+            false
+        }
     }
 }

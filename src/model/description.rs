@@ -9,7 +9,7 @@ use super::constraint::Constraint;
 use super::coordinate::Coordinate;
 use super::occurrence::{Event, Impulse};
 use super::parameter::Parameter;
-use super::picture::{Shape, View};
+use super::picture::{Follow, Shape, View};
 use super::transformation::{CompleteIntegral, Generator, Transformation};
 use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Pool, Symbol};
@@ -65,6 +65,8 @@ pub struct Model {
     pub views: Vec<View>,
     /// The picture of the system in space.
     pub space: Vec<Shape>,
+    /// The point that the camera follows, if it does not show all of the motion.
+    pub follow: Option<Follow>,
     /// The default settings of a run.
     pub run: RunSettings,
 }
@@ -242,6 +244,7 @@ impl Model {
             expect: Expect::default(),
             views: Vec::new(),
             space: Vec::new(),
+            follow: None,
             run: RunSettings::default(),
         }
     }

@@ -78,6 +78,8 @@ pub enum Shape {
         at: Point,
         /// Its components.
         components: Point,
+        /// The name beside its tip, or empty.
+        label: String,
     },
     /// A curve, sampled at evenly spaced values of its own parameter `s`.
     Path {
@@ -93,9 +95,43 @@ pub enum Shape {
         /// The length of its edge.
         size: Expr,
     },
+    /// A filled disc.
+    Disc {
+        /// Its centre.
+        centre: Point,
+        /// Its radius.
+        radius: Expr,
+        /// Its axis; z if the file gives none.
+        normal: Point,
+    },
+    /// A sphere that hides what is behind it.
+    Sphere {
+        /// Its centre.
+        centre: Point,
+        /// Its radius.
+        radius: Expr,
+    },
+    /// A solid cone.
+    Cone {
+        /// Its tip.
+        tip: Point,
+        /// The centre of its base.
+        base: Point,
+        /// The radius of its base.
+        radius: Expr,
+    },
     /// The pieces of the model's body, rotated by its attitude, with the principal axes.
     Body {
         /// Its centre of mass.
         at: Point,
     },
+}
+
+/// The point that the camera follows in a picture in space.
+#[derive(Clone, Copy, Debug)]
+pub struct Follow {
+    /// The point in the middle of the picture.
+    pub at: Point,
+    /// How far the picture reaches from it.
+    pub reach: Expr,
 }

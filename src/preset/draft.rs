@@ -35,7 +35,7 @@ pub(super) use constraint::DraftConstraint;
 pub(super) use frame::DraftFrame;
 pub(super) use law::{DraftBracket, DraftMechanics, Law};
 pub(super) use occurrence::{DraftEvent, DraftImpulse};
-pub(super) use picture::{DraftSection, DraftShape, DraftShapeKind, DraftView};
+pub(super) use picture::{DraftFollow, DraftSection, DraftShape, DraftShapeKind, DraftView};
 pub(super) use run::DraftRun;
 pub(super) use system::{DraftCoordinate, DraftMoving, DraftParameter, NamedFormula};
 pub(super) use table::Table;
@@ -87,6 +87,8 @@ pub(super) struct Draft {
     pub(super) views: Vec<DraftView>,
     /// The shapes of the picture in space.
     pub(super) shapes: Vec<DraftShape>,
+    /// The point that the camera follows.
+    pub(super) follow: Option<DraftFollow>,
     /// The settings of a run.
     pub(super) run: DraftRun,
 }
@@ -105,6 +107,7 @@ const TOP_LEVEL: [&str; 6] = ["title", "summary", "source", "chapter", "topics",
 pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Diagnostics) -> Draft {
     let mut top = Table::new("the file", 0..0, file.get_ref()).with(&FILE);
     let info = read_info(&mut top, mistakes);
+    let (shapes, follow) = picture::space(&mut top, mistakes);
     let draft = Draft {
         info,
         moving: system::moving(&mut top, mistakes),
@@ -124,7 +127,8 @@ pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Diagnostics) -> D
         expect: claims::expect(&mut top, mistakes),
         frames: frame::frames(&mut top, mistakes),
         views: picture::views(&mut top, mistakes),
-        shapes: picture::shapes(&mut top, mistakes),
+        shapes,
+        follow,
         run: run::read(&mut top, mistakes),
     };
     top.finish(mistakes);

@@ -507,7 +507,15 @@ const VIEW: Section = Section {
 const SPACE: Section = Section {
     head: "[space]",
     about: "Points have two or three expressions, z up.",
-    keys: &[key("shapes", List(&SHAPE), "what is drawn")],
+    keys: &[
+        key("shapes", List(&SHAPE), "what is drawn"),
+        key(
+            "follow",
+            Point,
+            "the point in the middle of the picture; else all of the motion is shown",
+        ),
+        key("reach", Formula, "how far the picture reaches from `follow`"),
+    ],
 };
 
 const SHAPE: Section = Section {
@@ -522,11 +530,16 @@ const SHAPE: Section = Section {
         key("path", Point, "a curve in its own parameter `s`"),
         key("vector", Point, "a vector from here"),
         key("plane", Point, "a plane about this point"),
+        key("disc", Point, "a filled disc about this centre"),
+        key("sphere", Point, "a sphere about this centre, which hides what is behind it"),
+        key("cone", Point, "a solid cone with this tip"),
         key("body", Point, "the pieces of [body] about this centre of mass, turned by [attitude]"),
-        key("to", Point, "the other end, or the components").only(&["line", "spring", "vector"]),
-        key("radius", Formula, "its radius").only(&["circle", "mass"]),
+        key("to", Point, "the other end, the components, or the centre of the base")
+            .only(&["line", "spring", "vector", "cone"]),
+        key("label", Text, "the name beside its tip").only(&["vector"]),
+        key("radius", Formula, "its radius").only(&["circle", "mass", "disc", "sphere", "cone"]),
         key("normal", Point, "what it is perpendicular to; z where not given")
-            .only(&["circle", "plane"]),
+            .only(&["circle", "plane", "disc"]),
         key("size", Formula, "how large it is").only(&["plane"]),
         key("from", Formula, "where `s` begins").only(&["path"]),
         key("to", Formula, "where `s` ends").only(&["path"]),

@@ -11,7 +11,7 @@ use super::program::{Program, Register};
 use super::rhs::ProgramBuilder;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, Flow};
-use crate::model::{self, Mechanics, Model, Shape};
+use crate::model::{self, Follow, Mechanics, Model, Shape};
 
 /// All observables of one system.
 #[derive(Clone, Debug)]
@@ -84,7 +84,7 @@ impl ObservableList {
             }
         }
         let own = model.views.iter().flat_map(|view| view.shapes.iter().flatten());
-        for e in model.space.iter().chain(own).flat_map(numbers_of) {
+        for e in model.space.iter().chain(own).flat_map(numbers_of).chain(followed(model)) {
             list.add_hidden("", e);
         }
         for frame in &model.frames {
@@ -305,6 +305,12 @@ fn bind_derived(
     lowering.bind(equations.symbols.energy, energy);
 }
 
+/// The expressions that decide where the camera is.
+fn followed(model: &Model) -> Vec<Expr> {
+    let numbers = |follow: &Follow| [&follow.at[..], &[follow.reach]].concat();
+    model.follow.as_ref().map(numbers).unwrap_or_default()
+}
+
 /// The expressions that a shape is drawn from.
 fn numbers_of(shape: &Shape) -> Vec<Expr> {
     match shape {
@@ -312,7 +318,10 @@ fn numbers_of(shape: &Shape) -> Vec<Expr> {
         Shape::Circle { centre, radius, normal } => [&centre[..], &[*radius], &normal[..]].concat(),
         Shape::Mass { at, radius } => at.iter().copied().chain(*radius).collect(),
         Shape::Trace { at } | Shape::Body { at } => at.to_vec(),
-        Shape::Vector { at, components } => [*at, *components].concat(),
+        Shape::Disc { centre, radius, normal } => [&centre[..], &[*radius], &normal[..]].concat(),
+        Shape::Sphere { centre, radius } => [&centre[..], &[*radius]].concat(),
+        Shape::Cone { tip, base, radius } => [&tip[..], &base[..], &[*radius]].concat(),
+        Shape::Vector { at, components, .. } => [*at, *components].concat(),
         Shape::Path { points } => points.concat(),
         Shape::Plane { at, normal, size } => [&at[..], &normal[..], &[*size]].concat(),
     }

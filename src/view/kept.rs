@@ -107,12 +107,13 @@ impl Kept {
         self.levels.retain(|kept| kept.used);
     }
 
-    /// The trail of a motion, carried on to its newest row; `locate` gives the point of a row.
+    /// The trail of a motion, carried on to its newest row; `locate` gives the point of a row: right, up, towards the
+    /// eye.
     pub(super) fn trail(
         &mut self,
         key: TrailKey,
         (rows, glyphs): (&Trail, Glyphs),
-        locate: impl Fn(&[f64]) -> Option<[f64; 2]>,
+        locate: impl Fn(&[f64]) -> Option<[f64; 3]>,
     ) -> &KeptTrail {
         let found = self.trails.iter().position(|kept| kept.key == key);
         let index = found.unwrap_or_else(|| {
@@ -209,7 +210,7 @@ impl Drawn {
         &mut self,
         rows: &Trail,
         count: usize,
-        locate: impl Fn(&[f64]) -> Option<[f64; 2]>,
+        locate: impl Fn(&[f64]) -> Option<[f64; 3]>,
     ) {
         if self.first.is_empty() {
             self.first = rows.row(0).unwrap_or_default().to_vec();
@@ -240,5 +241,5 @@ pub(super) fn since(rows: &Trail, ages: usize) -> Vec<f64> {
 
 /// Draws a line of one age, from a time on.
 pub(super) fn whole<'a>(since: &'a [f64; 1], ramp: &'a [Shade; 1], layer: u8) -> Ages<'a> {
-    Ages { since, ramp, layer }
+    Ages { since, ramp, layer, behind: None }
 }

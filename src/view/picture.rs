@@ -252,12 +252,12 @@ fn draw_layer(
             let rows = &q.snapshot.trail;
             let track = Track::Channels([*x, *y]);
             let key = TrailKey { epoch: q.snapshot.epoch, frame: *frame, track };
-            let kept = canvas
-                .kept
-                .trail(key, (rows, look.glyphs), |row| Some([*row.get(1 + x)?, *row.get(1 + y)?]));
+            let kept = canvas.kept.trail(key, (rows, look.glyphs), |row| {
+                Some([*row.get(1 + x)?, *row.get(1 + y)?, 0.0])
+            });
             let ramp = look.theme.trail(0);
             let since = kept::since(rows, ramp.len());
-            let ages = Ages { since: &since, ramp, layer: level };
+            let ages = Ages { since: &since, ramp, layer: level, behind: None };
             kept.draw(raster, ages, [q.value(*x), q.value(*y)]);
         }
         Layer::Curve { index, channel } => {
@@ -267,7 +267,7 @@ fn draw_layer(
             let track = Track::Curve(*channel, shade.dash, since);
             let key = TrailKey { epoch: q.snapshot.epoch, frame: *frame, track };
             let kept = canvas.kept.trail(key, (&q.snapshot.trail, look.glyphs), |row| {
-                Some([*row.first()?, *row.get(1 + channel)?])
+                Some([*row.first()?, *row.get(1 + channel)?, 0.0])
             });
             let since = [f64::MIN];
             kept.draw(raster, kept::whole(&since, &[shade], level), now);

@@ -5,6 +5,7 @@
 
 pub mod axes;
 pub mod camera;
+mod depth;
 pub mod raster;
 pub mod scale;
 mod stroke;
@@ -12,5 +13,6 @@ pub mod ticks;
 
 pub use axes::{Axes, Axis};
 pub use camera::{Bounds, Camera};
+pub use depth::DepthBuffer;
 pub use raster::{Ages, KeptTrail, Marker, Pen, Raster};
 pub use scale::{Frame, Kind, Scale};

@@ -2,33 +2,46 @@
 //!
 //! In: shapes, channels, the camera. Out: cells. Never here: the meaning of the shapes.
 
+mod annotation;
 mod body;
+mod colours;
 mod reference_frame;
 mod scene;
+mod solid;
 
 use ratatui::layout::Rect;
 
-use super::canvas::{Canvas, row};
+use super::canvas::Canvas;
 use super::kept::{self, Kept, Track, TrailKey};
-use super::plot::{Ages, Camera, Frame, Marker, Pen, Raster, Scale};
+use super::plot::{Ages, Camera, DepthBuffer, Frame, Marker, Pen, Raster};
 use super::quantity::{Quantities, Source};
 use super::theme::Role;
 use crate::instrument::CameraPose;
 use crate::mechanics::Apparent;
 use crate::model::{Point, Shape};
 use crate::num::math;
+use annotation::{compass, legend};
 use body::Outline;
+use colours::colours;
 use reference_frame::ReferenceFrame;
 use scene::Scene;
+use solid::Solid;
 
 /// The layers of the picture, from the lowest.
-const GROUND: u8 = 0;
-const TRACK: u8 = 1;
-const SOLID: u8 = 2;
-const BODY: u8 = 3;
+const SURFACE: u8 = 0;
+const GROUND: u8 = 1;
+const TRACK: u8 = 2;
+const SOLID: u8 = 3;
+const BODY: u8 = 4;
 
-/// The apparent forces, in the order of their colours.
-const FORCES: [&str; 4] = ["centrifugal", "Coriolis", "Euler", "of the origin"];
+/// The number of steps in which lines become dimmer with their distance.
+const DISTANCES: usize = 4;
+
+/// The share of a surface's dots that are drawn in the shade, and in full light: of spheres, on which curves are drawn,
+/// of other solids, and of masses.
+const SPHERE: [f64; 2] = [0.06, 0.55];
+const OPAQUE: [f64; 2] = [0.2, 0.9];
+const WHOLE: [f64; 2] = [1.0, 1.0];
 
 /// The length of the longest apparent force so far, as a fraction of the picture.
 const LONGEST: f64 = 0.25;
@@ -43,7 +56,12 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let scene = Scene::of(q, *eye, reference_frame.as_ref());
     let frame = camera.frame(&scene.bounds, area);
     let raster = Raster::new(area, canvas.look.glyphs);
+    let depth = DepthBuffer::new(&frame, raster.size());
     let mut artist = ScenePainter {
+        range: scene.depths(&camera),
+        labels: Vec::new(),
+        surfaces: Vec::new(),
+        depth,
         raster,
         frame,
         camera,
@@ -52,6 +70,10 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         seen: eye.frame,
         colours: colours(q, *eye),
     };
+    for (shape, _) in q.lab.shapes(*eye) {
+        artist.surfaces(shape);
+    }
+    artist.fill();
     let mut kept = std::mem::take(&mut canvas.kept);
     for (shape, _) in q.lab.shapes(*eye) {
         artist.shape(shape, &mut kept);
@@ -60,76 +82,15 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let seen = eye.frame.and_then(|frame| q.lab.loaded.equations.supplements.frames.get(frame));
     let forces = artist.apparent(seen.map_or(&[], Vec::as_slice));
     artist.raster.draw(canvas.buffer);
+    for (tip, label) in std::mem::take(&mut artist.labels) {
+        if let Some(at) = artist.frame.cell(tip).filter(|at| at.x + 1 < area.right()) {
+            let at = ratatui::layout::Position { x: at.x + 1, ..at };
+            canvas.write(at, area.right() - at.x, &label, canvas.style(Role::Accent));
+        }
+    }
     legend(canvas, area, &forces);
     if eye.pitch < std::f64::consts::FRAC_PI_2 {
         compass(canvas, area, &camera);
-    }
-}
-
-/// The points of the masses and of the traces of other points, in the order of their colours: what moves comes first,
-/// and the second colour, an amber, is left to a single mass that stays where it is.
-fn colours(q: &Quantities<'_>, eye: CameraPose) -> Vec<Point> {
-    let stays = |at: &Point| at.iter().all(|e| matches!(q.place(*e), Source::Number(_)));
-    let shapes = || q.lab.shapes(eye).map(|(shape, _)| shape);
-    let masses: Vec<Point> = shapes()
-        .filter_map(|shape| match shape {
-            Shape::Mass { at, .. } => Some(*at),
-            _ => None,
-        })
-        .collect();
-    let (fixed, mut points): (Vec<_>, Vec<_>) = masses.into_iter().partition(stays);
-    let traces = shapes().filter_map(|shape| match shape {
-        Shape::Trace { at } => Some(*at),
-        _ => None,
-    });
-    for at in traces {
-        if !points.contains(&at) {
-            points.push(at);
-        }
-    }
-    for (index, at) in fixed.into_iter().enumerate() {
-        points.insert((1 + index).min(points.len()), at);
-    }
-    points
-}
-
-/// Draws the directions of the axes in the lower left corner, each as an arm with its name.
-fn compass(canvas: &mut Canvas<'_>, area: Rect, camera: &Camera) {
-    if area.width < 30 || area.height < 14 {
-        return;
-    }
-    let corner = Rect { x: area.x, y: area.bottom() - 6, width: 12, height: 6 };
-    let reach = Scale::linear(-1.3, 1.3);
-    let frame = Frame::equal(reach, reach, corner);
-    let mut arms = Raster::new(corner, canvas.look.glyphs);
-    let pen = Pen::new(canvas.style(Role::Dim), GROUND);
-    let axes = [("x", [1.0, 0.0, 0.0]), ("y", [0.0, 1.0, 0.0]), ("z", [0.0, 0.0, 1.0])];
-    let tips = axes.map(|(name, axis)| {
-        let [right, up, _] = camera.project(axis);
-        (name, [right, up])
-    });
-    for (_, tip) in tips {
-        arms.line(&frame, [0.0; 2], tip.map(|v| 0.7 * v), &pen);
-    }
-    arms.draw(canvas.buffer);
-    for (name, tip) in tips {
-        if let Some(at) = frame.cell(tip) {
-            canvas.write(at, 1, name, canvas.style(Role::Dim));
-        }
-    }
-}
-
-/// Draws the names of the apparent forces in their colours in the upper left corner.
-fn legend(canvas: &mut Canvas<'_>, area: Rect, forces: &[usize]) {
-    if area.width < 24 || usize::from(area.height) < 8 {
-        return;
-    }
-    let arrow = canvas.look.glyphs.pick("→", "->");
-    for (index, force) in forces.iter().enumerate() {
-        let text = format!("{arrow} {}", FORCES[*force]);
-        let at = row(area, index);
-        let style = canvas.look.theme.curve(force + 1);
-        canvas.write(at.as_position(), at.width, &text, style);
     }
 }
 
@@ -142,6 +103,14 @@ struct ScenePainter<'a> {
     reference_frame: Option<ReferenceFrame>,
     /// The index of the reference frame.
     seen: Option<usize>,
+    /// What hides what.
+    depth: DepthBuffer,
+    /// The pens of the surfaces, with their shares of dots in the shade and in full light.
+    surfaces: Vec<(Pen, [f64; 2])>,
+    /// How near to the eye the back and the front of the scene are; `None` in a plane.
+    range: Option<[f64; 2]>,
+    /// The places of labels.
+    labels: Vec<([f64; 2], String)>,
     /// The points that have a colour of their own.
     colours: Vec<Point>,
 }
@@ -170,10 +139,31 @@ impl ScenePainter<'_> {
                 self.mass(at, radius);
             }
             Shape::Trace { at } => self.track(at, kept),
-            Shape::Vector { at, components } => {
+            Shape::Vector { at, components, label } => {
                 let (foot, along) = (self.point(at), self.direction(components));
                 let pen = Pen::new(theme[Role::Accent], SOLID);
                 self.arrow(foot, along, &pen);
+                if !label.is_empty() {
+                    let tip = self.flat([0, 1, 2].map(|k| foot[k] + along[k]));
+                    self.labels.push((tip, self.q.look.glyphs.text(label).into_owned()));
+                }
+            }
+            Shape::Disc { centre, radius, normal } => {
+                let (centre, normal) = (self.point(centre), self.direction(normal));
+                let rim = scene::circle(centre, self.q.number(*radius), normal);
+                self.curve(&rim, &solid);
+            }
+            Shape::Cone { tip, base, radius } => {
+                let (tip, base) = (self.point(tip), self.point(base));
+                let axis = [0, 1, 2].map(|k| base[k] - tip[k]);
+                let rim = scene::circle(base, self.q.number(*radius), axis);
+                self.curve(&rim, &solid);
+            }
+            Shape::Sphere { centre, radius } => {
+                let centre = self.point(centre);
+                let outline = scene::circle(centre, self.q.number(*radius), self.camera.towards());
+                let flat: Vec<_> = outline.iter().map(|point| self.flat(*point)).collect();
+                self.raster.polyline(&self.frame, flat, &ground);
             }
             Shape::Path { points } => {
                 let points: Vec<_> = points.iter().map(|point| self.point(point)).collect();
@@ -248,9 +238,98 @@ impl ScenePainter<'_> {
         [right, up]
     }
 
+    /// Draws what is visible of a line through points, dimmer where it is farther away.
     fn curve(&mut self, points: &[[f64; 3]], pen: &Pen) {
-        let flat: Vec<_> = points.iter().map(|point| self.flat(*point)).collect();
-        self.raster.polyline(&self.frame, flat, pen);
+        let projection = self.camera.projection();
+        let seen: Vec<_> = points.iter().map(|point| projection.of(*point)).collect();
+        let Some([far, near]) = self.range else {
+            let flat = seen.iter().map(|[x, y, _]| [*x, *y]);
+            return self.raster.polyline(&self.frame, flat, pen);
+        };
+        let last = DISTANCES - 1;
+        let theme = &self.q.look.theme;
+        let pens: Vec<Pen> = (0..DISTANCES)
+            .map(|step| {
+                let share = step as f64 / last as f64;
+                let style = theme.receding(pen.style, share);
+                Pen { style, fresh: (last - step) as u8, ..*pen }
+            })
+            .collect();
+        let line = self.depth.visible(&seen).into_iter().map(|[x, y, depth]| {
+            let share = (near - depth) / (near - far) * DISTANCES as f64;
+            ([x, y], if share.is_finite() { share.clamp(0.0, last as f64) as usize } else { 0 })
+        });
+        let line: Vec<_> = line.collect();
+        self.raster.polyline_in(&self.frame, line, &pens);
+    }
+
+    /// Adds the surfaces of a shape to what hides others.
+    fn surfaces(&mut self, shape: &Shape) {
+        if self.range.is_none() && !matches!(shape, Shape::Disc { .. }) {
+            return;
+        }
+        let theme = &self.q.look.theme;
+        let faint = (Pen::new(theme[Role::Level], SURFACE), OPAQUE);
+        let (pen, solids) = match shape {
+            Shape::Disc { centre, radius, normal } => {
+                let (centre, normal) = (self.point(centre), self.direction(normal));
+                let rim = scene::circle(centre, self.q.number(*radius), normal);
+                (faint, vec![Solid::Face(rim)])
+            }
+            Shape::Cone { tip, base, radius } => {
+                let (tip, base) = (self.point(tip), self.point(base));
+                (faint, solid::cone(tip, base, self.q.number(*radius)))
+            }
+            Shape::Sphere { centre, radius } => (
+                (faint.0, SPHERE),
+                vec![Solid::Ball(self.point(centre), self.q.number(*radius).abs())],
+            ),
+            Shape::Mass { at, radius: Some(radius) } => {
+                let radius = self.q.number(*radius).abs();
+                if self.cells(radius).is_none() {
+                    return;
+                }
+                let style = theme.curve(self.colour(at));
+                ((Pen::new(style, BODY), WHOLE), vec![Solid::Ball(self.point(at), radius)])
+            }
+            Shape::Body { at } => {
+                let Some(outline) = Outline::of(self.q) else { return };
+                let centre = self.q.point(at);
+                let solids = outline.surfaces.into_iter();
+                (faint, solids.map(|solid| solid.moved(|own| self.place(centre, own))).collect())
+            }
+            _ => return,
+        };
+        let (number, projection) = (self.surfaces.len(), self.camera.projection());
+        self.surfaces.push(pen);
+        for solid in solids {
+            match solid.moved(|point| projection.of(point)) {
+                Solid::Face(corners) => self.depth.face(&corners, number),
+                Solid::Ball(centre, radius) => self.depth.ball(centre, radius, number),
+            }
+        }
+    }
+
+    /// Fills the surfaces, each dot with the nearest one.
+    fn fill(&mut self) {
+        for (dot, covered) in self.depth.dots() {
+            let Some((pen, [shade, light])) = self.surfaces.get(covered.surface) else { continue };
+            let coverage = shade + (light - shade) * covered.light * covered.light;
+            self.raster.dot(dot, &pen.covering(coverage));
+        }
+    }
+
+    /// A radius in cells, if it is large enough to be drawn.
+    fn cells(&self, radius: f64) -> Option<f64> {
+        let cell = (self.frame.x.hi - self.frame.x.lo) / f64::from(self.frame.area.width.max(1));
+        Some(radius / cell).filter(|cells| cells.is_finite() && *cells > 1.2)
+    }
+
+    /// A point of the body, given from its centre of mass, in the reference frame.
+    fn place(&self, centre: [f64; 3], own: [f64; 3]) -> [f64; 3] {
+        let r = [0, 1, 2].map(|k| centre[k] + own[k]);
+        let frame = self.reference_frame.as_ref();
+        frame.map_or(r, |frame| frame.point(&self.q.snapshot.values, r))
     }
 
     /// Draws a zigzag of eight turns between two straight ends; its width does not depend on its extension.
@@ -279,11 +358,13 @@ impl ScenePainter<'_> {
         let style = self.q.look.theme.curve(self.colour(point));
         let pen = Pen::new(style, BODY);
         let centre = self.flat(at);
-        let cell = (self.frame.x.hi - self.frame.x.lo) / f64::from(self.frame.area.width.max(1));
-        let cells = radius.map_or(0.0, |radius| radius.abs() / cell);
-        if cells.is_finite() && cells > 1.2 {
-            self.raster.disc(&self.frame, centre, cells * cell, &pen);
-        } else {
+        let drawn = radius.map(f64::abs).filter(|radius| self.cells(*radius).is_some());
+        if let Some(radius) = drawn {
+            // In space the ball is among the surfaces.
+            if self.range.is_none() {
+                self.raster.disc(&self.frame, centre, radius, &pen);
+            }
+        } else if !self.depth.hides_point(self.camera.project(at)) {
             self.raster.marker(&self.frame, centre, Marker::Disc, &pen);
         }
     }
@@ -298,12 +379,7 @@ impl ScenePainter<'_> {
     fn body(&mut self, at: &Point) {
         let Some(outline) = Outline::of(self.q) else { return };
         let at = self.q.point(at);
-        let place = |own: [f64; 3]| {
-            let r = [0, 1, 2].map(|k| at[k] + own[k]);
-            self.reference_frame
-                .as_ref()
-                .map_or(r, |reference_frame| reference_frame.point(&self.q.snapshot.values, r))
-        };
+        let place = |own: [f64; 3]| self.place(at, own);
         let placed = |lines: Vec<Vec<[f64; 3]>>| -> Vec<Vec<[f64; 3]>> {
             lines.into_iter().map(|line| line.into_iter().map(place).collect()).collect()
         };
@@ -316,7 +392,8 @@ impl ScenePainter<'_> {
         for line in edges {
             self.curve(&line, &Pen::new(theme[Role::Text], SOLID));
         }
-        for point in points {
+        for point in points.into_iter().filter(|p| !self.depth.hides_point(self.camera.project(*p)))
+        {
             let (flat, pen) = (self.flat(point), Pen::new(theme.curve(0), BODY));
             self.raster.marker(&self.frame, flat, Marker::Disc, &pen);
         }
@@ -328,18 +405,18 @@ impl ScenePainter<'_> {
         let track = Track::Point(sources, self.camera, self.seen);
         let key = TrailKey { epoch: self.q.snapshot.epoch, frame: self.frame, track };
         let projection = self.camera.projection();
-        let present = self.flat(self.point(point));
+        let [right, up, near] = self.camera.project(self.point(point));
+        let present = [right, up];
         // Each past point is transformed to the reference frame at its own time.
         let drawn = kept.trail(key, (rows, self.q.look.glyphs), |row| {
             let row = row.get(1..)?;
             let r = sources.map(|source| source.read(row));
             let seen = self.reference_frame.as_ref().map_or(r, |frame| frame.point(row, r));
-            let [right, up, _] = projection.of(seen);
-            Some([right, up])
+            Some(projection.of(seen))
         });
         let ramp = self.q.look.theme.trail(self.colour(point));
         let since = kept::since(rows, ramp.len());
-        let ages = Ages { since: &since, ramp, layer: TRACK };
+        let ages = Ages { since: &since, ramp, layer: TRACK, behind: Some((&self.depth, near)) };
         drawn.draw(&mut self.raster, ages, present);
     }
 
@@ -349,7 +426,10 @@ impl ScenePainter<'_> {
         let (a, b) = (self.flat(foot), self.flat(tip));
         let back = [(a[0] - b[0]) / 8.0, (a[1] - b[1]) / 8.0];
         let wing = |side: f64| [b[0] + back[0] - side * back[1], b[1] + back[1] + side * back[0]];
-        self.raster.polyline(&self.frame, [a, b], pen);
+        self.curve(&[foot, tip], pen);
+        if self.depth.hides_point(self.camera.project(tip)) {
+            return;
+        }
         self.raster.polyline(&self.frame, [wing(0.7), b, wing(-0.7)], pen);
     }
 }

@@ -217,6 +217,22 @@ impl Theme {
         Shade { style: self[role], coverage, dash: Dash::Full }
     }
 
+    /// A style as it looks at a distance: `far` is 0 at the front of the picture and 1 at its back. Among few colours, and
+    /// without any, only the farther half is dimmed.
+    pub fn receding(&self, style: Style, far: f64) -> Style {
+        let own = style.fg.and_then(Rgb::of).unwrap_or(self.palette.foreground);
+        let Rgb(r, g, b) = own.mix(self.palette.background, 0.6 * far);
+        match self.depth {
+            _ if far <= 0.0 => style,
+            ColourDepth::True => style.fg(Color::Rgb(r, g, b)),
+            ColourDepth::Ansi256 => style.fg(Color::Indexed(Rgb(r, g, b).nearest256())),
+            ColourDepth::Ansi16 | ColourDepth::None if far > 0.5 => {
+                style.remove_modifier(Modifier::BOLD).add_modifier(Modifier::DIM)
+            }
+            ColourDepth::Ansi16 | ColourDepth::None => style,
+        }
+    }
+
     /// The fading trail of the n-th series, from nearly the background to its colour, brightened.
     ///
     /// The contrast with the background never decreases from one step to the next. Without colour, old steps are

@@ -9,9 +9,9 @@ use crate::diagnostic::Diagnostic;
 use crate::ensemble::section_name;
 use crate::expr::Expr;
 use crate::instrument::Instrument;
-use crate::model::{Action, Allowed, Channel, Direction, Event, Point, Scope, Shape, View};
+use crate::model::{Action, Allowed, Channel, Direction, Event, Follow, Point, Scope, Shape, View};
 use crate::preset::draft::{
-    DraftSection, DraftShape, DraftShapeKind, DraftView, Formula, Formulas,
+    DraftFollow, DraftSection, DraftShape, DraftShapeKind, DraftView, Formula, Formulas,
 };
 
 /// The default number of segments of a path.
@@ -131,6 +131,14 @@ impl Check<'_> {
         shapes
     }
 
+    /// Reads the point that the camera follows.
+    pub(super) fn follow(&mut self, written: &DraftFollow) -> Option<Follow> {
+        let mut scope = Scope::new(&self.model, Allowed::Observable, "the camera");
+        let at = self.point(written.at.as_ref(), &mut scope);
+        let reach = self.size(written.reach.as_ref(), &mut scope);
+        Some(Follow { at: at?, reach: reach? })
+    }
+
     /// Reads a shape other than a path or a body. All parts are read, even if one of them is missing or wrong.
     fn shape(&mut self, written: &DraftShapeKind, scope: &mut Scope) -> Option<Shape> {
         match written {
@@ -157,10 +165,28 @@ impl Check<'_> {
                 Some(Shape::Mass { at: at?, radius: read })
             }
             DraftShapeKind::Path { .. } | DraftShapeKind::Body { .. } => None,
-            DraftShapeKind::Vector { at, components } => {
+            DraftShapeKind::Disc { centre, radius, normal } => {
+                let (centre, radius) =
+                    (self.point(centre.as_ref(), scope), self.size(radius.as_ref(), scope));
+                let normal = self.normal(normal.as_ref(), scope);
+                Some(Shape::Disc { centre: centre?, radius: radius?, normal: normal? })
+            }
+            DraftShapeKind::Sphere { centre, radius } => {
+                let (centre, radius) =
+                    (self.point(centre.as_ref(), scope), self.size(radius.as_ref(), scope));
+                Some(Shape::Sphere { centre: centre?, radius: radius? })
+            }
+            DraftShapeKind::Cone { tip, base, radius } => {
+                let (tip, base) =
+                    (self.point(tip.as_ref(), scope), self.point(base.as_ref(), scope));
+                let radius = self.size(radius.as_ref(), scope);
+                Some(Shape::Cone { tip: tip?, base: base?, radius: radius? })
+            }
+            DraftShapeKind::Vector { at, components, label } => {
                 let (at, components) =
                     (self.point(at.as_ref(), scope), self.point(components.as_ref(), scope));
-                Some(Shape::Vector { at: at?, components: components? })
+                let label = label.clone();
+                Some(Shape::Vector { at: at?, components: components?, label })
             }
             DraftShapeKind::Plane { at, normal, size } => {
                 let (at, size) = (self.point(at.as_ref(), scope), self.size(size.as_ref(), scope));

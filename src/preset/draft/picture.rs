@@ -46,6 +46,12 @@ pub(in crate::preset) struct DraftShape {
     pub(in crate::preset) kind: DraftShapeKind,
 }
 
+/// The point that the camera follows, as written.
+pub(in crate::preset) struct DraftFollow {
+    pub(in crate::preset) at: Option<Formulas>,
+    pub(in crate::preset) reach: Option<Formula>,
+}
+
 /// A kind of shape; parts that could not be read are `None`.
 pub(in crate::preset) enum DraftShapeKind {
     Line {
@@ -77,19 +83,36 @@ pub(in crate::preset) enum DraftShapeKind {
     Vector {
         at: Option<Formulas>,
         components: Option<Formulas>,
+        label: String,
     },
     Plane {
         at: Option<Formulas>,
         normal: Option<Formulas>,
         size: Option<Formula>,
     },
+    Disc {
+        centre: Option<Formulas>,
+        radius: Option<Formula>,
+        normal: Option<Formulas>,
+    },
+    Sphere {
+        centre: Option<Formulas>,
+        radius: Option<Formula>,
+    },
+    Cone {
+        tip: Option<Formulas>,
+        base: Option<Formulas>,
+        radius: Option<Formula>,
+    },
     Body {
         at: Option<Formulas>,
     },
 }
 
-const SHAPES: [&str; 9] =
-    ["line", "spring", "trace", "circle", "mass", "path", "vector", "plane", "body"];
+const SHAPES: [&str; 12] = [
+    "line", "spring", "trace", "circle", "mass", "path", "vector", "plane", "disc", "sphere",
+    "cone", "body",
+];
 
 pub(super) fn views(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftView> {
     let tables = top.tables("views", "this view", mistakes);
@@ -211,11 +234,19 @@ fn view_kind(written: &Spanned<String>, mistakes: &mut Diagnostics) -> Option<Ki
     None
 }
 
-pub(super) fn shapes(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftShape> {
-    let Some(mut table) = top.table("space", mistakes) else { return Vec::new() };
+/// Reads `[space]`: its shapes, and the point that the camera follows, with the reach of the picture.
+pub(super) fn space(
+    top: &mut Table<'_>,
+    mistakes: &mut Diagnostics,
+) -> (Vec<DraftShape>, Option<DraftFollow>) {
+    let Some(mut table) = top.table("space", mistakes) else { return (Vec::new(), None) };
     let all = shapes_of(&mut table, mistakes);
+    let follow = table.has("follow").then(|| DraftFollow {
+        at: point(&mut table, "follow", mistakes),
+        reach: size(&mut table, "reach", mistakes),
+    });
     table.finish(mistakes);
-    all
+    (all, follow)
 }
 
 /// The list of shapes of a table.
@@ -273,8 +304,23 @@ fn shape(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftShape>
             samples: table.number("samples", mistakes),
         },
         "vector" => {
-            DraftShapeKind::Vector { at: first, components: point(&mut table, "to", mistakes) }
+            let label = table.line("label", mistakes);
+            let components = point(&mut table, "to", mistakes);
+            DraftShapeKind::Vector { at: first, components, label }
         }
+        "disc" => DraftShapeKind::Disc {
+            centre: first,
+            radius: size(&mut table, "radius", mistakes),
+            normal: optional_point(&mut table, "normal", mistakes),
+        },
+        "sphere" => {
+            DraftShapeKind::Sphere { centre: first, radius: size(&mut table, "radius", mistakes) }
+        }
+        "cone" => DraftShapeKind::Cone {
+            tip: first,
+            base: point(&mut table, "to", mistakes),
+            radius: size(&mut table, "radius", mistakes),
+        },
         _ => DraftShapeKind::Plane {
             at: first,
             normal: optional_point(&mut table, "normal", mistakes),

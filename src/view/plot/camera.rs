@@ -65,6 +65,13 @@ impl Camera {
         self.projection().of(point)
     }
 
+    /// The direction towards the eye.
+    pub fn towards(&self) -> [f64; 3] {
+        let ((sin_yaw, cos_yaw), (sin_pitch, cos_pitch)) =
+            (math::sin_cos(self.yaw), math::sin_cos(self.pitch));
+        [sin_yaw * cos_pitch, -cos_yaw * cos_pitch, sin_pitch]
+    }
+
     /// The projection of many points.
     pub fn projection(&self) -> Projection {
         let (yaw, pitch) = (math::sin_cos(self.yaw), math::sin_cos(self.pitch));

@@ -189,6 +189,22 @@ impl Raster {
         hand.rest();
     }
 
+    /// Draws a line through points, each with the number of the pen that leads to it.
+    pub fn polyline_in(
+        &mut self,
+        frame: &Frame,
+        points: impl IntoIterator<Item = ([f64; 2], usize)>,
+        pens: &[Pen],
+    ) {
+        let mut hand = Polyline::new(self, frame);
+        for (point, pen) in points {
+            if let Some(pen) = pens.get(pen) {
+                hand.to(point, pen);
+            }
+        }
+        hand.rest();
+    }
+
     /// Draws a fading trail, oldest point first: the points are divided among the steps of a ramp.
     pub fn trail(&mut self, frame: &Frame, points: &[[f64; 2]], ramp: &[Shade], layer: u8) {
         if ramp.is_empty() {

@@ -1,10 +1,11 @@
-//! A rigid body as it is drawn: the edges and rims of its pieces, and its principal axes, in its current attitude.
+//! A rigid body as it is drawn: the surfaces, edges and rims of its pieces, and its principal axes, in its current attitude.
 //!
 //! In: the pieces of `[body]`, the attitude's channels, current parameters. Out: lines in space about the centre of
 //! mass. Never here: moments of inertia, or the computation of the attitude.
 
 use std::f64::consts::TAU;
 
+use super::solid::{self, Solid as Surface};
 use crate::expr::Expr;
 use crate::mechanics::principal;
 use crate::model::{Model, Piece, Solid, Turn};
@@ -26,6 +27,8 @@ pub(super) struct Outline {
     pub(super) edges: Vec<Line>,
     /// The principal axes, from the centre of mass.
     pub(super) axes: Vec<Line>,
+    /// The surfaces, which hide what is behind them.
+    pub(super) surfaces: Vec<Surface>,
     /// Pieces that are points.
     pub(super) points: Vec<[f64; 3]>,
 }
@@ -38,7 +41,8 @@ impl Outline {
         let now = q.lab.valuation();
         let value = |e: Expr| now.value(&model.pool, e);
         let centre = body.names.centre.map(|symbol| now.at(symbol));
-        let mut outline = Self { edges: Vec::new(), axes: Vec::new(), points: Vec::new() };
+        let mut outline =
+            Self { edges: Vec::new(), axes: Vec::new(), surfaces: Vec::new(), points: Vec::new() };
         for piece in &body.pieces {
             let at = piece.at.map(value);
             let place = |own: [f64; 3]| {
@@ -48,6 +52,8 @@ impl Outline {
             if matches!(piece.solid, Solid::Point) {
                 outline.points.push(place([0.0; 3]));
             }
+            let surfaces = surfaces(&piece.solid, &value).into_iter();
+            outline.surfaces.extend(surfaces.map(|surface| surface.moved(place)));
             let lines = lines(&piece.solid, &value);
             outline
                 .edges
@@ -80,7 +86,8 @@ impl Outline {
             lines.into_iter().map(|line| line.into_iter().map(rotate).collect()).collect()
         };
         let points = self.points.into_iter().map(rotate).collect();
-        Self { edges: all(self.edges), axes: all(self.axes), points }
+        let surfaces = self.surfaces.into_iter().map(|surface| surface.moved(rotate)).collect();
+        Self { edges: all(self.edges), axes: all(self.axes), surfaces, points }
     }
 }
 
@@ -156,6 +163,39 @@ fn lines(solid: &Solid, value: &impl Fn(Expr) -> f64) -> Vec<Line> {
             let edge =
                 |i: usize, k: usize| (i >> k & 1 == 0).then(|| vec![corner(i), corner(i | 1 << k)]);
             (0..8).flat_map(|i| (0..3).filter_map(move |k| edge(i, k))).collect()
+        }
+    }
+}
+
+/// The surface of a solid in its own axes, about its centre of mass; what is thin has none.
+fn surfaces(solid: &Solid, value: &impl Fn(Expr) -> f64) -> Vec<Surface> {
+    let rim = |radius: f64, z: f64| -> Line { circle(radius).map(|[x, y]| [x, y, z]).collect() };
+    match solid {
+        Solid::Point | Solid::Ring(_) | Solid::Rod(_) => Vec::new(),
+        Solid::Sphere(radius) | Solid::SphericalShell(radius) => {
+            vec![Surface::Ball([0.0; 3], value(*radius))]
+        }
+        Solid::Cylinder { radius, length } => {
+            let (r, half) = (value(*radius), value(*length) / 2.0);
+            solid::tube(&rim(r, -half), &rim(r, half), true)
+        }
+        Solid::CylindricalShell { radius, length } => {
+            let (r, half) = (value(*radius), value(*length) / 2.0);
+            solid::tube(&rim(r, -half), &rim(r, half), false)
+        }
+        Solid::Cone { radius, height } => {
+            let h = value(*height);
+            solid::cone([0.0, 0.0, 0.75 * h], [0.0, 0.0, -h / 4.0], value(*radius))
+        }
+        Solid::Disc(radius) => vec![Surface::Face(rim(value(*radius), 0.0))],
+        Solid::Cuboid(edges) => {
+            let half = edges.map(|e| value(e) / 2.0);
+            let square = |z: f64| -> Line {
+                [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)]
+                    .map(|(x, y)| [x * half[0], y * half[1], z])
+                    .to_vec()
+            };
+            solid::tube(&square(-half[2]), &square(half[2]), true)
         }
     }
 }

@@ -9,7 +9,7 @@ use super::reference_frame::ReferenceFrame;
 use crate::instrument::CameraPose;
 use crate::model::{Point, Shape};
 use crate::num::math;
-use crate::view::plot::Bounds;
+use crate::view::plot::{Bounds, Camera};
 use crate::view::quantity::{Quantities, Source};
 
 /// The contents of the picture.
@@ -32,6 +32,9 @@ impl Scene {
         reference_frame: Option<&ReferenceFrame>,
     ) -> Self {
         let mut scene = Self { bounds: Bounds::EMPTY };
+        if let Some(bounds) = followed(q, eye, reference_frame) {
+            return Self { bounds };
+        }
         let mut reached: Vec<(Point, Span3)> = Vec::new();
         for (shape, rod) in q.lab.shapes(eye) {
             scene.include(q, shape, rod, &mut reached);
@@ -54,6 +57,17 @@ impl Scene {
             }
         }
         scene
+    }
+
+    /// How near to the eye the farthest and the nearest corner of a scene are; `None` in a plane seen face on.
+    pub(super) fn depths(&self, camera: &Camera) -> Option<[f64; 2]> {
+        let [low, high] = self.bounds.ends()?;
+        let corner = |i: usize| [0, 1, 2].map(|k| if i >> k & 1 == 0 { low[k] } else { high[k] });
+        let near = || (0..8).map(|i| camera.project(corner(i))[2]);
+        let (far, near) =
+            (near().fold(f64::INFINITY, f64::min), near().fold(f64::NEG_INFINITY, f64::max));
+        let size = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
+        (near - far > 1e-6 * size).then_some([far, near])
     }
 
     fn include(
@@ -84,14 +98,21 @@ impl Scene {
                 let radius = Outline::of(q).map_or(0.0, |outline| outline.reach());
                 self.add(grown(reach(q, at, reached), radius, false));
             }
-            Shape::Circle { centre, radius, normal } => {
+            Shape::Circle { centre, radius, normal } | Shape::Disc { centre, radius, normal } => {
                 let middle = q.point(centre);
                 let normal = q.point(normal);
                 for point in circle(middle, q.number(*radius), normal) {
                     self.bounds = self.bounds.with(point);
                 }
             }
-            Shape::Vector { at, components } => {
+            Shape::Sphere { centre, radius } => {
+                self.add(grown(reach(q, centre, reached), q.number(*radius).abs(), false));
+            }
+            Shape::Cone { tip, base, radius } => {
+                self.add(reach(q, tip, reached));
+                self.add(grown(reach(q, base, reached), q.number(*radius).abs(), false));
+            }
+            Shape::Vector { at, components, .. } => {
                 let foot = q.point(at);
                 let along = q.point(components);
                 self.bounds = self.bounds.with(foot).with([0, 1, 2].map(|k| foot[k] + along[k]));
@@ -114,6 +135,24 @@ impl Scene {
     fn add(&mut self, [low, high]: Span3) {
         self.bounds = self.bounds.with(low).with(high);
     }
+}
+
+/// The box around the point that the camera follows, in the picture of the model in its own axes.
+fn followed(
+    q: &Quantities<'_>,
+    eye: CameraPose,
+    reference_frame: Option<&ReferenceFrame>,
+) -> Option<Bounds> {
+    let model = &q.lab.loaded.model;
+    let follow = model.follow.as_ref()?;
+    if reference_frame.is_some() || eye.own_shapes(model).is_some() {
+        return None;
+    }
+    let (at, reach) = (q.point(&follow.at), q.number(follow.reach).abs());
+    let box_of = |plane: bool| grown([at, at], reach, plane);
+    let [low, high] = box_of(is_flat(q, &follow.at) && eye.pitch == std::f64::consts::FRAC_PI_2);
+    let bounds = Bounds::around([low, high]);
+    (reach > 0.0 && bounds.ends() == Some([low, high])).then_some(bounds)
 }
 
 /// The greatest of 1, 2 and 5 times a power of ten that does not exceed a length.

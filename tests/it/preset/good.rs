@@ -412,3 +412,31 @@ fn a_byte_order_mark_is_passed_over() {
 fn only_what_means_something_is_reserved() {
     model(&GOOD.replace('k', "lambda_k").replace("m = ", "p_m = ").replace("m*", "p_m*"));
 }
+
+#[test]
+fn solids_a_label_and_the_point_that_the_camera_follows() {
+    let file = model(&with(
+        r#"[space]
+follow = ["x", "0", "1/2"]
+reach = "3"
+shapes = [
+  { disc = ["x", "0", "0"], radius = "2" },
+  { sphere = ["0", "x", "0"], radius = "2" },
+  { cone = ["0", "0", "0"], to = ["0", "0", "x"], radius = "1/4" },
+  { vector = ["0", "0"], to = ["x", "0"], label = "v" },
+]
+"#,
+    ));
+    let shapes = &file.space;
+    assert_eq!(shapes.len(), 4);
+    let Shape::Disc { normal, .. } = &shapes[0] else { panic!("{:?}", shapes[0]) };
+    assert_eq!(*normal, [Expr::ZERO, Expr::ZERO, Expr::ONE]);
+    let Shape::Sphere { centre, radius } = &shapes[1] else { panic!("{:?}", shapes[1]) };
+    assert_eq!([text(&file, centre[1]), text(&file, *radius)], ["x", "2"]);
+    let Shape::Cone { tip, base, .. } = &shapes[2] else { panic!("{:?}", shapes[2]) };
+    assert_eq!((*tip, text(&file, base[2]).as_str()), ([Expr::ZERO; 3], "x"));
+    let Shape::Vector { label, .. } = &shapes[3] else { panic!("{:?}", shapes[3]) };
+    assert_eq!(label, "v");
+    let Some(follow) = &file.follow else { panic!("a point to follow") };
+    assert_eq!([text(&file, follow.at[0]), text(&file, follow.reach)], ["x", "3"]);
+}

@@ -10,6 +10,7 @@ use super::course::Course;
 use super::letter::faded;
 use super::{Pen, Raster, noise};
 use crate::view::glyphs::Glyphs;
+use crate::view::plot::depth::DepthBuffer;
 use crate::view::plot::scale::Frame;
 use crate::view::theme::{Dash, Shade};
 
@@ -19,15 +20,24 @@ const DOTS: usize = 8;
 /// The stamp of the present, which is drawn but not kept.
 const NOW: f64 = f64::INFINITY;
 
+/// What a stroke leaves on a dot.
+#[derive(Clone, Copy, Debug)]
+struct Stamp {
+    time: f64,
+    near: f64,
+}
+
 /// A trail over a frame.
 #[derive(Clone, Debug)]
 pub struct KeptTrail {
     blank: Raster,
     /// The newest stamp of each dot, cell by cell; −∞ where there never was one.
     stamps: Vec<[f64; DOTS]>,
+    /// How near to the eye the newest stroke on each dot is.
+    nears: Vec<[f64; DOTS]>,
     /// The newest stamp of each cell.
     newest: Vec<f64>,
-    course: Course<f64>,
+    course: Course<Stamp>,
     dash: Dash,
     /// Whether the characters of ASCII show the age.
     fading: bool,
@@ -42,6 +52,8 @@ pub struct Ages<'a> {
     pub ramp: &'a [Shade],
     /// The layer.
     pub layer: u8,
+    /// The surfaces that hide a part of the trail, and how near to the eye the present point is.
+    pub behind: Option<(&'a DepthBuffer, f64)>,
 }
 
 impl Ages<'_> {
@@ -58,6 +70,7 @@ impl KeptTrail {
         let count = blank.cells.len();
         Self {
             stamps: vec![[f64::NEG_INFINITY; DOTS]; count],
+            nears: vec![[0.0; DOTS]; count],
             newest: vec![f64::NEG_INFINITY; count],
             course: Course::new(frame, blank.size()),
             blank,
@@ -66,18 +79,20 @@ impl KeptTrail {
         }
     }
 
-    /// Continues the trail to a point; the stroke that leads there gets the stamp.
-    pub fn to(&mut self, point: [f64; 2], stamp: f64) {
+    /// Continues the trail to a point: right, up, towards the eye; the stroke that leads there gets the stamp.
+    pub fn to(&mut self, [x, y, near]: [f64; 3], time: f64) {
         let grid = self.grid();
         let (dash, lettered) = (self.dash, grid != [1, 1]);
-        let Self { blank, stamps, newest, course, .. } = self;
-        course.to(point, (stamp, grid), &mut |dot, inked| {
+        let Self { blank, stamps, nears, newest, course, .. } = self;
+        course.to([x, y], (Stamp { time, near }, grid), &mut |dot, inked| {
             if !(lettered || dash.covers(dot[inked.along])) {
                 return;
             }
             let Some((cell, bit)) = blank.place(inked.centre(dot)) else { return };
-            stamps[cell][bit.trailing_zeros() as usize] = inked.ink;
-            newest[cell] = newest[cell].max(inked.ink);
+            let bit = bit.trailing_zeros() as usize;
+            stamps[cell][bit] = inked.ink.time;
+            nears[cell][bit] = inked.ink.near;
+            newest[cell] = newest[cell].max(inked.ink.time);
         });
     }
 
@@ -91,27 +106,36 @@ impl KeptTrail {
             Glyphs::Ascii => self.dash.letter(),
             _ => None,
         };
+        let behind = ages.behind.filter(|(depth, _)| !depth.is_empty());
         let oldest = ages.since.first().copied().unwrap_or(NOW);
         for (cell, stamps) in self.stamps.iter().enumerate() {
             if self.newest[cell] < oldest {
                 continue;
             }
             for (bit, stamp) in stamps.iter().enumerate().filter(|(_, stamp)| **stamp >= oldest) {
+                let near = self.nears[cell][bit];
+                if behind.is_some_and(|(depth, _)| depth.hides(raster.dot_of(cell, bit), near)) {
+                    continue;
+                }
                 if let Some((age, pen)) = ages.of(*stamp).and_then(|a| Some((a, pens.get(a)?))) {
                     raster.ink_bit((cell, bit), pen, sign(age));
                 }
             }
         }
         let (dash, grid) = (self.dash, self.grid());
-        let mut end = |dot: [i32; 2], inked: super::course::Inked<f64>| {
-            let age = ages.of(inked.ink).and_then(|age| Some((age, pens.get(age)?)));
+        let mut end = |dot: [i32; 2], inked: super::course::Inked<Stamp>| {
+            if behind.is_some_and(|(depth, _)| depth.hides(inked.centre(dot), inked.ink.near)) {
+                return;
+            }
+            let age = ages.of(inked.ink.time).and_then(|age| Some((age, pens.get(age)?)));
             let Some((age, pen)) = age else { return };
             if grid != [1, 1] || dash.covers(dot[inked.along]) {
                 raster.ink(inked.centre(dot), pen, sign(age));
             }
         };
         let mut course = self.course.clone();
-        course.to(present, (NOW, grid), &mut end);
+        let near = ages.behind.map_or(0.0, |(_, near)| near);
+        course.to(present, (Stamp { time: NOW, near }, grid), &mut end);
         course.rest(&mut end);
     }
 
@@ -134,11 +158,17 @@ impl Raster {
 
     /// The place that decides whether a dot is left out where dots are thinned.
     fn thinning(&self, cell: usize, bit: usize) -> [i32; 2] {
+        if self.glyphs.is_ascii() {
+            let columns = usize::from(self.area.width).max(1);
+            return [(cell % columns) as i32, (cell / columns) as i32];
+        }
+        self.dot_of(cell, bit)
+    }
+
+    /// The place of a dot, by its cell and the index of its bit.
+    fn dot_of(&self, cell: usize, bit: usize) -> [i32; 2] {
         let columns = usize::from(self.area.width).max(1);
         let (column, row) = ((cell % columns) as i32, (cell / columns) as i32);
-        if self.glyphs.is_ascii() {
-            return [column, row];
-        }
         let [wide, high] = self.cell();
         [column * wide + bit as i32 % wide, row * high + bit as i32 / wide]
     }
@@ -193,7 +223,7 @@ mod tests {
             for glyphs in [Glyphs::Braille, Glyphs::HalfBlock, Glyphs::Ascii] {
                 let mut kept = KeptTrail::new(frame, glyphs, None);
                 for (index, point) in points.iter().enumerate() {
-                    kept.to(*point, index as f64);
+                    kept.to([point[0], point[1], 0.0], index as f64);
                     let count = index + 1;
                     if ![1, 2, 3, 10, 51, 500, 777, 900].contains(&count) {
                         continue;
@@ -207,7 +237,11 @@ mod tests {
                         .map(|age| if start(age) < count { start(age) as f64 } else { NOW })
                         .collect();
                     let mut again = Raster::new(area, glyphs);
-                    kept.draw(&mut again, Ages { since: &since, ramp, layer: 2 }, present);
+                    kept.draw(
+                        &mut again,
+                        Ages { since: &since, ramp, layer: 2, behind: None },
+                        present,
+                    );
                     assert_eq!(shown(&again), shown(&whole), "{glyphs:?} {depth:?} {count}");
                 }
             }
@@ -221,12 +255,12 @@ mod tests {
         let frame = Frame::new(scale, scale, area);
         let theme = Theme::dark(ColourDepth::True);
         let mut kept = KeptTrail::new(&frame, Glyphs::Braille, None);
-        kept.to([0.0, 0.1], 0.0);
-        kept.to([0.4, 0.1], 1.0);
-        kept.to([0.9, 0.8], 2.0);
+        kept.to([0.0, 0.1, 0.0], 0.0);
+        kept.to([0.4, 0.1, 0.0], 1.0);
+        kept.to([0.9, 0.8, 0.0], 2.0);
         let dots = |oldest: f64| {
             let mut raster = Raster::new(area, Glyphs::Braille);
-            let ages = Ages { since: &[oldest; 8], ramp: theme.trail(0), layer: 1 };
+            let ages = Ages { since: &[oldest; 8], ramp: theme.trail(0), layer: 1, behind: None };
             kept.draw(&mut raster, ages, [0.9, 0.8]);
             (raster.is_set([2, 14]), raster.is_set([18, 3]))
         };

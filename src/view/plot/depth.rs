@@ -1,0 +1,278 @@
+//! Depth: which dots an opaque surface covers, and how near to the eye it is there.
+//!
+//! In: faces and balls in the coordinates of the camera: right, up, towards the eye. Out: covered dots, and what of a
+//! line is in front of them. Never here: colours, or the shapes that the surfaces belong to.
+
+use super::scale::Frame;
+use crate::num::math;
+
+/// The direction of the light, from the upper left in front: right, up, towards the eye.
+const LIGHT: [f64; 3] = [-0.45, 0.55, 0.70];
+
+/// How far behind a surface a point still counts as lying on it, relative to the picture.
+const TOLERANCE: f64 = 0.015;
+
+/// The length of the pieces, in dots, that are visible or hidden as a whole, and the most of them in a segment.
+const PIECE: f64 = 2.0;
+const MOST_PIECES: f64 = 512.0;
+
+/// A dot that a surface covers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Covered {
+    /// How near the surface is to the eye.
+    pub near: f64,
+    /// The number of the surface.
+    pub surface: usize,
+    /// How brightly it is lit, 0 to 1.
+    pub light: f64,
+}
+
+/// The nearest opaque surface at each dot.
+#[derive(Clone, Debug)]
+pub struct DepthBuffer {
+    frame: Frame,
+    size: [i32; 2],
+    /// Row by row; empty as long as there is no surface.
+    covered: Vec<Option<Covered>>,
+}
+
+impl DepthBuffer {
+    /// Creates a buffer without surfaces over a raster of this many dots.
+    pub fn new(frame: &Frame, size: [i32; 2]) -> Self {
+        Self { frame: *frame, size: size.map(|n| n.max(0)), covered: Vec::new() }
+    }
+
+    /// Whether there is no surface.
+    pub fn is_empty(&self) -> bool {
+        self.covered.is_empty()
+    }
+
+    /// The covered dots.
+    pub fn dots(&self) -> impl Iterator<Item = ([i32; 2], Covered)> {
+        let wide = self.size[0].max(1) as usize;
+        let dots = self.covered.iter().enumerate();
+        dots.filter_map(move |(i, covered)| {
+            Some(([(i % wide) as i32, (i / wide) as i32], (*covered)?))
+        })
+    }
+
+    /// Adds a flat convex face.
+    pub fn face(&mut self, corners: &[[f64; 3]], surface: usize) {
+        let [first, second, .., last] = corners else { return };
+        let (a, b) = (difference(*second, *first), difference(*last, *first));
+        let normal =
+            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+        let light = lit(normal);
+        for pair in corners[1..].windows(2) {
+            self.triangle([*first, pair[0], pair[1]], (surface, light));
+        }
+    }
+
+    /// Adds a ball.
+    pub fn ball(&mut self, [x, y, near]: [f64; 3], radius: f64, surface: usize) {
+        let low = self.frame.dot([x - radius, y + radius], self.size);
+        let high = self.frame.dot([x + radius, y - radius], self.size);
+        let Some([columns, rows]) = self.box_of(&[low, high]) else { return };
+        let off = |dot: i32, k: usize| {
+            (f64::from(dot) + 0.5 - f64::midpoint(low[k], high[k])) * 2.0 / (high[k] - low[k])
+        };
+        for row in rows {
+            for column in columns.clone() {
+                let (right, up) = (off(column, 0), -off(row, 1));
+                let rest = 1.0 - right * right - up * up;
+                if rest >= 0.0 {
+                    let out = rest.sqrt();
+                    let light = lit([right, up, out]);
+                    self.cover(
+                        [column, row],
+                        Covered { near: near + radius * out, surface, light },
+                    );
+                }
+            }
+        }
+    }
+
+    /// Whether a surface is in front of a dot of something at this depth.
+    pub fn hides(&self, [x, y]: [i32; 2], near: f64) -> bool {
+        let [wide, high] = self.size;
+        if self.covered.is_empty() || !(0..wide).contains(&x) || !(0..high).contains(&y) {
+            return false;
+        }
+        let slack = TOLERANCE * (self.frame.x.hi - self.frame.x.lo).abs();
+        let covered = self.covered.get((y * wide + x) as usize).copied().flatten();
+        covered.is_some_and(|covered| covered.near > near + slack)
+    }
+
+    /// Whether a surface is in front of a point.
+    pub fn hides_point(&self, [x, y, near]: [f64; 3]) -> bool {
+        let dot = self.frame.dot([x, y], self.size);
+        dot.iter().all(|v| v.is_finite()) && self.hides(dot.map(|v| v.floor() as i32), near)
+    }
+
+    /// A line through points in short pieces; a point without a position (NaN) stands for what is hidden.
+    pub fn visible(&self, points: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let mut seen = Vec::new();
+        let mut at = None;
+        for pair in points.windows(2) {
+            let (a, b) = (pair[0], pair[1]);
+            let ends = [a, b].map(|[x, y, _]| self.frame.dot([x, y], self.size));
+            let length = math::hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
+            let count = (length / PIECE).ceil().clamp(1.0, MOST_PIECES);
+            let place = |share: f64| [0, 1, 2].map(|k| a[k] + share * (b[k] - a[k]));
+            for piece in 0..count as u32 {
+                let share = |more: f64| (f64::from(piece) + more) / count;
+                if self.hides_point(place(share(0.5))) {
+                    seen.push([f64::NAN; 3]);
+                    at = None;
+                    continue;
+                }
+                if at != Some(place(share(0.0))) {
+                    seen.extend([[f64::NAN; 3], place(share(0.0))]);
+                }
+                seen.push(place(share(1.0)));
+                at = Some(place(share(1.0)));
+            }
+        }
+        seen
+    }
+
+    fn triangle(&mut self, corners: [[f64; 3]; 3], (surface, light): (usize, f64)) {
+        let [a, b, c] = corners.map(|[x, y, _]| self.frame.dot([x, y], self.size));
+        let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
+            (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+        };
+        let whole = side(a, b, c);
+        let Some([columns, rows]) = self.box_of(&[a, b, c]).filter(|_| whole.abs() > 1e-9) else {
+            return;
+        };
+        for row in rows {
+            for column in columns.clone() {
+                let dot = [f64::from(column) + 0.5, f64::from(row) + 0.5];
+                let shares = [side(b, c, dot), side(c, a, dot), side(a, b, dot)].map(|s| s / whole);
+                if shares.iter().all(|share| *share >= 0.0) {
+                    let near = (0..3).map(|k| shares[k] * corners[k][2]).sum();
+                    self.cover([column, row], Covered { near, surface, light });
+                }
+            }
+        }
+    }
+
+    /// The columns and rows of dots around points, or `None` if one of them has no position.
+    fn box_of(&self, points: &[[f64; 2]]) -> Option<[std::ops::Range<i32>; 2]> {
+        let finite = points.iter().flatten().all(|v| v.is_finite());
+        finite.then(|| {
+            [0, 1].map(|k| {
+                let most = f64::from(self.size[k]);
+                let along = || points.iter().map(|point| point[k].clamp(0.0, most));
+                let (low, high) = (along().fold(most, f64::min), along().fold(0.0, f64::max));
+                low.floor() as i32..high.ceil() as i32
+            })
+        })
+    }
+
+    fn cover(&mut self, [x, y]: [i32; 2], new: Covered) {
+        if self.covered.is_empty() {
+            self.covered = vec![None; (self.size[0] * self.size[1]) as usize];
+        }
+        if let Some(old) = self.covered.get_mut((y * self.size[0] + x) as usize)
+            && old.is_none_or(|old| old.near < new.near)
+        {
+            *old = Some(new);
+        }
+    }
+}
+
+fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|k| a[k] - b[k])
+}
+
+/// How brightly a surface with this normal is lit, seen from its front.
+fn lit(normal: [f64; 3]) -> f64 {
+    let size = |v: [f64; 3]| v.iter().map(|v| v * v).sum::<f64>().sqrt();
+    let front = if normal[2] < 0.0 { -1.0 } else { 1.0 };
+    let along: f64 = (0..3).map(|k| front * normal[k] * LIGHT[k]).sum();
+    let light = along / (size(normal) * size(LIGHT));
+    if light.is_finite() { light.clamp(0.0, 1.0) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use ratatui::layout::Rect;
+
+    use super::*;
+    use crate::view::plot::Scale;
+
+    /// A hundred dots of unit length across and upwards; the origin is in the middle.
+    fn buffer() -> DepthBuffer {
+        let scale = Scale::linear(-50.0, 50.0);
+        DepthBuffer::new(&Frame::new(scale, scale, Rect::new(0, 0, 50, 25)), [100, 100])
+    }
+
+    #[test]
+    fn a_ball_hides_what_is_behind_its_front_and_nothing_else() {
+        let mut buffer = buffer();
+        assert!(buffer.is_empty() && !buffer.hides_point([0.0, 0.0, -40.0]));
+        buffer.ball([0.0, 0.0, 0.0], 20.0, 3);
+        // The front at 12 to the right is √(20² − 12²) = 16 nearer than the centre.
+        let seen = [[0.0, 0.0, 21.0], [12.0, 0.0, 16.0], [0.0, 22.0, -90.0], [15.0, 15.0, -9.0]];
+        let hidden = [[0.0, 0.0, 15.0], [12.0, 0.0, 13.0], [0.0, 0.0, -20.0], [13.0, 13.0, -9.0]];
+        assert!(seen.iter().all(|point| !buffer.hides_point(*point)));
+        assert!(hidden.iter().all(|point| buffer.hides_point(*point)));
+        let area = buffer.dots().count() as f64;
+        assert!((area - 400.0 * std::f64::consts::PI).abs() < 30.0, "{area}");
+        assert!(buffer.dots().all(|(_, covered)| covered.surface == 3));
+    }
+
+    #[test]
+    fn the_depth_of_a_tilted_face_is_that_of_its_plane() {
+        let mut buffer = buffer();
+        // The plane near = x/2 over a square.
+        let corner = |x: f64, y: f64| [x, y, x / 2.0];
+        let square = [(-30.0, -30.0), (30.0, -30.0), (30.0, 30.0), (-30.0, 30.0)];
+        buffer.face(&square.map(|(x, y)| corner(x, y)), 0);
+        for ([column, row], covered) in buffer.dots() {
+            let x = f64::from(column) + 0.5 - 50.0;
+            assert!((covered.near - x / 2.0).abs() < 1e-9, "{column} {row} {covered:?}");
+        }
+        assert_eq!(buffer.dots().count(), 3600);
+        assert!(buffer.hides_point([20.0, 0.0, 5.0]) && !buffer.hides_point([-20.0, 0.0, 5.0]));
+    }
+
+    #[test]
+    fn the_nearer_of_two_faces_covers_in_either_order() {
+        let face = |near: f64| [[-9.0, -9.0, near], [9.0, -9.0, near], [0.0, 9.0, near]];
+        for order in [[1.0, 2.0], [2.0, 1.0]] {
+            let mut buffer = buffer();
+            order.iter().for_each(|near| buffer.face(&face(*near), *near as usize));
+            assert!(buffer.dots().count() > 100);
+            assert!(buffer.dots().all(|(_, covered)| covered.surface == 2));
+        }
+    }
+
+    #[test]
+    fn a_line_through_a_ball_is_seen_up_to_where_it_enters() {
+        let mut buffer = buffer();
+        buffer.ball([0.0, 0.0, 0.0], 20.0, 0);
+        let line = buffer.visible(&[[-40.0, 0.0, 0.0], [40.0, 0.0, 0.0]]);
+        let seen = line.iter().filter(|point| point[0].is_finite());
+        assert!(seen.clone().all(|point| point[0].abs() > 17.0), "{line:?}");
+        let reach = seen.map(|point| point[0].abs()).fold(f64::INFINITY, f64::min);
+        assert!(reach < 22.0, "{reach}");
+        // In front of the ball nothing is hidden.
+        let front = buffer.visible(&[[-40.0, 0.0, 25.0], [40.0, 0.0, 25.0]]);
+        assert!(front[1..].iter().all(|point| point[0].is_finite()));
+    }
+
+    #[test]
+    fn no_number_causes_a_panic() {
+        let mut buffer = buffer();
+        for v in [f64::NAN, f64::INFINITY, 1e300, -1e300, 0.0] {
+            buffer.ball([v, 0.0, v], 1.0, 0);
+            buffer.ball([0.0, 0.0, 0.0], v, 0);
+            buffer.face(&[[v, 0.0, 0.0], [1.0, v, 0.0], [0.0, 1.0, v]], 0);
+            buffer.visible(&[[v, 0.0, 0.0], [0.0, v, 1.0], [1.0, 1.0, 1.0]]);
+            buffer.hides_point([v; 3]);
+        }
+        buffer.face(&[], 0);
+    }
+}

@@ -1,0 +1,52 @@
+//! What is written and drawn beside the picture in space: the directions of the axes, the names of apparent forces.
+//!
+//! In: the camera, the forces present. Out: cells. Never here: the shapes.
+
+use ratatui::layout::Rect;
+
+use crate::view::canvas::{Canvas, row};
+use crate::view::plot::{Camera, Frame, Pen, Raster, Scale};
+use crate::view::theme::Role;
+
+/// The apparent forces, in the order of their colours.
+const FORCES: [&str; 4] = ["centrifugal", "Coriolis", "Euler", "of the origin"];
+
+/// Draws the directions of the axes in the lower left corner, each as an arm with its name.
+pub(super) fn compass(canvas: &mut Canvas<'_>, area: Rect, camera: &Camera) {
+    if area.width < 30 || area.height < 14 {
+        return;
+    }
+    let corner = Rect { x: area.x, y: area.bottom() - 6, width: 12, height: 6 };
+    let reach = Scale::linear(-1.3, 1.3);
+    let frame = Frame::equal(reach, reach, corner);
+    let mut arms = Raster::new(corner, canvas.look.glyphs);
+    let pen = Pen::new(canvas.style(Role::Dim), 0);
+    let axes = [("x", [1.0, 0.0, 0.0]), ("y", [0.0, 1.0, 0.0]), ("z", [0.0, 0.0, 1.0])];
+    let tips = axes.map(|(name, axis)| {
+        let [right, up, _] = camera.project(axis);
+        (name, [right, up])
+    });
+    for (_, tip) in tips {
+        arms.line(&frame, [0.0; 2], tip.map(|v| 0.7 * v), &pen);
+    }
+    arms.draw(canvas.buffer);
+    for (name, tip) in tips {
+        if let Some(at) = frame.cell(tip) {
+            canvas.write(at, 1, name, canvas.style(Role::Dim));
+        }
+    }
+}
+
+/// Draws the names of the apparent forces in their colours in the upper left corner.
+pub(super) fn legend(canvas: &mut Canvas<'_>, area: Rect, forces: &[usize]) {
+    if area.width < 24 || usize::from(area.height) < 8 {
+        return;
+    }
+    let arrow = canvas.look.glyphs.pick("→", "->");
+    for (index, force) in forces.iter().enumerate() {
+        let text = format!("{arrow} {}", FORCES[*force]);
+        let at = row(area, index);
+        let style = canvas.look.theme.curve(force + 1);
+        canvas.write(at.as_position(), at.width, &text, style);
+    }
+}

@@ -1,0 +1,34 @@
+//! The colours of masses and traces: one point, one colour.
+//!
+//! In: the shapes of a picture. Out: its points, in the order of their colours. Never here: the colours themselves.
+
+use crate::instrument::CameraPose;
+use crate::model::{Point, Shape};
+use crate::view::quantity::{Quantities, Source};
+
+/// The points of the masses and of the traces of other points, in the order of their colours: what moves comes first,
+/// and the second colour, an amber, is left to a single mass that stays where it is.
+pub(super) fn colours(q: &Quantities<'_>, eye: CameraPose) -> Vec<Point> {
+    let stays = |at: &Point| at.iter().all(|e| matches!(q.place(*e), Source::Number(_)));
+    let shapes = || q.lab.shapes(eye).map(|(shape, _)| shape);
+    let masses: Vec<Point> = shapes()
+        .filter_map(|shape| match shape {
+            Shape::Mass { at, .. } => Some(*at),
+            _ => None,
+        })
+        .collect();
+    let (fixed, mut points): (Vec<_>, Vec<_>) = masses.into_iter().partition(stays);
+    let traces = shapes().filter_map(|shape| match shape {
+        Shape::Trace { at } => Some(*at),
+        _ => None,
+    });
+    for at in traces {
+        if !points.contains(&at) {
+            points.push(at);
+        }
+    }
+    for (index, at) in fixed.into_iter().enumerate() {
+        points.insert((1 + index).min(points.len()), at);
+    }
+    points
+}

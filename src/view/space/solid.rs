@@ -1,0 +1,40 @@
+//! Solids: the surfaces of discs, cones and the pieces of bodies, as faces and balls.
+//!
+//! In: points in space, radii. Out: flat convex faces, balls. Never here: the camera, or colours.
+
+use super::scene::circle;
+
+/// What hides the things behind it.
+#[derive(Clone, Debug)]
+pub(super) enum Solid {
+    /// A flat convex face.
+    Face(Vec<[f64; 3]>),
+    /// A ball about a centre.
+    Ball([f64; 3], f64),
+}
+
+impl Solid {
+    /// The same solid with its points at other places; they keep their distances.
+    pub(super) fn moved(self, place: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
+        match self {
+            Self::Face(corners) => Self::Face(corners.into_iter().map(place).collect()),
+            Self::Ball(centre, radius) => Self::Ball(place(centre), radius),
+        }
+    }
+}
+
+/// The surface of a cone, its base first.
+pub(super) fn cone(tip: [f64; 3], base: [f64; 3], radius: f64) -> Vec<Solid> {
+    let axis = [0, 1, 2].map(|k| base[k] - tip[k]);
+    let rim = circle(base, radius, axis);
+    let sides = rim.windows(2).map(|pair| Solid::Face(vec![tip, pair[0], pair[1]])).collect();
+    [vec![Solid::Face(rim.clone())], sides].concat()
+}
+
+/// The surface of a tube between two rims of the same number of points, with its ends.
+pub(super) fn tube(low: &[[f64; 3]], high: &[[f64; 3]], closed: bool) -> Vec<Solid> {
+    let pairs = low.windows(2).zip(high.windows(2));
+    let sides = pairs.map(|(l, h)| Solid::Face(vec![l[0], l[1], h[1], h[0]]));
+    let ends = [low, high].map(|rim| Solid::Face(rim.to_vec()));
+    sides.chain(ends.into_iter().filter(|_| closed)).collect()
+}
