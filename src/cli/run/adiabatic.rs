@@ -7,8 +7,9 @@
 use crate::cli::interrupt::Interrupt;
 use crate::cli::report::Invariant;
 use crate::diagnostic::Document;
+use crate::ensemble::Start;
 use crate::model::{Model, Ramp};
-use crate::orbits::{ActionRow, Start};
+use crate::orbits::ActionRow;
 use crate::system::{Form, InitialOverride, State, System};
 
 /// The action is an adiabatic invariant if it changes by less than this part of the change of the parameter.
