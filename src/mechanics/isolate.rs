@@ -31,7 +31,7 @@ pub(super) fn solve(
     accept: &mut dyn FnMut(&mut Pool, &Solution) -> bool,
 ) -> Option<Solution> {
     let mut search = Search { wanted: unknowns.to_vec(), budget: BUDGET, accept };
-    search.step(pool, equations.to_vec(), unknowns.to_vec(), Vec::new())
+    search.step(pool, equations.to_vec(), unknowns, Vec::new())
 }
 
 struct Search<'a> {
@@ -46,14 +46,14 @@ impl Search<'_> {
         &mut self,
         pool: &mut Pool,
         mut equations: Vec<Expr>,
-        unknowns: Vec<Symbol>,
+        unknowns: &[Symbol],
         found: Solution,
     ) -> Option<Solution> {
         if self.budget == 0 || pool.is_full() || pool.cancel().is_cancelled() {
             return None;
         }
         self.budget -= 1;
-        equations.retain(|&e| pool.depends_on_any(e, &unknowns));
+        equations.retain(|&e| pool.depends_on_any(e, unknowns));
         if unknowns.is_empty() {
             let wanted = self.wanted.clone();
             let solution: Solution =
@@ -73,28 +73,33 @@ impl Search<'_> {
         single.sort_unstable();
         for (_, k, unknown) in single {
             for value in isolate(pool, equations[k], unknown) {
-                let next = self.with(pool, &equations, &unknowns, &found, k, (unknown, value));
+                let next = self.with(pool, &equations, unknowns, &found, k, (unknown, value));
                 if next.is_some() {
                     return next;
                 }
             }
         }
-        if let Some((rows, values)) = linear_part(pool, &equations, &unknowns) {
+        if let Some((rows, values)) = linear_part(pool, &equations, unknowns) {
             let rest = equations.iter().enumerate().filter(|(k, _)| !rows.contains(k));
             let mut rest: Vec<Expr> = rest.map(|(_, &e)| e).collect();
             let map: HashMap<Symbol, Expr> = values.iter().copied().collect();
-            rest.iter_mut().for_each(|e| *e = tidy(pool, *e, &map));
+            for e in &mut rest {
+                *e = tidy(pool, *e, &map);
+            }
             let mut found: Solution = found.clone();
-            found.iter_mut().for_each(|(_, e)| *e = tidy(pool, *e, &map));
+            for (_, e) in &mut found {
+                *e = tidy(pool, *e, &map);
+            }
             found.extend(values);
-            let left = unknowns.iter().copied().filter(|s| !map.contains_key(s)).collect();
-            if let Some(solution) = self.step(pool, rest, left, found) {
+            let left: Vec<Symbol> =
+                unknowns.iter().copied().filter(|s| !map.contains_key(s)).collect();
+            if let Some(solution) = self.step(pool, rest, &left, found) {
                 return Some(solution);
             }
         }
         // y = s sin c, x = s cos c in place of atan2(y, x) = c
         for (k, &e) in equations.iter().enumerate() {
-            let Some((y, x, angle)) = angle_of_two(pool, e, &unknowns) else { continue };
+            let Some((y, x, angle)) = angle_of_two(pool, e, unknowns) else { continue };
             let s = pool.symbol("common factor of sine and cosine");
             if unknowns.contains(&s) {
                 continue;
@@ -107,8 +112,8 @@ impl Search<'_> {
                 let part = pool.mul(factor, part);
                 equations.push(pool.sub(side, part));
             }
-            let unknowns = [&unknowns[..], &[s]].concat();
-            if let Some(solution) = self.step(pool, equations, unknowns, found.clone()) {
+            let unknowns = [unknowns, &[s]].concat();
+            if let Some(solution) = self.step(pool, equations, &unknowns, found.clone()) {
                 return Some(solution);
             }
         }
@@ -116,7 +121,7 @@ impl Search<'_> {
         for k in 0..equations.len() {
             for unknown in of(pool, equations[k]) {
                 for value in isolate(pool, equations[k], unknown) {
-                    let next = self.with(pool, &equations, &unknowns, &found, k, (unknown, value));
+                    let next = self.with(pool, &equations, unknowns, &found, k, (unknown, value));
                     if next.is_some() {
                         return next;
                     }
@@ -144,12 +149,16 @@ impl Search<'_> {
         let map = HashMap::from([(unknown, value)]);
         let mut rest = equations.to_vec();
         rest.remove(used);
-        rest.iter_mut().for_each(|e| *e = tidy(pool, *e, &map));
+        for e in &mut rest {
+            *e = tidy(pool, *e, &map);
+        }
         let mut found: Solution = found.clone();
-        found.iter_mut().for_each(|(_, e)| *e = tidy(pool, *e, &map));
+        for (_, e) in &mut found {
+            *e = tidy(pool, *e, &map);
+        }
         found.push((unknown, value));
-        let left = unknowns.iter().copied().filter(|&s| s != unknown).collect();
-        self.step(pool, rest, left, found)
+        let left: Vec<Symbol> = unknowns.iter().copied().filter(|&s| s != unknown).collect();
+        self.step(pool, rest, &left, found)
     }
 }
 
