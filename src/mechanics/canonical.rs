@@ -408,12 +408,16 @@ impl PhaseMap {
         }
         let proved = all.iter().all(|(_, zero)| *zero == Zero::Proved);
         let refuted = all.iter().any(|(_, zero)| *zero == Zero::No);
-        verdict.proved = proved || refuted;
-        verdict.canonical = proved || (verdict.canonical && !refuted);
-        if verdict.canonical {
+        if proved {
+            (verdict.canonical, verdict.proved) = (true, true);
             return;
         }
         verdict.valence = self.valence(pool, &all);
+        if verdict.canonical {
+            // at the file's values of the parameters
+            return;
+        }
+        verdict.proved = refuted;
         let wrong = |zero: Zero| if refuted { zero == Zero::No } else { zero != Zero::Proved };
         verdict.failing =
             all.into_iter().filter(|(_, zero)| wrong(*zero)).map(|(bracket, _)| bracket).collect();
