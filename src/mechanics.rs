@@ -28,6 +28,7 @@ mod new_hamiltonian;
 mod observe;
 mod poisson;
 mod poisson_structure;
+mod rearrange;
 mod report;
 mod rigid_body;
 mod sampling;

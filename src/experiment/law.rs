@@ -46,7 +46,7 @@ impl EnergyLaw {
         let mut cause = present().map(|term| term.1).collect::<Vec<_>>().join(", ");
         if cause.is_empty() {
             // along the flow of another generator
-            cause = "[H,G] is not 0".to_owned();
+            "[H,G] is not 0".clone_into(&mut cause);
         }
         let mut rate = equations.pool.unicode(equations.energy_rate);
         if rate.chars().count() > LONGEST {

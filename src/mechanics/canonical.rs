@@ -284,7 +284,7 @@ impl PhaseMap {
             if !left.iter().all(|x| x.is_finite()) {
                 return None;
             }
-            let step = self.matrix(pool, &self.by_new, &at).full_piv_lu().solve(&left)?;
+            let step = matrix_at(pool, &self.by_new, &at).full_piv_lu().solve(&left)?;
             let (mut part, mut moved) = (1.0, None);
             for _ in 0..12 {
                 let values =
@@ -312,14 +312,10 @@ impl PhaseMap {
         (self.holds(pool, &at) == Some(true)).then_some(at)
     }
 
-    fn matrix(&self, pool: &Pool, of: &[Vec<Expr>], at: &Valuation) -> DMatrix<f64> {
-        DMatrix::from_fn(of.len(), of.len(), |i, j| at.value(pool, of[i][j]))
-    }
-
     /// M = ∂(Q, P)/∂(q, p) at a point with its image; `None` where the map breaks down.
     pub fn tangent(&self, pool: &Pool, at: &Valuation) -> Option<DMatrix<f64>> {
-        let by_old = self.matrix(pool, &self.by_old, at);
-        let tangent = -self.matrix(pool, &self.by_new, at).full_piv_lu().solve(&by_old)?;
+        let by_old = matrix_at(pool, &self.by_old, at);
+        let tangent = -matrix_at(pool, &self.by_new, at).full_piv_lu().solve(&by_old)?;
         tangent.iter().all(|x| x.is_finite()).then_some(tangent)
     }
 
@@ -412,12 +408,16 @@ impl PhaseMap {
         }
         let proved = all.iter().all(|(_, zero)| *zero == Zero::Proved);
         let refuted = all.iter().any(|(_, zero)| *zero == Zero::No);
-        verdict.proved = proved || refuted;
-        verdict.canonical = proved || (verdict.canonical && !refuted);
-        if verdict.canonical {
+        if proved {
+            (verdict.canonical, verdict.proved) = (true, true);
             return;
         }
         verdict.valence = self.valence(pool, &all);
+        if verdict.canonical {
+            // at the file's values of the parameters
+            return;
+        }
+        verdict.proved = refuted;
         let wrong = |zero: Zero| if refuted { zero == Zero::No } else { zero != Zero::Proved };
         verdict.failing =
             all.into_iter().filter(|(_, zero)| wrong(*zero)).map(|(bracket, _)| bracket).collect();
@@ -449,6 +449,10 @@ impl PhaseMap {
         }
         valence.filter(|&c| pool.is_zero(c) == Zero::No)
     }
+}
+
+fn matrix_at(pool: &Pool, of: &[Vec<Expr>], at: &Valuation) -> DMatrix<f64> {
+    DMatrix::from_fn(of.len(), of.len(), |i, j| at.value(pool, of[i][j]))
 }
 
 /// The largest entry of |M 𝕁 Mᵀ − 𝕁|.

@@ -308,7 +308,7 @@ impl Page<'_> {
                 (true, false) => format!("canonical to rounding{residual}"),
                 (false, _) => format!("not canonical{residual}"),
             };
-            self.heading(&format!("Transformation “{name}”: {}", self.words(&judged)));
+            self.heading(&format!("Transformation {name}: {}", self.words(&judged)));
             for (s, e) in known.map.forwards.iter().flatten() {
                 let line = format!("  {} = {}", self.symbol(*s), self.math(*e));
                 self.line(&line);

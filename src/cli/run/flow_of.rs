@@ -48,7 +48,7 @@ pub(super) fn carried(
         stderr::tell(&format!("`{name}` has no column along this flow: {why}"));
     }
     // what suits the motion need not suit the generator
-    model.run.method = "auto".to_owned();
+    "auto".clone_into(&mut model.run.method);
     model.run.method_place = None;
     model.run.step = None;
     Ok(Carried { derived: Derived { model, equations }, columns, given })

@@ -83,7 +83,7 @@ fn the_change_of_the_action_follows_the_smoothness_of_the_ramp() {
 
 fn gauge(found: &Value) -> Value {
     let all = found["invariants"].as_array().unwrap().iter();
-    all.filter(|one| one["name"] == "action variable").cloned().next().unwrap_or(Value::Null)
+    all.cloned().find(|one| one["name"] == "action variable").unwrap_or(Value::Null)
 }
 
 #[test]
