@@ -9,7 +9,7 @@ mod reference_frame;
 mod scene;
 mod solid;
 
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 
 use super::canvas::Canvas;
 use super::kept::{self, Kept, Track, TrailKey};
@@ -83,10 +83,14 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let forces = artist.apparent(seen.map_or(&[], Vec::as_slice));
     artist.raster.draw(canvas.buffer);
     for (tip, label) in std::mem::take(&mut artist.labels) {
-        if let Some(at) = artist.frame.cell(tip).filter(|at| at.x + 1 < area.right()) {
-            let at = ratatui::layout::Position { x: at.x + 1, ..at };
-            canvas.write(at, area.right() - at.x, &label, canvas.style(Role::Accent));
-        }
+        let Some(at) = artist.frame.cell(tip) else { continue };
+        // Where there is no room beside the tip the label is above it.
+        let (x, y) = if at.x + 1 < area.right() {
+            (at.x + 1, at.y)
+        } else {
+            (at.x, at.y.saturating_sub(1).max(area.y))
+        };
+        canvas.write(Position { x, y }, area.right() - x, &label, canvas.style(Role::Accent));
     }
     legend(canvas, area, &forces);
     if eye.pitch < std::f64::consts::FRAC_PI_2 {
@@ -143,8 +147,9 @@ impl ScenePainter<'_> {
                 let (foot, along) = (self.point(at), self.direction(components));
                 let pen = Pen::new(theme[Role::Accent], SOLID);
                 self.arrow(foot, along, &pen);
-                if !label.is_empty() {
-                    let tip = self.flat([0, 1, 2].map(|k| foot[k] + along[k]));
+                let tip = [0, 1, 2].map(|k| foot[k] + along[k]);
+                if !label.is_empty() && !self.depth.hides_point(self.camera.project(tip)) {
+                    let tip = self.flat(tip);
                     self.labels.push((tip, self.q.look.glyphs.text(label).into_owned()));
                 }
             }
