@@ -4,6 +4,7 @@
 
 mod annotation;
 mod body;
+mod circle;
 mod colours;
 mod reference_frame;
 mod scene;
@@ -135,7 +136,7 @@ impl ScenePainter<'_> {
             }
             Shape::Circle { centre, radius, normal } => {
                 let (centre, normal) = (self.point(centre), self.direction(normal));
-                let rim = scene::circle(centre, self.q.number(*radius), normal);
+                let rim = circle::circle(centre, self.q.number(*radius), normal);
                 self.curve(&rim, &solid);
             }
             Shape::Mass { at, radius } => {
@@ -155,18 +156,18 @@ impl ScenePainter<'_> {
             }
             Shape::Disc { centre, radius, normal } => {
                 let (centre, normal) = (self.point(centre), self.direction(normal));
-                let rim = scene::circle(centre, self.q.number(*radius), normal);
+                let rim = circle::circle(centre, self.q.number(*radius), normal);
                 self.curve(&rim, &solid);
             }
             Shape::Cone { tip, base, radius } => {
                 let (tip, base) = (self.point(tip), self.point(base));
                 let axis = [0, 1, 2].map(|k| base[k] - tip[k]);
-                let rim = scene::circle(base, self.q.number(*radius), axis);
+                let rim = circle::circle(base, self.q.number(*radius), axis);
                 self.curve(&rim, &solid);
             }
             Shape::Sphere { centre, radius } => {
                 let centre = self.point(centre);
-                let outline = scene::circle(centre, self.q.number(*radius), self.camera.towards());
+                let outline = circle::circle(centre, self.q.number(*radius), self.camera.towards());
                 let flat: Vec<_> = outline.iter().map(|point| self.flat(*point)).collect();
                 self.raster.polyline(&self.frame, flat, &ground);
             }
@@ -178,7 +179,7 @@ impl ScenePainter<'_> {
             Shape::Plane { at, normal, size } => {
                 let (at, normal) = (self.point(at), self.direction(normal));
                 let edge = self.q.number(*size);
-                let corners = scene::square(at, normal, edge);
+                let corners = circle::square(at, normal, edge);
                 self.curve(&corners, &ground);
             }
         }
@@ -278,7 +279,7 @@ impl ScenePainter<'_> {
         let (pen, solids) = match shape {
             Shape::Disc { centre, radius, normal } => {
                 let (centre, normal) = (self.point(centre), self.direction(normal));
-                let rim = scene::circle(centre, self.q.number(*radius), normal);
+                let rim = circle::circle(centre, self.q.number(*radius), normal);
                 (faint, vec![Solid::Face(rim)])
             }
             Shape::Cone { tip, base, radius } => {
