@@ -4,12 +4,13 @@
 
 mod annotation;
 mod body;
+mod circle;
 mod colours;
 mod reference_frame;
 mod scene;
 mod solid;
 
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
 
 use super::canvas::Canvas;
 use super::kept::{self, Kept, Track, TrailKey};
@@ -83,10 +84,14 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let forces = artist.apparent(seen.map_or(&[], Vec::as_slice));
     artist.raster.draw(canvas.buffer);
     for (tip, label) in std::mem::take(&mut artist.labels) {
-        if let Some(at) = artist.frame.cell(tip).filter(|at| at.x + 1 < area.right()) {
-            let at = ratatui::layout::Position { x: at.x + 1, ..at };
-            canvas.write(at, area.right() - at.x, &label, canvas.style(Role::Accent));
-        }
+        let Some(at) = artist.frame.cell(tip) else { continue };
+        // Where there is no room beside the tip the label is above it.
+        let (x, y) = if at.x + 1 < area.right() {
+            (at.x + 1, at.y)
+        } else {
+            (at.x, at.y.saturating_sub(1).max(area.y))
+        };
+        canvas.write(Position { x, y }, area.right() - x, &label, canvas.style(Role::Accent));
     }
     legend(canvas, area, &forces);
     if eye.pitch < std::f64::consts::FRAC_PI_2 {
@@ -131,7 +136,7 @@ impl ScenePainter<'_> {
             }
             Shape::Circle { centre, radius, normal } => {
                 let (centre, normal) = (self.point(centre), self.direction(normal));
-                let rim = scene::circle(centre, self.q.number(*radius), normal);
+                let rim = circle::circle(centre, self.q.number(*radius), normal);
                 self.curve(&rim, &solid);
             }
             Shape::Mass { at, radius } => {
@@ -143,25 +148,26 @@ impl ScenePainter<'_> {
                 let (foot, along) = (self.point(at), self.direction(components));
                 let pen = Pen::new(theme[Role::Accent], SOLID);
                 self.arrow(foot, along, &pen);
-                if !label.is_empty() {
-                    let tip = self.flat([0, 1, 2].map(|k| foot[k] + along[k]));
+                let tip = [0, 1, 2].map(|k| foot[k] + along[k]);
+                if !label.is_empty() && !self.depth.hides_point(self.camera.project(tip)) {
+                    let tip = self.flat(tip);
                     self.labels.push((tip, self.q.look.glyphs.text(label).into_owned()));
                 }
             }
             Shape::Disc { centre, radius, normal } => {
                 let (centre, normal) = (self.point(centre), self.direction(normal));
-                let rim = scene::circle(centre, self.q.number(*radius), normal);
+                let rim = circle::circle(centre, self.q.number(*radius), normal);
                 self.curve(&rim, &solid);
             }
             Shape::Cone { tip, base, radius } => {
                 let (tip, base) = (self.point(tip), self.point(base));
                 let axis = [0, 1, 2].map(|k| base[k] - tip[k]);
-                let rim = scene::circle(base, self.q.number(*radius), axis);
+                let rim = circle::circle(base, self.q.number(*radius), axis);
                 self.curve(&rim, &solid);
             }
             Shape::Sphere { centre, radius } => {
                 let centre = self.point(centre);
-                let outline = scene::circle(centre, self.q.number(*radius), self.camera.towards());
+                let outline = circle::circle(centre, self.q.number(*radius), self.camera.towards());
                 let flat: Vec<_> = outline.iter().map(|point| self.flat(*point)).collect();
                 self.raster.polyline(&self.frame, flat, &ground);
             }
@@ -173,7 +179,7 @@ impl ScenePainter<'_> {
             Shape::Plane { at, normal, size } => {
                 let (at, normal) = (self.point(at), self.direction(normal));
                 let edge = self.q.number(*size);
-                let corners = scene::square(at, normal, edge);
+                let corners = circle::square(at, normal, edge);
                 self.curve(&corners, &ground);
             }
         }
@@ -273,7 +279,7 @@ impl ScenePainter<'_> {
         let (pen, solids) = match shape {
             Shape::Disc { centre, radius, normal } => {
                 let (centre, normal) = (self.point(centre), self.direction(normal));
-                let rim = scene::circle(centre, self.q.number(*radius), normal);
+                let rim = circle::circle(centre, self.q.number(*radius), normal);
                 (faint, vec![Solid::Face(rim)])
             }
             Shape::Cone { tip, base, radius } => {

@@ -2,7 +2,7 @@
 //!
 //! In: points in space, radii. Out: flat convex faces, balls. Never here: the camera, or colours.
 
-use super::scene::circle;
+use super::circle::circle;
 
 /// What hides the things behind it.
 #[derive(Clone, Debug)]
