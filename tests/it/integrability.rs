@@ -27,7 +27,9 @@ pub(crate) fn hamiltonian(coordinates: &[&str], parameters: &[(&str, f64)], h: &
     }
     if !parameters.is_empty() {
         text.push_str("[parameters]\n");
-        parameters.iter().for_each(|(name, value)| text.push_str(&format!("{name} = {value}\n")));
+        for (name, value) in parameters {
+            text.push_str(&format!("{name} = {value}\n"));
+        }
     }
     model(&format!("{text}[hamiltonian]\nH = \"{h}\"\n"))
 }

@@ -73,7 +73,9 @@ fn a_node_is_stored_with_what_a_walk_would_find() {
 fn several_roots_are_walked_as_one() {
     let (pool, all) = pool_of_many(0);
     let mut nodes = BTreeSet::new();
-    all.iter().for_each(|&e| below(&pool, e, &mut nodes));
+    for &e in &all {
+        below(&pool, e, &mut nodes);
+    }
     assert_eq!(pool.reachable(&all), nodes.into_iter().collect::<Vec<_>>());
     assert_eq!(pool.reachable(&[]), Vec::<Expr>::new());
 }

@@ -106,13 +106,13 @@ fn what_outgrows_reading_is_not_attempted_and_the_reason_is_true() {
 
 #[test]
 fn the_forms_are_the_same_whoever_asks_first() {
+    type Ask = fn(&mut Equations) -> bool;
     let l = "a'^2 + b'^2/2 + a'*b'*cos(a - b) + 2*cos(a) + cos(b)";
     let model = lagrangian(&["a", "b"], &[], l);
     let full = mechanics::derive(&model).expect("derivable");
     let text = |e: &Equations, all: &[phaselab::expr::Expr]| -> Vec<String> {
         all.iter().map(|&x| e.pool.text(x)).collect()
     };
-    type Ask = fn(&mut Equations) -> bool;
     let first: [Ask; 4] = [
         |e| e.separable().is_err(),
         |e| e.velocities().is_ok(),
