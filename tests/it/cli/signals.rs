@@ -329,7 +329,7 @@ fn every_command_that_computes_is_ended_with_the_code_of_the_signal() {
         &["lyapunov", "double-pendulum", "--until", "1e9"],
         &["flow", "double-pendulum", "--until", "1e9"],
         &["orbit", "pendulum", "--along", "energy=-9:9:10000"],
-        &["equilibria", "triple-pendulum"],
+        &["equilibria", "double-pendulum"],
         &["invariants", "henon-heiles", "--degree", "12"],
         &["symmetries", "heavy-top", "--budget", "1e9"],
         &["record", "double-pendulum", "--script", "long.demo"],

@@ -109,6 +109,7 @@ type Ask = fn(&mut Equations) -> bool;
 
 #[test]
 fn the_forms_are_the_same_whoever_asks_first() {
+    type Ask = fn(&mut Equations) -> bool;
     let l = "a'^2 + b'^2/2 + a'*b'*cos(a - b) + 2*cos(a) + cos(b)";
     let model = lagrangian(&["a", "b"], &[], l);
     let full = mechanics::derive(&model).expect("derivable");
