@@ -82,8 +82,8 @@ fn the_change_of_the_action_follows_the_smoothness_of_the_ramp() {
 }
 
 fn gauge(found: &Value) -> Value {
-    let all = found["invariants"].as_array().unwrap().iter();
-    all.cloned().find(|one| one["name"] == "action variable").unwrap_or(Value::Null)
+    let mut all = found["invariants"].as_array().unwrap().iter();
+    all.find(|one| one["name"] == "action variable").cloned().unwrap_or(Value::Null)
 }
 
 #[test]

@@ -104,9 +104,6 @@ fn what_outgrows_reading_is_not_attempted_and_the_reason_is_true() {
     assert_eq!(solved.len(), 5);
 }
 
-/// A question to equations, and whether it was answered.
-type Ask = fn(&mut Equations) -> bool;
-
 #[test]
 fn the_forms_are_the_same_whoever_asks_first() {
     type Ask = fn(&mut Equations) -> bool;
