@@ -88,9 +88,12 @@ impl System {
             legendre
                 .solve(time, &mut state, &targets)
                 .map_err(|why| self.unsolved(why, time.high, &state))?;
-            let solutions = legendre.solutions(time, &state, &targets);
-            if solutions.len() > 1 {
-                return Err(self.several(time.high, &solutions, &targets));
+            // p is linear in the velocities of an L that is quadratic in them
+            if self.form() != Form::Velocity || !self.discontinuities().is_quadratic() {
+                let solutions = legendre.solutions(time, &state, &targets);
+                if solutions.len() > 1 {
+                    return Err(self.several(time.high, &solutions, &targets));
+                }
             }
         }
         let state = self.state_of(time, self.form(), &state);

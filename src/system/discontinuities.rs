@@ -102,6 +102,11 @@ pub struct ImpulseOutcome {
 }
 
 impl Discontinuities {
+    /// Whether L is quadratic in the velocities.
+    pub(super) fn is_quadratic(&self) -> bool {
+        self.quadratic
+    }
+
     pub(super) fn of(
         model: &Model,
         builder: &mut ProgramBuilder<'_>,

@@ -266,7 +266,8 @@ impl Legendre {
     }
 
     /// Returns all solutions that can be found if one is known, which is in `state` and comes
-    /// first. The search starts far from it along one of the numbers, and with all signs changed.
+    /// first. The search starts far from it along one of the unknown numbers, and with the signs of
+    /// all of them changed.
     pub(super) fn solutions(
         &mut self,
         time: DoubleDouble,
@@ -289,7 +290,9 @@ impl Legendre {
             }
         }
         let mut turned = first.clone();
-        turned[n..].iter_mut().for_each(|x| *x = -*x);
+        for &i in &unknown {
+            turned[n + i] = -turned[n + i];
+        }
         starts.push(turned);
         let mut found = vec![first];
         for start in starts {

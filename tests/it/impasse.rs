@@ -191,3 +191,19 @@ fn a_single_momentum_is_solved_for_however_far_its_velocity() {
         assert!(error < 1e-11, "{kinetic}: {} for {velocity}", state.values[1]);
     }
 }
+
+/// A velocity that is given beside the momentum of another coordinate is not turned in the search for further starts.
+#[test]
+fn a_velocity_beside_a_momentum_gives_one_start() {
+    // p_y = y' + x', where x' is given and L is quadratic or not
+    for further in ["", " + x'^3/10"] {
+        let coupled = format!(
+            "title = 'coupled'\n[coordinates]\nx = {{ initial = 0 }}\ny = {{ initial = 0 }}\n[lagrangian]\n\
+             L = \"1/2*(x'^2 + y'^2) + x'*y'/2{further}\"\n"
+        );
+        let given = ["--init", "x'=1", "--init", "p_y=0.25", "--at", "0", "--until", "1"];
+        let told = with_file(&coupled, &[&["run", "system.toml"][..], &given].concat()).text();
+        let row = told.lines().find(|line| line.starts_with("0.0,")).expect(&told);
+        assert!(row.starts_with("0.0,0.0,0.0,1.0,-0.25,"), "{told}");
+    }
+}
