@@ -54,8 +54,8 @@ pub use invariants::{casimir_rate, is_changed_by_impulse};
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
 pub use poisson_structure::flaws;
 pub use report::{
-    BodyNumbers, BodyReport, Constant, Constrained, Further, GeneratorReport, ImpulseReport, Kept,
-    Left, Line, Reaction, Report, TransformationReport,
+    BodyNumbers, BodyReport, ConservedReport, Constant, Constrained, Further, GeneratorReport,
+    ImpulseReport, Left, Line, Reaction, Report, TransformationReport,
 };
 pub use rigid_body::{
     COMPONENTS, RigidBody, Tensor, body_constants, body_values, matrix, principal,

@@ -4,20 +4,20 @@
 //! In: arguments. Out: a system at a state, with a method; an object or a text, written. Never
 //! here: what is computed.
 
-use std::ffi::OsString;
 use std::io::Write;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use clap::ValueEnum;
 use serde_json::{Map, Value};
 
-use super::assignment::{self, Assignment, number, tolerance};
+use super::assignment::{self, Assignment};
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
+use super::motion_options::{Laid, MotionOptions};
 use super::output::{Form, Output};
-use super::{open, run};
+use super::run;
 use crate::dynamics::{DynamicsError, PhaseSpace};
-use crate::experiment::{Derived, choose_method};
 use crate::integrate::{Method, Settings};
 use crate::model::Model;
 use crate::num::DoubleDouble;
@@ -26,25 +26,8 @@ use crate::system::{InitialOverride, State};
 /// The arguments of each of these commands.
 #[derive(Debug, clap::Args)]
 pub(super) struct StudyArguments {
-    /// A preset's name, or a file.
-    #[arg(value_name = "PRESET|FILE")]
-    name: OsString,
-    /// Sets a parameter.
-    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
-    set: Vec<Assignment>,
-    /// Sets an initial value: a coordinate `x`, a velocity `x'` or a momentum `p_x`.
-    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
-    init: Vec<Assignment>,
-    /// The integrator, a name out of `phaselab methods`.
-    #[arg(long, value_name = "NAME")]
-    method: Option<String>,
-    /// The step of an integrator of fixed step.
-    #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = number)]
-    step: Option<f64>,
-    /// The relative tolerance of an integrator that chooses its steps: a number, `fast` (1e-15, in plain `f64`) or
-    /// `exact` (1e-18, as by default: errors at the last digit shown).
-    #[arg(long, value_name = "EPS", allow_hyphen_values = true, value_parser = tolerance)]
-    tolerance: Option<f64>,
+    #[command(flatten)]
+    motion: MotionOptions,
     /// How it is written.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -65,7 +48,7 @@ pub(super) enum Format {
 
 /// A system to be studied, at a state.
 pub(super) struct Study {
-    pub(super) model: Model,
+    pub(super) model: Arc<Model>,
     pub(super) space: PhaseSpace,
     /// The initial state, in the variables of the space.
     pub(super) start: State,
@@ -79,25 +62,13 @@ impl Study {
         arguments: &StudyArguments,
         interrupt: &Interrupt,
     ) -> Result<Study, CommandError> {
-        let document = open::find(&arguments.name)?;
-        let mut model = open::read(&document)?;
-        let parameters = assignment::parameters(&model, &arguments.set)?;
-        let given = assignment::initial(&model, &parameters, &arguments.init)?;
-        model.run.start = assignment::start(&model, &parameters, &arguments.init)?;
-        let settings = run::settings(arguments.step, arguments.tolerance, &model)?;
-        let mut derived = open::derive(&document, model)?;
-        derived.equations.pool.set_cancel(interrupt.cancel().clone());
-        let system = derived
-            .compile(&[])
-            .map_err(|why| CommandError::WrongFile(format!("{}: {why}", document.path)))?;
-        let Derived { model, equations } = derived;
-        let name = arguments.method.as_deref().unwrap_or(&model.run.method);
-        let method =
-            choose_method(&system, name).map_err(|why| CommandError::WrongUse(why.to_string()))?;
-        run::misplaced(arguments.step, arguments.tolerance, method)?;
-        let space = PhaseSpace::of(&model, &equations, &system, &parameters).map_err(failed)?;
-        let start = system
-            .initial(model.run.start, &parameters, &given)
+        let reading = arguments.motion.read()?;
+        let laid = arguments.motion.compile(reading, &[], "", interrupt)?;
+        let Laid { model, equations, system, start, method, settings } = laid;
+        let space =
+            PhaseSpace::of(&model, &equations, &system, &start.parameters).map_err(failed)?;
+        let start = start
+            .state(&system)
             .and_then(|state| space.state(&state))
             .map_err(|fault| CommandError::CouldNot(fault.to_string()))?;
         Ok(Study { model, space, start, method, settings })

@@ -80,27 +80,27 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
 /// the kinetic energy couples to it, and under constraints, whose reactions are impulses too, all of them.
 pub fn is_changed_by_impulse(equations: &mut Equations, model: &Model, quantity: Expr) -> bool {
     let n = equations.coordinates.len();
-    let struck: Vec<bool> = (0..n)
+    let changed: Vec<bool> = (0..n)
         .map(|i| model.impulses.iter().any(|impulse| impulse.change[i] != Expr::ZERO))
         .collect();
-    if !struck.contains(&true) {
+    if !changed.contains(&true) {
         return false;
     }
     let energy = equations.symbols.energy;
     if model.is_poisson() {
         let variables = equations.coordinates.iter().map(|c| c.position);
         let moved: Vec<Symbol> =
-            variables.zip(&struck).filter(|(_, struck)| **struck).map(|(s, _)| s).collect();
+            variables.zip(&changed).filter(|(_, changed)| **changed).map(|(s, _)| s).collect();
         return equations.pool.depends_on_any(quantity, &moved)
             || equations.pool.depends(quantity, energy);
     }
     let constrained = !model.constraints.is_empty();
     let quantity = if equations.is_lagrangian() { quantity } else { equations.open(quantity) };
-    if !constrained && (0..n).any(|i| !struck[i] && equations.momenta[i] == quantity) {
+    if !constrained && (0..n).any(|i| !changed[i] && equations.momenta[i] == quantity) {
         return false;
     }
-    // the velocities that the kinetic energy couples to a momentum that is struck
-    let mut coupled = struck.clone();
+    // the velocities that the kinetic energy couples to a momentum that an impulse changes
+    let mut coupled = changed.clone();
     let depends = |i: usize, j: usize| {
         equations.pool.depends(equations.momenta[i], equations.coordinates[j].velocity)
     };
@@ -119,7 +119,7 @@ pub fn is_changed_by_impulse(equations: &mut Equations, model: &Model, quantity:
     }
     let mut moved = vec![energy];
     for (i, c) in equations.coordinates.iter().enumerate() {
-        if struck[i] || constrained {
+        if changed[i] || constrained {
             moved.push(c.momentum);
         }
         if coupled[i] || constrained {

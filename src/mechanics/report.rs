@@ -101,7 +101,7 @@ pub enum Constant<'a> {
 
 /// A conserved quantity.
 #[derive(Clone, Copy, Debug)]
-pub struct Kept<'a> {
+pub struct ConservedReport<'a> {
     /// Its kind.
     pub constant: Constant<'a>,
     /// The quantity as a function of the state.
@@ -179,7 +179,7 @@ pub struct Report<'a> {
     /// The cyclic coordinates.
     pub cyclic: Vec<Symbol>,
     /// The conserved quantities, each with its reason.
-    pub conserved: Vec<Kept<'a>>,
+    pub conserved: Vec<ConservedReport<'a>>,
 }
 
 impl<'a> Report<'a> {
@@ -374,7 +374,7 @@ fn reactions<'e>(
     acting.map(|(c, &factor)| Reaction { on: c.position, factor, multiplier: row.multiplier })
 }
 
-fn conserved<'a>(model: &Model, equations: &'a Equations) -> Vec<Kept<'a>> {
+fn conserved<'a>(model: &Model, equations: &'a Equations) -> Vec<ConservedReport<'a>> {
     let all = equations.conserved.iter().map(|conserved| {
         let name = conserved.name.as_str();
         let mut coordinates = model.coordinates.iter();
@@ -385,7 +385,7 @@ fn conserved<'a>(model: &Model, equations: &'a Equations) -> Vec<Kept<'a>> {
             None if conserved.reason == Reason::Casimir => Constant::Casimir(name),
             None => Constant::Other(name),
         };
-        Kept { constant, expression: conserved.expression, reason: &conserved.reason }
+        ConservedReport { constant, expression: conserved.expression, reason: &conserved.reason }
     });
     all.collect()
 }

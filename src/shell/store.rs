@@ -47,7 +47,7 @@ pub(super) struct Store {
 
 /// The format of the file of texts.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
-struct Kept {
+struct UnsavedTexts {
     version: u32,
     phaselab: String,
     texts: Vec<Unsaved>,
@@ -352,7 +352,7 @@ fn put_aside(path: &Path) -> Option<PathBuf> {
 /// Serializes texts into the contents of their file.
 fn form(texts: &[Unsaved]) -> io::Result<String> {
     let phaselab = env!("CARGO_PKG_VERSION").to_owned();
-    let form = Kept { version: TEXTS_VERSION, phaselab, texts: texts.to_vec() };
+    let form = UnsavedTexts { version: TEXTS_VERSION, phaselab, texts: texts.to_vec() };
     toml::to_string_pretty(&form).map_err(io::Error::other)
 }
 
@@ -366,7 +366,7 @@ fn read_from(path: &Path) -> Result<Saved, SessionError> {
 }
 
 fn read_texts(path: &Path) -> Result<Vec<Unsaved>, SessionError> {
-    read_form(path, TEXTS_VERSION).map(|form: Kept| form.texts)
+    read_form(path, TEXTS_VERSION).map(|form: UnsavedTexts| form.texts)
 }
 
 fn read_form<T: DeserializeOwned>(path: &Path, version: u32) -> Result<T, SessionError> {
