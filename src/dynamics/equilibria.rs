@@ -21,17 +21,22 @@ use crate::system::{Form, MotionErrorKind, State};
 const BEGINNINGS: usize = 600;
 const STEPS: usize = 60;
 
-/// How far around its centre a coordinate without period is searched, in its size there plus 1.
+/// How far around its centre a coordinate without period is searched, in its size there plus its
+/// unit.
 const RADII: [f64; 3] = [0.5, 1.5, 4.0];
 
 /// A rate counts as zero up to this part of what the variables can cause.
 const ZERO: f64 = 1e-12;
 
-/// Two places are the same up to this distance relative to their size plus 1.
+/// Two places are the same up to this distance relative to their size plus their unit.
 const SAME: f64 = 1e-7;
 
 /// An eigenvalue counts as zero up to this part of the largest.
 const VANISHES: f64 = 1e-8;
+
+/// A coordinate whose start is smaller or larger than 1 by no more than this factor has the unit 1, any
+/// other one the size of its start; the units of momenta follow.
+const ORDINARY: f64 = 1e3;
 
 /// The largest number of equilibria.
 const MOST: usize = 100;
@@ -138,6 +143,8 @@ struct Search<'a> {
     cyclic: Vec<usize>,
     /// The number of coordinates, or of the variables of brackets.
     degrees: usize,
+    /// The unit of each variable.
+    units: Vec<f64>,
 }
 
 impl<'a> Search<'a> {
@@ -146,7 +153,9 @@ impl<'a> Search<'a> {
         let canonical = space.form() == Form::Momentum;
         let cyclic = if canonical { space.cyclic().to_vec() } else { Vec::new() };
         let resting = (0..space.dimension()).filter(|i| !cyclic.contains(&(i % degrees))).collect();
-        Search { space, start, field: space.vector_field(), resting, cyclic, degrees }
+        let mut field = space.vector_field();
+        let units = units(space, start, &mut field);
+        Search { space, start, field, resting, cyclic, degrees, units }
     }
 
     /// The variables at which a search begins: the start itself, then places around it.
@@ -162,11 +171,24 @@ impl<'a> Search<'a> {
                 let centre = variables[i];
                 variables[i] += match self.space.periods()[i] {
                     Some(period) => (part - 0.5) * period,
-                    None => (2.0 * part - 1.0) * radius * (1.0 + centre.abs()),
+                    None => (2.0 * part - 1.0) * radius * (self.units[i] + centre.abs()),
                 };
             }
         }
         variables
+    }
+
+    /// The same in the units of the variables.
+    fn look_in_units(&mut self, variables: &[f64]) -> Option<(DVector<f64>, DMatrix<f64>)> {
+        let (mut f, mut df) = self.look(variables)?;
+        let unit = |k: usize| self.units[self.resting[k]];
+        for i in 0..f.len() {
+            f[i] /= unit(i);
+            for j in 0..f.len() {
+                df[(i, j)] *= unit(j) / unit(i);
+            }
+        }
+        Some((f, df))
     }
 
     /// f and ∂f/∂z of the resting variables.
@@ -185,13 +207,14 @@ impl<'a> Search<'a> {
         if self.resting.is_empty() {
             return None;
         }
-        let (mut f, mut df) = self.look(&variables)?;
+        let (mut f, mut df) = self.look_in_units(&variables)?;
         let mut settled = 0;
         for _ in 0..STEPS {
             if self.space.system().cancel().is_cancelled() {
                 return None;
             }
-            let size = self.resting.iter().map(|&i| variables[i].abs()).fold(1.0, f64::max);
+            let sizes = self.resting.iter().map(|&i| (variables[i] / self.units[i]).abs());
+            let size = sizes.fold(1.0, f64::max);
             if f.amax() <= ZERO * size * df.amax() {
                 settled += 1;
                 if settled > 2 {
@@ -203,9 +226,9 @@ impl<'a> Search<'a> {
             let next = loop {
                 let mut there = variables.clone();
                 for (k, &i) in self.resting.iter().enumerate() {
-                    there[i] += part * step[k];
+                    there[i] += part * step[k] * self.units[i];
                 }
-                match self.look(&there) {
+                match self.look_in_units(&there) {
                     Some((g, dg)) if settled > 0 || g.norm() < f.norm() => {
                         break Some((there, g, dg));
                     }
@@ -227,12 +250,12 @@ impl<'a> Search<'a> {
                 let turns = ((variables[i] - start[i]) / period).round();
                 variables[i] -= turns * period;
             }
-            let far = RADII[RADII.len() - 1] * (1.0 + start[i].abs());
+            let far = RADII[RADII.len() - 1] * (self.units[i] + start[i].abs());
             if i < self.degrees && (variables[i] - start[i]).abs() > far {
                 return None;
             }
             // a zero but for rounding
-            if variables[i].abs() < 1e-14 {
+            if variables[i].abs() < 1e-14 * self.units[i] {
                 variables[i] = 0.0;
             }
         }
@@ -249,7 +272,7 @@ impl<'a> Search<'a> {
             if let Some(period) = self.space.periods()[i] {
                 apart -= (apart / period).round() * period;
             }
-            apart.abs() <= SAME * (1.0 + a[i].abs())
+            apart.abs() <= SAME * (self.units[i] + a[i].abs())
         })
     }
 
@@ -306,6 +329,37 @@ impl<'a> Search<'a> {
         }
         modes
     }
+}
+
+/// The unit of each variable: that of a momentum makes the forces that move it as large, in one oscillation, as the
+/// velocity that it causes.
+fn units(space: &PhaseSpace, start: &State, field: &mut VectorField) -> Vec<f64> {
+    let ordinary = |x: f64| (1.0 / ORDINARY..=ORDINARY).contains(&x);
+    let variables = space.variables(start);
+    let n = space.dimension();
+    let own = |i: usize| match variables[i].abs() {
+        size if size == 0.0 || ordinary(size) || space.periods()[i].is_some() => 1.0,
+        size => size,
+    };
+    let mut units: Vec<f64> = (0..n).map(own).collect();
+    if space.form() != Form::Momentum {
+        return units;
+    }
+    let degrees = n / 2;
+    units[degrees..].fill(1.0);
+    if field.evaluate(start.time, variables).is_ok() {
+        let derivative = field.derivative();
+        for i in 0..degrees {
+            let stiffness = derivative[(degrees + i, i)].abs();
+            let mobility = derivative[(i, degrees + i)].abs();
+            let impedance = (stiffness / mobility).sqrt();
+            let unit = impedance * units[i];
+            if unit.is_finite() && unit > 0.0 && !ordinary(unit) {
+                units[degrees + i] = unit;
+            }
+        }
+    }
+    units
 }
 
 /// What the effective potential does, from ∂(q̇, ṗ)/∂(q, p).

@@ -133,3 +133,50 @@ fn friction_damps_and_brackets_have_eigenvalues_only() {
     let body = of(&preset("free-rigid-body", &[], &[]));
     assert!(body.iter().all(|one| one.kind.is_none()));
 }
+
+#[test]
+fn units_do_not_change_what_is_found() {
+    // the same pendulum-like well of an atom in SI units and in its own: V = D (1 − e^{−a x})²
+    let well = |mass: f64, depth: f64, rate: f64, start: f64| {
+        let text = format!(
+            "title = \"a well\"\n[coordinates]\nx = {{ initial = {start:e} }}\n[parameters]\nm = {mass:e}\n\
+             D = {depth:e}\na = {rate:e}\n[hamiltonian]\nH = \"p_x^2/(2*m) + D*(1 - exp(-a*x))^2\"\n"
+        );
+        of(&file(&text, &[]))
+    };
+    for (mass, depth, rate, start) in
+        [(1.0, 1.0, 1.0, 0.3), (1.6e-27, 7.2e-19, 1.9e10, 1e-11), (2e30, 1e42, 3e-17, 1e16)]
+    {
+        let found = well(mass, depth, rate, start);
+        let places: Vec<f64> = found.iter().map(|one| one.variables[0]).collect();
+        assert_eq!(found.len(), 1, "{places:?}");
+        assert!(places[0].abs() <= 1e-9 / rate, "{places:?}");
+        assert_eq!((found[0].kind, found[0].stable), (Some(Kind::Minimum), Some(true)));
+        let frequency = rate * (2.0 * depth / mass).sqrt();
+        close(found[0].modes[0].frequency / frequency, 1.0, 1e-10);
+    }
+}
+
+#[test]
+fn two_wells_of_an_atom_are_two() {
+    // V = −k x²/2 + c x⁴/4 with rests at 0 and ±√(k/c) = ±2e-10 m
+    let (k, c) = (1e2_f64, 2.5e21_f64);
+    let text = format!(
+        "title = \"two wells\"\n[coordinates]\nx = {{ initial = 1e-10 }}\n[parameters]\nm = 9.1e-31\n\
+         k = {k:e}\nc = {c:e}\n[hamiltonian]\nH = \"p_x^2/(2*m) - 1/2*k*x^2 + 1/4*c*x^4\"\n"
+    );
+    let mut found = of(&file(&text, &[]));
+    found.sort_by(|a, b| a.variables[0].total_cmp(&b.variables[0]));
+    assert_eq!(found.len(), 3);
+    let well = (k / c).sqrt();
+    for (one, (x, kind)) in
+        found.iter().zip([(-well, Kind::Minimum), (0.0, Kind::Maximum), (well, Kind::Minimum)])
+    {
+        close(one.variables[0], x, 1e-12 * well);
+        assert_eq!(one.kind, Some(kind));
+    }
+    assert_eq!(
+        found.iter().map(|one| one.stable).collect::<Vec<_>>(),
+        [Some(true), Some(false), Some(true)]
+    );
+}
