@@ -35,7 +35,7 @@ pub struct FlowMap {
     pub determinant_expected: f64,
     /// The largest entry of |M𝕁Mᵀ − 𝕁|; `None` if the variables are not canonical.
     pub symplectic_residual: Option<f64>,
-    /// What the rounding of M alone may leave of it: |M|² times that of a number.
+    /// What the rounding of M alone may leave of it.
     pub symplectic_rounding: Option<f64>,
     /// The step or tolerance used.
     pub settings: Settings,
@@ -82,13 +82,13 @@ pub fn flow_map(
     }
     let (state, matrix) = carrier.at(time)?;
     let canonical = space.form() == crate::system::Form::Momentum;
+    let symplectic = canonical.then(|| PhaseSpace::symplectic_residual(&matrix));
     Ok(FlowMap {
         time,
         determinant: matrix.determinant(),
         determinant_expected: math::exp(logarithm),
-        symplectic_residual: canonical.then(|| PhaseSpace::symplectic_residual(&matrix)),
-        symplectic_rounding: canonical
-            .then(|| f64::EPSILON * matrix.norm_squared().max(matrix.nrows() as f64)),
+        symplectic_residual: symplectic.map(|(residual, _)| residual),
+        symplectic_rounding: symplectic.map(|(_, rounding)| rounding),
         state,
         matrix,
         settings: carrier.settings(),

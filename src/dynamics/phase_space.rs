@@ -150,14 +150,20 @@ impl PhaseSpace {
         VectorField::new(self)
     }
 
-    /// The largest entry of |M𝕁Mᵀ − 𝕁|.
-    pub fn symplectic_residual(matrix: &DMatrix<f64>) -> f64 {
+    /// The largest entry of |M𝕁Mᵀ − 𝕁|, and what the rounding of M alone may leave of that entry: ε times its
+    /// entry of |M| |𝕁| |M|ᵀ. Entries of two coordinates, of two momenta and of one of each have units of
+    /// their own.
+    pub fn symplectic_residual(matrix: &DMatrix<f64>) -> (f64, f64) {
         let size = matrix.nrows();
         let n = size / 2;
         let unit = DMatrix::from_fn(size, size, |i, j| {
             f64::from(i8::from(j == i + n) - i8::from(i == j + n))
         });
-        (matrix * &unit * matrix.transpose() - unit).amax()
+        let residual = (matrix * &unit * matrix.transpose() - &unit).abs();
+        let rounding = matrix.abs() * unit.abs() * matrix.abs().transpose() * f64::EPSILON;
+        let largest = residual.amax();
+        let of_the_largest = residual.iter().zip(&rounding).filter(|(entry, _)| **entry == largest);
+        (largest, of_the_largest.map(|(_, &bound)| bound).fold(f64::INFINITY, f64::min))
     }
 }
 

@@ -92,6 +92,18 @@ fn a_map_that_is_not_symplectic_is_told_by_its_residual() {
 }
 
 #[test]
+fn what_rounding_may_leave_has_the_units_of_the_residual() {
+    // an electron on a spring in SI units: M has entries of 1e-15 and 1e15, those of M𝕁Mᵀ with 𝕁 none
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 1e-10 }\n[parameters]\nm = 9.1e-31\nk = 1e2\n\
+                [hamiltonian]\nH = \"p_x^2/(2*m) + 1/2*k*x^2\"\n";
+    let found = map(&file(text, &[]), 2e-16);
+    assert!(found.matrix.amax() > 1e13, "{}", found.matrix);
+    let (residual, rounding) =
+        (found.symplectic_residual.unwrap(), found.symplectic_rounding.unwrap());
+    assert!(residual <= rounding && rounding < 1e-15, "{residual:e} {rounding:e}");
+}
+
+#[test]
 fn what_has_no_derivative_somewhere_is_refused() {
     for (name, why) in
         [("pendulum-rod", "constraints"), ("bouncing-ball", "events"), ("kicked-rotor", "impulses")]
