@@ -40,6 +40,7 @@ mod solve;
 mod state;
 mod tangent;
 mod terms;
+mod underflow;
 mod valuation;
 mod value;
 mod variational;

@@ -11,8 +11,9 @@ use super::compiled::System;
 use super::error::{MotionError, MotionErrorKind};
 use super::growth::{Clock, Halt, SeriesBuilder};
 use super::jet::{Jet, Side};
-use super::program::Program;
+use super::program::{Program, Register};
 use super::state::State;
+use super::underflow;
 use crate::expr::FunctionId;
 use crate::num::{DoubleDouble, ExtendedRange, Kernel, Polynomial, math, polynomial, vectorized};
 
@@ -26,6 +27,7 @@ pub struct Series {
     /// All orders in a wider range, once they were needed.
     wide: Option<Box<SeriesBuilder<ExtendedRange>>>,
     parameters: Vec<DoubleDouble>,
+    underflow_may_count: bool,
     /// The state at the origin.
     origin: Vec<DoubleDouble>,
     time: DoubleDouble,
@@ -46,6 +48,7 @@ impl System {
             high: SeriesBuilder::new(high, inputs, len),
             wide: None,
             parameters: Vec::new(),
+            underflow_may_count: underflow::may_count(program, &[]),
             origin: vec![DoubleDouble::ZERO; len],
             time: DoubleDouble::ZERO,
             scale: 1.0,
@@ -63,6 +66,8 @@ impl Series {
         self.high.jet.set_parameters(parameters);
         self.wide = None;
         self.parameters = parameters.to_vec();
+        let program = &self.system.motion().native;
+        self.underflow_may_count = underflow::may_count(program, parameters);
     }
 
     /// The highest order.
@@ -139,7 +144,7 @@ impl Series {
     /// one.
     fn grow(&mut self) -> Result<(), Halt> {
         match self.grow_in_range() {
-            Ok(()) if self.is_finite() => Ok(()),
+            Ok(()) if self.is_finite() && !self.underflows() => Ok(()),
             Err(Halt::Cancelled) => Err(Halt::Cancelled),
             _ => self.grow_extended(),
         }
@@ -149,6 +154,11 @@ impl Series {
         let finite = |c: &[f64]| c.iter().all(|x| x.is_finite());
         (0..self.len()).all(|i| finite(self.coefficients(i)))
             && (0..self.switches()).all(|i| finite(self.switch(i)))
+    }
+
+    fn underflows(&self) -> bool {
+        let value = |r: Register| self.high.jet.series(r)[0];
+        self.underflow_may_count && underflow::occurred(&self.system.motion().native, value)
     }
 
     fn grow_extended(&mut self) -> Result<(), Halt> {

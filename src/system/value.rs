@@ -1,12 +1,14 @@
 //! The first evaluator of a program: numbers.
 //!
 //! If an intermediate result leaves the range of its numbers, as `exp(x)` does in `1/(1 + exp(x))`
-//! for large x, the program is evaluated once more in [`ExtendedRange`].
+//! for large x or `x^20` in `1e298*x^20` for small ones, the program is evaluated once more in
+//! [`ExtendedRange`].
 
 use std::sync::Arc;
 
 use super::program::{Op, Program, Register, Singular};
 use super::solve::Factored;
+use super::underflow;
 use crate::num::{DoubleDouble, ExtendedRange, Real};
 
 /// The registers of one program as numbers, in one precision.
@@ -17,6 +19,7 @@ pub struct Evaluator<R> {
     blocks: Vec<Factored<R>>,
     right: Vec<R>,
     parameters: Vec<DoubleDouble>,
+    underflow_may_count: bool,
     /// The same in a wider range, once it was needed.
     wide: Option<Box<Evaluator<ExtendedRange>>>,
 }
@@ -28,13 +31,16 @@ impl<R: Real> Evaluator<R> {
         let widest = program.blocks.iter().map(super::program::Block::size).max().unwrap_or(0);
         let registers = vec![R::ZERO; program.ops.len()];
         let right = vec![R::ZERO; widest];
-        Evaluator { program, registers, blocks, right, parameters: Vec::new(), wide: None }
+        let parameters = Vec::new();
+        let underflow_may_count = underflow::may_count(&program, &parameters);
+        Evaluator { program, registers, blocks, right, parameters, underflow_may_count, wide: None }
     }
 
     /// Sets the parameters and evaluates everything that depends on them alone.
     pub fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
         self.parameters.clear();
         self.parameters.extend_from_slice(parameters);
+        self.underflow_may_count = underflow::may_count(&self.program, parameters);
         self.wide = None;
         for &r in &self.program.prologue {
             match self.program.ops[r as usize] {
@@ -47,10 +53,16 @@ impl<R: Real> Evaluator<R> {
     /// Evaluates at a time and inputs.
     pub fn evaluate(&mut self, time: R, inputs: &[R]) -> Result<(), Singular> {
         let outcome = self.evaluate_here(time, inputs);
-        if R::UNBOUNDED || (outcome.is_ok() && self.is_finite()) || !self.left_the_range() {
+        if R::UNBOUNDED {
             return outcome;
         }
-        self.evaluate_extended(time, inputs)
+        let again = if outcome.is_ok() && self.is_finite() {
+            self.underflow_may_count
+                && underflow::occurred(&self.program, |r| self.registers[r as usize].value())
+        } else {
+            self.left_the_range()
+        };
+        if again { self.evaluate_extended(time, inputs) } else { outcome }
     }
 
     fn is_finite(&self) -> bool {
@@ -59,13 +71,20 @@ impl<R: Real> Evaluator<R> {
     }
 
     /// Whether the first number that is not finite results from overflow, or from a division by
-    /// zero that may be an underflow, rather than from an argument outside a function's domain.
+    /// zero that may be an underflow, rather than from an argument outside a function's domain. The
+    /// overflow of a product may leave NaN in a number of two parts.
     fn left_the_range(&self) -> bool {
         let value = |r: &Register| self.registers[*r as usize].value();
         let first = self.program.body.iter().find(|r| !value(r).is_finite());
-        first.is_some_and(|r| {
-            let divides = matches!(self.program.ops[*r as usize], Op::Divide(..) | Op::Solve(_));
-            divides || (value(r).is_infinite() && !self.program.inputs.contains(r))
+        first.is_some_and(|r| match self.program.ops[*r as usize] {
+            Op::Divide(..)
+            | Op::Solve(_)
+            | Op::Scale(..)
+            | Op::Multiply(..)
+            | Op::Square(_)
+            | Op::Linear { .. }
+            | Op::Power(..) => true,
+            _ => value(r).is_infinite() && !self.program.inputs.contains(r),
         })
     }
 

@@ -97,6 +97,32 @@ fn a_steep_wall_is_no_trouble_in_any_unit() {
 }
 
 #[test]
+fn powers_that_leave_the_range_of_numbers_have_the_motion_of_their_units() {
+    // V = a x^n from x = u: x/u as a function of t √(a uⁿ)/u does not depend on u
+    for (power, units) in [
+        (20, [("1e17", "1e-298"), ("1e-17", "1e298"), ("1e25", "1e-300")]),
+        (40, [("1e10", "1e-300"), ("1e-10", "1e300"), ("1e8", "1e-300")]),
+    ] {
+        let time = 1.3_f64;
+        let expected = potential("1.0", "0.0", &format!("x^{power}")).to(time);
+        for (unit, factor) in units {
+            let (u, a): (f64, f64) = (unit.parse().unwrap(), factor.parse().unwrap());
+            let exponent = (a.log10() + f64::from(power) * u.log10()).round() as i32;
+            let speed = 10.0_f64.powf(f64::from(exponent) / 2.0);
+            let mut run = potential(unit, "0.0", &format!("{factor}*x^{power}"));
+            let state = run.to(time * u / speed);
+            near(&[state[0] / u, state[1] / speed], &expected, 1e-12);
+        }
+    }
+    // 1e300 e^−x = e^−(x − ln 1e300), where e^−x alone is below the smallest numbers
+    let shifted = "exp(-(x - 690.775527898213705205))";
+    let expected = potential("745.0", "0.0", shifted).to(1e12);
+    let state = potential("745.0", "0.0", "1e300*exp(-x)").to(1e12);
+    near(&[state[0] - 745.0, 1e12 * state[1]], &[expected[0] - 745.0, 1e12 * expected[1]], 1e-11);
+    assert!(expected[0] > 746.0);
+}
+
+#[test]
 fn a_step_ends_when_it_is_asked_to() {
     let mut run = potential("1.0", "0.0", "x^2/2 + sin(x)");
     run.to(1.0);

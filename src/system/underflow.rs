@@ -1,0 +1,43 @@
+//! Underflow: whether a product fell below the numbers that keep all their digits, in a program with numbers so
+//! large or small that the loss may count, as in `1e298*x^20` at 1e-17.
+//!
+//! In: a program, its parameters, the values of its registers. Out: whether to evaluate once more in a wider
+//! range. Never here: that evaluation.
+
+use super::program::{Op, Program, Register};
+use crate::num::DoubleDouble;
+
+/// 2^−916: the second part of a smaller double-double has lost digits.
+const LEAST: f64 = 1.8e-276;
+
+/// Numbers of a program up to this size, or its inverse, cannot make what is below [`LEAST`] count.
+const ORDINARY: f64 = 1e100;
+
+/// Whether underflow may count in a program with these parameters.
+pub(super) fn may_count(program: &Program, parameters: &[DoubleDouble]) -> bool {
+    let extreme = |x: &DoubleDouble| {
+        let size = x.high.abs();
+        size > ORDINARY || (size != 0.0 && size < 1.0 / ORDINARY)
+    };
+    let coefficients = program.terms.iter().map(|term| &term.coefficient);
+    program.constants.iter().chain(coefficients).chain(parameters).any(extreme)
+}
+
+/// Whether an operation on numbers other than zero has a value below [`LEAST`].
+pub(super) fn occurred(program: &Program, value: impl Fn(Register) -> f64) -> bool {
+    let is_small = |r: Register| value(r).abs() < LEAST;
+    let is_zero = |r: &Register| value(*r) == 0.0;
+    let mut all = program.prologue.iter().chain(&program.body);
+    all.any(|&r| match program.ops[r as usize] {
+        Op::Scale(a, b) | Op::Multiply(a, b) => is_small(r) && ![a, b].iter().any(is_zero),
+        Op::Divide(a, _) | Op::Square(a) | Op::Power(a, _) | Op::ParametricPower(a, _) => {
+            is_small(r) && !is_zero(&a)
+        }
+        // of functions only exponentials are so small far from zero
+        Op::Call(_, [a, _]) => is_small(r) && value(a).abs() > 1.0,
+        Op::Linear { first, count: 1, .. } => {
+            is_small(r) && !is_zero(&program.terms[first as usize].register)
+        }
+        _ => false,
+    })
+}
