@@ -183,19 +183,28 @@ impl Taylor {
     fn expand(&mut self, left: f64) -> Result<f64, MotionError> {
         let (size, direction) = (left.abs(), left.signum());
         let mut units = Units::default();
+        let mut known = Vec::new();
         loop {
             self.series.build(&self.state)?;
             let scale = self.series.scale().abs();
+            let lost = known.iter().any(|&(i, k)| self.series.coefficient(i, k) == 0.0);
             let found = self.step_size.longest(&self.series);
             let Some(step) = found.map(|step| step * scale) else {
                 // a coefficient is out of range, which a smaller unit may avoid
                 if scale < 1e-280 || (scale <= 1.0 && !step_size::has_velocity(&self.series)) {
                     return Err(self.not_finite());
                 }
+                if known.is_empty() {
+                    known = self.first_coefficients();
+                }
                 units.long = scale;
                 self.series.set_scale(units.next(scale * 1e-6) * direction);
                 continue;
             };
+            if lost {
+                // where a root has no series it seems to have one once its argument underflows
+                return Err(self.not_finite());
+            }
             let wanted = step.min(size);
             if (scale * 1e-4..=scale * 1e3).contains(&wanted) {
                 return Ok(step);
@@ -215,6 +224,17 @@ impl Taylor {
                 return Ok(step);
             }
         }
+    }
+
+    /// The variables that change, each with its first coefficient that is not zero.
+    fn first_coefficients(&self) -> Vec<(usize, usize)> {
+        let first = |i: usize| {
+            let changes = self.series.coefficients(i).iter().skip(1);
+            let k = 1 + changes.take_while(|&&c| c == 0.0).count();
+            let c = self.series.coefficients(i).get(k)?;
+            c.is_finite().then_some((i, k))
+        };
+        (0..self.series.inputs()).filter_map(first).collect()
     }
 
     /// On a surface: takes the first choice of sides that continues the motion, and returns the

@@ -194,3 +194,23 @@ fn a_place_without_a_limit_is_reported() {
     );
     assert!(fault.place[0].1.abs() < 1e-9 && run.steps < 500, "{fault}");
 }
+
+#[test]
+fn a_root_whose_argument_grows_slowly_from_zero_is_left() {
+    // u leaves 0 as t³; the numbers by an extrapolated midpoint rule at 30 digits
+    for power in ["(u^2)^1.25", "abs(u)^2.5"] {
+        let mut run = Run::new(&format!(
+            "title = \"slow\"\n[coordinates]\nu = {{ initial = 0.0 }}\nv = {{ initial = 1.0 }}\n[lagrangian]\n\
+             L = \"1/2*u'^2 + 1/2*v'^2 + 0.4*u*v' - 1/2*v^2 - {power}\"\n"
+        ));
+        let state = run.to(3.0);
+        let expected = [
+            -0.434_359_920_062_244_24,
+            -0.831_239_576_842_103_97,
+            0.213_556_604_381_441_72,
+            -0.121_435_634_313_768_17,
+        ];
+        near(&state[..4], &expected, 1e-13);
+        assert!(run.steps < 200, "{power}: {} steps", run.steps);
+    }
+}
