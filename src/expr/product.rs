@@ -9,6 +9,9 @@ use crate::num::math;
 
 type Factor = (Expr, Number);
 
+/// Powers of coefficients stay with their base beyond this number and its inverse.
+const LARGE: f64 = 1e150;
+
 impl Pool {
     /// `a · b`.
     pub fn mul(&mut self, a: Expr, b: Expr) -> Expr {
@@ -59,6 +62,13 @@ impl Pool {
             for &(base, exponent) in &factors {
                 match self.settle(base, exponent) {
                     None => next.push((base, exponent)),
+                    Some((c, _))
+                        if !exponent.is_one()
+                            && matches!(self.node(base), Node::Product(..) | Node::Sum(..))
+                            && leaves_range(coefficient, c) =>
+                    {
+                        next.push((base, exponent));
+                    }
                     Some((c, opened)) => {
                         coefficient = coefficient * c;
                         next.extend(opened);
@@ -118,9 +128,9 @@ impl Pool {
             Node::Number(n) => self.settle_number(*n, exponent),
             Node::Product(c, inner) => {
                 if let Some(k) = integer {
-                    // a coefficient whose power no number can represent stays where it is
-                    let power = c.powi(k).value();
-                    if !power.is_finite() || power.abs() < f64::MIN_POSITIVE {
+                    // a coefficient whose power is beyond most other numbers stays where it is
+                    let power = c.powi(k).value().abs();
+                    if !c.is_zero() && !(1.0 / LARGE..=LARGE).contains(&power) {
                         return None;
                     }
                     for &(b, n) in inner.iter().filter(|&&(_, n)| is_root(n)) {
@@ -209,6 +219,13 @@ impl Pool {
         factors.push((joined, Number::ONE));
         true
     }
+}
+
+/// Whether the product of two numbers that are not zero is out of range.
+fn leaves_range(a: Number, b: Number) -> bool {
+    let product = (a * b).value().abs();
+    let within = a.value().is_finite() && b.value().is_finite() && !a.is_zero() && !b.is_zero();
+    within && !(f64::MIN_POSITIVE..f64::INFINITY).contains(&product)
 }
 
 /// Returns whether a power has a value only for a nonnegative base.
