@@ -44,7 +44,11 @@ impl EnergyLaw {
         };
         let present = || terms.iter().filter(|term| term.0);
         let mut cause = present().map(|term| term.1).collect::<Vec<_>>().join(", ");
-        if cause.is_empty() {
+        let steps = equations.law_jumps();
+        if steps {
+            let law = if equations.is_lagrangian() { "L" } else { "H" };
+            cause = format!("a step of {law}, where the force is an impulse");
+        } else if cause.is_empty() {
             // along the flow of another generator
             "[H,G] is not 0".clone_into(&mut cause);
         }
@@ -56,6 +60,7 @@ impl EnergyLaw {
                 None => rate.trim_start_matches("+ ").to_owned(),
             };
         }
-        EnergyLaw { cause, rate: format!("dE/dt = {rate}") }
+        let between = if steps { " between steps" } else { "" };
+        EnergyLaw { cause, rate: format!("dE/dt = {rate}{between}") }
     }
 }

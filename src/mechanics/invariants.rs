@@ -9,6 +9,7 @@ use super::equations::{Conserved, Equations, Flow, Reason};
 use super::symmetry;
 use crate::expr::{Expr, FunctionId, Node, Pool, Symbol, Zero};
 use crate::model::{Action, Mechanics, Model, Observable};
+use crate::num::Number;
 
 /// Fills `cyclic` and `conserved`.
 pub(super) fn find(equations: &mut Equations, model: &Model) {
@@ -141,6 +142,20 @@ fn is_multiple(pool: &Pool, a: Expr, b: Expr) -> bool {
     terms.len() == others.len()
         && *c == ratio * *d
         && pairs().all(|(&(m, a), &(n, b))| a == b && m == ratio * n)
+}
+
+/// Whether a product has the factors of an expression, so that it vanishes where that does.
+fn has_factors_of(pool: &Pool, factors: &[(Expr, Number)], of: Expr) -> bool {
+    let among = |wanted: Expr, power: Number| {
+        let enough = |n: Number| n.value() >= power.value();
+        factors.iter().any(|&(e, n)| enough(n) && is_multiple(pool, e, wanted))
+    };
+    match pool.node(of) {
+        Node::Product(_, parts) => {
+            parts.iter().all(|&(e, n)| n.value() > 0.0 && among(e, n)) || among(of, Number::ONE)
+        }
+        _ => among(of, Number::ONE),
+    }
 }
 
 /// Returns whether nothing but the law acts: no forces, no dissipation, no constraints.
@@ -369,7 +384,7 @@ impl Equations {
     }
 
     /// Returns whether L (or H) has a step, where the force is an impulse that no derivative shows.
-    fn law_jumps(&self) -> bool {
+    pub fn law_jumps(&self) -> bool {
         let moving = self.moving();
         let pool = &self.pool;
         let steps = |e: Expr| match pool.node(e) {
@@ -381,10 +396,8 @@ impl Equations {
         let jumps = |e: Expr| {
             let node = pool.node(e);
             node.parts().into_iter().filter_map(steps).any(|argument| match node {
-                // u sign(u) = |u|
-                Node::Product(_, factors) => !factors
-                    .iter()
-                    .any(|&(e, n)| !n.is_negative() && is_multiple(pool, e, argument)),
+                // u sign(c u) = ±|u|
+                Node::Product(_, factors) => !has_factors_of(pool, factors, argument),
                 _ => true,
             })
         };

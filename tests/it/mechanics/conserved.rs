@@ -112,6 +112,26 @@ fn what_nobody_saw_is_not_known() {
     assert_eq!(class(LINE, &nowhere, "x'"), Class::Unknown);
 }
 
+/// u sign(c u) has a kink and no step, whatever the factor c; u sign(c u − 1) has a step.
+#[test]
+fn a_sign_beside_its_argument_is_no_step() {
+    for kink in ["x*sign(1e-5*x)", "3e-7*x*sign(x/0.3)", "(2*x - 1)*sign(x - 0.5)", "x^2*sign(-x)"]
+    {
+        let law = l(&format!("1/2*x'^2 - {kink}"));
+        let (_, equations) = derived(&file(LINE, &law, "x"));
+        assert_eq!(equations.conserved.len(), 1, "{kink}");
+    }
+    let both = l("1/2*(x'^2 + y'^2) - 2*x*y*sign(3*x*y)");
+    assert_eq!(derived(&file(PLANE, &both, "x")).1.conserved.len(), 1);
+    for step in ["x*sign(2*x - 1)", "sign(2*x)/x", "(x - 1)*sign(x + 1)"] {
+        let law = l(&format!("1/2*x'^2 - {step}"));
+        let (_, equations) = derived(&file(LINE, &law, "x"));
+        assert!(equations.conserved.is_empty(), "{step}");
+    }
+    let one = l("1/2*(x'^2 + y'^2) - x*sign(x*y)");
+    assert!(derived(&file(PLANE, &one, "x")).1.conserved.is_empty());
+}
+
 /// Constants of the motion in unusual forms: all of them are proved.
 #[test]
 fn what_is_conserved_is_proved() {
