@@ -21,6 +21,7 @@ mod expansion;
 mod growth;
 mod inertia;
 mod jet;
+mod kink_sides;
 mod kkt;
 mod legendre;
 mod lower;
@@ -55,6 +56,7 @@ pub use discontinuities::{
 pub use error::{MotionError, MotionErrorKind, Passage};
 pub use exact::ExactRates;
 pub use jet::{Jet, Side};
+pub use kink_sides::KinkSides;
 pub use observe::Observer;
 pub use program::{Program, Singular};
 pub use rates::Rates;

@@ -205,7 +205,7 @@ impl DormandPrince {
             return;
         }
         let sides = self.rates.sides();
-        if (0..sides.len()).any(|i| (self.exact.switch(i) > 0.0) != sides[i]) {
+        if (0..sides.switches()).any(|i| !sides.has_switch_at(i, self.exact.switch(i))) {
             return;
         }
         for (i, (noise, fresh)) in self.noise.iter_mut().zip(&self.fresh).enumerate() {

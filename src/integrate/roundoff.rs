@@ -45,7 +45,9 @@ pub(super) fn measure(
                 let change = f64::EPSILON * place.sizes[j] + (place.step * own[j]).abs();
                 *x = place.numbers[j] + UNITS[(WAYS * pass + way + j) % UNITS.len()] * change;
             }
-            if rates.evaluate(place.time, &moved, &mut there).is_err() || rates.sides() != sides {
+            if rates.evaluate(place.time, &moved, &mut there).is_err()
+                || !rates.sides().agrees(&sides)
+            {
                 continue;
             }
             for ((noise, there), here) in noise.iter_mut().zip(&there).zip(&here) {

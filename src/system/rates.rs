@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::kink_sides::KinkSides;
 use super::legendre::{Legendre, LegendreError};
 use super::program::Program;
 use super::separability::NotSeparable;
@@ -144,7 +145,7 @@ impl Rates {
     }
 
     /// On which side of each kink the rates were last evaluated.
-    pub fn sides(&self) -> Vec<bool> {
+    pub fn sides(&self) -> KinkSides {
         self.values.sides()
     }
 

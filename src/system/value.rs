@@ -6,6 +6,7 @@
 
 use std::sync::Arc;
 
+use super::kink_sides::KinkSides;
 use super::program::{Op, Program, Register, Singular};
 use super::solve::Factored;
 use super::underflow;
@@ -133,10 +134,12 @@ impl<R: Real> Evaluator<R> {
         self.registers[register as usize]
     }
 
-    /// Whether each switch is positive.
-    pub(super) fn sides(&self) -> Vec<bool> {
-        let switches = self.program.switches.iter();
-        switches.map(|&r| self.registers[r as usize].value() > 0.0).collect()
+    /// Where the last evaluation lies relative to the kinks.
+    pub(super) fn sides(&self) -> KinkSides {
+        let value = |r: Register| self.registers[r as usize].value();
+        let guards = self.program.guards.iter();
+        let roots = guards.map(|guard| value(guard.under.unwrap_or(guard.value)));
+        KinkSides::new(self.program.switches.iter().map(|&r| value(r)), roots)
     }
 
     fn solve(&mut self, register: Register, at: u32) -> Result<(), Singular> {

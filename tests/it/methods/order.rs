@@ -2,9 +2,13 @@
 //! better than stated has not been understood.
 
 use phaselab::integrate::{METHODS, Method, Settings, Stepping};
+use phaselab::system::Form;
+
+use crate::build::lagrangian;
 
 use super::{
-    Case, distance, double_pendulum, driven, entangled, fixed, heavy_top, named, pendulum, quartic,
+    Case, case, distance, double_pendulum, driven, entangled, fixed, heavy_top, named, pendulum,
+    quartic,
 };
 
 /// The slopes of the error over two halvings of the step.
@@ -130,5 +134,25 @@ fn the_step_is_the_motions_own_where_none_is_asked_for() {
         let period = 2.0 * std::f64::consts::PI;
         let steps = period / stepper.step_size();
         assert!(steps > 50.0 && steps < 300.0, "{}: {steps} steps a period", method.name);
+    }
+}
+
+#[test]
+fn dop853_leaves_a_kink_at_its_tolerance() {
+    // |x| written three ways, from x = 0: x(t) = v t ∓ k t²/2 on the side to which it moves
+    let (k, t): (f64, f64) = (0.229, 0.5);
+    for kink in ["0.229*abs(x)", "0.229*(x^2)^0.5", "0.229*max(x, -x)"] {
+        for v in [0.904_f64, -0.904] {
+            let l = format!("1/2*x'^2 - {kink}");
+            let case = case(lagrangian(&["x"], &[], &l), Form::Velocity, &[0.0, v]);
+            let settings = Settings { step: None, tolerance: Some(1e-11) };
+            let mut stepper = case.stepper_with(named("dop853"), settings);
+            while stepper.time() != t {
+                stepper.step(t).unwrap();
+            }
+            let expected = v * t - v.signum() * k * t * t / 2.0;
+            let found = stepper.state().values[0];
+            assert!((found - expected).abs() < 1e-9, "{kink}, {v}: {found} for {expected}");
+        }
     }
 }
