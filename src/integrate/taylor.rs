@@ -423,11 +423,26 @@ impl Taylor {
             out.copy_from(&still.at(&mut self.rates, time)?);
             return Ok(());
         }
+        // an `f64` may lie just outside a step that is shorter than its last digit, near a point where
+        // the series has no radius of convergence
+        let within = |after: DoubleDouble, step: DoubleDouble| {
+            let part = after.high / step.high;
+            if part > 1.0 {
+                step
+            } else if part < 0.0 {
+                DoubleDouble::ZERO
+            } else {
+                after
+            }
+        };
         let Some((from, toward)) = &self.leapt else {
-            self.series.state_after(time - self.series.time(), out);
+            let begin = self.series.time();
+            let after = within(time - begin, self.state.exact_time() - begin);
+            self.series.state_after(after, out);
             return Ok(());
         };
-        let after = time - from.exact_time();
+        let begin = from.exact_time();
+        let after = within(time - begin, self.state.exact_time() - begin);
         if after.high == 0.0 {
             out.copy_from(from);
             return Ok(());

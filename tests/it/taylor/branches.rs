@@ -214,3 +214,31 @@ fn a_root_whose_argument_grows_slowly_from_zero_is_left() {
         assert!(run.steps < 200, "{power}: {} steps", run.steps);
     }
 }
+
+#[test]
+fn a_step_shorter_than_the_last_digit_of_its_time_has_values_at_both_ends() {
+    // near the kink, at t ≈ 7.5e9, steps are shorter than the distance between two numbers there
+    let mut run = Run::new(
+        "title = \"in SI units\"\n[coordinates]\n\
+         x = { initial = 0.0, momentum = -1.78e-14 }\n\
+         y = { initial = -28299999999.999996, momentum = 9.09e-14 }\n\
+         z = { initial = -92900000000.0, momentum = 2.3e-15 }\n[hamiltonian]\n\
+         H = \"500000000000000.06*(p_x^2 + p_y^2*(1 + (y/1e11)^2) + p_z^2) + \
+              7.58e-12*sqrt((z/1e11 - 2.59e-12*x)^2)\"\n",
+    );
+    let energy = run.columns()[9];
+    let mut observer = run.system.observer(&run.parameters);
+    let (mut out, mut short) = (vec![0.0; run.system.columns()], 0);
+    let mut state = run.stepper.state().clone();
+    while run.stepper.time() != 1.4e10 {
+        run.stepper.step(1.4e10).unwrap();
+        let (begin, end) = run.stepper.interval();
+        short += usize::from(end - begin < 1e-5);
+        for time in [begin, 0.5 * (begin + end), end] {
+            run.stepper.at(time, &mut state).unwrap();
+            observer.observe_columns(&state, &mut out).unwrap();
+            assert!((out[9] / energy - 1.0).abs() < 1e-14, "{} at {time}", out[9]);
+        }
+    }
+    assert!(short > 3, "{short} steps are short");
+}
