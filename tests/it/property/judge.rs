@@ -282,11 +282,13 @@ fn judge(case: &Case, as_run: &Case, budget: Budget, cancel: &Cancel) -> Outcome
         if message.contains("belongs to several starts") {
             return Outcome::Stopped;
         }
-        let asks_for_less = message.contains("try a smaller step");
+        let fixed = !["auto", "taylor", "dop853"].contains(&case.method.as_str());
+        let says_what_helps =
+            message.contains("try a smaller step") || fixed && message.contains("taylor passes it");
         if told.time == 0.0
             && told.check.is_empty()
             && case.by_momentum.is_empty()
-            && !asks_for_less
+            && !says_what_helps
         {
             return failed(Kind::DoesNotStart, format!("`check` is silent; {message}"));
         }
@@ -380,7 +382,8 @@ fn energy_failure(case: &Case, known: &Known, told: &Told) -> Option<Failure> {
     let (now, size) = energy(case, told.time, &told.state);
     let wrong = |kind, message: String| Some(Failure { kind, message });
     let shown = told.energy?;
-    if size.is_finite() && (shown - now).abs() > 1e-9 * size + 1e-300 {
+    let rounding = rounding_of_energy(case, told.time, &told.state);
+    if size.is_finite() && (shown - now).abs() > 1e-9 * size + 10.0 * rounding + 1e-300 {
         return wrong(Kind::EnergyWrong, format!("{shown} is shown, {now} it is"));
     }
     if !case.keeps_energy() {
@@ -389,7 +392,12 @@ fn energy_failure(case: &Case, known: &Known, told: &Told) -> Option<Failure> {
     let (first, first_size) = energy(case, 0.0, &case.start);
     let way = known.arrival.way.iter().map(|(t, state)| energy(case, *t, state).1);
     let size = way.fold(first_size, f64::max).max(1e-300);
-    let drift = (now - first).abs() / size;
+    if !(now.is_finite() && size.is_finite()) && told.state.iter().all(|x| x.is_finite()) {
+        // the terms overflow as they are written here
+        return None;
+    }
+    // NaN stays NaN
+    let drift = ((now - first).abs() - 10.0 * rounding) / size;
     let gauge = told.gauges.iter().find(|g| g.name == "energy")?;
     let said = gauge.max_drift;
     // a drift is relative to what moves, also where the motion is wrong
@@ -404,6 +412,17 @@ fn energy_failure(case: &Case, known: &Known, told: &Told) -> Option<Failure> {
         return wrong(Kind::Silent, format!("the energy is off by {drift:.1e}, {word}"));
     }
     None
+}
+
+/// The change of the energy by the last digits of a state, large near the speed of light.
+fn rounding_of_energy(case: &Case, time: f64, state: &[f64]) -> f64 {
+    let here = energy(case, time, state).0;
+    let change = |i: usize| {
+        let mut moved = state.to_vec();
+        moved[i] *= 1.0 - f64::EPSILON;
+        (energy(case, time, &moved).0 - here).abs()
+    };
+    (0..state.len()).map(change).filter(|x| x.is_finite()).sum()
 }
 
 /// Finds a quantity that is conserved by the form of the law but not reported as such.
