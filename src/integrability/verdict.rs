@@ -20,6 +20,8 @@ pub struct Relations {
     pub in_involution: Vec<usize>,
     /// The number of degrees of freedom: half the dimension, less Casimirs.
     pub freedoms: Option<usize>,
+    /// The number of independent Casimirs among the constants.
+    pub casimirs: usize,
     /// The verdict in words.
     pub verdict: String,
 }
@@ -77,7 +79,7 @@ pub fn relations(
     if !model.impulses.is_empty() {
         verdict.push_str(" (between impulses)");
     }
-    Relations { brackets, in_involution, freedoms, verdict }
+    Relations { brackets, in_involution, freedoms, casimirs, verdict }
 }
 
 /// Whether a function has zero bracket with every variable.
