@@ -293,9 +293,6 @@ impl App {
             .into_iter()
             .flat_map(Answers::all_under_way)
             .for_each(|job| job.reach(ticket, share));
-        if let Some(lab) = &mut self.lab {
-            lab.search.reach(ticket, share);
-        }
         if let Some(Overlay::Prompt(prompt)) = &mut self.overlay {
             prompt.under_way.iter_mut().for_each(|(_, job)| job.reach(ticket, share));
         }

@@ -156,7 +156,7 @@ impl Gauges {
 
     /// Takes the current values of what is followed as its reference.
     pub(super) fn refer_followed(&mut self, now: &Present<'_>) {
-        self.followed.refer(now, &self.places);
+        self.followed.refer((now.time, now.values), now.terms, now.constants, &self.places);
     }
 
     /// Continues from the references of gauges with the same names, where both show the same value.

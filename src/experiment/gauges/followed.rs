@@ -2,7 +2,6 @@
 //!
 //! In: formulas, and the values of the channels at some times. Out: [`Gauge`]s. Never here: how they were found.
 
-use super::Present;
 use super::invariant_monitor::{InvariantMonitor, Subject};
 use crate::experiment::{FoundConstant, Gauge};
 use crate::expr::{Expr, Pool, Symbol};
@@ -54,15 +53,21 @@ impl Followed {
     }
 
     /// Takes the current values as the reference.
-    pub(super) fn refer(&mut self, now: &Present<'_>, places: &[(Symbol, usize)]) {
+    pub(super) fn refer(
+        &mut self,
+        (time, values): (f64, &[f64]),
+        terms: &TermWatch,
+        constants: &Valuation,
+        places: &[(Symbol, usize)],
+    ) {
         if self.monitors.is_empty() {
             return;
         }
-        self.constants = now.constants.clone();
-        self.since = now.time;
-        let (values, errors) = self.split(now.time, now.values, places);
+        self.constants = constants.clone();
+        self.since = time;
+        let (values, errors) = self.split(time, values, places);
         for (monitor, error) in self.monitors.iter_mut().zip(errors) {
-            monitor.refer(now.time, &values, now.terms);
+            monitor.refer(time, &values, terms);
             monitor.measure(error);
         }
     }
