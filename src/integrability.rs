@@ -17,6 +17,7 @@ mod noether;
 mod scope;
 mod search;
 mod separation;
+mod summary;
 mod transformations;
 mod verdict;
 
@@ -26,4 +27,5 @@ pub use law::is_hamiltonian;
 pub use noether::{Symmetries, Symmetry, symmetries};
 pub use search::{Constant, Invariants, Limits, Proof, SIZE_LIMIT, Searched, invariants};
 pub use separation::separates;
+pub use summary::summary;
 pub use verdict::{Relations, relations};

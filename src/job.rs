@@ -8,7 +8,8 @@ use std::any::Any;
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::Duration;
 
 use crate::cancel::Cancel;
 
@@ -19,6 +20,8 @@ type Work<T> = dyn Fn(&Progress) -> T + Send + Sync;
 pub struct Job<T> {
     /// A short description: "level curves of the energy".
     pub name: String,
+    /// How long it may take before it is asked to end with what it has.
+    pub budget: Option<Duration>,
     work: Arc<Work<T>>,
 }
 
@@ -39,6 +42,7 @@ pub struct Progress {
     cancel: Cancel,
     done: Arc<AtomicU64>,
     total: Arc<AtomicU64>,
+    spent: Arc<AtomicBool>,
 }
 
 /// How much of a job is done.
@@ -56,7 +60,13 @@ impl<T> Job<T> {
         name: impl Into<String>,
         work: impl Fn(&Progress) -> T + Send + Sync + 'static,
     ) -> Self {
-        Self { name: name.into(), work: Arc::new(work) }
+        Self { name: name.into(), budget: None, work: Arc::new(work) }
+    }
+
+    /// Sets how long it may take before whoever runs it calls [`Progress::spend`]; without a clock nobody does.
+    #[must_use]
+    pub fn within(self, budget: Duration) -> Self {
+        Self { budget: Some(budget), ..self }
     }
 
     /// Runs the job. A panic is caught and reported.
@@ -83,7 +93,7 @@ fn reason(panic: &(dyn Any + Send)) -> &str {
 
 impl<T> Clone for Job<T> {
     fn clone(&self) -> Self {
-        Self { name: self.name.clone(), work: Arc::clone(&self.work) }
+        Self { name: self.name.clone(), budget: self.budget, work: Arc::clone(&self.work) }
     }
 }
 
@@ -119,6 +129,16 @@ impl Progress {
     /// Whether the job was cancelled.
     pub fn is_cancelled(&self) -> bool {
         self.cancel.is_cancelled()
+    }
+
+    /// Asks the job to end early with the result it has.
+    pub fn spend(&self) {
+        self.spent.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether the job is to end with the result it has.
+    pub fn is_spent(&self) -> bool {
+        self.spent.load(Ordering::Relaxed)
     }
 
     /// Sets the total amount.
@@ -177,6 +197,17 @@ mod tests {
         progress.cancel();
         assert_eq!(counting().run(&progress), Outcome::Cancelled);
         assert_eq!(progress.share().done, 0);
+    }
+
+    #[test]
+    fn a_job_whose_budget_is_spent_ends_with_what_it_has() {
+        let job = Job::new("counting", |progress| {
+            (1..=10).take_while(|done| *done <= 4 || !progress.is_spent()).count()
+        });
+        assert_eq!(job.run(&Progress::new()), Outcome::Done(10));
+        let progress = Progress::new();
+        progress.spend();
+        assert_eq!(job.within(Duration::from_secs(1)).run(&progress), Outcome::Done(4));
     }
 
     #[test]

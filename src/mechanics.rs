@@ -30,6 +30,7 @@ mod poisson;
 mod poisson_structure;
 mod rearrange;
 mod report;
+mod restricted;
 mod rigid_body;
 mod sampling;
 mod slope;

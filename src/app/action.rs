@@ -55,6 +55,12 @@ pub enum Action {
     Redo,
     /// Ask for a Poisson bracket, or whether a quantity is conserved.
     Ask,
+    /// Search further for constants of the motion.
+    SearchFurther,
+    /// Open or close the table of brackets of the constants of the motion.
+    Brackets,
+    /// Carry the state along the flow of a constant of the motion.
+    ApplyFlow,
     /// Edit the system's file.
     Edit,
     /// Apply an editor command to the text being edited.

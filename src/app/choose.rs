@@ -124,6 +124,7 @@ impl App {
                 self.theme = self.themes.get(index).map(|(name, _)| *name);
                 Vec::new()
             }
+            (_, Choice::Flow(index)) => self.open_field(Purpose::Flow(index)),
             (_, Choice::Action(action)) => self.perform(action),
             (_, Choice::System(index)) => self.open_system(index),
             (_, Choice::Value(target)) => self.type_into(target),
@@ -168,6 +169,7 @@ impl App {
                 }
                 effects
             }
+            Purpose::Flow(index) => self.follow_flow(index, value),
             Purpose::Step => lab.step_by(value),
             Purpose::Tolerance => lab.tolerate(value),
         }

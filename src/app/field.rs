@@ -25,6 +25,8 @@ pub enum Purpose {
     Step,
     /// The tolerance of an adaptive method.
     Tolerance,
+    /// How far the state is carried along the flow of the constant of this index.
+    Flow(usize),
 }
 
 /// A field being typed in.
@@ -75,7 +77,7 @@ impl Field {
     pub fn read(&self, model: &Model, parameters: &[f64]) -> Result<f64, String> {
         let value = number(model, parameters, self.input.value())?;
         let sentence = match self.purpose {
-            Purpose::Value(_) => return Ok(value),
+            Purpose::Value(_) | Purpose::Flow(_) => return Ok(value),
             Purpose::Step => "The step must be more than zero.",
             Purpose::Tolerance => "The tolerance must be more than zero and less than one.",
         };

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::change::PendingChanges;
 use super::history::History;
 use super::side::Answers;
-use super::{Loaded, ValueId};
+use super::{Loaded, Search, ValueId};
 use crate::experiment::{Checkpoint, Snapshot, Status};
 use crate::expr::Zero;
 use crate::instrument::{CameraPose, Plot, Present};
@@ -65,6 +65,10 @@ pub struct Lab {
     pub(super) answers: Answers,
     /// The ticket of the job that finds the closed forms of the equations, once it was requested.
     pub(super) closed_forms_asked: Option<u64>,
+    /// The search for constants of the motion.
+    pub search: Search,
+    /// The flow of a constant that is being followed.
+    pub(super) flow: Option<u64>,
     /// Values requested and not yet confirmed by a snapshot.
     pub(super) pending: Vec<(ValueId, f64)>,
     /// Other changes requested and not yet confirmed.
@@ -126,6 +130,8 @@ impl Lab {
             selection: Selection::default(),
             answers: Answers::default(),
             closed_forms_asked: None,
+            search: Search::default(),
+            flow: None,
             pending: Vec::new(),
             asked: PendingChanges::default(),
             speed_wish: None,
@@ -203,6 +209,7 @@ impl Lab {
     pub(super) fn tick(&mut self, elapsed: Duration) {
         self.history.tick(elapsed);
         self.answers.tick(elapsed);
+        self.search.tick(elapsed);
     }
 
     /// Returns the panes in Tab order.

@@ -39,6 +39,8 @@ pub enum Choosing {
     Impulse,
     /// A theme.
     Theme,
+    /// A constant of the motion whose flow is applied.
+    Flow,
     /// The contents of the plot of this index.
     Contents {
         /// Its index among the plots.
@@ -77,6 +79,8 @@ pub enum Choice {
     Action(Action),
     /// The impulse of this index.
     Impulse(usize),
+    /// The constant of the motion of this index among those that have a flow.
+    Flow(usize),
     /// The offer of this index, among all offers for a plot.
     Offer(usize),
     /// A channel.
@@ -94,7 +98,10 @@ pub enum Choice {
 impl Menu {
     /// Creates a list with its first line selected.
     pub fn new(title: impl Into<String>, purpose: Choosing, items: Vec<Item>) -> Self {
-        let plain = matches!(purpose, Choosing::Method | Choosing::Impulse | Choosing::Theme);
+        let plain = matches!(
+            purpose,
+            Choosing::Method | Choosing::Impulse | Choosing::Theme | Choosing::Flow
+        );
         let filter = (!plain).then(Input::default);
         Self {
             title: title.into(),

@@ -75,6 +75,9 @@ impl App {
             Action::ApplyImpulse if lab.impulses().is_empty() => {
                 Some("this system has no impulse that waits for a key")
             }
+            Action::ApplyFlow if lab.flows().is_empty() => Some(
+                "no constants of the motion with a flow are known yet; page 2 searches for them",
+            ),
             Action::NextFrame if lab.loaded.model.frames.is_empty() => {
                 Some("this system has no frames to look from")
             }

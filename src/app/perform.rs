@@ -12,6 +12,9 @@ use crate::experiment::{Command, Status};
 use crate::instrument::{Plot, Sight, Viewport};
 use crate::integrate::{METHODS, Stepping};
 
+/// How far a flow leads where nothing else is typed.
+const FLOW: f64 = 0.1;
+
 /// What the first Esc in the lab says.
 const LEAVING: &str = "Esc again for the list of systems.";
 
@@ -103,6 +106,9 @@ impl App {
             Action::ApplyImpulse => self.apply_one_impulse(),
             Action::Export => vec![Effect::Export],
             Action::Ask => self.open_prompt(),
+            Action::SearchFurther => self.search_further(),
+            Action::Brackets => self.show_brackets(),
+            Action::ApplyFlow => self.open_flows(),
             Action::Edit => self.edit_file(),
             Action::Still => vec![Effect::Still],
             Action::Data => vec![Effect::Data],
@@ -268,6 +274,10 @@ impl App {
             return vec![Effect::StopLoading];
         }
         let leaves = self.asked_to_leave();
+        if self.page == Page::Equations && self.stop_search() {
+            self.notice = Some(Notification::info("The search was stopped; I begins it again."));
+            return vec![Effect::StopComputing(Asker::Search)];
+        }
         match (self.page, &mut self.lab) {
             (Page::Picker, _) => self.picker.forget_search(),
             (Page::Lab, Some(lab)) if lab.zoomed => lab.zoomed = false,
@@ -369,7 +379,7 @@ impl App {
         vec![self.ask(name, true)]
     }
 
-    fn open_field(&mut self, purpose: Purpose) -> Vec<Effect> {
+    pub(super) fn open_field(&mut self, purpose: Purpose) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };
         let method = lab.snapshot.as_ref().map(|s| &s.method);
         let idle = lab.method().and_then(|name| idle(purpose, name));
@@ -378,6 +388,7 @@ impl App {
         }
         let now = match purpose {
             Purpose::Value(target) => lab.value(target),
+            Purpose::Flow(_) => Some(FLOW),
             Purpose::Step => method.map(|m| m.step),
             Purpose::Tolerance => method.and_then(|m| m.tolerance),
         };

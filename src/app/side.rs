@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::{App, Effect, Event, Lab, Overlay};
+use crate::experiment::Command;
 use crate::instrument::{Answer, Columns, Instrument, Need, Plot};
 use crate::job::{Job, Outcome, Progress, Share};
 use crate::mechanics::Equations;
@@ -26,6 +27,10 @@ pub enum Asker {
     Prompt,
     /// The lab, for the closed forms of its equations.
     Equations,
+    /// The page of equations, for constants of the motion.
+    Search,
+    /// The lab, for the state that the flow of a constant leads to.
+    Flow,
 }
 
 /// A job to be run in the background.
@@ -227,6 +232,7 @@ impl App {
         let wanted = if stale { lab.needs(&mut self.jobs, self.aside) } else { Vec::new() };
         effects.extend(wanted.into_iter().map(Effect::Compute));
         effects.extend(lab.ask_for_closed_forms(&mut self.jobs).map(Effect::Compute));
+        self.look_after_search(effects);
         if self.aside {
             return;
         }
@@ -255,6 +261,15 @@ impl App {
 
     /// Handles the outcome of a job. An outcome that is no longer wanted is dropped.
     pub(super) fn computed(&mut self, ticket: u64, outcome: Outcome<Answer>) -> Vec<Effect> {
+        if let Some(found) = self.lab.as_mut().and_then(|lab| lab.take_search(ticket, &outcome)) {
+            return match outcome {
+                Outcome::Failed(sentence) => self.notify(sentence),
+                _ => found.map(|found| Effect::Tell(Command::Follow(found))).into_iter().collect(),
+            };
+        }
+        if let Some(effects) = self.carried(ticket, &outcome) {
+            return effects;
+        }
         let lab = self.lab.as_mut();
         let waited = match &mut self.overlay {
             Some(Overlay::Prompt(prompt)) if prompt.awaits(ticket) => {

@@ -1,6 +1,6 @@
 //! The commands of an experiment: plain data that can be logged and replayed.
 
-use super::Checkpoint;
+use super::{Checkpoint, FoundConstant};
 use crate::integrate::Settings;
 use crate::system::InitialOverride;
 
@@ -49,6 +49,8 @@ pub enum Command {
     Settings(Settings),
     /// Takes the current values as the gauges' reference.
     Reference,
+    /// Adds gauges for constants of the motion that were found, in place of those added before.
+    Follow(Vec<FoundConstant>),
     /// Forgets the crossings of the surfaces of section so far.
     ForgetCrossings,
     /// Resumes from a checkpoint.

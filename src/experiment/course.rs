@@ -30,7 +30,7 @@ pub struct Experiment {
     initial: Arc<[f64]>,
     pub(super) motion: ObservedMotion,
     pub(super) recorder: Recorder,
-    gauges: Gauges,
+    pub(super) gauges: Gauges,
     pub(super) running: bool,
     pub(super) fault: Option<Failure>,
     epoch: u64,

@@ -5,7 +5,7 @@
 
 use super::gauges::Gauges;
 use super::setup::{choose_method, with_override};
-use super::{Command, Experiment, MethodNotFound};
+use super::{Command, Experiment, FoundConstant, MethodNotFound};
 use crate::integrate::{Method, Settings, Stepping};
 use crate::num::short;
 use crate::system::{self, ChannelKind, State};
@@ -45,6 +45,7 @@ impl Experiment {
             Command::StepSize(step) => self.change_step(step),
             Command::Tolerance(tolerance) => self.change_tolerance(tolerance),
             Command::TakeUp(moment) => self.restore(&moment),
+            Command::Follow(found) => self.follow(&found),
             Command::ForgetCrossings => self.crossings.clear(),
             Command::Settings(settings) => self.change_method(self.motion.method(), settings),
             Command::Reference => {
@@ -60,6 +61,13 @@ impl Experiment {
             self.notices.remove(0);
         }
         self.notices.push(notice);
+    }
+
+    fn follow(&mut self, found: &[FoundConstant]) {
+        self.gauges.follow(found, &self.model);
+        if self.motion.has_begun() {
+            self.gauge(Gauges::refer_followed);
+        }
     }
 
     fn apply_impulse(&mut self, index: usize) {

@@ -4,6 +4,7 @@
 //! In: the consequences of the law of motion; the values of the channels at some times; the terms of the conserved
 //! quantities after every step. Out: [`Gauge`]s. Never here: how the values are computed.
 
+mod followed;
 mod invariant_monitor;
 
 use std::collections::HashMap;
@@ -12,12 +13,13 @@ use std::sync::Arc;
 use super::attitude::Attitude;
 use super::law::{EnergyLaw, LONGEST};
 use super::residual::Residual;
-use super::{Gauge, Reference};
+use super::{FoundConstant, Gauge, Reference};
 use crate::analysis::rounding_floor;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Conserved, Equations, Valuation, casimir_rate};
 use crate::model::{Mechanics, Model};
 use crate::system::{ChannelKind, System, TermWatch};
+use followed::Followed;
 use invariant_monitor::{InvariantMonitor, LEDGER, Subject};
 
 /// Rounding errors are measured once per this many samples.
@@ -32,6 +34,7 @@ const CONTRADICTED: f64 = 100.0;
 pub(super) struct Gauges {
     equations: Arc<Equations>,
     monitors: Vec<InvariantMonitor>,
+    followed: Followed,
     residuals: Vec<Residual>,
     attitude: Option<Attitude>,
     /// The channel of each symbol that a state expression may contain.
@@ -121,6 +124,7 @@ impl Gauges {
         Gauges {
             equations,
             monitors,
+            followed: Followed::default(),
             residuals,
             attitude,
             places,
@@ -138,10 +142,21 @@ impl Gauges {
         for monitor in &mut self.monitors {
             monitor.refer(now.time, now.values, now.terms);
         }
+        self.refer_followed(now);
         self.residuals.iter_mut().for_each(|residual| residual.refer(now.time));
         self.attitude.iter_mut().for_each(|attitude| attitude.refer(now.time));
         self.measure(now);
         self.sample(now, true);
+    }
+
+    /// Takes these constants of the motion in place of those followed before.
+    pub(super) fn follow(&mut self, found: &[FoundConstant], model: &Model) {
+        self.followed = Followed::of(found, model, &self.equations);
+    }
+
+    /// Takes the current values of what is followed as its reference.
+    pub(super) fn refer_followed(&mut self, now: &Present<'_>) {
+        self.followed.refer((now.time, now.values), now.terms, now.constants, &self.places);
     }
 
     /// Continues from the references of gauges with the same names, where both show the same value.
@@ -173,6 +188,7 @@ impl Gauges {
     /// accounts for impulses by its own law.
     pub(super) fn shift(&mut self, before: &[f64], after: &[f64]) {
         self.monitors.iter_mut().for_each(|monitor| monitor.shift(before, after));
+        self.followed.shift(before, after, &self.places);
     }
 
     /// Records the values at one of the evenly spaced times. If these are farther apart than the steps, they may
@@ -202,6 +218,7 @@ impl Gauges {
         for monitor in &mut self.monitors {
             monitor.look(now.time, now.values, now.terms, floor);
         }
+        self.followed.look((now.time, now.values), now.terms, floor, &self.places);
         for residual in &mut self.residuals {
             residual.look(now.residuals);
         }
@@ -222,6 +239,7 @@ impl Gauges {
         for monitor in &mut self.monitors {
             monitor.sample(time, values, terms, floor);
         }
+        self.followed.sample((time, values), terms, floor, &self.places);
     }
 
     /// Records the terms at the end of a step or within it.
@@ -241,6 +259,7 @@ impl Gauges {
         let show =
             |monitor: &InvariantMonitor| monitor.show(now.values, self.reference_time, floor);
         let mut shown: Vec<Gauge> = self.monitors.iter().map(show).collect();
+        shown.extend(self.followed.show(now.values, now.time, floor, &self.places));
         contradict(&mut shown);
         let attitude = self.attitude.iter().map(|attitude| attitude.show(now.values));
         let constraints = self.residuals.iter().enumerate().map(|(k, residual)| {

@@ -179,6 +179,13 @@ impl<'a> Search<'a> {
             return Err(Unsupported("the equations are too large".to_owned()));
         }
         let evaluator = Evaluator::new(pool, &law.expressions(), &law.moving())?;
+        for e in symbolic.expressions() {
+            if equations.has_kink_on_constraints(e) {
+                let why =
+                    "no search is made through a root that may have a kink on the constraints";
+                return Err(Unsupported(why.to_owned()));
+            }
+        }
         let known = known::of(equations, &law, &values);
         let scope = Scope::of(model, law.clone());
         let mut random = Random::new(1);

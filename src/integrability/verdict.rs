@@ -6,7 +6,7 @@
 use std::collections::HashMap;
 
 use super::law;
-use super::search::Invariants;
+use super::search::{Invariants, Proof};
 use crate::expr::{Expr, Symbol, Zero};
 use crate::mechanics::{Equations, bracket};
 use crate::model::Model;
@@ -20,6 +20,8 @@ pub struct Relations {
     pub in_involution: Vec<usize>,
     /// The number of degrees of freedom: half the dimension, less Casimirs.
     pub freedoms: Option<usize>,
+    /// The number of independent Casimirs among the constants.
+    pub casimirs: usize,
     /// The verdict in words.
     pub verdict: String,
 }
@@ -46,10 +48,22 @@ pub fn relations(
         .collect();
     let n = functions.len();
     let mut brackets: Vec<Vec<Option<Expr>>> = vec![vec![None; n]; n];
+    // that each is constant is proved, and without time this is that it commutes with H
+    let energy = invariants.known.iter().position(|k| k.name == "energy");
+    let proofs = invariants.found.iter().map(|c| c.proof != Proof::Unproved);
+    let proved: Vec<bool> = vec![true; invariants.known.len()].into_iter().chain(proofs).collect();
+    let is_given = |i: usize, j: usize| {
+        !invariants.driven && (energy == Some(i) && proved[j] || energy == Some(j) && proved[i])
+    };
     if hamiltonian {
         for i in 0..n {
             brackets[i][i] = Some(Expr::ZERO);
             for j in i + 1..n {
+                if is_given(i, j) {
+                    brackets[i][j] = Some(Expr::ZERO);
+                    brackets[j][i] = Some(Expr::ZERO);
+                    continue;
+                }
                 let Ok(mut e) = bracket(model, equations, functions[i].0, functions[j].0) else {
                     continue;
                 };
@@ -77,7 +91,7 @@ pub fn relations(
     if !model.impulses.is_empty() {
         verdict.push_str(" (between impulses)");
     }
-    Relations { brackets, in_involution, freedoms, verdict }
+    Relations { brackets, in_involution, freedoms, casimirs, verdict }
 }
 
 /// Whether a function has zero bracket with every variable.
@@ -126,7 +140,7 @@ fn verdict(
     in_involution: usize,
 ) -> String {
     let total = invariants.independent();
-    let unproved = invariants.found.iter().any(|c| c.proof == super::search::Proof::Unproved);
+    let unproved = invariants.found.iter().any(|c| c.proof == Proof::Unproved);
     let caution = if unproved { " (not all of them proved)" } else { "" };
     let nothing = match invariants.none_up_to {
         Some(n) if invariants.found.is_empty() => {

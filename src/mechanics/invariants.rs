@@ -326,10 +326,11 @@ impl Equations {
                 _ => self.steep_divisors(part),
             })
             .collect();
-        arguments.into_iter().any(|argument| {
+        let jumps = arguments.into_iter().any(|argument| {
             let rate = self.rate_of(argument);
             rate.is_none_or(|rate| self.pool.is_zero(rate) != Zero::Proved)
-        })
+        });
+        jumps || self.may_jump_on_constraints(opened)
     }
 
     /// Divisors that vanish on a surface at which the quotient may have another limit on each side without a pole: the
@@ -339,6 +340,8 @@ impl Equations {
         let moving = self.moving();
         let has_kink = |e: Expr| {
             pool.reachable(&[e]).into_iter().any(|part| match pool.node(part) {
+                // |u| is also e^{½ ln u²}
+                Node::Call(FunctionId::Ln, u) => pool.touches_zero(u[0], &moving),
                 Node::Call(function, _) => matches!(
                     function,
                     FunctionId::Abs | FunctionId::Max | FunctionId::Min | FunctionId::Sign
@@ -350,20 +353,21 @@ impl Equations {
                 _ => false,
             })
         };
-        let divisors = |e: Expr| match pool.node(e) {
-            Node::Product(_, factors) => {
-                let below = factors.iter().filter(|(_, power)| power.is_negative());
-                below.map(|&(base, power)| (base, power.as_integer().is_none())).collect()
-            }
-            _ => Vec::new(),
-        };
         match pool.node(part) {
             Node::Call(FunctionId::Atan, argument) => {
-                let parts = pool.reachable(argument).into_iter().flat_map(divisors);
-                parts.map(|(e, _)| e).filter(|&e| pool.vanishes(e, &moving)).collect()
+                let mut steep = Vec::new();
+                for part in pool.reachable(argument) {
+                    // a tangent has poles
+                    if let Node::Call(FunctionId::Tan | FunctionId::Cot, angle) = pool.node(part) {
+                        steep.extend(angle.iter().filter(|&&e| pool.depends_on_any(e, &moving)));
+                    }
+                    let below = self.divisors(part).into_iter().map(|(e, _)| e);
+                    steep.extend(below.filter(|&e| pool.vanishes(e, &moving)));
+                }
+                steep
             }
             _ => {
-                let below = divisors(part);
+                let below = self.divisors(part);
                 let kinked = !below.is_empty() && has_kink(part);
                 below
                     .into_iter()
@@ -377,7 +381,7 @@ impl Equations {
     }
 
     /// The time, coordinates, velocities and momenta.
-    fn moving(&self) -> Vec<Symbol> {
+    pub(super) fn moving(&self) -> Vec<Symbol> {
         let mut moving = vec![self.symbols.time];
         moving.extend(self.coordinates.iter().flat_map(|c| [c.position, c.velocity, c.momentum]));
         moving

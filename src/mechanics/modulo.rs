@@ -16,7 +16,7 @@ const WEIGHT_LIMIT: u64 = 4_000;
 const ROUNDS: usize = 4;
 
 /// A coordinate that a holonomic constraint determines.
-enum Fixed {
+pub(super) enum Fixed {
     /// q equals this expression.
     Value(Symbol, Expr),
     /// q² equals this expression.
@@ -61,7 +61,7 @@ impl Equations {
 
     /// One velocity for each constraint, in terms of the remaining ones; to be substituted in this
     /// order.
-    fn fixed_velocities(&mut self) -> Vec<(Symbol, Expr)> {
+    pub(super) fn fixed_velocities(&mut self) -> Vec<(Symbol, Expr)> {
         let symbols: Vec<Symbol> = self.coordinates.iter().map(|c| c.velocity).collect();
         let mut fixed: Vec<(Symbol, Expr)> = Vec::new();
         for row in self.constraints.clone() {
@@ -93,7 +93,7 @@ impl Equations {
 
     /// A coordinate for each holonomic constraint that is linear in it, or contains only its
     /// square.
-    fn fixed_positions(&mut self) -> Vec<Fixed> {
+    pub(super) fn fixed_positions(&mut self) -> Vec<Fixed> {
         let symbols: Vec<Symbol> = self.coordinates.iter().map(|c| c.position).collect();
         let holonomic: Vec<Expr> = self.constraints.iter().filter_map(|c| c.position).collect();
         let mut fixed: Vec<Fixed> = Vec::new();

@@ -3,6 +3,7 @@
 //! In: the derived equations. Out: a page of text. Never here: derivations.
 
 use super::RenderStyle;
+use super::constants;
 use super::text_page::TextPage;
 use super::theme::Role;
 use crate::app::Lab;
@@ -16,12 +17,14 @@ const MOST: u64 = 4_000;
 pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
     let report = Report::of(&lab.loaded.model, &lab.loaded.equations);
     let mut writer = Writer { report: &report, look, page: TextPage::default() };
+    constants::verdict(lab, &mut writer.page);
     writer.law();
     writer.constraints();
     writer.occurrences();
     writer.motion();
     writer.hamiltonian();
     writer.conserved();
+    constants::found(lab, look, &mut writer.page);
     writer.definitions();
     writer.page
 }

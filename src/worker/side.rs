@@ -7,7 +7,7 @@
 use std::fmt;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::job::{Job, Outcome, Progress, Share};
 
@@ -21,13 +21,15 @@ pub struct Side<T> {
     sender: Sender<(u64, Outcome<T>)>,
     receiver: Receiver<(u64, Outcome<T>)>,
     under_way: Option<(u64, Progress)>,
+    /// When the job's budget is spent.
+    ends: Option<Instant>,
 }
 
 impl<T: Send + 'static> Side<T> {
     /// Creates an idle instance with a name for its threads.
     pub fn new(name: &'static str) -> Self {
         let (sender, receiver) = channel();
-        Self { name, sender, receiver, under_way: None }
+        Self { name, sender, receiver, under_way: None, ends: None }
     }
 
     /// Starts a job and cancels the one before.
@@ -39,6 +41,7 @@ impl<T: Send + 'static> Side<T> {
     pub fn begin_with(&mut self, ticket: u64, job: Job<T>, progress: Progress) {
         self.stop();
         self.under_way = Some((ticket, progress.clone()));
+        self.ends = job.budget.and_then(|budget| Instant::now().checked_add(budget));
         let sender = self.sender.clone();
         let work = move || {
             let outcome = job.run(&progress);
@@ -67,8 +70,13 @@ impl<T: Send + 'static> Side<T> {
         self.under_way.is_some()
     }
 
-    /// The number and progress of the current job.
+    /// The number and progress of the current job. A job whose budget is spent is asked to end with what it has.
     pub fn share(&self) -> Option<(u64, Share)> {
+        if let Some((_, progress)) = self.under_way.as_ref()
+            && self.ends.is_some_and(|ends| Instant::now() >= ends)
+        {
+            progress.spend();
+        }
         self.under_way.as_ref().map(|(ticket, progress)| (*ticket, progress.share()))
     }
 

@@ -1,6 +1,8 @@
 //! The application driven by keys: a state, keys, and the resulting state and effects.
 
 mod editor;
+mod flow;
+mod invariants;
 mod keys;
 pub(crate) mod real;
 mod saved;

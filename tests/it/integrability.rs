@@ -5,6 +5,7 @@ mod absent;
 mod found;
 mod negatives;
 mod noether;
+mod relations;
 mod textbook;
 
 use phaselab::expr::{Expr, Symbol};

@@ -103,6 +103,87 @@ fn a_sign_in_disguise_is_not_conserved() {
     }
 }
 
+/// A root that has no kink in the plane may have one where a constraint holds, and then a quotient by it is a sign.
+#[test]
+fn a_sign_in_disguise_on_the_constraints_is_not_conserved() {
+    let on = |constraint: &str, velocities: [f64; 2], observable: &str| {
+        let constraint = format!("[[constraints]]\nname = \"c\"\nexpression = \"{constraint}\"");
+        file(&lagrangian(FREE), &constraint, observable)
+            .replacen("velocity = 0.5", &format!("velocity = {:?}", velocities[0]), 1)
+            .replacen("velocity = 0.5", &format!("velocity = {:?}", velocities[1]), 1)
+    };
+    let cases = [
+        ("y", [0.5, 0.0], "x/sqrt(x^2 + y^2)"),
+        ("y", [0.5, 0.0], "sqrt(x^2 + y^2)/x"),
+        ("y", [0.5, 0.0], "x/sqrt(x^2 + 3*y^2 + y^4)"),
+        ("y", [0.5, 0.0], "x*(x^2 + y^2)^(-1/2)"),
+        ("y", [0.5, 0.0], "atan(x) + atan(1/x)"),
+        ("y", [0.5, 0.0], "exp(1/2*ln(x^2 + y^2))/x"),
+        ("y - 1", [0.5, 0.0], "x/sqrt(x^2 + (y - 1)^2)"),
+        ("x - y", [0.5, 0.5], "x/sqrt(x^2 + y^2)"),
+        ("x - y", [0.5, 0.5], "x/sqrt(x*y)"),
+        ("y - x^2", [0.5, 1.0], "x/sqrt(y)"),
+        ("y - x^2", [0.5, 1.0], "sqrt(y)/x"),
+        ("x^2 + y^2 - 2", [0.5, -0.5], "x/sqrt(2 - y^2)"),
+        ("x^2 + y^2 - 2", [0.5, -0.5], "sqrt(2 - y^2)/x"),
+        ("sin(y - 1)", [0.5, 0.0], "x/sqrt(x^2 + (y - 1)^2)"),
+    ];
+    for (constraint, velocities, observable) in cases {
+        let text = on(constraint, velocities, observable);
+        let text = if constraint == "y" {
+            text.replace("y = { initial = 1.0", "y = { initial = 0.0")
+        } else {
+            text
+        };
+        is_not_called_conserved(&text);
+        // what a person asks is not answered otherwise
+        let model = model(&text);
+        let mut equations = mechanics::derive(&model).expect("derivable");
+        let class = mechanics::classes(&model, &mut equations).remove(0).class;
+        assert!(!class.is_conserved(), "{observable} on {constraint}: {class}");
+    }
+    let falling =
+        on("y' - x'", [0.5, 0.5], "x'/sqrt(x'^2 + y'^2)").replace(FREE, "1/2*x'^2 + 1/2*y'^2 - x");
+    is_not_called_conserved(&falling);
+    // what has no such place is conserved
+    for (constraint, velocities, observable) in [
+        ("x^2 + y^2 - 2", [0.5, -0.5], "(x*y' - y*x')/sqrt(x^2 + y^2)"),
+        ("x^2 + y^2 - 2", [0.5, -0.5], "sqrt(x^2 + y^2)"),
+        ("x - y", [0.5, 0.5], "x'/sqrt(1 + (x - y)^2)"),
+        ("y - x^2", [0.5, 1.0], "1/sqrt(1 + x'^2 + y'^2)"),
+    ] {
+        let text = on(constraint, velocities, observable);
+        assert!(reason(&text).is_some(), "{observable} on {constraint}");
+    }
+}
+
+/// Steps in other disguises, without constraints.
+#[test]
+fn a_step_in_disguise_is_not_conserved() {
+    for observable in ["exp(1/2*ln(x^2))/x", "atan(tan(x)) - x", "atan(cot(x)) + x"] {
+        is_not_called_conserved(&file(&lagrangian(FREE), "", observable));
+    }
+}
+
+#[test]
+fn a_root_with_a_kink_on_the_constraints_is_not_searched_through() {
+    let text = |constraint: &str| {
+        let constraint = format!("[[constraints]]\nname = \"c\"\nexpression = \"{constraint}\"");
+        let law = lagrangian(&format!("{FREE} - sqrt(x^2 + (y - 1)^2)"));
+        file(&law, &constraint, "x")
+            .replace("y = { initial = 1.0, velocity = 0.5", "y = { initial = 1.0, velocity = 0.0")
+    };
+    let search = |text: &str| {
+        let model = model(text);
+        let mut equations = mechanics::derive(&model).expect("derivable");
+        invariants(&model, &mut equations, &Limits { degree: Some(1), is_over: &|| false })
+    };
+    let refused = search(&text("y - 1")).expect_err("a kink");
+    assert!(refused.to_string().contains("on the constraints"), "{refused}");
+    let plain = text("y - 1").replace("- sqrt(x^2 + (y - 1)^2)", "- x^2");
+    search(&plain).expect("it can be searched");
+}
+
 #[test]
 fn roots_with_kinks_are_not_searched_through() {
     let potentials = [

@@ -1,0 +1,159 @@
+//! The search for constants of the motion in the lab: asked for by the page of equations, made in the background, and
+//! its results followed by gauges.
+//!
+//! In: the loaded system, the parameters' values, the outcome of a job. Out: a job, the results, commands. Never here:
+//! the search itself, or what the results look like.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::findings::{Findings, UnderWay, followed, search};
+use super::side::{Asker, Computation};
+use super::{App, Effect, Lab, Page};
+use crate::experiment::{Command, FoundConstant};
+use crate::expr::Expr;
+use crate::instrument::Answer;
+use crate::integrability::Proof;
+use crate::job::{Job, Outcome};
+
+/// The time of the first search; each further one takes four times as long.
+const BUDGET: Duration = Duration::from_secs(1);
+
+/// The furthest that one can ask for.
+const MOST: u32 = 3;
+
+impl Lab {
+    /// The job of a search that is wanted now.
+    pub(super) fn wants_search(&mut self, tickets: &mut u64, aside: bool) -> Option<Computation> {
+        let parameters = self.seen()?.parameters.to_vec();
+        let search_state = &mut self.search;
+        let known = search_state.outcome.as_ref().is_some_and(|(at, _)| *at == parameters);
+        if known || search_state.under_way.is_some() || search_state.stopped {
+            return None;
+        }
+        *tickets += 1;
+        let (model, equations) =
+            (Arc::clone(&self.loaded.model), Arc::clone(&self.loaded.equations));
+        let (further, at) = (search_state.further, parameters.clone());
+        let job = Job::new("searching for constants of the motion", move |progress| {
+            let (model, equations) = ((*model).clone(), (*equations).clone());
+            Answer::new(search(model, equations, &at, further, progress, aside))
+        })
+        .within(BUDGET * 4_u32.pow(further));
+        let computation = Computation { ticket: *tickets, asker: Asker::Search, job };
+        search_state.under_way =
+            Some(UnderWay { ticket: *tickets, at: parameters, since: Duration::ZERO });
+        Some(computation)
+    }
+
+    /// Takes in the outcome of the search, if it is wanted. Returns what gauges are to follow if that changes.
+    pub(super) fn take_search(
+        &mut self,
+        ticket: u64,
+        outcome: &Outcome<Answer>,
+    ) -> Option<Option<Vec<FoundConstant>>> {
+        let UnderWay { at, .. } = self.search.under_way.take_if(|job| job.ticket == ticket)?;
+        let Outcome::Done(answer) = outcome else {
+            self.search.stopped = true;
+            return Some(None);
+        };
+        let result = answer.of::<Result<Arc<Findings>, String>>()?.clone();
+        let found = result.as_ref().map(|findings| followed(findings)).unwrap_or_default();
+        self.search.outcome = Some((at, result));
+        let before = std::mem::replace(&mut self.search.followed, !found.is_empty());
+        Some((before || !found.is_empty()).then_some(found))
+    }
+
+    /// What was found for the parameters as they are now.
+    pub fn findings(&self) -> Option<Result<&Findings, &str>> {
+        let (at, result) = self.search.outcome.as_ref()?;
+        let now = self.seen()?;
+        (now.parameters[..] == at[..])
+            .then(|| result.as_ref().map(|findings| &**findings).map_err(String::as_str))
+    }
+
+    /// The gauges that are to follow once the parameters have changed: what was proved for all their values.
+    pub(super) fn forget_search(&mut self) -> Option<Vec<FoundConstant>> {
+        let (at, result) = self.search.outcome.as_ref()?;
+        if self.seen()?.parameters[..] == at[..] {
+            return None;
+        }
+        let kept: Vec<FoundConstant> = result.as_ref().map_or_else(
+            |_| Vec::new(),
+            |findings| {
+                let all = followed(findings).into_iter().zip(&findings.invariants.found);
+                all.filter(|(_, c)| c.proof == Proof::Proved).map(|(kept, _)| kept).collect()
+            },
+        );
+        self.search.outcome = None;
+        self.search.stopped = false;
+        std::mem::take(&mut self.search.followed).then_some(kept)
+    }
+
+    /// Every constant that has a flow, by its name.
+    pub fn flows(&self) -> Vec<(String, Expr)> {
+        let Some(Ok(findings)) = self.findings() else { return Vec::new() };
+        if !findings.hamiltonian {
+            return Vec::new();
+        }
+        let known = findings.invariants.known.iter().map(|k| k.expression);
+        let all = known.chain(findings.invariants.found.iter().map(|c| c.expression));
+        findings.names.iter().cloned().zip(all).collect()
+    }
+}
+
+impl App {
+    /// The search that the page shown needs, and the gauges that no longer hold.
+    pub(super) fn look_after_search(&mut self, effects: &mut Vec<Effect>) {
+        let (aside, shown) = (self.aside, self.page == Page::Equations);
+        let Some(lab) = &mut self.lab else { return };
+        if let Some(kept) = lab.forget_search() {
+            effects.push(Effect::Tell(Command::Follow(kept)));
+        }
+        if shown {
+            effects.extend(lab.wants_search(&mut self.jobs, aside).map(Effect::Compute));
+        }
+    }
+
+    /// Searches further than before: to a higher degree, and for a longer time.
+    pub(super) fn search_further(&mut self) -> Vec<Effect> {
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        if lab.search.under_way.is_some() {
+            return self.notify("A search is being made; Esc ends it.");
+        }
+        let fresh = self.page != Page::Equations && lab.findings().is_none();
+        if !fresh && lab.search.outcome.is_some() {
+            if lab.search.further == MOST {
+                return self.notify("phaselab invariants --degree searches further than this.");
+            }
+            lab.search.further += 1;
+            lab.search.outcome = None;
+        }
+        lab.search.stopped = false;
+        if self.page != Page::Equations {
+            self.go(Page::Equations);
+        }
+        Vec::new()
+    }
+
+    /// Opens or closes the table of brackets.
+    pub(super) fn show_brackets(&mut self) -> Vec<Effect> {
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        lab.search.brackets = !lab.search.brackets;
+        if self.page != Page::Equations {
+            if let Some(lab) = &mut self.lab {
+                lab.search.brackets = true;
+            }
+            self.go(Page::Equations);
+        }
+        Vec::new()
+    }
+
+    /// Ends the search under way. Returns whether there was one.
+    pub(super) fn stop_search(&mut self) -> bool {
+        let Some(lab) = &mut self.lab else { return false };
+        let was = lab.search.under_way.take().is_some();
+        lab.search.stopped |= was;
+        was
+    }
+}

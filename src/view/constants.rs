@@ -1,0 +1,147 @@
+//! What is said of constants of the motion on the page of equations: the verdict, what was found and how far it is
+//! proved, what was searched, and the table of brackets.
+//!
+//! In: the findings of the lab's search. Out: blocks of a page of text. Never here: the search.
+
+use super::RenderStyle;
+use super::text_page::TextPage;
+use super::theme::Role;
+use crate::app::{Findings, Lab};
+use crate::expr::Expr;
+use crate::integrability::Proof;
+
+/// Formulas with more nodes than this are not written out.
+const MOST: u64 = 600;
+
+/// Adds the verdict in a line.
+pub(super) fn verdict(lab: &Lab, page: &mut TextPage) {
+    if let Some(status) = lab.search.status() {
+        page.words(Role::Dim, status);
+        return;
+    }
+    match lab.findings() {
+        Some(Ok(findings)) => {
+            let role =
+                if findings.summary.contains("integrable") { Role::Good } else { Role::Text };
+            page.words(role, capital(&findings.summary));
+        }
+        Some(Err(why)) => page.words(Role::Dim, format!("Integrable or not: not known; {why}.")),
+        None if lab.search.was_stopped() => {
+            page.words(Role::Dim, "Integrable or not: the search was stopped; I begins it again.");
+        }
+        None => page.words(Role::Dim, "Integrable or not: the search has not ended yet."),
+    }
+}
+
+/// Adds what was found, what was searched, and the table of brackets if it is open.
+pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
+    let Some(Ok(findings)) = lab.findings() else { return };
+    let invariants = &findings.invariants;
+    let write = |e: Expr| {
+        let pool = &findings.equations.pool;
+        match pool.weight(e) {
+            weight if weight > MOST => {
+                format!("… ({weight} pieces: phaselab invariants prints them)")
+            }
+            _ if look.glyphs.is_ascii() => pool.text(e),
+            _ => pool.unicode(e),
+        }
+    };
+    page.heading("Constants of the motion nobody wrote down");
+    if invariants.found.is_empty() {
+        page.words(Role::Dim, "None was found.");
+    }
+    let known = invariants.known.len();
+    for (i, constant) in invariants.found.iter().enumerate() {
+        let mut remark = format!("found at degree {}", constant.degree);
+        remark.push_str(match constant.proof {
+            Proof::Proved => ", proved",
+            Proof::AtTheseParameters => ", proved at these parameters",
+            Proof::Unproved => ", not proved",
+        });
+        if !constant.independent {
+            remark.push_str("; a function of those before");
+        }
+        if constant.between_impulses {
+            remark.push_str("; between impulses");
+        }
+        page.formula(
+            &look.glyphs.text(&findings.names[known + i]),
+            write(constant.expression),
+            &remark,
+        );
+    }
+    page.words(Role::Dim, capital(&findings.relations.verdict));
+    if let Some(searched) = invariants.searched.last() {
+        let words = format!("Searched up to degree {}: {}.", searched.degree, searched.family);
+        page.words(Role::Dim, look.glyphs.text(&words));
+    }
+    if let Some(why) = &invariants.ended {
+        page.words(Role::Dim, format!("The search ended: {why}. I searches further."));
+    }
+    match findings.separates {
+        Some(true) => {
+            page.words(Role::Text, "Hamilton–Jacobi separates in these coordinates: proved.")
+        }
+        Some(false) => {
+            page.words(
+                Role::Dim,
+                "Hamilton–Jacobi does not separate in these coordinates: proved.",
+            );
+        }
+        None => {}
+    }
+    if findings.hamiltonian {
+        let open = lab.search.brackets;
+        let hint = if open { "" } else { "B shows their brackets; " };
+        page.words(Role::Dim, format!("{hint}F carries the state along the flow of one."));
+    }
+    if lab.search.brackets {
+        let parameters = !lab.loaded.model.parameters.is_empty();
+        brackets(findings, parameters, look, page, &write);
+    }
+}
+
+/// Adds \[I_i, I_j\] of every pair.
+fn brackets(
+    findings: &Findings,
+    parameters: bool,
+    look: &RenderStyle,
+    page: &mut TextPage,
+    write: &dyn Fn(Expr) -> String,
+) {
+    page.heading("Brackets");
+    if !findings.hamiltonian {
+        page.words(
+            Role::Dim,
+            "More than H acts here, so constants of the motion have no brackets.",
+        );
+        return;
+    }
+    let table = &findings.relations.brackets;
+    let mut commuting = Vec::new();
+    for (i, row) in table.iter().enumerate() {
+        for (j, entry) in row.iter().enumerate().skip(i + 1) {
+            let label = look
+                .glyphs
+                .text(&format!("[{}, {}]", findings.names[i], findings.names[j]))
+                .into_owned();
+            match entry {
+                Some(e) if *e == Expr::ZERO => commuting.push(label),
+                Some(e) => page.formula(&label, write(*e), ""),
+                None => page.words(Role::Dim, format!("{label} is not known in closed form.")),
+            }
+        }
+    }
+    if !commuting.is_empty() {
+        let these = if parameters { ", for these values of the parameters" } else { "" };
+        let words = format!("{} = 0: proved{these}.", commuting.join(" = "));
+        page.words(Role::Good, words);
+    }
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string()).unwrap_or_default();
+    format!("{first}{}.", letters.as_str())
+}

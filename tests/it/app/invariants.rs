@@ -1,0 +1,157 @@
+//! The search for constants of the motion in the lab: the page of equations asks for it, gauges follow what it finds, and
+//! a change of a parameter takes back what no longer holds.
+
+use std::time::Duration;
+
+use phaselab::app::{App, Asker, Effect, Event, Page};
+use phaselab::experiment::{Command, Gauge};
+use phaselab::job::Progress;
+
+use super::real::Real;
+use crate::hand::{lab, lowered, press};
+
+fn kepler(parameters: &str, exponent: &str) -> String {
+    format!(
+        "title = \"Kepler\"\n[coordinates]\nx = {{ initial = 1.0, momentum = 0.0 }}\n\
+         y = {{ initial = 0.0, momentum = 1.2 }}\n[parameters]\n{parameters}\n[hamiltonian]\n\
+         H = \"1/2*(p_x^2 + p_y^2) - k/sqrt(x^2 + y^2){exponent}\"\n"
+    )
+}
+
+fn summary(app: &App) -> String {
+    let lab = app.lab.as_ref().expect("a lab");
+    lab.findings().expect("a search").expect("it can be searched").summary.clone()
+}
+
+fn found(real: &Real) -> Vec<Gauge> {
+    real.seen().gauges.iter().filter(|g| g.reason.starts_with("found")).cloned().collect()
+}
+
+#[test]
+fn what_is_found_becomes_a_gauge_with_its_reason() {
+    let mut real = Real::with(lowered(&kepler("k = 1.0", "")));
+    assert!(found(&real).is_empty() && real.lab().findings().is_none());
+    real.press("2");
+    let told = summary(&real.app);
+    assert!(
+        told.starts_with("superintegrable: 3 independent")
+            && told.ends_with("every bounded orbit closes"),
+        "{told}"
+    );
+    let gauges = found(&real);
+    assert!(!gauges.is_empty());
+    for gauge in &gauges {
+        assert_eq!(gauge.reason, "found at degree 2, proved");
+        assert!(gauge.proved);
+    }
+    // the Runge–Lenz vector of the start: p_y L − x/r = 1.44 − 1 along x, 0 along y
+    let values: Vec<f64> = gauges.iter().map(|g| g.value.abs()).collect();
+    assert!(values.iter().any(|v| (v - 0.44).abs() < 1e-12), "{values:?}");
+    real.press("1");
+    real.run(600);
+    for gauge in found(&real) {
+        assert!(gauge.max_drift < 1e-12, "{} {}", gauge.name, gauge.max_drift);
+    }
+    // a reset keeps the gauges and takes them anew
+    real.press("r");
+    assert_eq!(found(&real).len(), gauges.len());
+}
+
+/// A gauge of what is no constant would be seen to drift: the same formula where the force is another.
+#[test]
+fn a_followed_formula_that_is_no_constant_drifts() {
+    let mut real = Real::with(lowered(&kepler("k = 1.0", "")));
+    real.press("2");
+    let text = {
+        let findings = real.lab().findings().unwrap().unwrap();
+        findings.equations.pool.text(findings.invariants.found[0].expression)
+    };
+    let mut other = Real::with(lowered(&kepler("k = 1.0", "^2")));
+    other.experiment.execute(Command::Follow(vec![phaselab::experiment::FoundConstant {
+        name: "I1".to_owned(),
+        shown: "I₁".to_owned(),
+        expression: text,
+        reason: "found by mistake".to_owned(),
+        proved: false,
+    }]));
+    other.look();
+    other.run(60);
+    assert!(found(&other)[0].max_drift > 1e-3, "{}", found(&other)[0].max_drift);
+}
+
+#[test]
+fn where_nothing_else_is_the_line_says_so_and_how_far() {
+    let text = "title = \"Hénon–Heiles\"\n[coordinates]\nx = { initial = 0.1, momentum = 0.1 }\n\
+                y = { initial = 0.2, momentum = 0.0 }\n[hamiltonian]\n\
+                H = \"1/2*(p_x^2 + p_y^2 + x^2 + y^2) + x^2*y - 1/3*y^3\"\n";
+    let mut real = Real::with(lowered(text));
+    real.press("2");
+    assert_eq!(summary(&real.app), "only E found, up to degree 4 (proved)");
+    assert!(found(&real).is_empty());
+    // further: two degrees beyond
+    real.press("I");
+    let findings = real.lab().findings().expect("a search").expect("it can be searched");
+    assert_eq!(findings.invariants.none_up_to, Some(6));
+    assert_eq!(summary(&real.app), "only E found, up to degree 6 (proved)");
+}
+
+#[test]
+fn another_value_of_a_parameter_is_another_question() {
+    let text = "title = \"springs\"\n[coordinates]\nx = { initial = 1.0, momentum = 0.0 }\n\
+                y = { initial = 0.0, momentum = 1.2 }\n[parameters]\n\
+                a = { value = 1.0, min = 0.0, max = 4.0 }\nb = 1.0\n[hamiltonian]\n\
+                H = \"1/2*(p_x^2 + p_y^2) + 1/2*a*x^2 + 1/2*b*y^2\"\n";
+    let mut real = Real::with(lowered(text));
+    real.press("2");
+    assert!(summary(&real.app).starts_with("superintegrable"), "{}", summary(&real.app));
+    let here = found(&real);
+    real.press("1");
+    assert!(here.iter().any(|g| g.reason.ends_with("proved at these parameters")));
+    real.experiment.execute(Command::Parameter { index: 0, value: 1.7 });
+    let snapshot = std::sync::Arc::new(real.experiment.snapshot());
+    let effects = real.app.update(Event::Snapshot(snapshot));
+    real.execute(effects);
+    real.press("1");
+    // what held at the other value is gone; what holds for all values stays
+    let left = found(&real);
+    assert!(left.iter().all(|g| g.reason.ends_with(", proved")), "{left:?}");
+    assert!(left.len() < here.len() && real.lab().findings().is_none());
+    real.press("2");
+    assert!(summary(&real.app).starts_with("integrable: 2 invariants in involution"));
+}
+
+#[test]
+fn the_search_is_a_job_with_a_budget_that_can_be_stopped() {
+    let mut app = lab("henon-heiles", 0.0);
+    app.aside = true;
+    let effects = press(&mut app, "2");
+    let [Effect::Compute(computation)] = &effects[..] else { panic!("{effects:?}") };
+    assert_eq!(computation.asker, Asker::Search);
+    assert_eq!(computation.job.budget, Some(Duration::from_secs(1)));
+    let stopped = press(&mut app, "Esc");
+    assert_eq!(stopped, [Effect::StopComputing(Asker::Search)]);
+    assert_eq!(app.page, Page::Equations);
+    // it is not begun again by itself, and I begins it
+    assert!(press(&mut app, "1 2").is_empty());
+    let again = press(&mut app, "I");
+    let [Effect::Compute(computation)] = &again[..] else { panic!("{again:?}") };
+    // a job whose budget is spent ends with what it has, and claims nothing beyond
+    let progress = Progress::new();
+    progress.spend();
+    let (ticket, outcome) = (computation.ticket, computation.job.run(&progress));
+    app.update(Event::Computed { ticket, outcome });
+    let findings = app.lab.as_ref().unwrap().findings().unwrap().unwrap();
+    assert_eq!(findings.invariants.none_up_to, None);
+    assert!(findings.invariants.ended.is_some() && !findings.summary.contains("proved"));
+}
+
+#[test]
+fn what_cannot_be_searched_says_why() {
+    let text = "title = \"bounce\"\n[coordinates]\nx = { initial = 1.0, momentum = 0.0 }\n\
+                [hamiltonian]\nH = \"1/2*p_x^2 + abs(x)\"\n";
+    let mut real = Real::with(lowered(text));
+    real.press("2");
+    let why = real.lab().findings().expect("an answer").expect_err("a kink");
+    assert!(why.contains("no search is made through `abs`"), "{why}");
+    real.press("I 1 2 B B");
+}
