@@ -9,6 +9,7 @@ mod action;
 mod buffer;
 mod change;
 mod choose;
+mod companions;
 mod edit;
 mod editor;
 mod event;

@@ -6,6 +6,8 @@
 mod attitude;
 mod checkpoint;
 mod command;
+mod companion;
+mod companions;
 mod course;
 mod crossing_log;
 mod deviation;
@@ -26,6 +28,8 @@ mod trail;
 pub use crate::analysis::{Growth, Verdict};
 pub use checkpoint::{Changed, Checkpoint, MotionState, Named, Past};
 pub use command::Command;
+pub use companion::{Companion, Origin};
+pub use companions::MOST_COMPANIONS;
 pub use course::{Experiment, Progress};
 pub use crossing_log::CrossingLog;
 pub use event_log::{EventCount, EventLog};

@@ -12,6 +12,7 @@ mod potential;
 mod present;
 mod section;
 mod seed;
+mod separation;
 mod sight;
 mod space;
 mod table;

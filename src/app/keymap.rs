@@ -219,6 +219,9 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('U'), ctrl('r')], Action::Redo, "", "redo the last undone change"),
     row(Place::Experiment, &[c('{'), c('i')], Action::Ask, "ask", "ask for a bracket [f, g], or whether something is an invariant"),
     row(Place::Experiment, &[c('/')], Action::Palette, "", "search all actions by name, as : does"),
+    row(Place::Experiment, &[c('P')], Action::Pin, "", "pin this run: it goes on beside what follows, with its values and its method"),
+    row(Place::Experiment, &[c('d')], Action::AddNeighbour, "", "add a neighbour, a motion from close beside, and show how they part: ln d against time"),
+    row(Place::Experiment, &[c('C')], Action::ClearCompanions, "", "clear all motions beside the main one"),
     row(Place::Experiment, &[c('W')], Action::Export, "", "write a preset file of the system as it is now, with every changed value"),
     row(Place::Experiment, &[c('E')], Action::Edit, "edit", "edit the system's file while it runs; the motion follows the text"),
     row(Place::Experiment, &[c('S')], Action::Still, "", "write a screenshot (a drawing, SVG) into the current folder"),
@@ -251,6 +254,7 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Plot, &[c('v')], Action::ChooseAxes, "axes", "choose what this pane shows: which variable on which axis"),
     row(Place::Plot, &[ENTER], Action::StartHere, "", "begin the motion at the cursor; without a cursor, choose what this pane shows"),
+    row(Place::Plot, &[c('A'), shift(KeyCode::Enter)], Action::AddStart, "", "add a motion beside the others that begins at the cursor; so does Shift-click, or the right button"),
     row(Place::Plot, &[c('n')], Action::AddOrbits, "", "add orbits to a section: the one through the cursor, or some spread over what is seen"),
     row(Place::Plot, &[c('N')], Action::ClearOrbits, "", "clear a section: the orbits added to it, and the past crossings of the motion"),
     row(Place::Plot, &[c('+'), c('=')], Action::Closer(Axes::Both), "closer", "look closer"),

@@ -170,6 +170,7 @@ impl Lab {
             values: &snapshot.values,
             bounds: &snapshot.bounds,
             crossed: snapshot.crossings.counts(),
+            separations: &snapshot.separations,
             method: snapshot.method.name,
             settings: snapshot.setup.settings,
         }

@@ -75,6 +75,9 @@ impl App {
             Action::ApplyImpulse if lab.impulses().is_empty() => {
                 Some("this system has no impulse that waits for a key")
             }
+            Action::ClearCompanions if lab.seen().is_some_and(|s| s.companions.is_empty()) => {
+                Some("there are no motions beside the main one")
+            }
             Action::NextFrame if lab.loaded.model.frames.is_empty() => {
                 Some("this system has no frames to look from")
             }

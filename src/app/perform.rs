@@ -130,6 +130,10 @@ impl App {
             }
             Action::ChooseAxes => self.open_axes(),
             Action::StartHere => self.start_here(),
+            Action::AddStart => self.add_start_here(),
+            Action::AddNeighbour => self.add_neighbour(),
+            Action::Pin => vec![Effect::Tell(Command::Pin)],
+            Action::ClearCompanions => self.clear_companions(),
             Action::AddOrbits => self.add_orbits(),
             Action::ClearOrbits => self.clear_orbits(),
             Action::Change { sign, coarse } => {

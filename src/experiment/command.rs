@@ -51,6 +51,14 @@ pub enum Command {
     Reference,
     /// Forgets the crossings of the surfaces of section so far.
     ForgetCrossings,
+    /// Adds a motion from these overrides of the file's initial values beside the others.
+    AddStart(Vec<InitialOverride>),
+    /// Adds a motion that begins close beside the main one.
+    AddNeighbour,
+    /// Keeps the present run, with its parameters and its method, beside what follows.
+    Pin,
+    /// Removes all motions beside the main one.
+    ClearCompanions,
     /// Resumes from a checkpoint.
     TakeUp(Box<Checkpoint>),
 }

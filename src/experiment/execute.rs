@@ -45,7 +45,14 @@ impl Experiment {
             Command::StepSize(step) => self.change_step(step),
             Command::Tolerance(tolerance) => self.change_tolerance(tolerance),
             Command::TakeUp(moment) => self.restore(&moment),
-            Command::ForgetCrossings => self.crossings.clear(),
+            Command::ForgetCrossings => {
+                self.crossings.clear();
+                self.companions.forget_crossings();
+            }
+            Command::AddStart(given) => self.add_start(given),
+            Command::AddNeighbour => self.add_neighbour(),
+            Command::Pin => self.pin(),
+            Command::ClearCompanions => self.companions.clear(),
             Command::Settings(settings) => self.change_method(self.motion.method(), settings),
             Command::Reference => {
                 self.gauge(Gauges::refer);
@@ -100,6 +107,7 @@ impl Experiment {
         let new = &self.setup.parameters;
         let state = self.system().change_parameters(self.motion.state(), &old, new);
         self.continue_from(state);
+        self.pass_parameters();
         self.gauge(Gauges::refer);
         let jump = self.energy() - before;
         if jump.abs() > 1e-12 * before.abs() {
@@ -179,6 +187,7 @@ impl Experiment {
             return self.restart();
         }
         self.continue_from(Ok(self.motion.state().clone()));
+        self.pass_method();
         self.gauge(Gauges::refer);
     }
 

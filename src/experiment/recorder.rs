@@ -17,7 +17,7 @@ const CHUNK: usize = 128;
 const CHUNKS: [usize; THINNINGS] = [64, 32, 32, 32];
 
 /// The greatest number of stored values (48 MB), for systems with very many channels.
-const NUMBERS: usize = 6_000_000;
+pub(super) const NUMBERS: usize = 6_000_000;
 
 /// Records rows.
 #[derive(Clone, Debug)]
@@ -39,13 +39,18 @@ pub(super) struct Recorder {
 impl Recorder {
     /// Creates a recorder of rows of that many channels, one per `spacing` of time.
     pub(super) fn new(channels: usize, spacing: f64) -> Recorder {
+        Recorder { spacing, ..Recorder::bounded(channels, NUMBERS) }
+    }
+
+    /// Creates a recorder that stores at most so many numbers.
+    pub(super) fn bounded(channels: usize, numbers: usize) -> Recorder {
         let width = channels + 1;
-        let most = NUMBERS / (width * CHUNK);
+        let most = numbers / (width * CHUNK);
         let all: usize = CHUNKS.iter().sum();
         Recorder {
             width,
             origin: 0.0,
-            spacing,
+            spacing: 1.0,
             count: 0,
             last: None,
             sealed: Default::default(),
@@ -57,7 +62,8 @@ impl Recorder {
 
     /// Clears the recorder; the next row is due at `origin`.
     pub(super) fn restart(&mut self, origin: f64) {
-        *self = Recorder { origin, ..Recorder::new(self.width - 1, self.spacing) };
+        let (limits, spacing) = (self.limits, self.spacing);
+        *self = Recorder { origin, limits, ..Recorder::new(self.width - 1, spacing) };
     }
 
     /// The time between two rows.

@@ -106,7 +106,11 @@ impl Instrument for Phase {
         let landscape = landscape(answer);
         let levels = landscape.map(|l| (LEVELS, Layer::Landscape(Arc::clone(l))));
         let now = Layer::Point([x, y].map(|k| present.value(k)), Sign::Disc, Ink::Accent);
-        let layers = levels.into_iter().chain([(TRAIL, Layer::Trail([x, y])), (NOW, now)]);
+        let layers = levels.into_iter().chain([
+            (TRAIL, Layer::Companions([x, y])),
+            (TRAIL, Layer::Trail([x, y])),
+            (NOW, now),
+        ]);
         Some(Picture::Axes {
             upwards: Upwards::Channel(y, landscape.map(|landscape| landscape.window[1])),
             layers: layers.collect(),

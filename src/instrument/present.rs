@@ -4,6 +4,7 @@
 
 use std::sync::Arc;
 
+use crate::analysis::Separation;
 use crate::integrate::Settings;
 use crate::mechanics::{Equations, Valuation};
 use crate::model::Model;
@@ -35,6 +36,8 @@ pub struct Present<'a> {
     pub bounds: &'a [(f64, f64)],
     /// How often each surface of section was crossed.
     pub crossed: &'a [u64],
+    /// The motions beside this one: the number of each, and its distance.
+    pub separations: &'a [(usize, Arc<Separation>)],
     /// The name of the method.
     pub method: &'static str,
     /// Its step and tolerance, as they were set.

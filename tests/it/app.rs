@@ -1,5 +1,6 @@
 //! The application driven by keys: a state, keys, and the resulting state and effects.
 
+mod companions;
 mod editor;
 mod keys;
 pub(crate) mod real;

@@ -2,6 +2,7 @@
 
 mod cancel;
 mod checkpoint;
+mod companions;
 mod commands;
 mod export;
 mod gauges;
