@@ -7,6 +7,7 @@ mod attitude;
 mod checkpoint;
 mod command;
 mod companion;
+mod companion_commands;
 mod companions;
 mod course;
 mod crossing_log;
@@ -21,8 +22,10 @@ mod prepared;
 mod recorder;
 mod reference;
 mod residual;
+mod rewind;
 mod setup;
 mod snapshot;
+mod step_log;
 mod trail;
 
 pub use crate::analysis::{Growth, Verdict};

@@ -39,6 +39,8 @@ pub enum Action {
     PlayPause,
     /// Take a single integration step.
     Step,
+    /// Take a single step back.
+    StepBack,
     /// Slow the simulation down.
     Slower,
     /// Speed the simulation up.
@@ -89,6 +91,8 @@ pub enum Action {
     AddStart,
     /// Add a motion that begins close beside the main one, and show their separation.
     AddNeighbour,
+    /// Show the largest Lyapunov exponent of the motion, measured in the background.
+    Exponents,
     /// Keep the present run beside what follows.
     Pin,
     /// Remove all motions beside the main one.

@@ -2,7 +2,7 @@
 //!
 //! In: a point of a plot. Out: commands, and the pane that shows how motions part. Never here: how they are computed.
 
-use super::{App, Effect, HitTarget, Lab, Pane};
+use super::{App, Effect, HitTarget, Lab, Page, Pane};
 use crate::experiment::{Command, MOST_COMPANIONS};
 use crate::instrument::{NoStart, Plot, named};
 
@@ -59,8 +59,16 @@ impl App {
         if !lab.has_room() {
             return self.notify(full());
         }
-        lab.show_separation();
+        lab.show("separation");
         vec![Effect::Tell(Command::AddNeighbour)]
+    }
+
+    /// Shows the picture of a kind, on the page of the lab.
+    pub(super) fn show_picture(&mut self, kind: &str) -> Vec<Effect> {
+        if self.lab.as_mut().is_some_and(|lab| lab.show(kind)) && self.page != Page::Lab {
+            self.go(Page::Lab);
+        }
+        Vec::new()
     }
 
     /// Removes all motions beside the main one.
@@ -83,16 +91,16 @@ impl Lab {
         self.seen().is_some_and(|seen| seen.companions.len() < MOST_COMPANIONS)
     }
 
-    /// Focuses the picture of separations, which is added if there is none.
-    fn show_separation(&mut self) {
-        let Some(kind) = named("separation") else { return };
+    /// Focuses the picture of a kind, which is added if there is none. Returns whether there is such a kind.
+    pub(super) fn show(&mut self, kind: &str) -> bool {
+        let Some(kind) = named(kind) else { return false };
         let known = self.plots.iter().position(|plot| plot.kind == kind);
         let index = known.unwrap_or_else(|| {
             self.plots.push(Plot::new(kind, (Vec::new(), None), &self.loaded.model));
             self.plots.len() - 1
         });
-        if !matches!(self.focus, Pane::Plot(_)) || known.is_none() {
-            self.focus = Pane::Plot(index);
-        }
+        self.focus = Pane::Plot(index);
+        self.answers.stale = true;
+        true
     }
 }

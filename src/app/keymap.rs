@@ -207,6 +207,7 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Experiment, &[c(' '), c('p')], Action::PlayPause, "pause", "pause or resume"),
     row(Place::Experiment, &[c('.')], Action::Step, "step", "pause and advance by one frame, 1/60 s at this speed"),
+    row(Place::Experiment, &[c(',')], Action::StepBack, "", "pause and go back by one frame, exactly to where the motion was"),
     row(Place::Experiment, &[c('[')], Action::Slower, "slower", "slow down"),
     row(Place::Experiment, &[c(']')], Action::Faster, "faster", "speed up; past ×1000 as fast as it can"),
     row(Place::Experiment, &[c('r')], Action::Reset, "reset", "back to the initial values; parameters stay as they are"),
@@ -221,6 +222,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('/')], Action::Palette, "", "search all actions by name, as : does"),
     row(Place::Experiment, &[c('P')], Action::Pin, "", "pin this run: it goes on beside what follows, with its values and its method"),
     row(Place::Experiment, &[c('d')], Action::AddNeighbour, "", "add a neighbour, a motion from close beside, and show how they part: ln d against time"),
+    row(Place::Experiment, &[c('V')], Action::Exponents, "", "measure the Lyapunov exponent of the motion: regular or chaotic"),
     row(Place::Experiment, &[c('C')], Action::ClearCompanions, "", "clear all motions beside the main one"),
     row(Place::Experiment, &[c('W')], Action::Export, "", "write a preset file of the system as it is now, with every changed value"),
     row(Place::Experiment, &[c('E')], Action::Edit, "edit", "edit the system's file while it runs; the motion follows the text"),

@@ -167,6 +167,7 @@ impl Lab {
             physics: self.loaded.physics(),
             time: snapshot.time,
             parameters: &snapshot.parameters,
+            initial: &snapshot.initial,
             values: &snapshot.values,
             bounds: &snapshot.bounds,
             crossed: snapshot.crossings.counts(),

@@ -165,7 +165,8 @@ impl CompanionMotion {
 
     /// The main motion has a new row.
     pub(super) fn expect(&mut self, due: Due) {
-        if self.message.is_some() {
+        // it has been there before the main motion was taken back
+        if self.message.is_some() || due.0 < self.motion.state().time {
             return;
         }
         if self.due.len() == MOST_DUE {
@@ -257,16 +258,23 @@ impl CompanionMotion {
         Arc::clone(&self.separation)
     }
 
-    /// What is seen of it.
-    pub(super) fn shown(&self) -> Companion {
+    /// What is seen of it at the time of the main motion, which may have been taken back.
+    pub(super) fn shown(&self, now: f64) -> Companion {
+        let trail = self.recorder.trail();
+        let (mut time, mut values) = (self.motion.state().time, self.values.as_slice());
+        if time > now
+            && let Some(row) = trail.rows().rev().find(|row| row[0] <= now)
+        {
+            (time, values) = (row[0], &row[1..]);
+        }
         Companion {
             number: self.number,
             origin: self.origin.clone(),
-            time: self.motion.state().time,
-            values: self.values.as_slice().into(),
+            time,
+            values: values.into(),
             parameters: self.parameters.as_slice().into(),
             method: self.motion.method().name,
-            trail: self.recorder.trail(),
+            trail: trail.clone(),
             crossings: self.crossings.clone(),
             message: self.message.clone(),
         }

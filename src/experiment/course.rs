@@ -37,7 +37,7 @@ pub struct Experiment {
     epoch: u64,
     pub(super) notices: Vec<String>,
     /// The events and impulses since the last restart.
-    occurrences: EventLog,
+    pub(super) occurrences: EventLog,
     /// The crossings of the surfaces of section since then.
     pub(super) crossings: CrossingLog,
     /// The motions beside this one.
@@ -262,7 +262,7 @@ impl Experiment {
             notices: self.notices.as_slice().into(),
             occurrences: self.occurrences.clone(),
             crossings: self.crossings.clone(),
-            companions: self.companions.shown(),
+            companions: self.companions.shown(self.time()),
             separations: self.companions.separations(),
             released: (0..self.system().constraints())
                 .filter(|&k| self.system().is_released(k))

@@ -14,7 +14,7 @@ use crate::system::{self, ChannelKind, State};
 const NOTICES: usize = 16;
 
 /// A frame on the screen, in seconds.
-const FRAME: f64 = 1.0 / 60.0;
+pub(super) const FRAME: f64 = 1.0 / 60.0;
 
 /// The most integrator steps for one single step by the user.
 const SINGLE_STEP_BUDGET: u64 = 20_000;
@@ -26,6 +26,7 @@ impl Experiment {
             Command::Play => self.running = true,
             Command::Pause => self.running = false,
             Command::Step(count) => self.step(count),
+            Command::StepBack(count) => self.step_back(count),
             Command::Speed(speed) if speed > 0.0 => self.setup.speed = speed,
             Command::Speed(speed) => self.tell(format!("a speed is above zero; {speed} is not")),
             Command::Parameter { index, value } => self.change_parameter(index, value),

@@ -71,6 +71,39 @@ impl Recorder {
         self.spacing
     }
 
+    /// Forgets the rows from a time on; the next one is due then. The bounds stay.
+    pub(super) fn rewind(&mut self, time: f64) {
+        let width = self.width;
+        let before =
+            |chunk: &[f64]| chunk.chunks_exact(width).take_while(|row| row[0] < time).count();
+        let rest = before(&self.open);
+        Arc::make_mut(&mut self.open).truncate(rest * width);
+        if rest == 0 {
+            self.reopen(before);
+        }
+        (self.origin, self.count, self.last) = (time, 0, None);
+    }
+
+    /// Opens the newest chunk that has rows which stay, without the others.
+    fn reopen(&mut self, before: impl Fn(&[f64]) -> usize) {
+        for level in &mut self.sealed {
+            while let Some(chunk) = level.pop_back() {
+                match before(&chunk) {
+                    0 => {}
+                    CHUNK => {
+                        level.push_back(chunk);
+                        return;
+                    }
+                    rest => {
+                        self.open = chunk;
+                        Arc::make_mut(&mut self.open).truncate(rest * self.width);
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
     /// Changes the time between two rows, counted from the last one.
     pub(super) fn set_spacing(&mut self, spacing: f64) {
         if spacing != self.spacing {
@@ -273,6 +306,26 @@ mod tests {
         assert_eq!(kept.last(), Some(&7.0));
         assert!(kept[..kept.len() - 1].iter().all(|&x| x < 1e5) && kept.len() > 7000);
         assert!(kept[..kept.len() - 1].windows(2).all(|pair| pair[0] < pair[1]));
+    }
+
+    #[test]
+    fn rows_from_a_time_on_are_forgotten_and_due_again() {
+        for time in [10.0, 10.7, 60.0, 74.0, 74.2, 400.0, 60_000.0] {
+            let mut recorder = filled(120_000);
+            let all = numbers(&recorder);
+            recorder.rewind(time);
+            let kept: Vec<f64> = all.into_iter().filter(|k| 10.0 + 0.5 * k < time).collect();
+            assert_eq!(numbers(&recorder), kept, "{time}");
+            assert_eq!(recorder.due(), time);
+            recorder.record(time, &[-1.0]);
+            assert_eq!(recorder.due(), time + 0.5);
+            for _ in 0..1000 {
+                let due = recorder.due();
+                recorder.record(due, &[-2.0]);
+            }
+            let later = numbers(&recorder);
+            assert_eq!(later.iter().filter(|x| **x == -2.0).count(), 1000, "{time}");
+        }
     }
 
     #[test]

@@ -30,6 +30,8 @@ pub struct Present<'a> {
     pub time: f64,
     /// The parameters.
     pub parameters: &'a [f64],
+    /// The initial values: coordinates, then velocities or momenta.
+    pub initial: &'a [f64],
     /// The value of each channel.
     pub values: &'a [f64],
     /// The least and greatest value of each channel since the start.

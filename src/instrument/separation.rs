@@ -10,6 +10,7 @@ use super::{
     Physics, Picture, Plot, Present, Stroke, Upwards,
 };
 use crate::analysis::{Separation as Distances, Slope};
+use crate::num::significant;
 
 /// The levels of the picture.
 const CURVES: Level = 1;
@@ -43,7 +44,9 @@ impl Instrument for Separation {
     fn heading(&self, _plot: &Plot, present: &Present<'_>) -> Option<Heading> {
         let entries = match newest(present) {
             None => vec![Entry::Words("none beside this motion: d adds a neighbour".to_owned())],
-            Some((number, _, None)) => vec![Entry::Words(format!("{number}: too short for a slope"))],
+            Some((number, _, None)) => {
+                vec![Entry::Words(format!("{number}: too short for a slope"))]
+            }
             Some((number, _, Some(slope))) => vec![
                 Entry::Number(format!("{number}: λ ≈"), slope.rate),
                 Entry::Words(format!("grown by e^{:.1}", slope.grown)),
@@ -74,11 +77,15 @@ impl Instrument for Separation {
             layers.push((SLOPE, Layer::Line(ends.to_vec(), stroke)));
         }
         let range = range(present, 1).unwrap_or([-1.0, 1.0]);
-        Some(Picture::Axes {
-            upwards: Upwards::Named("ln d".to_owned(), range),
-            layers,
-            occurrences: None,
-        })
+        // among tabs there is no room for it in the heading
+        let name = match newest(present) {
+            Some((number, _, Some(slope))) => {
+                let rate = significant(slope.rate, 3, 1e-4..1e4);
+                format!("ln d   {number}: λ = {rate}, grown by e^{:.1}", slope.grown)
+            }
+            _ => "ln d".to_owned(),
+        };
+        Some(Picture::Axes { upwards: Upwards::Named(name, range), layers, occurrences: None })
     }
 
     fn measures(&self) -> &'static [Measure] {

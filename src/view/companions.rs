@@ -5,16 +5,24 @@
 use ratatui::style::Style;
 
 use super::canvas::Canvas;
+use super::glyphs::Glyphs;
 use super::kept::{self, Track, TrailKey};
+use super::number::readable;
 use super::plot::{Ages, Frame, Marker, Pen, Raster};
 use super::quantity::Quantities;
-use super::theme::{CURVES, Theme};
+use super::theme::Theme;
+use crate::analysis::Separation;
 use crate::experiment::{Companion, Snapshot};
 use crate::instrument::Level;
+use crate::num::math;
 
-/// The series of colours of a companion: from the last one on, so that the first ones are left to quantities and masses.
+/// The series of colours of companions: those that are farthest from the first two, of the main motion and its masses,
+/// come first.
+const SERIES: [usize; 6] = [4, 2, 5, 3, 6, 1];
+
+/// The series of colours of a companion.
 pub(super) fn series(number: usize) -> usize {
-    CURVES - 1 - (number.max(1) - 1) % CURVES
+    SERIES[(number.max(1) - 1) % SERIES.len()]
 }
 
 /// The colour of a companion.
@@ -107,4 +115,27 @@ pub(super) fn as_main(snapshot: &Snapshot, one: &Companion) -> Snapshot {
         trail: one.trail.clone(),
         ..snapshot.clone()
     }
+}
+
+/// A companion in words: its name, its distance from the main motion, and the rest.
+pub(super) fn words(
+    one: &Companion,
+    separation: &Separation,
+    glyphs: Glyphs,
+) -> (String, String, String) {
+    let name = format!("{}, {}", one.number, one.origin.word());
+    if let Some(message) = &one.message {
+        return (name, "ended".to_owned(), glyphs.text(message).into_owned());
+    }
+    let last = separation.points().last();
+    let distance = last.map_or_else(|| "0".to_owned(), |p| readable(math::exp(p[1]), 4, glyphs));
+    let slope = separation.slope().map_or_else(String::new, |slope| {
+        let rate = readable(slope.rate, 3, glyphs);
+        format!("slope of ln d {rate}, grown by e^{:.1}; ", slope.grown)
+    });
+    (
+        name,
+        format!("d = {distance}"),
+        format!("{slope}by {}, t = {}", one.method, readable(one.time, 6, glyphs)),
+    )
 }

@@ -2,6 +2,7 @@
 //!
 //! In: the channels and their values. Out: a page of text. Never here: pictures.
 
+use super::companions;
 use super::gauges::in_full;
 use super::number::{drift, readable};
 use super::quantity::Quantities;
@@ -49,6 +50,7 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
         }
     }
     occurrences(&mut page, q);
+    beside(&mut page, q);
     page.heading("Gauges");
     for gauge in q.snapshot.gauges.iter() {
         let name = glyphs.pick(&gauge.shown, &gauge.name);
@@ -61,6 +63,19 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
         page.value(&glyphs.text(name), &readable(gauge.value, 10, glyphs), "", rest);
     }
     page
+}
+
+/// Lists each motion beside the main one: what it is, its distance, and how fast that grows.
+fn beside(page: &mut TextPage, q: &Quantities<'_>) {
+    if q.snapshot.companions.is_empty() {
+        return;
+    }
+    page.heading("Beside this motion");
+    for (one, (_, separation)) in q.snapshot.companions.iter().zip(q.snapshot.separations.iter()) {
+        let glyphs = q.look.glyphs;
+        let (name, value, rest) = companions::words(one, separation, glyphs);
+        page.value(&name, &value, "", vec![(Role::Dim, format!("  {rest}"))]);
+    }
 }
 
 /// Lists each event and impulse: how often it has happened, and when it last did.

@@ -234,6 +234,7 @@ fn axis_upwards(q: &Quantities<'_>, upwards: &Upwards, viewport: Viewport) -> Ax
         }
         Upwards::Named(name, [low, high]) => {
             let (lo, hi) = nice_range(*low, *high);
+            let name = q.look.glyphs.text(name);
             Axis::new(name, "", through(Scale::linear(lo, hi), (viewport, 1)))
         }
     }

@@ -143,7 +143,8 @@ impl<'a> ScenePainter<'a> {
 
     /// Draws what moves of a motion beside the main one: its lines, masses and tracks, in its colour.
     fn ghost(&mut self, shape: &Shape, kept: &mut Kept) {
-        let moves = |point: &Point| point.iter().any(|e| matches!(self.q.place(*e), Source::Channel(_)));
+        let moves =
+            |point: &Point| point.iter().any(|e| matches!(self.q.place(*e), Source::Channel(_)));
         let number = self.beside.unwrap_or(0);
         let pen = Pen::new(companions::ink(&self.q.look.theme, number), TRACK);
         match shape {

@@ -2,11 +2,12 @@
 
 mod cancel;
 mod checkpoint;
-mod companions;
 mod commands;
+mod companions;
 mod export;
 mod gauges;
 mod record;
+mod rewind;
 mod verdicts;
 
 use std::sync::Arc;

@@ -51,7 +51,11 @@ fn the_right_button_adds_a_motion_and_the_left_one_begins_the_main_one() {
     assert_eq!(real.seen().companions.len(), 1);
     // in a picture against time no point is a start
     let index = picture(&real, "time");
-    click(&mut real, MouseButton::Right, HitTarget::Plot { index, place: [0.5, 0.5], at: [1.0, 0.2] });
+    click(
+        &mut real,
+        MouseButton::Right,
+        HitTarget::Plot { index, place: [0.5, 0.5], at: [1.0, 0.2] },
+    );
     assert_eq!(real.seen().companions.len(), 1);
     assert!(real.app.notice.as_ref().unwrap().text.contains("is no start"));
 }
@@ -63,15 +67,22 @@ fn each_motion_has_its_number_in_every_portrait_in_the_scene_and_against_time() 
     assert_eq!(real.seen().companions.len(), 2);
     // the neighbour is where the main motion is until they part
     real.run(900);
-    for (glyphs, depth) in [(Glyphs::Braille, ColourDepth::True), (Glyphs::Ascii, ColourDepth::None)] {
+    for (glyphs, depth) in
+        [(Glyphs::Braille, ColourDepth::True), (Glyphs::Ascii, ColourDepth::None)]
+    {
         let look = RenderStyle { theme: Theme::dark(depth), glyphs };
         for kind in ["space", "phase", "time"] {
             let index = picture(&real, kind);
             real.app.lab.as_mut().unwrap().focus = Pane::Plot(index);
             real.app.lab.as_mut().unwrap().zoomed = true;
             let with = screen(&real, &look);
-            assert!(with.iter().skip(1).any(|row| row.contains('1')), "{kind}\n{}", with.join("\n"));
-            let mut without = Real { app: real.app.clone(), experiment: Real::of("pendulum").experiment };
+            assert!(
+                with.iter().skip(1).any(|row| row.contains('1')),
+                "{kind}\n{}",
+                with.join("\n")
+            );
+            let mut without =
+                Real { app: real.app.clone(), experiment: Real::of("pendulum").experiment };
             let lab = without.app.lab.as_mut().unwrap();
             let mut seen = (**lab.snapshot.as_ref().unwrap()).clone();
             seen.companions = [].into();
@@ -113,4 +124,38 @@ fn scripts_claim_how_motions_part() {
          Assert screen \"Separation ln d\"\n",
     );
     drop(recording);
+}
+
+#[test]
+fn the_exponent_of_the_motion_is_measured_with_its_verdict() {
+    // orbit B at E = 1/8: λ = 0.19195453623623 from the trace of its monodromy matrix
+    let script = "Open henon-heiles\nSize 120x40\nSet y = -0.18540508709080214\n\
+                  Set px = 0.45975654576795759\nPress V\nWait 0.1s\n\
+                  Assert exponents.chaotic = 1 within 0\n\
+                  Assert exponents.largest = 0.191954536 within 0.01\n\
+                  Assert exponents.uncertainty < 0.05\n\
+                  Assert screen \"λ   chaotic: 0.19\"\n";
+    drop(played("henon-heiles", &script.replace("Set px", "Set p_x")));
+    let regular = "Open henon-heiles\nSize 120x40\nSet y = 0.483\nSet p_x = 0.27898039\nPress V\n\
+                   Wait 0.1s\nAssert exponents.chaotic = 0 within 0\n\
+                   Assert exponents.megno < 2.8\nAssert screen \"regular\"\n";
+    drop(played("henon-heiles", regular));
+    // where no derivatives are computed it says why
+    let held = "Open rolling-coin\nSize 120x40\nPress V\nWait 0.1s\n\
+                Assert screen \"held to constraints\"\n";
+    drop(played("rolling-coin", held));
+}
+
+#[test]
+fn a_comma_goes_back_by_a_frame() {
+    let mut real = Real::of("pendulum");
+    real.run(30);
+    let (time, values) = (real.seen().time, real.seen().values.clone());
+    real.press(".");
+    real.press(",");
+    assert!((real.seen().time - time).abs() < 1e-14);
+    let off = real.seen().values.iter().zip(values.iter()).map(|(a, b)| (a - b).abs());
+    assert!(off.fold(0.0, f64::max) < 1e-13);
+    real.press(", ,");
+    assert!(real.seen().time < time - 0.03);
 }
