@@ -12,6 +12,7 @@ mod choose;
 mod companions;
 mod edit;
 mod editor;
+mod equilibria;
 mod event;
 mod field;
 mod fuzzy;

@@ -23,7 +23,7 @@ mod transverse;
 pub use action::{Lagrangian, Path};
 pub use carrier::Carrier;
 pub use conjugate::conjugate_points;
-pub use equilibria::{Equilibria, Equilibrium, Kind, Mode, equilibria};
+pub use equilibria::{Equilibria, Equilibrium, Kind, Mode, equilibria, equilibria_watched};
 pub use error::DynamicsError;
 pub use family::{Along, Bifurcation, Family, Member, family};
 pub use flow_map::{FlowMap, flow_map};

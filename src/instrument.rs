@@ -5,6 +5,7 @@
 //! system and its current state. Out: [`Plot`]s, [`Picture`]s, [`Job`](crate::job::Job)s. Never here: cells and
 //! colours (`view` draws any picture), keys, threads.
 
+mod equilibria;
 mod exponents;
 mod phase;
 mod picture;
@@ -19,6 +20,9 @@ mod space;
 mod table;
 mod time;
 
+pub use equilibria::{
+    FoundEquilibria, described, described_mode, equilibria_search, start_along, start_at, value_at,
+};
 pub use picture::{Across, Entry, Heading, Ink, Layer, Level, Picture, Sign, Stroke, Upwards};
 pub use plot::{Columns, Plot, Quantity, SavedPlot};
 pub use potential::Along;

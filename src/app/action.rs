@@ -91,6 +91,8 @@ pub enum Action {
     AddStart,
     /// Add a motion that begins close beside the main one, and show their separation.
     AddNeighbour,
+    /// Look for equilibria in the background, and list them.
+    Equilibria,
     /// Show the largest Lyapunov exponent of the motion, measured in the background.
     Exponents,
     /// Keep the present run beside what follows.

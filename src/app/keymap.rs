@@ -222,6 +222,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('/')], Action::Palette, "", "search all actions by name, as : does"),
     row(Place::Experiment, &[c('P')], Action::Pin, "", "pin this run: it goes on beside what follows, with its values and its method"),
     row(Place::Experiment, &[c('d')], Action::AddNeighbour, "", "add a neighbour, a motion from close beside, and show how they part: ln d against time"),
+    row(Place::Experiment, &[c('F')], Action::Equilibria, "", "find equilibria and their small oscillations, to begin there or along a mode"),
     row(Place::Experiment, &[c('V')], Action::Exponents, "", "measure the Lyapunov exponent of the motion: regular or chaotic"),
     row(Place::Experiment, &[c('C')], Action::ClearCompanions, "", "clear all motions beside the main one"),
     row(Place::Experiment, &[c('W')], Action::Export, "", "write a preset file of the system as it is now, with every changed value"),

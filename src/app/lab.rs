@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::change::PendingChanges;
 use super::history::History;
-use super::side::Answers;
+use super::side::{Answers, Search};
 use super::{Loaded, ValueId};
 use crate::experiment::{Checkpoint, Snapshot, Status};
 use crate::expr::Zero;
@@ -71,6 +71,7 @@ pub struct Lab {
     pub(super) asked: PendingChanges,
     /// The speed requested and not yet confirmed.
     pub(super) speed_wish: Option<f64>,
+    pub(super) equilibria: Search,
     pub(super) history: History,
     /// The checkpoint that the experiment is to restore, until it has.
     pub(super) awaited: Option<Checkpoint>,
@@ -129,6 +130,7 @@ impl Lab {
             pending: Vec::new(),
             asked: PendingChanges::default(),
             speed_wish: None,
+            equilibria: Search::default(),
             history: History::default(),
             awaited: None,
         }
@@ -172,6 +174,7 @@ impl Lab {
             bounds: &snapshot.bounds,
             crossed: snapshot.crossings.counts(),
             separations: &snapshot.separations,
+            equilibria: self.equilibria_at(&snapshot.parameters),
             method: snapshot.method.name,
             settings: snapshot.setup.settings,
         }
@@ -205,6 +208,7 @@ impl Lab {
     pub(super) fn tick(&mut self, elapsed: Duration) {
         self.history.tick(elapsed);
         self.answers.tick(elapsed);
+        self.equilibria.tick(elapsed);
     }
 
     /// Returns the panes in Tab order.

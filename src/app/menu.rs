@@ -39,6 +39,8 @@ pub enum Choosing {
     Impulse,
     /// A theme.
     Theme,
+    /// Where a motion begins: at an equilibrium, or along a mode.
+    Equilibrium,
     /// The contents of the plot of this index.
     Contents {
         /// Its index among the plots.
@@ -89,12 +91,19 @@ pub enum Choice {
     Pane(Pane),
     /// The theme of this index among all.
     Theme(usize),
+    /// The equilibrium of this index among those found.
+    Equilibrium(usize),
+    /// The mode of the second index of that equilibrium.
+    Mode(usize, usize),
 }
 
 impl Menu {
     /// Creates a list with its first line selected.
     pub fn new(title: impl Into<String>, purpose: Choosing, items: Vec<Item>) -> Self {
-        let plain = matches!(purpose, Choosing::Method | Choosing::Impulse | Choosing::Theme);
+        let plain = matches!(
+            purpose,
+            Choosing::Method | Choosing::Impulse | Choosing::Theme | Choosing::Equilibrium
+        );
         let filter = (!plain).then(Input::default);
         Self {
             title: title.into(),

@@ -133,6 +133,7 @@ impl App {
             Action::StartHere => self.start_here(),
             Action::AddStart => self.add_start_here(),
             Action::AddNeighbour => self.add_neighbour(),
+            Action::Equilibria => self.find_equilibria(),
             Action::Exponents => self.show_picture("exponents"),
             Action::Pin => vec![Effect::Tell(Command::Pin)],
             Action::ClearCompanions => self.clear_companions(),

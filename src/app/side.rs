@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::{App, Effect, Event, Lab, Overlay};
-use crate::instrument::{Answer, Columns, Instrument, Need, Plot};
+use crate::instrument::{Answer, Columns, FoundEquilibria, Instrument, Need, Plot};
 use crate::job::{Job, Outcome, Progress, Share};
 use crate::mechanics::Equations;
 
@@ -24,6 +24,8 @@ pub enum Asker {
     Plot(usize),
     /// The prompt for brackets.
     Prompt,
+    /// The lab, for the equilibria of its system.
+    Equilibria,
     /// The lab, for the closed forms of its equations.
     Equations,
 }
@@ -99,6 +101,19 @@ impl Entry {
     /// Whether it belongs to a plot with these contents, whatever its view.
     fn is_of(&self, plot: &Plot) -> bool {
         self.kind == plot.kind && self.columns == plot.columns && self.view == plot.view
+    }
+}
+
+/// The search for the equilibria of a lab, and what it has found.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Search {
+    pub(super) under_way: Option<UnderWay>,
+    pub(super) found: Option<Arc<FoundEquilibria>>,
+}
+
+impl Search {
+    pub(super) fn tick(&mut self, elapsed: Duration) {
+        self.under_way.iter_mut().for_each(|job| job.tick(elapsed));
     }
 }
 
@@ -255,6 +270,9 @@ impl App {
 
     /// Handles the outcome of a job. An outcome that is no longer wanted is dropped.
     pub(super) fn computed(&mut self, ticket: u64, outcome: Outcome<Answer>) -> Vec<Effect> {
+        if let Some(effects) = self.take_equilibria(ticket, &outcome) {
+            return effects;
+        }
         let lab = self.lab.as_mut();
         let waited = match &mut self.overlay {
             Some(Overlay::Prompt(prompt)) if prompt.awaits(ticket) => {
@@ -273,6 +291,7 @@ impl App {
 
     /// Handles the progress of a job.
     pub(super) fn progressed(&mut self, ticket: u64, share: Share) {
+        self.equilibria_progressed(ticket, share);
         let answers = self.lab.as_mut().map(|lab| &mut lab.answers);
         answers
             .into_iter()

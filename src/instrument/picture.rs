@@ -163,8 +163,10 @@ pub enum Ink {
 pub enum Sign {
     /// The current state.
     Disc,
-    /// A point near the current state.
+    /// A point near the current state, or a stable one.
     Ring,
+    /// An unstable point.
+    Cross,
 }
 
 impl From<Ink> for Stroke {

@@ -5,6 +5,7 @@
 use std::sync::Arc;
 
 use crate::analysis::Separation;
+use crate::dynamics::Equilibrium;
 use crate::integrate::Settings;
 use crate::mechanics::{Equations, Valuation};
 use crate::model::Model;
@@ -40,6 +41,8 @@ pub struct Present<'a> {
     pub crossed: &'a [u64],
     /// The motions beside this one: the number of each, and its distance.
     pub separations: &'a [(usize, Arc<Separation>)],
+    /// The equilibria that were found at these parameters.
+    pub equilibria: &'a [Equilibrium],
     /// The name of the method.
     pub method: &'static str,
     /// Its step and tolerance, as they were set.

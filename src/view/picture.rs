@@ -319,6 +319,7 @@ fn marker(sign: Sign) -> Marker {
     match sign {
         Sign::Disc => Marker::Disc,
         Sign::Ring => Marker::Ring,
+        Sign::Cross => Marker::Cross,
     }
 }
 

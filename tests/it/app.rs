@@ -2,6 +2,7 @@
 
 mod companions;
 mod editor;
+mod equilibria;
 mod keys;
 pub(crate) mod real;
 mod saved;
