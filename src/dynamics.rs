@@ -11,6 +11,7 @@ mod equilibria;
 mod error;
 mod family;
 mod flow_map;
+mod gali;
 mod linear;
 mod lobatto;
 mod lyapunov;
@@ -27,6 +28,7 @@ pub use equilibria::{Equilibria, Equilibrium, Kind, Mode, equilibria, equilibria
 pub use error::DynamicsError;
 pub use family::{Along, Bifurcation, Family, Member, family};
 pub use flow_map::{FlowMap, flow_map};
+pub use gali::{Gali, gali};
 pub use lyapunov::{Chaos, Lyapunov, lyapunov};
 pub use orbit::{Fixed, Orbit, periodic_orbit};
 pub use phase_space::{PhaseSpace, VectorField};

@@ -88,14 +88,18 @@ impl App {
         let mut items = Vec::new();
         for (index, one) in present.equilibria.iter().enumerate() {
             let (label, about) = described(present.physics, one);
-            items.push(line(label, format!("{about}; begin there"), Choice::Equilibrium(index)));
+            items.push(line(label, about, Choice::Equilibrium(index)));
             for mode in 0..one.modes.len() {
                 let label = format!("  mode {}", described_mode(present.physics, one, mode));
                 let about = "begin along it".to_owned();
                 items.push(line(label, about, Choice::Mode(index, mode)));
             }
         }
-        let menu = Menu::new("Equilibria and small oscillations", Choosing::Equilibrium, items);
+        let menu = Menu::new(
+            "Equilibria and small oscillations: Enter begins there",
+            Choosing::Equilibrium,
+            items,
+        );
         self.overlay = Some(Overlay::Menu(menu));
         Vec::new()
     }

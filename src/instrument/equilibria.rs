@@ -131,7 +131,7 @@ pub fn described(physics: Physics<'_>, one: &Equilibrium) -> (String, String) {
         Some(false) => "unstable",
         None => "neutral",
     };
-    let short = |x: f64| significant(x, 4, 1e-4..1e5);
+    let short = |x: f64| significant(x, 4, 1e-4..1e5).replace('-', "−");
     let places = physics.positions().filter_map(|(_, channel)| {
         Some(format!("{} = {}", physics.shown(channel), short(value_at(physics, one, channel)?)))
     });
@@ -146,7 +146,7 @@ pub fn described(physics: Physics<'_>, one: &Equilibrium) -> (String, String) {
 /// A mode in words: its frequency, and how far each coordinate goes.
 pub fn described_mode(physics: Physics<'_>, one: &Equilibrium, mode: usize) -> String {
     let Some(mode) = one.modes.get(mode) else { return String::new() };
-    let short = |x: f64| significant(x, 3, 1e-3..1e5);
+    let short = |x: f64| significant(x, 3, 1e-3..1e5).replace('-', "−");
     let part = |(i, channel): (usize, usize)| {
         let (a, b) = (mode.in_phase[i], mode.quadrature[i]);
         let name = physics.shown(channel);
