@@ -7,9 +7,11 @@
 mod history;
 mod inquiry;
 mod landscape;
+mod separation;
 mod verdict;
 
 pub use history::{History, Stretch};
 pub use inquiry::{Answer, Inquiry};
 pub use landscape::{Curve, Grid, Landscape, Plane};
+pub use separation::{Separation, Slope};
 pub use verdict::{Growth, LEFT, LOST, Verdict, rounding_floor};

@@ -6,6 +6,9 @@
 mod attitude;
 mod checkpoint;
 mod command;
+mod companion;
+mod companion_commands;
+mod companions;
 mod course;
 mod crossing_log;
 mod deviation;
@@ -20,13 +23,17 @@ mod prepared;
 mod recorder;
 mod reference;
 mod residual;
+mod rewind;
 mod setup;
 mod snapshot;
+mod step_log;
 mod trail;
 
 pub use crate::analysis::{Growth, Verdict};
 pub use checkpoint::{Changed, Checkpoint, MotionState, Named, Past};
 pub use command::Command;
+pub use companion::{Companion, Origin};
+pub use companions::MOST_COMPANIONS;
 pub use course::{Experiment, Progress};
 pub use crossing_log::CrossingLog;
 pub use event_log::{EventCount, EventLog};

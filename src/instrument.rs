@@ -5,6 +5,8 @@
 //! system and its current state. Out: [`Plot`]s, [`Picture`]s, [`Job`](crate::job::Job)s. Never here: cells and
 //! colours (`view` draws any picture), keys, threads.
 
+mod equilibria;
+mod exponents;
 mod phase;
 mod picture;
 mod plot;
@@ -12,11 +14,15 @@ mod potential;
 mod present;
 mod section;
 mod seed;
+mod separation;
 mod sight;
 mod space;
 mod table;
 mod time;
 
+pub use equilibria::{
+    FoundEquilibria, described, described_mode, equilibria_search, start_along, start_at, value_at,
+};
 pub use picture::{Across, Entry, Heading, Ink, Layer, Level, Picture, Sign, Stroke, Upwards};
 pub use plot::{Columns, Plot, Quantity, SavedPlot};
 pub use potential::Along;

@@ -11,6 +11,7 @@ mod canvas;
 pub mod caption;
 pub mod card;
 pub mod colour;
+mod companions;
 mod constants;
 mod cursor;
 mod detail;

@@ -39,6 +39,8 @@ pub enum Action {
     PlayPause,
     /// Take a single integration step.
     Step,
+    /// Take a single step back.
+    StepBack,
     /// Slow the simulation down.
     Slower,
     /// Speed the simulation up.
@@ -91,6 +93,18 @@ pub enum Action {
     ChooseAxes,
     /// Begin the motion at the cursor of the focused plot, or choose what it shows.
     StartHere,
+    /// Add a motion that begins at the cursor of the focused plot beside the others.
+    AddStart,
+    /// Add a motion that begins close beside the main one, and show their separation.
+    AddNeighbour,
+    /// Look for equilibria in the background, and list them.
+    Equilibria,
+    /// Show the largest Lyapunov exponent of the motion, measured in the background.
+    Exponents,
+    /// Keep the present run beside what follows.
+    Pin,
+    /// Remove all motions beside the main one.
+    ClearCompanions,
     /// Add orbits to a section: the one through its cursor, or some spread over what is seen.
     AddOrbits,
     /// Remove the orbits that were added to a section, and the past crossings of the motion.

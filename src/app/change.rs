@@ -100,11 +100,17 @@ impl Lab {
     /// Starts the motion with several initial values at once.
     pub(super) fn start(&mut self, values: &[InitialOverride]) -> Vec<Effect> {
         let before = self.given();
-        let replaced = |old: &&InitialOverride| values.iter().any(|new| place(new) == place(old));
-        let unchanged = before.iter().filter(|old| !replaced(old)).copied();
-        let after: Vec<InitialOverride> = unchanged.chain(values.iter().copied()).collect();
+        let after = self.given_with(values);
         self.history.note(Change::Start([before, after.clone()]));
         vec![self.begin_with(after)]
+    }
+
+    /// Returns the initial values that differ from the file's, with these in place of theirs.
+    pub(super) fn given_with(&self, values: &[InitialOverride]) -> Vec<InitialOverride> {
+        let before = self.given();
+        let replaced = |old: &&InitialOverride| values.iter().any(|new| place(new) == place(old));
+        let unchanged = before.iter().filter(|old| !replaced(old)).copied();
+        unchanged.chain(values.iter().copied()).collect()
     }
 
     /// Restores all values of the file.

@@ -125,6 +125,8 @@ impl App {
                 Vec::new()
             }
             (_, Choice::Flow(index)) => self.open_field(Purpose::Flow(index)),
+            (_, Choice::Equilibrium(index)) => self.begin_at_equilibrium(index, None),
+            (_, Choice::Mode(index, mode)) => self.begin_at_equilibrium(index, Some(mode)),
             (_, Choice::Action(action)) => self.perform(action),
             (_, Choice::System(index)) => self.open_system(index),
             (_, Choice::Value(target)) => self.type_into(target),

@@ -207,6 +207,7 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Experiment, &[c(' '), c('p')], Action::PlayPause, "pause", "pause or resume"),
     row(Place::Experiment, &[c('.')], Action::Step, "step", "pause and advance by one frame, 1/60 s at this speed"),
+    row(Place::Experiment, &[c(',')], Action::StepBack, "", "pause and go back by one frame, exactly to where the motion was"),
     row(Place::Experiment, &[c('[')], Action::Slower, "slower", "slow down"),
     row(Place::Experiment, &[c(']')], Action::Faster, "faster", "speed up; past ×1000 as fast as it can"),
     row(Place::Experiment, &[c('r')], Action::Reset, "reset", "back to the initial values; parameters stay as they are"),
@@ -222,6 +223,11 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('B')], Action::Brackets, "", "the table of brackets of the constants of the motion, or away with it"),
     row(Place::Experiment, &[c('F')], Action::ApplyFlow, "", "carry the state along the flow of a constant of the motion, to another orbit"),
     row(Place::Experiment, &[c('/')], Action::Palette, "", "search all actions by name, as : does"),
+    row(Place::Experiment, &[c('P')], Action::Pin, "", "pin this run: it goes on beside what follows, with its values and its method"),
+    row(Place::Experiment, &[c('d')], Action::AddNeighbour, "", "add a neighbour, a motion from close beside, and show how they part: ln d against time"),
+    row(Place::Experiment, &[c('F')], Action::Equilibria, "", "find equilibria and their small oscillations, to begin there or along a mode"),
+    row(Place::Experiment, &[c('V')], Action::Exponents, "", "measure the Lyapunov exponent of the motion: regular or chaotic"),
+    row(Place::Experiment, &[c('C')], Action::ClearCompanions, "", "clear all motions beside the main one"),
     row(Place::Experiment, &[c('W')], Action::Export, "", "write a preset file of the system as it is now, with every changed value"),
     row(Place::Experiment, &[c('E')], Action::Edit, "edit", "edit the system's file while it runs; the motion follows the text"),
     row(Place::Experiment, &[c('S')], Action::Still, "", "write a screenshot (a drawing, SVG) into the current folder"),
@@ -254,6 +260,7 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Plot, &[c('v')], Action::ChooseAxes, "axes", "choose what this pane shows: which variable on which axis"),
     row(Place::Plot, &[ENTER], Action::StartHere, "", "begin the motion at the cursor; without a cursor, choose what this pane shows"),
+    row(Place::Plot, &[c('A'), shift(KeyCode::Enter)], Action::AddStart, "", "add a motion beside the others that begins at the cursor; so does Shift-click, or the right button"),
     row(Place::Plot, &[c('n')], Action::AddOrbits, "", "add orbits to a section: the one through the cursor, or some spread over what is seen"),
     row(Place::Plot, &[c('N')], Action::ClearOrbits, "", "clear a section: the orbits added to it, and the past crossings of the motion"),
     row(Place::Plot, &[c('+'), c('=')], Action::Closer(Axes::Both), "closer", "look closer"),

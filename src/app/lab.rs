@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::change::PendingChanges;
 use super::history::History;
-use super::side::Answers;
+use super::side::{Answers, EquilibriaSearch};
 use super::{Loaded, Search, ValueId};
 use crate::experiment::{Checkpoint, Snapshot, Status};
 use crate::expr::Zero;
@@ -75,6 +75,7 @@ pub struct Lab {
     pub(super) asked: PendingChanges,
     /// The speed requested and not yet confirmed.
     pub(super) speed_wish: Option<f64>,
+    pub(super) equilibria: EquilibriaSearch,
     pub(super) history: History,
     /// The checkpoint that the experiment is to restore, until it has.
     pub(super) awaited: Option<Checkpoint>,
@@ -135,6 +136,7 @@ impl Lab {
             pending: Vec::new(),
             asked: PendingChanges::default(),
             speed_wish: None,
+            equilibria: EquilibriaSearch::default(),
             history: History::default(),
             awaited: None,
         }
@@ -173,9 +175,12 @@ impl Lab {
             physics: self.loaded.physics(),
             time: snapshot.time,
             parameters: &snapshot.parameters,
+            initial: &snapshot.initial,
             values: &snapshot.values,
             bounds: &snapshot.bounds,
             crossed: snapshot.crossings.counts(),
+            separations: &snapshot.separations,
+            equilibria: self.equilibria_at(&snapshot.parameters),
             method: snapshot.method.name,
             settings: snapshot.setup.settings,
         }
@@ -210,6 +215,7 @@ impl Lab {
         self.history.tick(elapsed);
         self.answers.tick(elapsed);
         self.search.tick(elapsed);
+        self.equilibria.tick(elapsed);
     }
 
     /// Returns the panes in Tab order.

@@ -41,6 +41,8 @@ pub enum Choosing {
     Theme,
     /// A constant of the motion whose flow is applied.
     Flow,
+    /// Where a motion begins: at an equilibrium, or along a mode.
+    Equilibrium,
     /// The contents of the plot of this index.
     Contents {
         /// Its index among the plots.
@@ -93,6 +95,10 @@ pub enum Choice {
     Pane(Pane),
     /// The theme of this index among all.
     Theme(usize),
+    /// The equilibrium of this index among those found.
+    Equilibrium(usize),
+    /// The mode of the second index of that equilibrium.
+    Mode(usize, usize),
 }
 
 impl Menu {
@@ -100,7 +106,11 @@ impl Menu {
     pub fn new(title: impl Into<String>, purpose: Choosing, items: Vec<Item>) -> Self {
         let plain = matches!(
             purpose,
-            Choosing::Method | Choosing::Impulse | Choosing::Theme | Choosing::Flow
+            Choosing::Method
+                | Choosing::Impulse
+                | Choosing::Theme
+                | Choosing::Flow
+                | Choosing::Equilibrium
         );
         let filter = (!plain).then(Input::default);
         Self {

@@ -78,6 +78,9 @@ impl App {
             Action::ApplyFlow if lab.flows().is_empty() => Some(
                 "no constants of the motion with a flow are known yet; page 2 searches for them",
             ),
+            Action::ClearCompanions if lab.seen().is_some_and(|s| s.companions.is_empty()) => {
+                Some("there are no motions beside the main one")
+            }
             Action::NextFrame if lab.loaded.model.frames.is_empty() => {
                 Some("this system has no frames to look from")
             }

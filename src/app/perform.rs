@@ -78,6 +78,7 @@ impl App {
                 Some(Status::Paused) | None => vec![Effect::Tell(Command::Play)],
             },
             Action::Step => vec![Effect::Tell(Command::Pause), Effect::Tell(Command::Step(1))],
+            Action::StepBack => vec![Effect::Tell(Command::StepBack(1))],
             Action::Slower | Action::Faster => {
                 let shown = lab.snapshot.as_ref().map_or(1.0, |s| s.speed);
                 let speed = lab.speed_wish.unwrap_or(shown);
@@ -136,6 +137,12 @@ impl App {
             }
             Action::ChooseAxes => self.open_axes(),
             Action::StartHere => self.start_here(),
+            Action::AddStart => self.add_start_here(),
+            Action::AddNeighbour => self.add_neighbour(),
+            Action::Equilibria => self.find_equilibria(),
+            Action::Exponents => self.show_picture("exponents"),
+            Action::Pin => vec![Effect::Tell(Command::Pin)],
+            Action::ClearCompanions => self.clear_companions(),
             Action::AddOrbits => self.add_orbits(),
             Action::ClearOrbits => self.clear_orbits(),
             Action::Change { sign, coarse } => {

@@ -20,12 +20,14 @@ const LINES: isize = 3;
 const NOTCH: f64 = 1.25;
 
 impl App {
-    /// Handles a mouse event; only the left button and the wheel have an effect.
+    /// Handles a mouse event; the left button and the wheel have an effect, and the right button, which Shift makes of the
+    /// left one, adds a motion.
     pub(super) fn point(&mut self, kind: MouseEventKind, hit: HitTarget) -> Vec<Effect> {
         match kind {
             MouseEventKind::Down(MouseButton::Left) => self.touch(hit),
             MouseEventKind::Drag(MouseButton::Left) => self.drag(hit),
             MouseEventKind::Up(MouseButton::Left) => self.let_go(hit),
+            MouseEventKind::Up(MouseButton::Right) => self.add_start(hit),
             MouseEventKind::ScrollUp => self.wheel(hit, 1),
             MouseEventKind::ScrollDown => self.wheel(hit, -1),
             _ => Vec::new(),

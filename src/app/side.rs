@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use super::{App, Effect, Event, Lab, Overlay};
 use crate::experiment::Command;
-use crate::instrument::{Answer, Columns, Instrument, Need, Plot};
+use crate::instrument::{Answer, Columns, FoundEquilibria, Instrument, Need, Plot};
 use crate::job::{Job, Outcome, Progress, Share};
 use crate::mechanics::Equations;
 
@@ -25,6 +25,8 @@ pub enum Asker {
     Plot(usize),
     /// The prompt for brackets.
     Prompt,
+    /// The lab, for the equilibria of its system.
+    Equilibria,
     /// The lab, for the closed forms of its equations.
     Equations,
     /// The page of equations, for constants of the motion.
@@ -104,6 +106,19 @@ impl Entry {
     /// Whether it belongs to a plot with these contents, whatever its view.
     fn is_of(&self, plot: &Plot) -> bool {
         self.kind == plot.kind && self.columns == plot.columns && self.view == plot.view
+    }
+}
+
+/// The search for the equilibria of a lab, and what it has found.
+#[derive(Clone, Debug, Default)]
+pub(super) struct EquilibriaSearch {
+    pub(super) under_way: Option<UnderWay>,
+    pub(super) found: Option<Arc<FoundEquilibria>>,
+}
+
+impl EquilibriaSearch {
+    pub(super) fn tick(&mut self, elapsed: Duration) {
+        self.under_way.iter_mut().for_each(|job| job.tick(elapsed));
     }
 }
 
@@ -270,6 +285,9 @@ impl App {
         if let Some(effects) = self.carried(ticket, &outcome) {
             return effects;
         }
+        if let Some(effects) = self.take_equilibria(ticket, &outcome) {
+            return effects;
+        }
         let lab = self.lab.as_mut();
         let waited = match &mut self.overlay {
             Some(Overlay::Prompt(prompt)) if prompt.awaits(ticket) => {
@@ -288,6 +306,7 @@ impl App {
 
     /// Handles the progress of a job.
     pub(super) fn progressed(&mut self, ticket: u64, share: Share) {
+        self.equilibria_progressed(ticket, share);
         let answers = self.lab.as_mut().map(|lab| &mut lab.answers);
         answers
             .into_iter()

@@ -7,7 +7,7 @@ use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::run::progress::Bar;
 use super::study::{self, Study, StudyArguments, shown, table};
-use crate::dynamics::{Chaos, Lyapunov, Removed, lyapunov};
+use crate::dynamics::{Chaos, Gali, Lyapunov, Removed, gali, lyapunov};
 
 /// Measure how fast neighbouring motions part.
 ///
@@ -20,6 +20,7 @@ use crate::dynamics::{Chaos, Lyapunov, Removed, lyapunov};
 Examples:
   phaselab lyapunov henon-heiles --until 1000
   phaselab lyapunov double-pendulum --until 200 --exponents 1
+  phaselab lyapunov henon-heiles --until 1000 --gali 4
   phaselab lyapunov duffing --until 500 --format json")]
 pub(super) struct Arguments {
     #[command(flatten)]
@@ -30,6 +31,9 @@ pub(super) struct Arguments {
     /// How many exponents are written, the largest first.
     #[arg(long, value_name = "K|all", default_value = "all", value_parser = count)]
     exponents: Count,
+    /// Measures GALI2 to GALIK too: the volumes that tangent vectors span, which fall exponentially in chaos.
+    #[arg(long, value_name = "K", value_parser = clap::value_parser!(u8).range(2..=64))]
+    gali: Option<u8>,
 }
 
 /// A number of exponents.
@@ -54,16 +58,48 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let mut bar = Bar::new(study.start.time, until);
     let method = (study.method, study.settings);
     let found = lyapunov(&study.space, method, &study.start, until, &mut |time| bar.show(time));
-    drop(bar);
     let mut found = found.map_err(study::failed)?;
+    let volumes = match arguments.gali {
+        Some(count) if found.failure.is_none() => {
+            let mut look = |time| bar.show(time);
+            let until = (&study.start, found.time);
+            Some(
+                gali(&study.space, method, until, count.into(), &mut look)
+                    .map_err(study::failed)?,
+            )
+        }
+        _ => None,
+    };
+    drop(bar);
     let kept = match arguments.exponents {
         Count::All => found.exponents.len(),
         Count::First(count) => count.min(found.exponents.len()),
     };
     found.exponents.truncate(kept);
     found.uncertainty.truncate(kept);
-    let result = (object(&study, &found), text(&study, &found));
+    let (mut object, mut text) = (object(&study, &found), text(&study, &found));
+    if let Some(volumes) = volumes {
+        object.insert("gali".to_owned(), told(&volumes));
+        text.push_str(&lines(&volumes));
+        found.failure = volumes.failure;
+    }
+    let result = (object, text);
     study::write(&arguments.study, result, found.failure, interrupt)
+}
+
+/// ln GALIₖ over time by k.
+fn told(volumes: &Gali) -> Value {
+    let most = volumes.logarithms.first().map_or(0, |row| row.len() + 1);
+    let all = (2..=most).map(|k| (k.to_string(), json!(volumes.of(k))));
+    Value::Object(all.collect())
+}
+
+/// GALIₖ at the end.
+fn lines(volumes: &Gali) -> String {
+    let Some(last) = volumes.logarithms.last() else { return String::new() };
+    let all = last.iter().enumerate();
+    let all = all.map(|(i, x)| format!("ln GALI{} = {}\n", i + 2, shown(*x)));
+    format!("\n{}", all.collect::<String>())
 }
 
 fn word(verdict: Chaos) -> &'static str {

@@ -54,7 +54,7 @@ pub(super) struct Arguments {
     /// When a run ends; where it is left out, the file says, or 10 after the start.
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
     until: Option<f64>,
-    /// One more column: period, period=EXPR, escape=EXPR, crossings=EXPR.
+    /// One more column: period, period=EXPR, escape=EXPR, crossings=EXPR, lyapunov.
     #[arg(long, value_name = "NAME[=EXPR]", allow_hyphen_values = true)]
     measure: Vec<MeasureName>,
     /// Every Nth row only, from the Ith on, for machines side by side.

@@ -98,6 +98,18 @@ pub struct Equilibria {
 /// # Errors
 /// Returns an error if the law of motion depends on time.
 pub fn equilibria(space: &PhaseSpace, start: &State) -> Result<Equilibria, DynamicsError> {
+    equilibria_watched(space, start, &mut |_, _| ())
+}
+
+/// Like [`equilibria`]; after each of its beginnings it hands on how many of all are done.
+///
+/// # Errors
+/// Returns an error if the law of motion depends on time.
+pub fn equilibria_watched(
+    space: &PhaseSpace,
+    start: &State,
+    look: &mut dyn FnMut(usize, usize),
+) -> Result<Equilibria, DynamicsError> {
     if !space.is_autonomous() {
         return Err(DynamicsError::Unsuited(
             "the law of motion depends on time, and nothing stays at rest in it".to_owned(),
@@ -111,6 +123,7 @@ pub fn equilibria(space: &PhaseSpace, start: &State) -> Result<Equilibria, Dynam
             cancelled = true;
             break;
         }
+        look(beginning, BEGINNINGS);
         let Some(variables) = search.from(beginning) else { continue };
         if found.iter().any(|known| search.alike(&known.variables, &variables)) {
             continue;

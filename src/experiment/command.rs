@@ -14,6 +14,8 @@ pub enum Command {
     /// Advances by this many single steps while paused. A single step is one frame, 1/60 s of wall
     /// time, at the current speed.
     Step(u32),
+    /// Pauses, and takes the motion back by this many single steps.
+    StepBack(u32),
     /// Sets the simulated seconds per second of wall time; infinite for as fast as possible.
     Speed(f64),
     /// Sets a parameter. q and p are preserved, and the gauges take the new values as their
@@ -53,6 +55,14 @@ pub enum Command {
     Follow(Vec<FoundConstant>),
     /// Forgets the crossings of the surfaces of section so far.
     ForgetCrossings,
+    /// Adds a motion from these overrides of the file's initial values beside the others.
+    AddStart(Vec<InitialOverride>),
+    /// Adds a motion that begins close beside the main one.
+    AddNeighbour,
+    /// Keeps the present run, with its parameters and its method, beside what follows.
+    Pin,
+    /// Removes all motions beside the main one.
+    ClearCompanions,
     /// Resumes from a checkpoint.
     TakeUp(Box<Checkpoint>),
 }

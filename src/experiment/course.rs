@@ -5,6 +5,7 @@
 
 use std::sync::Arc;
 
+use super::companions::Companions;
 use super::crossing_log::CrossingLog;
 use super::event_log::EventLog;
 use super::gauges::{Gauges, Present};
@@ -36,9 +37,11 @@ pub struct Experiment {
     epoch: u64,
     pub(super) notices: Vec<String>,
     /// The events and impulses since the last restart.
-    occurrences: EventLog,
+    pub(super) occurrences: EventLog,
     /// The crossings of the surfaces of section since then.
     pub(super) crossings: CrossingLog,
+    /// The motions beside this one.
+    pub(super) companions: Companions,
     /// The names of occurrences that have been reported.
     reported_names: Vec<String>,
     /// The event that ended the motion.
@@ -90,6 +93,7 @@ impl Experiment {
             notices: Vec::new(),
             occurrences: EventLog::default(),
             crossings: CrossingLog::new(model.sections.len()),
+            companions: Companions::default(),
             reported_names: Vec::new(),
             ended: None,
             taken_up: false,
@@ -148,7 +152,19 @@ impl Experiment {
 
     /// Advances the motion to `time`, recording and monitoring along the way, and stops early after `budget` steps
     /// and rows. It advances even while paused; the caller decides whether time runs.
-    pub fn advance(&mut self, time: f64, mut budget: u64) -> Progress {
+    ///
+    /// The motions beside it follow to the time reached, with a budget of the same size. One that is behind makes the
+    /// result `Underway`.
+    pub fn advance(&mut self, time: f64, budget: u64) -> Progress {
+        let progress = self.advance_main(time, budget);
+        self.advance_companions(budget);
+        match progress {
+            Progress::Arrived if self.is_behind() => Progress::Underway,
+            other => other,
+        }
+    }
+
+    fn advance_main(&mut self, time: f64, mut budget: u64) -> Progress {
         if self.fault.is_some() {
             return Progress::Stuck;
         }
@@ -246,6 +262,8 @@ impl Experiment {
             notices: self.notices.as_slice().into(),
             occurrences: self.occurrences.clone(),
             crossings: self.crossings.clone(),
+            companions: self.companions.shown(self.time()),
+            separations: self.companions.separations(),
             released: (0..self.system().constraints())
                 .filter(|&k| self.system().is_released(k))
                 .collect(),
@@ -276,6 +294,7 @@ impl Experiment {
             }
             Err(fault) => self.fault = Some(fault.into()),
         }
+        self.restart_companions();
     }
 
     pub(super) fn initial_state(&self) -> Result<State, system::MotionError> {
@@ -375,6 +394,7 @@ impl Experiment {
     pub(super) fn record(&mut self) {
         self.rows += 1;
         self.recorder.record(self.motion.time(), self.motion.values());
+        self.companions.expect(self.motion.time(), self.motion.values());
         self.recorder.set_spacing(self.spacing());
         let dense = self.recorder.spacing() <= self.motion.step_size().abs();
         self.gauge(|gauges, now| gauges.sample(now, dense));
@@ -427,7 +447,7 @@ impl Experiment {
 }
 
 /// The number of the shortest row intervals that a step may cover.
-const HORIZON: f64 = 4096.0;
+pub(super) const HORIZON: f64 = 4096.0;
 
 /// The greatest ratio of a step to the previous one.
 const GROWTH: f64 = 8.0;

@@ -68,6 +68,25 @@ impl CrossingLog {
         }
     }
 
+    /// Forgets the crossings after a time, of a motion with this many channels.
+    pub(super) fn rewind(&mut self, time: f64, channels: usize) {
+        for surface in 0..self.surfaces.len() {
+            let rows: Vec<Vec<f64>> = self
+                .rows(surface, channels)
+                .filter(|row| row[0] <= time)
+                .map(<[f64]>::to_vec)
+                .collect();
+            let gone = self.rows(surface, channels).count() - rows.len();
+            if gone == 0 {
+                continue;
+            }
+            let count = self.counts[surface] - gone as u64;
+            self.surfaces[surface] = Crossed::default();
+            rows.iter().for_each(|row| self.push(surface, row[0], &row[1..]));
+            Arc::make_mut(&mut self.counts)[surface] = count;
+        }
+    }
+
     /// How often each surface was crossed, including crossings that were dropped.
     pub fn counts(&self) -> &[u64] {
         &self.counts
@@ -100,6 +119,10 @@ mod tests {
         assert!(times.windows(2).all(|pair| pair[1] == pair[0] + 1.0));
         assert_eq!(times.last(), Some(&(count as f64 - 1.0)));
         assert!(log.rows(1, channels).all(|row| row[channels] == -row[0]));
+        let mut back = log.clone();
+        back.rewind(count as f64 - 3.5, channels);
+        assert_eq!(back.counts(), [0, count as u64 - 3]);
+        assert_eq!(back.rows(1, channels).count(), most + 4);
         assert_eq!(log.rows(0, channels).count(), 0);
         log.only_count();
         log.clear();

@@ -75,6 +75,25 @@ impl EventLog {
         }
     }
 
+    /// Forgets what happened after a time.
+    pub(super) fn rewind(&mut self, time: f64) {
+        let later = |occurrence: &&Occurrence| occurrence.time > time;
+        let gone: Vec<String> = self.iter().filter(later).map(|o| o.name.clone()).collect();
+        if gone.is_empty() {
+            return;
+        }
+        let mut tallies = (*self.tallies).clone();
+        let mut rest: EventLog = self.iter().filter(|o| !later(o)).cloned().collect();
+        for tally in &mut tallies {
+            tally.count -= gone.iter().filter(|name| **name == tally.name).count() as u64;
+            let left = rest.tallies().iter().find(|left| left.name == tally.name);
+            tally.last = left.map_or(tally.last, |left| left.last);
+        }
+        tallies.retain(|tally| tally.count > 0);
+        (rest.tallies, rest.only_counts) = (Arc::new(tallies), self.only_counts);
+        *self = rest;
+    }
+
     /// The stored occurrences, the oldest first.
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = &Occurrence> {
         self.sealed.iter().chain(std::iter::once(&self.open)).flat_map(|chunk| chunk.iter())
@@ -147,6 +166,11 @@ mod tests {
         assert!(times.windows(2).all(|pair| pair[1] == pair[0] + 1.0));
         assert_eq!(times.last(), Some(&(count as f64 - 1.0)));
         assert_eq!(event_log.forgotten() as usize, count - times.len());
+        let mut back = event_log.clone();
+        back.rewind(count as f64 - 10.5);
+        assert_eq!(back.count(), count as u64 - 10);
+        assert_eq!(back.forgotten(), event_log.forgotten());
+        assert_eq!(back.iter().next_back().unwrap().time, count as f64 - 11.0);
         let half = count as u64 / 2;
         let tally = |name: &str, last| EventCount { name: name.to_owned(), count: half, last };
         let last = count as f64;

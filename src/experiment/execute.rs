@@ -14,7 +14,7 @@ use crate::system::{self, ChannelKind, State};
 const NOTICES: usize = 16;
 
 /// A frame on the screen, in seconds.
-const FRAME: f64 = 1.0 / 60.0;
+pub(super) const FRAME: f64 = 1.0 / 60.0;
 
 /// The most integrator steps for one single step by the user.
 const SINGLE_STEP_BUDGET: u64 = 20_000;
@@ -26,6 +26,7 @@ impl Experiment {
             Command::Play => self.running = true,
             Command::Pause => self.running = false,
             Command::Step(count) => self.step(count),
+            Command::StepBack(count) => self.step_back(count),
             Command::Speed(speed) if speed > 0.0 => self.setup.speed = speed,
             Command::Speed(speed) => self.tell(format!("a speed is above zero; {speed} is not")),
             Command::Parameter { index, value } => self.change_parameter(index, value),
@@ -46,7 +47,14 @@ impl Experiment {
             Command::Tolerance(tolerance) => self.change_tolerance(tolerance),
             Command::TakeUp(moment) => self.restore(&moment),
             Command::Follow(found) => self.follow(&found),
-            Command::ForgetCrossings => self.crossings.clear(),
+            Command::ForgetCrossings => {
+                self.crossings.clear();
+                self.companions.forget_crossings();
+            }
+            Command::AddStart(given) => self.add_start(given),
+            Command::AddNeighbour => self.add_neighbour(),
+            Command::Pin => self.pin(),
+            Command::ClearCompanions => self.companions.clear(),
             Command::Settings(settings) => self.change_method(self.motion.method(), settings),
             Command::Reference => {
                 self.gauge(Gauges::refer);
@@ -108,6 +116,7 @@ impl Experiment {
         let new = &self.setup.parameters;
         let state = self.system().change_parameters(self.motion.state(), &old, new);
         self.continue_from(state);
+        self.pass_parameters();
         self.gauge(Gauges::refer);
         let jump = self.energy() - before;
         if jump.abs() > 1e-12 * before.abs() {
@@ -187,6 +196,7 @@ impl Experiment {
             return self.restart();
         }
         self.continue_from(Ok(self.motion.state().clone()));
+        self.pass_method();
         self.gauge(Gauges::refer);
     }
 

@@ -4,8 +4,9 @@
 //! commands.
 
 use super::gauges::{Gauges, Present};
+use super::step_log::StepLog;
 use crate::integrate::{
-    self, Method, MethodError, Occurrence, OccurrenceKind, Reached, Settings, Unstable,
+    self, Method, MethodError, Occurrence, OccurrenceKind, Reached, Settings, Stepping, Unstable,
 };
 use crate::mechanics::Valuation;
 use crate::system::{MotionError, Observer, State, System, TermWatch};
@@ -19,6 +20,8 @@ pub(super) struct ObservedMotion {
     /// The motion's count of constraint changes when the observer was made.
     holdings: u64,
     watch: Watch,
+    /// The states between the steps so far.
+    log: StepLog,
 }
 
 /// Samples the motion after every step.
@@ -51,6 +54,9 @@ impl Watch {
     }
 }
 
+/// One of so many equal steps is logged.
+const EQUAL_STEPS: u64 = 8;
+
 /// The fractional part of the golden ratio.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
@@ -69,6 +75,7 @@ impl ObservedMotion {
             residuals: Vec::new(),
             holdings: 0,
             watch: Watch::of(system, parameters),
+            log: StepLog::default(),
         })
     }
 
@@ -83,9 +90,11 @@ impl ObservedMotion {
 
     /// Begins at a state.
     pub(super) fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
+        self.log.clear();
         self.inner.begin(state, parameters)?;
         self.observer = self.inner.system().observer(parameters);
         self.watch = Watch::of(self.inner.system(), parameters);
+        self.log.push(self.inner.state(), self.inner.steps());
         self.look()
     }
 
@@ -97,9 +106,11 @@ impl ObservedMotion {
         start: f64,
         released: &[usize],
     ) -> Result<(), MotionError> {
+        self.log.clear();
         self.inner.restore(state, parameters, start, released)?;
         self.observer = self.inner.system().observer(parameters);
         self.watch = Watch::of(self.inner.system(), parameters);
+        self.log.push(self.inner.state(), self.inner.steps());
         self.look()
     }
 
@@ -110,7 +121,9 @@ impl ObservedMotion {
 
     /// Continues from a state at the current time.
     pub(super) fn go_on(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
+        self.log.clear();
         self.inner.go_on(state, parameters)?;
+        self.log.push(self.inner.state(), self.inner.steps());
         self.observer.set_parameters(parameters);
         self.watch.terms.set_parameters(parameters);
         self.look()
@@ -131,6 +144,7 @@ impl ObservedMotion {
             let reached = self.inner.reach(time, limit, &mut one)?;
             if self.inner.steps() != before {
                 *budget -= 1;
+                self.log_step();
                 self.look_at_step(gauges, spacing);
             }
             match &reached {
@@ -178,6 +192,54 @@ impl ObservedMotion {
         }
     }
 
+    /// Logs the state at the end of the last step. Equal steps are short, and any of them can be taken again.
+    fn log_step(&mut self) {
+        let steps = self.inner.steps();
+        let apart = match self.inner.method().stepping {
+            Stepping::Adaptive => 1,
+            Stepping::Fixed => EQUAL_STEPS,
+        };
+        if steps.is_multiple_of(apart) {
+            self.log.push(self.inner.computed(), steps);
+        }
+    }
+
+    /// Takes the motion back to a time on the way. If that is no longer known, it stays where it is, and the result is
+    /// the first time that is, or NaN.
+    pub(super) fn back_to(
+        &mut self,
+        (time, limit): (f64, f64),
+        start: f64,
+    ) -> Result<Option<f64>, MotionError> {
+        let first = self.log.first().unwrap_or(f64::NAN);
+        let Some(known) = self.log.back_to(time) else { return Ok(Some(first)) };
+        let system = self.inner.system();
+        let released: Vec<usize> =
+            (0..system.constraints()).filter(|&k| system.is_released(k)).collect();
+        self.inner.go_back(&known.state, start, &released)?;
+        self.inner.set_steps(known.steps);
+        self.take_observer();
+        // what was seen of each step counts only once
+        let mut budget = EQUAL_STEPS * 1000;
+        loop {
+            match self.inner.reach(time, limit, &mut budget)? {
+                Reached::Happened(occurrence) => {
+                    if matches!(occurrence.kind, OccurrenceKind::Impulse { .. }) {
+                        self.log.note_impulse();
+                    }
+                }
+                Reached::There | Reached::Underway | Reached::Ended => break,
+            }
+        }
+        self.look()?;
+        Ok(None)
+    }
+
+    /// The number of impulses so far.
+    pub(super) fn impulses(&self) -> u64 {
+        self.log.impulses()
+    }
+
     /// Applies an impulse now.
     pub(super) fn apply_impulse(&mut self, impulse: usize) -> Result<Occurrence, MotionError> {
         let occurrence = self.inner.apply_impulse_now(impulse)?;
@@ -186,8 +248,17 @@ impl ObservedMotion {
     }
 
     fn record(&mut self, occurrence: &Occurrence) -> Result<(), MotionError> {
-        if matches!(occurrence.kind, OccurrenceKind::Release(_)) {
-            self.take_observer();
+        match occurrence.kind {
+            OccurrenceKind::Release(_) => {
+                self.take_observer();
+                self.log.clear();
+                self.log.push(self.inner.state(), self.inner.steps());
+            }
+            OccurrenceKind::Impulse { .. } => {
+                self.log.note_impulse();
+                self.log.push(self.inner.state(), self.inner.steps());
+            }
+            OccurrenceKind::Mark | OccurrenceKind::Crossing(_) | OccurrenceKind::Stop => {}
         }
         self.look()
     }

@@ -17,7 +17,7 @@ const CHUNK: usize = 128;
 const CHUNKS: [usize; THINNINGS] = [64, 32, 32, 32];
 
 /// The greatest number of stored values (48 MB), for systems with very many channels.
-const NUMBERS: usize = 6_000_000;
+pub(super) const NUMBERS: usize = 6_000_000;
 
 /// Records rows.
 #[derive(Clone, Debug)]
@@ -39,13 +39,18 @@ pub(super) struct Recorder {
 impl Recorder {
     /// Creates a recorder of rows of that many channels, one per `spacing` of time.
     pub(super) fn new(channels: usize, spacing: f64) -> Recorder {
+        Recorder { spacing, ..Recorder::bounded(channels, NUMBERS) }
+    }
+
+    /// Creates a recorder that stores at most so many numbers.
+    pub(super) fn bounded(channels: usize, numbers: usize) -> Recorder {
         let width = channels + 1;
-        let most = NUMBERS / (width * CHUNK);
+        let most = numbers / (width * CHUNK);
         let all: usize = CHUNKS.iter().sum();
         Recorder {
             width,
             origin: 0.0,
-            spacing,
+            spacing: 1.0,
             count: 0,
             last: None,
             sealed: Default::default(),
@@ -57,12 +62,46 @@ impl Recorder {
 
     /// Clears the recorder; the next row is due at `origin`.
     pub(super) fn restart(&mut self, origin: f64) {
-        *self = Recorder { origin, ..Recorder::new(self.width - 1, self.spacing) };
+        let (limits, spacing) = (self.limits, self.spacing);
+        *self = Recorder { origin, limits, ..Recorder::new(self.width - 1, spacing) };
     }
 
     /// The time between two rows.
     pub(super) fn spacing(&self) -> f64 {
         self.spacing
+    }
+
+    /// Forgets the rows from a time on; the next one is due then. The bounds stay.
+    pub(super) fn rewind(&mut self, time: f64) {
+        let width = self.width;
+        let before =
+            |chunk: &[f64]| chunk.chunks_exact(width).take_while(|row| row[0] < time).count();
+        let rest = before(&self.open);
+        Arc::make_mut(&mut self.open).truncate(rest * width);
+        if rest == 0 {
+            self.reopen(before);
+        }
+        (self.origin, self.count, self.last) = (time, 0, None);
+    }
+
+    /// Opens the newest chunk that has rows which stay, without the others.
+    fn reopen(&mut self, before: impl Fn(&[f64]) -> usize) {
+        for level in &mut self.sealed {
+            while let Some(chunk) = level.pop_back() {
+                match before(&chunk) {
+                    0 => {}
+                    CHUNK => {
+                        level.push_back(chunk);
+                        return;
+                    }
+                    rest => {
+                        self.open = chunk;
+                        Arc::make_mut(&mut self.open).truncate(rest * self.width);
+                        return;
+                    }
+                }
+            }
+        }
     }
 
     /// Changes the time between two rows, counted from the last one.
@@ -267,6 +306,26 @@ mod tests {
         assert_eq!(kept.last(), Some(&7.0));
         assert!(kept[..kept.len() - 1].iter().all(|&x| x < 1e5) && kept.len() > 7000);
         assert!(kept[..kept.len() - 1].windows(2).all(|pair| pair[0] < pair[1]));
+    }
+
+    #[test]
+    fn rows_from_a_time_on_are_forgotten_and_due_again() {
+        for time in [10.0, 10.7, 60.0, 74.0, 74.2, 400.0, 60_000.0] {
+            let mut recorder = filled(120_000);
+            let all = numbers(&recorder);
+            recorder.rewind(time);
+            let kept: Vec<f64> = all.into_iter().filter(|k| 10.0 + 0.5 * k < time).collect();
+            assert_eq!(numbers(&recorder), kept, "{time}");
+            assert_eq!(recorder.due(), time);
+            recorder.record(time, &[-1.0]);
+            assert_eq!(recorder.due(), time + 0.5);
+            for _ in 0..1000 {
+                let due = recorder.due();
+                recorder.record(due, &[-2.0]);
+            }
+            let later = numbers(&recorder);
+            assert_eq!(later.iter().filter(|x| **x == -2.0).count(), 1000, "{time}");
+        }
     }
 
     #[test]

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::{CrossingLog, EventLog, Setup, Trail};
-use crate::analysis::Verdict;
+use super::{Companion, CrossingLog, EventLog, Setup, Trail};
+use crate::analysis::{Separation, Verdict};
 use crate::system::{Form, State};
 
 /// The state of an experiment as the screen and the reports see it.
@@ -41,6 +41,10 @@ pub struct Snapshot {
     pub occurrences: EventLog,
     /// The crossings of the surfaces of section since the last restart or change of a parameter.
     pub crossings: CrossingLog,
+    /// The motions beside this one.
+    pub companions: Arc<[Companion]>,
+    /// Their numbers and distances.
+    pub separations: Arc<[(usize, Arc<Separation>)]>,
     /// The indices of the released constraints.
     pub released: Vec<usize>,
     /// Whether the motion was resumed from a checkpoint.
@@ -67,6 +71,8 @@ impl Snapshot {
             notices: Arc::default(),
             occurrences: EventLog::default(),
             crossings: CrossingLog::default(),
+            companions: Arc::default(),
+            separations: Arc::default(),
             released: Vec::new(),
             taken_up: false,
         }

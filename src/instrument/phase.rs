@@ -8,9 +8,10 @@ use std::sync::Arc;
 
 use super::{
     Across, Answer, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need,
-    NoStart, Offer, Physics, Picture, Plot, Present, Sign, Upwards,
+    NoStart, Offer, Physics, Picture, Plot, Present, Sign, Upwards, value_at,
 };
 use crate::analysis::{Landscape, Plane};
+use crate::dynamics::Equilibrium;
 use crate::job::Job;
 use crate::system::{ChannelKind, Form, InitialOverride, System};
 
@@ -106,7 +107,21 @@ impl Instrument for Phase {
         let landscape = landscape(answer);
         let levels = landscape.map(|l| (LEVELS, Layer::Landscape(Arc::clone(l))));
         let now = Layer::Point([x, y].map(|k| present.value(k)), Sign::Disc, Ink::Accent);
-        let layers = levels.into_iter().chain([(TRAIL, Layer::Trail([x, y])), (NOW, now)]);
+        let equilibria = present.equilibria.iter().filter_map(|one| {
+            let at = |channel| value_at(present.physics, one, channel);
+            let (sign, ink) = match one.stable {
+                Some(false) => (Sign::Cross, Ink::Separatrix),
+                Some(true) => (Sign::Ring, Ink::Curve(2)),
+                None => (Sign::Ring, Ink::Plain),
+            };
+            Some((MARK, Layer::Point([at(x)?, at(y)?], sign, ink)))
+        });
+        let layers = levels.into_iter().chain([
+            (TRAIL, Layer::Companions([x, y])),
+            (TRAIL, Layer::Trail([x, y])),
+            (NOW, now),
+        ]);
+        let layers = layers.chain(equilibria);
         Some(Picture::Axes {
             upwards: Upwards::Channel(y, landscape.map(|landscape| landscape.window[1])),
             layers: layers.collect(),
@@ -158,6 +173,19 @@ impl Instrument for Phase {
     fn measures(&self) -> &'static [Measure] {
         &[
             Measure {
+                word: "equilibria",
+                about: "how many equilibria are marked on it",
+                value: |plot, present, _| Some(marked(plot, present).count() as f64),
+            },
+            Measure {
+                word: "stable",
+                about: "how many of them are stable",
+                value: |plot, present, _| {
+                    let stable = marked(plot, present).filter(|stable| *stable == Some(true));
+                    Some(stable.count() as f64)
+                },
+            },
+            Measure {
                 word: "saddles",
                 about: "how many saddles the energy has in the window",
                 value: |_, _, answer| landscape(answer).map(|l| l.saddles.len() as f64),
@@ -169,6 +197,16 @@ impl Instrument for Phase {
             },
         ]
     }
+}
+
+/// The equilibria that have a place on a plot: whether each is stable.
+fn marked(plot: &Plot, present: &Present<'_>) -> impl Iterator<Item = Option<bool>> {
+    let columns = [plot.column(0), plot.column(1)];
+    let physics = present.physics;
+    let there = move |one: &&Equilibrium| {
+        columns.iter().all(|c| c.is_some_and(|c| value_at(physics, one, c).is_some()))
+    };
+    present.equilibria.iter().filter(there).map(|one| one.stable)
 }
 
 fn landscape(answer: Option<&Answer>) -> Option<&Arc<Landscape>> {

@@ -43,6 +43,8 @@ pub enum Across {
     Channel(usize, Option<[f64; 2]>),
     /// Time, which moves along with the motion.
     Time,
+    /// Time over a range.
+    Times([f64; 2]),
 }
 
 /// The vertical axis.
@@ -54,6 +56,8 @@ pub enum Upwards {
     Shared(Vec<usize>),
     /// The name and unit of a channel, over a range that is rounded outwards.
     Around(usize, [f64; 2]),
+    /// A number of this name, over a range that is rounded outwards.
+    Named(String, [f64; 2]),
 }
 
 /// The contents of a pane.
@@ -111,6 +115,17 @@ pub enum Layer {
         /// The marker.
         sign: Sign,
     },
+    /// The past of two channels of each motion beside the main one, and where it is now.
+    Companions([usize; 2]),
+    /// A channel of each of them against time.
+    CompanionCurves(usize),
+    /// Where each of them has crossed a surface of section.
+    CompanionCrossings {
+        /// The index of the surface.
+        section: usize,
+        /// The channels of the axes.
+        channels: [usize; 2],
+    },
     /// A marker at a point.
     Point([f64; 2], Sign, Ink),
 }
@@ -139,6 +154,8 @@ pub enum Ink {
     Separatrix,
     /// The colour of the curve of this index.
     Curve(usize),
+    /// The colour of the motion of this number beside the main one.
+    Companion(usize),
 }
 
 /// A marker on a plot.
@@ -146,8 +163,10 @@ pub enum Ink {
 pub enum Sign {
     /// The current state.
     Disc,
-    /// A point near the current state.
+    /// A point near the current state, or a stable one.
     Ring,
+    /// An unstable point.
+    Cross,
 }
 
 impl From<Ink> for Stroke {

@@ -4,6 +4,8 @@
 
 use std::sync::Arc;
 
+use crate::analysis::Separation;
+use crate::dynamics::Equilibrium;
 use crate::integrate::Settings;
 use crate::mechanics::{Equations, Valuation};
 use crate::model::Model;
@@ -29,12 +31,18 @@ pub struct Present<'a> {
     pub time: f64,
     /// The parameters.
     pub parameters: &'a [f64],
+    /// The initial values: coordinates, then velocities or momenta.
+    pub initial: &'a [f64],
     /// The value of each channel.
     pub values: &'a [f64],
     /// The least and greatest value of each channel since the start.
     pub bounds: &'a [(f64, f64)],
     /// How often each surface of section was crossed.
     pub crossed: &'a [u64],
+    /// The motions beside this one: the number of each, and its distance.
+    pub separations: &'a [(usize, Arc<Separation>)],
+    /// The equilibria that were found at these parameters.
+    pub equilibria: &'a [Equilibrium],
     /// The name of the method.
     pub method: &'static str,
     /// Its step and tolerance, as they were set.

@@ -174,6 +174,7 @@ impl Instrument for Section {
             };
             layers.extend(portrait.orbits.iter().enumerate().map(points));
         }
+        layers.push((OWN, Layer::CompanionCrossings { section, channels }));
         layers.push((OWN, Layer::Crossings { section, channels, ink: Ink::Accent }));
         layers.push((NOW, Layer::LastCrossing { section, channels, sign: Sign::Disc }));
         let upwards = Upwards::Channel(channels[1], range(plot, present, answer, 1));

@@ -7,14 +7,21 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::{Across, Columns, Heading, Physics, Picture, Plot, Present, Seed};
-use super::{phase, potential, section, space, time};
+use super::{exponents, phase, potential, section, separation, space, time};
 use crate::job::Job;
 use crate::model::Model;
 use crate::system::InitialOverride;
 
 /// All kinds, in the order in which the lab opens with them.
-pub static INSTRUMENTS: [&dyn Instrument; 5] =
-    [&space::Space, &phase::Phase, &section::Section, &potential::Potential, &time::Time];
+pub static INSTRUMENTS: [&dyn Instrument; 7] = [
+    &space::Space,
+    &phase::Phase,
+    &section::Section,
+    &potential::Potential,
+    &time::Time,
+    &separation::Separation,
+    &exponents::Exponents,
+];
 
 /// Kinds that the file format names but this version does not support.
 pub const NOT_YET: [&str; 4] = ["spectrum", "ensemble", "transformation", "action"];

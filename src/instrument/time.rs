@@ -74,7 +74,9 @@ impl Instrument for Time {
                 (NOW, Layer::Point(now, Sign::Disc, Ink::Curve(index))),
             ]
         };
-        let layers = channels.iter().enumerate().rev().flat_map(curve).collect();
+        let beside = channels.iter().map(|channel| (0, Layer::CompanionCurves(*channel)));
+        let curves = channels.iter().enumerate().rev().flat_map(curve);
+        let layers = beside.chain(curves).collect();
         let occurrences = Some((MARK, [None, channels.first().copied()]));
         Some(Picture::Axes { upwards: Upwards::Shared(channels.clone()), layers, occurrences })
     }

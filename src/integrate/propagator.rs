@@ -11,7 +11,7 @@ use super::event_location::EventLocator;
 use super::impulse_schedule::ImpulseSchedule;
 use super::located_event::LocatedEvent;
 use super::zeno::AccumulationDetector;
-use super::{Method, MethodError, Settings, Stepper, Unstable};
+use super::{Method, MethodError, Settings, Stepper, Stepping, Unstable};
 use crate::num::DoubleDouble;
 use crate::system::{
     Branch, ConstraintProjector, Form, MotionError, MotionErrorKind, State, System,
@@ -187,6 +187,27 @@ impl Propagator {
         self.impulse_schedule.pass(state.time);
         self.state.copy_from(state);
         self.stepper.start(state, &self.parameters)
+    }
+
+    /// Restores an earlier state of this motion, with the step of now if that is fixed: a step that was chosen at the
+    /// beginning is not chosen anew.
+    ///
+    /// # Errors
+    /// Returns an error if the motion cannot continue from there.
+    pub fn go_back(
+        &mut self,
+        state: &State,
+        start: f64,
+        released: &[usize],
+    ) -> Result<(), MotionError> {
+        let settings = self.settings;
+        if self.method.stepping == Stepping::Fixed {
+            self.settings.step = Some(self.stepper.step_size().abs());
+        }
+        let parameters = self.parameters.clone();
+        let outcome = self.restore(state, &parameters, start, released);
+        self.settings = settings;
+        outcome
     }
 
     /// Changes the method or its settings, and continues from the current state.

@@ -4,8 +4,11 @@
 //! the orbit has none. A new measure is a constant below and a line in [`MEASURES`]; what it needs of the system beyond
 //! the equations of motion, it does with the [`System`] that it is handed. Never here: tables, names of columns.
 
+use crate::dynamics::{PhaseSpace, lyapunov};
 use crate::ensemble::{Crossings, OrbitStatus, SectionPlan, Start, crossings};
 use crate::integrate::{Method, Settings};
+use crate::mechanics::Equations;
+use crate::model::Model;
 use crate::system::System;
 
 /// A measure of an orbit.
@@ -28,10 +31,16 @@ pub enum Zeros {
     /// The first velocity with its sign changed, so that the zeros are maxima of the first coordinate, unless the user
     /// gives another.
     Maxima,
+    /// None: it follows the orbit itself.
+    None,
 }
 
 /// An orbit to be measured.
 pub struct MeasuredOrbit<'a> {
+    /// The model.
+    pub model: &'a Model,
+    /// Its equations.
+    pub equations: &'a Equations,
     /// The system, with the measure's zeros as an event.
     pub system: &'a System,
     /// The event's name.
@@ -60,8 +69,20 @@ impl MeasuredOrbit<'_> {
     }
 }
 
+impl MeasuredOrbit<'_> {
+    /// The largest Lyapunov exponent up to the end, if the orbit has one and reaches it.
+    fn exponent(&self) -> Option<f64> {
+        let parameters = &self.start.parameters;
+        let space = PhaseSpace::of(self.model, self.equations, self.system, parameters).ok()?;
+        let state = self.start.state(self.system).and_then(|state| space.state(&state)).ok()?;
+        let method = (self.method, self.settings);
+        let found = lyapunov(&space, method, &state, self.end, &mut |_| ()).ok()?;
+        found.exponents.first().copied().filter(|_| found.failure.is_none())
+    }
+}
+
 /// All measures.
-pub const MEASURES: &[Measure] = &[PERIOD, ESCAPE, CROSSINGS];
+pub const MEASURES: &[Measure] = &[PERIOD, ESCAPE, CROSSINGS, LYAPUNOV];
 
 /// The measure of a name.
 pub fn measure_named(name: &str) -> Option<&'static Measure> {
@@ -101,5 +122,15 @@ const CROSSINGS: Measure = Measure {
         let found = orbit.zeros(None)?;
         let begun = found.status != OrbitStatus::Refused;
         Some(if begun { found.rows.len() as f64 } else { f64::NAN })
+    },
+};
+
+const LYAPUNOV: Measure = Measure {
+    name: "lyapunov",
+    about: "the largest Lyapunov exponent over the time of the run; empty where the orbit cannot be followed to its end",
+    of: Zeros::None,
+    measure: |orbit| {
+        let found = orbit.exponent();
+        (!orbit.system.cancel().is_cancelled()).then_some(found.unwrap_or(f64::NAN))
     },
 };

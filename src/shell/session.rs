@@ -9,7 +9,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use crossterm::event::{Event as TerminalEvent, MouseButton, MouseEventKind};
+use crossterm::event::{
+    Event as TerminalEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
+};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 
@@ -630,6 +632,21 @@ fn called(text: Unsaved, names: &[(&str, &Path)]) -> Unsaved {
     }
 }
 
+/// Shift makes the right button of the left one: many terminals keep one of the two for themselves.
+fn with_shift(mouse: MouseEvent) -> MouseEventKind {
+    match mouse.kind {
+        MouseEventKind::Up(MouseButton::Left) if mouse.modifiers.contains(KeyModifiers::SHIFT) => {
+            MouseEventKind::Up(MouseButton::Right)
+        }
+        MouseEventKind::Down(MouseButton::Left)
+            if mouse.modifiers.contains(KeyModifiers::SHIFT) =>
+        {
+            MouseEventKind::Down(MouseButton::Right)
+        }
+        kind => kind,
+    }
+}
+
 impl Screen for Session {
     fn input(&mut self, event: TerminalEvent) -> ScreenRequest {
         let event = match event {
@@ -642,7 +659,7 @@ impl Screen for Session {
                 }
                 let area = Rect::from((Position::ORIGIN, self.size));
                 match view::hit_test(&self.app, &self.look, area, mouse.column, mouse.row) {
-                    Some(hit) => Event::Mouse(mouse.kind, hit),
+                    Some(hit) => Event::Mouse(with_shift(mouse), hit),
                     None => return ScreenRequest::Nothing,
                 }
             }

@@ -48,6 +48,8 @@ struct Held<Key, Value> {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TrailKey {
     pub(super) epoch: u64,
+    /// The number of a motion beside the main one; 0 for the main one.
+    pub(super) motion: usize,
     pub(super) frame: Frame,
     pub(super) track: Track,
 }

@@ -2,12 +2,14 @@
 //!
 //! In: the channels and their values. Out: a page of text. Never here: pictures.
 
+use super::companions;
 use super::gauges::in_full;
 use super::number::{drift, readable};
 use super::quantity::Quantities;
 use super::text_page::TextPage;
 use super::theme::Role;
 use crate::experiment::EventCount;
+use crate::instrument::{described, described_mode};
 use crate::system::{Channel, ChannelKind};
 
 /// A heading, and the test for the channels listed under it.
@@ -49,6 +51,8 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
         }
     }
     occurrences(&mut page, q);
+    beside(&mut page, q);
+    equilibria(&mut page, q);
     page.heading("Gauges");
     for gauge in q.snapshot.gauges.iter() {
         let name = glyphs.pick(&gauge.shown, &gauge.name);
@@ -61,6 +65,37 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
         page.value(&glyphs.text(name), &readable(gauge.value, 10, glyphs), "", rest);
     }
     page
+}
+
+/// Lists the equilibria that were found: kind, place, energy, frequencies and modes.
+fn equilibria(page: &mut TextPage, q: &Quantities<'_>) {
+    let present = q.present();
+    if present.equilibria.is_empty() {
+        return;
+    }
+    page.heading("Equilibria");
+    let glyphs = q.look.glyphs;
+    for one in present.equilibria {
+        let (what, about) = described(present.physics, one);
+        page.line(&glyphs.text(&format!("{what}; {about}")));
+        for mode in 0..one.modes.len() {
+            let mode = described_mode(present.physics, one, mode);
+            page.line(&glyphs.text(&format!("    mode {mode}")));
+        }
+    }
+}
+
+/// Lists each motion beside the main one: what it is, its distance, and how fast that grows.
+fn beside(page: &mut TextPage, q: &Quantities<'_>) {
+    if q.snapshot.companions.is_empty() {
+        return;
+    }
+    page.heading("Beside this motion");
+    for (one, (_, separation)) in q.snapshot.companions.iter().zip(q.snapshot.separations.iter()) {
+        let glyphs = q.look.glyphs;
+        let (name, value, rest) = companions::words(one, separation, glyphs);
+        page.value(&name, &value, "", vec![(Role::Dim, format!("  {rest}"))]);
+    }
 }
 
 /// Lists each event and impulse: how often it has happened, and when it last did.

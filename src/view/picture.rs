@@ -15,7 +15,7 @@ use super::plot::ticks::nice_range;
 use super::plot::{Ages, Axes, Axis, Frame, Marker, Pen, Raster, Scale};
 use super::quantity::{Quantities, through};
 use super::theme::Role;
-use super::{cursor, space};
+use super::{companions, cursor, space};
 use crate::analysis::{Curve, Landscape};
 use crate::instrument::{
     Across, Entry, Heading, Ink, Layer, Level, Picture, Plot, Sign, Upwards, Viewport,
@@ -178,6 +178,10 @@ pub(super) fn draw(
     let across = match plot.kind.across(plot, &present, answer) {
         Across::Nothing => None,
         Across::Channel(channel, range) => Some(q.axis(channel, range, (viewport, 0))),
+        Across::Times([from, to]) => {
+            let scale = through(Scale::linear(from, to), (viewport, 0));
+            Some(Axis::new("t", q.lab.loaded.model.time_unit(), scale))
+        }
         Across::Time => {
             Some(Axis::new("t", q.lab.loaded.model.time_unit(), window(q, viewport, 1)))
         }
@@ -228,6 +232,11 @@ fn axis_upwards(q: &Quantities<'_>, upwards: &Upwards, viewport: Viewport) -> Ax
             let scale = through(Scale::linear(lo, hi), (viewport, 1));
             Axis::new(q.name(*channel), q.unit(*channel), scale)
         }
+        Upwards::Named(name, [low, high]) => {
+            let (lo, hi) = nice_range(*low, *high);
+            let name = q.look.glyphs.text(name);
+            Axis::new(name, "", through(Scale::linear(lo, hi), (viewport, 1)))
+        }
     }
 }
 
@@ -251,7 +260,7 @@ fn draw_layer(
         Layer::Trail([x, y]) => {
             let rows = &q.snapshot.trail;
             let track = Track::Channels([*x, *y]);
-            let key = TrailKey { epoch: q.snapshot.epoch, frame: *frame, track };
+            let key = TrailKey { epoch: q.snapshot.epoch, motion: 0, frame: *frame, track };
             let kept = canvas.kept.trail(key, (rows, look.glyphs), |row| {
                 Some([*row.get(1 + x)?, *row.get(1 + y)?, 0.0])
             });
@@ -265,7 +274,7 @@ fn draw_layer(
             let shade = look.theme.series(*index);
             let since = frame.x.lo - (frame.x.hi - frame.x.lo);
             let track = Track::Curve(*channel, shade.dash, since);
-            let key = TrailKey { epoch: q.snapshot.epoch, frame: *frame, track };
+            let key = TrailKey { epoch: q.snapshot.epoch, motion: 0, frame: *frame, track };
             let kept = canvas.kept.trail(key, (&q.snapshot.trail, look.glyphs), |row| {
                 Some([*row.first()?, *row.get(1 + channel)?, 0.0])
             });
@@ -291,6 +300,15 @@ fn draw_layer(
                 raster.marker(frame, at, marker(*sign), &pen(canvas, Ink::Accent, level));
             }
         }
+        Layer::Companions(channels) => {
+            companions::trails(canvas, raster, (frame, q), (*channels, level));
+        }
+        Layer::CompanionCurves(channel) => {
+            companions::curves(canvas, raster, (frame, q), (*channel, level));
+        }
+        Layer::CompanionCrossings { section, channels } => {
+            companions::crossings(canvas, raster, (frame, q), (*section, *channels, level));
+        }
         Layer::Point(at, sign, ink) => {
             raster.marker(frame, *at, marker(*sign), &pen(canvas, *ink, level));
         }
@@ -301,6 +319,7 @@ fn marker(sign: Sign) -> Marker {
     match sign {
         Sign::Disc => Marker::Disc,
         Sign::Ring => Marker::Ring,
+        Sign::Cross => Marker::Cross,
     }
 }
 
@@ -323,6 +342,7 @@ fn pen(canvas: &Canvas<'_>, ink: Ink, level: Level) -> Pen {
         Ink::Level => Pen::shaded(theme.line(Role::Level), level),
         Ink::Separatrix => Pen::shaded(theme.line(Role::Separatrix), level),
         Ink::Curve(index) => Pen::new(theme.curve(index), level),
+        Ink::Companion(number) => Pen::new(companions::ink(theme, number), level),
     }
 }
 

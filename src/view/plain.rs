@@ -2,6 +2,7 @@
 //!
 //! In: the lab and the snapshot to be read. Out: a page of text. Never here: anything that changes without input.
 
+use super::companions;
 use super::gauges::{finding, in_full};
 use super::header_footer::status_words;
 use super::number::{brief, drift, readable};
@@ -65,6 +66,13 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
             finding(gauge, q.look.glyphs),
             gauge.reason
         ));
+    }
+    if !snapshot.companions.is_empty() {
+        write(format!("Beside this motion, {}:", snapshot.companions.len()));
+    }
+    for (one, (_, separation)) in snapshot.companions.iter().zip(snapshot.separations.iter()) {
+        let (name, value, rest) = companions::words(one, separation, q.look.glyphs);
+        write(format!("{name}: {value}; {rest}"));
     }
     notifications(snapshot, q, &mut write);
     write("Pictures:".to_owned());

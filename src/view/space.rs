@@ -13,6 +13,7 @@ mod solid;
 use ratatui::layout::{Position, Rect};
 
 use super::canvas::Canvas;
+use super::companions;
 use super::kept::{self, Kept, Track, TrailKey};
 use super::plot::{Ages, Camera, DepthBuffer, Frame, Marker, Pen, Raster};
 use super::quantity::{Quantities, Source};
@@ -53,6 +54,9 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         return;
     }
     let camera = Camera { yaw: eye.yaw, pitch: eye.pitch, zoom: eye.zoom, ..Camera::FACE_ON };
+    let beside: Vec<_> =
+        q.snapshot.companions.iter().map(|one| companions::as_main(q.snapshot, one)).collect();
+    let beside: Vec<_> = beside.iter().map(|snapshot| Quantities { snapshot, ..*q }).collect();
     let reference_frame = ReferenceFrame::of(q, eye.frame);
     let scene = Scene::of(q, *eye, reference_frame.as_ref());
     let frame = camera.frame(&scene.bounds, area);
@@ -69,6 +73,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         q,
         reference_frame,
         seen: eye.frame,
+        beside: None,
         colours: colours(q, *eye),
     };
     for (shape, _) in q.lab.shapes(*eye) {
@@ -76,6 +81,13 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     }
     artist.fill();
     let mut kept = std::mem::take(&mut canvas.kept);
+    for (one, there) in q.snapshot.companions.iter().zip(&beside) {
+        artist.take(there, Some(one.number));
+        for (shape, _) in q.lab.shapes(*eye) {
+            artist.ghost(shape, &mut kept);
+        }
+    }
+    artist.take(q, None);
     for (shape, _) in q.lab.shapes(*eye) {
         artist.shape(shape, &mut kept);
     }
@@ -108,6 +120,8 @@ struct ScenePainter<'a> {
     reference_frame: Option<ReferenceFrame>,
     /// The index of the reference frame.
     seen: Option<usize>,
+    /// The number of the motion beside the main one that is being drawn.
+    beside: Option<usize>,
     /// What hides what.
     depth: DepthBuffer,
     /// The pens of the surfaces, with their shares of dots in the shade and in full light.
@@ -118,6 +132,42 @@ struct ScenePainter<'a> {
     labels: Vec<([f64; 2], String)>,
     /// The points that have a colour of their own.
     colours: Vec<Point>,
+}
+
+impl<'a> ScenePainter<'a> {
+    /// Draws this motion from now on.
+    fn take(&mut self, q: &'a Quantities<'a>, beside: Option<usize>) {
+        (self.q, self.beside) = (q, beside);
+        self.reference_frame = ReferenceFrame::of(q, self.seen);
+    }
+
+    /// Draws what moves of a motion beside the main one: its lines, masses and tracks, in its colour.
+    fn ghost(&mut self, shape: &Shape, kept: &mut Kept) {
+        let moves =
+            |point: &Point| point.iter().any(|e| matches!(self.q.place(*e), Source::Channel(_)));
+        let number = self.beside.unwrap_or(0);
+        let pen = Pen::new(companions::ink(&self.q.look.theme, number), TRACK);
+        match shape {
+            Shape::Line { from, to } if moves(from) || moves(to) => {
+                let (from, to) = (self.point(from), self.point(to));
+                self.curve(&[from, to], &pen);
+            }
+            Shape::Spring { from, to } if moves(from) || moves(to) => {
+                let (from, to) = (self.point(from), self.point(to));
+                self.spring(from, to, &pen);
+            }
+            Shape::Mass { at, .. } if moves(at) => {
+                let at = self.point(at);
+                if !self.depth.hides_point(self.camera.project(at)) {
+                    let flat = self.flat(at);
+                    let pen = Pen { layer: SOLID, ..pen };
+                    self.raster.marker(&self.frame, flat, Marker::Number(number), &pen);
+                }
+            }
+            Shape::Trace { at } => self.track(at, kept),
+            _ => {}
+        }
+    }
 }
 
 impl ScenePainter<'_> {
@@ -409,7 +459,12 @@ impl ScenePainter<'_> {
         let sources = point.map(|expression| self.q.place(expression));
         let rows = &self.q.snapshot.trail;
         let track = Track::Point(sources, self.camera, self.seen);
-        let key = TrailKey { epoch: self.q.snapshot.epoch, frame: self.frame, track };
+        let key = TrailKey {
+            epoch: self.q.snapshot.epoch,
+            motion: self.beside.unwrap_or(0),
+            frame: self.frame,
+            track,
+        };
         let projection = self.camera.projection();
         let [right, up, near] = self.camera.project(self.point(point));
         let present = [right, up];
@@ -420,7 +475,8 @@ impl ScenePainter<'_> {
             let seen = self.reference_frame.as_ref().map_or(r, |frame| frame.point(row, r));
             Some(projection.of(seen))
         });
-        let ramp = self.q.look.theme.trail(self.colour(point));
+        let series = self.beside.map_or_else(|| self.colour(point), companions::series);
+        let ramp = self.q.look.theme.trail(series);
         let since = kept::since(rows, ramp.len());
         let ages = Ages { since: &since, ramp, layer: TRACK, behind: Some((&self.depth, near)) };
         drawn.draw(&mut self.raster, ages, present);

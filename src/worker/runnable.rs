@@ -24,6 +24,10 @@ pub trait Runnable: Send {
     fn status(&self) -> Status;
     /// Takes a snapshot of the current state.
     fn snapshot(&self) -> Snapshot;
+    /// Whether something beside it has yet to reach the current time.
+    fn is_behind(&self) -> bool {
+        false
+    }
     /// A frame's worth of time has passed since this was called last.
     fn shown(&mut self) {}
 }
@@ -59,6 +63,10 @@ impl Runnable for Experiment {
 
     fn snapshot(&self) -> Snapshot {
         Experiment::snapshot(self)
+    }
+
+    fn is_behind(&self) -> bool {
+        Experiment::is_behind(self)
     }
 
     fn shown(&mut self) {

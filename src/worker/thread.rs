@@ -60,6 +60,9 @@ impl WorkerLoop<'_> {
     fn iterate(&mut self) -> Result<(), Stopped> {
         self.read_messages()?;
         let Some(subject) = self.running() else {
+            if self.catches_up() {
+                return Ok(());
+            }
             let message = self.messages.recv().map_err(|_| Stopped)?;
             return self.handle(message);
         };
@@ -80,6 +83,23 @@ impl WorkerLoop<'_> {
             return self.wait(BETWEEN_SNAPSHOTS.saturating_sub(since));
         }
         Ok(())
+    }
+
+    /// Lets what is behind catch up by a slice while time does not run. Returns whether there was anything to do.
+    fn catches_up(&mut self) -> bool {
+        let Some(subject) = self.subject.as_deref().filter(|subject| subject.is_behind()) else {
+            return false;
+        };
+        let time = subject.time();
+        let began = Instant::now();
+        let budget = self.slice.budget();
+        self.guarded(|subject| subject.advance(time, budget));
+        self.slice.learn(began.elapsed());
+        let done = !self.subject.as_deref().is_some_and(Runnable::is_behind);
+        if done || self.published.elapsed() >= BETWEEN_SNAPSHOTS {
+            self.publish();
+        }
+        true
     }
 
     /// The subject, if time runs in it.

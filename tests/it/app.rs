@@ -1,6 +1,8 @@
 //! The application driven by keys: a state, keys, and the resulting state and effects.
 
+mod companions;
 mod editor;
+mod equilibria;
 mod flow;
 mod invariants;
 mod keys;

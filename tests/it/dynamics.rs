@@ -3,6 +3,7 @@
 mod equilibria;
 mod family;
 mod flow;
+mod gali;
 mod lyapunov;
 mod orbit;
 

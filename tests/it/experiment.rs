@@ -3,9 +3,11 @@
 mod cancel;
 mod checkpoint;
 mod commands;
+mod companions;
 mod export;
 mod gauges;
 mod record;
+mod rewind;
 mod verdicts;
 
 use std::sync::Arc;

@@ -13,6 +13,7 @@ use super::super::report::Header;
 use super::super::section::surface;
 use super::super::starts::Starts;
 use crate::diagnostic::nearest;
+use crate::dynamics::PhaseSpace;
 use crate::ensemble::{OrbitStatus, Start, add_section};
 use crate::model::Direction;
 use crate::orbits::{MEASURES, Measure, MeasuredOrbit, RunPlan, Zeros, measure_named};
@@ -53,6 +54,12 @@ impl FromStr for MeasureName {
         };
         if measure.of == Zeros::Given && expression.is_none() {
             return Err(format!("write it as {name}=EXPR: it is {}", measure.about));
+        }
+        if measure.of == Zeros::None && expression.is_some() {
+            return Err(format!(
+                "write it as {name}, without an expression: it is {}",
+                measure.about
+            ));
         }
         Ok(MeasureName { written: text.trim().to_owned(), measure, expression })
     }
@@ -190,6 +197,8 @@ impl Table {
         cells.push(Cell::Number(outcome.energy_drift));
         for taken in &self.measures {
             let orbit = MeasuredOrbit {
+                model: &self.laid.model,
+                equations: &self.laid.equations,
                 system: &taken.system,
                 event: &taken.event,
                 method: self.laid.method,
@@ -234,6 +243,15 @@ fn taken(
     name: &MeasureName,
     interrupt: &Interrupt,
 ) -> Result<Taken, CommandError> {
+    if name.measure.of == Zeros::None {
+        let laid = motion.compile(reading, &[], "--observe", interrupt)?;
+        let Laid { model, equations, system, start, .. } = laid;
+        // said once, and not in every row
+        PhaseSpace::of(&model, &equations, &system, &start.parameters).map_err(|why| {
+            CommandError::WrongUse(format!("--measure {}: {why}", name.measure.name))
+        })?;
+        return Ok(Taken { name: name.clone(), system, event: String::new() });
+    }
     let written = match (&name.expression, name.measure.of) {
         (Some(expression), _) => expression.clone(),
         (None, _) if reading.model.is_poisson() => {

@@ -79,6 +79,8 @@ pub enum Marker {
     Diamond,
     /// `■`, or `#`: a fixed body.
     Square,
+    /// The number of a motion among several, one digit.
+    Number(usize),
 }
 
 impl Marker {
@@ -90,6 +92,7 @@ impl Marker {
             Self::Cross => glyphs.pick('×', 'x'),
             Self::Diamond => glyphs.pick('◆', '*'),
             Self::Square => glyphs.pick('■', '#'),
+            Self::Number(number) => char::from(b'0' + (number % 10) as u8),
         }
     }
 }

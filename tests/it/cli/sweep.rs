@@ -285,3 +285,35 @@ fn json_has_named_members() {
         (&"completed".into(), &serde_json::json!([]))
     );
 }
+
+#[test]
+fn the_largest_exponent_is_a_measure_and_needs_no_expression() {
+    let home = tempfile::tempdir().unwrap();
+    // orbit B at E = 1/8 with λ = 0.19195453623623, and a regular orbit at E = 0.118
+    let table = "y,p_x\n-0.18540508709080214,0.45975654576795759\n0.483,0.27898039\n";
+    fs::write(home.path().join("table.csv"), table).unwrap();
+    let arguments = ["henon-heiles", "--over=table.csv", "--until=120"];
+    let all = |measure: &'static str| [&arguments[..], &[measure]].concat();
+    let text = in_folder(home.path(), &all("--measure=lyapunov")).success();
+    let rows = lines(&text);
+    assert!(rows[0].ends_with(",energy_drift,lyapunov"), "{}", rows[0]);
+    let exponent = |row: &str| -> f64 { row.rsplit(',').next().unwrap().parse().unwrap() };
+    assert!((exponent(rows[1]) - 0.191_954_536).abs() < 0.01, "{}", rows[1]);
+    assert!(exponent(rows[2]).abs() < 0.04, "{}", rows[2]);
+    // alone it is what the other command has
+    let one = phaselab(&[
+        "lyapunov",
+        "henon-heiles",
+        "--init=y=0.483",
+        "--init=p_x=0.27898039",
+        "--until=120",
+        "--format=json",
+        "--gali=4",
+    ]);
+    let one = one.json();
+    near(one["exponents"][0].as_f64().unwrap(), exponent(rows[2]), 0.0);
+    assert!(one["gali"]["4"].as_array().unwrap().len() > 100);
+    in_folder(home.path(), &all("--measure=lyapunov=x")).fails(2, &["without an expression"]);
+    let held = ["rolling-coin", "--grid=t=0:1:2", "--measure=lyapunov"];
+    in_folder(home.path(), &held).fails(2, &["held to constraints"]);
+}

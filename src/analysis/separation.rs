@@ -1,0 +1,156 @@
+//! How far two motions are from each other as time goes on, and how fast their distance grows.
+//!
+//! The distance is that of the canonical variables (q, p), or of the variables of brackets, in the units of the file; a
+//! coordinate with a period takes the shorter way round. Near each other, neighbours part like e^{λt}: λ is the slope of
+//! ln d, here that of the straight line nearest to it (least squares) from the beginning to where d is no longer small
+//! beside the motion itself.
+//!
+//! In: the variables of both motions at the same times. Out: points of ln d over time, and the slope. Never here: how
+//! the motions are computed, or Lyapunov exponents, which take tangent vectors.
+
+use crate::num::math;
+
+/// The most points that are kept; beyond it every second one is dropped.
+const MOST: usize = 4096;
+
+/// The distance, as a part of the size of the motion, beyond which it no longer grows as a small one does.
+const SMALL: f64 = 0.03;
+
+/// The fewest points of a line.
+const FEWEST: usize = 8;
+
+/// The distance of two motions at past times.
+#[derive(Clone, Debug, Default)]
+pub struct Separation {
+    /// Times and ln d, the oldest first.
+    points: Vec<[f64; 2]>,
+    /// One of so many points is kept.
+    stride: u64,
+    seen: u64,
+    /// The least and greatest value of each variable of the first motion.
+    bounds: Vec<[f64; 2]>,
+    /// The number of points before the distance was large, once it has been.
+    small: Option<usize>,
+}
+
+/// The line nearest to ln d while it was small.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Slope {
+    /// λ, the growth of ln d in a unit of time.
+    pub rate: f64,
+    /// ln d of the line at the time 0.
+    pub level: f64,
+    /// The times between which it was measured.
+    pub from: f64,
+    /// The later one.
+    pub to: f64,
+    /// The logarithm of the growth between them.
+    pub grown: f64,
+}
+
+impl Separation {
+    /// Adds the variables of both motions at a time; `periods` are those of the variables.
+    pub fn add(&mut self, time: f64, one: &[f64], other: &[f64], periods: &[Option<f64>]) {
+        if self.bounds.len() != one.len() {
+            self.bounds = vec![[f64::INFINITY, f64::NEG_INFINITY]; one.len()];
+            self.stride = 1;
+        }
+        let mut square = 0.0;
+        for (i, (a, b)) in one.iter().zip(other).enumerate() {
+            let mut apart = b - a;
+            if let Some(period) = periods.get(i).copied().flatten() {
+                apart -= (apart / period).round() * period;
+            }
+            square += apart * apart;
+            let [least, greatest] = &mut self.bounds[i];
+            (*least, *greatest) = (least.min(*a), greatest.max(*a));
+        }
+        let distance = square.sqrt();
+        if !(distance.is_finite() && distance > 0.0) {
+            return;
+        }
+        if self.small.is_none() && distance > SMALL * self.size() {
+            self.small = Some(self.points.len());
+        }
+        self.seen += 1;
+        if !self.seen.is_multiple_of(self.stride.max(1)) {
+            return;
+        }
+        self.points.push([time, math::ln(distance)]);
+        if self.points.len() == MOST {
+            let mut index = 0;
+            self.points.retain(|_| {
+                index += 1;
+                index % 2 == 1
+            });
+            self.stride *= 2;
+            self.small = self.small.map(|count| count.div_ceil(2));
+        }
+    }
+
+    /// The times and ln d, the oldest first.
+    pub fn points(&self) -> &[[f64; 2]] {
+        &self.points
+    }
+
+    /// The size of the first motion: the diagonal of the box that it has filled, or its distance from zero if it rests.
+    fn size(&self) -> f64 {
+        let extent: f64 = self.bounds.iter().map(|[a, b]| (b - a) * (b - a)).sum();
+        let far: f64 = self.bounds.iter().map(|[a, b]| a.abs().max(b.abs())).map(|x| x * x).sum();
+        // at first the motion has filled no box
+        extent.max(far).sqrt()
+    }
+
+    /// The growth while the distance was small; `None` where it never was, or too short.
+    pub fn slope(&self) -> Option<Slope> {
+        let end = self.small.unwrap_or(self.points.len()).min(self.points.len());
+        let points = &self.points[..end];
+        if points.len() < FEWEST {
+            return None;
+        }
+        let count = points.len() as f64;
+        let mean = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / count);
+        let (mut spread, mut common) = (0.0, 0.0);
+        for [t, l] in points {
+            spread += (t - mean[0]) * (t - mean[0]);
+            common += (t - mean[0]) * (l - mean[1]);
+        }
+        let rate = common / spread;
+        let (from, to) = (points[0][0], points[points.len() - 1][0]);
+        let level = mean[1] - rate * mean[0];
+        rate.is_finite().then_some(Slope { rate, level, from, to, grown: rate * (to - from) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_slope_of_exponential_growth_is_its_rate_and_stops_where_the_distance_is_large() {
+        let mut separation = Separation::default();
+        for k in 0..20_000 {
+            let t = f64::from(k) * 0.01;
+            // grows like e^{0.3t} up to the size of the motion, and then no more
+            let d = (1e-8 * math::exp(0.3 * t)).min(1.0);
+            let a = [math::sin(t), math::cos(t)];
+            separation.add(t, &a, &[a[0] + d, a[1]], &[None, None]);
+        }
+        let slope = separation.slope().unwrap();
+        assert!((slope.rate - 0.3).abs() < 1e-9, "{slope:?}");
+        // ln(0.03 · size · 1e8)/0.3, the size lies between 1 and √8
+        assert!((slope.to - 50.0).abs() < 5.0, "{slope:?}");
+        assert!(separation.points().len() < MOST);
+    }
+
+    #[test]
+    fn an_angle_takes_the_shorter_way_and_equal_motions_have_no_distance() {
+        let mut separation = Separation::default();
+        let turn = std::f64::consts::TAU;
+        separation.add(0.0, &[3.1], &[-3.1], &[Some(turn)]);
+        assert!((separation.points()[0][1] - math::ln(turn - 6.2)).abs() < 1e-13);
+        separation.add(1.0, &[3.1], &[3.1], &[Some(turn)]);
+        assert_eq!(separation.points().len(), 1);
+        assert_eq!(separation.slope(), None);
+    }
+}

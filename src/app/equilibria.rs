@@ -1,0 +1,135 @@
+//! Equilibria in the lab: the search as a job, the list of what it found, and motions that begin there or along a mode.
+//!
+//! In: keys, the outcome of the job. Out: effects, a list. Never here: the search.
+
+use std::sync::Arc;
+
+use super::{
+    App, Asker, Choice, Choosing, Effect, Item, Lab, Menu, Notification, Overlay, Page, UnderWay,
+};
+use crate::dynamics::Equilibrium;
+use crate::instrument::{
+    Answer, FoundEquilibria, described, described_mode, equilibria_search, start_along, start_at,
+};
+use crate::job::{Job, Outcome, Share};
+
+impl App {
+    /// Lists the equilibria, looks for them first, or stops looking.
+    pub(super) fn find_equilibria(&mut self) -> Vec<Effect> {
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        if lab.equilibria.under_way.take().is_some() {
+            self.notice = Some(Notification::info("The search for equilibria is stopped."));
+            return vec![Effect::StopComputing(Asker::Equilibria)];
+        }
+        let Some(present) = lab.present() else { return Vec::new() };
+        if !present.equilibria.is_empty() {
+            return self.list_equilibria();
+        }
+        let search = equilibria_search(&present);
+        let job =
+            Job::new("equilibria", move |progress| Answer::new(search(progress).map(Arc::new)));
+        let computation = self.computation(Asker::Equilibria, job);
+        if let Some(lab) = &mut self.lab {
+            lab.equilibria.under_way = Some(UnderWay::new(&computation));
+        }
+        self.notice = Some(Notification::info("Looking for equilibria; F again stops it."));
+        vec![Effect::Compute(computation)]
+    }
+
+    /// Takes in what the search has found. Returns `None` if the ticket is not the search's.
+    pub(super) fn take_equilibria(
+        &mut self,
+        ticket: u64,
+        outcome: &Outcome<Answer>,
+    ) -> Option<Vec<Effect>> {
+        let search = &mut self.lab.as_mut()?.equilibria;
+        search.under_way.take_if(|job| job.ticket == ticket)?;
+        self.notice = None;
+        let found = match outcome {
+            Outcome::Cancelled => return Some(Vec::new()),
+            Outcome::Failed(sentence) => return Some(self.notify(sentence.clone())),
+            Outcome::Done(answer) => answer.of::<Result<Arc<FoundEquilibria>, String>>()?,
+        };
+        Some(match found {
+            Err(why) => self.notify(format!("No equilibria are looked for here: {why}.")),
+            Ok(found) if found.found.is_empty() => {
+                self.notify("There is no equilibrium in reach of where the motion is now.")
+            }
+            Ok(found) => {
+                search.found = Some(Arc::clone(found));
+                // what is being typed or read is not covered
+                if self.overlay.is_none() { self.list_equilibria() } else { Vec::new() }
+            }
+        })
+    }
+
+    /// Reports the progress of the search.
+    pub(super) fn equilibria_progressed(&mut self, ticket: u64, share: Share) {
+        let Some(lab) = &mut self.lab else { return };
+        let Some(job) = &mut lab.equilibria.under_way else { return };
+        job.reach(ticket, share);
+        if let Some(status) = job.status() {
+            let text = format!("{status} F stops the search.");
+            self.notice = Some(Notification::info(text));
+        }
+    }
+
+    /// Opens the list of what was found.
+    fn list_equilibria(&mut self) -> Vec<Effect> {
+        let Some(lab) = &self.lab else { return Vec::new() };
+        let Some(present) = lab.present() else { return Vec::new() };
+        let line = |label: String, about: String, choice: Choice| Item {
+            label,
+            about,
+            keys: String::new(),
+            refusal: None,
+            choice,
+        };
+        let mut items = Vec::new();
+        for (index, one) in present.equilibria.iter().enumerate() {
+            let (label, about) = described(present.physics, one);
+            items.push(line(label, about, Choice::Equilibrium(index)));
+            for mode in 0..one.modes.len() {
+                let label = format!("  mode {}", described_mode(present.physics, one, mode));
+                let about = "begin along it".to_owned();
+                items.push(line(label, about, Choice::Mode(index, mode)));
+            }
+        }
+        let menu = Menu::new(
+            "Equilibria and small oscillations: Enter begins there",
+            Choosing::Equilibrium,
+            items,
+        );
+        self.overlay = Some(Overlay::Menu(menu));
+        Vec::new()
+    }
+
+    /// Begins the motion at an equilibrium, or along one of its modes.
+    pub(super) fn begin_at_equilibrium(
+        &mut self,
+        index: usize,
+        mode: Option<usize>,
+    ) -> Vec<Effect> {
+        if self.page != Page::Lab {
+            self.go(Page::Lab);
+        }
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        let given = lab.present().and_then(|present| {
+            let one = present.equilibria.get(index)?;
+            Some(match mode {
+                None => start_at(present.physics, one),
+                Some(mode) => start_along(&present, one, mode),
+            })
+        });
+        given.map_or_else(Vec::new, |given| lab.start(&given))
+    }
+}
+
+impl Lab {
+    /// Returns the equilibria that were found at these parameters.
+    pub(super) fn equilibria_at(&self, parameters: &[f64]) -> &[Equilibrium] {
+        let found = self.equilibria.found.as_ref();
+        let found = found.filter(|found| found.parameters == parameters);
+        found.map_or(&[], |found| &found.found)
+    }
+}

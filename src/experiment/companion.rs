@@ -1,0 +1,285 @@
+//! A motion beside the main one: from another start, a neighbour, or a run that was pinned.
+//!
+//! In: a state, parameters, a method; the times at which the main motion was recorded. Out: rows at the same times, and
+//! the distance from the main motion. Never here: which companions there are, see `companions`.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use super::Trail;
+use super::crossing_log::CrossingLog;
+use super::recorder::Recorder;
+use crate::analysis::Separation;
+use crate::integrate::{Method, OccurrenceKind, Propagator, Reached, Settings};
+use crate::system::{InitialOverride, MotionError, Observer, State, System};
+
+/// What a companion is.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Origin {
+    /// A motion from other initial values, with the parameters and the method of the main one.
+    Start(Vec<InitialOverride>),
+    /// A motion that began beside the main one, each coordinate displaced by this.
+    Neighbour(Vec<f64>),
+    /// A run as it was, with its initial values, its parameters and its method.
+    Pinned(Vec<InitialOverride>),
+}
+
+impl Origin {
+    /// The word for it.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Origin::Start(_) => "start",
+            Origin::Neighbour(_) => "neighbour",
+            Origin::Pinned(_) => "pinned run",
+        }
+    }
+}
+
+/// A motion beside the main one at one instant, cheap to clone.
+#[derive(Clone, Debug)]
+pub struct Companion {
+    /// Its number, from 1 on, by which it is labelled and coloured.
+    pub number: usize,
+    /// What it is.
+    pub origin: Origin,
+    /// Its time, which is behind that of the main motion until it has caught up.
+    pub time: f64,
+    /// The value of each channel.
+    pub values: Arc<[f64]>,
+    /// Its parameters.
+    pub parameters: Arc<[f64]>,
+    /// The name of its method.
+    pub method: &'static str,
+    /// Its recorded motion.
+    pub trail: Trail,
+    /// Its crossings of the surfaces of section.
+    pub crossings: CrossingLog,
+    /// Why it does not go on.
+    pub message: Option<String>,
+}
+
+/// The most rows of the main motion that a companion may be behind; beyond it, it skips every second one.
+const MOST_DUE: usize = 16_384;
+
+/// A row of the main motion that a companion has yet to reach: its time, and the canonical variables.
+pub(super) type Due = (f64, Arc<[f64]>);
+
+/// A companion in motion.
+pub(super) struct CompanionMotion {
+    pub(super) number: usize,
+    pub(super) origin: Origin,
+    pub(super) parameters: Vec<f64>,
+    motion: Propagator,
+    observer: Observer,
+    holdings: u64,
+    values: Vec<f64>,
+    recorder: Recorder,
+    crossings: CrossingLog,
+    separation: Arc<Separation>,
+    due: VecDeque<Due>,
+    message: Option<String>,
+}
+
+impl CompanionMotion {
+    /// A companion that has yet to [begin](CompanionMotion::begin); its rows take at most `numbers` numbers.
+    ///
+    /// # Errors
+    /// Returns an error if the method does not suit the system.
+    pub(super) fn new(
+        system: &System,
+        (method, settings): (&'static Method, Settings),
+        (number, origin): (usize, Origin),
+        parameters: &[f64],
+        numbers: usize,
+    ) -> Result<CompanionMotion, crate::integrate::MethodError> {
+        let channels = system.channels().len();
+        let surfaces = system.discontinuities().events.iter();
+        let surfaces = surfaces.filter(|e| matches!(e.action, crate::model::Action::Section(_)));
+        Ok(CompanionMotion {
+            number,
+            origin,
+            parameters: parameters.to_vec(),
+            motion: Propagator::new(system, method, settings, parameters)?,
+            observer: system.observer(parameters),
+            holdings: 0,
+            values: vec![f64::NAN; channels],
+            recorder: Recorder::bounded(channels, numbers),
+            crossings: CrossingLog::new(surfaces.count()),
+            separation: Arc::default(),
+            due: VecDeque::new(),
+            message: None,
+        })
+    }
+
+    /// Begins at a state. Nothing of what was recorded remains.
+    pub(super) fn begin(&mut self, state: Result<State, MotionError>) {
+        let time = state.as_ref().map_or(0.0, |state| state.time);
+        self.recorder.restart(time);
+        self.crossings.clear();
+        self.separation = Arc::default();
+        self.due.clear();
+        self.carry_on_from(state, true);
+    }
+
+    /// Goes on from a state, with its parameters.
+    fn carry_on_from(&mut self, state: Result<State, MotionError>, anew: bool) {
+        let begun = state.and_then(|state| {
+            if anew {
+                self.motion.begin(&state, &self.parameters)
+            } else {
+                self.motion.go_on(&state, &self.parameters)
+            }
+        });
+        self.take_observer();
+        self.message = begun.and_then(|()| self.look()).err().map(|fault| fault.to_string());
+    }
+
+    /// Takes other parameters; q and p stay.
+    pub(super) fn take_parameters(&mut self, parameters: &[f64]) {
+        let old = std::mem::replace(&mut self.parameters, parameters.to_vec());
+        self.crossings.clear();
+        if self.message.is_none() {
+            let system = self.motion.system();
+            let state = system.change_parameters(self.motion.state(), &old, parameters);
+            self.carry_on_from(state, false);
+        }
+    }
+
+    /// Takes another method, which suits the system because the main motion has it.
+    pub(super) fn take_method(&mut self, method: &'static Method, settings: Settings) {
+        if self.motion.change_method(method, settings).is_ok() && self.message.is_none() {
+            let state = self.motion.state().clone();
+            self.carry_on_from(Ok(state), false);
+        }
+    }
+
+    /// Forgets the crossings of surfaces of section.
+    pub(super) fn forget_crossings(&mut self) {
+        self.crossings.clear();
+    }
+
+    /// Prepends what the main motion has recorded.
+    pub(super) fn precede(&mut self, earlier: &Trail) {
+        self.recorder.precede(earlier, |row| Some(row.to_vec()));
+    }
+
+    /// The main motion has a new row.
+    pub(super) fn expect(&mut self, due: Due) {
+        // it has been there before the main motion was taken back
+        if self.message.is_some() || due.0 < self.motion.state().time {
+            return;
+        }
+        if self.due.len() == MOST_DUE {
+            let mut index = 0;
+            self.due.retain(|_| {
+                index += 1;
+                index % 2 == 0
+            });
+        }
+        self.due.push_back(due);
+    }
+
+    /// Whether it has not yet reached a time.
+    pub(super) fn is_behind(&self, time: f64) -> bool {
+        self.message.is_none() && (!self.due.is_empty() || self.motion.state().time < time)
+    }
+
+    /// Advances to a time in at most `budget` steps and rows. `variables` are the channels of the canonical variables,
+    /// with their periods.
+    pub(super) fn advance(
+        &mut self,
+        time: f64,
+        ahead: f64,
+        budget: &mut u64,
+        (variables, periods): (&[usize], &[Option<f64>]),
+    ) {
+        while *budget > 0 && self.is_behind(time) {
+            let next = self.due.front().map_or(time, |(time, _)| *time);
+            let outcome = if next <= self.motion.state().time {
+                Ok(true)
+            } else {
+                self.reach(next, ahead, budget)
+            };
+            match outcome {
+                Ok(true) => {
+                    *budget = budget.saturating_sub(1);
+                    if let Some((time, main)) = self.due.pop_front() {
+                        self.recorder.insert(time, &self.values);
+                        let own: Vec<f64> = variables.iter().map(|&i| self.values[i]).collect();
+                        Arc::make_mut(&mut self.separation).add(time, &main, &own, periods);
+                    }
+                }
+                Ok(false) => return,
+                Err(message) => {
+                    self.message = Some(message);
+                    self.due.clear();
+                }
+            }
+        }
+    }
+
+    /// Advances to a time. Returns whether it is there, or why it never will be.
+    fn reach(&mut self, time: f64, ahead: f64, budget: &mut u64) -> Result<bool, String> {
+        let now = self.motion.state().time;
+        let limit = (now + ahead.max(GROWTH * self.motion.step_size().abs())).max(time);
+        loop {
+            let reached = self.motion.reach(time, limit, budget).map_err(|why| why.to_string())?;
+            match reached {
+                Reached::There => {
+                    self.look().map_err(|why| why.to_string())?;
+                    return Ok(true);
+                }
+                Reached::Underway => return Ok(false),
+                Reached::Ended => return Err("an event has ended it".to_owned()),
+                Reached::Happened(occurrence) => {
+                    self.look().map_err(|why| why.to_string())?;
+                    if let OccurrenceKind::Crossing(surface) = occurrence.kind {
+                        self.crossings.push(surface, occurrence.time, &self.values);
+                    }
+                }
+            }
+        }
+    }
+
+    fn take_observer(&mut self) {
+        self.holdings = self.motion.holdings();
+        self.observer = self.motion.system().observer(&self.parameters);
+    }
+
+    fn look(&mut self) -> Result<(), MotionError> {
+        if self.motion.system().constraints() > 0 || self.holdings != self.motion.holdings() {
+            self.take_observer();
+        }
+        self.observer.observe(self.motion.state(), &mut self.values)
+    }
+
+    /// Its distance from the main motion.
+    pub(super) fn separation(&self) -> Arc<Separation> {
+        Arc::clone(&self.separation)
+    }
+
+    /// What is seen of it at the time of the main motion, which may have been taken back.
+    pub(super) fn shown(&self, now: f64) -> Companion {
+        let trail = self.recorder.trail();
+        let (mut time, mut values) = (self.motion.state().time, self.values.as_slice());
+        if time > now
+            && let Some(row) = trail.rows().rev().find(|row| row[0] <= now)
+        {
+            (time, values) = (row[0], &row[1..]);
+        }
+        Companion {
+            number: self.number,
+            origin: self.origin.clone(),
+            time,
+            values: values.into(),
+            parameters: self.parameters.as_slice().into(),
+            method: self.motion.method().name,
+            trail: trail.clone(),
+            crossings: self.crossings.clone(),
+            message: self.message.clone(),
+        }
+    }
+}
+
+/// The greatest ratio of a step to the previous one.
+const GROWTH: f64 = 8.0;

@@ -1,0 +1,186 @@
+//! What commands do to the motions beside the main one: adding, pinning, and what follows from changes of the main one.
+//!
+//! In: commands. Out: an experiment with other companions, or a notice why not. Never here: how they are carried along.
+
+use super::companion::CompanionMotion;
+use super::companions::MOST_COMPANIONS;
+use super::course::HORIZON;
+use super::recorder::NUMBERS;
+use super::{Experiment, Origin};
+use crate::num::DoubleDouble;
+use crate::system::{ChannelKind, Form, InitialOverride, State, System};
+
+/// How far a neighbour is displaced in each coordinate, as a part of the greatest value of the coordinate so far.
+const DISPLACED: f64 = 1e-8;
+
+/// The channels of the canonical variables of a system, or of the variables of its brackets.
+fn canonical(system: &System) -> Vec<usize> {
+    let wanted = |kind: ChannelKind| match kind {
+        ChannelKind::Position(_) => true,
+        ChannelKind::Momentum(_) => system.form() != Form::Variables,
+        _ => false,
+    };
+    let channels = system.channels().iter().enumerate();
+    channels.filter(|(_, c)| wanted(c.kind)).map(|(i, _)| i).collect()
+}
+
+/// What commands do to them.
+impl Experiment {
+    /// Adds a motion from the initial values with these in place of the file's.
+    pub(super) fn add_start(&mut self, given: Vec<InitialOverride>) {
+        let Some(mut one) = self.companion(Origin::Start(given)) else { return };
+        one.begin(self.origin_state(&one));
+        self.catch_up(&mut one);
+        self.companions.all.push(one);
+    }
+
+    /// Adds a motion that begins beside the main one.
+    pub(super) fn add_neighbour(&mut self) {
+        if !self.motion.has_begun() {
+            return;
+        }
+        if self.system().constraints() > 0 {
+            return self.tell(
+                "a neighbour takes independent coordinates: constraints tie these together"
+                    .to_owned(),
+            );
+        }
+        let bounds = self.recorder.bounds();
+        let n = self.system().degrees();
+        let kinds = self.system().channels().iter().map(|c| c.kind);
+        let mut sizes = vec![0.0; n];
+        for (kind, (least, greatest)) in kinds.zip(bounds.iter()) {
+            if let ChannelKind::Position(i) = kind {
+                sizes[i] = least.abs().max(greatest.abs());
+            }
+        }
+        // a coordinate that has always been zero is as large as the others
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        let largest = if largest > 0.0 { largest } else { 1.0 };
+        let displaced = |size: &f64| DISPLACED * if *size > 0.0 { *size } else { largest };
+        let origin = Origin::Neighbour(sizes.iter().map(displaced).collect());
+        let Some(mut one) = self.companion(origin) else { return };
+        let state = self.beside(&one.origin, self.motion.state());
+        one.begin(Ok(state));
+        one.expect(self.companions.due(self.time(), self.motion.values()));
+        self.companions.all.push(one);
+    }
+
+    /// Keeps the present run, with all its values, beside whatever follows.
+    pub(super) fn pin(&mut self) {
+        if !self.motion.has_begun() || self.fault.is_some() {
+            return self.tell("there is no motion to pin".to_owned());
+        }
+        let Some(mut one) = self.companion(Origin::Pinned(self.setup.overrides.clone())) else {
+            return;
+        };
+        one.begin(Ok(self.motion.state().clone()));
+        one.precede(&self.recorder.trail());
+        self.companions.all.push(one);
+    }
+
+    /// A companion that has yet to begin, if there is room for it.
+    fn companion(&mut self, origin: Origin) -> Option<CompanionMotion> {
+        let Some(number) = self.companions.number() else {
+            self.tell(format!("{MOST_COMPANIONS} motions beside the main one are the most"));
+            return None;
+        };
+        let system = self.motion.whole().clone();
+        let parameters = self.setup.parameters.clone();
+        if self.companions.variables.is_empty() {
+            self.companions.variables = canonical(&system);
+        }
+        let periods = self.companions.variables.iter().map(|&i| system.period(i, &parameters));
+        self.companions.periods = periods.collect();
+        let method = (self.motion.method(), self.motion.settings());
+        let numbers = NUMBERS / MOST_COMPANIONS;
+        let word = origin.word();
+        match CompanionMotion::new(&system, method, (number, origin), &parameters, numbers) {
+            Ok(one) => {
+                self.tell(format!("motion {number} beside the main one: {word}"));
+                Some(one)
+            }
+            Err(why) => {
+                self.tell(why.to_string());
+                None
+            }
+        }
+    }
+
+    /// Where a companion begins when the main motion does.
+    fn origin_state(&self, one: &CompanionMotion) -> Result<State, crate::system::MotionError> {
+        let start = self.setup.start;
+        match &one.origin {
+            Origin::Start(given) | Origin::Pinned(given) => {
+                self.motion.whole().initial(start, &one.parameters, given)
+            }
+            Origin::Neighbour(_) => {
+                self.initial_state().map(|state| self.beside(&one.origin, &state))
+            }
+        }
+    }
+
+    /// A state beside another.
+    fn beside(&self, origin: &Origin, state: &State) -> State {
+        let mut state = state.clone();
+        if let Origin::Neighbour(displaced) = origin {
+            for (i, by) in displaced.iter().enumerate() {
+                let moved = state.exact(i) + DoubleDouble::written(*by);
+                state.set(i, moved);
+            }
+        }
+        state
+    }
+
+    /// Lets a companion pass through the rows that the main motion already has.
+    fn catch_up(&self, one: &mut CompanionMotion) {
+        let trail = self.recorder.trail();
+        for row in trail.rows() {
+            one.expect(self.companions.due(row[0], &row[1..]));
+        }
+    }
+
+    /// The main motion has begun again, and so do they.
+    pub(super) fn restart_companions(&mut self) {
+        let mut all = std::mem::take(&mut self.companions.all);
+        for one in &mut all {
+            if !matches!(one.origin, Origin::Pinned(_)) {
+                one.parameters.clone_from(&self.setup.parameters);
+            }
+            one.begin(self.origin_state(one));
+            self.catch_up(one);
+        }
+        self.companions.all = all;
+    }
+
+    /// The parameters of the main motion have changed.
+    pub(super) fn pass_parameters(&mut self) {
+        let follows = |one: &&mut CompanionMotion| !matches!(one.origin, Origin::Pinned(_));
+        for one in self.companions.all.iter_mut().filter(follows) {
+            one.take_parameters(&self.setup.parameters);
+        }
+    }
+
+    /// The method of the main motion has changed.
+    pub(super) fn pass_method(&mut self) {
+        let (method, settings) = (self.motion.method(), self.motion.settings());
+        let follows = |one: &&mut CompanionMotion| !matches!(one.origin, Origin::Pinned(_));
+        for one in self.companions.all.iter_mut().filter(follows) {
+            one.take_method(method, settings);
+        }
+    }
+
+    /// Whether a motion beside the main one has not reached its time.
+    pub fn is_behind(&self) -> bool {
+        self.companions.are_behind(self.time())
+    }
+
+    /// Advances the motions beside the main one to its time, in at most `budget` steps.
+    pub(super) fn advance_companions(&mut self, budget: u64) {
+        let ahead = HORIZON * self.setup.spacing;
+        let time = self.time();
+        if time.is_finite() {
+            self.companions.advance(time, ahead, budget);
+        }
+    }
+}

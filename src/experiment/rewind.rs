@@ -1,0 +1,53 @@
+//! One step back in time, exact by dense output.
+//!
+//! In: an experiment with its log of steps. Out: the experiment as it was a frame earlier. Never here: motions that run
+//! backwards.
+
+use super::Experiment;
+use super::course::HORIZON;
+use super::execute::FRAME;
+use super::gauges::Gauges;
+use crate::num::short;
+
+impl Experiment {
+    /// Takes a paused motion back by so many frames. What was recorded after that time is gone.
+    pub(super) fn step_back(&mut self, count: u32) {
+        self.running = false;
+        if !self.motion.has_begun() {
+            return;
+        }
+        let speed =
+            if self.setup.speed.is_finite() { self.setup.speed } else { self.model.run.speed };
+        let now = self.time();
+        let time = (now - f64::from(count) * FRAME * speed).max(self.setup.start);
+        if time >= now {
+            return self.tell("this is the beginning of the motion".to_owned());
+        }
+        let impulses = self.motion.impulses();
+        // no step ends early that did not when it was first taken
+        let limit = time + HORIZON * self.setup.spacing;
+        match self.motion.back_to((time, limit), self.setup.start) {
+            Err(fault) => {
+                self.fault = Some(fault.into());
+                return;
+            }
+            Ok(Some(first)) if first.is_finite() => {
+                return self.tell(format!("nothing before t = {} is known any more", short(first)));
+            }
+            Ok(Some(_)) => return self.tell("nothing before this is known any more".to_owned()),
+            Ok(None) => {}
+        }
+        self.fault = None;
+        self.ended = None;
+        self.recorder.rewind(time);
+        self.occurrences.rewind(time);
+        self.crossings.rewind(time, self.motion.values().len());
+        // an impulse has shifted what the gauges measure from
+        if self.motion.impulses() == impulses {
+            self.gauge(Gauges::look);
+        } else {
+            self.gauge(Gauges::refer);
+        }
+        self.record();
+    }
+}

@@ -1,0 +1,79 @@
+//! The states between which the steps of a motion were taken, so that it can be taken back to any time in between.
+//!
+//! A method that begins again at such a state takes the same step as before, whose dense output then gives the state
+//! inside: what is seen when time is taken back is what was there. (`dop853` remembers the size of the step before, so
+//! that its states agree within its tolerance.)
+//!
+//! In: states at the ends of steps. Out: the last of them before a time. Never here: how the motion begins again.
+
+use std::collections::VecDeque;
+
+use crate::system::State;
+
+/// The most numbers that are stored (32 MB), and the most states.
+const NUMBERS: usize = 4_000_000;
+const STATES: usize = 65_536;
+
+/// A state at the end of a step.
+#[derive(Clone, Debug)]
+pub(super) struct Known {
+    pub(super) state: State,
+    /// The steps taken, and the impulses applied up to it.
+    pub(super) steps: u64,
+    pub(super) impulses: u64,
+}
+
+/// The states so far, the oldest first.
+#[derive(Debug, Default)]
+pub(super) struct StepLog {
+    known: VecDeque<Known>,
+    /// The number of impulses so far.
+    impulses: u64,
+}
+
+impl StepLog {
+    /// Forgets everything: what comes has another law or other constraints.
+    pub(super) fn clear(&mut self) {
+        self.known.clear();
+    }
+
+    /// Adds the state at the end of a step.
+    pub(super) fn push(&mut self, state: &State, steps: u64) {
+        if state.values.is_empty() {
+            return;
+        }
+        let most = (NUMBERS / (2 * state.values.len())).clamp(64, STATES);
+        if self.known.len() >= most {
+            self.known.pop_front();
+        }
+        self.known.push_back(Known { state: state.clone(), steps, impulses: self.impulses });
+    }
+
+    /// An impulse was applied.
+    pub(super) fn note_impulse(&mut self) {
+        self.impulses += 1;
+    }
+
+    /// The number of impulses so far.
+    pub(super) fn impulses(&self) -> u64 {
+        self.impulses
+    }
+
+    /// The first time that is known.
+    pub(super) fn first(&self) -> Option<f64> {
+        self.known.front().map(|known| known.state.time)
+    }
+
+    /// The last state at or before a time. Later ones are forgotten.
+    pub(super) fn back_to(&mut self, time: f64) -> Option<Known> {
+        if self.first()? > time {
+            return None;
+        }
+        while self.known.back().is_some_and(|known| known.state.time > time) {
+            self.known.pop_back();
+        }
+        let found = self.known.back().cloned()?;
+        self.impulses = found.impulses;
+        Some(found)
+    }
+}

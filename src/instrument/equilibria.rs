@@ -1,0 +1,162 @@
+//! Equilibria of the system in the lab: the search for them, where they are on a plot, and how a motion begins there or
+//! along one of their modes.
+//!
+//! In: a system and its current state. Out: [`FoundEquilibria`], coordinates on plots, initial values. Never here: lists,
+//! keys, how the search works ([`equilibria`](crate::dynamics::equilibria)).
+
+use super::{Physics, Present};
+use crate::dynamics::{Equilibrium, Kind, PhaseSpace, equilibria_watched};
+use crate::ensemble::Start;
+use crate::job::Progress;
+use crate::num::significant;
+use crate::system::{ChannelKind, Form, InitialOverride};
+
+/// How far a motion along a mode is displaced, in the largest coordinate: as an angle, and as a part of its range so far.
+const AMPLITUDE: f64 = 0.1;
+
+/// The equilibria at certain parameters.
+#[derive(Debug)]
+pub struct FoundEquilibria {
+    /// The equilibria by energy.
+    pub found: Vec<Equilibrium>,
+    /// The parameters.
+    pub parameters: Vec<f64>,
+}
+
+/// The search around the current state, as the work of a job; its failure is a sentence.
+pub fn equilibria_search(
+    present: &Present<'_>,
+) -> impl Fn(&Progress) -> Result<FoundEquilibria, String> + Send + Sync + 'static {
+    let Physics { model, equations, system } = present.physics;
+    let (model, equations, system) = (model.clone(), equations.clone(), system.clone());
+    let parameters = present.parameters.to_vec();
+    let overrides = given(present.physics, |channel| present.value(channel));
+    let start = Start { time: present.time, parameters, overrides };
+    move |progress| {
+        let system = system.with_cancel(progress.token().clone());
+        let space = PhaseSpace::of(&model, &equations, &system, &start.parameters);
+        let space = space.map_err(|why| why.to_string())?;
+        let state = start.state(&system).and_then(|state| space.state(&state));
+        let state = state.map_err(|fault| fault.to_string())?;
+        let mut look = |done: usize, all: usize| {
+            progress.expect(all as u64);
+            progress.reach(done as u64);
+        };
+        let found = equilibria_watched(&space, &state, &mut look).map_err(|why| why.to_string())?;
+        Ok(FoundEquilibria { found: found.found, parameters: start.parameters.clone() })
+    }
+}
+
+/// The coordinates, and the rates that belong to the state, by a value of each channel.
+fn given(physics: Physics<'_>, value: impl Fn(usize) -> f64) -> Vec<InitialOverride> {
+    let form = physics.system.form();
+    let channels = physics.system.channels().iter().enumerate();
+    let one = |(channel, kind): (usize, ChannelKind)| match kind {
+        ChannelKind::Position(i) => Some(InitialOverride::Position(i, value(channel))),
+        ChannelKind::Velocity(i) if form == Form::Velocity => {
+            Some(InitialOverride::Velocity(i, value(channel)))
+        }
+        ChannelKind::Momentum(i) if form == Form::Momentum => {
+            Some(InitialOverride::Momentum(i, value(channel)))
+        }
+        _ => None,
+    };
+    channels.filter_map(|(channel, c)| one((channel, c.kind))).collect()
+}
+
+/// The value of a channel at an equilibrium; `None` if it has none there, or is none of the state.
+pub fn value_at(physics: Physics<'_>, one: &Equilibrium, channel: usize) -> Option<f64> {
+    let n = physics.system.degrees();
+    let rate = |i: usize| one.rates.iter().find(|(cyclic, _)| *cyclic == i).map(|(_, rate)| *rate);
+    match physics.system.channels().get(channel)?.kind {
+        // a cyclic coordinate goes on
+        ChannelKind::Position(i) if rate(i).is_none() => one.variables.get(i).copied(),
+        ChannelKind::Velocity(i) => Some(rate(i).unwrap_or(0.0)),
+        ChannelKind::Momentum(i) => one.variables.get(n + i).copied(),
+        _ => None,
+    }
+}
+
+/// The initial values of the motion that stays there.
+pub fn start_at(physics: Physics<'_>, one: &Equilibrium) -> Vec<InitialOverride> {
+    let n = physics.system.degrees();
+    let places = (0..n).map(|i| InitialOverride::Position(i, one.variables[i]));
+    let momenta = one.variables.iter().enumerate().skip(n);
+    places.chain(momenta.map(|(i, &p)| InitialOverride::Momentum(i - n, p))).collect()
+}
+
+/// The initial values of a small oscillation in one of its modes: displaced along the mode, with the velocity that it has
+/// there.
+pub fn start_along(present: &Present<'_>, one: &Equilibrium, mode: usize) -> Vec<InitialOverride> {
+    let physics = present.physics;
+    let n = physics.system.degrees();
+    let Some(mode) = one.modes.get(mode) else { return Vec::new() };
+    let size = |i: &f64| i.abs();
+    let largest =
+        (0..n).max_by(|a, b| size(&mode.in_phase[*a]).total_cmp(&size(&mode.in_phase[*b])));
+    let channel = largest.and_then(|i| physics.channel(ChannelKind::Position(i)));
+    let range = channel.and_then(|channel| {
+        let period = physics.system.period(channel, present.parameters);
+        let (lo, hi) = present.bounds.get(channel)?;
+        let extent = hi - lo;
+        period.map(|period| period / std::f64::consts::TAU).or((extent > 0.0).then_some(extent))
+    });
+    let amplitude = AMPLITUDE * range.unwrap_or(1.0);
+    let cyclic = |i: usize| one.rates.iter().any(|(other, _)| *other == i);
+    let mut given = Vec::new();
+    for i in 0..n {
+        let place = one.variables[i] + amplitude * mode.in_phase[i];
+        given.push(InitialOverride::Position(i, place));
+        // q(t) = a (in phase · cos ωt − quadrature · sin ωt)
+        given.push(if cyclic(i) {
+            InitialOverride::Momentum(i, one.variables[n + i])
+        } else {
+            InitialOverride::Velocity(i, -amplitude * mode.frequency * mode.quadrature[i])
+        });
+    }
+    given
+}
+
+/// An equilibrium in words: its kind, where it is, and its frequencies.
+pub fn described(physics: Physics<'_>, one: &Equilibrium) -> (String, String) {
+    let kind = match one.kind {
+        Some(Kind::Minimum) => "minimum",
+        Some(Kind::Saddle) => "saddle",
+        Some(Kind::Maximum) => "maximum",
+        Some(Kind::Degenerate) => "degenerate",
+        None => "equilibrium",
+    };
+    let stable = match one.stable {
+        Some(true) => "stable",
+        Some(false) => "unstable",
+        None => "neutral",
+    };
+    let short = |x: f64| significant(x, 4, 1e-4..1e5).replace('-', "−");
+    let places = physics.positions().filter_map(|(_, channel)| {
+        Some(format!("{} = {}", physics.shown(channel), short(value_at(physics, one, channel)?)))
+    });
+    let places: Vec<String> = places.collect();
+    let modes: Vec<String> = one.modes.iter().map(|mode| short(mode.frequency)).collect();
+    let modes =
+        if modes.is_empty() { String::new() } else { format!(", ω = {}", modes.join(", ")) };
+    let energy = short(one.energy);
+    (format!("{}: {stable} {kind}", places.join(", ")), format!("E = {energy}{modes}"))
+}
+
+/// A mode in words: its frequency, and how far each coordinate goes.
+pub fn described_mode(physics: Physics<'_>, one: &Equilibrium, mode: usize) -> String {
+    let Some(mode) = one.modes.get(mode) else { return String::new() };
+    let short = |x: f64| significant(x, 3, 1e-3..1e5).replace('-', "−");
+    let part = |(i, channel): (usize, usize)| {
+        let (a, b) = (mode.in_phase[i], mode.quadrature[i]);
+        let name = physics.shown(channel);
+        match (a == 0.0, b == 0.0) {
+            (true, true) => None,
+            (_, true) => Some(format!("{name} {}", short(a))),
+            (true, _) => Some(format!("{name} {}i", short(b))),
+            _ => Some(format!("{name} {} + {}i", short(a), short(b))),
+        }
+    };
+    let parts: Vec<String> = physics.positions().filter_map(part).collect();
+    format!("ω = {}: {}", short(mode.frequency), parts.join(", "))
+}

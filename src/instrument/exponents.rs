@@ -1,0 +1,245 @@
+//! `exponents`: the largest Lyapunov exponent of the motion as a curve λ(t), with its uncertainty and a verdict.
+//!
+//! The job follows the variational equations along the motion from its initial values, over a time that is doubled until
+//! the exponent has been followed long enough ([`lyapunov`](crate::dynamics::lyapunov)); the picture fills as it does.
+
+use super::{
+    Across, Answer, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
+    Physics, Picture, Plot, Present, Stroke, Upwards,
+};
+use crate::dynamics::{Chaos, Lyapunov, PhaseSpace, lyapunov};
+use crate::ensemble::Start;
+use crate::integrate::{Method, Settings, method_named};
+use crate::job::{Job, Progress};
+use crate::num::significant;
+use crate::system::{Form, InitialOverride};
+
+/// The levels of the picture.
+const BAND: Level = 0;
+const CURVE: Level = 1;
+
+/// The first time followed, in seconds of the wall clock at the file's own speed, and how often it is doubled.
+const SECONDS: f64 = 60.0;
+const DOUBLINGS: u32 = 5;
+
+/// A job counts its progress in so many parts.
+const PARTS: f64 = 1000.0;
+
+/// The row.
+pub(super) struct Exponents;
+
+/// What was measured, and of which motion.
+struct Measured {
+    conditions: Conditions,
+    doublings: u32,
+    found: Result<Lyapunov, String>,
+}
+
+#[derive(Clone, PartialEq)]
+struct Conditions {
+    parameters: Vec<f64>,
+    initial: Vec<f64>,
+    method: &'static str,
+    settings: Settings,
+}
+
+impl Conditions {
+    fn of(present: &Present<'_>) -> Self {
+        Self {
+            parameters: present.parameters.to_vec(),
+            initial: present.initial.to_vec(),
+            method: present.method,
+            settings: present.settings,
+        }
+    }
+}
+
+impl Instrument for Exponents {
+    fn name(&self) -> &'static str {
+        "exponents"
+    }
+
+    fn shows_a_view(&self) -> bool {
+        false
+    }
+
+    fn offers(&self, _physics: Physics<'_>) -> Vec<Offer> {
+        vec![Offer {
+            label: "exponents".to_owned(),
+            about: "the largest Lyapunov exponent against time, regular or chaotic".to_owned(),
+            columns: Columns::new(),
+            view: None,
+        }]
+    }
+
+    fn words(&self, _plot: &Plot, _physics: Physics<'_>) -> String {
+        "Lyapunov exponents".to_owned()
+    }
+
+    /// Without an answer it cannot say more than its name: the answer is in the picture.
+    fn heading(&self, _plot: &Plot, _present: &Present<'_>) -> Option<Heading> {
+        let entries = vec![Entry::Words("of the motion from its initial values".to_owned())];
+        Some(Heading { title: "Exponent".to_owned(), given: false, entries })
+    }
+
+    fn across(&self, _plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
+        let start = present.physics.model.run.start;
+        let end = found(answer).map_or(start + first(present.physics), |found| found.time);
+        Across::Times([start, end])
+    }
+
+    fn picture(
+        &self,
+        _plot: &Plot,
+        present: &Present<'_>,
+        _seen: [f64; 2],
+        answer: Option<&Answer>,
+    ) -> Option<Picture> {
+        let axes = |name: &str, range, layers| {
+            let upwards = Upwards::Named(name.to_owned(), range);
+            Some(Picture::Axes { upwards, layers, occurrences: None })
+        };
+        let measured = measured(answer);
+        let found = match measured.map(|measured| &measured.found) {
+            None => return axes("λ   being measured", [0.0, 1.0], Vec::new()),
+            Some(Err(why)) => return axes(&format!("λ   {why}"), [0.0, 1.0], Vec::new()),
+            Some(Ok(found)) => found,
+        };
+        let start = present.physics.model.run.start;
+        let (largest, off) = (found.exponents.first()?, found.uncertainty.first()?);
+        let curve: Vec<[f64; 2]> = found.curve.iter().map(|(t, x)| [*t, *x]).collect();
+        let level = |x: f64| {
+            let stroke = Stroke { ink: Ink::Separatrix, covering: Some(0.4) };
+            (BAND, Layer::Line(vec![[start, x], [found.time, x]], stroke))
+        };
+        // the beginning says where a vector turned to, and would squeeze all else
+        let settled = &curve[curve.len() / 10..];
+        let (least, greatest) = settled.iter().fold((-off, off + 0.0), |(lo, hi), [_, x]| {
+            (x.min(lo.min(largest - off)), x.max(hi.max(largest + off)))
+        });
+        let layers = vec![
+            level(largest - off),
+            level(largest + off),
+            (CURVE, Layer::Line(curve, Ink::Accent.into())),
+        ];
+        let short = |x: f64| significant(x, 3, 1e-4..1e4);
+        let name = format!(
+            "λ   {}: {} ± {}, MEGNO {}",
+            word(found.verdict),
+            short(*largest),
+            significant(*off, 1, 1e-4..1e4),
+            short(found.megno)
+        );
+        axes(&name, [least.min(0.0), greatest], layers)
+    }
+
+    fn job(&self, _plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+        let conditions = Conditions::of(present);
+        let known = measured(answer).filter(|known| known.conditions == conditions);
+        let doublings = match known {
+            None => 0,
+            Some(Measured { found: Err(_), .. }) => return Need::Held,
+            Some(known) if known.doublings >= DOUBLINGS => return Need::Held,
+            Some(known) => known.doublings + 1,
+        };
+        let Some(method) = method_named(present.method) else { return Need::Nothing };
+        let Physics { model, equations, system } = present.physics;
+        let (model, equations, system) = (model.clone(), equations.clone(), system.clone());
+        let length = first(present.physics) * f64::from(1 << doublings);
+        let job = Job::new("exponents", move |progress| {
+            let system = system.with_cancel(progress.token().clone());
+            let space = PhaseSpace::of(&model, &equations, &system, &conditions.parameters);
+            let start = model.run.start;
+            let found = space.map_err(|why| why.to_string()).and_then(|space| {
+                let state = state(&space, &conditions, start)?;
+                follow(&space, (method, conditions.settings), (&state, start + length), progress)
+            });
+            Answer::new(Measured { conditions: conditions.clone(), doublings, found })
+        });
+        if doublings == 0 { Need::Job(job) } else { Need::Addition(job) }
+    }
+
+    fn measures(&self) -> &'static [Measure] {
+        &[
+            Measure {
+                word: "largest",
+                about: "the largest Lyapunov exponent",
+                value: |_, _, answer| found(answer)?.exponents.first().copied(),
+            },
+            Measure {
+                word: "uncertainty",
+                about: "its uncertainty",
+                value: |_, _, answer| found(answer)?.uncertainty.first().copied(),
+            },
+            Measure {
+                word: "megno",
+                about: "MEGNO: about 2 for regular motion, growing for chaotic",
+                value: |_, _, answer| found(answer).map(|found| found.megno),
+            },
+            Measure {
+                word: "chaotic",
+                about: "1 if the motion is chaotic, 0 if it is regular; undecided has no value",
+                value: |_, _, answer| match found(answer)?.verdict {
+                    Chaos::Chaotic => Some(1.0),
+                    Chaos::Regular => Some(0.0),
+                    Chaos::Undecided => None,
+                },
+            },
+        ]
+    }
+}
+
+/// The initial state, in the variables of the space.
+fn state(
+    space: &PhaseSpace,
+    conditions: &Conditions,
+    start: f64,
+) -> Result<crate::system::State, String> {
+    let system = space.system();
+    let n = system.degrees();
+    let rate = |i: usize, x: f64| match system.form() {
+        Form::Velocity => InitialOverride::Velocity(i, x),
+        Form::Momentum | Form::Variables => InitialOverride::Momentum(i, x),
+    };
+    let given = conditions.initial.iter().enumerate();
+    let given =
+        given.map(|(i, &x)| if i < n { InitialOverride::Position(i, x) } else { rate(i - n, x) });
+    let parameters = conditions.parameters.clone();
+    let start = Start { time: start, parameters, overrides: given.collect() };
+    let state = start.state(system).and_then(|state| space.state(&state));
+    state.map_err(|fault| fault.to_string())
+}
+
+/// Measures until a time.
+fn follow(
+    space: &PhaseSpace,
+    method: (&'static Method, Settings),
+    (state, until): (&crate::system::State, f64),
+    progress: &Progress,
+) -> Result<Lyapunov, String> {
+    progress.expect(PARTS as u64);
+    let begin = state.time;
+    let mut look = |time: f64| progress.reach(((time - begin) / (until - begin) * PARTS) as u64);
+    lyapunov(space, method, state, until, &mut look).map_err(|why| why.to_string())
+}
+
+/// The time followed at first.
+fn first(physics: Physics<'_>) -> f64 {
+    SECONDS * physics.model.run.speed
+}
+
+fn measured(answer: Option<&Answer>) -> Option<&Measured> {
+    answer?.of::<Measured>()
+}
+
+fn found(answer: Option<&Answer>) -> Option<&Lyapunov> {
+    measured(answer)?.found.as_ref().ok()
+}
+
+fn word(verdict: Chaos) -> &'static str {
+    match verdict {
+        Chaos::Regular => "regular",
+        Chaos::Chaotic => "chaotic",
+        Chaos::Undecided => "undecided",
+    }
+}

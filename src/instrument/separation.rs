@@ -1,0 +1,132 @@
+//! `separation`: how far the motions beside the main one are from it, as ln d against time.
+//!
+//! Neighbours part like e^{λt} where the motion is chaotic, and in proportion to t where it is regular; the slope is that
+//! of the straight line while d is small beside the motion ([`Separation`](crate::analysis::Separation)).
+
+use std::sync::Arc;
+
+use super::{
+    Across, Answer, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Offer,
+    Physics, Picture, Plot, Present, Stroke, Upwards,
+};
+use crate::analysis::{Separation as Distances, Slope};
+use crate::num::significant;
+
+/// The levels of the picture.
+const CURVES: Level = 1;
+const SLOPE: Level = 2;
+
+/// The row.
+pub(super) struct Separation;
+
+impl Instrument for Separation {
+    fn name(&self) -> &'static str {
+        "separation"
+    }
+
+    fn shows_a_view(&self) -> bool {
+        false
+    }
+
+    fn offers(&self, _physics: Physics<'_>) -> Vec<Offer> {
+        vec![Offer {
+            label: "separation".to_owned(),
+            about: "ln of the distance from the motions beside this one, against time".to_owned(),
+            columns: Columns::new(),
+            view: None,
+        }]
+    }
+
+    fn words(&self, _plot: &Plot, _physics: Physics<'_>) -> String {
+        "separation of motions".to_owned()
+    }
+
+    fn heading(&self, _plot: &Plot, present: &Present<'_>) -> Option<Heading> {
+        let entries = match newest(present) {
+            None => vec![Entry::Words("none beside this motion: d adds a neighbour".to_owned())],
+            Some((number, _, None)) => {
+                vec![Entry::Words(format!("{number}: too short for a slope"))]
+            }
+            Some((number, _, Some(slope))) => vec![
+                Entry::Number(format!("{number}: λ ≈"), slope.rate),
+                Entry::Words(format!("grown by e^{:.1}", slope.grown)),
+            ],
+        };
+        Some(Heading { title: "Separation ln d".to_owned(), given: false, entries })
+    }
+
+    fn across(&self, _plot: &Plot, present: &Present<'_>, _answer: Option<&Answer>) -> Across {
+        Across::Times(range(present, 0).unwrap_or([present.time, present.time + 1.0]))
+    }
+
+    fn picture(
+        &self,
+        _plot: &Plot,
+        present: &Present<'_>,
+        _seen: [f64; 2],
+        _answer: Option<&Answer>,
+    ) -> Option<Picture> {
+        let mut layers = Vec::new();
+        for (number, distances) in present.separations {
+            let ink = Ink::Companion(*number);
+            layers.push((CURVES, Layer::Line(distances.points().to_vec(), ink.into())));
+        }
+        if let Some((_, _, Some(slope))) = newest(present) {
+            let ends = [slope.from, slope.to].map(|t| [t, slope.level + slope.rate * t]);
+            let stroke = Stroke { ink: Ink::Accent, covering: Some(0.5) };
+            layers.push((SLOPE, Layer::Line(ends.to_vec(), stroke)));
+        }
+        let range = range(present, 1).unwrap_or([-1.0, 1.0]);
+        // among tabs there is no room for it in the heading
+        let name = match newest(present) {
+            Some((number, _, Some(slope))) => {
+                let rate = significant(slope.rate, 3, 1e-4..1e4);
+                format!("ln d   {number}: λ = {rate}, grown by e^{:.1}", slope.grown)
+            }
+            _ => "ln d".to_owned(),
+        };
+        Some(Picture::Axes { upwards: Upwards::Named(name, range), layers, occurrences: None })
+    }
+
+    fn measures(&self) -> &'static [Measure] {
+        &[
+            Measure {
+                word: "motions",
+                about: "how many motions are beside the main one",
+                value: |_, present, _| Some(present.separations.len() as f64),
+            },
+            Measure {
+                word: "slope",
+                about: "the slope of ln d of the newest neighbour while d is small",
+                value: |_, present, _| newest(present)?.2.map(|slope| slope.rate),
+            },
+            Measure {
+                word: "grown",
+                about: "by how much ln d has grown along that line",
+                value: |_, present, _| newest(present)?.2.map(|slope| slope.grown),
+            },
+            Measure {
+                word: "distance",
+                about: "the distance of the newest motion from the main one",
+                value: |_, present, _| {
+                    let last = newest(present)?.1.points().last()?;
+                    Some(crate::num::math::exp(last[1]))
+                },
+            },
+        ]
+    }
+}
+
+/// The last of the motions: its number, its distances and their slope.
+fn newest<'a>(present: &Present<'a>) -> Option<(usize, &'a Arc<Distances>, Option<Slope>)> {
+    let (number, distances) = present.separations.last()?;
+    Some((*number, distances, distances.slope()))
+}
+
+/// The range of all points.
+fn range(present: &Present<'_>, axis: usize) -> Option<[f64; 2]> {
+    let all = present.separations.iter().flat_map(|(_, d)| d.points()).map(|p| p[axis]);
+    let (least, greatest) =
+        all.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), x| (lo.min(x), hi.max(x)));
+    (least < greatest).then_some([least, greatest])
+}

@@ -1,0 +1,161 @@
+//! Motions beside the main one, by keys, the mouse and scripts.
+
+use crossterm::event::{MouseButton, MouseEventKind};
+use phaselab::app::{Event, HitTarget, Pane};
+use phaselab::experiment::Origin;
+use phaselab::view::colour::ColourDepth;
+use phaselab::view::glyphs::Glyphs;
+use phaselab::view::theme::Theme;
+use phaselab::view::{RenderStyle, draw};
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use super::real::Real;
+use crate::record::played;
+use crate::screen::rows;
+
+fn screen(real: &Real, look: &RenderStyle) -> Vec<String> {
+    let area = Rect::new(0, 0, 120, 40);
+    let mut buffer = Buffer::empty(area);
+    draw(&real.app, look, area, &mut buffer);
+    rows(&buffer)
+}
+
+/// The picture of a kind.
+fn picture(real: &Real, kind: &str) -> usize {
+    real.lab().plots.iter().position(|plot| plot.kind.name() == kind).unwrap()
+}
+
+fn click(real: &mut Real, button: MouseButton, hit: HitTarget) {
+    for kind in [MouseEventKind::Down(button), MouseEventKind::Up(button)] {
+        let effects = real.app.update(Event::Mouse(kind, hit));
+        real.execute(effects);
+    }
+    real.look();
+}
+
+#[test]
+fn the_right_button_adds_a_motion_and_the_left_one_begins_the_main_one() {
+    let mut real = Real::of("pendulum");
+    let index = picture(&real, "phase");
+    let hit = HitTarget::Plot { index, place: [0.5, 0.5], at: [0.5, 0.25] };
+    click(&mut real, MouseButton::Right, hit);
+    assert_eq!(real.lab().focus, Pane::Plot(index));
+    let seen = real.seen();
+    assert_eq!(seen.companions.len(), 1);
+    assert_eq!(seen.companions[0].values[0], 0.5);
+    assert!(matches!(seen.companions[0].origin, Origin::Start(_)));
+    assert_ne!(seen.values[0], 0.5);
+    click(&mut real, MouseButton::Left, hit);
+    assert_eq!(real.seen().values[0], 0.5);
+    assert_eq!(real.seen().companions.len(), 1);
+    // in a picture against time no point is a start
+    let index = picture(&real, "time");
+    click(
+        &mut real,
+        MouseButton::Right,
+        HitTarget::Plot { index, place: [0.5, 0.5], at: [1.0, 0.2] },
+    );
+    assert_eq!(real.seen().companions.len(), 1);
+    assert!(real.app.notice.as_ref().unwrap().text.contains("is no start"));
+}
+
+#[test]
+fn each_motion_has_its_number_in_every_portrait_in_the_scene_and_against_time() {
+    let mut real = Real::of("double-pendulum");
+    real.press("d P");
+    assert_eq!(real.seen().companions.len(), 2);
+    // the neighbour is where the main motion is until they part
+    real.run(900);
+    for (glyphs, depth) in
+        [(Glyphs::Braille, ColourDepth::True), (Glyphs::Ascii, ColourDepth::None)]
+    {
+        let look = RenderStyle { theme: Theme::dark(depth), glyphs };
+        for kind in ["space", "phase", "time"] {
+            let index = picture(&real, kind);
+            real.app.lab.as_mut().unwrap().focus = Pane::Plot(index);
+            real.app.lab.as_mut().unwrap().zoomed = true;
+            let with = screen(&real, &look);
+            assert!(
+                with.iter().skip(1).any(|row| row.contains('1')),
+                "{kind}\n{}",
+                with.join("\n")
+            );
+            let mut without =
+                Real { app: real.app.clone(), experiment: Real::of("pendulum").experiment };
+            let lab = without.app.lab.as_mut().unwrap();
+            let mut seen = (**lab.snapshot.as_ref().unwrap()).clone();
+            seen.companions = [].into();
+            lab.snapshot = Some(seen.into());
+            assert_ne!(with, screen(&without, &look), "{kind}");
+        }
+    }
+}
+
+#[test]
+fn a_neighbour_opens_the_picture_of_their_separation_once() {
+    let mut real = Real::of("henon-heiles");
+    let before = real.lab().plots.len();
+    real.press("d");
+    assert_eq!(real.lab().plots.len(), before + 1);
+    assert_eq!(real.lab().focus, Pane::Plot(before));
+    real.press("d");
+    assert_eq!(real.lab().plots.len(), before + 1);
+    assert_eq!(real.seen().companions.len(), 2);
+    real.press("C");
+    assert!(real.seen().companions.is_empty());
+    real.press("C");
+    assert!(real.app.notice.as_ref().unwrap().text.contains("no motions"));
+    for _ in 0..7 {
+        real.press("d");
+    }
+    assert!(real.app.notice.as_ref().unwrap().text.contains("are the most"));
+}
+
+#[test]
+fn scripts_claim_how_motions_part() {
+    let recording = played(
+        "henon-heiles",
+        "Open henon-heiles\nSize 100x30\nSpeed 20\nPress d\nWait 4s\n\
+         Assert separation.motions = 1 within 0\n\
+         Assert separation.grown > 2\n\
+         Assert separation.slope > 0.02\n\
+         Assert separation.distance < 0.1\n\
+         Assert screen \"Separation ln d\"\n",
+    );
+    drop(recording);
+}
+
+#[test]
+fn the_exponent_of_the_motion_is_measured_with_its_verdict() {
+    // orbit B at E = 1/8: λ = 0.19195453623623 from the trace of its monodromy matrix
+    let script = "Open henon-heiles\nSize 120x40\nSet y = -0.18540508709080214\n\
+                  Set px = 0.45975654576795759\nPress V\nWait 0.1s\n\
+                  Assert exponents.chaotic = 1 within 0\n\
+                  Assert exponents.largest = 0.191954536 within 0.01\n\
+                  Assert exponents.uncertainty < 0.05\n\
+                  Assert screen \"λ   chaotic: 0.19\"\n";
+    drop(played("henon-heiles", &script.replace("Set px", "Set p_x")));
+    let regular = "Open henon-heiles\nSize 120x40\nSet y = 0.483\nSet p_x = 0.27898039\nPress V\n\
+                   Wait 0.1s\nAssert exponents.chaotic = 0 within 0\n\
+                   Assert exponents.megno < 2.8\nAssert screen \"regular\"\n";
+    drop(played("henon-heiles", regular));
+    // where no derivatives are computed it says why
+    let held = "Open rolling-coin\nSize 120x40\nPress V\nWait 0.1s\n\
+                Assert screen \"held to constraints\"\n";
+    drop(played("rolling-coin", held));
+}
+
+#[test]
+fn a_comma_goes_back_by_a_frame() {
+    let mut real = Real::of("pendulum");
+    real.run(30);
+    let (time, values) = (real.seen().time, real.seen().values.clone());
+    real.press(".");
+    real.press(",");
+    assert!((real.seen().time - time).abs() < 1e-14);
+    let off = real.seen().values.iter().zip(values.iter()).map(|(a, b)| (a - b).abs());
+    assert!(off.fold(0.0, f64::max) < 1e-13);
+    real.press(", ,");
+    assert!(real.seen().time < time - 0.03);
+}

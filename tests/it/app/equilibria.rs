@@ -1,0 +1,133 @@
+//! Equilibria in the lab: found by a job, listed, marked on portraits, and begun at.
+
+use phaselab::app::{Asker, Choice, Computation, Effect, Event, Overlay};
+use phaselab::job::{Progress, Share};
+use phaselab::model::Model;
+
+use super::real::Real;
+use crate::hand::key;
+use crate::record::played;
+
+/// Presses F, and computes what it asks for.
+fn found(real: &mut Real) -> Vec<(String, Choice)> {
+    real.app.aside = true;
+    let effects = real.app.update(Event::Key(key("F")));
+    let Some(Effect::Compute(Computation { ticket, job, asker })) = effects
+        .into_iter()
+        .find(|e| matches!(e, Effect::Compute(c) if c.asker == Asker::Equilibria))
+    else {
+        panic!("no search: {:?}", real.app.notice)
+    };
+    assert_eq!(asker, Asker::Equilibria);
+    let progress = Progress::new();
+    let outcome = job.run(&progress);
+    assert!(progress.share().done > 100, "it says how far it is");
+    real.app.update(Event::Computed { ticket, outcome });
+    match &real.app.overlay {
+        Some(Overlay::Menu(menu)) => {
+            menu.items.iter().map(|item| (item.label.clone(), item.choice)).collect()
+        }
+        _ => panic!("no list: {:?}", real.app.notice),
+    }
+}
+
+fn parameter(model: &Model, name: &str) -> f64 {
+    model.parameters.iter().find(|p| p.name == name).unwrap().value
+}
+
+#[test]
+fn the_pendulum_rests_below_stably_and_above_unstably() {
+    let mut real = Real::of("pendulum");
+    let lines = found(&mut real);
+    let labels: Vec<&str> = lines.iter().map(|(label, _)| label.as_str()).collect();
+    assert_eq!(lines.len(), 3, "{labels:?}");
+    assert!(labels[0].ends_with("stable minimum") && !labels[0].contains("unstable"), "{labels:?}");
+    assert!(labels[1].starts_with("  mode ω = 3.13"), "{labels:?}");
+    assert!(labels[2].ends_with("unstable maximum"), "{labels:?}");
+    // Enter on the upper one begins there, and the motion stays
+    real.press("Down Down Enter");
+    real.look();
+    assert!((real.seen().values[0].abs() - std::f64::consts::PI).abs() < 1e-12);
+    real.run(60);
+    assert!((real.seen().values[0].abs() - std::f64::consts::PI).abs() < 1e-9);
+    // the list is there at once, until a parameter changes
+    real.press("F");
+    assert!(matches!(real.app.overlay, Some(Overlay::Menu(_))));
+    real.press("Esc Right");
+    let effects = real.app.update(Event::Key(key("F")));
+    assert!(effects.iter().any(|e| matches!(e, Effect::Compute(_))));
+    // F again stops it
+    let effects = real.app.update(Event::Key(key("F")));
+    assert_eq!(effects, [Effect::StopComputing(Asker::Equilibria)]);
+    let share = Share { done: 3, total: Some(600) };
+    real.app.update(Event::Progress { ticket: 1, share });
+    assert!(real.app.notice.as_ref().unwrap().text.contains("stopped"));
+}
+
+#[test]
+fn a_motion_along_a_mode_stays_in_it_with_its_frequency() {
+    // θ₂/θ₁ = ±√2 and ω² = (2 ∓ √2) g/l for equal masses and rods
+    for (mode, ratio, square) in
+        [(0, 2.0_f64.sqrt(), 2.0 - 2.0_f64.sqrt()), (1, -(2.0_f64.sqrt()), 2.0 + 2.0_f64.sqrt())]
+    {
+        let mut real = Real::of("double-pendulum");
+        let model = real.lab().loaded.model.clone();
+        let (g, l) = (parameter(&model, "g"), parameter(&model, "l1"));
+        let lines = found(&mut real);
+        let line = lines.iter().position(|(_, c)| *c == Choice::Mode(0, mode)).unwrap();
+        real.press(&format!("{} Enter", "Down ".repeat(line)));
+        real.look();
+        let begun = real.seen().values[..2].to_vec();
+        assert!((begun[1] / begun[0] - ratio).abs() < 1e-9, "{begun:?}");
+        let period = std::f64::consts::TAU / (square * g / l).sqrt();
+        real.experiment.advance(period, u64::MAX);
+        real.look();
+        // at an amplitude of a tenth the period is longer by about a thousandth
+        for (now, begun) in real.seen().values.iter().zip(&begun) {
+            assert!((now - begun).abs() < 0.02 * begun.abs(), "{now} {begun}");
+        }
+        real.experiment.advance(period / 2.0 + period, u64::MAX);
+        real.look();
+        assert!((real.seen().values[0] + begun[0]).abs() < 0.02 * begun[0].abs());
+    }
+}
+
+#[test]
+fn a_gyroscopic_mode_begins_with_its_velocity() {
+    // at L4 of the restricted problem the modes are ellipses: the motion returns after a period
+    let mut real = Real::of("restricted-three-body");
+    let lines = found(&mut real);
+    let stable: Vec<_> = lines.iter().filter(|(label, _)| label.contains(": stable")).collect();
+    assert_eq!(lines.iter().filter(|(l, _)| !l.starts_with("  ")).count(), 5, "{lines:?}");
+    assert_eq!(stable.len(), 2, "{lines:?}");
+    let Choice::Equilibrium(index) = stable[0].1 else { panic!("{stable:?}") };
+    let line = lines.iter().position(|(_, c)| *c == Choice::Mode(index, 1)).unwrap();
+    let omega: f64 = {
+        let label = &lines[line].0;
+        let text = label.split("ω = ").nth(1).unwrap().split(':').next().unwrap();
+        text.parse().unwrap()
+    };
+    assert!(omega > 0.9 && omega < 1.0, "{omega}");
+    real.press(&format!("{} Enter", "Down ".repeat(line)));
+    real.look();
+    let present = real.lab().present().unwrap();
+    let n = present.physics.system.degrees();
+    let rates: f64 = (n..2 * n).map(|i| present.values[i].abs()).fold(0.0, f64::max);
+    assert!(rates > 1e-4, "an ellipse is not begun at rest: {rates}");
+}
+
+#[test]
+fn scripts_find_equilibria_and_portraits_mark_them() {
+    drop(played(
+        "henon-heiles",
+        "Open henon-heiles\nSize 120x40\nPress F\nWait 0.2s\n\
+         Assert screen \"Equilibria and small oscillations\"\nPress Esc\nWait 0.1s\n\
+         Assert phase.equilibria = 4 within 0\nAssert phase.stable = 1 within 0\n\
+         Press 4\nWait 0.1s\nAssert screen \"stable minimum\"\nAssert screen \"mode ω = 1\"\n",
+    ));
+    drop(played(
+        "rolling-coin",
+        "Open rolling-coin\nSize 120x40\nPress F\nWait 0.2s\n\
+         Assert screen \"No equilibria are looked for here\"\n",
+    ));
+}

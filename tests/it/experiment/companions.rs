@@ -1,0 +1,181 @@
+//! Motions beside the main one: against experiments of their own, known exponents, and the main motion without them.
+
+use phaselab::experiment::{Command, Experiment, MOST_COMPANIONS, Origin, Progress, Setup};
+use phaselab::system::InitialOverride::{Momentum, Position};
+
+use super::{PLENTY, run, shipped};
+use crate::hand::loaded;
+
+/// An experiment of a preset that begins elsewhere, with other parameters.
+fn begun(name: &str, change: impl FnOnce(&mut Setup)) -> Experiment {
+    let loaded = loaded(name, 1);
+    let mut setup = Setup::of(&loaded.model);
+    change(&mut setup);
+    Experiment::new(&loaded.model, &loaded.equations, &loaded.system, setup).unwrap()
+}
+
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).filter(|(a, _)| a.is_finite()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn an_added_start_is_the_motion_of_an_experiment_of_its_own() {
+    let mut both = shipped("henon-heiles");
+    run(&mut both, 12.0);
+    // it begins where all began, and catches up
+    let given = vec![Position(1, 0.483), Momentum(0, 0.27898039)];
+    both.execute(Command::AddStart(given.clone()));
+    assert!(both.is_behind());
+    run(&mut both, 20.0);
+    assert!(!both.is_behind());
+    let mut alone = begun("henon-heiles", |setup| setup.overrides.clone_from(&given));
+    run(&mut alone, 20.0);
+    let seen = both.snapshot();
+    let one = &seen.companions[0];
+    assert_eq!((one.number, one.time, &one.message), (1, 20.0, &None));
+    assert!(apart(&one.values, alone.values()) < 1e-12, "{:?}", one.values);
+    // rows at the times of the main motion
+    let times = |trail: &phaselab::experiment::Trail| -> Vec<f64> {
+        trail.rows().map(|row| row[0]).collect()
+    };
+    assert_eq!(times(&one.trail), times(&seen.trail));
+    assert!(one.crossings.counts()[0] > 2);
+}
+
+#[test]
+fn the_main_motion_is_the_same_with_and_without_others() {
+    let (mut alone, mut among) = (shipped("henon-heiles"), shipped("henon-heiles"));
+    among.execute(Command::AddNeighbour);
+    among.execute(Command::AddStart(vec![Position(1, 0.1)]));
+    for time in [3.0, 7.5, 30.0] {
+        run(&mut alone, time);
+        run(&mut among, time);
+        assert_eq!(alone.values(), among.values());
+    }
+    assert_eq!(alone.snapshot().trail, among.snapshot().trail);
+    assert_eq!(alone.crossings().counts(), among.crossings().counts());
+}
+
+#[test]
+fn a_slice_of_work_is_bounded_and_what_is_behind_catches_up() {
+    let mut experiment = shipped("henon-heiles");
+    run(&mut experiment, 200.0);
+    experiment.execute(Command::AddStart(vec![Position(1, 0.1)]));
+    assert_eq!(experiment.advance(200.0, 20), Progress::Underway);
+    let first = experiment.snapshot().companions[0].time;
+    assert!(first < 30.0, "{first}");
+    let mut slices = 1;
+    while experiment.is_behind() {
+        experiment.advance(200.0, 20);
+        slices += 1;
+        assert!(slices < 100_000);
+    }
+    assert!(slices > 20, "{slices}");
+    assert_eq!(experiment.snapshot().companions[0].time, 200.0);
+}
+
+/// Hénon–Heiles on the periodic orbit B at E = 1/8.
+fn on_orbit_b(setup: &mut Setup) {
+    setup.overrides = vec![
+        Position(0, 0.0),
+        Position(1, -0.185_405_087_090_802_14),
+        Momentum(0, 0.459_756_545_767_957_59),
+        Momentum(1, 0.0),
+    ];
+}
+
+#[test]
+fn a_neighbour_of_an_unstable_periodic_orbit_parts_with_its_exponent() {
+    let mut experiment = begun("henon-heiles", on_orbit_b);
+    experiment.execute(Command::AddNeighbour);
+    run(&mut experiment, 120.0);
+    let seen = experiment.snapshot();
+    let slope = seen.separations[0].1.slope().unwrap();
+    // λ = 0.19195453623623, from the trace of its monodromy; what oscillates within a period is left
+    assert!((slope.rate - 0.191_954_536).abs() < 0.006, "{slope:?}");
+    assert!(slope.grown > 10.0 && slope.to < 110.0, "{slope:?}");
+}
+
+#[test]
+fn a_neighbour_of_a_regular_orbit_parts_no_faster_than_time() {
+    let mut experiment = begun("henon-heiles", |setup| {
+        setup.overrides = vec![Position(1, 0.483), Momentum(0, 0.278_980_39), Momentum(1, 0.0)];
+    });
+    experiment.execute(Command::AddNeighbour);
+    run(&mut experiment, 300.0);
+    let slope = experiment.snapshot().separations[0].1.slope().unwrap();
+    // in proportion to time it would be about 2 over a line in t
+    assert!(slope.grown < 5.0 && slope.to > 290.0, "{slope:?}");
+}
+
+#[test]
+fn a_pinned_run_keeps_its_parameters_and_its_method_and_its_past() {
+    let mut experiment = shipped("pendulum");
+    run(&mut experiment, 2.0);
+    let rows = experiment.snapshot().trail.len();
+    experiment.execute(Command::Pin);
+    assert_eq!(experiment.snapshot().companions[0].trail.len(), rows);
+    let g = experiment.model().parameters.iter().position(|p| p.name == "g").unwrap();
+    experiment.execute(Command::Parameter { index: g, value: 3.0 });
+    experiment.execute(Command::Method("rk4".to_owned()));
+    run(&mut experiment, 5.0);
+    let mut before = shipped("pendulum");
+    run(&mut before, 5.0);
+    let seen = experiment.snapshot();
+    let one = &seen.companions[0];
+    assert!(matches!(one.origin, Origin::Pinned(_)));
+    assert_eq!((one.method, seen.method.name), ("taylor", "rk4"));
+    assert_ne!(one.parameters[g], seen.parameters[g]);
+    assert!(apart(&one.values, before.values()) < 1e-12);
+    assert!(apart(&one.values, &seen.values) > 0.1, "the main motion has gone another way");
+    assert!(one.trail.len() > rows);
+}
+
+#[test]
+fn all_begin_again_with_the_main_motion_and_follow_its_parameters() {
+    let mut experiment = shipped("pendulum");
+    experiment.execute(Command::AddStart(vec![Position(0, 0.5)]));
+    experiment.execute(Command::AddNeighbour);
+    run(&mut experiment, 3.0);
+    let g = experiment.model().parameters.iter().position(|p| p.name == "g").unwrap();
+    experiment.execute(Command::Parameter { index: g, value: 3.0 });
+    run(&mut experiment, 4.0);
+    experiment.execute(Command::Reset);
+    let seen = experiment.snapshot();
+    assert!(seen.companions.iter().all(|one| one.time == 0.0 && one.parameters[g] == 3.0));
+    let beside = seen.companions[1].values[0] - seen.values[0];
+    assert!(beside != 0.0 && beside.abs() < 1e-7, "{beside}");
+    run(&mut experiment, 1.0);
+    let mut alone = begun("pendulum", |setup| {
+        setup.parameters[g] = 3.0;
+        setup.overrides = vec![Position(0, 0.5)];
+    });
+    run(&mut alone, 1.0);
+    assert!(apart(&experiment.snapshot().companions[0].values, alone.values()) < 1e-13);
+    experiment.execute(Command::ClearCompanions);
+    assert!(experiment.snapshot().companions.is_empty());
+}
+
+#[test]
+fn more_than_the_most_and_neighbours_under_constraints_are_refused_in_words() {
+    let mut experiment = shipped("pendulum");
+    for _ in 0..=MOST_COMPANIONS {
+        experiment.execute(Command::Pin);
+    }
+    let seen = experiment.snapshot();
+    assert_eq!(seen.companions.len(), MOST_COMPANIONS);
+    assert_eq!(seen.notices.last().unwrap(), "6 motions beside the main one are the most");
+    let numbers: Vec<usize> = seen.companions.iter().map(|one| one.number).collect();
+    assert_eq!(numbers, [1, 2, 3, 4, 5, 6]);
+    let mut held = shipped("rolling-coin");
+    assert!(held.system().constraints() > 0);
+    held.execute(Command::AddNeighbour);
+    let seen = held.snapshot();
+    assert!(seen.companions.is_empty());
+    assert!(seen.notices.last().unwrap().contains("constraints"), "{:?}", seen.notices);
+    // a start where there is no motion says why it does not go on
+    let mut planet = shipped("planet");
+    planet.execute(Command::AddStart(vec![Position(0, 0.0)]));
+    assert_eq!(planet.advance(0.5, PLENTY), Progress::Arrived);
+    assert!(planet.snapshot().companions[0].message.is_some());
+}
