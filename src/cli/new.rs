@@ -15,8 +15,7 @@ use crate::printable;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
-  phaselab new cart        writes cart.toml
-  phaselab ./cart.toml     opens it; E edits it while it runs")]
+  phaselab new cart && phaselab ./cart.toml     write cart.toml and open it; E edits it")]
 pub(super) struct Arguments {
     /// The name of the system; the file is NAME.toml.
     #[arg(value_name = "NAME")]

@@ -20,39 +20,42 @@ impl Syntax {
     /// Returns whether the source text is in plain form already: every factor after the first stands behind a `*` or
     /// `/`, every argument in parentheses. `has_e`: the name `e` is one of the file's own, not Euler's number.
     pub fn is_plain(&self, source: &str, has_e: bool) -> bool {
+        source.is_ascii() && self.is_plain_inside(source, has_e)
+    }
+
+    fn is_plain_inside(&self, source: &str, has_e: bool) -> bool {
         let between = |left: &Syntax, right: &Syntax| {
             source[left.span.end..right.span.start].trim_matches(|c: char| c != '*' && c != '/')
         };
-        source.is_ascii()
-            && match &self.kind {
-                SyntaxKind::Number(_) | SyntaxKind::Name(..) => true,
-                SyntaxKind::Call(_, name, arguments) => {
-                    source[name.end..].trim_start().starts_with('(')
-                        && source[self.span.start..self.span.end].ends_with(')')
-                        && arguments.iter().all(|a| a.is_plain(source, has_e))
-                }
-                SyntaxKind::Negate(inner) => inner.is_plain(source, has_e),
-                SyntaxKind::Power(base, exponent) => {
-                    let euler = matches!(&base.kind, SyntaxKind::Name(name, 0) if name == "e");
-                    // the power of sin^2(x) stands inside
-                    let inside = exponent.span.start < base.span.end;
-                    (has_e || !euler)
-                        && !inside
-                        && base.is_plain(source, has_e)
-                        && exponent.is_plain(source, has_e)
-                }
-                SyntaxKind::Chain(first, rest) => {
-                    let mut left: &Syntax = first;
-                    first.is_plain(source, has_e)
-                        && rest.iter().all(|(operator, part)| {
-                            let sum =
-                                matches!(operator, BinaryOperator::Add | BinaryOperator::Subtract);
-                            let written = sum || !between(left, part).is_empty();
-                            left = part;
-                            written && part.is_plain(source, has_e)
-                        })
-                }
+        match &self.kind {
+            SyntaxKind::Number(_) | SyntaxKind::Name(..) => true,
+            SyntaxKind::Call(_, name, arguments) => {
+                source[name.end..].trim_start().starts_with('(')
+                    && source[self.span.start..self.span.end].ends_with(')')
+                    && arguments.iter().all(|a| a.is_plain_inside(source, has_e))
             }
+            SyntaxKind::Negate(inner) => inner.is_plain_inside(source, has_e),
+            SyntaxKind::Power(base, exponent) => {
+                let euler = matches!(&base.kind, SyntaxKind::Name(name, 0) if name == "e");
+                // the power of sin^2(x) stands inside
+                let inside = exponent.span.start < base.span.end;
+                (has_e || !euler)
+                    && !inside
+                    && base.is_plain_inside(source, has_e)
+                    && exponent.is_plain_inside(source, has_e)
+            }
+            SyntaxKind::Chain(first, rest) => {
+                let mut left: &Syntax = first;
+                first.is_plain_inside(source, has_e)
+                    && rest.iter().all(|(operator, part)| {
+                        let sum =
+                            matches!(operator, BinaryOperator::Add | BinaryOperator::Subtract);
+                        let written = sum || !between(left, part).is_empty();
+                        left = part;
+                        written && part.is_plain_inside(source, has_e)
+                    })
+            }
+        }
     }
 
     fn written(&self, source: &str, names: Names<'_>) -> (String, Level) {

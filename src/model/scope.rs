@@ -2,7 +2,9 @@
 //! each name that it may not use.
 
 mod allowed;
+mod meaning;
 mod notation;
+mod plain;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -13,6 +15,7 @@ use crate::expr::{Expr, FUNCTIONS, Node, Pool, Resolve, Span, Symbol, SyntaxErro
 pub use allowed::Allowed;
 
 use allowed::Kind;
+use meaning::Meaning;
 use notation::Shown;
 
 /// The largest depth of an expression with its definitions substituted: the 256 nested parentheses
@@ -42,19 +45,6 @@ pub struct Scope {
     pub mistakes: Vec<SyntaxError>,
     /// The names used so far, so that unused ones can be reported.
     pub used: BTreeSet<String>,
-}
-
-/// The meaning of a name.
-#[derive(Clone, Copy, Debug)]
-enum Meaning {
-    Symbol(Symbol),
-    /// A coordinate: q, q̇ and q̈.
-    Position([Symbol; 3]),
-    /// A coordinate of the comparison motion, and its velocity.
-    Other([Symbol; 2]),
-    Defined(Expr),
-    /// A name that is defined only after the place of use.
-    Later,
 }
 
 impl Scope {
