@@ -31,7 +31,7 @@ impl Parser<'_> {
         // m 2^x is a product
         let raised =
             matches!(self.words.get(self.at + 1), Some((Token::Mark('^') | Token::Raised(_), _)));
-        if matches!(self.word(), Token::Number(_)) && !(raised && !self.is_glued()) {
+        if matches!(self.word(), Token::Number(_)) && (!raised || self.is_glued()) {
             let (left, right) =
                 (self.quote(before.1).to_owned(), self.quote(self.span()).to_owned());
             let (message, help) = match before.0 {

@@ -155,7 +155,9 @@ impl Scope {
         let before = self.mistake_count;
         self.plain = None;
         let (syntax, mistakes) = parse_all(text);
-        mistakes.into_iter().for_each(|mistake| self.complain(mistake));
+        for mistake in mistakes {
+            self.complain(mistake);
+        }
         let syntax = syntax?;
         let e = syntax.lower(pool, self);
         if self.mistake_count == before {

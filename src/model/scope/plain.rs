@@ -83,8 +83,8 @@ impl Scope {
         let mut pieces: Vec<&str> = Vec::new();
         let mut rest = name;
         while !rest.is_empty() {
-            let ends = rest.char_indices().map(|(at, c)| at + c.len_utf8());
-            let end = ends.filter(|&end| known(&rest[..end])).last()?;
+            let mut ends = rest.char_indices().map(|(at, c)| at + c.len_utf8());
+            let end = ends.rfind(|&end| known(&rest[..end]))?;
             pieces.push(&rest[..end]);
             rest = &rest[end..];
         }
