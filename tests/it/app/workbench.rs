@@ -448,7 +448,7 @@ fn leaving_keeps_the_text_and_coming_back_finds_it() {
     assert!(app.notice.as_ref().unwrap().text.contains("not saved"));
     assert!(app.overlay.is_none());
     // q in the editor is a letter, in the lab it leaves
-    press(&mut app, "E Ctrl-Home q");
+    press(&mut app, "E q");
     assert!(sheet(&app).editor.text().starts_with("xyq"));
     assert!(matches!(app.overlay, Some(Overlay::Workbench)));
 }
