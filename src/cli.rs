@@ -22,6 +22,7 @@ mod events;
 mod exit;
 mod failure;
 mod flow;
+mod fmt;
 mod format;
 mod interrupt;
 mod invariants;
@@ -30,7 +31,9 @@ mod list;
 mod lyapunov;
 mod manual;
 mod methods;
+
 mod motion_options;
+mod new;
 mod open;
 mod orbit;
 mod output;

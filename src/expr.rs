@@ -16,12 +16,14 @@ mod evaluate;
 mod expand;
 mod function;
 mod inverses;
+mod juxtaposition;
 mod latex;
 mod measure;
 mod memo;
 mod node;
 mod notation;
 mod parse;
+mod plain;
 mod pool;
 mod print;
 mod product;
@@ -44,8 +46,9 @@ pub use function::{
     Rule,
 };
 pub use node::{Expr, FunctionId, Node};
-pub use notation::{latex_name, latex_of_unicode, unicode_name};
-pub use parse::parse;
+pub use notation::{latex_name, latex_of_unicode, unicode_name, without_dots};
+pub use parse::{parse, parse_all};
+pub use plain::EULER;
 pub use pool::{NODE_LIMIT, Pool};
 pub use symbol::{Rank, Symbol, SymbolInfo};
 pub use syntax::{BinaryOperator, Resolve, Span, Syntax, SyntaxError, SyntaxKind};

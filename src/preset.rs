@@ -12,10 +12,12 @@ mod read;
 mod rewrite;
 mod schema;
 mod settings;
+mod template;
 mod toml_errors;
 
 pub use catalog::{Catalog, Entry, NotFound, Origin, demo, demos, find, find_beside, is_path};
-pub use read::{Checked, read, read_with};
+pub use read::{Checked, UNTITLED, read, read_with};
 pub use rewrite::{Beginning, Rewrite};
 pub use schema::reference;
 pub use settings::{Entry as Setting, Plain};
+pub use template::template;

@@ -135,7 +135,11 @@ impl SourceBuffer {
             text: text.clone(),
             of: text.clone(),
         };
-        Self { state: State::Runs(None), ..Self::of_unsaved(known) }
+        let mut buffer = Self { state: State::Runs(None), ..Self::of_unsaved(known) };
+        // It opens at the law: L, H or the brackets.
+        let law = buffer.editor.spot(loaded.model.law_place.start);
+        buffer.editor.go(Caret { column: 0, ..law });
+        buffer
     }
 
     /// Restores an unsaved text.

@@ -20,6 +20,7 @@ use super::equilibria;
 use super::exit;
 use super::failure::CommandError;
 use super::flow;
+use super::fmt;
 use super::interrupt::Interrupt;
 use super::invariants;
 use super::lab;
@@ -27,6 +28,7 @@ use super::list;
 use super::lyapunov;
 use super::manual;
 use super::methods;
+use super::new;
 use super::orbit;
 use super::path;
 use super::play;
@@ -79,6 +81,8 @@ enum Command {
     List(list::Arguments),
     Derive(derive::Arguments),
     Check(check::Arguments),
+    New(new::Arguments),
+    Fmt(fmt::Arguments),
     Bracket(bracket::Arguments),
     Invariants(invariants::Arguments),
     Symmetries(symmetries::Arguments),
@@ -144,6 +148,8 @@ fn execute(command: Command, interrupt: &Interrupt) -> Result<(), CommandError> 
         Command::List(arguments) => list::perform(&arguments),
         Command::Derive(arguments) => derive::perform(&arguments),
         Command::Check(arguments) => check::perform(&arguments),
+        Command::New(arguments) => new::perform(&arguments),
+        Command::Fmt(arguments) => fmt::perform(&arguments),
         Command::Bracket(arguments) => bracket::perform(&arguments),
         Command::Invariants(arguments) => invariants::perform(&arguments),
         Command::Symmetries(arguments) => symmetries::perform(&arguments),

@@ -72,6 +72,11 @@ impl Document {
         Document::from_bytes(shown, &bytes)
     }
 
+    /// The name of the file without its folder and its `.toml`: the title of a system that gives none.
+    pub fn stem(&self) -> Option<&str> {
+        Path::new(&self.path).file_stem()?.to_str().filter(|stem| !stem.is_empty())
+    }
+
     /// A mistake in its bytes that prevents the text from being read at all.
     pub fn unreadable(&self) -> Option<&Diagnostic> {
         self.unreadable.as_ref()

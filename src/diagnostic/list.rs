@@ -75,6 +75,8 @@ pub struct Diagnostics {
     lost_values: Vec<SourceRange>,
     /// Whether any part of the file may be lost.
     lost_track: bool,
+    /// The plain forms of what is written in the notation of the screen.
+    plain: Vec<(SourceRange, String)>,
 }
 
 impl Diagnostics {
@@ -131,6 +133,16 @@ impl Diagnostics {
     /// Returns whether the rest of the file is too unreliable for further checks.
     pub fn lost_track(&self) -> bool {
         self.lost_track
+    }
+
+    /// Records the plain form of an expression.
+    pub fn note_plain(&mut self, place: SourceRange, plain: Option<String>) {
+        self.plain.extend(plain.map(|plain| (place, plain)));
+    }
+
+    /// The plain forms recorded so far.
+    pub fn take_plain(&mut self) -> Vec<(SourceRange, String)> {
+        std::mem::take(&mut self.plain)
     }
 
     /// All mistakes, in the order of their places.

@@ -106,6 +106,81 @@ fn subscript_character(c: char) -> Option<char> {
     })
 }
 
+/// The digit of a digit below the line.
+pub(super) fn plain_digit(c: char) -> Option<char> {
+    ('0'..='9').find(|&digit| subscript_character(digit) == Some(c))
+}
+
+/// The digit or minus of one above the line.
+pub(super) fn raised_digit(c: char) -> Option<char> {
+    Some(match c {
+        '⁻' => '-',
+        '¹' => '1',
+        '²' => '2',
+        '³' => '3',
+        '⁰' | '⁴'..='⁹' => char::from_u32(c as u32 - '⁰' as u32 + '0' as u32)?,
+        _ => return None,
+    })
+}
+
+/// The letter below one or two dots, for letters that Unicode has with their dots.
+pub(super) fn dotted_letter(c: char) -> Option<(char, usize)> {
+    Some(match c {
+        'ẋ' => ('x', 1),
+        'ẏ' => ('y', 1),
+        'ż' => ('z', 1),
+        'ṙ' => ('r', 1),
+        'ṡ' => ('s', 1),
+        'ȧ' => ('a', 1),
+        'ṗ' => ('p', 1),
+        'ẍ' => ('x', 2),
+        'ÿ' => ('y', 2),
+        _ => return None,
+    })
+}
+
+/// Fractions that are one character.
+pub(super) const FRACTIONS: [(i64, i64, char); 15] = [
+    (1, 2, '½'),
+    (1, 3, '⅓'),
+    (2, 3, '⅔'),
+    (1, 4, '¼'),
+    (3, 4, '¾'),
+    (1, 5, '⅕'),
+    (2, 5, '⅖'),
+    (3, 5, '⅗'),
+    (4, 5, '⅘'),
+    (1, 6, '⅙'),
+    (5, 6, '⅚'),
+    (1, 8, '⅛'),
+    (3, 8, '⅜'),
+    (5, 8, '⅝'),
+    (7, 8, '⅞'),
+];
+
+/// The two numbers of a fraction that is one character.
+pub(super) fn vulgar_fraction(c: char) -> Option<(i64, i64)> {
+    FRACTIONS.iter().find(|f| f.2 == c).map(|f| (f.0, f.1))
+}
+
+/// A shown name without its dots and primes, and their number: `φ̇₀` is (`φ₀`, 1). A name that is typed is looked up by it.
+pub fn without_dots(shown: &str) -> (String, usize) {
+    let mut dots = 0;
+    let mut name = String::new();
+    for c in shown.chars() {
+        match c {
+            '\'' | '′' | '\u{307}' => dots += 1,
+            '″' | '\u{308}' => dots += 2,
+            c => {
+                let (letter, above) = dotted_letter(c).unwrap_or((c, 0));
+                name.push(letter);
+                dots += above;
+            }
+        }
+    }
+    (name, dots)
+}
+
 /// An integer in superscript digits.
 pub(super) fn superscript(n: i64) -> String {
     n.to_string()

@@ -158,6 +158,11 @@ impl Pool {
         self.names.get(name).copied()
     }
 
+    /// Returns whether some symbol is shown like this.
+    pub fn shows(&self, unicode: &str) -> bool {
+        self.symbols.iter().any(|info| info.unicode == unicode)
+    }
+
     /// The notation of a symbol.
     pub fn symbol_info(&self, symbol: Symbol) -> &SymbolInfo {
         &self.symbols[symbol.index()]

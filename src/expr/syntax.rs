@@ -59,6 +59,8 @@ pub enum BinaryOperator {
     Subtract,
     Multiply,
     Divide,
+    /// A name directly before a parenthesis, `l(1 + x)`: a product where the name is a constant.
+    Apply,
 }
 
 /// The content of a node. Long sums and products are flat lists, so the depth of a tree is that of
@@ -85,6 +87,10 @@ pub trait Resolve {
     fn name(&mut self, pool: &mut Pool, name: &str, primes: usize, span: Span) -> Option<Expr>;
     /// Returns whether a name is known as something other than a function.
     fn is_variable(&self, name: &str) -> bool;
+    /// Returns whether a name is that of a constant, which depends on nothing: `l(1 + x)` is then a product.
+    fn is_constant(&self, _name: &str) -> bool {
+        false
+    }
     /// Records a mistake.
     fn complain(&mut self, error: SyntaxError);
 }
@@ -96,7 +102,7 @@ impl Syntax {
     pub fn lower(&self, pool: &mut Pool, names: &mut dyn Resolve) -> Expr {
         match &self.kind {
             SyntaxKind::Number(n) => pool.number(*n),
-            SyntaxKind::Name(name, 0) if name == "pi" => pool.pi(),
+            SyntaxKind::Name(name, 0) if name == "pi" || name == "π" => pool.pi(),
             SyntaxKind::Name(name, primes) => {
                 if *primes == 0 && !names.is_variable(name) && FunctionId::by_name(name).is_some() {
                     names.complain(
@@ -116,6 +122,10 @@ impl Syntax {
             SyntaxKind::Negate(inner) => {
                 let inner = inner.lower(pool, names);
                 pool.neg(inner)
+            }
+            SyntaxKind::Power(base, exponent) if is_euler(base, names) => {
+                let exponent = exponent.lower(pool, names);
+                pool.call(FunctionId::Exp, &[exponent])
             }
             SyntaxKind::Power(base, exponent) => {
                 let base = base.lower(pool, names);
@@ -141,6 +151,9 @@ fn lower_chain(
     pool: &mut Pool,
     names: &mut dyn Resolve,
 ) -> Expr {
+    if reports_applications(first, rest, names) {
+        return Expr::ONE;
+    }
     let head = first.lower(pool, names);
     let additive = matches!(rest[0].0, BinaryOperator::Add | BinaryOperator::Subtract);
     let mut parts = vec![(head, Number::ONE)];
@@ -157,6 +170,66 @@ fn lower_chain(
         pool.linear(Number::ZERO, &terms)
     } else {
         pool.monomial(Number::ONE, &parts)
+    }
+}
+
+/// Returns whether a base is Euler's number: the name `e`, where the file has none of its own.
+fn is_euler(base: &Syntax, names: &dyn Resolve) -> bool {
+    matches!(&base.kind, SyntaxKind::Name(name, 0) if name == "e") && !names.is_variable("e")
+}
+
+/// Reports the names directly before a parenthesis that are not read as products. Returns whether there is one.
+fn reports_applications(
+    first: &Syntax,
+    rest: &[(BinaryOperator, Syntax)],
+    names: &mut dyn Resolve,
+) -> bool {
+    let mut left = first;
+    let mut found = false;
+    for (operator, part) in rest {
+        if *operator == BinaryOperator::Apply
+            && let Some(error) = not_a_product(left, part, names)
+        {
+            names.complain(error);
+            found = true;
+        }
+        left = part;
+    }
+    found
+}
+
+/// Why a name directly before a parenthesis is not read as a product, or `None` if it is one.
+fn not_a_product(left: &Syntax, right: &Syntax, names: &dyn Resolve) -> Option<SyntaxError> {
+    let SyntaxKind::Name(name, primes) = &left.kind else { return None };
+    let inside = match &right.kind {
+        SyntaxKind::Power(base, _) => &base.kind,
+        kind => kind,
+    };
+    if *primes == 0 && names.is_constant(name) && !matches!(inside, SyntaxKind::Name(..)) {
+        return None;
+    }
+    if *primes == 0 && !names.is_variable(name) {
+        return Some(no_function(name, left.span));
+    }
+    let shown = format!("{name}{}", "'".repeat(*primes));
+    let span = Span { start: left.span.start, end: right.span.end };
+    let message = format!("`{shown}(...)` can be read as a product and as a function");
+    Some(SyntaxError::new(span, message).with_help(format!(
+        "write `{shown}*(...)` for the product; `{shown}` is no function: what it depends on is not written, `{shown}` alone stands for its value"
+    )))
+}
+
+/// The error for a call of an unknown function.
+fn no_function(name: &str, span: Span) -> SyntaxError {
+    let error = SyntaxError::new(span, format!("there is no function `{name}`"));
+    match nearest(name, FUNCTIONS.iter().map(|row| row.name)) {
+        _ if name == "log" => error
+            .with_help("did you mean `ln`, the natural logarithm? That to base 10 is ln(x)/ln(10)"),
+        Some(near) => error.with_help(format!("did you mean `{near}`?")),
+        None => {
+            let all: Vec<&str> = FUNCTIONS.iter().map(|row| row.name).collect();
+            error.with_help(format!("the functions are {}", all.join(" ")))
+        }
     }
 }
 
@@ -187,21 +260,11 @@ fn check_call(
     names: &mut dyn Resolve,
 ) -> Option<FunctionId> {
     let Some(function) = FunctionId::by_name(name) else {
-        let error = SyntaxError::new(name_span, format!("there is no function `{name}`"));
         let error = if names.is_variable(name) {
             SyntaxError::new(name_span, format!("`{name}` is not a function"))
                 .with_help(format!("a product is written with `*`: {name}*(...)"))
         } else {
-            match nearest(name, FUNCTIONS.iter().map(|row| row.name)) {
-                _ if name == "log" => error.with_help(
-                    "did you mean `ln`, the natural logarithm? That to base 10 is ln(x)/ln(10)",
-                ),
-                Some(near) => error.with_help(format!("did you mean `{near}`?")),
-                None => {
-                    let all: Vec<&str> = FUNCTIONS.iter().map(|row| row.name).collect();
-                    error.with_help(format!("the functions are {}", all.join(" ")))
-                }
-            }
+            no_function(name, name_span)
         };
         names.complain(error);
         return None;

@@ -1,5 +1,7 @@
-//! Tokens of an expression: numbers, names with primes, operators, each with its span.
+//! Tokens of an expression: numbers, names with primes, operators, each with its span. The notation of the screen
+//! (`½ l² θ′²`, `√x`, `a · b − c`) has the same tokens as the plain one.
 
+use super::notation::{dotted_letter, plain_digit, raised_digit, vulgar_fraction};
 use super::syntax::{Span, SyntaxError};
 use crate::num::Number;
 
@@ -9,7 +11,9 @@ pub(super) enum Token {
     Number(Number),
     /// A name and the number of primes after it.
     Name(String, usize),
-    /// One of `+ - * / ^ ( ) ,`.
+    /// Digits above the line: a power.
+    Raised(i64),
+    /// One of `+ - * / ^ ( ) , | √`.
     Mark(char),
     End,
 }
@@ -19,37 +23,55 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(Token, Span)>, SyntaxError> {
     let bytes = text.as_bytes();
     let mut words = Vec::new();
     let mut at = 0;
-    while at < bytes.len() {
+    while let Some(c) = text[at..].chars().next() {
         let start = at;
-        let token = match bytes[at] {
-            b if b.is_ascii_whitespace() => {
-                at += 1;
+        let token = match c {
+            c if c.is_ascii_whitespace() || c == '\u{a0}' => {
+                at += c.len_utf8();
                 continue;
             }
-            b'*' if bytes.get(at + 1) == Some(&b'*') => {
+            '*' if bytes.get(at + 1) == Some(&b'*') => {
                 let span = Span { start, end: start + 2 };
                 return Err(SyntaxError::new(span, "`**` is not an operator")
                     .with_help("a power is written with `^`"));
             }
-            b @ (b'+' | b'-' | b'*' | b'/' | b'^' | b'(' | b')' | b',') => {
-                at += 1;
-                Token::Mark(char::from(b))
+            '+' | '-' | '*' | '/' | '^' | '(' | ')' | ',' | '|' | '√' | '·' | '⋅' | '×' | '−' =>
+            {
+                at += c.len_utf8();
+                Token::Mark(match c {
+                    '·' | '⋅' | '×' => '*',
+                    '−' => '-',
+                    other => other,
+                })
             }
-            b if b.is_ascii_digit() || b == b'.' => {
+            c if c.is_ascii_digit() || c == '.' => {
                 at = end_of_number(bytes, at);
-                let literal = &text[start..at];
-                match Number::from_literal(literal) {
+                let (literal, end) = with_power_of_ten(text, start, at);
+                at = end;
+                match Number::from_literal(&literal) {
                     Some(number) => Token::Number(number),
-                    None => return Err(bad_number(literal, Span { start, end: at })),
+                    None => return Err(bad_number(&literal, Span { start, end: at })),
                 }
             }
-            b if b.is_ascii_alphabetic() || b == b'_' => {
-                while at < bytes.len() && (bytes[at].is_ascii_alphanumeric() || bytes[at] == b'_') {
-                    at += 1;
+            c if vulgar_fraction(c).is_some() => {
+                at += c.len_utf8();
+                let (above, below) = vulgar_fraction(c).unwrap_or((0, 1));
+                Token::Number(Number::ratio(above.into(), below.into()))
+            }
+            c if raised_digit(c).is_some() => {
+                let (digits, end) = raised(text, at);
+                at = end;
+                match digits.parse() {
+                    Ok(n) => Token::Raised(n),
+                    Err(_) => {
+                        let message = format!("`{}` is no power", &text[start..at]);
+                        return Err(SyntaxError::new(Span { start, end: at }, message));
+                    }
                 }
-                let name = text[start..at].to_owned();
-                let primes = bytes[at..].iter().take_while(|&&b| b == b'\'').count();
-                at += primes;
+            }
+            c if begins_name(c) => {
+                let (name, primes, end) = name(text, at);
+                at = end;
                 Token::Name(name, primes)
             }
             _ => return Err(unexpected(text, start)),
@@ -58,6 +80,63 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(Token, Span)>, SyntaxError> {
     }
     words.push((Token::End, Span { start: at, end: at }));
     Ok(words)
+}
+
+fn begins_name(c: char) -> bool {
+    c == '_' || (c.is_alphabetic() && raised_digit(c).is_none())
+}
+
+/// The name at a place without its dots and primes, their number, and where it ends. A subscript may stand behind a
+/// prime, as in `φ′₀`.
+fn name(text: &str, start: usize) -> (String, usize, usize) {
+    let mut name = String::new();
+    let (mut primes, mut at) = (0, start);
+    for c in text[start..].chars() {
+        let subscript = plain_digit(c).is_some();
+        match c {
+            '\'' | '′' | '\u{307}' => primes += 1,
+            '″' | '\u{308}' => primes += 2,
+            _ if primes > 0 && !subscript && !after_dot(&text[start..at]) => break,
+            c if begins_name(c) || c.is_ascii_digit() || subscript => {
+                let (letter, dots) = dotted_letter(c).unwrap_or((c, 0));
+                name.push(letter);
+                primes += dots;
+            }
+            _ => break,
+        }
+        at += c.len_utf8();
+    }
+    (name, primes, at)
+}
+
+/// Returns whether the marks so far are dots above a letter, after which a name goes on: `ẋ_1`.
+fn after_dot(so_far: &str) -> bool {
+    !so_far.contains(['\'', '′', '″'])
+}
+
+/// The digits above the line at a place, as plain ones, and where they end.
+fn raised(text: &str, start: usize) -> (String, usize) {
+    let mut at = start;
+    let mut digits = String::new();
+    for c in text[start..].chars() {
+        let Some(plain) = raised_digit(c) else { break };
+        digits.push(plain);
+        at += c.len_utf8();
+    }
+    (digits, at)
+}
+
+/// The literal of a number with the power of ten that may follow it, `6.67·10⁻¹¹`, and where it ends.
+fn with_power_of_ten(text: &str, start: usize, end: usize) -> (String, usize) {
+    let literal = &text[start..end];
+    let rest = ["·10", "×10"].iter().find_map(|ten| text[end..].strip_prefix(ten));
+    if let Some(rest) = rest.filter(|_| !literal.contains(['e', 'E'])) {
+        let (exponent, after) = raised(text, text.len() - rest.len());
+        if exponent.trim_start_matches('-').parse::<u16>().is_ok() {
+            return (format!("{literal}e{exponent}"), after);
+        }
+    }
+    (literal.to_owned(), end)
 }
 
 fn end_of_number(bytes: &[u8], mut at: usize) -> usize {
@@ -95,16 +174,9 @@ fn unexpected(text: &str, start: usize) -> SyntaxError {
     let help = match c {
         '=' => "an expression is one side only; what must vanish is written as a difference",
         '[' | ']' | '{' | '}' => "group with parentheses ( )",
-        '·' | '×' => "a product is written with `*`",
-        '²' | '³' => "a power is written with `^`",
-        '√' => "a square root is written sqrt(...)",
-        '\'' => "a prime follows the name of a coordinate at once: x'",
-        '−' => "minus is written with `-`",
-        '’' | '′' => "a velocity is written with the ASCII quote: x'",
-        'π' => "the circle constant is written `pi`",
-        c if c.is_alphabetic() => {
-            "names are ASCII here; give the letter to show as `symbol` of a coordinate or parameter"
-        }
+        '\'' | '′' | '″' => "a prime follows the name of a coordinate at once: x'",
+        '’' => "a velocity is written with a prime: x' or x′",
+        '–' | '—' => "minus is written with `-` or `−`",
         _ => return error,
     };
     error.with_help(help)

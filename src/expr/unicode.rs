@@ -1,7 +1,8 @@
 //! Expressions in Unicode notation: `½ m l² θ̇² + m g l cos θ`.
 
+use super::function::FUNCTIONS;
 use super::node::{Expr, FunctionId, Node};
-use super::notation::superscript;
+use super::notation::{FRACTIONS, raised_digit, superscript};
 use super::pool::Pool;
 use super::print::{Level, Piece, Printer, Style};
 use crate::num::Number;
@@ -15,25 +16,7 @@ impl Pool {
 
 struct Unicode;
 
-const FRACTIONS: [(i64, i64, &str); 15] = [
-    (1, 2, "½"),
-    (1, 3, "⅓"),
-    (2, 3, "⅔"),
-    (1, 4, "¼"),
-    (3, 4, "¾"),
-    (1, 5, "⅕"),
-    (2, 5, "⅖"),
-    (3, 5, "⅗"),
-    (4, 5, "⅘"),
-    (1, 6, "⅙"),
-    (5, 6, "⅚"),
-    (1, 8, "⅛"),
-    (3, 8, "⅜"),
-    (5, 8, "⅝"),
-    (7, 8, "⅞"),
-];
-
-fn glyph(n: Number) -> Option<&'static str> {
+fn glyph(n: Number) -> Option<char> {
     let Number::Rational(n, d) = n else { return None };
     FRACTIONS.iter().find(|f| (f.0, f.1) == (n, d)).map(|f| f.2)
 }
@@ -53,7 +36,7 @@ impl Style for Unicode {
 
     fn number(&self, n: Number) -> Piece {
         if let Some(glyph) = glyph(n) {
-            return Piece { text: glyph.to_owned(), level: Level::Atom };
+            return Piece { text: glyph.to_string(), level: Level::Atom };
         }
         match n {
             Number::Rational(n, 1) => Piece { text: n.to_string(), level: Level::Atom },
@@ -67,6 +50,17 @@ impl Style for Unicode {
 
     fn parenthesise(&self, inner: &str) -> String {
         format!("({inner})")
+    }
+
+    /// One piece over another. A function without parentheses over a number has some around it: (sin θ)/7.
+    fn fraction(&self, above: &Piece, below: &Piece) -> Piece {
+        let wrap = |piece: &Piece, wrapped| {
+            if wrapped { self.parenthesise(&piece.text) } else { piece.text.clone() }
+        };
+        let bare = below.text.starts_with(|c: char| c.is_ascii_digit()) && ends_bare(&above.text);
+        let above = wrap(above, above.level < Level::Product || bare);
+        let text = format!("{above}/{}", wrap(below, below.level < Level::Power));
+        Piece { text, level: Level::Product }
     }
 
     fn join(&self, factors: &[String]) -> String {
@@ -95,10 +89,13 @@ impl Style for Unicode {
 
     fn call(&self, printer: &Printer<'_>, function: FunctionId, arguments: &[Expr]) -> Piece {
         if function == FunctionId::Abs {
-            let text = format!("|{}|", printer.piece(arguments[0]).text);
+            let inner = printer.piece(arguments[0]).text;
+            // nested bars could open or close
+            let text =
+                if inner.contains('|') { format!("abs({inner})") } else { format!("|{inner}|") };
             return Piece { text, level: Level::Atom };
         }
-        if function == FunctionId::Exp {
+        if function == FunctionId::Exp && !printer.pool.shows("e") {
             return self.power("e", &printer.piece(arguments[0]));
         }
         if let [argument] = arguments {
@@ -112,6 +109,16 @@ impl Style for Unicode {
     fn coefficient_in_front(&self, n: Number, _: bool) -> bool {
         glyph(n).is_some() || matches!(n, Number::Rational(_, d) if is_decimal(d))
     }
+}
+
+/// Returns whether a text ends in a function without parentheses.
+fn ends_bare(text: &str) -> bool {
+    let mut words = text.rsplit(' ');
+    let argument = words.next().unwrap_or_default();
+    let function = words.next().unwrap_or_default();
+    let function = function.trim_end_matches(|c| raised_digit(c).is_some());
+    let function = function.trim_start_matches('−');
+    !argument.ends_with([')', '|']) && FUNCTIONS.iter().any(|row| row.unicode == function)
 }
 
 /// `sin θ`, `sin(2 θ)`.

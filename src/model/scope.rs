@@ -2,16 +2,21 @@
 //! each name that it may not use.
 
 mod allowed;
+mod meaning;
+mod notation;
+mod plain;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::{Attitude, BodyNames, Mechanics, Model, multiplier_name};
 use crate::diagnostic::nearest;
-use crate::expr::{Expr, FUNCTIONS, Node, Pool, Resolve, Span, Symbol, SyntaxError, parse};
+use crate::expr::{Expr, FUNCTIONS, Node, Pool, Resolve, Span, Symbol, SyntaxError, parse_all};
 
 pub use allowed::Allowed;
 
 use allowed::Kind;
+use meaning::Meaning;
+use notation::Shown;
 
 /// The largest depth of an expression with its definitions substituted: the 256 nested parentheses
 /// allowed in a text, with a call, a sum, a product and a power in each.
@@ -28,6 +33,10 @@ pub struct Scope {
     names: BTreeMap<String, Meaning>,
     kinds: HashMap<Symbol, Kind>,
     offenders: HashMap<Expr, Option<Symbol>>,
+    /// The names as the screen shows them.
+    shown: Shown,
+    /// The plain form of the last expression read, if it was written in the notation of the screen.
+    pub plain: Option<String>,
     /// The number of mistakes found, including those that are not reported.
     mistake_count: usize,
     /// Whether the coordinates are variables of a Poisson system, which have no momenta.
@@ -36,19 +45,6 @@ pub struct Scope {
     pub mistakes: Vec<SyntaxError>,
     /// The names used so far, so that unused ones can be reported.
     pub used: BTreeSet<String>,
-}
-
-/// The meaning of a name.
-#[derive(Clone, Copy, Debug)]
-enum Meaning {
-    Symbol(Symbol),
-    /// A coordinate: q, q̇ and q̈.
-    Position([Symbol; 3]),
-    /// A coordinate of the comparison motion, and its velocity.
-    Other([Symbol; 2]),
-    Defined(Expr),
-    /// A name that is defined only after the place of use.
-    Later,
 }
 
 impl Scope {
@@ -109,7 +105,10 @@ impl Scope {
         for o in &model.observables {
             names.entry(o.name.clone()).or_insert(Meaning::Defined(o.expression));
         }
+        let shown = Shown::of(model, &names);
         Scope {
+            shown,
+            plain: None,
             allowed,
             place: place.to_owned(),
             names,
@@ -154,19 +153,21 @@ impl Scope {
     /// [`Scope::mistakes`].
     pub fn read(&mut self, pool: &mut Pool, text: &str) -> Option<Expr> {
         let before = self.mistake_count;
-        match parse(text) {
-            Err(mistake) => self.complain(mistake),
-            Ok(syntax) => {
-                let e = syntax.lower(pool, self);
-                if self.mistake_count == before {
-                    self.check_result(pool, e, syntax.span);
-                }
-                if self.mistake_count == before {
-                    return Some(e);
-                }
-            }
+        self.plain = None;
+        let (syntax, mistakes) = parse_all(text);
+        for mistake in mistakes {
+            self.complain(mistake);
         }
-        None
+        let syntax = syntax?;
+        let e = syntax.lower(pool, self);
+        if self.mistake_count == before {
+            self.check_result(pool, e, syntax.span);
+        }
+        if self.mistake_count > before {
+            return None;
+        }
+        self.plain = self.plain_form(text, &syntax);
+        Some(e)
     }
 
     /// Checks that no constant is infinite and that no limit is exceeded.
@@ -240,6 +241,9 @@ impl Scope {
             known.push("pi");
         }
         known.sort_unstable();
+        if let Some(apart) = self.taken_apart(name, primes) {
+            return error.with_help(format!("names side by side are written apart: `{apart}`"));
+        }
         if let Some(table) = table_of(name).filter(|_| primes == 0) {
             let help = format!("{table} defines it; other names stand in [parameters]");
             return error.with_help(help);
@@ -279,6 +283,8 @@ impl Scope {
         primes: usize,
         span: Span,
     ) -> Result<Expr, SyntaxError> {
+        let (name, primes) = &self.plain_name(name, primes, span)?;
+        let (name, primes) = (name.as_str(), *primes);
         let Some(&meaning) = self.names.get(name) else {
             return Err(self.unknown(name, primes, span));
         };
@@ -382,7 +388,17 @@ impl Resolve for Scope {
     }
 
     fn is_variable(&self, name: &str) -> bool {
-        self.knows(name)
+        self.knows(name) || self.shown.has(name)
+    }
+
+    fn is_constant(&self, name: &str) -> bool {
+        let Ok((name, 0)) = self.plain_name(name, 0, Span::default()) else { return false };
+        match self.names.get(&name) {
+            Some(Meaning::Symbol(symbol)) => {
+                self.kinds.get(symbol).is_none_or(|k| *k == Kind::Inertia)
+            }
+            _ => false,
+        }
     }
 
     fn complain(&mut self, error: SyntaxError) {

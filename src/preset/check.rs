@@ -105,6 +105,7 @@ impl Check<'_> {
             return None;
         }
         let e = scope.at(called).read(&mut self.model.pool, formula.get_ref());
+        self.mistakes.note_plain(formula.span(), scope.plain.take());
         for slip in scope.mistakes.drain(..) {
             let place = place::within(self.file, formula, slip.span);
             let mut mistake = Diagnostic::error(place, slip.message);

@@ -150,10 +150,6 @@ fn read_info(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Info {
     if let Some(blank) = title.as_ref().filter(|t| t.get_ref().trim().is_empty()) {
         mistakes.push(Diagnostic::error(blank.span(), "the title is empty"));
     }
-    if title.is_none() && !top.has("title") {
-        let missing = Diagnostic::error(0..0, "the file has no title");
-        top.lacks("title", missing.with_help("begin it with title = \"...\""));
-    }
     let notes = top.text("notes", mistakes);
     Info {
         title: line(title, mistakes),

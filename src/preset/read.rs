@@ -2,7 +2,7 @@
 
 use super::{check, draft, toml_errors};
 use crate::cancel::Cancel;
-use crate::diagnostic::{Diagnostic, Diagnostics, Document, TEXT_LIMIT, too_long};
+use crate::diagnostic::{Diagnostic, Diagnostics, Document, SourceRange, TEXT_LIMIT, too_long};
 use crate::model::Model;
 
 /// A file without errors.
@@ -12,6 +12,29 @@ pub struct Checked {
     pub model: Model,
     /// The warnings: what is allowed but probably unintended.
     pub warnings: Vec<Diagnostic>,
+    /// The expressions in the notation of the screen, each with the range of its value and its plain form.
+    pub plain: Vec<(SourceRange, String)>,
+    /// Whether the text gives no title; that of the model is then the file's name, or [`UNTITLED`].
+    untitled: bool,
+}
+
+/// The title of a system that gives none and is in no file.
+pub const UNTITLED: &str = "untitled";
+
+impl Checked {
+    /// A text with its expressions in plain form, and everything else as it was.
+    pub fn in_plain_form(&self, text: &str) -> String {
+        let mut plain = self.plain.clone();
+        plain.sort_by_key(|(place, _)| std::cmp::Reverse(place.start));
+        plain.dedup_by(|one, other| one.0 == other.0);
+        let mut text = text.to_owned();
+        for (place, expression) in plain {
+            if text.get(place.clone()).is_some_and(|value| value.starts_with(['"', '\''])) {
+                text.replace_range(place, &format!("\"{expression}\""));
+            }
+        }
+        text
+    }
 }
 
 /// Reads a preset.
@@ -42,10 +65,15 @@ pub fn read_with(text: &str, cancel: &Cancel) -> Result<Checked, Vec<Diagnostic>
 }
 
 /// Returns the model with its warnings, or all mistakes if one of them is an error.
-fn conclude(mistakes: Diagnostics, model: Option<Model>) -> Result<Checked, Vec<Diagnostic>> {
+fn conclude(mut mistakes: Diagnostics, model: Option<Model>) -> Result<Checked, Vec<Diagnostic>> {
     match model {
-        Some(model) if !mistakes.any_error() => {
-            Ok(Checked { model, warnings: mistakes.into_warnings() })
+        Some(mut model) if !mistakes.any_error() => {
+            let plain = mistakes.take_plain();
+            let untitled = model.info.title.is_empty();
+            if untitled {
+                UNTITLED.clone_into(&mut model.info.title);
+            }
+            Ok(Checked { model, plain, untitled, warnings: mistakes.into_warnings() })
         }
         _ => Err(mistakes.into_list()),
     }
@@ -68,7 +96,13 @@ impl Document {
     pub fn read_with(&self, cancel: &Cancel) -> Result<Checked, Vec<Diagnostic>> {
         match self.unreadable() {
             Some(mistake) => Err(vec![mistake.clone()]),
-            None => read_with(&self.text, cancel),
+            None => {
+                let mut checked = read_with(&self.text, cancel)?;
+                if let Some(stem) = self.stem().filter(|_| checked.untitled) {
+                    stem.clone_into(&mut checked.model.info.title);
+                }
+                Ok(checked)
+            }
         }
     }
 }

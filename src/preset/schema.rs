@@ -114,7 +114,7 @@ pub(super) const FILE: Section = Section {
     head: "(top)",
     about: "What the file says of itself, before the first table.",
     keys: &[
-        key("title", Text, "the name of the system; needed"),
+        key("title", Text, "the name of the system; else that of the file"),
         key("notes", Text, "what to look for, in a few short paragraphs"),
         key("summary", Text, "the system in one line"),
         key("source", Text, "where it is from"),

@@ -29,6 +29,8 @@ pub(super) struct Canvas<'a> {
     pub(super) reading: Option<[f64; 2]>,
     /// What is kept from the last frame.
     pub(super) kept: Kept,
+    /// Whether what is drawn stands beside what has the keys: no pane of it looks focused.
+    pub(super) beside: bool,
 }
 
 /// A styled piece of a row.
@@ -37,7 +39,15 @@ pub(super) type Span = (String, Style);
 impl<'a> Canvas<'a> {
     /// Creates a canvas that draws on `buffer`.
     pub(super) fn over(buffer: &'a mut Buffer, look: &'a RenderStyle) -> Self {
-        Self { buffer, look, regions: None, cursor: None, reading: None, kept: Kept::default() }
+        Self {
+            buffer,
+            look,
+            regions: None,
+            cursor: None,
+            reading: None,
+            kept: Kept::default(),
+            beside: false,
+        }
     }
 }
 
@@ -108,6 +118,7 @@ impl Canvas<'_> {
 
     /// Draws a frame with title spans in its upper border, and returns the area inside.
     pub(super) fn pane(&mut self, area: Rect, title: &[Span], focused: bool) -> Rect {
+        let focused = focused && !self.beside;
         let role = if focused { Role::Focus } else { Role::Border };
         // Without colour, a heavier line marks the focus.
         let heavy = focused && self.look.theme.depth() == ColourDepth::None;

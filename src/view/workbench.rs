@@ -33,7 +33,9 @@ pub(super) fn draw(
     let mut left = area;
     if area.width >= WIDE {
         let (text, beside) = split_columns(area, area.width * 11 / 20);
+        canvas.beside = true;
         lab_page::draw(canvas, beside, app, lab);
+        canvas.beside = false;
         left = text;
     }
     let place = sheet.editor.cursor();
@@ -73,6 +75,8 @@ fn lines(canvas: &mut Canvas<'_>, area: Rect, sheet: &SourceBuffer) -> Drawn {
         }
         let role = if here { Role::Accent } else { Role::Dim };
         canvas.right(columns(at, 1, digits), role, &(index + 1).to_string());
+        // Only the line of the cursor scrolls sideways.
+        let from = if here { from } else { 0 };
         write(canvas, row(body, index - first), (index, line), from, &flaws, sheet);
     }
     Drawn { rows: area.height, columns: wide, ..Drawn::default() }

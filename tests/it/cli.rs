@@ -14,6 +14,7 @@ mod hostile;
 mod invariants;
 mod list;
 mod manual;
+mod new;
 mod path;
 mod ramp;
 mod record;

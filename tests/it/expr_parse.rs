@@ -103,25 +103,6 @@ fn slip(text: &str) -> String {
 }
 
 #[test]
-fn a_missing_operator_is_named() {
-    let check = |text: &str, place: &str, help: &str| {
-        let expected = format!("{place} an operator is missing: no product is implied; {help}");
-        assert_eq!(slip(text), expected, "{text}");
-    };
-    check("2x", "0..2", "write 2*x");
-    check("3.5 x", "0..5", "write 3.5*x");
-    check("2sin(x)", "0..4", "write 2*sin");
-    check("m g l", "0..3", "write m*g");
-    check("x' y''", "0..6", "write x'*y''");
-    check("2(x + 1)", "0..2", "write 2*(...)");
-    check("(x + 1)(x - 1)", "6..8", "write (...)*(...)");
-    check("(x + 1) y", "6..9", "write (...)*y");
-    check("a*(b c)", "3..6", "write b*c");
-    check("sin(2x)", "4..6", "write 2*x");
-    check("x'(t)", "0..3", "write x'*(...)");
-}
-
-#[test]
 fn each_slip_has_its_message() {
     let check = |text: &str, expected: &str| assert_eq!(slip(text), expected, "{text}");
     check("", "0..0 an expression is missing here");
@@ -145,14 +126,9 @@ fn each_slip_has_its_message() {
     check(".", "0..1 a point alone is not a number");
     check("1e999", "0..5 the number `1e999` is too large");
     check("[x]", "0..1 `[` has no meaning in an expression; group with parentheses ( )");
-    check("x²", "1..3 `²` has no meaning in an expression; a power is written with `^`");
-    check("a·b", "1..3 `·` has no meaning in an expression; a product is written with `*`");
-    check("√x", "0..3 `√` has no meaning in an expression; a square root is written sqrt(...)");
-    check("a − b", "2..5 `−` has no meaning in an expression; minus is written with `-`");
-    check("π", "0..2 `π` has no meaning in an expression; the circle constant is written `pi`");
     check(
         "x’",
-        "1..4 `’` has no meaning in an expression; a velocity is written with the ASCII quote: x'",
+        "1..4 `’` has no meaning in an expression; a velocity is written with a prime: x' or x′",
     );
     check(
         "x '",
@@ -250,12 +226,17 @@ fn a_mebibyte_of_anything_gets_an_answer() {
     assert!(parse(&"9".repeat(size)).is_err(), "a number beyond all range");
     assert!(parse(&format!("0.{}", "3".repeat(size))).is_ok());
     assert!(parse(&"x".repeat(size)).is_ok());
-    assert!(parse(&"x ".repeat(size / 2)).is_err());
+    assert!(parse(&"x ".repeat(size / 2)).is_ok());
+    assert!(parse(&"x 2".repeat(size / 3)).is_err());
+    assert!(parse(&"x/y z".repeat(size / 5)).is_err());
+    assert!(parse(&"|".repeat(size)).is_err());
+    assert!(parse(&"√".repeat(size / 3)).is_err());
+    assert!(parse(&"sin ".repeat(size / 4)).is_err());
     assert!(parse(&"'".repeat(size)).is_err());
     assert!(parse(&" ".repeat(size)).is_err());
     assert!(parse(&"(".repeat(size)).is_err());
     assert!(parse(&"a(".repeat(size / 2)).is_err());
     assert!(parse(&"x,".repeat(size / 2)).is_err());
-    assert!(parse(&"1e".repeat(size / 2)).is_err());
+    assert!(parse(&"1e".repeat(size / 2)).is_ok(), "1 e1e1e...");
     assert!(parse(&format!("max({}x)", "x,".repeat(size / 2))).is_ok());
 }

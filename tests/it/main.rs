@@ -24,6 +24,7 @@ mod integrability;
 mod layers;
 mod mechanics;
 mod methods;
+mod notation;
 mod occurrences;
 mod orbits;
 mod plot;

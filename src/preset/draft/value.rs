@@ -105,6 +105,7 @@ pub(super) fn constant(
     let mut nothing = Model::new("");
     let mut scope = Scope::new(&nothing, Allowed::Parameters, "a number");
     let read = scope.read(&mut nothing.pool, text).filter(|_| scope.mistakes.is_empty());
+    mistakes.note_plain(value.span(), scope.plain.take());
     let found = read.map(|e| nothing.pool.evaluate(e, &|_| f64::NAN));
     let Some(found) = found.filter(|x| x.is_finite()) else {
         let message = format!("{called} must be a finite number, or an expression of numbers");

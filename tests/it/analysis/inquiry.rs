@@ -91,7 +91,7 @@ fn a_mistake_is_reported_at_its_place_in_the_whole_text() {
         ("[x, y +]", "", "too early"),
         ("x, y, p_x", " p_x", "third"),
         ("x, ", "", "missing"),
-        ("2x", "", ""),
+        ("x 2", "x 2", "in front"),
     ] {
         let Err(mistake) = Inquiry::of(&model, &equations, text) else { panic!("{text} is read") };
         assert!(mistake.span.start <= text.len(), "{text}: {mistake:?}");

@@ -43,7 +43,7 @@ fn rest(app: &mut App) -> Vec<Effect> {
 
 fn edited() -> App {
     let mut app = in_lab();
-    assert_eq!(press(&mut app, "E"), []);
+    assert_eq!(press(&mut app, "E Ctrl-Home"), []);
     app
 }
 
@@ -53,6 +53,16 @@ fn replace(app: &mut App, words: &str, with: &str) {
     app.update(Event::Paste(words.to_owned()));
     press(app, "Enter");
     app.update(Event::Paste(with.to_owned()));
+}
+
+#[test]
+fn the_editor_opens_at_the_law() {
+    let mut app = in_lab();
+    press(&mut app, "E");
+    let Caret { row, column } = sheet(&app).editor.cursor();
+    assert_eq!(column, 0);
+    let line = &sheet(&app).editor.lines()[row];
+    assert!(line.starts_with("L ="), "{line}");
 }
 
 #[test]
@@ -78,7 +88,7 @@ fn what_has_a_name_in_both_texts_is_looked_at_as_before() {
     press(&mut app, "Tab Tab Tab");
     press(&mut app, "+ + z");
     let before = app.lab.as_ref().unwrap().plots.clone();
-    press(&mut app, "E");
+    press(&mut app, "E Ctrl-Home");
     replace(
         &mut app,
         "[expect]",
@@ -174,7 +184,7 @@ fn a_check_that_takes_long_is_stopped_by_leaving_and_goes_on_when_one_comes_back
     let (is_stopped, mut app) = stopped(1000);
     assert!(is_stopped);
     assert_eq!(app.update(Event::Tick(Duration::from_secs(9))), [], "nothing goes on");
-    press(&mut app, "E");
+    press(&mut app, "E Ctrl-Home");
     let again = app.update(Event::Tick(Duration::from_millis(1)));
     assert!(matches!(again.as_slice(), [Effect::Check { .. }]), "{again:?}");
     // in the list of systems nothing is checked; in the lab, checks continue
@@ -195,7 +205,7 @@ fn an_answer_that_comes_late_never_reaches_another_system() {
     let late = checked(&app, &slow[0]);
     app.update(Event::Loaded(Ok(loaded("planet", 3))));
     app.update(Event::Snapshot(Arc::new(snapshot(&loaded("planet", 3), 1.0))));
-    press(&mut app, "E x");
+    press(&mut app, "E Ctrl-Home x");
     let asked = app.update(Event::Tick(Duration::from_millis(200)));
     assert!(
         matches!(&asked[..], [Effect::Check { .. }]),
@@ -211,7 +221,7 @@ fn an_answer_that_comes_late_never_reaches_another_system() {
     assert_eq!(sheet(&app).state, SheetState::Wrong);
     // back at the first system, whose text is unchanged and is checked again
     app.update(Event::Loaded(Ok(pendulum())));
-    press(&mut app, "E");
+    press(&mut app, "E Ctrl-Home");
     assert!(sheet(&app).is_modified());
     rest(&mut app);
     assert_eq!(sheet(&app).flaws.len(), 1);
@@ -270,7 +280,7 @@ fn file(text: &str) -> Event {
 #[test]
 fn a_file_changed_by_another_program_is_written_over_only_on_demand() {
     let mut app = own_file();
-    press(&mut app, "E #");
+    press(&mut app, "E Ctrl-Home #");
     let save = press(&mut app, "Ctrl-s");
     assert!(matches!(&save[..], [Effect::Save { known: Some(_), .. }]), "{save:?}");
     app.update(Event::FileSaved(Err(SaveError::Changed)));
@@ -316,7 +326,7 @@ fn a_file_caught_half_written_is_looked_at_once_more_before_it_is_called_wrong()
 #[test]
 fn a_watched_file_does_not_replace_what_is_not_saved() {
     let mut app = own_file();
-    press(&mut app, "E #");
+    press(&mut app, "E Ctrl-Home #");
     let mine = sheet(&app).editor.text();
     app.update(file("title = \"Other\"\n"));
     assert_eq!(sheet(&app).editor.text(), mine);
@@ -329,14 +339,14 @@ fn what_is_not_saved_of_another_system_is_kept() {
     press(&mut app, "x y Esc");
     let planet = loaded("planet", 3);
     app.update(Event::Loaded(Ok(planet.clone())));
-    press(&mut app, "E");
+    press(&mut app, "E Ctrl-Home");
     assert_eq!(sheet(&app).editor.text(), planet.document.text);
     press(&mut app, "z Esc");
     let mut names: Vec<String> = app.unsaved().into_iter().map(|text| text.name).collect();
     names.sort();
     assert_eq!(names, ["pendulum", "planet"]);
     app.update(Event::Loaded(Ok(pendulum())));
-    press(&mut app, "E");
+    press(&mut app, "E Ctrl-Home");
     assert!(sheet(&app).editor.text().starts_with("xy"));
     assert_eq!(sheet(&app).state, SheetState::Changed, "the system was loaded anew meanwhile");
 }
@@ -366,7 +376,7 @@ fn a_text_that_is_not_saved_outlives_the_session() {
     assert_eq!(effects, []);
     assert_eq!(again.saved().unwrap().moment, left.moment);
     assert_eq!(rest(&mut again), [Effect::Tell(Command::TakeUp(Box::new(left.moment)))]);
-    press(&mut again, "E");
+    press(&mut again, "E Ctrl-Home");
     assert_eq!(sheet(&again).editor.text(), sheet(&app).editor.text());
     assert!(sheet(&again).is_modified());
     assert!(matches!(sheet(&again).state, SheetState::Runs(Some(_))));
@@ -397,7 +407,7 @@ fn without_resuming_the_file_runs_and_the_text_waits_for_its_editor() {
     let text = again.lab.as_ref().unwrap().loaded.document.text.clone();
     again.update(Event::FileRead { text, asked: false });
     assert_eq!(again.update(Event::Tick(Duration::from_secs(1))), []);
-    press(&mut again, "E");
+    press(&mut again, "E Ctrl-Home");
     assert_eq!(sheet(&again).editor.text(), sheet(&app).editor.text());
     assert_eq!(rest(&mut again).len(), 1);
 }
@@ -446,7 +456,7 @@ fn leaving_keeps_the_text_and_coming_back_finds_it() {
 #[test]
 fn a_text_that_would_be_lost_is_not_lost_at_the_first_q() {
     let mut app = in_lab();
-    press(&mut app, "E x Esc");
+    press(&mut app, "E Ctrl-Home x Esc");
     let mut kept = app.clone();
     kept.workbench.keeps = true;
     assert_eq!(press(&mut kept, "q"), [Effect::Quit]);
@@ -482,7 +492,7 @@ fn saving_what_has_a_mistake_says_so() {
         app.update(Event::FileSaved(Ok((place.clone(), text.clone()))));
     };
     let mut app = own_file();
-    press(&mut app, "E");
+    press(&mut app, "E Ctrl-Home");
     replace(&mut app, "cos(theta)", "cos(thet)");
     rest(&mut app);
     saved(&mut app);

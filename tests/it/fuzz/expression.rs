@@ -1,6 +1,6 @@
 //! Expressions: mistakes lie in the text; an expression is read back equal after printing, and has a derivative.
 
-use phaselab::expr::{Expr, Pool, Resolve, Span, SyntaxError, parse};
+use phaselab::expr::{Expr, FUNCTIONS, Pool, Resolve, Span, SyntaxError, parse, without_dots};
 
 pub(crate) const WORDS: &[&str] = &[
     "x",
@@ -33,6 +33,16 @@ pub(crate) const WORDS: &[&str] = &[
     "'",
     "=",
     "θ",
+    "θ′²",
+    "½",
+    " ",
+    "√",
+    "|",
+    "sin² ",
+    "cos ",
+    "e^",
+    "−",
+    "·",
 ];
 
 /// The most nodes of an expression that is worked with: reading it is fast, but it is read hundreds of times.
@@ -68,6 +78,55 @@ fn is_near(pool: &Pool, e: Expr, again: Expr, printed: &str) -> bool {
     long && (!size.is_finite() || (a - b).abs() <= 1e-12 * size)
 }
 
+/// The symbols of a pool by what the screen shows.
+struct Shown(Vec<(String, usize, Expr)>, Vec<SyntaxError>);
+
+impl Resolve for Shown {
+    fn name(&mut self, _: &mut Pool, name: &str, primes: usize, _: Span) -> Option<Expr> {
+        self.0.iter().find(|(shown, dots, _)| shown == name && *dots == primes).map(|s| s.2)
+    }
+
+    fn is_variable(&self, name: &str) -> bool {
+        self.0.iter().any(|(shown, ..)| shown == name)
+    }
+
+    fn complain(&mut self, error: SyntaxError) {
+        self.1.push(error);
+    }
+}
+
+/// What the screen shows of an expression is that expression when typed, or refused: never another one.
+fn check_shown(pool: &mut Pool, e: Expr) {
+    let shown = pool.unicode(e);
+    let symbols: Vec<(String, usize, Expr)> = pool
+        .symbols_of(e)
+        .into_iter()
+        .map(|symbol| {
+            let (name, dots) = without_dots(&pool.symbol_info(symbol).unicode);
+            (name, dots, pool.variable(symbol))
+        })
+        .collect();
+    let unique = |s: &(String, usize, Expr)| {
+        symbols.iter().filter(|other| (&other.0, other.1) == (&s.0, s.1)).count() == 1
+    };
+    let word =
+        |s: &(String, usize, Expr)| !FUNCTIONS.iter().any(|f| f.name == s.0 || f.unicode == s.0);
+    if !symbols.iter().all(|s| unique(s) && word(s)) {
+        return;
+    }
+    let mut names = Shown(symbols, Vec::new());
+    let syntax = parse(&shown).unwrap_or_else(|error| panic!("{shown}: {error}"));
+    let again = syntax.lower(pool, &mut names);
+    assert!(names.1.is_empty(), "{shown}: {:?}", names.1);
+    let same = again == e || pool.unicode(again) == shown;
+    assert!(
+        same || is_near(pool, e, again, &shown),
+        "{shown} is {}, not {}",
+        pool.text(again),
+        pool.text(e)
+    );
+}
+
 pub(crate) fn check(bytes: &[u8]) {
     let text = &*String::from_utf8_lossy(bytes);
     let syntax = match parse(text) {
@@ -81,12 +140,17 @@ pub(crate) fn check(bytes: &[u8]) {
         return;
     }
     let printed = pool.text(e);
+    if printed.contains("inf") || printed.contains("NaN") {
+        // a scope refuses it
+        return;
+    }
     let again = parse(&printed).unwrap_or_else(|error| panic!("{text} as {printed}: {error}"));
     let again = again.lower(&mut pool, &mut names);
     assert!(names.0.is_empty(), "{text} as {printed}: {:?}", names.0);
     let exact = again == e || pool.text(again) == printed;
     assert!(exact || is_near(&pool, e, again, &printed), "{text} as {printed}");
     assert!(!pool.latex(e).is_empty());
+    check_shown(&mut pool, e);
     let x = pool.symbol("x");
     let slope = pool.derivative(e, x);
     pool.evaluate(slope, &|_| 0.7);

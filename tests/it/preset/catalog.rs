@@ -144,7 +144,7 @@ fn a_broken_file_is_listed_with_its_mistake() {
     assert_eq!(fault("latin").1, "latin.toml:1:13: the byte 0xE9 here is not UTF-8");
     assert_eq!(
         fault("empty"),
-        ("empty".to_owned(), "empty.toml:1:1: the file has no title".to_owned())
+        ("empty".to_owned(), "empty.toml:1:1: the file has no coordinates".to_owned())
     );
 }
 

@@ -20,7 +20,7 @@ pub(super) fn checked(text: &str) -> Checked {
 
 /// Reads a text without mistakes or warnings.
 pub(super) fn model(text: &str) -> Model {
-    let Checked { model, warnings } = checked(text);
+    let Checked { model, warnings, .. } = checked(text);
     assert!(warnings.is_empty(), "{}", report(text, "test.toml", &warnings, false));
     model
 }
@@ -45,7 +45,7 @@ fn every_shipped_preset_can_be_read() {
         let document = entry.document().unwrap();
         match document.read() {
             Err(mistakes) => panic!("{}", document.report(&mistakes, false)),
-            Ok(Checked { model, warnings }) => {
+            Ok(Checked { model, warnings, .. }) => {
                 let meant = |m: &&phaselab::diagnostic::Diagnostic| {
                     !m.message.contains("not supported yet")
                 };
@@ -262,7 +262,7 @@ shapes = [
 fn the_parameter_of_a_path_is_its_own() {
     let text = GOOD.replace("k = 2.0", "k = 2.0\ns = 3.0")
         + "[space]\nshapes = [{ path = [\"s*x\", 0], from = 0, to = 1, samples = 1 }]\n";
-    let Checked { model, warnings } = checked(&text);
+    let Checked { model, warnings, .. } = checked(&text);
     let Shape::Path { points } = &model.space[0] else { panic!("{:?}", model.space[0]) };
     assert_eq!(model.pool.text(points[1][0]), "x");
     assert_eq!(warnings.len(), 1);
@@ -297,7 +297,7 @@ kind = "spectrum"
 x = "x"
 "#,
     );
-    let Checked { model, warnings } = checked(&text);
+    let Checked { model, warnings, .. } = checked(&text);
     let kinds: Vec<&str> = model.views.iter().map(|v| v.kind.as_str()).collect();
     assert_eq!(kinds, ["space", "phase", "time", "time", "section"]);
     assert_eq!((model.views[4].section, model.sections.len()), (Some(0), 1));

@@ -14,7 +14,7 @@ use crate::hand::{in_lab, press};
 
 fn edited() -> App {
     let mut app = in_lab();
-    press(&mut app, "E");
+    press(&mut app, "E Ctrl-Home");
     app
 }
 
@@ -103,7 +103,7 @@ fn a_terminal_of_ascii_gets_ascii() {
             let text = rows(&screen(&app, &plain(), size)).concat();
             assert!(text.is_ascii(), "{keys} {size:?}: {text}");
         }
-        press(&mut app, "Esc E");
+        press(&mut app, "Esc E Ctrl-Home");
     }
 }
 
@@ -168,4 +168,20 @@ fn what_is_reported_leaves_the_keys_in_sight() {
             assert!(words.iter().all(|word| shown.contains(word)), "{after:#?}");
         }
     }
+}
+
+/// Going far to the right moves the line of the cursor alone, and only the text looks focused beside the motion.
+#[test]
+fn one_line_scrolls_and_one_pane_is_focused() {
+    let mut app = edited();
+    press(&mut app, "Ctrl-Home");
+    app.update(Event::Paste(format!("# {}end\n", "long ".repeat(60))));
+    press(&mut app, "Up End");
+    let look = RenderStyle { theme: Theme::dark(ColourDepth::None), ..rich() };
+    let seen = screen(&app, &look, (120, 40));
+    let text = rows(&seen);
+    assert!(text.iter().any(|row| row.contains("…") && row.contains("long end")), "{text:#?}");
+    assert!(text.iter().any(|row| row.contains(" [coordinates]")), "{text:#?}");
+    assert!(!text.iter().any(|row| row.contains("# long")), "{text:#?}");
+    assert_eq!(text.concat().matches('┏').count(), 1, "{text:#?}");
 }

@@ -114,6 +114,8 @@ fn a_long_paste_is_taken_into_the_text() {
     lab.press("E");
     lab.shows("Running this version");
     lab.until("pastes come in brackets", |lab| lab.screen().bracketed_paste());
+    lab.press("\x1b[1;5H");
+    lab.shows("  1:1");
     let long = "# a line that is pasted, one of very many\n".repeat(4000);
     lab.press(&format!("\x1b[200~{long}\x1b[201~"));
     lab.shows("4001:1");

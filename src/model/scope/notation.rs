@@ -1,0 +1,61 @@
+//! Names as the screen shows them (`θ₁`, `pₓ`, `φ̇₀`), which may be typed wherever the name in the file may.
+//!
+//! In: the names of a scope and how the model shows them. Out: the names in the file for a shown one. Never here: which of
+//! them is meant.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::meaning::Meaning;
+use crate::expr::{unicode_name, without_dots};
+use crate::model::Model;
+
+/// The names in the file for what the screen shows, by the shown name and its primes.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Shown {
+    names: BTreeMap<(String, usize), BTreeSet<String>>,
+}
+
+impl Shown {
+    pub(super) fn of(model: &Model, names: &BTreeMap<String, Meaning>) -> Shown {
+        let mut shown = Shown::default();
+        for (name, meaning) in names {
+            let symbol = match meaning {
+                Meaning::Symbol(symbol)
+                | Meaning::Position([symbol, ..])
+                | Meaning::Other([symbol, _]) => *symbol,
+                Meaning::Defined(_) | Meaning::Later => continue,
+            };
+            shown.add(&model.pool.symbol_info(symbol).unicode, name);
+            if let Meaning::Position([_, velocity, acceleration]) = meaning {
+                for (primes, symbol) in [("'", velocity), ("''", acceleration)] {
+                    let unicode = &model.pool.symbol_info(*symbol).unicode;
+                    shown.add(unicode, &format!("{name}{primes}"));
+                }
+            }
+        }
+        // a Greek letter for its name, also where the file shows another symbol
+        for name in names.keys() {
+            let (letters, dots) = without_dots(&unicode_name(name));
+            if letters != *name
+                && !names.contains_key(&letters)
+                && !shown.names.contains_key(&(letters.clone(), dots))
+            {
+                shown.add(&letters, name);
+            }
+        }
+        shown
+    }
+
+    fn add(&mut self, unicode: &str, name: &str) {
+        self.names.entry(without_dots(unicode)).or_default().insert(name.to_owned());
+    }
+
+    /// Returns whether something is shown by these letters.
+    pub(super) fn has(&self, letters: &str) -> bool {
+        self.names.contains_key(&(letters.to_owned(), 0))
+    }
+
+    pub(super) fn find(&self, letters: &str, primes: usize) -> Option<&BTreeSet<String>> {
+        self.names.get(&(letters.to_owned(), primes))
+    }
+}

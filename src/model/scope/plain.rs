@@ -1,0 +1,96 @@
+//! Expressions in the notation of the screen: which name is meant by what is shown, and the plain form of a text.
+//!
+//! In: names and syntax as typed. Out: names of the file, plain texts. Never here: what a name may be used for.
+
+use super::Scope;
+use super::meaning::Meaning;
+use crate::expr::{EULER, Span, Syntax, SyntaxError};
+
+/// The longest unknown name that is taken apart.
+const LONGEST_APART: usize = 40;
+
+/// A name that may have primes of its own, and further ones.
+fn with_primes(name: &str, primes: usize) -> (String, usize) {
+    let bare = name.trim_end_matches('\'');
+    (bare.to_owned(), primes + name.len() - bare.len())
+}
+
+impl Scope {
+    /// The name in the file and its primes for a name as typed: itself, or one that the screen shows so.
+    pub(super) fn plain_name(
+        &self,
+        name: &str,
+        primes: usize,
+        span: Span,
+    ) -> Result<(String, usize), SyntaxError> {
+        if name.is_ascii() && self.names.contains_key(name) {
+            return Ok((name.to_owned(), primes));
+        }
+        let typed = primes;
+        let (found, primes) = match self.shown.find(name, primes) {
+            Some(found) => (found, 0),
+            None => match self.shown.find(name, 0) {
+                Some(found) => (found, primes),
+                None => return Ok((name.to_owned(), primes)),
+            },
+        };
+        // where one of them may not stand, the other is meant
+        let open = |name: &&String| match self.names.get(name.trim_end_matches('\'')) {
+            Some(Meaning::Symbol(s)) => {
+                self.kinds.get(s).is_none_or(|&k| self.refusal(k).is_none())
+            }
+            _ => true,
+        };
+        let mut usable = found.iter().filter(open);
+        match (usable.next(), usable.next()) {
+            (Some(one), None) => Ok(with_primes(one, primes)),
+            (None, _) => Ok(found
+                .first()
+                .map_or_else(|| (name.to_owned(), primes), |one| with_primes(one, primes))),
+            (Some(_), Some(_)) => {
+                let all: Vec<String> = found.iter().map(|name| format!("`{name}`")).collect();
+                let letters = format!("{name}{}", "′".repeat(typed));
+                let message = format!("`{letters}` is shown for more than one name");
+                let help = format!("write {}", all.join(" or "));
+                Err(SyntaxError::new(span, message).with_help(help))
+            }
+        }
+    }
+
+    /// The plain form of an expression, if it was not written so.
+    pub(super) fn plain_form(&self, text: &str, syntax: &Syntax) -> Option<String> {
+        let has_e = self.names.contains_key("e") || self.shown.has("e");
+        if syntax.is_plain(text, has_e) {
+            return None;
+        }
+        Some(syntax.plain(text, &|name, primes| {
+            if name == "e" && primes == 0 && !has_e {
+                return EULER.to_owned();
+            }
+            let (name, primes) = self
+                .plain_name(name, primes, Span::default())
+                .unwrap_or_else(|_| (name.to_owned(), primes));
+            format!("{name}{}", "'".repeat(primes))
+        }))
+    }
+
+    /// An unknown name as known ones side by side, if it consists of them: `mgl` is `m g l`.
+    pub(super) fn taken_apart(&self, name: &str, primes: usize) -> Option<String> {
+        if name.len() > LONGEST_APART {
+            return None;
+        }
+        let known = |piece: &str| self.knows(piece) || self.shown.has(piece);
+        let mut pieces: Vec<&str> = Vec::new();
+        let mut rest = name;
+        while !rest.is_empty() {
+            let mut ends = rest.char_indices().map(|(at, c)| at + c.len_utf8());
+            let end = ends.rfind(|&end| known(&rest[..end]))?;
+            pieces.push(&rest[..end]);
+            rest = &rest[end..];
+        }
+        // `kk` is a slip
+        let repeated = pieces.windows(2).any(|pair| pair[0] == pair[1]);
+        (pieces.len() > 1 && !repeated)
+            .then(|| format!("{}{}", pieces.join(" "), "'".repeat(primes)))
+    }
+}

@@ -1,0 +1,220 @@
+//! The notation of the screen can be typed: `½ m l² θ′²` is `1/2*m*l^2*theta'^2`.
+
+use phaselab::experiment::Derived;
+use phaselab::expr::{Expr, Pool, Zero};
+use phaselab::mechanics::Report;
+use phaselab::model::{Allowed, Model, Scope};
+use phaselab::preset::{Catalog, read};
+
+/// A system with the names that the tests use.
+const FILE: &str = r#"
+title = "Names"
+
+[coordinates]
+theta = { symbol = "θ", initial = 1.0 }
+x1 = { initial = 0.5 }
+x = { initial = 0.5 }
+
+[parameters]
+m = 1.0
+l = 1.0
+g = 9.81
+omega0 = { symbol = "φ̇₀", value = 2.0 }
+
+[definitions]
+Vmax = "m*g*l*(1 - cos(theta))"
+
+[lagrangian]
+L = "1/2*m*l^2*theta'^2 + 1/2*m*x1'^2 + 1/2*m*x'^2 - Vmax - omega0*x1^2"
+"#;
+
+fn model() -> Model {
+    read(FILE).unwrap().model
+}
+
+/// The expression of a text, or its mistakes with their corrections.
+fn typed(model: &Model, pool: &mut Pool, text: &str) -> Result<Expr, Vec<String>> {
+    let mut scope = Scope::new(model, Allowed::Observable, "an observable");
+    scope.read(pool, text).ok_or_else(|| {
+        let told = scope.mistakes.iter().map(|m| {
+            assert!(text.get(m.span.start..m.span.end).is_some(), "{text}: {m:?}");
+            format!("{m}; {}", m.help.clone().unwrap_or_default())
+        });
+        told.collect()
+    })
+}
+
+#[test]
+fn the_notation_of_the_screen_means_the_plain_one() {
+    let model = model();
+    let check = |text: &str, plain: &str| {
+        let mut pool = model.pool.clone();
+        let e = typed(&model, &mut pool, text).unwrap_or_else(|told| panic!("{text}: {told:?}"));
+        assert_eq!(e, typed(&model, &mut pool, plain).unwrap(), "{text} and {plain}");
+        let mut scope = Scope::new(&model, Allowed::Observable, "an observable");
+        scope.read(&mut pool, text);
+        assert_eq!(scope.plain.as_deref(), Some(plain), "{text}");
+        scope.read(&mut pool, plain);
+        assert_eq!(scope.plain, None, "{plain} is plain");
+    };
+    check("½ m l² θ′²", "1/2*m*l^2*theta'^2");
+    check("½ m l² θ̇² − m g l cos θ", "1/2*m*l^2*theta'^2 - m*g*l*cos(theta)");
+    check("m g l(1 − cos θ)", "m*g*l*(1 - cos(theta))");
+    check("m g l(1 − cos θ)²", "m*g*l*(1 - cos(theta))^2");
+    check("2x", "2*x");
+    check("3.5 x", "3.5*x");
+    check("2sin(x)", "2*sin(x)");
+    check("x' x1''", "x'*x1''");
+    check("ẋ₁² + ẍ", "x1'^2 + x''");
+    check("x₁′ x₁″", "x1'*x1''");
+    check("pₓ p_θ", "p_x*p_theta");
+    check("φ̇₀ x", "omega0*x");
+    check("φ′₀ ω₀", "omega0*omega0");
+    check("2(x + 1)", "2*(x + 1)");
+    check("(x + 1)(x - 1)", "(x + 1)*(x - 1)");
+    check("(x + 1) x1", "(x + 1)*x1");
+    check("x (x + 1)", "x*(x + 1)");
+    check("sin(2x)", "sin(2*x)");
+    check("sin² θ cos θ", "sin(theta)^2*cos(theta)");
+    check("sin^2(2 θ)", "sin(2*theta)^2");
+    check("arcsin x", "asin(x)");
+    check("−g sin θ/l", "-g*sin(theta)/l");
+    check("√x m", "sqrt(x)*m");
+    check("√(x + 1)/2", "sqrt(x + 1)/2");
+    check("|x − 1| |x|", "abs(x - 1)*abs(x)");
+    check("ln |x|", "ln(abs(x))");
+    check("e^(−x) + e^x m", "exp(-x) + exp(x)*m");
+    check("2 π x·m × g", "2*pi*x*m*g");
+    check("x⁻² + m 2^x", "x^(-2) + m*2^x");
+    check("6.67·10⁻¹¹ x", "6.67e-11*x");
+    check("x^½", "x^(1/2)");
+    check("m/½", "m/(1/2)");
+    check("(m/l) x", "m/l*x");
+    check("m/(l x)", "m/(l*x)");
+    check("m g/l", "m*g/l");
+}
+
+/// What a name directly before a parenthesis means depends on the name.
+#[test]
+fn what_could_be_read_in_two_ways_is_refused_with_both() {
+    let model = model();
+    let check = |text: &str, told: &[&str]| {
+        let mut pool = model.pool.clone();
+        let mistakes = typed(&model, &mut pool, text).expect_err(text);
+        assert_eq!(mistakes, told, "{text}");
+    };
+    check("m/l x", &["`m/l x` can be read in two ways; write `(m/l) x` or `m/(l x)`"]);
+    check("1/2 m", &["`1/2 m` can be read in two ways; write `(1/2) m` or `1/(2 m)`"]);
+    check("sin θ x", &["`sin θ x` can be read in two ways; write `sin(θ) x` or `sin(θ x)`"]);
+    check("sin² θ x", &["`sin² θ x` can be read in two ways; write `sin²(θ) x` or `sin²(θ x)`"]);
+    check("sin 2 x", &["`sin 2 x` can be read in two ways; write `sin(2) x` or `sin(2 x)`"]);
+    check("sin x²", &["`sin x²` can be read in two ways; write `sin² x` or `sin(x²)`"]);
+    check("sin x^2", &["`sin x^` can be read in two ways; write `(sin x)^...` or `sin(x^...)`"]);
+    check("sin x/2", &["`sin x/2` can be read in two ways; write `sin(x)/2` or `sin(x/2)`"]);
+    check("sin⁻¹ x", &["`sin⁻¹ x` can be read in two ways; write `1/sin(x)` or `asin(x)`"]);
+    check("e^2x", &["`e^2x` can be read in two ways; write `e^2 x` or `e^(2 x)`"]);
+    check("√2x", &["`2x` can be read in two ways; write `√(2) x` or `√(2 x)`"]);
+    check("√x²", &["`x²` can be read in two ways; write `√(x)²` or `√(x²)`"]);
+    check(
+        "x 2",
+        &[
+            "a number stands in front of what it multiplies; write `2 x` for the product or `x^2` for the power",
+        ],
+    );
+    check("2½", &["two numbers stand side by side; write `2*½` or `2 + ½`"]);
+    let function =
+        "; `x` is no function: what it depends on is not written, `x` alone stands for its value";
+    check(
+        "x(m + 1)",
+        &[&format!(
+            "`x(...)` can be read as a product and as a function; write `x*(...)` for the product{function}"
+        )],
+    );
+    check(
+        "x(t)",
+        &[&format!(
+            "`x(...)` can be read as a product and as a function; write `x*(...)` for the product{function}"
+        )],
+    );
+    check(
+        "log(x)",
+        &[
+            "there is no function `log`; did you mean `ln`, the natural logarithm? That to base 10 is ln(x)/ln(10)",
+        ],
+    );
+    check(
+        "|m |x||",
+        &["this `|` may open or close; write abs(...) for an absolute value inside another"],
+    );
+    check("mgl", &["unknown name `mgl`; names side by side are written apart: `m g l`"]);
+}
+
+#[test]
+fn all_doubts_are_told_at_once_with_the_line() {
+    let model = model();
+    let mut pool = model.pool.clone();
+    let told = typed(&model, &mut pool, "1/2 m x'^2 + sin θ x - 1/2 q").unwrap_err();
+    assert_eq!(told.len(), 4, "{told:?}");
+    assert!(told[0].contains("`(1/2) m`"), "{told:?}");
+    assert!(told[1].contains("`sin(θ) x`"), "{told:?}");
+    let line = "read from left to right, all of it is `1/2*m*x'^2 + sin(θ)*x - 1/2*q`";
+    assert!(told[2].ends_with(line), "{told:?}");
+    assert!(told[3].starts_with("unknown name `q`"), "{told:?}");
+}
+
+/// One letter for two names is told, unless only one of them may stand there.
+#[test]
+fn a_letter_shown_for_two_names_is_refused() {
+    let file = FILE.replace(
+        "g = 9.81",
+        "g = { value = 1.0, symbol = \"q\" }\na = { value = 1.0, symbol = \"q\" }\ne = 2.0",
+    );
+    let file = file.replace("- Vmax", "- Vmax - a*x - e*x");
+    let model = read(&file).unwrap().model;
+    let mut pool = model.pool.clone();
+    let told = typed(&model, &mut pool, "q x").unwrap_err();
+    assert_eq!(told, ["`q` is shown for more than one name; write `a` or `g`"]);
+    // `e` of the file is not Euler's number, and what is printed says so
+    let own = typed(&model, &mut pool, "e^x").unwrap();
+    let euler = typed(&model, &mut pool, "exp(x)").unwrap();
+    assert_ne!(own, euler);
+    assert_eq!(pool.unicode(euler), "exp x");
+    assert_eq!(typed(&model, &mut pool, "exp x"), Ok(euler));
+}
+
+/// What the lab prints for the law of every preset, in the letters that the screen shows, is that law when typed.
+#[test]
+fn what_the_lab_prints_of_every_preset_can_be_typed() {
+    let catalog = Catalog::with_folder(None);
+    let mut seen = 0;
+    for entry in catalog.entries() {
+        let model = catalog.find(&entry.name).unwrap().read().unwrap().model;
+        let Derived { model, mut equations } = Derived::of(model).unwrap();
+        equations.find_closed_forms();
+        let report = Report::of(&model, &equations);
+        let mut printed = vec![report.law.right, report.energy.right];
+        printed.extend(report.hamiltonian.as_ref().ok().map(|line| line.right));
+        printed.extend(report.dissipation.iter().map(|line| line.right));
+        let mut pool = equations.pool.clone();
+        for e in printed.into_iter().filter(|&e| pool.weight(e) < 4_000).collect::<Vec<_>>() {
+            let dotted = pool.unicode(e);
+            let primed: String = dotted
+                .chars()
+                .map(|c| match c {
+                    '\u{307}' => '′',
+                    '\u{308}' => '″',
+                    c => c,
+                })
+                .collect();
+            for text in [dotted, primed, pool.text(e)] {
+                let again = typed(&model, &mut pool, &text)
+                    .unwrap_or_else(|told| panic!("{}: {text}: {told:?}", entry.name));
+                let difference = pool.sub(again, e);
+                let zero = pool.is_zero(difference);
+                assert_eq!(zero, Zero::Proved, "{}: {text}", entry.name);
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen >= 3 * 2 * catalog.entries().len(), "{seen}");
+}
