@@ -147,7 +147,7 @@ pub(super) fn search(
     let summary = summary(&invariants, &relations);
     let known = invariants.known.iter().map(|k| match k.name.as_str() {
         "energy" => "E".to_owned(),
-        name => crate::expr::unicode_name(name).to_string(),
+        name => crate::expr::unicode_name(name).clone(),
     });
     let found = (1..=invariants.found.len()).map(|n| format!("I{}", subscript(n)));
     let names = known.chain(found).collect();

@@ -45,10 +45,8 @@ impl Start {
         let mut source = self.model.clone();
         source.pool = equations.pool.clone();
         // backwards along I is forwards along −I
-        let generator = match self.epsilon < 0.0 {
-            true => equations.pool.neg(self.generator),
-            false => self.generator,
-        };
+        let generator =
+            if self.epsilon < 0.0 { equations.pool.neg(self.generator) } else { self.generator };
         let moved = flow_of(&source, &mut equations, ("I", generator), &[], self.time);
         let GeneratorFlow { mut model, equations, .. } = moved.map_err(|why| why.to_string())?;
         "auto".clone_into(&mut model.run.method);

@@ -46,22 +46,24 @@ impl Lab {
         Some(computation)
     }
 
-    /// Takes in the outcome of the search, if it is wanted. Returns what gauges are to follow if that changes.
+    /// Takes in the outcome of the search, if it is wanted. Returns what gauges are to follow, if that
+    /// changes.
     pub(super) fn take_search(
         &mut self,
         ticket: u64,
         outcome: &Outcome<Answer>,
-    ) -> Option<Option<Vec<FoundConstant>>> {
+    ) -> Option<Vec<Vec<FoundConstant>>> {
         let UnderWay { at, .. } = self.search.under_way.take_if(|job| job.ticket == ticket)?;
         let Outcome::Done(answer) = outcome else {
             self.search.stopped = true;
-            return Some(None);
+            return Some(Vec::new());
         };
         let result = answer.of::<Result<Arc<Findings>, String>>()?.clone();
         let found = result.as_ref().map(|findings| followed(findings)).unwrap_or_default();
         self.search.outcome = Some((at, result));
         let before = std::mem::replace(&mut self.search.followed, !found.is_empty());
-        Some((before || !found.is_empty()).then_some(found))
+        let changes = before || !found.is_empty();
+        Some(changes.then_some(found).into_iter().collect())
     }
 
     /// What was found for the parameters as they are now.

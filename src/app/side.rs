@@ -279,7 +279,7 @@ impl App {
         if let Some(found) = self.lab.as_mut().and_then(|lab| lab.take_search(ticket, &outcome)) {
             return match outcome {
                 Outcome::Failed(sentence) => self.notify(sentence),
-                _ => found.map(|found| Effect::Tell(Command::Follow(found))).into_iter().collect(),
+                _ => found.into_iter().map(|found| Effect::Tell(Command::Follow(found))).collect(),
             };
         }
         if let Some(effects) = self.carried(ticket, &outcome) {

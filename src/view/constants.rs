@@ -81,7 +81,7 @@ pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
     }
     match findings.separates {
         Some(true) => {
-            page.words(Role::Text, "Hamilton–Jacobi separates in these coordinates: proved.")
+            page.words(Role::Text, "Hamilton–Jacobi separates in these coordinates: proved.");
         }
         Some(false) => {
             page.words(

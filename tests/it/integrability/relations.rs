@@ -7,8 +7,8 @@ use super::{hamiltonian, search};
 use crate::hand::loaded;
 
 fn line(h: &str, degree: u32) -> String {
-    let mut model = hamiltonian(&["x", "y"], &[], h);
-    let (mut equations, found) = search(&mut model, degree);
+    let model = hamiltonian(&["x", "y"], &[], h);
+    let (mut equations, found) = search(&model, degree);
     let hamiltonian = is_hamiltonian(&model, &mut equations);
     let relations = relations(&model, &mut equations, &found, hamiltonian);
     summary(&found, &relations)
@@ -38,7 +38,7 @@ fn what_is_proved_constant_commutes_with_h() {
     for (mass, integrable) in [(3.0, true), (2.5, false)] {
         let mut model = (*loaded("swinging-atwood", 1).model).clone();
         model.parameters[0].value = mass;
-        let (mut equations, found) = search(&mut model, 2);
+        let (mut equations, found) = search(&model, 2);
         let relations = relations(&model, &mut equations, &found, true);
         assert_eq!(found.found.is_empty(), !integrable);
         assert_eq!(
