@@ -136,7 +136,7 @@ mod tests {
             let a = [math::sin(t), math::cos(t)];
             separation.add(t, &a, &[a[0] + d, a[1]], &[None, None]);
         }
-        let slope = separation.slope().unwrap();
+        let slope = separation.slope().expect("a slope");
         assert!((slope.rate - 0.3).abs() < 1e-9, "{slope:?}");
         // ln(0.03 · size · 1e8)/0.3, the size lies between 1 and √8
         assert!((slope.to - 50.0).abs() < 5.0, "{slope:?}");

@@ -60,7 +60,7 @@ impl Experiment {
         let displaced = |size: &f64| DISPLACED * if *size > 0.0 { *size } else { largest };
         let origin = Origin::Neighbour(sizes.iter().map(displaced).collect());
         let Some(mut one) = self.companion(origin) else { return };
-        let state = self.beside(&one.origin, self.motion.state());
+        let state = Self::beside(&one.origin, self.motion.state());
         one.begin(Ok(state));
         one.expect(self.companions.due(self.time(), self.motion.values()));
         self.companions.all.push(one);
@@ -115,13 +115,13 @@ impl Experiment {
                 self.motion.whole().initial(start, &one.parameters, given)
             }
             Origin::Neighbour(_) => {
-                self.initial_state().map(|state| self.beside(&one.origin, &state))
+                self.initial_state().map(|state| Self::beside(&one.origin, &state))
             }
         }
     }
 
     /// A state beside another.
-    fn beside(&self, origin: &Origin, state: &State) -> State {
+    fn beside(origin: &Origin, state: &State) -> State {
         let mut state = state.clone();
         if let Origin::Neighbour(displaced) = origin {
             for (i, by) in displaced.iter().enumerate() {

@@ -82,7 +82,9 @@ impl CrossingLog {
             }
             let count = self.counts[surface] - gone as u64;
             self.surfaces[surface] = Crossed::default();
-            rows.iter().for_each(|row| self.push(surface, row[0], &row[1..]));
+            for row in &rows {
+                self.push(surface, row[0], &row[1..]);
+            }
             Arc::make_mut(&mut self.counts)[surface] = count;
         }
     }

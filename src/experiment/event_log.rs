@@ -170,7 +170,7 @@ mod tests {
         back.rewind(count as f64 - 10.5);
         assert_eq!(back.count(), count as u64 - 10);
         assert_eq!(back.forgotten(), event_log.forgotten());
-        assert_eq!(back.iter().next_back().unwrap().time, count as f64 - 11.0);
+        assert_eq!(back.iter().next_back().map(|o| o.time), Some(count as f64 - 11.0));
         let half = count as u64 / 2;
         let tally = |name: &str, last| EventCount { name: name.to_owned(), count: half, last };
         let last = count as f64;

@@ -221,14 +221,9 @@ impl ObservedMotion {
         self.take_observer();
         // what was seen of each step counts only once
         let mut budget = EQUAL_STEPS * 1000;
-        loop {
-            match self.inner.reach(time, limit, &mut budget)? {
-                Reached::Happened(occurrence) => {
-                    if matches!(occurrence.kind, OccurrenceKind::Impulse { .. }) {
-                        self.log.note_impulse();
-                    }
-                }
-                Reached::There | Reached::Underway | Reached::Ended => break,
+        while let Reached::Happened(occurrence) = self.inner.reach(time, limit, &mut budget)? {
+            if matches!(occurrence.kind, OccurrenceKind::Impulse { .. }) {
+                self.log.note_impulse();
             }
         }
         self.look()?;
