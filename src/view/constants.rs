@@ -94,7 +94,7 @@ pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
     if findings.hamiltonian {
         let open = lab.search.brackets;
         let hint = if open { "" } else { "B shows their brackets; " };
-        page.words(Role::Dim, format!("{hint}F carries the state along the flow of one."));
+        page.words(Role::Dim, format!("{hint}J carries the state along the flow of one."));
     }
     if lab.search.brackets {
         let parameters = !lab.loaded.model.parameters.is_empty();

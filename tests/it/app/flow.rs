@@ -15,7 +15,7 @@ fn planet() -> Real {
 
 /// The line of the list whose formula contains this.
 fn apply(real: &mut Real, formula: &str, epsilon: &str) {
-    real.press("F");
+    real.press("J");
     let Some(Overlay::Menu(menu)) = &real.app.overlay else { panic!("no list") };
     let about: Vec<String> = menu.items.iter().map(|item| item.about.clone()).collect();
     let line = about.iter().position(|a| a == formula);
@@ -99,8 +99,8 @@ fn the_runge_lenz_vector_leads_to_another_ellipse_of_the_same_energy() {
 #[test]
 fn where_constants_have_no_flow_the_key_says_why() {
     let mut real = Real::of("damped-pendulum");
-    real.press("F");
+    real.press("J");
     assert!(real.app.notice.as_ref().is_some_and(|n| n.text.contains("nothing to apply")));
-    real.press("2 F");
+    real.press("2 J");
     assert!(real.app.overlay.is_none());
 }
