@@ -12,7 +12,7 @@ mod stroke;
 pub mod ticks;
 
 pub use axes::{Axes, Axis};
-pub use camera::{Bounds, Camera};
+pub use camera::{Bounds, Camera, Extent};
 pub use depth::DepthBuffer;
 pub use raster::{Ages, KeptTrail, Marker, Pen, Raster};
 pub use scale::{Frame, Kind, Scale};

@@ -59,7 +59,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let beside: Vec<_> = beside.iter().map(|snapshot| Quantities { snapshot, ..*q }).collect();
     let reference_frame = ReferenceFrame::of(q, eye.frame);
     let scene = Scene::of(q, *eye, reference_frame.as_ref());
-    let frame = camera.frame(&scene.bounds, area);
+    let frame = scene.frame(&camera, area);
     let raster = Raster::new(area, canvas.look.glyphs);
     let depth = DepthBuffer::new(&frame, raster.size());
     let mut artist = ScenePainter {

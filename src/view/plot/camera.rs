@@ -79,25 +79,34 @@ impl Camera {
     }
 
     /// The frame over an area that shows a whole box with equal units, then zoomed and panned.
-    ///
-    /// In space the fit is the same for every yaw, so that the picture does not change its size while it rotates.
     pub fn frame(&self, bounds: &Bounds, area: Rect) -> Frame {
-        let [right, up, _] = Self { distance: None, ..*self }.project(bounds.middle());
-        let [x, y, z] = bounds.half();
-        let plane = z == 0.0 && self.pitch == FRAC_PI_2 && self.yaw == 0.0;
-        let round = math::hypot(x, y);
-        let (wide, high) = if plane {
-            (x, y)
-        } else {
-            (round, round * math::sin(self.pitch).abs() + z * math::cos(self.pitch))
-        };
-        let least = wide.max(high).max(f64::MIN_POSITIVE) * 1e-3;
-        let scale = |middle: f64, half: f64, pan: f64| {
+        let [low, high] = bounds.ends.unwrap_or([[-1.0; 3], [1.0; 3]]);
+        self.frame_around(&[Extent { low, high, radius: 0.0 }], area)
+    }
+
+    /// The frame over an area that shows the whole of each extent with equal units, then zoomed and panned. The
+    /// outline of all of them on the screen, not a box in space around it, fills the area in one of its directions.
+    pub fn frame_around(&self, extents: &[Extent], area: Rect) -> Frame {
+        let projection = Self { distance: None, ..*self }.projection();
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for extent in extents {
+            for corner in extent.corners() {
+                let seen = projection.of(corner);
+                for k in 0..2 {
+                    low[k] = low[k].min(seen[k] - extent.radius);
+                    high[k] = high[k].max(seen[k] + extent.radius);
+                }
+            }
+        }
+        let half = |k: usize| high[k] / 2.0 - low[k] / 2.0;
+        let least = half(0).max(half(1)).max(f64::MIN_POSITIVE) * 1e-3;
+        let scale = |k: usize| {
+            let middle = low[k] / 2.0 + high[k] / 2.0;
             // A margin of a twentieth keeps markers away from the edge.
-            let half = half.max(least) * 1.05 / self.zoom;
-            Scale::linear(middle - half, middle + half).panned(-pan)
+            let half = half(k).max(least) * 1.05 / self.zoom;
+            Scale::linear(middle - half, middle + half)
         };
-        let fitted = Frame::equal(scale(right, wide, 0.0), scale(up, high, 0.0), area);
+        let fitted = Frame::equal(scale(0), scale(1), area);
         Frame::new(fitted.x.panned(-self.pan[0]), fitted.y.panned(-self.pan[1]), area)
     }
 }
@@ -159,14 +168,23 @@ impl Bounds {
     pub fn ends(&self) -> Option<[[f64; 3]; 2]> {
         self.ends
     }
+}
 
-    fn middle(&self) -> [f64; 3] {
-        let [low, high] = self.ends.unwrap_or_default();
-        std::array::from_fn(|i| low[i] / 2.0 + high[i] / 2.0)
-    }
+/// A box in space, each of whose points is the centre of a ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extent {
+    /// The lowest corner of the box.
+    pub low: [f64; 3],
+    /// The highest corner of the box.
+    pub high: [f64; 3],
+    /// The radius of the balls; 0 where the extent is the box itself.
+    pub radius: f64,
+}
 
-    fn half(&self) -> [f64; 3] {
-        let [low, high] = self.ends.unwrap_or([[-1.0; 3], [1.0; 3]]);
-        std::array::from_fn(|i| high[i] / 2.0 - low[i] / 2.0)
+impl Extent {
+    /// The eight corners of the box, without the balls.
+    fn corners(&self) -> impl Iterator<Item = [f64; 3]> {
+        let Self { low, high, .. } = *self;
+        (0..8).map(move |i| [0, 1, 2].map(|k| if i >> k & 1 == 0 { low[k] } else { high[k] }))
     }
 }

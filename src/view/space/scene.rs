@@ -2,19 +2,23 @@
 //!
 //! In: shapes and the bounds of their channels. Out: points, and a box that rarely changes. Never here: the camera.
 
+use ratatui::layout::Rect;
+
 use super::body::Outline;
 use super::circle::{circle, square};
 use super::reference_frame::ReferenceFrame;
 use crate::instrument::CameraPose;
 use crate::model::{Point, Shape};
 use crate::num::math;
-use crate::view::plot::{Bounds, Camera};
+use crate::view::plot::{Bounds, Camera, Extent, Frame};
 use crate::view::quantity::{Quantities, Source};
 
 /// The contents of the picture.
 pub(super) struct Scene {
     /// The box that contains everything.
-    pub(super) bounds: Bounds,
+    bounds: Bounds,
+    /// What each shape may reach.
+    extents: Vec<Extent>,
 }
 
 /// Two opposite corners of a box.
@@ -30,9 +34,10 @@ impl Scene {
         eye: CameraPose,
         reference_frame: Option<&ReferenceFrame>,
     ) -> Self {
-        let mut scene = Self { bounds: Bounds::EMPTY };
-        if let Some(bounds) = followed(q, eye, reference_frame) {
-            return Self { bounds };
+        let mut scene = Self { bounds: Bounds::EMPTY, extents: Vec::new() };
+        if let Some(extent) = followed(q, eye, reference_frame) {
+            scene.add([extent.low, extent.high], extent.radius);
+            return scene;
         }
         let mut reached: Vec<(Point, Span3)> = Vec::new();
         for (shape, rod) in q.lab.shapes(eye) {
@@ -40,22 +45,32 @@ impl Scene {
         }
         if let (Some(ends), Some(reference_frame)) = (scene.bounds.ends(), reference_frame) {
             scene.bounds = Bounds::around(reference_frame.around(q, ends));
+            let around = scene.bounds.ends().map(|[low, high]| Extent { low, high, radius: 0.0 });
+            scene.extents = around.into_iter().collect();
         }
-        // The box is rounded outwards, so that the picture does not move while the motion grows a little.
+        // What moves is rounded outwards, so that the picture does not move while the motion grows a little.
         if let Some([low, high]) = scene.bounds.ends() {
             let longest = (0..3).map(|k| high[k] - low[k]).fold(0.0, f64::max);
             let step = round_step(longest / 10.0);
-            let out = |v: f64, round: fn(f64) -> f64| round(v / step) * step;
-            let flat = |k: usize| low[k] == high[k];
-            let corner = |end: [f64; 3], round: fn(f64) -> f64| {
-                [0, 1, 2].map(|k| if flat(k) { end[k] } else { out(end[k], round) })
-            };
-            let ends = [corner(low, f64::floor), corner(high, f64::ceil)];
-            if ends.as_flattened().iter().all(|v| v.is_finite()) {
-                scene.bounds = Bounds::around(ends);
+            scene.bounds = rounded([low, high], step).map_or(scene.bounds, Bounds::around);
+            for extent in &mut scene.extents {
+                if let Some([low, high]) = rounded([extent.low, extent.high], step) {
+                    *extent = Extent { low, high, ..*extent };
+                }
             }
         }
         scene
+    }
+
+    /// The frame over an area in which the whole scene is seen.
+    pub(super) fn frame(&self, camera: &Camera, area: Rect) -> Frame {
+        let flat = self.bounds.ends().is_some_and(|[low, high]| low[2] == 0.0 && high[2] == 0.0);
+        let face_on = camera.pitch == Camera::FACE_ON.pitch && camera.yaw == Camera::FACE_ON.yaw;
+        if flat && face_on || self.extents.is_empty() {
+            camera.frame(&self.bounds, area)
+        } else {
+            camera.frame_around(&self.extents, area)
+        }
     }
 
     /// How near to the eye the farthest and the nearest corner of a scene are; `None` in a plane seen face on.
@@ -78,80 +93,97 @@ impl Scene {
     ) {
         match shape {
             Shape::Spring { from, to } => {
-                self.add(reach(q, from, reached));
-                self.add(extent(q, to));
+                self.add(reach(q, from, reached), 0.0);
+                self.add(extent(q, to), 0.0);
             }
             Shape::Line { from, to } => {
                 let start = reach(q, from, reached);
                 let end = if rod { swing(q, from, to, start) } else { reach(q, to, reached) };
-                self.add(start);
-                self.add(end);
+                self.add(start, 0.0);
+                self.add(end, 0.0);
                 reached.push((*to, end));
             }
             Shape::Mass { at, radius } => {
-                let radius = radius.map_or(0.0, |radius| q.number(radius));
-                self.add(grown(reach(q, at, reached), radius, is_flat(q, at)));
+                let radius = radius.map_or(0.0, |radius| q.number(radius).abs());
+                self.add(reach(q, at, reached), radius);
             }
-            Shape::Trace { at } => self.add(reach(q, at, reached)),
+            Shape::Trace { at } => self.add(reach(q, at, reached), 0.0),
             Shape::Body { at } => {
                 let radius = Outline::of(q).map_or(0.0, |outline| outline.reach());
-                self.add(grown(reach(q, at, reached), radius, false));
+                self.add(reach(q, at, reached), radius);
             }
             Shape::Circle { centre, radius, normal } | Shape::Disc { centre, radius, normal } => {
-                let middle = q.point(centre);
-                let normal = q.point(normal);
-                for point in circle(middle, q.number(*radius), normal) {
-                    self.bounds = self.bounds.with(point);
+                let radius = q.number(*radius);
+                if rests(q, centre) && rests(q, normal) {
+                    self.points(circle(q.point(centre), radius, q.point(normal)));
+                } else {
+                    // A rim that turns may be anywhere on the sphere.
+                    self.add(reach(q, centre, reached), radius.abs());
                 }
             }
             Shape::Sphere { centre, radius } => {
-                self.add(grown(reach(q, centre, reached), q.number(*radius).abs(), false));
+                self.add(reach(q, centre, reached), q.number(*radius).abs());
             }
             Shape::Cone { tip, base, radius } => {
-                self.add(reach(q, tip, reached));
-                self.add(grown(reach(q, base, reached), q.number(*radius).abs(), false));
+                self.add(reach(q, tip, reached), 0.0);
+                self.add(reach(q, base, reached), q.number(*radius).abs());
             }
             Shape::Vector { at, components, .. } => {
-                let foot = q.point(at);
-                let along = q.point(components);
-                self.bounds = self.bounds.with(foot).with([0, 1, 2].map(|k| foot[k] + along[k]));
+                let foot = reach(q, at, reached);
+                self.add(foot, 0.0);
+                let along = extent(q, components);
+                self.add([0, 1].map(|end| [0, 1, 2].map(|k| foot[end][k] + along[end][k])), 0.0);
             }
-            Shape::Path { points } => {
-                for point in points {
-                    self.bounds = self.bounds.with(q.point(point));
-                }
-            }
+            Shape::Path { points } => self.points(points.iter().map(|point| q.point(point))),
             Shape::Plane { at, normal, size } => {
-                let at = q.point(at);
-                let normal = q.point(normal);
-                for corner in square(at, normal, q.number(*size)) {
-                    self.bounds = self.bounds.with(corner);
-                }
+                self.points(square(q.point(at), q.point(normal), q.number(*size)));
             }
         }
     }
 
-    fn add(&mut self, [low, high]: Span3) {
-        self.bounds = self.bounds.with(low).with(high);
+    fn add(&mut self, [low, high]: Span3, radius: f64) {
+        let flat = low[2] == 0.0 && high[2] == 0.0;
+        let [lowest, highest] = grown([low, high], radius, flat);
+        if [lowest, highest].as_flattened().iter().all(|v| v.is_finite()) {
+            self.bounds = self.bounds.with(lowest).with(highest);
+            self.extents.push(Extent { low, high, radius });
+        }
+    }
+
+    fn points(&mut self, points: impl IntoIterator<Item = [f64; 3]>) {
+        for point in points {
+            self.add([point, point], 0.0);
+        }
     }
 }
 
-/// The box around the point that the camera follows, in the picture of the model in its own axes.
+/// The ball around the point that the camera follows, in the picture of the model in its own axes.
 fn followed(
     q: &Quantities<'_>,
     eye: CameraPose,
     reference_frame: Option<&ReferenceFrame>,
-) -> Option<Bounds> {
+) -> Option<Extent> {
     let model = &q.lab.loaded.model;
     let follow = model.follow.as_ref()?;
     if reference_frame.is_some() || eye.own_shapes(model).is_some() {
         return None;
     }
-    let (at, reach) = (q.point(&follow.at), q.number(follow.reach).abs());
-    let box_of = |plane: bool| grown([at, at], reach, plane);
-    let [low, high] = box_of(is_flat(q, &follow.at) && eye.pitch == std::f64::consts::FRAC_PI_2);
-    let bounds = Bounds::around([low, high]);
-    (reach > 0.0 && bounds.ends() == Some([low, high])).then_some(bounds)
+    let (at, radius) = (q.point(&follow.at), q.number(follow.reach).abs());
+    let ends = grown([at, at], radius, false);
+    (radius > 0.0 && ends.as_flattened().iter().all(|v| v.is_finite())).then_some(Extent {
+        low: at,
+        high: at,
+        radius,
+    })
+}
+
+/// A box rounded outwards to multiples of a length where it is not flat; `None` if that leaves the range of numbers.
+fn rounded([low, high]: Span3, step: f64) -> Option<Span3> {
+    let corner = |end: [f64; 3], round: fn(f64) -> f64| {
+        [0, 1, 2].map(|k| if low[k] == high[k] { end[k] } else { round(end[k] / step) * step })
+    };
+    let ends = [corner(low, f64::floor), corner(high, f64::ceil)];
+    ends.as_flattened().iter().all(|v| v.is_finite()).then_some(ends)
 }
 
 /// The greatest of 1, 2 and 5 times a power of ten that does not exceed a length.
@@ -177,6 +209,11 @@ fn swing(q: &Quantities<'_>, from: &Point, to: &Point, start: Span3) -> Span3 {
         [0, 1, 2]
             .map(|k| if end == 0 { own[0][k].min(round[0][k]) } else { own[1][k].max(round[1][k]) })
     })
+}
+
+/// Whether a point is the same at all times.
+fn rests(q: &Quantities<'_>, point: &Point) -> bool {
+    point.iter().all(|expression| matches!(q.place(*expression), Source::Number(_)))
 }
 
 /// The box that a point may reach: the one found for the end of a rod, or its extent so far.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use phaselab::view::plot::{Bounds, Camera};
+use phaselab::view::plot::{Bounds, Camera, Extent};
 use proptest::prelude::*;
 use ratatui::layout::Rect;
 
@@ -56,15 +56,47 @@ fn zoom_magnifies_and_pan_moves_the_picture() {
     assert_eq!(column(moved), column(plain) + 10, "a quarter of 40 columns to the right");
 }
 
-#[test]
-fn the_picture_does_not_breathe_while_it_is_turned() {
-    let area = Rect::new(0, 0, 60, 20);
-    let bounds = Bounds::around([[-3.0, -1.0, 0.0], [3.0, 1.0, 2.0]]);
-    let width = |yaw: f64| {
-        let frame = Camera { yaw, ..Camera::IN_SPACE }.frame(&bounds, area);
-        frame.x.hi - frame.x.lo
+/// How much of its area an outline with these extents fills, across and upwards.
+fn filled(camera: Camera, extents: &[Extent], points: &[[f64; 3]], area: Rect) -> [f64; 2] {
+    let frame = camera.frame_around(extents, area);
+    let seen: Vec<_> = points.iter().map(|point| camera.project(*point)).collect();
+    let across = seen.iter().map(|[x, _, _]| frame.x.fraction(*x));
+    let up = seen.iter().map(|[_, y, _]| frame.y.fraction(*y));
+    let span = |part: Vec<f64>| {
+        let [low, high] =
+            [part.iter().copied().reduce(f64::min), part.iter().copied().reduce(f64::max)];
+        high.unwrap() - low.unwrap()
     };
-    assert!((0..8).all(|i| (width(f64::from(i)) - width(0.0)).abs() < 1e-12));
+    [span(across.collect()), span(up.collect())]
+}
+
+#[test]
+fn a_scene_fills_its_area_in_one_direction_from_everywhere() {
+    // A slanted rod: the box around it in space is far larger than what is seen of it.
+    let ends = [[0.0, 0.0, 0.0], [2.0, 1.0, 3.0]];
+    let rod = ends.map(|point| Extent { low: point, high: point, radius: 0.0 });
+    for (wide, high) in [(40, 20), (80, 12), (20, 40)] {
+        for turn in 0..24 {
+            let camera = Camera::IN_SPACE.turned(f64::from(turn) * PI / 12.0, 0.0);
+            let [x, y] = filled(camera, &rod, &ends, Rect::new(0, 0, wide, high));
+            assert!((x.max(y) * 1.05 - 1.0).abs() < 1e-9, "{wide}×{high}, {turn}: {x} by {y}");
+        }
+    }
+}
+
+#[test]
+fn a_ball_is_as_large_from_everywhere_and_whole() {
+    let ball = [Extent { low: [1.0, 2.0, 3.0], high: [1.0, 2.0, 3.0], radius: 0.5 }];
+    let area = Rect::new(0, 0, 40, 20);
+    for turn in 0..24 {
+        let camera = Camera::IN_SPACE.turned(f64::from(turn) * PI / 12.0, f64::from(turn) / 24.0);
+        let frame = camera.frame_around(&ball, area);
+        let [x, y, _] = camera.project([1.0, 2.0, 3.0]);
+        assert!((frame.x.hi - frame.x.lo - 1.05).abs() < 1e-12);
+        assert!(
+            (frame.x.fraction(x) - 0.5).abs() < 1e-9 && (frame.y.fraction(y) - 0.5).abs() < 1e-9
+        );
+    }
 }
 
 proptest! {
