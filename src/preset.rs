@@ -14,7 +14,9 @@ mod schema;
 mod settings;
 mod toml_errors;
 
-pub use catalog::{Catalog, Entry, NotFound, Origin, demo, demos, find, find_beside, is_path};
+pub use catalog::{
+    Catalog, Entry, NotFound, Origin, demo, demos, find, find_beside, is_path, lesson, lessons,
+};
 pub use read::{Checked, read, read_with};
 pub use rewrite::{Beginning, Rewrite};
 pub use schema::reference;

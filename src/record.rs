@@ -15,11 +15,16 @@ mod assertion;
 mod cast_reader;
 mod clock;
 mod headless_lab;
+mod lesson;
+mod lesson_check;
+mod lesson_order;
 mod plain;
 mod recording;
 mod script_runner;
 
 pub use cast_reader::{CastError, CastEvent, RecordedCast};
+pub use lesson::{Lesson, Pressed};
+pub use lesson_check::{LessonReport, check_lesson};
 pub use plain::plain;
 pub use recording::{Entry, Event, Marker, Recording, play};
 pub use script::Script;
