@@ -17,14 +17,17 @@ mod clock;
 mod headless_lab;
 mod lesson;
 mod lesson_check;
+mod lesson_keys;
 mod lesson_order;
+mod lesson_speech;
 mod plain;
 mod recording;
 mod script_runner;
 
 pub use cast_reader::{CastError, CastEvent, RecordedCast};
-pub use lesson::{Lesson, Pressed};
+pub use lesson::Lesson;
 pub use lesson_check::{LessonReport, check_lesson};
+pub use lesson_keys::Pressed;
 pub use plain::plain;
 pub use recording::{Entry, Event, Marker, Recording, play};
 pub use script::Script;

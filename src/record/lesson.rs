@@ -1,31 +1,28 @@
 //! A lesson: a script with a person in it, who predicts before the outcome is shown.
 //!
-//! In: a [`Script`] with lines of a lesson, keys, time. Out: the screen, and how each question was answered. What is
+//! In: a [`Script`] with lines of a lesson, answers, time. Out: how each question was answered. What is
 //! right is decided by the claims of the script at the moment of the outcome, never by the script itself. Between
 //! questions time passes as in a demo; while the lesson speaks it stands still, so that whoever reads long sees the
-//! same as whoever reads fast. Never here: a clock, a terminal, a file.
+//! same as whoever reads fast. Never here: keys (`lesson_keys`), the pane
+//! (`lesson_speech`), a terminal, a file.
 
-use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
-use ratatui::buffer::Buffer;
-use ratatui::layout::{Rect, Size};
+use ratatui::layout::Size;
 
 use super::assertion::{self, Finding};
 use super::clock::Micros;
 use super::headless_lab::Budget;
-use super::lesson_order::{mistakes_in, steps_of_person};
+use super::lesson_order::mistakes_in;
 use super::recording::rows;
 use super::script::{Assert, LessonStep, Script, Step, Text};
 use super::script_runner::{RunnerEvent, ScriptRunner};
-use crate::app::Event;
 use crate::diagnostic::{Diagnostic, Document, SourceRange};
 use crate::num::significant;
-use crate::view::RenderStyle;
-use crate::view::lesson::{self, Paragraph, ParagraphKind, Speech};
+use crate::view::lesson::{Paragraph, ParagraphKind};
 
 /// A lesson being taken.
 pub struct Lesson {
     pub(super) runner: ScriptRunner,
-    title: String,
+    pub(super) title: String,
     pub(super) stage: Stage,
     /// The question whose outcome is not known yet.
     pub(super) question: Option<Question>,
@@ -34,7 +31,7 @@ pub struct Lesson {
     /// Claims (`Assert`) that were found false; looked for only where nobody watches.
     pub(super) false_claims: Vec<Diagnostic>,
     /// What was said last.
-    said: Vec<Paragraph>,
+    pub(super) said: Vec<Paragraph>,
     /// The time that may have passed, of the clock of the lab.
     time: Micros,
     /// The step from which a later visit may go on.
@@ -97,16 +94,8 @@ pub(super) enum Truth {
     Value(f64, f64),
 }
 
-/// What a key did.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pressed {
-    /// The lesson goes on.
-    Taken,
-    /// The person leaves.
-    Leave,
-}
-
-fn paragraph(kind: ParagraphKind, text: impl Into<String>) -> Paragraph {
+/// A paragraph of the pane.
+pub(super) fn paragraph(kind: ParagraphKind, text: impl Into<String>) -> Paragraph {
     Paragraph { kind, text: text.into() }
 }
 
@@ -350,9 +339,10 @@ impl Lesson {
                     (assertion::value(app, value)?, assertion::value(app, within)?);
                 let number = number.unwrap_or(f64::NAN);
                 right = (number - value).abs() <= within;
-                let (kind, word) = match right {
-                    true => (ParagraphKind::Right, "Right"),
-                    false => (ParagraphKind::Wrong, "Not so"),
+                let (kind, word) = if right {
+                    (ParagraphKind::Right, "Right")
+                } else {
+                    (ParagraphKind::Wrong, "Not so")
                 };
                 let (number, found) = (short(number), short(value));
                 let near = short(within);
@@ -427,177 +417,6 @@ impl Lesson {
         self.said.clear();
         self.go_on();
     }
-
-    /// Handles a key.
-    pub fn press(&mut self, key: KeyEvent) -> Pressed {
-        let held = key.modifiers.contains(KeyModifiers::CONTROL);
-        let typing = self.is_typing() && !matches!(self.stage, Stage::Typing(..));
-        let covered = self.runner.lab.app.overlay.is_some()
-            && matches!(self.stage, Stage::Task { .. } | Stage::Free);
-        match key.code {
-            KeyCode::Char('c') if held => return Pressed::Leave,
-            KeyCode::Char('q') if !held && !typing => return Pressed::Leave,
-            KeyCode::Esc if !covered => return Pressed::Leave,
-            _ => {}
-        }
-        let goes_on = matches!(key.code, KeyCode::Enter | KeyCode::Char(' ') | KeyCode::F(9));
-        match &mut self.stage {
-            Stage::Playing => {}
-            Stage::Said if goes_on => self.go_on(),
-            Stage::Said => {}
-            Stage::Ended if goes_on => return Pressed::Leave,
-            Stage::Ended => {}
-            Stage::Choosing(selected) => {
-                let Some(QuestionKind::Choice { options, .. }) =
-                    self.question.as_ref().map(|question| &question.kind)
-                else {
-                    return Pressed::Taken;
-                };
-                let last = options.len().saturating_sub(1);
-                match key.code {
-                    KeyCode::Up => *selected = selected.saturating_sub(1),
-                    KeyCode::Down => *selected = (*selected + 1).min(last),
-                    KeyCode::Char(c @ 'a'..='i') if (c as usize - 'a' as usize) <= last => {
-                        *selected = c as usize - 'a' as usize;
-                    }
-                    KeyCode::Enter => {
-                        let chosen = *selected;
-                        self.commit(chosen, f64::NAN);
-                    }
-                    _ => {}
-                }
-            }
-            Stage::Typing(text, wrong) => match key.code {
-                KeyCode::Char(c) if !held && text.chars().count() < LONGEST_NUMBER => {
-                    text.push(c);
-                    *wrong = None;
-                }
-                KeyCode::Backspace => {
-                    text.pop();
-                    *wrong = None;
-                }
-                KeyCode::Enter => match number(text) {
-                    Some(number) => self.commit(0, number),
-                    None => *wrong = Some("This is not a number; write it as 1.5 or 3/2.".into()),
-                },
-                _ => {}
-            },
-            Stage::Free if key.code == KeyCode::F(9) => self.go_on(),
-            Stage::Task { hinted, hint, .. } if key.code == KeyCode::F(9) => {
-                match hint.take().filter(|_| !*hinted) {
-                    Some(hint) => {
-                        *hinted = true;
-                        self.said.push(paragraph(ParagraphKind::Quiet, hint));
-                    }
-                    None => self.go_on(),
-                }
-            }
-            Stage::Task { .. } | Stage::Free => {
-                self.runner.lab.happen(Event::Key(key));
-                self.look_at_task();
-            }
-        }
-        Pressed::Taken
-    }
-
-    /// Draws the lab, and below it what the lesson says.
-    pub fn draw(&mut self, style: &RenderStyle, area: Rect, buffer: &mut Buffer) {
-        let rows = self.pane_rows(area);
-        let above = Rect { height: area.height - rows, ..area };
-        self.runner.draw(style, above, buffer);
-        let below = Rect { y: above.bottom(), height: rows, ..area };
-        lesson::draw(style, &self.speech(), below, buffer);
-    }
-
-    /// The rows of the pane, the same throughout, so that the picture keeps its place.
-    fn pane_rows(&self, area: Rect) -> u16 {
-        let steps = self.runner.script.steps.iter();
-        let texts =
-            steps_of_person(&self.runner.script).map(|said| lesson::rows(&said, area.width));
-        let least = if steps.len() == 0 { 0 } else { LEAST_ROWS };
-        texts.max().unwrap_or(0).max(least).min((area.height / 2).max(LEAST_ROWS)).min(area.height)
-    }
-
-    /// What the lesson says now.
-    pub fn speech(&self) -> Speech {
-        let mut said = self.said.clone();
-        let keys = match &self.stage {
-            Stage::Playing => match &self.question {
-                Some(question) => {
-                    said = vec![paragraph(ParagraphKind::Text, question.text.clone())];
-                    said.push(paragraph(ParagraphKind::Quiet, question.answer()));
-                    "watch what happens · q leaves"
-                }
-                None => "watch · q leaves",
-            },
-            Stage::Said => "Enter goes on · q leaves",
-            Stage::Ended => "Enter leaves",
-            Stage::Free => "the lab is yours · F9 goes on · q leaves",
-            Stage::Task { hint, .. } => match hint {
-                Some(_) => "the lab is yours · F9 hint · q leaves",
-                None => "the lab is yours · F9 skips this · q leaves",
-            },
-            Stage::Choosing(selected) => {
-                said =
-                    self.question.as_ref().map_or(Vec::new(), |question| question.asked(*selected));
-                "↑ ↓ choose · Enter commits · q leaves"
-            }
-            Stage::Typing(text, wrong) => {
-                let question = self.question.as_ref().map(|question| question.text.clone());
-                said = vec![paragraph(ParagraphKind::Text, question.unwrap_or_default())];
-                said.push(paragraph(ParagraphKind::Selected, format!("{text}_")));
-                said.extend(wrong.iter().map(|why| paragraph(ParagraphKind::Wrong, why.clone())));
-                "type a number · Enter commits · q leaves"
-            }
-        };
-        let all = self.runner.script.steps.len();
-        let place = format!("{} %", 100 * self.runner.next.min(all) / all.max(1));
-        Speech { title: self.title.clone(), place, paragraphs: said, keys: keys.to_owned() }
-    }
-}
-
-impl Question {
-    /// The question with its options.
-    pub(super) fn asked(&self, selected: usize) -> Vec<Paragraph> {
-        let mut said = vec![paragraph(ParagraphKind::Text, self.text.clone())];
-        if let QuestionKind::Choice { options, .. } = &self.kind {
-            said.extend(options.iter().enumerate().map(|(index, option)| {
-                let chosen = index == selected;
-                let kind = if chosen { ParagraphKind::Selected } else { ParagraphKind::Option };
-                paragraph(kind, letter(index, &option.text))
-            }));
-        }
-        said
-    }
-
-    /// The committed answer.
-    fn answer(&self) -> String {
-        match &self.kind {
-            QuestionKind::Choice { options, chosen: Some(chosen) } => {
-                format!("Your answer: {}", letter(*chosen, &options[*chosen].text))
-            }
-            QuestionKind::Number { said: Some(number), .. } => {
-                format!("Your prediction: {}", short(*number))
-            }
-            _ => String::new(),
-        }
-    }
-}
-
-/// The most characters of a number that is typed.
-const LONGEST_NUMBER: usize = 24;
-
-/// The least rows of the pane, with its frame.
-const LEAST_ROWS: u16 = 5;
-
-/// A number as a person types it: `1.5`, `-2e-3`, `3/2`.
-fn number(text: &str) -> Option<f64> {
-    let text = text.trim().replace('−', "-");
-    let one = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-    match text.split_once('/') {
-        Some((above, below)) => Some(one(above)? / one(below)?).filter(|number| number.is_finite()),
-        None => one(&text),
-    }
 }
 
 /// An option with its letter.
@@ -607,6 +426,6 @@ pub(super) fn letter(index: usize, text: &str) -> String {
 }
 
 /// A number with four digits, for display only.
-fn short(x: f64) -> String {
+pub(super) fn short(x: f64) -> String {
     significant(x, 4, 1e-3..1e6)
 }

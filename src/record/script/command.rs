@@ -324,16 +324,16 @@ fn exactness(
     }
 }
 
-fn lesson(step: LessonStep) -> Result<Said, Diagnostic> {
-    Ok(Said::Step(Step::Lesson(step)))
+fn lesson(step: LessonStep) -> Said {
+    Said::Step(Step::Lesson(step))
 }
 
 fn say(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
-    lesson(LessonStep::Say(line.quoted("a text")?.text))
+    Ok(lesson(LessonStep::Say(line.quoted("a text")?.text)))
 }
 
 fn ask(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
-    lesson(LessonStep::Ask(line.quoted("a question")?.text))
+    Ok(lesson(LessonStep::Ask(line.quoted("a question")?.text)))
 }
 
 /// A quoted text after a word, if the word comes next.
@@ -346,31 +346,31 @@ fn option(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     let text = line.quoted("an option")?.text;
     let why = aside(line, "why")?;
     expect(line, "if")?;
-    lesson(LessonStep::Option { text, why, claim: claim(line)? })
+    Ok(lesson(LessonStep::Option { text, why, claim: claim(line)? }))
 }
 
 fn predict(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     let text = line.quoted("a question")?.text;
     let value = line.until(&["within"], "what is to be predicted")?;
     expect(line, "within")?;
-    lesson(LessonStep::Predict { text, value, within: line.until(&[], "a tolerance")? })
+    Ok(lesson(LessonStep::Predict { text, value, within: line.until(&[], "a tolerance")? }))
 }
 
 fn outcome(_: &mut Line<'_>) -> Result<Said, Diagnostic> {
-    lesson(LessonStep::Outcome)
+    Ok(lesson(LessonStep::Outcome))
 }
 
 fn task(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     let text = line.quoted("a text")?.text;
     let hint = aside(line, "hint")?;
     expect(line, "until")?;
-    lesson(LessonStep::Task { text, hint, claim: claim(line)? })
+    Ok(lesson(LessonStep::Task { text, hint, claim: claim(line)? }))
 }
 
 fn solution(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
-    lesson(LessonStep::Solution(keys(line)?))
+    Ok(lesson(LessonStep::Solution(keys(line)?)))
 }
 
 fn free(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
-    lesson(LessonStep::Free(line.quoted("a text")?.text))
+    Ok(lesson(LessonStep::Free(line.quoted("a text")?.text)))
 }
