@@ -27,6 +27,7 @@ mod format;
 mod interrupt;
 mod invariants;
 mod lab;
+mod lesson;
 mod list;
 mod lyapunov;
 mod manual;

@@ -15,7 +15,9 @@ mod settings;
 mod template;
 mod toml_errors;
 
-pub use catalog::{Catalog, Entry, NotFound, Origin, demo, demos, find, find_beside, is_path};
+pub use catalog::{
+    Catalog, Entry, NotFound, Origin, demo, demos, find, find_beside, is_path, lesson, lessons,
+};
 pub use read::{Checked, UNTITLED, read, read_with};
 pub use rewrite::{Beginning, Rewrite};
 pub use schema::reference;

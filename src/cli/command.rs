@@ -24,6 +24,7 @@ use super::fmt;
 use super::interrupt::Interrupt;
 use super::invariants;
 use super::lab;
+use super::lesson;
 use super::list;
 use super::lyapunov;
 use super::manual;
@@ -98,6 +99,8 @@ enum Command {
     Record(Box<record::Arguments>),
     Script(demo::Arguments),
     Play(play::Arguments),
+    Lessons(lesson::Lessons),
+    Lesson(lesson::Check),
     Methods(methods::Arguments),
     Doctor(doctor::Arguments),
     Config(config::Arguments),
@@ -165,6 +168,8 @@ fn execute(command: Command, interrupt: &Interrupt) -> Result<(), CommandError> 
         Command::Record(arguments) => record::perform(&arguments),
         Command::Script(arguments) => demo::perform(&arguments),
         Command::Play(arguments) => play::perform(&arguments, interrupt),
+        Command::Lessons(arguments) => lesson::perform(&arguments, interrupt),
+        Command::Lesson(arguments) => lesson::check(&arguments),
         Command::Methods(arguments) => methods::perform(&arguments),
         Command::Doctor(arguments) => doctor::perform(&arguments),
         Command::Config(arguments) => config::perform(&arguments),

@@ -167,6 +167,20 @@ pub fn demos() -> Vec<&'static str> {
     names
 }
 
+/// The shipped lesson of a name, `presets/lessons/<name>.lesson`: a script for the `record` module.
+pub fn lesson(name: &str) -> Option<Document> {
+    let path = format!("lessons/{name}.lesson");
+    let text = shipped::text(&path)?;
+    Some(Document::new(format!("presets/{path}"), text))
+}
+
+/// The shipped lessons, by name.
+pub fn lessons() -> Vec<&'static str> {
+    let mut names: Vec<&str> = shipped::names_in("lessons").collect();
+    names.sort_unstable();
+    names
+}
+
 /// Whether a name is a file's path.
 pub fn is_path(wanted: impl AsRef<OsStr>) -> bool {
     let wanted = wanted.as_ref();

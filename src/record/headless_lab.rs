@@ -29,6 +29,11 @@ impl Budget {
 
     /// For a live performance, in which a viewer may press a key.
     pub(super) const WATCHED: Budget = Budget { paced: 20_000, flat_out: 5_000, patience: None };
+
+    /// Whether nobody watches.
+    pub(super) fn is_unattended(self) -> bool {
+        self.patience.is_some()
+    }
 }
 
 /// The application and its experiment.
@@ -73,6 +78,11 @@ impl HeadlessLab {
         };
         laboratory.perform(effects);
         laboratory
+    }
+
+    /// Opens the same system in a new laboratory, as its file says.
+    pub(super) fn anew(&self, fps: u32) -> HeadlessLab {
+        HeadlessLab::open(&self.document, &self.called, fps, self.budget)
     }
 
     /// The time of the current frame.

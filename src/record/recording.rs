@@ -12,7 +12,7 @@ use ratatui::layout::Size;
 use super::clock::Micros;
 use super::headless_lab::Budget;
 use super::script::{Script, Step};
-use super::script_runner::{RunnerEvent, ScriptRunner};
+use super::script_runner::{RunnerEvent, ScriptRunner, waits};
 use crate::diagnostic::{Diagnostic, Document};
 use crate::view::RenderStyle;
 use crate::view::frame::Frames;
@@ -179,6 +179,7 @@ impl Take {
                 self.log.push((now, Entry::Marker(self.markers.len())));
                 self.markers.push(Marker { name, time: now, screen });
             }
+            RunnerEvent::Lesson(place, _) => return Err(waits(place)),
             RunnerEvent::Overlay => return Ok(false),
         }
         Ok(true)

@@ -128,6 +128,50 @@ pub enum Step {
     Marker(String),
     /// Asserts a claim.
     Assert(Assert),
+    /// A line of a lesson.
+    Lesson(LessonStep),
+}
+
+/// A line of a lesson, which speaks to a person or waits for one.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LessonStep {
+    /// Text, which waits for a key.
+    Say(String),
+    /// A question with the options below it.
+    Ask(String),
+    /// An option of the question above.
+    Option {
+        /// The option.
+        text: String,
+        /// What is said to whoever chose it wrongly.
+        why: Option<String>,
+        /// The claim that decides, at the outcome, whether it is right.
+        claim: Assert,
+    },
+    /// A number to be predicted.
+    Predict {
+        /// The question.
+        text: String,
+        /// The expression that is asked for, at the outcome.
+        value: Text,
+        /// How far a prediction may be off.
+        within: Text,
+    },
+    /// The answer is compared with what has happened.
+    Outcome,
+    /// Something for the person to do in the lab.
+    Task {
+        /// What is to be done.
+        text: String,
+        /// What is said to whoever asks for help.
+        hint: Option<String>,
+        /// The claim that ends it.
+        claim: Assert,
+    },
+    /// The keys that fulfil the task above.
+    Solution(Vec<KeyEvent>),
+    /// The lab is the person's until a key.
+    Free(String),
 }
 
 /// An assertion.

@@ -15,7 +15,7 @@ use super::assertion::{self, Finding};
 use super::clock::Micros;
 use super::headless_lab::{Budget, HeadlessLab};
 use super::plain::plain;
-use super::script::{Assert, PACE, Script, Step, SweepPath, Text};
+use super::script::{Assert, LessonStep, PACE, Script, Step, SweepPath, Text};
 use crate::app::{Drawn, Event, ValueId, key};
 use crate::diagnostic::{Diagnostic, Document};
 use crate::experiment::Command;
@@ -34,16 +34,16 @@ const CAPTION_ROWS: u16 = 3;
 /// A script being performed.
 pub struct ScriptRunner {
     pub(super) lab: HeadlessLab,
-    script: Script,
+    pub(super) script: Script,
     /// The index of the next step.
-    next: usize,
+    pub(super) next: usize,
     under_way: UnderWay,
     /// Whether a first picture is due, because time passes or something else needs it.
     begins: bool,
     begun: bool,
     pace: Micros,
     caption: String,
-    keys: Vec<ShownKey>,
+    pub(super) keys: Vec<ShownKey>,
     /// The size of the screen when it was last drawn.
     size: Size,
     painter: Painter,
@@ -65,7 +65,7 @@ struct Course {
 }
 
 /// A key beside the caption: its name, its number of presses (0 for typed text), and the time it disappears.
-struct ShownKey {
+pub(super) struct ShownKey {
     name: String,
     count: usize,
     until: Micros,
@@ -81,6 +81,8 @@ pub(super) enum RunnerEvent {
     Claim(Range<usize>, Assert),
     /// A chapter begins.
     Marker(String),
+    /// A line of a lesson, which waits for a person.
+    Lesson(Range<usize>, LessonStep),
     /// The performance has ended.
     Overlay,
 }
@@ -135,8 +137,10 @@ impl ScriptRunner {
     /// Returns a mistake of the script that only its system reveals.
     pub fn go_on(&mut self, time: Micros) -> Result<bool, Diagnostic> {
         while !self.begun || self.lab.clock.next() <= time {
-            if matches!(self.beat()?, RunnerEvent::Overlay) {
-                return Ok(false);
+            match self.beat()? {
+                RunnerEvent::Overlay => return Ok(false),
+                RunnerEvent::Lesson(place, _) => return Err(waits(place)),
+                _ => {}
             }
         }
         Ok(true)
@@ -256,6 +260,7 @@ impl ScriptRunner {
             }
             Step::Marker(name) => Ok(Some(RunnerEvent::Marker(name))),
             Step::Assert(claim) => Ok(Some(RunnerEvent::Claim(place, claim))),
+            Step::Lesson(step) => Ok(Some(RunnerEvent::Lesson(place, step))),
         }
     }
 
@@ -341,7 +346,7 @@ impl ScriptRunner {
     }
 
     /// Advances by one frame.
-    fn frame(&mut self) {
+    pub(super) fn frame(&mut self) {
         if let UnderWay::Sweep { courses, frame, count } = &mut self.under_way {
             *frame += 1;
             let (courses, part) = (courses.clone(), *frame as f64 / *count as f64);
@@ -412,6 +417,12 @@ impl ScriptRunner {
         });
         texts.map(|text| caption::rows(text, width)).max().unwrap_or(0).min(CAPTION_ROWS)
     }
+}
+
+/// A line of a lesson where nobody could answer.
+pub(super) fn waits(place: Range<usize>) -> Diagnostic {
+    let message = "this line belongs to a lesson, which waits for a person";
+    Diagnostic::error(place, message).with_help("use `phaselab lessons`, or `lesson check`")
 }
 
 /// Keys as they are written in a script.

@@ -11,6 +11,7 @@ use super::cast_player::CastPlayer;
 use super::demo::Demo;
 use super::diagnosis::diagnosis;
 use super::frame_loop::{Ending, Pace, perform};
+use super::lesson::LessonScreen;
 use super::log::Log;
 use super::regular;
 use super::request::{LabError, Request};
@@ -20,7 +21,7 @@ use super::store::Store;
 use super::terminal::TerminalError;
 use crate::diagnostic::Diagnostic;
 use crate::preset::Catalog;
-use crate::record::{RecordedCast, ScriptRunner, screenshot};
+use crate::record::{Lesson, RecordedCast, ScriptRunner, screenshot};
 
 /// Opens the laboratory on the terminal until the user leaves it.
 ///
@@ -107,4 +108,20 @@ pub fn perform_demo(
     let ending = perform(&mut demo, pace)?;
     let text = |picture| screenshot::write(&picture, palette, screenshot::Form::Ansi, "");
     Ok((ending, demo.outcome().map(|last| last.map(text))))
+}
+
+/// Takes a lesson on the terminal until the person leaves it. Returns what is wrong with its script, if anything is.
+///
+/// # Errors
+/// Returns an error, before the screen is touched, if there is no terminal.
+pub fn take_lesson(
+    lesson: &mut Lesson,
+    request: &Request,
+) -> Result<(Ending, Result<(), Diagnostic>), LabError> {
+    TerminalError::check()?;
+    let variable = |name: &str| std::env::var(name).ok();
+    let mut screen = LessonScreen::new(lesson, request.look(&variable));
+    let pace = Pace { mouse: false, ..request.pace(&variable) };
+    let ending = perform(&mut screen, pace)?;
+    Ok((ending, screen.outcome()))
 }

@@ -2,8 +2,10 @@
 //!
 //! In: the rest of the line. Out: its meaning. Never here: lines and ranges, or execution.
 
+use crossterm::event::KeyEvent;
+
 use super::line::Line;
-use super::{Assert, Measure, Relation, Said, Step, SweepPath, Text, Word};
+use super::{Assert, LessonStep, Measure, Relation, Said, Step, SweepPath, Text, Word};
 use crate::app::key;
 use crate::diagnostic::Diagnostic;
 use crate::view::colour::ColourDepth;
@@ -50,6 +52,14 @@ pub const COMMANDS: &[Command] = &[
     row("Caption", "Caption \"TEXT\"", "write a line below the screen; without a text, take it away", caption),
     row("Marker", "Marker \"NAME\"", "begin a chapter: players can jump to it, stills be taken of it", marker),
     row("Assert", "Assert CLAIM", "claim something of this moment; the demo is wrong where it is false", assert),
+    row("Say", "Say \"TEXT\"", "lesson: say something, and wait for a key; the motion waits too", say),
+    row("Ask", "Ask \"QUESTION\"", "lesson: ask; the options stand on the lines below, and `Outcome` says who is right", ask),
+    row("Option", "Option \"TEXT\" [why \"TEXT\"] if CLAIM", "lesson: an option of the question above, right if the claim holds at the outcome; `why` is for who chose it wrongly", option),
+    row("Predict", "Predict \"QUESTION\" EXPR within EPS", "lesson: ask for a number, the value of EXPR at the outcome", predict),
+    row("Outcome", "Outcome", "lesson: hold the answer to the last question against what has happened since", outcome),
+    row("Task", "Task \"TEXT\" [hint \"TEXT\"] until CLAIM", "lesson: give the lab to the person until the claim holds; afterwards the system begins as its file says", task),
+    row("Solution", "Solution KEY [xN] [KEY …]", "lesson: the keys that fulfil the task above, which `lesson check` presses", solution),
+    row("Free", "Free \"TEXT\"", "lesson: give the lab to the person until F9; afterwards the system begins as its file says", free),
 ];
 
 fn head(say: impl FnOnce(&mut super::Head) + 'static) -> Said {
@@ -127,6 +137,11 @@ fn pace(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
 const MOST_PRESSES: usize = 1000;
 
 fn press(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+    Ok(Said::Step(Step::Press(keys(line)?)))
+}
+
+/// The names of keys to the end of the line.
+fn keys(line: &mut Line<'_>) -> Result<Vec<KeyEvent>, Diagnostic> {
     let mut keys = Vec::new();
     while let Some(word) = line.word() {
         let count = word.text.strip_prefix('x').and_then(|count| count.parse().ok());
@@ -152,7 +167,7 @@ fn press(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
             })?),
         }
     }
-    if keys.is_empty() { Err(line.missing("a key")) } else { Ok(Said::Step(Step::Press(keys))) }
+    if keys.is_empty() { Err(line.missing("a key")) } else { Ok(keys) }
 }
 
 fn typed(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
@@ -252,17 +267,22 @@ const STATUS: [Word; 4] = ["running", "paused", "ended", "stopped"];
 const VERDICTS: [Word; 6] = ["exact", "bounded", "secular", "lost", "broken", "open"];
 
 fn assert(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+    Ok(Said::Step(Step::Assert(claim(line)?)))
+}
+
+/// A claim, to the end of the line.
+fn claim(line: &mut Line<'_>) -> Result<Assert, Diagnostic> {
     if line.take("status") {
         let word = line.one_of("how an experiment stands", &STATUS)?;
-        return Ok(Said::Step(Step::Assert(Assert::Status(word))));
+        return Ok(Assert::Status(word));
     }
     if line.take("screen") {
-        return Ok(Said::Step(Step::Assert(Assert::Screen(line.quoted("a text")?.text))));
+        return Ok(Assert::Screen(line.quoted("a text")?.text));
     }
     if line.take("verdict") {
         let name = line.name("the name of a gauge")?;
         let word = line.one_of("a verdict", &VERDICTS)?;
-        return Ok(Said::Step(Step::Assert(Assert::Verdict(name, word))));
+        return Ok(Assert::Verdict(name, word));
     }
     let measure = MEASURES.iter().find(|(word, _)| line.take(word)).map(|(_, measure)| *measure);
     let of = match measure {
@@ -281,7 +301,7 @@ fn assert(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     let within = line.take("within").then(|| line.until(&[], "a tolerance")).transpose()?;
     let measure = measure.unwrap_or(Measure::Value);
     exactness(line, measure, relation, within.as_ref())?;
-    Ok(Said::Step(Step::Assert(Assert::Number { measure, of, relation, with, within })))
+    Ok(Assert::Number { measure, of, relation, with, within })
 }
 
 /// `=` needs a tolerance, except between counts; `<` and `>` must not have one.
@@ -302,4 +322,56 @@ fn exactness(
         }
         _ => Ok(()),
     }
+}
+
+fn lesson(step: LessonStep) -> Said {
+    Said::Step(Step::Lesson(step))
+}
+
+fn say(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+    Ok(lesson(LessonStep::Say(line.quoted("a text")?.text)))
+}
+
+fn ask(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+    Ok(lesson(LessonStep::Ask(line.quoted("a question")?.text)))
+}
+
+/// A quoted text after a word, if the word comes next.
+fn aside(line: &mut Line<'_>, word: &str) -> Result<Option<String>, Diagnostic> {
+    let text = line.take(word).then(|| line.quoted("a text")).transpose()?;
+    Ok(text.map(|text| text.text))
+}
+
+fn option(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+    let text = line.quoted("an option")?.text;
+    let why = aside(line, "why")?;
+    expect(line, "if")?;
+    Ok(lesson(LessonStep::Option { text, why, claim: claim(line)? }))
+}
+
+fn predict(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+    let text = line.quoted("a question")?.text;
+    let value = line.until(&["within"], "what is to be predicted")?;
+    expect(line, "within")?;
+    Ok(lesson(LessonStep::Predict { text, value, within: line.until(&[], "a tolerance")? }))
+}
+
+#[expect(clippy::unnecessary_wraps, reason = "a reader of the table")]
+fn outcome(_: &mut Line<'_>) -> Result<Said, Diagnostic> {
+    Ok(lesson(LessonStep::Outcome))
+}
+
+fn task(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+    let text = line.quoted("a text")?.text;
+    let hint = aside(line, "hint")?;
+    expect(line, "until")?;
+    Ok(lesson(LessonStep::Task { text, hint, claim: claim(line)? }))
+}
+
+fn solution(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+    Ok(lesson(LessonStep::Solution(keys(line)?)))
+}
+
+fn free(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+    Ok(lesson(LessonStep::Free(line.quoted("a text")?.text)))
 }

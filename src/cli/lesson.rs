@@ -1,0 +1,205 @@
+//! `phaselab lessons` and `phaselab lesson check`: lessons listed, taken on the terminal, and checked.
+
+use std::path::Path;
+
+use clap::Subcommand;
+use clap::ValueEnum;
+use serde_json::{Value, json};
+
+use super::failure::CommandError;
+use super::interrupt::Interrupt;
+use super::output::{Form, Output};
+use super::{lab, play, record, script, stderr};
+use crate::diagnostic::{Document, nearest};
+use crate::preset::{self, is_path};
+use crate::printable;
+use crate::record::{Lesson, Script, check_lesson};
+use crate::shell::{self, Ending, LessonMark, LessonProgress};
+
+/// List the lessons, or take one.
+///
+/// A lesson is a demo with a person in it: you say what you expect before it happens. Right or
+/// wrong is decided by the motion. It can be left at any time (q) and goes on there the next time.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab lessons                       all lessons, with a tick where one was finished
+  phaselab lessons kepler                take one, or go on where it was left
+  phaselab lessons kepler --restart      from its beginning
+  phaselab lessons my/own.lesson         one of your own")]
+pub(super) struct Lessons {
+    /// A lesson's name, or a file.
+    #[arg(value_name = "NAME|FILE")]
+    lesson: Option<String>,
+    /// Begin at the beginning, wherever the lesson was left.
+    #[arg(long, requires = "lesson")]
+    restart: bool,
+    /// How the list is written.
+    #[arg(long, value_enum, default_value_t, conflicts_with = "lesson")]
+    format: Format,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// For reading.
+    #[default]
+    Text,
+    /// One object, `{"lessons": [...]}`.
+    Json,
+}
+
+/// Check lessons.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab lesson check
+  phaselab lesson check my/own.lesson")]
+pub(super) struct Check {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Take lessons with the right answer and with every wrong answer, without a terminal.
+    ///
+    /// A question without exactly one right option, a claim that is false, a task that its solution
+    /// does not do: each is reported in its place, on standard error. Without a name the shipped
+    /// lessons are checked.
+    Check {
+        /// Lessons' names, or files.
+        #[arg(value_name = "NAME|FILE")]
+        names: Vec<String>,
+    },
+}
+
+/// The text of a lesson: a shipped one's, or a file's.
+fn source(name: &str) -> Result<Document, CommandError> {
+    let path = Path::new(name);
+    if is_path(name) || path.extension().is_some_and(|ending| ending == "lesson") {
+        return Document::open(path).map_err(|why| CommandError::reading(path, &why));
+    }
+    preset::lesson(name).ok_or_else(|| {
+        let near = nearest(name, preset::lessons());
+        let help = near.map_or_else(
+            || format!("there are {}", preset::lessons().join(", ")),
+            |near| format!("did you mean `{near}`?"),
+        );
+        CommandError::WrongUse(format!("there is no lesson `{}`; {help}", printable::quoted(name)))
+    })
+}
+
+pub(super) fn check(arguments: &Check) -> Result<(), CommandError> {
+    let Command::Check { names } = &arguments.command;
+    let shipped = || preset::lessons().into_iter().map(str::to_owned).collect();
+    let names: Vec<String> = if names.is_empty() { shipped() } else { names.clone() };
+    let mut wrong = Vec::new();
+    for name in &names {
+        match check_one(&source(name)?) {
+            Err(CommandError::WrongFile(what)) => wrong.push(what),
+            other => other?,
+        }
+    }
+    if wrong.is_empty() { Ok(()) } else { Err(CommandError::WrongFile(wrong.join("\n"))) }
+}
+
+fn check_one(source: &Document) -> Result<(), CommandError> {
+    let (script, system, name) = play::scripted(source)?;
+    let report = check_lesson(&script, &system, &name);
+    let report = report.map_err(|mistakes| record::located(source, &mistakes))?;
+    stderr::tell(&format!(
+        "{}: right answers to {} questions, {} wrong answers, tasks: {}; all as the lesson says",
+        printable::line(&source.path),
+        report.questions,
+        report.wrong,
+        report.tasks
+    ));
+    Ok(())
+}
+
+pub(super) fn perform(arguments: &Lessons, interrupt: &Interrupt) -> Result<(), CommandError> {
+    match &arguments.lesson {
+        Some(name) => take(name, arguments.restart, interrupt),
+        None => list(arguments.format),
+    }
+}
+
+/// The title of a shipped lesson.
+fn title(name: &str) -> String {
+    let script = preset::lesson(name).and_then(|source| Script::read(&source).ok());
+    script.and_then(|script| script.head.title).unwrap_or_else(|| name.to_owned())
+}
+
+fn list(format: Format) -> Result<(), CommandError> {
+    let progress = LessonProgress::file().and_then(|path| LessonProgress::read(&path));
+    let progress = progress.unwrap_or_else(|why| {
+        stderr::tell(&why.to_string());
+        LessonProgress::default()
+    });
+    let mark = |name: &str| progress.lessons.get(name).copied().unwrap_or_default();
+    if format == Format::Json {
+        let lessons: Vec<Value> = preset::lessons()
+            .into_iter()
+            .map(|name| {
+                let LessonMark { finished, step } = mark(name);
+                let begun = step > 0;
+                json!({ "name": name, "title": title(name), "finished": finished, "begun": begun })
+            })
+            .collect();
+        return Output::print(Form::Json, &format!("{:#}\n", json!({ "lessons": lessons })));
+    }
+    let width = preset::lessons().iter().map(|name| name.len()).max().unwrap_or(0);
+    let ascii = script::Script::of_locale() == script::Script::Ascii;
+    let (tick, begun) = if ascii { ("x", "~") } else { ("✓", "…") };
+    let mut text = String::new();
+    for name in preset::lessons() {
+        let mark = match mark(name) {
+            LessonMark { finished: true, .. } => tick,
+            LessonMark { step: 0, .. } => " ",
+            LessonMark { .. } => begun,
+        };
+        text.push_str(&format!("{mark} {name:width$}  {}\n", title(name)));
+    }
+    Output::print(Form::Text, &text)
+}
+
+fn take(name: &str, restart: bool, interrupt: &Interrupt) -> Result<(), CommandError> {
+    let request = lab::request(None, &["phaselab".into()])?;
+    let source = source(name)?;
+    let (script, system, called) = play::scripted(&source)?;
+    let located = |mistakes: Vec<_>| record::located(&source, &mistakes);
+    let mut lesson = Lesson::watched(script, &system, &called).map_err(located)?;
+    // the progress of a file of one's own is not kept: another file may have its name tomorrow
+    let file =
+        if preset::lesson(name).is_some() { LessonProgress::file().map(Some) } else { Ok(None) };
+    let file = file.unwrap_or_else(|why| {
+        stderr::tell(&why.to_string());
+        None
+    });
+    if let (Some(file), false) = (&file, restart) {
+        match LessonProgress::read(file) {
+            Ok(progress) => {
+                let step = progress.lessons.get(name).map_or(0, |mark| mark.step);
+                lesson.resume(step).map_err(|mistake| located(vec![mistake]))?;
+            }
+            Err(why) => stderr::tell(&why.to_string()),
+        }
+    }
+    // the terminal must be restored first
+    interrupt.stand_aside();
+    let (ending, outcome) = match shell::take_lesson(&mut lesson, &request) {
+        Ok(done) => done,
+        Err(refusal) => return lab::how_it_ended(Err(refusal)),
+    };
+    let finished = lesson.is_finished();
+    let mark = LessonMark { finished, step: if finished { 0 } else { lesson.place() } };
+    if let Some(file) = &file {
+        LessonProgress::note(file, name, mark)
+            .map_err(|why| CommandError::CouldNotWrite(why.to_string()))?;
+    }
+    outcome.map_err(|mistake| located(vec![mistake]))?;
+    if ending == Ending::Quit && !finished && file.is_some() {
+        stderr::tell(&format!("`phaselab lessons {}` goes on here", printable::line(name)));
+    }
+    lab::how_it_ended(Ok(ending))
+}

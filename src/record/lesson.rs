@@ -1,0 +1,431 @@
+//! A lesson: a script with a person in it, who predicts before the outcome is shown.
+//!
+//! In: a [`Script`] with lines of a lesson, answers, time. Out: how each question was answered. What is
+//! right is decided by the claims of the script at the moment of the outcome, never by the script itself. Between
+//! questions time passes as in a demo; while the lesson speaks it stands still, so that whoever reads long sees the
+//! same as whoever reads fast. Never here: keys (`lesson_keys`), the pane
+//! (`lesson_speech`), a terminal, a file.
+
+use ratatui::layout::Size;
+
+use super::assertion::{self, Finding};
+use super::clock::Micros;
+use super::headless_lab::Budget;
+use super::lesson_order::mistakes_in;
+use super::recording::rows;
+use super::script::{Assert, LessonStep, Script, Step, Text};
+use super::script_runner::{RunnerEvent, ScriptRunner};
+use crate::diagnostic::{Diagnostic, Document, SourceRange};
+use crate::num::significant;
+use crate::view::lesson::{Paragraph, ParagraphKind};
+
+/// A lesson being taken.
+pub struct Lesson {
+    pub(super) runner: ScriptRunner,
+    pub(super) title: String,
+    pub(super) stage: Stage,
+    /// The question whose outcome is not known yet.
+    pub(super) question: Option<Question>,
+    /// The answers so far, those of earlier visits not included.
+    pub(super) verdicts: Vec<Verdict>,
+    /// Claims (`Assert`) that were found false; looked for only where nobody watches.
+    pub(super) false_claims: Vec<Diagnostic>,
+    /// What was said last.
+    pub(super) said: Vec<Paragraph>,
+    /// The time that may have passed, of the clock of the lab.
+    time: Micros,
+    /// The step from which a later visit may go on.
+    safe: usize,
+    unattended: bool,
+}
+
+/// What a lesson is doing.
+pub(super) enum Stage {
+    /// Time passes.
+    Playing,
+    /// It waits to be read.
+    Said,
+    /// It waits for an option to be chosen.
+    Choosing(usize),
+    /// It waits for a number, with what is wrong with the last.
+    Typing(String, Option<String>),
+    /// The lab is the person's until a claim holds.
+    Task { place: SourceRange, hint: Option<String>, claim: Assert, hinted: bool },
+    /// The lab is the person's until a key.
+    Free,
+    /// It is over.
+    Ended,
+}
+
+/// A question.
+#[derive(Clone, Debug)]
+pub(super) struct Question {
+    pub(super) place: SourceRange,
+    pub(super) text: String,
+    pub(super) kind: QuestionKind,
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum QuestionKind {
+    Choice { options: Vec<Choice>, chosen: Option<usize> },
+    Number { value: Text, within: Text, said: Option<f64> },
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Choice {
+    pub(super) place: SourceRange,
+    pub(super) text: String,
+    pub(super) why: Option<String>,
+    pub(super) claim: Assert,
+}
+
+/// How a question was answered.
+#[derive(Clone, Debug)]
+pub(super) struct Verdict {
+    pub(super) question: Question,
+    pub(super) right: bool,
+    /// Which options are right, or the number and how far a prediction may be off.
+    pub(super) truth: Truth,
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum Truth {
+    Options(Vec<bool>),
+    Value(f64, f64),
+}
+
+/// A paragraph of the pane.
+pub(super) fn paragraph(kind: ParagraphKind, text: impl Into<String>) -> Paragraph {
+    Paragraph { kind, text: text.into() }
+}
+
+impl Lesson {
+    /// Begins a lesson for a person.
+    ///
+    /// # Errors
+    /// Returns the mistakes of the script, or that its system cannot be opened.
+    pub fn watched(
+        script: Script,
+        document: &Document,
+        called: &str,
+    ) -> Result<Lesson, Vec<Diagnostic>> {
+        Lesson::new(script, document, called, Budget::WATCHED)
+    }
+
+    pub(super) fn new(
+        script: Script,
+        document: &Document,
+        called: &str,
+        budget: Budget,
+    ) -> Result<Lesson, Vec<Diagnostic>> {
+        let mistakes = mistakes_in(&script);
+        if !mistakes.is_empty() {
+            return Err(mistakes);
+        }
+        let title = script.head.title.clone().unwrap_or_else(|| called.to_owned());
+        let size = Size::new(80, 24);
+        let runner = ScriptRunner::new(script, document, called, size, budget);
+        Ok(Lesson {
+            runner: runner.map_err(|mistake| vec![mistake])?,
+            title,
+            stage: Stage::Playing,
+            question: None,
+            verdicts: Vec::new(),
+            false_claims: Vec::new(),
+            said: Vec::new(),
+            time: 0,
+            safe: 0,
+            unattended: budget.is_unattended(),
+        })
+    }
+
+    /// Goes on to a place where an earlier visit ended, without waiting for anybody on the way.
+    ///
+    /// # Errors
+    /// Returns a mistake of the script that only its system reveals.
+    pub fn resume(&mut self, place: usize) -> Result<(), Diagnostic> {
+        while self.runner.next < place && !matches!(self.stage, Stage::Ended) {
+            match self.runner.beat()? {
+                RunnerEvent::Lesson(_, LessonStep::Task { .. } | LessonStep::Free(_)) => {
+                    self.begin_anew();
+                }
+                RunnerEvent::Overlay => self.stage = Stage::Ended,
+                _ => {}
+            }
+        }
+        self.time = self.runner.now();
+        self.safe = self.runner.next;
+        Ok(())
+    }
+
+    /// The place from which a later visit may go on.
+    pub fn place(&self) -> usize {
+        self.safe
+    }
+
+    /// Whether the lesson was taken to its end.
+    pub fn is_finished(&self) -> bool {
+        matches!(self.stage, Stage::Ended)
+    }
+
+    /// How many questions were answered rightly, and how many were answered.
+    pub fn score(&self) -> (usize, usize) {
+        (self.verdicts.iter().filter(|verdict| verdict.right).count(), self.verdicts.len())
+    }
+
+    /// Whether text or a number is being typed.
+    pub fn is_typing(&self) -> bool {
+        match self.stage {
+            Stage::Typing(..) => true,
+            Stage::Task { .. } | Stage::Free => self.runner.lab.app.is_typing(),
+            _ => false,
+        }
+    }
+
+    /// Whether time passes.
+    pub fn is_moving(&self) -> bool {
+        matches!(self.stage, Stage::Playing | Stage::Task { .. } | Stage::Free)
+    }
+
+    /// Lets time pass. Returns whether anything visible has changed.
+    ///
+    /// # Errors
+    /// Returns a mistake of the script that only its system reveals.
+    pub fn advance(&mut self, elapsed: Micros) -> Result<bool, Diagnostic> {
+        match self.stage {
+            Stage::Playing => {
+                self.time += elapsed;
+                let before = self.runner.now();
+                while matches!(self.stage, Stage::Playing)
+                    && (self.runner.lab.clock.left() == 0
+                        || self.runner.lab.clock.next() <= self.time)
+                {
+                    self.beat()?;
+                }
+                Ok(before != self.runner.now() || !matches!(self.stage, Stage::Playing))
+            }
+            Stage::Task { .. } | Stage::Free => {
+                self.runner.lab.clock.pass(elapsed);
+                let before = self.runner.now();
+                while self.runner.lab.clock.left() > 0 {
+                    self.runner.frame();
+                }
+                self.look_at_task();
+                Ok(before != self.runner.now() || !self.is_moving())
+            }
+            _ => Ok(false),
+        }
+    }
+
+    /// Performs the next action of the script.
+    pub(super) fn beat(&mut self) -> Result<(), Diagnostic> {
+        match self.runner.beat()? {
+            RunnerEvent::Lesson(place, step) => self.take(place, step)?,
+            RunnerEvent::Claim(place, claim) if self.unattended => {
+                let finding = self.find(&claim)?;
+                if !finding.holds {
+                    let message = format!("this is false: {}", finding.sentence);
+                    self.false_claims.push(Diagnostic::error(place, message));
+                }
+            }
+            RunnerEvent::Overlay => self.end(),
+            _ => {}
+        }
+        if !self.is_moving() {
+            self.time = self.runner.now();
+        }
+        let waits = !self.is_moving() && !matches!(self.stage, Stage::Ended);
+        self.runner.hold(waits);
+        Ok(())
+    }
+
+    fn find(&self, claim: &Assert) -> Result<Finding, Diagnostic> {
+        let screen = match claim {
+            Assert::Screen(_) => rows(&self.runner.picture(&self.runner.script.head.look())),
+            _ => Vec::new(),
+        };
+        self.runner.find(claim, &screen)
+    }
+
+    fn take(&mut self, place: SourceRange, step: LessonStep) -> Result<(), Diagnostic> {
+        if self.question.is_none() {
+            // the step itself is to be seen again
+            self.safe = self.runner.next - 1;
+        }
+        match step {
+            LessonStep::Say(text) => {
+                self.said = vec![paragraph(ParagraphKind::Text, text)];
+                self.stage = Stage::Said;
+            }
+            LessonStep::Ask(text) => {
+                let options = self.options();
+                self.runner.next += options.len();
+                let kind = QuestionKind::Choice { options, chosen: None };
+                self.question = Some(Question { place, text, kind });
+                self.stage = Stage::Choosing(0);
+            }
+            LessonStep::Predict { text, value, within } => {
+                let kind = QuestionKind::Number { value, within, said: None };
+                self.question = Some(Question { place, text, kind });
+                self.stage = Stage::Typing(String::new(), None);
+            }
+            LessonStep::Outcome => {
+                self.judge()?;
+                self.safe = self.runner.next;
+            }
+            LessonStep::Task { text, hint, claim } => {
+                self.said = vec![paragraph(ParagraphKind::Text, text)];
+                self.stage = Stage::Task { place, hint, claim, hinted: false };
+            }
+            LessonStep::Free(text) => {
+                self.said = vec![paragraph(ParagraphKind::Text, text)];
+                self.stage = Stage::Free;
+            }
+            // read with the question or the task above
+            LessonStep::Option { .. } | LessonStep::Solution(_) => {}
+        }
+        Ok(())
+    }
+
+    /// The options below the question that was just read.
+    fn options(&self) -> Vec<Choice> {
+        let below = self.runner.script.steps[self.runner.next..].iter();
+        let options = below.map_while(|(place, step)| match step {
+            Step::Lesson(LessonStep::Option { text, why, claim }) => Some(Choice {
+                place: place.clone(),
+                text: text.clone(),
+                why: why.clone(),
+                claim: claim.clone(),
+            }),
+            _ => None,
+        });
+        options.collect()
+    }
+
+    /// Holds the answer against what the engine says now.
+    fn judge(&mut self) -> Result<(), Diagnostic> {
+        let Some(question) = self.question.take() else { return Ok(()) };
+        let (mut said, right, truth);
+        match &question.kind {
+            QuestionKind::Choice { options, chosen } => {
+                let findings: Vec<Finding> = options
+                    .iter()
+                    .map(|option| self.find(&option.claim))
+                    .collect::<Result<_, _>>()?;
+                let holds: Vec<bool> = findings.iter().map(|finding| finding.holds).collect();
+                let chosen = chosen.unwrap_or(0);
+                right = holds[chosen];
+                let own = letter(chosen, &options[chosen].text);
+                said = vec![match (right, &options[chosen].why) {
+                    (true, _) => paragraph(ParagraphKind::Right, format!("Right: {own}")),
+                    (false, None) => paragraph(ParagraphKind::Wrong, format!("Not so: {own}")),
+                    (false, Some(why)) => {
+                        paragraph(ParagraphKind::Wrong, format!("Not so: {own} {why}"))
+                    }
+                }];
+                if let (false, Some(other)) = (right, holds.iter().position(|holds| *holds)) {
+                    let other = letter(other, &options[other].text);
+                    said.push(paragraph(ParagraphKind::Text, format!("It is {other}")));
+                }
+                if let Some(at) = holds.iter().position(|holds| *holds) {
+                    let found = format!("Found: {}.", findings[at].sentence);
+                    said.push(paragraph(ParagraphKind::Quiet, found));
+                }
+                truth = Truth::Options(holds);
+            }
+            QuestionKind::Number { value, within, said: number } => {
+                let app = &self.runner.lab.app;
+                let (value, within) =
+                    (assertion::value(app, value)?, assertion::value(app, within)?);
+                let number = number.unwrap_or(f64::NAN);
+                right = (number - value).abs() <= within;
+                let (kind, word) = if right {
+                    (ParagraphKind::Right, "Right")
+                } else {
+                    (ParagraphKind::Wrong, "Not so")
+                };
+                let (number, found) = (short(number), short(value));
+                let near = short(within);
+                let text =
+                    format!("{word}: you predicted {number}, it is {found} (right within {near}).");
+                said = vec![paragraph(kind, text)];
+                truth = Truth::Value(value, within);
+            }
+        }
+        self.said = said;
+        self.verdicts.push(Verdict { question, right, truth });
+        self.stage = Stage::Said;
+        Ok(())
+    }
+
+    /// Ends a task whose claim holds.
+    pub(super) fn look_at_task(&mut self) {
+        let Stage::Task { claim, .. } = &self.stage else { return };
+        // in another system, or before anything has happened, a claim need not have a meaning: it does not hold
+        let Ok(finding) = self.find(claim) else { return };
+        if finding.holds {
+            let found = format!("Done: {}.", finding.sentence);
+            self.said.push(paragraph(ParagraphKind::Right, found));
+            self.begin_anew_later();
+        }
+    }
+
+    fn begin_anew_later(&mut self) {
+        self.runner.hold(true);
+        self.stage = Stage::Said;
+    }
+
+    /// Opens the system again as its file says, so that what follows does not depend on what the person did.
+    fn begin_anew(&mut self) {
+        self.runner.lab = self.runner.lab.anew(self.runner.script.head.fps);
+        self.runner.keys.clear();
+        self.time = 0;
+    }
+
+    fn end(&mut self) {
+        let (right, all) = self.score();
+        let text = match all {
+            0 => "This is the end of the lesson.".to_owned(),
+            _ => format!("This is the end of the lesson: {right} of {all} predictions were right."),
+        };
+        self.said = vec![paragraph(ParagraphKind::Text, text)];
+        self.stage = Stage::Ended;
+    }
+
+    /// Goes on from what was said.
+    pub(super) fn go_on(&mut self) {
+        let last = self.runner.next.checked_sub(1).and_then(|at| self.runner.script.steps.get(at));
+        let personal = |step: &Step| {
+            matches!(step, Step::Lesson(LessonStep::Task { .. } | LessonStep::Free(_)))
+        };
+        if last.is_some_and(|(_, step)| personal(step)) {
+            self.begin_anew();
+        }
+        self.runner.hold(false);
+        self.stage = Stage::Playing;
+    }
+
+    /// Commits an answer to the question: an option, or a number.
+    pub(super) fn commit(&mut self, option: usize, number: f64) {
+        match self.question.as_mut().map(|question| &mut question.kind) {
+            Some(QuestionKind::Choice { chosen, options }) => {
+                *chosen = Some(option.min(options.len().saturating_sub(1)));
+            }
+            Some(QuestionKind::Number { said, .. }) => *said = Some(number),
+            None => {}
+        }
+        self.said.clear();
+        self.go_on();
+    }
+}
+
+/// An option with its letter.
+pub(super) fn letter(index: usize, text: &str) -> String {
+    let letter = char::from(b'a' + (index.min(25) as u8));
+    format!("{letter}) {text}")
+}
+
+/// A number with four digits, for display only.
+pub(super) fn short(x: f64) -> String {
+    significant(x, 4, 1e-3..1e6)
+}

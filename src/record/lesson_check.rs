@@ -1,0 +1,175 @@
+//! A lesson taken by nobody: with the right answer and with every wrong answer.
+//!
+//! In: a [`Script`] and its system. Out: every claim of the lesson that is false, in its place. Never here: a person.
+
+use super::headless_lab::Budget;
+use super::lesson::{Lesson, Question, QuestionKind, Stage, Truth, Verdict};
+use super::script::{LessonStep, Script, Step};
+use crate::app::Event;
+use crate::diagnostic::{Diagnostic, Document};
+
+/// What was found in a lesson without mistakes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LessonReport {
+    /// The number of questions.
+    pub questions: usize,
+    /// The number of answers that were given and called wrong.
+    pub wrong: usize,
+    /// The number of tasks.
+    pub tasks: usize,
+}
+
+/// How long the keys of a solution may take to fulfil a task, in microseconds.
+const PATIENCE: u64 = 60_000_000;
+
+/// Takes a lesson with the right answers, and then with every wrong one.
+///
+/// # Errors
+/// Returns every claim of the lesson that is false.
+pub fn check_lesson(
+    script: &Script,
+    document: &Document,
+    called: &str,
+) -> Result<LessonReport, Vec<Diagnostic>> {
+    let pass = |answer: &dyn Fn(usize, &Question) -> (usize, f64)| {
+        let mut lesson = Lesson::new(script.clone(), document, called, Budget::RECORDED)?;
+        let tasks = take(&mut lesson, answer)?;
+        if lesson.false_claims.is_empty() {
+            Ok((lesson.verdicts, tasks))
+        } else {
+            Err(lesson.false_claims)
+        }
+    };
+    // the truth does not depend on what is answered
+    let (truth, tasks) = pass(&|_, _| (0, 0.0))?;
+    let mut mistakes: Vec<Diagnostic> = truth.iter().flat_map(faults).collect();
+    if !mistakes.is_empty() {
+        return Err(mistakes);
+    }
+    let (answered, _) = pass(&|index, _| truth[index].right_answer())?;
+    for verdict in answered.iter().filter(|verdict| !verdict.right) {
+        let message = "the right answer is called wrong";
+        mistakes.push(Diagnostic::error(verdict.question.place.clone(), message));
+    }
+    let mut wrong = 0;
+    let most = truth.iter().map(|verdict| verdict.wrong_answers().len()).max().unwrap_or(0);
+    for round in 0..most {
+        let choose = |index: usize| {
+            let wrong = truth[index].wrong_answers();
+            wrong.get(round).or(wrong.last()).copied().unwrap_or((0, f64::NAN))
+        };
+        let (answered, _) = pass(&|index, _| choose(index))?;
+        for (verdict, before) in answered.iter().zip(&truth) {
+            wrong += usize::from(round < before.wrong_answers().len());
+            if verdict.right {
+                let message = "a wrong answer is called right";
+                mistakes.push(Diagnostic::error(verdict.question.place.clone(), message));
+            }
+        }
+    }
+    let questions = truth.len();
+    if mistakes.is_empty() { Ok(LessonReport { questions, wrong, tasks }) } else { Err(mistakes) }
+}
+
+/// Takes a lesson to its end; returns the number of tasks.
+fn take(
+    lesson: &mut Lesson,
+    answer: &dyn Fn(usize, &Question) -> (usize, f64),
+) -> Result<usize, Vec<Diagnostic>> {
+    let mut tasks = 0;
+    loop {
+        match &lesson.stage {
+            Stage::Playing => lesson.beat().map_err(|mistake| vec![mistake])?,
+            Stage::Said | Stage::Free => lesson.go_on(),
+            Stage::Choosing(_) | Stage::Typing(..) => {
+                let index = lesson.verdicts.len();
+                let (option, number) =
+                    lesson.question.as_ref().map_or((0, 0.0), |question| answer(index, question));
+                lesson.commit(option, number);
+            }
+            Stage::Task { .. } => {
+                solve(lesson).map_err(|mistake| vec![mistake])?;
+                tasks += 1;
+            }
+            Stage::Ended => return Ok(tasks),
+        }
+    }
+}
+
+/// Presses the keys of the solution.
+fn solve(lesson: &mut Lesson) -> Result<(), Diagnostic> {
+    let Stage::Task { place, claim, .. } = &lesson.stage else { return Ok(()) };
+    let (place, claim) = (place.clone(), claim.clone());
+    // an unknown name must not pass for a claim that does not hold yet
+    if lesson.runner.find(&claim, &[])?.holds {
+        let message = "this task is done before it begins";
+        return Err(Diagnostic::error(place, message));
+    }
+    let below = lesson.runner.script.steps.get(lesson.runner.next).map(|(_, step)| step.clone());
+    let Some(Step::Lesson(LessonStep::Solution(keys))) = below else { return Ok(()) };
+    for key in keys {
+        lesson.runner.lab.happen(Event::Key(key));
+        lesson.advance(100_000)?;
+    }
+    let mut passed = 0;
+    while matches!(lesson.stage, Stage::Task { .. }) && passed < PATIENCE {
+        lesson.advance(100_000)?;
+        passed += 100_000;
+    }
+    if !matches!(lesson.stage, Stage::Task { .. }) {
+        return Ok(());
+    }
+    let found = lesson.runner.find(&claim, &[])?.sentence;
+    let message = format!("the solution does not do this: {found}");
+    Err(Diagnostic::error(place, message))
+}
+
+/// What is wrong with a question, once its outcome is known.
+fn faults(verdict: &Verdict) -> Vec<Diagnostic> {
+    let question = &verdict.question;
+    let mut faults = Vec::new();
+    match (&question.kind, &verdict.truth) {
+        (QuestionKind::Choice { options, .. }, Truth::Options(holds)) => {
+            let right = holds.iter().filter(|holds| **holds).count();
+            if right != 1 {
+                let message = match right {
+                    0 => "none of the options is right: every claim is false".to_owned(),
+                    _ => format!("{right} of the options are right: their claims hold together"),
+                };
+                faults.push(Diagnostic::error(question.place.clone(), message));
+            }
+            for (option, holds) in options.iter().zip(holds) {
+                if !holds && option.why.is_none() {
+                    let message = "this option is wrong and does not say why";
+                    let help = "add why \"TEXT\" before `if`";
+                    faults.push(Diagnostic::error(option.place.clone(), message).with_help(help));
+                }
+            }
+        }
+        (QuestionKind::Number { within, .. }, Truth::Value(_, near)) if *near <= 0.0 => {
+            let message = format!("nobody predicts a number exactly; this is within {near}");
+            faults.push(Diagnostic::error(within.place.clone(), message));
+        }
+        _ => {}
+    }
+    faults
+}
+
+impl Verdict {
+    fn right_answer(&self) -> (usize, f64) {
+        match &self.truth {
+            Truth::Options(holds) => (holds.iter().position(|holds| *holds).unwrap_or(0), f64::NAN),
+            Truth::Value(value, _) => (0, *value),
+        }
+    }
+
+    fn wrong_answers(&self) -> Vec<(usize, f64)> {
+        match &self.truth {
+            Truth::Options(holds) => {
+                let wrong = holds.iter().enumerate().filter(|(_, holds)| !**holds);
+                wrong.map(|(index, _)| (index, f64::NAN)).collect()
+            }
+            Truth::Value(value, near) => vec![(0, value - 2.0 * near), (0, value + 2.0 * near)],
+        }
+    }
+}

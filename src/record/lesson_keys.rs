@@ -1,0 +1,105 @@
+//! The keys of a lesson: to go on, to answer, to leave; in a task all others are the lab's.
+//!
+//! In: a key. Out: a [`Lesson`] that has gone on, or that the person leaves. Never here: what is right.
+
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
+use super::lesson::{Lesson, QuestionKind, Stage, paragraph};
+use crate::app::Event;
+use crate::view::lesson::ParagraphKind;
+
+/// What a key did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pressed {
+    /// The lesson goes on.
+    Taken,
+    /// The person leaves.
+    Leave,
+}
+
+impl Lesson {
+    /// Handles a key.
+    pub fn press(&mut self, key: KeyEvent) -> Pressed {
+        let held = key.modifiers.contains(KeyModifiers::CONTROL);
+        let typing = self.is_typing() && !matches!(self.stage, Stage::Typing(..));
+        let covered = self.runner.lab.app.overlay.is_some()
+            && matches!(self.stage, Stage::Task { .. } | Stage::Free);
+        match key.code {
+            KeyCode::Char('c') if held => return Pressed::Leave,
+            KeyCode::Char('q') if !held && !typing => return Pressed::Leave,
+            KeyCode::Esc if !covered => return Pressed::Leave,
+            _ => {}
+        }
+        let goes_on = matches!(key.code, KeyCode::Enter | KeyCode::Char(' ') | KeyCode::F(9));
+        match &mut self.stage {
+            Stage::Playing => {}
+            Stage::Said if goes_on => self.go_on(),
+            Stage::Said => {}
+            Stage::Ended if goes_on => return Pressed::Leave,
+            Stage::Ended => {}
+            Stage::Choosing(selected) => {
+                let Some(QuestionKind::Choice { options, .. }) =
+                    self.question.as_ref().map(|question| &question.kind)
+                else {
+                    return Pressed::Taken;
+                };
+                let last = options.len().saturating_sub(1);
+                match key.code {
+                    KeyCode::Up => *selected = selected.saturating_sub(1),
+                    KeyCode::Down => *selected = (*selected + 1).min(last),
+                    KeyCode::Char(c @ 'a'..='i') if (c as usize - 'a' as usize) <= last => {
+                        *selected = c as usize - 'a' as usize;
+                    }
+                    KeyCode::Enter => {
+                        let chosen = *selected;
+                        self.commit(chosen, f64::NAN);
+                    }
+                    _ => {}
+                }
+            }
+            Stage::Typing(text, wrong) => match key.code {
+                KeyCode::Char(c) if !held && text.chars().count() < LONGEST_NUMBER => {
+                    text.push(c);
+                    *wrong = None;
+                }
+                KeyCode::Backspace => {
+                    text.pop();
+                    *wrong = None;
+                }
+                KeyCode::Enter => match number(text) {
+                    Some(number) => self.commit(0, number),
+                    None => *wrong = Some("This is not a number; write it as 1.5 or 3/2.".into()),
+                },
+                _ => {}
+            },
+            Stage::Free if key.code == KeyCode::F(9) => self.go_on(),
+            Stage::Task { hinted, hint, .. } if key.code == KeyCode::F(9) => {
+                match hint.take().filter(|_| !*hinted) {
+                    Some(hint) => {
+                        *hinted = true;
+                        self.said.push(paragraph(ParagraphKind::Quiet, hint));
+                    }
+                    None => self.go_on(),
+                }
+            }
+            Stage::Task { .. } | Stage::Free => {
+                self.runner.lab.happen(Event::Key(key));
+                self.look_at_task();
+            }
+        }
+        Pressed::Taken
+    }
+}
+
+/// The most characters of a number that is typed.
+const LONGEST_NUMBER: usize = 24;
+
+/// A number as a person types it: `1.5`, `-2e-3`, `3/2`.
+fn number(text: &str) -> Option<f64> {
+    let text = text.trim().replace('−', "-");
+    let one = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+    match text.split_once('/') {
+        Some((above, below)) => Some(one(above)? / one(below)?).filter(|number| number.is_finite()),
+        None => one(&text),
+    }
+}

@@ -1,0 +1,100 @@
+//! What a lesson says and shows at each moment.
+//!
+//! In: a [`Lesson`]. Out: its [`Speech`], and the screen with the lab above. Never here: how the pane looks, or what
+//! comes next.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use super::lesson::{Lesson, Question, QuestionKind, Stage, letter, paragraph, short};
+use super::lesson_order::steps_of_person;
+use crate::view::RenderStyle;
+use crate::view::lesson::{self, Paragraph, ParagraphKind, Speech};
+
+/// The least rows of the pane, with its frame.
+const LEAST_ROWS: u16 = 5;
+
+impl Lesson {
+    /// Draws the lab, and below it what the lesson says.
+    pub fn draw(&mut self, style: &RenderStyle, area: Rect, buffer: &mut Buffer) {
+        let rows = self.pane_rows(area);
+        let above = Rect { height: area.height - rows, ..area };
+        self.runner.draw(style, above, buffer);
+        let below = Rect { y: above.bottom(), height: rows, ..area };
+        lesson::draw(style, &self.speech(), below, buffer);
+    }
+
+    /// The rows of the pane, the same throughout, so that the picture keeps its place.
+    fn pane_rows(&self, area: Rect) -> u16 {
+        let steps = self.runner.script.steps.iter();
+        let texts =
+            steps_of_person(&self.runner.script).map(|said| lesson::rows(&said, area.width));
+        let least = if steps.len() == 0 { 0 } else { LEAST_ROWS };
+        texts.max().unwrap_or(0).max(least).min((area.height / 2).max(LEAST_ROWS)).min(area.height)
+    }
+
+    /// What the lesson says now.
+    pub fn speech(&self) -> Speech {
+        let mut said = self.said.clone();
+        let keys = match &self.stage {
+            Stage::Playing => match &self.question {
+                Some(question) => {
+                    said = vec![paragraph(ParagraphKind::Text, question.text.clone())];
+                    said.push(paragraph(ParagraphKind::Quiet, question.answer()));
+                    "watch what happens · q leaves"
+                }
+                None => "watch · q leaves",
+            },
+            Stage::Said => "Enter goes on · q leaves",
+            Stage::Ended => "Enter leaves",
+            Stage::Free => "the lab is yours · F9 goes on · q leaves",
+            Stage::Task { hint, .. } => match hint {
+                Some(_) => "the lab is yours · F9 hint · q leaves",
+                None => "the lab is yours · F9 skips this · q leaves",
+            },
+            Stage::Choosing(selected) => {
+                said =
+                    self.question.as_ref().map_or(Vec::new(), |question| question.asked(*selected));
+                "↑ ↓ choose · Enter commits · q leaves"
+            }
+            Stage::Typing(text, wrong) => {
+                let question = self.question.as_ref().map(|question| question.text.clone());
+                said = vec![paragraph(ParagraphKind::Text, question.unwrap_or_default())];
+                said.push(paragraph(ParagraphKind::Selected, format!("{text}_")));
+                said.extend(wrong.iter().map(|why| paragraph(ParagraphKind::Wrong, why.clone())));
+                "type a number · Enter commits · q leaves"
+            }
+        };
+        let all = self.runner.script.steps.len();
+        let place = format!("{} %", 100 * self.runner.next.min(all) / all.max(1));
+        Speech { title: self.title.clone(), place, paragraphs: said, keys: keys.to_owned() }
+    }
+}
+
+impl Question {
+    /// The question with its options.
+    pub(super) fn asked(&self, selected: usize) -> Vec<Paragraph> {
+        let mut said = vec![paragraph(ParagraphKind::Text, self.text.clone())];
+        if let QuestionKind::Choice { options, .. } = &self.kind {
+            said.extend(options.iter().enumerate().map(|(index, option)| {
+                let chosen = index == selected;
+                let kind = if chosen { ParagraphKind::Selected } else { ParagraphKind::Option };
+                paragraph(kind, letter(index, &option.text))
+            }));
+        }
+        said
+    }
+
+    /// The committed answer.
+    fn answer(&self) -> String {
+        match &self.kind {
+            QuestionKind::Choice { options, chosen: Some(chosen) } => {
+                format!("Your answer: {}", letter(*chosen, &options[*chosen].text))
+            }
+            QuestionKind::Number { said: Some(number), .. } => {
+                format!("Your prediction: {}", short(*number))
+            }
+            _ => String::new(),
+        }
+    }
+}

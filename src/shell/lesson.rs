@@ -1,0 +1,86 @@
+//! The lesson on the terminal: its time, its keys, its picture.
+//!
+//! In: a [`Lesson`], events, time. Out: its picture, and what is wrong with its script. Never here: what a lesson says, or
+//! the file of its progress.
+
+use std::time::Duration;
+
+use crossterm::event::{Event, KeyCode, KeyEventKind, KeyModifiers};
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect};
+
+use super::frame_loop::{Screen, ScreenRequest};
+use crate::diagnostic::Diagnostic;
+use crate::record::{Lesson, Pressed};
+use crate::view::{Detail, RenderStyle};
+
+/// The maximum time that one frame advances, as for demos.
+const LONGEST: Duration = Duration::from_secs(1);
+
+/// A lesson on the terminal.
+pub(super) struct LessonScreen<'a> {
+    lesson: &'a mut Lesson,
+    look: RenderStyle,
+    detail: Detail,
+    mistake: Option<Diagnostic>,
+}
+
+impl<'a> LessonScreen<'a> {
+    /// Creates the screen of a lesson.
+    pub(super) fn new(lesson: &'a mut Lesson, look: RenderStyle) -> Self {
+        Self { lesson, look, detail: Detail::default(), mistake: None }
+    }
+
+    /// Returns what is wrong with the script, if anything is.
+    pub(super) fn outcome(self) -> Result<(), Diagnostic> {
+        self.mistake.map_or(Ok(()), Err)
+    }
+}
+
+impl Screen for LessonScreen<'_> {
+    fn input(&mut self, event: Event) -> ScreenRequest {
+        let Event::Key(key) = event else { return ScreenRequest::Nothing };
+        if key.kind == KeyEventKind::Release {
+            return ScreenRequest::Nothing;
+        }
+        match (key.code, key.modifiers.contains(KeyModifiers::CONTROL)) {
+            (KeyCode::Char('z'), true) => return ScreenRequest::Suspend,
+            (KeyCode::Char('l'), true) => return ScreenRequest::Repaint,
+            _ => {}
+        }
+        match self.lesson.press(key) {
+            Pressed::Leave => ScreenRequest::Quit,
+            Pressed::Taken => ScreenRequest::Nothing,
+        }
+    }
+
+    fn advance(&mut self, elapsed: Duration) -> bool {
+        if self.mistake.is_some() {
+            return false;
+        }
+        match self.lesson.advance(elapsed.min(LONGEST).as_micros() as u64) {
+            Ok(changed) => changed,
+            Err(mistake) => {
+                self.mistake = Some(mistake);
+                true
+            }
+        }
+    }
+
+    fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position> {
+        self.lesson.draw(&self.look.reduced(self.detail), area, buffer);
+        None
+    }
+
+    fn is_typing(&self) -> bool {
+        self.lesson.is_typing()
+    }
+
+    fn is_done(&self) -> bool {
+        self.mistake.is_some()
+    }
+
+    fn reduce(&mut self, detail: Detail) {
+        self.detail = detail;
+    }
+}

@@ -1,0 +1,99 @@
+//! The pane in which a lesson speaks: below the lab, so that it covers nothing that moves.
+//!
+//! In: a title, paragraphs, the keys that hold. Out: cells. Never here: what is right, or what a key does.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use super::RenderStyle;
+use super::canvas::{Canvas, columns, row};
+use super::theme::Role;
+use super::wrap::words;
+
+/// What a lesson says at one moment.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Speech {
+    /// The title of the lesson.
+    pub title: String,
+    /// How far the lesson is, as `3/12`.
+    pub place: String,
+    /// What is said.
+    pub paragraphs: Vec<Paragraph>,
+    /// The keys that hold.
+    pub keys: String,
+}
+
+/// A paragraph and its kind.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Paragraph {
+    /// What it is.
+    pub kind: ParagraphKind,
+    /// Its text.
+    pub text: String,
+}
+
+/// What a paragraph is. Each kind has a mark or words of its own, so that none needs colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ParagraphKind {
+    /// Ordinary text.
+    Text,
+    /// Something beside the point: a number, a committed answer.
+    Quiet,
+    /// An option.
+    Option,
+    /// The selected option, or the line being typed.
+    Selected,
+    /// A right answer.
+    Right,
+    /// A wrong answer.
+    Wrong,
+}
+
+/// Columns of the frame and of the margins, and of the mark before a paragraph.
+const MARGINS: u16 = 4;
+const MARK: u16 = 2;
+
+/// The number of rows that paragraphs take on a screen of this width, with the frame.
+pub fn rows(paragraphs: &[Paragraph], width: u16) -> u16 {
+    let room = room(width);
+    let lines: usize = paragraphs.iter().map(|said| words(&said.text, room).len()).sum();
+    (lines + 2).min(usize::from(u16::MAX)) as u16
+}
+
+fn room(width: u16) -> usize {
+    usize::from(width.saturating_sub(MARGINS + MARK)).max(1)
+}
+
+/// Draws the pane.
+pub fn draw(look: &RenderStyle, speech: &Speech, area: Rect, buffer: &mut Buffer) {
+    let mut canvas = Canvas::over(buffer, look);
+    canvas.clear(area);
+    let title = [
+        canvas.span(Role::Title, &speech.title),
+        canvas.span(Role::Dim, format!("  {}", speech.place)),
+    ];
+    let inner = canvas.pane(area, &title, true);
+    let below = Rect { y: area.bottom().saturating_sub(1), height: area.height.min(1), ..area };
+    let keys = format!(" {} ", speech.keys);
+    canvas.right(columns(below, 2, below.width.saturating_sub(4)), Role::Accent, &keys);
+    let mut used = 0;
+    for Paragraph { kind, text } in &speech.paragraphs {
+        let (role, mark) = match kind {
+            ParagraphKind::Text => (Role::Text, ""),
+            ParagraphKind::Quiet => (Role::Dim, ""),
+            ParagraphKind::Option => (Role::Text, ""),
+            ParagraphKind::Selected => (Role::Accent, look.glyphs.pick("›", ">")),
+            ParagraphKind::Right => (Role::Good, look.glyphs.pick("✓", "+")),
+            ParagraphKind::Wrong => (Role::Bad, look.glyphs.pick("✗", "x")),
+        };
+        let text = canvas.text(text);
+        for (index, line) in words(&text, room(area.width)).iter().enumerate() {
+            let row = row(inner, used);
+            if index == 0 {
+                canvas.left(columns(row, 1, MARK), role, mark);
+            }
+            canvas.left(columns(row, 1 + MARK, row.width), role, line);
+            used += 1;
+        }
+    }
+}

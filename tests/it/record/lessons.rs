@@ -1,0 +1,236 @@
+//! Lessons: what is right is what the motion says, and whoever takes one commits an answer first.
+
+use crossterm::event::{KeyCode, KeyEvent};
+use phaselab::diagnostic::Document;
+use phaselab::preset::{lesson, lessons};
+use phaselab::record::{Lesson, Pressed, Script, check_lesson};
+use phaselab::view::RenderStyle;
+use phaselab::view::colour::ColourDepth;
+use phaselab::view::glyphs::Glyphs;
+use phaselab::view::theme::Theme;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+
+use crate::hand::catalog;
+
+fn system(name: &str) -> Document {
+    catalog().find(name).expect("a preset")
+}
+
+/// What is wrong with a lesson about the planet.
+fn mistakes(text: &str) -> Vec<String> {
+    let text = format!("Open planet\nSpeed 1/6\n{text}");
+    let script = Script::read(&Document::new("my.lesson", &text)).expect("a script");
+    let found = check_lesson(&script, &system("planet"), "planet").err().unwrap_or_default();
+    found.into_iter().map(|mistake| mistake.message).collect()
+}
+
+fn taken(text: &str) -> Lesson {
+    let text = format!("Open planet\nSpeed 1/6\n{text}");
+    let script = Script::read(&Document::new("my.lesson", &text)).expect("a script");
+    Lesson::watched(script, &system("planet"), "planet").expect("a lesson")
+}
+
+/// Lets time pass in frames of a twentieth of a second.
+fn pass(lesson: &mut Lesson, seconds: f64) {
+    for _ in 0..(seconds * 20.0) as u32 {
+        lesson.advance(50_000).expect("it goes on");
+    }
+}
+
+fn keys(lesson: &mut Lesson, text: &str) {
+    for c in text.chars() {
+        let code = if c == '\n' { KeyCode::Enter } else { KeyCode::Char(c) };
+        assert_eq!(lesson.press(KeyEvent::from(code)), Pressed::Taken, "{c}");
+    }
+}
+
+fn screen(lesson: &mut Lesson, size: (u16, u16), look: &RenderStyle) -> Vec<String> {
+    let area = Rect::new(0, 0, size.0, size.1);
+    let mut buffer = Buffer::empty(area);
+    lesson.draw(look, area, &mut buffer);
+    let row = |y| (0..size.0).map(|x| buffer[(x, y)].symbol()).collect::<String>();
+    (0..size.1).map(row).collect()
+}
+
+fn plain() -> RenderStyle {
+    RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii }
+}
+
+fn shown(lesson: &mut Lesson) -> String {
+    screen(lesson, (80, 24), &plain()).join("\n")
+}
+
+const HALF: &str = "Predict \"How far?\" r within 0.1\nWait 3s\nOutcome\nSay \"after\"\n";
+
+#[test]
+fn shipped_lessons_are_true_with_every_answer() {
+    assert!(!lessons().is_empty());
+    for name in lessons() {
+        let source = lesson(name).expect("a lesson");
+        let report = |mistakes: &[_]| source.report(mistakes, false);
+        let script = Script::read(&source).unwrap_or_else(|why| panic!("{}", report(&why)));
+        assert!(script.head.title.is_some(), "{name} has a title");
+        let open = script.head.open.clone().expect("a system").text;
+        let checked = check_lesson(&script, &system(&open), &open);
+        let checked = checked.unwrap_or_else(|why| panic!("{}", report(&why)));
+        assert!(checked.questions > 0 && checked.wrong >= 2 * checked.questions - 1, "{checked:?}");
+    }
+}
+
+#[test]
+fn an_answer_is_committed_before_the_outcome_and_shown_beside_it() {
+    // at the aphelion r = a (1 + e) = 1.6
+    for (typed, verdict) in [
+        ("1.55", "+ Right: you predicted 1.55, it is 1.6"),
+        ("2", "x Not so: you predicted 2, it is 1.6"),
+    ] {
+        let mut lesson = taken(HALF);
+        pass(&mut lesson, 9.0);
+        assert!(shown(&mut lesson).contains("How far?"), "time stands still until it is answered");
+        keys(&mut lesson, "about\n");
+        assert!(shown(&mut lesson).contains("This is not a number"));
+        for _ in 0..5 {
+            lesson.press(KeyEvent::from(KeyCode::Backspace));
+        }
+        keys(&mut lesson, &format!("{typed}\n"));
+        pass(&mut lesson, 1.0);
+        let under_way = shown(&mut lesson);
+        assert!(under_way.contains(&format!("Your prediction: {typed}")), "{under_way}");
+        assert!(!under_way.contains("it is 1.6"), "{under_way}");
+        pass(&mut lesson, 9.0);
+        let outcome = shown(&mut lesson);
+        assert!(outcome.contains(verdict), "{outcome}");
+        assert_eq!(lesson.score(), (usize::from(typed == "1.55"), 1));
+    }
+}
+
+#[test]
+fn a_wrong_option_says_why_and_which_is_right() {
+    let ask = "Ask \"Where?\"\nOption \"near\" why \"It moves away.\" if r < 1\n\
+               Option \"far\" if r > 1\nWait 3s\nOutcome\n";
+    let mut lesson = taken(ask);
+    pass(&mut lesson, 1.0);
+    keys(&mut lesson, "a\n");
+    pass(&mut lesson, 4.0);
+    let wrong = shown(&mut lesson);
+    assert!(wrong.contains("Not so: a) near It moves away."), "{wrong}");
+    assert!(wrong.contains("It is b) far") && wrong.contains("Found: r is 1.6"), "{wrong}");
+    let mut lesson = taken(ask);
+    pass(&mut lesson, 1.0);
+    keys(&mut lesson, "b\n");
+    pass(&mut lesson, 4.0);
+    assert!(shown(&mut lesson).contains("Right: b) far"));
+}
+
+#[test]
+fn what_is_false_is_a_mistake() {
+    let ask = |one: &str, two: &str| {
+        format!("Ask \"?\"\nOption \"a\" {one}\nOption \"b\" {two}\nWait 3s\nOutcome\n")
+    };
+    let check = |text: &str, message: &str| {
+        let found = mistakes(text);
+        assert!(found.iter().any(|found| found.contains(message)), "{text}: {found:?}");
+    };
+    assert_eq!(mistakes(&ask("if r > 1", "why \"no\" if r < 1")), Vec::<String>::new());
+    check(&ask("if r > 2", "why \"no\" if r < 1"), "none of the options is right");
+    check(&ask("if r > 1", "why \"no\" if r < 2"), "2 of the options are right");
+    check(&ask("if r > 1", "if r < 1"), "does not say why");
+    check(&ask("if r > 1", "why \"no\" if rr < 1"), "rr");
+    check("Say \"x\"\nWait 3s\nAssert r < 1\n", "this is false: r is 1.6");
+    check("Predict \"?\" r within 0\nWait 3s\nOutcome\n", "nobody predicts a number exactly");
+    check("Predict \"?\" r within 1\nWait 3s\n", "is never shown");
+    check("Wait 1s\nOutcome\n", "no question waits");
+    check("Task \"t\" until e < 0.5\nWait 1s\n", "nobody knows");
+    check("Task \"t\" until e < 0.7\nSolution r\nWait 1s\n", "done before it begins");
+    check("Task \"t\" until e < 0.5\nSolution r\nWait 1s\n", "the solution does not do this");
+    check("Wait 1s\n", "this is a demo");
+    check(&format!("Say \"{}\"\nWait 1s\n", "word ".repeat(150)), "rows on a screen of 80");
+}
+
+#[test]
+fn a_task_ends_when_the_claim_holds_and_the_system_begins_anew() {
+    let text = "Task \"do\" hint \"like this\" until e < 0.5\nSolution Down x3 Enter 0 Enter\n\
+                Predict \"e?\" e within 0.01\nWait 1s\nOutcome\n";
+    assert_eq!(mistakes(text), Vec::<String>::new());
+    let mut lesson = taken(text);
+    pass(&mut lesson, 1.0);
+    assert!(!shown(&mut lesson).contains("like this"));
+    lesson.press(KeyEvent::from(KeyCode::F(9)));
+    assert!(shown(&mut lesson).contains("like this"));
+    for _ in 0..3 {
+        lesson.press(KeyEvent::from(KeyCode::Down));
+    }
+    keys(&mut lesson, "\n0\n");
+    let done = shown(&mut lesson);
+    assert!(done.contains("Done: e is 0"), "{done}");
+    keys(&mut lesson, "\n");
+    pass(&mut lesson, 1.0);
+    // the person's e = 0 is gone: the answer is that of the file
+    keys(&mut lesson, "0.6\n");
+    pass(&mut lesson, 2.0);
+    assert_eq!(lesson.score(), (1, 1));
+}
+
+#[test]
+fn it_can_be_left_at_any_time_and_goes_on_there() {
+    for leave in [KeyCode::Esc, KeyCode::Char('q')] {
+        let mut lesson = taken(HALF);
+        pass(&mut lesson, 1.0);
+        assert_eq!(
+            (lesson.press(KeyEvent::from(leave)), lesson.is_finished()),
+            (Pressed::Leave, false)
+        );
+    }
+    let text = format!("Say \"first\"\n{HALF}");
+    let mut first = taken(&text);
+    pass(&mut first, 1.0);
+    keys(&mut first, "\n");
+    pass(&mut first, 1.0);
+    keys(&mut first, "1\n");
+    pass(&mut first, 4.0);
+    keys(&mut first, "\n");
+    pass(&mut first, 1.0);
+    assert!(shown(&mut first).contains("after"));
+    let mut second = taken(&text);
+    second.resume(first.place()).expect("it goes on");
+    pass(&mut second, 1.0);
+    assert_eq!(shown(&mut second).lines().last(), shown(&mut first).lines().last());
+    assert!(shown(&mut second).contains("after"));
+    keys(&mut second, "\n");
+    pass(&mut second, 1.0);
+    assert!(second.is_finished());
+    assert_eq!(second.press(KeyEvent::from(KeyCode::Enter)), Pressed::Leave);
+    // a place that an older version of the lesson had
+    let mut beyond = taken(&text);
+    beyond.resume(1000).expect("it ends");
+    assert!(beyond.is_finished());
+}
+
+#[test]
+fn the_pane_lies_below_the_lab_and_is_readable_without_colour_and_in_ascii() {
+    for name in lessons() {
+        let source = lesson(name).expect("a lesson");
+        let script = Script::read(&source).expect("a script");
+        let open = script.head.open.clone().expect("a system").text;
+        for size in [(80, 24), (120, 40), (40, 12)] {
+            let mut lesson =
+                Lesson::watched(script.clone(), &system(&open), &open).expect("a lesson");
+            pass(&mut lesson, 0.5);
+            let rows = screen(&mut lesson, size, &plain());
+            let title = script.head.title.clone().expect("a title");
+            let pane = rows.iter().position(|row| row.contains(&title[..20])).expect("a pane");
+            assert!(pane >= usize::from(size.1) / 2, "{size:?}: {pane}\n{}", rows.join("\n"));
+            assert!(rows.join("").is_ascii(), "{}", rows.join("\n"));
+            assert!(rows.last().is_some_and(|row| row.contains("Enter goes on")));
+        }
+    }
+}
+
+#[test]
+fn a_lesson_is_not_recorded_as_a_demo() {
+    let document = Document::new("my.lesson", format!("Open planet\n{HALF}"));
+    let script = Script::read(&document).expect("a script");
+    let refused = phaselab::record::play(&script, &system("planet"), "planet", (80, 24));
+    assert!(refused.expect_err("nobody answers")[0].message.contains("waits for a person"));
+}
