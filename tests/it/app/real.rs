@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crossterm::event::KeyEvent;
 use phaselab::app::{App, Effect, Event, Lab, Loaded, ValueId};
-use phaselab::experiment::{Experiment, Setup, Snapshot, Status};
+use phaselab::experiment::{Command, Experiment, Setup, Snapshot, Status};
 use phaselab::view::draw;
 use proptest::prelude::*;
 use ratatui::buffer::Buffer;
@@ -101,6 +101,8 @@ impl Real {
 
     /// Everything visible of the motion from its beginning to a second later, as text.
     fn motion(mut self) -> String {
+        // gauges of what page 2 found are no edit, and stay
+        self.experiment.execute(Command::Follow(Vec::new()));
         self.press("r");
         self.run(60);
         // `auto` chose this method; it is the same one under its own name.
