@@ -168,8 +168,8 @@ fn execute(command: Command, interrupt: &Interrupt) -> Result<(), CommandError> 
         Command::Record(arguments) => record::perform(&arguments),
         Command::Script(arguments) => demo::perform(&arguments),
         Command::Play(arguments) => play::perform(&arguments, interrupt),
-        Command::Lessons(arguments) => lesson::perform(&arguments, interrupt),
-        Command::Lesson(arguments) => lesson::check(&arguments),
+        Command::Lessons(arguments) => lesson::perform(&arguments, interrupt, &LESSONS),
+        Command::Lesson(arguments) => lesson::check(&arguments, &LESSONS),
         Command::Methods(arguments) => methods::perform(&arguments),
         Command::Doctor(arguments) => doctor::perform(&arguments),
         Command::Config(arguments) => config::perform(&arguments),
@@ -178,6 +178,13 @@ fn execute(command: Command, interrupt: &Interrupt) -> Result<(), CommandError> 
         Command::Theme(arguments) => theme::perform(&arguments),
     }
 }
+
+/// What lessons need of the commands that perform scripts.
+const LESSONS: lesson::Shared = lesson::Shared {
+    scripted: play::scripted,
+    request: || lab::request(None, &["phaselab".into()]),
+    ended: lab::how_it_ended,
+};
 
 /// Shows help, the version, or what is wrong with the words.
 fn refused(words: &[OsString], error: &clap::Error) -> ExitCode {

@@ -9,12 +9,12 @@ use serde_json::{Value, json};
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::output::{Form, Output};
-use super::{lab, play, record, script, stderr};
+use super::{record, script, stderr};
 use crate::diagnostic::{Document, nearest};
 use crate::preset::{self, is_path};
 use crate::printable;
 use crate::record::{Lesson, Script, check_lesson};
-use crate::shell::{self, Ending, LessonMark, LessonProgress};
+use crate::shell::{self, Ending, LabError, LessonMark, LessonProgress, Request};
 
 /// List the lessons, or take one.
 ///
@@ -73,6 +73,16 @@ enum Command {
     },
 }
 
+/// What lessons share with the commands that perform scripts on the terminal.
+pub(super) struct Shared {
+    /// A script with its system and the system's name on the screen.
+    pub(super) scripted: fn(&Document) -> Result<(Script, Document, String), CommandError>,
+    /// How the terminal is asked for.
+    pub(super) request: fn() -> Result<Request, CommandError>,
+    /// The exit code of how it ended.
+    pub(super) ended: fn(Result<Ending, LabError>) -> Result<(), CommandError>,
+}
+
 /// The text of a lesson: a shipped one's, or a file's.
 fn source(name: &str) -> Result<Document, CommandError> {
     let path = Path::new(name);
@@ -89,13 +99,13 @@ fn source(name: &str) -> Result<Document, CommandError> {
     })
 }
 
-pub(super) fn check(arguments: &Check) -> Result<(), CommandError> {
+pub(super) fn check(arguments: &Check, shared: &Shared) -> Result<(), CommandError> {
     let Command::Check { names } = &arguments.command;
     let shipped = || preset::lessons().into_iter().map(str::to_owned).collect();
     let names: Vec<String> = if names.is_empty() { shipped() } else { names.clone() };
     let mut wrong = Vec::new();
     for name in &names {
-        match check_one(&source(name)?) {
+        match check_one(&source(name)?, shared) {
             Err(CommandError::WrongFile(what)) => wrong.push(what),
             other => other?,
         }
@@ -103,8 +113,8 @@ pub(super) fn check(arguments: &Check) -> Result<(), CommandError> {
     if wrong.is_empty() { Ok(()) } else { Err(CommandError::WrongFile(wrong.join("\n"))) }
 }
 
-fn check_one(source: &Document) -> Result<(), CommandError> {
-    let (script, system, name) = play::scripted(source)?;
+fn check_one(source: &Document, shared: &Shared) -> Result<(), CommandError> {
+    let (script, system, name) = (shared.scripted)(source)?;
     let report = check_lesson(&script, &system, &name);
     let report = report.map_err(|mistakes| record::located(source, &mistakes))?;
     stderr::tell(&format!(
@@ -117,9 +127,13 @@ fn check_one(source: &Document) -> Result<(), CommandError> {
     Ok(())
 }
 
-pub(super) fn perform(arguments: &Lessons, interrupt: &Interrupt) -> Result<(), CommandError> {
+pub(super) fn perform(
+    arguments: &Lessons,
+    interrupt: &Interrupt,
+    shared: &Shared,
+) -> Result<(), CommandError> {
     match &arguments.lesson {
-        Some(name) => take(name, arguments.restart, interrupt),
+        Some(name) => take(name, arguments.restart, interrupt, shared),
         None => list(arguments.format),
     }
 }
@@ -163,10 +177,15 @@ fn list(format: Format) -> Result<(), CommandError> {
     Output::print(Form::Text, &text)
 }
 
-fn take(name: &str, restart: bool, interrupt: &Interrupt) -> Result<(), CommandError> {
-    let request = lab::request(None, &["phaselab".into()])?;
+fn take(
+    name: &str,
+    restart: bool,
+    interrupt: &Interrupt,
+    shared: &Shared,
+) -> Result<(), CommandError> {
+    let request = (shared.request)()?;
     let source = source(name)?;
-    let (script, system, called) = play::scripted(&source)?;
+    let (script, system, called) = (shared.scripted)(&source)?;
     let located = |mistakes: Vec<_>| record::located(&source, &mistakes);
     let mut lesson = Lesson::watched(script, &system, &called).map_err(located)?;
     // the progress of a file of one's own is not kept: another file may have its name tomorrow
@@ -189,7 +208,7 @@ fn take(name: &str, restart: bool, interrupt: &Interrupt) -> Result<(), CommandE
     interrupt.stand_aside();
     let (ending, outcome) = match shell::take_lesson(&mut lesson, &request) {
         Ok(done) => done,
-        Err(refusal) => return lab::how_it_ended(Err(refusal)),
+        Err(refusal) => return (shared.ended)(Err(refusal)),
     };
     let finished = lesson.is_finished();
     let mark = LessonMark { finished, step: if finished { 0 } else { lesson.place() } };
@@ -201,5 +220,5 @@ fn take(name: &str, restart: bool, interrupt: &Interrupt) -> Result<(), CommandE
     if ending == Ending::Quit && !finished && file.is_some() {
         stderr::tell(&format!("`phaselab lessons {}` goes on here", printable::line(name)));
     }
-    lab::how_it_ended(Ok(ending))
+    (shared.ended)(Ok(ending))
 }
