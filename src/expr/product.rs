@@ -221,11 +221,10 @@ impl Pool {
     }
 }
 
-/// Whether the product of two numbers that are not zero is out of range.
+/// Whether the product of two numbers in range is out of it.
 fn leaves_range(a: Number, b: Number) -> bool {
-    let product = (a * b).value().abs();
-    let within = a.value().is_finite() && b.value().is_finite() && !a.is_zero() && !b.is_zero();
-    within && !(f64::MIN_POSITIVE..f64::INFINITY).contains(&product)
+    let is_in_range = |x: Number| (f64::MIN_POSITIVE..f64::INFINITY).contains(&x.value().abs());
+    is_in_range(a) && is_in_range(b) && !is_in_range(a * b)
 }
 
 /// Returns whether a power has a value only for a nonnegative base.

@@ -68,8 +68,8 @@ fn offered(words: &[&str]) -> Vec<String> {
 #[test]
 fn bash_offers_commands_options_presets_and_files() {
     assert_eq!(offered(&["phaselab", "deri"]), ["derive"]);
-    assert_eq!(offered(&["phaselab", "henon"]), ["henon-heiles"]);
-    assert_eq!(offered(&["phaselab", "run", "henon"]), ["henon-heiles"]);
+    assert_eq!(offered(&["phaselab", "henon"]), ["henon-heiles", "henon-heiles-relatives"]);
+    assert_eq!(offered(&["phaselab", "run", "henon"]), ["henon-heiles", "henon-heiles-relatives"]);
     assert_eq!(offered(&["phaselab", "derive", "my"]), ["my.toml"]);
     assert_eq!(offered(&["phaselab", "run", "pendulum", "--toler"]), ["--tolerance"]);
     assert_eq!(offered(&["phaselab", "--glyphs", "br"]), ["braille"]);
