@@ -23,6 +23,8 @@ pub enum HitTarget {
     Systems,
     /// A system, counted among those shown.
     System(usize),
+    /// The row above them, which resumes a session.
+    Session,
     /// The frame or the name of a pane.
     Pane(Pane),
     /// A value in a list.

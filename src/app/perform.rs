@@ -277,6 +277,7 @@ impl App {
             Some(Overlay::Workbench) | None => {}
         }
         if let Some((name, _)) = self.asked.take_if(|_| self.page == Page::Picker) {
+            self.resuming = None;
             self.notice = Some(Notification::info(format!("{name} is no longer being loaded.")));
             return vec![Effect::StopLoading];
         }
@@ -363,6 +364,9 @@ impl App {
     }
 
     pub(super) fn open_selected(&mut self) -> Vec<Effect> {
+        if let Some(session) = self.picker.selected_session().cloned() {
+            return self.continue_session(session);
+        }
         let Some(name) = self.picker.take() else {
             return self.notify("No system fits this search.");
         };

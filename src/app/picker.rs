@@ -3,12 +3,13 @@
 //! In: the catalog, moves and searches. Out: the name of the system to load. Never here: loading.
 
 use std::cmp::Reverse;
+use std::path::Path;
 use std::time::Duration;
 
 use tui_input::Input;
 
-use super::LoadError;
 use super::fuzzy::{Fit, Query, Texts};
+use super::{LoadError, Saved};
 use crate::preset::Entry;
 
 /// How long a selection must stay unchanged before its system is loaded.
@@ -25,6 +26,10 @@ pub struct Picker {
     pub selected: usize,
     /// Why the preview of the selected system cannot be shown.
     pub failure: Option<LoadError>,
+    /// The session that can be resumed from the row above the systems.
+    session: Option<Saved>,
+    /// Whether that row is selected.
+    on_session: bool,
     waiting: Option<Duration>,
 }
 
@@ -71,8 +76,52 @@ impl Picker {
         self.found().into_iter().map(|(index, _)| index).collect()
     }
 
-    /// Returns the selected system.
+    /// Returns the session that can be resumed; a search with words in it is among the systems only.
+    pub fn session(&self) -> Option<&Saved> {
+        self.session.as_ref().filter(|_| self.sought().is_none())
+    }
+
+    /// Returns that session while its row is selected.
+    pub fn selected_session(&self) -> Option<&Saved> {
+        self.session().filter(|_| self.on_session)
+    }
+
+    /// Returns the title of the session's system: its own, or the name of its file.
+    pub fn title_of(&self, session: &Saved) -> String {
+        match self.entries.iter().find(|entry| entry.name == session.open) {
+            Some(entry) => entry.info.title.clone(),
+            None => Path::new(&session.open)
+                .file_name()
+                .map_or_else(|| session.open.clone(), |name| name.to_string_lossy().into_owned()),
+        }
+    }
+
+    /// Offers a session above the systems, selected if `first`.
+    pub(super) fn offer(&mut self, session: Saved, first: bool) {
+        self.session = Some(session);
+        if first {
+            self.point_at_session();
+        }
+    }
+
+    /// Selects the row of the session, if there is one.
+    pub(super) fn point_at_session(&mut self) {
+        if self.session().is_some() && !self.on_session {
+            self.on_session = true;
+            self.touch();
+        }
+    }
+
+    /// Whether the system of this index among those shown is selected.
+    pub fn is_selected(&self, place: usize) -> bool {
+        self.selected == place && self.selected_session().is_none()
+    }
+
+    /// Returns the selected system; for a session, the one it is of, if that is in the catalog.
     pub fn current(&self) -> Option<&Entry> {
+        if let Some(session) = self.selected_session() {
+            return self.entries.iter().find(|entry| entry.name == session.open);
+        }
         self.shown().get(self.selected).map(|&index| &self.entries[index])
     }
 
@@ -80,22 +129,25 @@ impl Picker {
     pub fn select(&mut self, name: &str) {
         let place = self.shown().iter().position(|&index| self.entries[index].name == name);
         self.selected = place.unwrap_or(self.selected);
+        self.on_session = false;
     }
 
     /// Moves the selection, stopping at the ends.
     pub fn step(&mut self, by: isize) {
-        let last = self.shown().len().saturating_sub(1);
-        let selected = self.selected.saturating_add_signed(by).min(last);
-        if selected != self.selected {
-            self.selected = selected;
+        let above = usize::from(self.session().is_some());
+        let last = (self.shown().len() + above).saturating_sub(1);
+        let row = if self.selected_session().is_some() { 0 } else { self.selected + above };
+        let to = row.saturating_add_signed(by).min(last);
+        if to != row {
+            (self.on_session, self.selected) = (to < above, to.saturating_sub(above));
             self.touch();
         }
     }
 
     /// Selects the system of this index among those shown.
     pub(super) fn point(&mut self, place: usize) {
-        if place != self.selected && place < self.shown().len() {
-            self.selected = place;
+        if !self.is_selected(place) && place < self.shown().len() {
+            (self.on_session, self.selected) = (false, place);
             self.touch();
         }
     }
@@ -103,12 +155,15 @@ impl Picker {
     /// Changes the search, and selects the best match.
     pub fn search(&mut self, change: impl FnOnce(&mut Input)) {
         change(self.search.get_or_insert_default());
-        self.selected = 0;
+        (self.on_session, self.selected) = (false, 0);
         self.touch();
     }
 
     /// Closes the search; the selection stays.
     pub fn forget_search(&mut self) {
+        if self.search.is_none() {
+            return;
+        }
         let name = self.current().map(|entry| entry.name.clone());
         self.search = None;
         self.selected = 0;

@@ -56,10 +56,16 @@ impl App {
             (Some(Overlay::Menu(_)), _) => return self.perform(Action::Back),
             (_, HitTarget::Page(page)) if self.lab.is_some() => self.go(page),
             (None, HitTarget::System(place)) => {
-                if self.picker.selected == place {
+                if self.picker.is_selected(place) {
                     return self.perform(Action::Open);
                 }
                 self.picker.point(place);
+            }
+            (None, HitTarget::Session) => {
+                if self.picker.selected_session().is_some() {
+                    return self.perform(Action::Open);
+                }
+                self.picker.point_at_session();
             }
             _ => {}
         }
@@ -142,7 +148,9 @@ impl App {
         match (&mut self.overlay, hit) {
             (Some(Overlay::Menu(menu)), HitTarget::Menu | HitTarget::Line(_)) => menu.step(-up),
             (_, HitTarget::Text) => return self.jump(-up * LINES),
-            (None, HitTarget::Systems | HitTarget::System(_)) => self.picker.step(-up),
+            (None, HitTarget::Systems | HitTarget::System(_) | HitTarget::Session) => {
+                self.picker.step(-up)
+            }
             (None, hit) => {
                 let Some(lab) = &mut self.lab else { return Vec::new() };
                 let factor = if up > 0 { NOTCH } else { 1.0 / NOTCH };

@@ -32,6 +32,9 @@ pub struct Saved {
     /// Whether the system came from an unsaved text instead of the file.
     #[serde(default)]
     pub edited: bool,
+    /// The unit of its time; empty where it has none.
+    #[serde(default)]
+    pub time_unit: String,
     /// The pictures.
     pub plots: Vec<SavedPlot>,
     /// The state of the motion.
@@ -59,6 +62,7 @@ impl Saved {
             selection: lab.selection,
             edited: false,
             plots: lab.plots.iter().map(|plot| SavedPlot::of(plot, lab.loaded.physics())).collect(),
+            time_unit: model.time_unit().to_owned(),
             moment: checkpoint,
         })
     }
@@ -98,11 +102,24 @@ impl App {
         self.resuming = Some(saved);
     }
 
+    /// Offers a session in the list of systems, as its first row.
+    pub fn offer_session(&mut self, saved: Saved) {
+        self.picker.offer(saved, true);
+    }
+
+    /// Opens the system of a session, and resumes it.
+    pub(super) fn continue_session(&mut self, session: Saved) -> Vec<Effect> {
+        let name = session.open.clone();
+        self.resume(session);
+        vec![self.ask(name, true)]
+    }
+
     /// Starts a system that was just loaded, opened or only previewed: resumes the session left with it, or runs it
     /// from its initial values.
     pub(super) fn begin(&mut self, opened: bool) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
-        let saved = self.resuming.take().filter(|saved| saved.open == lab.loaded.name);
+        let saved = self.resuming.take();
+        let saved = saved.filter(|saved| opened && saved.open == lab.loaded.name);
         let Some(saved) = saved else {
             if opened {
                 self.remind();

@@ -234,6 +234,9 @@ impl App {
     pub(super) fn go(&mut self, page: Page) {
         if page == Page::Picker {
             self.left = self.saved();
+            if let Some(left) = &self.left {
+                self.picker.offer(left.clone(), false);
+            }
             // Notifications about the motion being left do not apply to another.
             self.notice = None;
             self.notifications.clear();

@@ -36,6 +36,14 @@ pub fn run(request: &Request) -> Result<Ending, LabError> {
     if let Some(saved) = &saved {
         request.open = Some(saved.open.clone());
     }
+    let (mut offered, mut no_offer) = (None, None);
+    if request.open.is_none() {
+        match store::read() {
+            Ok(saved) if regular::find(&catalog, &saved.open).is_ok() => offered = Some(saved),
+            Ok(saved) => no_offer = Some(format!("{} is no longer there", saved.open)),
+            Err(why) => no_offer = Some(why.to_string()),
+        }
+    }
     if let Some(name) = &request.open {
         regular::find(&catalog, name)?;
     }
@@ -45,11 +53,16 @@ pub fn run(request: &Request) -> Result<Ending, LabError> {
     for finding in diagnosis(&variable, None) {
         info!("{}: {} ({})", finding.what, finding.found, finding.why);
     }
+    if let Some(why) = no_offer {
+        info!("nothing to continue: {why}");
+    }
     let pace = request.pace(&variable);
     let mut session = Session::new(catalog, &request, request.look(&variable), pace)?;
     session.keep_in(Store::open(), request.open.as_deref());
     if let Some(saved) = saved {
         session.resume(saved);
+    } else if let Some(offered) = offered {
+        session.offer(offered);
     }
     let ended = catch_unwind(AssertUnwindSafe(|| perform(&mut session, pace)));
     let Left { recorded, kept } = session.left();

@@ -159,6 +159,11 @@ impl Session {
         self.app.resume(saved);
     }
 
+    /// Offers to resume a session, in the list of systems.
+    pub(super) fn offer(&mut self, saved: Saved) {
+        self.app.offer_session(saved);
+    }
+
     /// Saves the session in a store from now on, and restores the texts stored there; `open` is the requested name.
     /// Whatever cannot be stored is reported to the user.
     pub(super) fn keep_in(&mut self, store: Result<Store, StoreError>, open: Option<&str>) {

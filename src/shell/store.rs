@@ -428,6 +428,7 @@ mod tests {
             zoomed: true,
             selection: Selection::default(),
             edited: true,
+            time_unit: "s".to_owned(),
             plots: Vec::new(),
             moment: Checkpoint {
                 parameters: vec![g],

@@ -4,16 +4,18 @@
 
 use ratatui::layout::Rect;
 use tui_input::Input;
+use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, columns, row};
 use super::highlight::found_in;
 use super::layout::{split_columns, split_rows};
+use super::number::brief;
 use super::picture;
 use super::quantity::Quantities;
 use super::theme::Role;
 use super::values::window;
 use super::wrap::{capitalised, words};
-use crate::app::{App, Fit, HitTarget, Picker};
+use crate::app::{App, Fit, HitTarget, Picker, Saved};
 use crate::preset::{Entry, Origin};
 
 /// The least and greatest width of the list if it has something beside it.
@@ -40,6 +42,18 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     list(canvas, left, &app.picker);
     let Some(entry) = app.picker.current() else {
         let inner = canvas.pane(right, &[], false);
+        if let Some(session) = app.picker.selected_session() {
+            let text = columns(inner, 1, inner.width.saturating_sub(2));
+            let sentence = format!("Enter takes up {} where you left it.", session.open);
+            for (index, line) in
+                words(&canvas.text(&sentence), text.width.into()).iter().enumerate()
+            {
+                if index < text.height.into() {
+                    canvas.left(row(text, index), Role::Dim, line);
+                }
+            }
+            return;
+        }
         canvas.left(
             columns(row(inner, 0), 1, inner.width),
             Role::Dim,
@@ -57,6 +71,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
 
 /// A line of the list.
 enum Line<'a> {
+    Session(&'a Saved),
     Topic(&'a str),
     System(usize, &'a Entry, &'a Fit),
 }
@@ -79,6 +94,7 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
     let mut lines: Vec<Line<'_>> = Vec::new();
     let mut topic = None;
     let mut here = 0;
+    lines.extend(picker.session().map(Line::Session));
     for (place, (index, fit)) in shown.iter().enumerate() {
         let entry = &picker.entries[*index];
         // Search results are ordered by quality of the match, not by topic.
@@ -86,7 +102,7 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
             topic = Some(entry.topic());
             lines.push(Line::Topic(entry.topic()));
         }
-        if place == picker.selected {
+        if picker.is_selected(place) {
             here = lines.len();
         }
         lines.push(Line::System(place, entry, fit));
@@ -99,9 +115,21 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
             Line::Topic(topic) => {
                 canvas.left(columns(area, 1, area.width - 1), Role::Dim, &capitalised(topic));
             }
+            Line::Session(session) => {
+                canvas.target(area, HitTarget::Session);
+                let selected = picker.selected_session().is_some();
+                let mark = if selected { canvas.look.glyphs.pick("›", ">") } else { " " };
+                canvas.left(columns(area, 1, 1), Role::Accent, mark);
+                let field = columns(area, 3, area.width.saturating_sub(4));
+                let label = continuation(canvas, picker, session, field.width.into());
+                canvas.left(field, Role::Text, &label);
+                if selected {
+                    canvas.tint(columns(area, 1, area.width.saturating_sub(2)), Role::Selected);
+                }
+            }
             Line::System(place, entry, fit) => {
                 canvas.target(area, HitTarget::System(*place));
-                let selected = *place == picker.selected;
+                let selected = picker.is_selected(*place);
                 let mark = if selected { canvas.look.glyphs.pick("›", ">") } else { " " };
                 canvas.left(columns(area, 1, 1), Role::Accent, mark);
                 let role = if entry.fault.is_some() { Role::Bad } else { Role::Text };
@@ -114,6 +142,24 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
             }
         }
     }
+}
+
+/// Returns the label of the row of a session: its system, and its time where there is room for it.
+fn continuation(canvas: &Canvas<'_>, picker: &Picker, session: &Saved, width: usize) -> String {
+    let title = canvas.text(&picker.title_of(session));
+    let Some(present) = &session.moment.present else { return format!("Continue: {title}") };
+    let time = brief(present.time, 4, canvas.look.glyphs);
+    let unit = canvas.text(&session.time_unit);
+    let time = format!(", t = {time} {unit}").trim_end().to_owned();
+    // Of a long title the beginning is enough; the time says which motion it is.
+    let room = width.saturating_sub("Continue: ".len() + time.width());
+    let mark = canvas.look.glyphs.pick("…", "~");
+    let title = if title.width() <= room {
+        title
+    } else {
+        title.chars().take(room.saturating_sub(1)).collect::<String>() + mark
+    };
+    format!("Continue: {title}{time}")
 }
 
 fn search(canvas: &mut Canvas<'_>, area: Rect, search: Option<&Input>) {

@@ -117,3 +117,59 @@ fn a_system_that_lost_what_was_shown_opens_its_own_views() {
         assert!(plot.columns.iter().flatten().all(known));
     }
 }
+
+fn offered(saved: Saved) -> App {
+    let (mut app, _) = App::new(catalog(), None);
+    app.offer_session(saved);
+    app
+}
+
+#[test]
+fn the_first_row_of_the_list_goes_on_with_the_session() {
+    let mut app = in_lab();
+    press(&mut app, "Tab Tab Tab z 2");
+    let saved = kept(&app);
+    let mut app = offered(saved.clone());
+    assert_eq!(press(&mut app, "Enter"), [Effect::Load(saved.open.clone())]);
+    let effects = app.update(Event::Loaded(Ok(pendulum())));
+    let (by_option, effects_of_option) = resumed(saved.clone());
+    assert_eq!(effects, effects_of_option);
+    assert_eq!(effects, [Effect::Tell(Command::TakeUp(Box::new(saved.moment)))]);
+    assert_eq!((app.page, by_option.page), (Page::Equations, Page::Equations));
+    let (lab, other) = (app.lab.as_ref().unwrap(), by_option.lab.as_ref().unwrap());
+    assert_eq!((lab.focus, lab.zoomed, &lab.plots), (other.focus, true, &other.plots));
+}
+
+/// Negatives: no row without a session, none among the results of a search, and a system of the list begins anew.
+#[test]
+fn only_the_row_of_the_session_goes_on_with_it() {
+    let (app, _) = App::new(catalog(), None);
+    assert!(app.picker.session().is_none() && app.picker.is_selected(0));
+    let saved = kept(&in_lab());
+    let mut app = offered(saved.clone());
+    assert!(app.picker.selected_session().is_some() && !app.picker.is_selected(0));
+    press(&mut app, "Down");
+    assert!(app.picker.selected_session().is_none() && app.picker.is_selected(0));
+    press(&mut app, "Up");
+    assert!(app.picker.selected_session().is_some());
+    press(&mut app, "/ p e n d");
+    assert!(app.picker.session().is_none() && app.picker.is_selected(0));
+    press(&mut app, "Up");
+    assert!(app.picker.is_selected(0));
+    assert_eq!(app.picker.current().unwrap().info.title, "Simple pendulum");
+    // the first Esc stops the load of the preview
+    press(&mut app, "Esc Esc");
+    assert!(app.picker.session().is_some() && app.picker.selected_session().is_none());
+    press(&mut app, "Enter");
+    let effects = app.update(Event::Loaded(Ok(pendulum())));
+    assert!(effects.contains(&Effect::Tell(Command::Play)), "{effects:?}");
+    // a load that was stopped leaves nothing to be taken up by the next one
+    let mut app = offered(saved.clone());
+    press(&mut app, "Enter");
+    assert_eq!(press(&mut app, "Esc"), [Effect::StopLoading]);
+    press(&mut app, "Down");
+    app.picker.select(&saved.open);
+    press(&mut app, "Enter");
+    let effects = app.update(Event::Loaded(Ok(pendulum())));
+    assert!(effects.contains(&Effect::Tell(Command::Play)), "{effects:?}");
+}

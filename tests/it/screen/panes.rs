@@ -16,7 +16,9 @@ use phaselab::view::theme::{Role, Theme};
 use ratatui::style::Modifier;
 
 use super::{find, rich, rows, screen};
-use crate::hand::{at_picker, gauge, in_lab, loaded, lowered, pendulum, press, snapshot};
+use crate::hand::{
+    at_picker, catalog, gauge, in_lab, lab, loaded, lowered, pendulum, press, snapshot,
+};
 
 #[test]
 fn a_small_screen_says_how_large_it_must_be() {
@@ -229,6 +231,23 @@ fn the_picker_shows_what_a_system_is() {
     let buffer = screen(&app, &rich(), (120, 40));
     assert!(find(&buffer, "3 of ").is_some() && find(&buffer, "Hénon–Heiles").is_some());
     assert!(find(&buffer, "Damped pendulum").is_none());
+}
+
+#[test]
+fn the_first_row_of_the_picker_is_the_session() {
+    let (mut app, _) = App::new(catalog(), None);
+    app.offer_session(lab("pendulum", 22.0).saved().unwrap());
+    for size in [(80, 24), (120, 40)] {
+        let text = rows(&screen(&app, &rich(), size)).join("\n");
+        assert!(text.contains("› Continue: Simple pendulum"), "{text}");
+        assert!(!text.contains("› Simple pendulum"), "{text}");
+    }
+    press(&mut app, "Down");
+    let text = rows(&screen(&app, &rich(), (80, 24))).join("\n");
+    assert!(text.contains("  Continue: Simple pendulum"), "{text}");
+    press(&mut app, "/ p e n d");
+    let text = rows(&screen(&app, &rich(), (80, 24))).join("\n");
+    assert!(!text.contains("Continue:"), "{text}");
 }
 
 #[test]
