@@ -85,11 +85,9 @@ fn states_made(place: Place) -> Vec<App> {
             vec![app]
         }
         Place::Menu => vec![lab("m"), lab(": Down"), lab("Tab Tab Tab v Down Down Enter Down")],
-        Place::Workbench => vec![
-            lab("E Ctrl-Home x"),
-            lab("E Ctrl-Home x Ctrl-u"),
-            lab("E Ctrl-Home x Ctrl-x"),
-        ],
+        Place::Workbench => {
+            vec![lab("E Ctrl-Home x"), lab("E Ctrl-Home x Ctrl-u"), lab("E Ctrl-Home x Ctrl-x")]
+        }
         Place::Field | Place::Typing => vec![lab("Enter")],
     }
 }
