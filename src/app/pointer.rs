@@ -149,7 +149,7 @@ impl App {
             (Some(Overlay::Menu(menu)), HitTarget::Menu | HitTarget::Line(_)) => menu.step(-up),
             (_, HitTarget::Text) => return self.jump(-up * LINES),
             (None, HitTarget::Systems | HitTarget::System(_) | HitTarget::Session) => {
-                self.picker.step(-up)
+                self.picker.step(-up);
             }
             (None, hit) => {
                 let Some(lab) = &mut self.lab else { return Vec::new() };

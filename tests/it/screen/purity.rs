@@ -61,7 +61,7 @@ fn all_states() -> Vec<App> {
     let mut failed = App::new(catalog(), Some("own.toml")).0;
     let message = "own.toml:1:1: a title is missing → add one\n".repeat(30);
     failed.update(Event::Loaded(Err(LoadError { name: "own.toml".into(), message })));
-    lab.chain(picker).chain([empty, failed, stopped(), unseen(), crowded()]).collect()
+    lab.chain(picker).chain(vec![empty, failed, stopped(), unseen(), crowded()]).collect()
 }
 
 /// A motion that cannot continue, with NaN among its numbers.
