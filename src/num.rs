@@ -23,5 +23,5 @@ pub use format::{short, significant};
 pub use horner::{Polynomial, polynomial};
 pub use instruction_set::{Kernel, vectorized};
 pub use number::Number;
-pub use prime_field::{PRIMES, PrimeField, Residue, rational};
+pub use prime_field::{PRIMES, PrimeField, Residue, Unreduced, rational};
 pub use real::Real;

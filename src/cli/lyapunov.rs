@@ -79,7 +79,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     found.uncertainty.truncate(kept);
     let (mut object, mut text) = (object(&study, &found), text(&study, &found));
     if let Some(volumes) = volumes {
-        object.insert("gali".to_owned(), told(&volumes));
+        object.insert("gali".to_owned(), series(&volumes));
         text.push_str(&lines(&volumes));
         found.failure = volumes.failure;
     }
@@ -88,7 +88,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
 }
 
 /// ln GALIₖ over time by k.
-fn told(volumes: &Gali) -> Value {
+fn series(volumes: &Gali) -> Value {
     let most = volumes.logarithms.first().map_or(0, |row| row.len() + 1);
     let all = (2..=most).map(|k| (k.to_string(), json!(volumes.of(k))));
     Value::Object(all.collect())

@@ -218,7 +218,7 @@ impl Gauges {
         for monitor in &mut self.monitors {
             monitor.look(now.time, now.values, now.terms, floor);
         }
-        self.followed.look((now.time, now.values), now.terms, floor, &self.places);
+        self.followed.look((now.time, now.values), now.terms, floor, &self.places, false);
         for residual in &mut self.residuals {
             residual.look(now.residuals);
         }
@@ -239,7 +239,7 @@ impl Gauges {
         for monitor in &mut self.monitors {
             monitor.sample(time, values, terms, floor);
         }
-        self.followed.sample((time, values), terms, floor, &self.places);
+        self.followed.look((time, values), terms, floor, &self.places, true);
     }
 
     /// Records the terms at the end of a step or within it.

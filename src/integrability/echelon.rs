@@ -2,7 +2,7 @@
 //!
 //! In: rows of residues, one at a time. Out: ranks and bases, exact. Never here: what a row means.
 
-use crate::num::{PrimeField, Residue};
+use crate::num::{PrimeField, Residue, Unreduced};
 
 /// The rows met so far, in echelon form: each has a leading one where those before it and after it have zero or
 /// come later.
@@ -31,23 +31,27 @@ impl Echelon {
     }
 
     /// Adds a row, and returns whether it was independent of those before.
-    pub(super) fn add(&mut self, mut row: Vec<Residue>) -> bool {
+    pub(super) fn add(&mut self, row: Vec<Residue>) -> bool {
         let field = self.field;
+        // entries are reduced when their column is reached, and not after every row that is taken off them
+        let mut sums: Vec<Unreduced> = row.into_iter().map(|x| field.unreduced(x)).collect();
         for column in 0..self.width {
-            if row[column].is_zero() {
+            let entry = field.reduced(sums[column]);
+            if entry.is_zero() {
                 continue;
             }
             if let Some(known) = self.leading[column] {
-                let factor = field.neg(row[column]);
+                let factor = field.neg(entry);
                 let known = &self.rows[known];
-                for (x, &y) in row[column..].iter_mut().zip(&known[column..]) {
-                    *x = field.add(*x, field.mul(factor, y));
+                for (sum, &y) in sums[column + 1..].iter_mut().zip(&known[column + 1..]) {
+                    field.add_product(sum, factor, y);
                 }
                 continue;
             }
-            let Some(scale) = field.inverse(row[column]) else { continue };
-            for x in &mut row[column..] {
-                *x = field.mul(*x, scale);
+            let Some(scale) = field.inverse(entry) else { continue };
+            let mut row = vec![Residue::ZERO; self.width];
+            for (x, &sum) in row[column..].iter_mut().zip(&sums[column..]) {
+                *x = field.mul(field.reduced(sum), scale);
             }
             self.leading[column] = Some(self.rows.len());
             self.rows.push(row);

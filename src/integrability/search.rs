@@ -31,6 +31,9 @@ const DEGREE: u32 = 6;
 /// How many coordinates are tried as the origin of the others in a proof.
 const MOST_ORIGINS: usize = 3;
 
+/// Why a search ends where as many are known as can be independent.
+const EXHAUSTED: &str = "no more can be independent";
+
 /// What determines the values of functions of constants.
 const SEED: u64 = 7;
 
@@ -109,6 +112,11 @@ pub struct Invariants {
 }
 
 impl Invariants {
+    /// Whether as many are known as can be independent, so that a longer search finds no other.
+    pub fn is_exhausted(&self) -> bool {
+        self.ended.as_deref() == Some(EXHAUSTED)
+    }
+
     /// The number of independent constants, known and found.
     pub fn independent(&self) -> usize {
         self.known_independent.iter().filter(|x| **x).count()
@@ -226,7 +234,7 @@ impl<'a> Search<'a> {
                     let family = words(&equations.pool, &self.law, &atoms, &ansatz);
                     answer.searched.push(Searched { degree, family, size, standard: i == 0 });
                     if self.is_exhausted(equations, answer) {
-                        answer.ended = Some("no more can be independent".to_owned());
+                        answer.ended = Some(EXHAUSTED.to_owned());
                         return Ok(());
                     }
                 }

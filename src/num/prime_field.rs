@@ -35,6 +35,10 @@ impl Residue {
     }
 }
 
+/// A sum of products of residues that waits for its reduction: times 2⁶⁴, and below the prime times 2⁶⁴.
+#[derive(Clone, Copy, Debug)]
+pub struct Unreduced(u128);
+
 /// The field of integers modulo a prime.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct PrimeField {
@@ -81,6 +85,26 @@ impl PrimeField {
     pub fn add(&self, a: Residue, b: Residue) -> Residue {
         let sum = a.0 + b.0;
         Residue(if sum >= self.p { sum - self.p } else { sum })
+    }
+
+    /// A residue as the beginning of a sum of products.
+    #[inline]
+    pub fn unreduced(&self, a: Residue) -> Unreduced {
+        Unreduced(u128::from(a.0) << 64)
+    }
+
+    /// Adds `a · b` to a sum. A product is below p², and p² < p · 2⁶⁴, so that one subtraction keeps the bound.
+    #[inline]
+    pub fn add_product(&self, sum: &mut Unreduced, a: Residue, b: Residue) {
+        let next = sum.0 + u128::from(a.0) * u128::from(b.0);
+        let bound = u128::from(self.p) << 64;
+        sum.0 = if next >= bound { next - bound } else { next };
+    }
+
+    /// The residue of a sum of products.
+    #[inline]
+    pub fn reduced(&self, sum: Unreduced) -> Residue {
+        Residue(self.reduce(sum.0))
     }
 
     /// `a − b`.
@@ -171,6 +195,7 @@ impl PrimeField {
     /// if it is not finite or its denominator is a multiple of p.
     pub fn number(&self, n: Number) -> Option<Residue> {
         match n {
+            Number::Rational(n, 1) => Some(self.integer(n.into())),
             Number::Rational(n, d) => {
                 let d = self.inverse(self.integer(d.into()))?;
                 Some(self.mul(self.integer(n.into()), d))
@@ -205,4 +230,35 @@ pub fn rational(a: u128, m: u128, spare: u32) -> Option<(i128, i128)> {
         return None;
     }
     Some(if d < 0 { (-n, -d) } else { (n, d) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sum_of_products_is_what_it_is_term_by_term() {
+        for n in 0..PRIMES.len() {
+            let field = PrimeField::nth(n);
+            let p = u128::from(field.prime());
+            // the largest residues, so that every bound is met
+            let factors: Vec<u64> = (1..200).map(|k| field.prime() - k * k).collect();
+            let mut sum = field.unreduced(field.residue(factors[0]));
+            let mut expected = u128::from(factors[0]);
+            for pair in factors.windows(2) {
+                field.add_product(&mut sum, field.residue(pair[0]), field.residue(pair[1]));
+                expected = (expected + u128::from(pair[0]) * u128::from(pair[1])) % p;
+                assert_eq!(u128::from(field.value(field.reduced(sum))), expected);
+            }
+            // in Montgomery's form too the largest
+            let largest = Residue(field.prime() - 1);
+            let mut sum = field.unreduced(largest);
+            let mut slow = largest;
+            for _ in 0..100 {
+                field.add_product(&mut sum, largest, largest);
+                slow = field.add(slow, field.mul(largest, largest));
+                assert_eq!(field.reduced(sum), slow);
+            }
+        }
+    }
 }

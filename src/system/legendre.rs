@@ -96,13 +96,41 @@ pub(super) struct Legendre {
     degrees: usize,
     /// (q, native rates).
     state: Vec<DoubleDouble>,
+    newton: Newton,
+}
+
+/// What an iteration needs, kept for the next: a landscape takes thousands.
+#[derive(Clone, Debug)]
+struct Newton {
+    factored: Factored<DoubleDouble>,
+    /// The sizes of the terms, at the beginning and at the end of a step, never at a distant trial point.
+    scales: [Vec<f64>; 2],
+    step: Vec<DoubleDouble>,
+    missed: Vec<DoubleDouble>,
+    next: Vec<DoubleDouble>,
+    before: Vec<DoubleDouble>,
+}
+
+impl Newton {
+    fn new(unknown: usize) -> Newton {
+        let zeros = vec![DoubleDouble::ZERO; unknown];
+        Newton {
+            factored: Factored::new(unknown),
+            scales: [vec![0.0; unknown], vec![0.0; unknown]],
+            step: zeros.clone(),
+            missed: zeros.clone(),
+            next: zeros.clone(),
+            before: zeros,
+        }
+    }
 }
 
 impl Legendre {
     pub(super) fn new(program: Arc<Program>, native: Form) -> Legendre {
         let degrees = program.inputs() / 2;
         let state = vec![DoubleDouble::ZERO; 2 * degrees];
-        Legendre { native, values: Evaluator::new(program), degrees, state }
+        let values = Evaluator::new(program);
+        Legendre { native, values, degrees, state, newton: Newton::new(degrees) }
     }
 
     pub(super) fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
@@ -321,13 +349,26 @@ impl Legendre {
         targets: &[Option<DoubleDouble>],
         unknown: &[usize],
     ) -> Result<f64, LegendreError> {
+        let mut newton = std::mem::replace(&mut self.newton, Newton::new(0));
+        if newton.step.len() != unknown.len() {
+            newton = Newton::new(unknown.len());
+        }
+        let outcome = self.iterate_with(&mut newton, time, targets, unknown);
+        self.newton = newton;
+        outcome
+    }
+
+    fn iterate_with(
+        &mut self,
+        newton: &mut Newton,
+        time: DoubleDouble,
+        targets: &[Option<DoubleDouble>],
+        unknown: &[usize],
+    ) -> Result<f64, LegendreError> {
         let n = self.degrees;
-        let mut factored = Factored::new(unknown.len());
-        // measured at the beginning and at the end of a step, never at a distant trial point
-        let mut scales = vec![0.0; unknown.len()];
-        let mut scales_there = scales.clone();
-        let mut step = vec![DoubleDouble::ZERO; unknown.len()];
-        self.missing(time, targets, unknown, &mut scales, &mut step)?;
+        let Newton { factored, scales: [scales, scales_there], step, missed, next, before } =
+            newton;
+        self.missing(time, targets, unknown, scales, step)?;
         let mut left = None;
         let mut last_change = f64::INFINITY;
         for _ in 0..STEPS {
@@ -336,11 +377,12 @@ impl Legendre {
             if !regular {
                 return Err(LegendreError::Singular);
             }
-            let missed = step.clone();
-            factored.solve(&mut step);
-            let before: Vec<DoubleDouble> = unknown.iter().map(|&i| self.state[n + i]).collect();
+            missed.copy_from_slice(step);
+            factored.solve(step);
+            for (x, &i) in before.iter_mut().zip(unknown) {
+                *x = self.state[n + i];
+            }
             let mut size = 1.0;
-            let mut next = vec![DoubleDouble::ZERO; unknown.len()];
             let mut change = 0.0_f64;
             let (mut old, mut new) = (f64::INFINITY, f64::INFINITY);
             for halving in 0..=HALVINGS {
@@ -352,8 +394,8 @@ impl Legendre {
                         change = change.max((step[k].high * size).abs() / scale);
                     }
                 }
-                self.missing(time, targets, unknown, &mut scales_there, &mut next)?;
-                (old, new) = (largest(&missed, &scales), largest(&next, &scales));
+                self.missing(time, targets, unknown, scales_there, next)?;
+                (old, new) = (largest(missed, scales), largest(next, scales));
                 let at_rounding = (halving == 0 && change < 1e-20) || old <= STUBBORN;
                 if new <= old || new == 0.0 || (at_rounding && new.is_finite()) {
                     if halving > 0 {
@@ -367,8 +409,8 @@ impl Legendre {
                 size *= 0.5;
             }
             left.get_or_insert(if old <= STUBBORN { 0.0 } else { new / old });
-            std::mem::swap(&mut scales, &mut scales_there);
-            new = largest(&next, &scales);
+            std::mem::swap(scales, scales_there);
+            new = largest(next, scales);
             // converged: the correction is below the precision of the result, or the residual stops
             // shrinking
             let no_more_missed =
@@ -379,7 +421,7 @@ impl Legendre {
                 return Ok(left.unwrap_or(0.0));
             }
             last_change = change;
-            step.copy_from_slice(&next);
+            step.copy_from_slice(next);
         }
         Err(LegendreError::NotConverging)
     }

@@ -84,7 +84,16 @@ impl<R: Real> Factored<R> {
         let n = self.size;
         let at = |i: usize, j: usize| self.entries[i * n + j].value().abs();
         let unit = |size: f64| Some(1.0 / size).filter(|x| x.is_normal());
-        let mut units: Vec<Option<f64>> = (0..n).map(|i| unit(at(i, i).sqrt())).collect();
+        let mut all = true;
+        for i in 0..n {
+            let own = unit(at(i, i).sqrt());
+            self.units[i] = own.unwrap_or(1.0);
+            all &= own.is_some();
+        }
+        let mut units: Vec<Option<f64>> = Vec::new();
+        if !all {
+            units.extend((0..n).map(|i| unit(at(i, i).sqrt())));
+        }
         while units.contains(&None) {
             let known = units.clone();
             for i in (0..n).filter(|&i| known[i].is_none()) {
@@ -95,8 +104,8 @@ impl<R: Real> Factored<R> {
                 break;
             }
         }
-        for (i, found) in units.iter().enumerate() {
-            self.units[i] = found.unwrap_or(1.0);
+        for (own, found) in self.units.iter_mut().zip(&units) {
+            *own = found.unwrap_or(1.0);
         }
         for i in 0..n {
             self.scales[i] = (0..n).map(|j| at(i, j) * self.units[j]).fold(0.0, f64::max);

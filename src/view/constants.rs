@@ -76,7 +76,9 @@ pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
         let words = format!("Searched up to degree {}: {}.", searched.degree, searched.family);
         page.words(Role::Dim, look.glyphs.text(&words));
     }
-    if let Some(why) = &invariants.ended {
+    if invariants.is_exhausted() {
+        page.words(Role::Dim, "No other constant can be independent of these.");
+    } else if let Some(why) = &invariants.ended {
         page.words(Role::Dim, format!("The search ended: {why}. I searches further."));
     }
     match findings.separates {
@@ -91,9 +93,10 @@ pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
         }
         None => {}
     }
-    if findings.hamiltonian {
-        let open = lab.search.brackets;
-        let hint = if open { "" } else { "B shows their brackets; " };
+    let constants = known + invariants.found.len();
+    if findings.hamiltonian && constants > 0 {
+        let brackets = constants > 1 && !lab.search.brackets;
+        let hint = if brackets { "B shows the brackets of the constants; " } else { "" };
         page.words(Role::Dim, format!("{hint}J carries the state along the flow of one."));
     }
     if lab.search.brackets {

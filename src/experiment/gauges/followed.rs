@@ -83,33 +83,23 @@ impl Followed {
         self.monitors.iter_mut().for_each(|monitor| monitor.shift(&before, &after));
     }
 
-    /// Records the values at a time.
+    /// Records the values at a time; those of a sample in the history as well.
     pub(super) fn look(
         &mut self,
         (time, values): (f64, &[f64]),
         terms: &TermWatch,
         floor: f64,
         places: &[(Symbol, usize)],
+        is_sample: bool,
     ) {
         let (values, errors) = self.split(time, values, places);
         for (monitor, error) in self.monitors.iter_mut().zip(errors) {
             monitor.measure(error);
-            monitor.look(time, &values, terms, floor);
-        }
-    }
-
-    /// Records the values for the history as well.
-    pub(super) fn sample(
-        &mut self,
-        (time, values): (f64, &[f64]),
-        terms: &TermWatch,
-        floor: f64,
-        places: &[(Symbol, usize)],
-    ) {
-        let (values, errors) = self.split(time, values, places);
-        for (monitor, error) in self.monitors.iter_mut().zip(errors) {
-            monitor.measure(error);
-            monitor.sample(time, &values, terms, floor);
+            if is_sample {
+                monitor.sample(time, &values, terms, floor);
+            } else {
+                monitor.look(time, &values, terms, floor);
+            }
         }
     }
 

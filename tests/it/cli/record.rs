@@ -138,9 +138,9 @@ fn a_demo_of_its_own_or_a_sentence() {
     let missing = phaselab(&["record", "duffing"]);
     assert_eq!((missing.code, missing.stdout.as_str()), (2, ""));
     assert!(missing.stderr.contains("`duffing` has no demo of its own"), "{}", missing.stderr);
-    let two = phaselab(&["record", "pendulum", "--format", "v2"]);
+    let two = phaselab(&["record", "charge-in-fields", "--format", "v2"]);
     assert_eq!(two.code, 0, "{}", two.stderr);
     assert!(two.stdout.starts_with("{\"version\":2,\"width\":"));
-    let account = phaselab(&["record", "pendulum", "--format", "account"]);
+    let account = phaselab(&["record", "charge-in-fields", "--format", "account"]);
     assert!(account.code == 0 && account.stdout.contains("  chapter   "), "{}", account.stdout);
 }
