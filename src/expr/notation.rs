@@ -95,15 +95,31 @@ fn split(name: &str) -> (&str, &str) {
     if stem.is_empty() { (name, "") } else { (stem, subscript) }
 }
 
+/// Digits only: Unicode has x and r below the line but no y and no z, and `pₓ² + p_y²` would look like two kinds of
+/// thing.
 fn subscript_character(c: char) -> Option<char> {
-    Some(match c {
-        '0'..='9' => char::from_u32('₀' as u32 + c as u32 - '0' as u32)?,
-        'i' => 'ᵢ',
-        'j' => 'ⱼ',
-        'r' => 'ᵣ',
-        'x' => 'ₓ',
-        _ => return None,
-    })
+    c.is_ascii_digit().then(|| char::from_u32('₀' as u32 + c as u32 - '0' as u32))?
+}
+
+/// A name with its letters below the line behind `_`, as names are shown: `p_x` for `pₓ`.
+pub(super) fn on_the_line(name: &str) -> String {
+    let mut line = String::new();
+    let mut below = false;
+    for c in name.chars() {
+        let letter = match c {
+            'ᵢ' => Some('i'),
+            'ⱼ' => Some('j'),
+            'ᵣ' => Some('r'),
+            'ₓ' => Some('x'),
+            _ => None,
+        };
+        if letter.is_some() && !below {
+            line.push('_');
+        }
+        below = letter.is_some();
+        line.push(letter.unwrap_or(c));
+    }
+    line
 }
 
 /// The digit of a digit below the line.
@@ -163,7 +179,8 @@ pub(super) fn vulgar_fraction(c: char) -> Option<(i64, i64)> {
     FRACTIONS.iter().find(|f| f.2 == c).map(|f| (f.0, f.1))
 }
 
-/// A shown name without its dots and primes, and their number: `φ̇₀` is (`φ₀`, 1). A name that is typed is looked up by it.
+/// A shown name without its dots and primes, and their number: `φ̇₀` is (`φ₀`, 1). Letters below the line are written
+/// `_x`. A name that is typed is looked up by it.
 pub fn without_dots(shown: &str) -> (String, usize) {
     let mut dots = 0;
     let mut name = String::new();
@@ -178,7 +195,7 @@ pub fn without_dots(shown: &str) -> (String, usize) {
             }
         }
     }
-    (name, dots)
+    (on_the_line(&name), dots)
 }
 
 /// An integer in superscript digits.

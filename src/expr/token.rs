@@ -1,7 +1,7 @@
 //! Tokens of an expression: numbers, names with primes, operators, each with its span. The notation of the screen
 //! (`½ l² θ′²`, `√x`, `a · b − c`) has the same tokens as the plain one.
 
-use super::notation::{dotted_letter, plain_digit, raised_digit, vulgar_fraction};
+use super::notation::{dotted_letter, on_the_line, plain_digit, raised_digit, vulgar_fraction};
 use super::syntax::{Span, SyntaxError};
 use crate::num::Number;
 
@@ -106,7 +106,7 @@ fn name(text: &str, start: usize) -> (String, usize, usize) {
         }
         at += c.len_utf8();
     }
-    (name, primes, at)
+    (on_the_line(&name), primes, at)
 }
 
 /// Returns whether the marks so far are dots above a letter, after which a name goes on: `ẋ_1`.

@@ -118,16 +118,8 @@ fn dotted(shown: &str, mark: char) -> String {
     }
 }
 
-/// The subscript of a momentum: Unicode subscripts where common fonts have the letters.
+/// The subscript of a momentum: below the line where it is a number.
 fn subscript(shown: &str) -> String {
-    let lowered: Option<String> = shown
-        .chars()
-        .map(|c| match c {
-            'x' => Some('ₓ'),
-            'r' => Some('ᵣ'),
-            '₀'..='₉' => Some(c),
-            _ => None,
-        })
-        .collect();
-    lowered.unwrap_or_else(|| format!("_{shown}"))
+    let number = shown.chars().all(|c| ('₀'..='₉').contains(&c));
+    if number { shown.to_owned() } else { format!("_{shown}") }
 }

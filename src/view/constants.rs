@@ -48,7 +48,7 @@ pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
         }
     };
     page.heading("Constants of the motion nobody wrote down");
-    if invariants.found.is_empty() {
+    if invariants.found.is_empty() && !invariants.is_exhausted() {
         page.words(Role::Dim, "None was found.");
     }
     let known = invariants.known.len();
@@ -72,7 +72,9 @@ pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
         );
     }
     page.words(Role::Dim, capital(&findings.relations.verdict));
-    if let Some(searched) = invariants.searched.last() {
+    // where nothing was looked for, the ansatz says nothing
+    let needless = invariants.found.is_empty() && invariants.is_exhausted();
+    if let Some(searched) = invariants.searched.last().filter(|_| !needless) {
         let words = format!("Searched up to degree {}: {}.", searched.degree, searched.family);
         page.words(Role::Dim, look.glyphs.text(&words));
     }

@@ -34,7 +34,7 @@ fn oscillator(arguments: &[&str]) -> super::Done {
 #[test]
 fn a_bracket_is_reported_with_its_name_and_its_value() {
     let text = oscillator(&["D", "L + p_x^2", "--set", "a=7"]).success();
-    assert_eq!(text, "[D, L + p_x^2] = 2 pₓ²\nat the start: 0.5\n");
+    assert_eq!(text, "[D, L + p_x^2] = 2 p_x²\nat the start: 0.5\n");
     let text = oscillator(&["x^2 + y^2", "energy"]).success();
     let named = "                    = 2 D/m   (proved)\n";
     assert!(text.ends_with(&format!("{named}at the start: 6.5\n")), "{text}");

@@ -105,7 +105,7 @@ fn a_pole_is_a_fault() {
     let case = case(hamiltonian(&["x"], &[], h), Form::Momentum, &[-1.0, 0.0]);
     assert_eq!(
         fault(&case, "rk4", 0.125, 2.0),
-        "pₓ is no longer finite at t = 1, x = 0: a collision, a pole, or a value \
+        "p_x is no longer finite at t = 1, x = 0: a collision, a pole, or a value \
          outside a function"
     );
     let message = fault(&case, "dop853", 0.0, 2.0);
