@@ -320,7 +320,7 @@ impl Lesson {
                     (true, _) => paragraph(ParagraphKind::Right, format!("Right: {own}")),
                     (false, None) => paragraph(ParagraphKind::Wrong, format!("Not so: {own}")),
                     (false, Some(why)) => {
-                        paragraph(ParagraphKind::Wrong, format!("Not so: {own} {why}"))
+                        paragraph(ParagraphKind::Wrong, format!("Not so: {own}. {why}"))
                     }
                 }];
                 if let (false, Some(other)) = (right, holds.iter().position(|holds| *holds)) {

@@ -9,6 +9,9 @@ mod schema;
 mod scripts;
 mod stills;
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread::{self, available_parallelism};
+
 use phaselab::diagnostic::Document;
 use phaselab::preset::demo;
 use phaselab::record::{Recording, Script, play};
@@ -33,4 +36,21 @@ pub(crate) fn played(preset: &str, text: &str) -> Recording {
 /// Plays a preset's own demo.
 pub(crate) fn shipped(preset: &str) -> Recording {
     played(preset, &demo(preset).expect("a demo").text)
+}
+
+/// Does the same with every name, on all cores.
+pub(crate) fn on_all_cores(names: &[&str], work: impl Fn(usize, &str) + Sync) {
+    let next = AtomicUsize::new(0);
+    let cores = available_parallelism().map_or(1, usize::from);
+    thread::scope(|scope| {
+        for _ in 0..cores.min(names.len()) {
+            scope.spawn(|| {
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(name) = names.get(index) else { return };
+                    work(index, name);
+                }
+            });
+        }
+    });
 }

@@ -3,6 +3,7 @@
 use crossterm::event::{KeyCode, KeyEvent};
 use phaselab::diagnostic::Document;
 use phaselab::preset::{lesson, lessons};
+use phaselab::record::script::{LessonStep, Step};
 use phaselab::record::{Lesson, Pressed, Script, check_lesson};
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
@@ -11,6 +12,7 @@ use phaselab::view::theme::Theme;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
+use super::on_all_cores;
 use crate::hand::catalog;
 
 fn system(name: &str) -> Document {
@@ -65,8 +67,8 @@ const HALF: &str = "Predict \"How far?\" r within 0.1\nWait 3s\nOutcome\nSay \"a
 
 #[test]
 fn shipped_lessons_are_true_with_every_answer() {
-    assert!(!lessons().is_empty());
-    for name in lessons() {
+    assert!(lessons().len() >= 8);
+    on_all_cores(&lessons(), |_, name| {
         let source = lesson(name).expect("a lesson");
         let report = |mistakes: &[_]| source.report(mistakes, false);
         let script = Script::read(&source).unwrap_or_else(|why| panic!("{}", report(&why)));
@@ -74,7 +76,27 @@ fn shipped_lessons_are_true_with_every_answer() {
         let open = script.head.open.clone().expect("a system").text;
         let checked = check_lesson(&script, &system(&open), &open);
         let checked = checked.unwrap_or_else(|why| panic!("{}", report(&why)));
-        assert!(checked.questions > 0 && checked.wrong >= 2 * checked.questions - 1, "{checked:?}");
+        assert!(checked.questions >= 3 && checked.tasks >= 1, "{name}: {checked:?}");
+        assert!(checked.wrong >= 2 * checked.questions - 1, "{name}: {checked:?}");
+    });
+}
+
+#[test]
+fn shipped_lessons_ask_for_a_value_and_end_with_the_lab() {
+    for name in lessons() {
+        let script = Script::read(&lesson(name).expect("a lesson")).expect("a script");
+        let has = |wanted: fn(&LessonStep) -> bool| {
+            let mut steps = script.steps.iter().map(|(_, step)| step);
+            steps.any(|step| matches!(step, Step::Lesson(step) if wanted(step)))
+        };
+        assert!(has(|step| matches!(step, LessonStep::Predict { .. })), "{name}");
+        assert!(has(|step| matches!(step, LessonStep::Ask(_))), "{name}");
+        assert!(has(|step| matches!(step, LessonStep::Task { hint: Some(_), .. })), "{name}");
+        let last = script.steps.iter().rev().find_map(|(_, step)| match step {
+            Step::Lesson(LessonStep::Say(_)) => None,
+            step => Some(matches!(step, Step::Lesson(LessonStep::Free(_)))),
+        });
+        assert_eq!(last, Some(true), "{name} ends with the lab");
     }
 }
 
@@ -114,7 +136,7 @@ fn a_wrong_option_says_why_and_which_is_right() {
     keys(&mut lesson, "a\n");
     pass(&mut lesson, 4.0);
     let wrong = shown(&mut lesson);
-    assert!(wrong.contains("Not so: a) near It moves away."), "{wrong}");
+    assert!(wrong.contains("Not so: a) near. It moves away."), "{wrong}");
     assert!(wrong.contains("It is b) far") && wrong.contains("Found: r is 1.6"), "{wrong}");
     let mut lesson = taken(ask);
     pass(&mut lesson, 1.0);
