@@ -15,6 +15,8 @@ mod domain;
 mod equations;
 mod flaw;
 mod frames;
+mod frobenius;
+mod gauge;
 mod generator;
 mod hamilton;
 mod hamilton_jacobi;
@@ -28,11 +30,13 @@ mod new_hamiltonian;
 mod observe;
 mod poisson;
 mod poisson_structure;
+mod potential;
 mod rearrange;
 mod report;
 mod restricted;
 mod rigid_body;
 mod sampling;
+mod separation;
 mod slope;
 mod symmetry;
 mod vakonomic;
@@ -49,6 +53,8 @@ pub use equations::{
     CoordinateSymbols, Equations, Flow, NoClosedForm, Reason, Separable, Supplements, Vakonomic,
 };
 pub use flaw::StructureError;
+pub use frobenius::Holonomy;
+pub use gauge::Gauge;
 pub use generator::{GeneratorFlow, flow_of};
 pub use hamilton_jacobi::HamiltonJacobi;
 pub use invariants::{casimir_rate, is_changed_by_impulse};
@@ -62,4 +68,5 @@ pub use rigid_body::{
     COMPONENTS, RigidBody, Tensor, body_constants, body_values, matrix, principal,
 };
 pub use sampling::{POINTS, TRIES};
+pub use separation::{Separation, separation};
 pub use valuation::Valuation;

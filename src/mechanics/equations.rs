@@ -1,8 +1,13 @@
 //! What follows from a law of motion: the equations and everything derived with them.
 
+use std::collections::HashMap;
+
+use super::frobenius::Holonomy;
 use super::rigid_body::{RigidBody, Tensor};
+use super::separation::Separation;
 use crate::expr::{Expr, Pool, Symbol};
 use crate::model::{CommonSymbols, Model, Point};
+use crate::num::Number;
 
 /// Everything derived from one model.
 ///
@@ -91,6 +96,12 @@ pub struct Supplements {
     pub shown_velocities: Option<Vec<Expr>>,
     /// The symbols of the attitude matrix, by rows.
     pub attitude_symbols: Option<[[Symbol; 3]; 3]>,
+    /// Of each constraint whether it is holonomic.
+    pub holonomy: Vec<Holonomy>,
+    /// Whether Hamilton–Jacobi separates in the file's coordinates, once it has been found out.
+    pub separation: Option<Separation>,
+    /// The file's values of the parameters and of what follows from a body, as exact numbers.
+    pub constants: Vec<(Symbol, Number)>,
 }
 
 impl Supplements {
@@ -281,6 +292,12 @@ impl NoClosedForm {
 }
 
 impl Equations {
+    /// The file's values of the parameters, to be substituted for their symbols.
+    pub(super) fn parameter_values(&mut self) -> HashMap<Symbol, Expr> {
+        let constants = self.supplements.constants.clone();
+        constants.into_iter().map(|(s, n)| (s, self.pool.number(n))).collect()
+    }
+
     /// Returns whether the state consists of positions and velocities (Lagrangian) rather than
     /// momenta.
     pub fn is_lagrangian(&self) -> bool {

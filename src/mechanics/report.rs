@@ -10,10 +10,12 @@ use super::conservation::{Classed, class_of, classes};
 use super::constrain::with_reactions;
 use super::domain::widened;
 use super::equations::{ConstraintRow, Equations, Flow, NoClosedForm, Reason};
+use super::frobenius::Holonomy;
 use super::hamilton_jacobi::HamiltonJacobi;
 use super::invariants::casimir_rate;
 use super::isolate::Solution;
 use super::rigid_body::{RigidBody, body_values, matrix, principal};
+use super::separation::Separation;
 use crate::expr::{Expr, Symbol};
 use crate::model::{BodyNames, Constraint, Impulse, Mechanics, Model};
 use crate::num::DoubleDouble;
@@ -64,6 +66,8 @@ pub struct Constrained<'a> {
     pub row: &'a ConstraintRow,
     /// λ, if it is known in closed form.
     pub multiplier: Option<Expr>,
+    /// Whether it is holonomic.
+    pub holonomy: &'a Holonomy,
 }
 
 /// The force of one constraint on one coordinate: a factor times the multiplier.
@@ -180,6 +184,8 @@ pub struct Report<'a> {
     pub cyclic: Vec<Symbol>,
     /// The conserved quantities, each with its reason.
     pub conserved: Vec<ConservedReport<'a>>,
+    /// Whether Hamilton–Jacobi separates in the file's coordinates, once it has been found out.
+    pub separation: Option<&'a Separation>,
 }
 
 impl<'a> Report<'a> {
@@ -199,6 +205,7 @@ impl<'a> Report<'a> {
         };
         let solved = equations.multipliers.as_ref();
         let rows = equations.constraints.iter();
+        let holonomy = &equations.supplements.holonomy;
         let constraints = model.constraints.iter().zip(rows.clone()).enumerate();
         let momenta = coordinates.iter().zip(&equations.momenta);
         let rates = rates(model);
@@ -219,7 +226,7 @@ impl<'a> Report<'a> {
             constraints: constraints
                 .map(|(k, (constraint, row))| {
                     let multiplier = solved.ok().map(|solved| solved[k]);
-                    Constrained { constraint, row, multiplier }
+                    Constrained { constraint, row, multiplier, holonomy: &holonomy[k] }
                 })
                 .collect(),
             multipliers: solved.map(|solved| {
@@ -244,6 +251,7 @@ impl<'a> Report<'a> {
             energy_rate: equations.energy_rate,
             cyclic: equations.cyclic.iter().map(|&i| position(i)).collect(),
             conserved: conserved(model, equations),
+            separation: equations.supplements.separation.as_ref(),
         }
     }
 
