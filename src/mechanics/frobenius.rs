@@ -236,6 +236,10 @@ impl Pfaffian<'_> {
                 factors.push(self.pool.powi(product, -1));
             }
         }
+        for &i in &free {
+            let x = self.pool.variable(self.variables[i]);
+            factors.extend([-1, -2].map(|n| self.pool.powi(x, n)));
+        }
         factors.into_iter().find_map(|factor| {
             let mut scaled = Vec::new();
             for &i in &free {

@@ -4,6 +4,8 @@ mod bracket;
 mod closed_forms;
 mod conserved;
 mod frames;
+mod gauge;
+mod holonomy;
 
 use nalgebra::{DMatrix, DVector};
 use phaselab::expr::{Expr, Pool, Symbol, Zero};
