@@ -37,7 +37,9 @@ mod restricted;
 mod rigid_body;
 mod sampling;
 mod separation;
+mod similarity;
 mod slope;
+mod structure;
 mod symmetry;
 mod vakonomic;
 mod valuation;
@@ -53,7 +55,6 @@ pub use equations::{
     CoordinateSymbols, Equations, Flow, NoClosedForm, Reason, Separable, Supplements, Vakonomic,
 };
 pub use flaw::StructureError;
-pub use frobenius::Holonomy;
 pub use gauge::Gauge;
 pub use generator::{GeneratorFlow, flow_of};
 pub use hamilton_jacobi::HamiltonJacobi;
@@ -68,5 +69,7 @@ pub use rigid_body::{
     COMPONENTS, RigidBody, Tensor, body_constants, body_values, matrix, principal,
 };
 pub use sampling::{POINTS, TRIES};
-pub use separation::{Separation, separation};
+pub use separation::separation;
+pub use similarity::Similarity;
+pub use structure::{Holonomy, Separation};
 pub use valuation::Valuation;

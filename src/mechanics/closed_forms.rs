@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 
 use super::derive::too_large;
 use super::equations::{CLOSED_FORM_LIMIT, Equations, Flow, NoClosedForm, Separable};
-use super::separation::Separation;
+use super::structure::Separation;
 use super::{constrain, hamilton, legendre, linear};
 use crate::expr::{Expr, Pool, Symbol, Zero};
 

@@ -2,9 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::frobenius::Holonomy;
 use super::rigid_body::{RigidBody, Tensor};
-use super::separation::Separation;
+use super::structure::{Holonomy, Separation};
 use crate::expr::{Expr, Pool, Symbol};
 use crate::model::{CommonSymbols, Model, Point};
 use crate::num::Number;

@@ -14,46 +14,11 @@ use std::collections::{BTreeMap, HashMap};
 use super::equations::{ConstraintRow, Equations};
 use super::modulo::Fixed;
 use super::potential::potential;
+use super::structure::Holonomy;
 use crate::expr::{Expr, Pool, Symbol, Zero};
 
 /// More components than this of a product of forms are not looked at.
 const MOST_COMPONENTS: usize = 3_000;
-
-/// Whether a constraint is holonomic.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Holonomy {
-    /// It is given as a relation between the coordinates and the time.
-    Given,
-    /// It follows from such a relation, proved.
-    Holonomic {
-        /// What is constant, where it is found: a function of the coordinates and the time.
-        constant: Option<Expr>,
-        /// Whether the other constraints are needed for it.
-        together: bool,
-        /// Whether it is so at the file's values of the parameters only.
-        at_these_parameters: bool,
-    },
-    /// There is no such relation, proved by a component of dω_β ∧ ω_1 ∧ … ∧ ω_m that does not vanish.
-    Not {
-        /// The variables of the component.
-        variables: Vec<Symbol>,
-        /// The component.
-        component: Expr,
-    },
-    /// Neither is proved.
-    Unknown,
-}
-
-impl Holonomy {
-    /// Yes or no, where either is proved.
-    pub fn answer(&self) -> Option<bool> {
-        match self {
-            Holonomy::Given | Holonomy::Holonomic { .. } => Some(true),
-            Holonomy::Not { .. } => Some(false),
-            Holonomy::Unknown => None,
-        }
-    }
-}
 
 /// A form of some degree: its components by their ascending variables.
 type Form = BTreeMap<Vec<usize>, Expr>;
@@ -142,13 +107,10 @@ impl Pfaffian<'_> {
     fn judge(&mut self, rows: &[ConstraintRow]) -> Vec<Holonomy> {
         let m = self.forms.len();
         let given = |k: usize| rows[k].position.is_some();
-        let mut found: Vec<Holonomy> = (0..m)
-            .map(|k| if given(k) { Holonomy::Given } else { Holonomy::Unknown })
-            .collect();
+        let mut found: Vec<Holonomy> =
+            (0..m).map(|k| if given(k) { Holonomy::Given } else { Holonomy::Unknown }).collect();
         let smooth: Vec<bool> = (0..m)
-            .map(|k| {
-                !self.forms[k].iter().any(|&a| self.pool.may_have_kink(a, &self.variables))
-            })
+            .map(|k| !self.forms[k].iter().any(|&a| self.pool.may_have_kink(a, &self.variables)))
             .collect();
         // each by itself: dω ∧ ω = 0
         for k in (0..m).filter(|&k| !given(k) && smooth[k]) {
@@ -277,9 +239,8 @@ impl Pfaffian<'_> {
     /// An expression where the other constraints hold.
     fn here(&mut self, e: Expr) -> Expr {
         let on = self.on.clone();
-        on.into_iter().fold(e, |e, (q, value)| {
-            self.pool.substitute(e, &HashMap::from([(q, value)]))
-        })
+        on.into_iter()
+            .fold(e, |e, (q, value)| self.pool.substitute(e, &HashMap::from([(q, value)])))
     }
 
     /// Whether all components vanish where the other constraints hold.

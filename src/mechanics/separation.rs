@@ -6,32 +6,8 @@
 //! Mathematische Annalen 59 (1904) 383.
 
 use super::equations::{CoordinateSymbols, Equations, Flow};
+use super::structure::Separation;
 use crate::expr::{Expr, Pool, Symbol, Zero};
-
-/// Whether Hamilton–Jacobi separates.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Separation {
-    /// It does: Levi-Civita's conditions are proved.
-    Separates {
-        /// Whether it does so at the file's values of the parameters only.
-        at_these_parameters: bool,
-    },
-    /// It does not: the condition of these two coordinates does not hold.
-    Not(Symbol, Symbol),
-    /// Neither is proved, or it is no question, for this reason.
-    Unknown(String),
-}
-
-impl Separation {
-    /// Yes or no, where either is proved.
-    pub fn answer(&self) -> Option<bool> {
-        match self {
-            Separation::Separates { .. } => Some(true),
-            Separation::Not(..) => Some(false),
-            Separation::Unknown(_) => None,
-        }
-    }
-}
 
 impl Equations {
     /// Finds whether Hamilton–Jacobi separates: with the parameters' names, and if not, at their values.

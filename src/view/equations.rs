@@ -165,8 +165,8 @@ impl Writer<'_> {
         let words = match holonomy {
             Holonomy::Given => return name.to_owned(),
             Holonomy::Holonomic { constant, at_these_parameters, .. } => {
-                let constant =
-                    constant.map_or_else(String::new, |e| format!(": {} is constant", self.write(e)));
+                let constant = constant
+                    .map_or_else(String::new, |e| format!(": {} is constant", self.write(e)));
                 let here = if *at_these_parameters { " at the file's parameters" } else { "" };
                 format!("holonomic{here}{constant}")
             }

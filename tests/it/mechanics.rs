@@ -6,6 +6,7 @@ mod conserved;
 mod frames;
 mod gauge;
 mod holonomy;
+mod similarity;
 
 use nalgebra::{DMatrix, DVector};
 use phaselab::expr::{Expr, Pool, Symbol, Zero};

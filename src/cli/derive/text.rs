@@ -126,8 +126,11 @@ impl Page<'_> {
             Holonomy::Given => return None,
             Holonomy::Holonomic { constant, together, at_these_parameters } => {
                 let with = if *together { " with the other constraints" } else { "" };
-                let here =
-                    if *at_these_parameters { " at the file's values of the parameters" } else { "" };
+                let here = if *at_these_parameters {
+                    " at the file's values of the parameters"
+                } else {
+                    ""
+                };
                 let constant = constant.map(|e| format!(": {} is constant", self.math(e)));
                 let constant = constant.unwrap_or_default();
                 format!("holonomic{with}{here}, proved (Frobenius){constant}")
