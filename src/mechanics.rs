@@ -17,7 +17,9 @@ mod flaw;
 mod frames;
 mod frobenius;
 mod gauge;
+mod generating;
 mod generator;
+mod group;
 mod hamilton;
 mod hamilton_jacobi;
 mod invariants;
@@ -45,7 +47,7 @@ mod vakonomic;
 mod valuation;
 
 pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise};
-pub use canonical::{FailingBracket, PhaseMap, Verdict, phase_maps};
+pub use canonical::{FailingBracket, PhaseMap, Verdict};
 pub use conservation::{Class, Classed, class_of, classes};
 pub use constrain::with_reactions;
 pub use derive::{derive, derive_for_motion};
@@ -56,7 +58,9 @@ pub use equations::{
 };
 pub use flaw::StructureError;
 pub use gauge::Gauge;
+pub use generating::GeneratingFunction;
 pub use generator::{GeneratorFlow, flow_of};
+pub use group::phase_maps;
 pub use hamilton_jacobi::HamiltonJacobi;
 pub use invariants::{casimir_rate, is_changed_by_impulse};
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};

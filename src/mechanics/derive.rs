@@ -3,9 +3,9 @@
 //! In: a [`Model`]. Out: [`Equations`]. Never here: the individual steps.
 
 use super::attitude;
-use super::canonical;
 use super::equations::{Equations, Flow, NoClosedForm};
 use super::frames;
+use super::group;
 use super::hamilton;
 use super::hamilton_jacobi;
 use super::invariants;
@@ -62,7 +62,7 @@ pub fn derive_for_motion(model: &Model) -> Result<Equations, NoClosedForm> {
         equations.supplements.vakonomic =
             Some(vakonomic::vakonomic(&mut equations, model, comparison));
     }
-    canonical::find(&mut equations, model);
+    group::find(&mut equations, model);
     hamilton_jacobi::find(&mut equations, model);
     equations.find_holonomy();
     invariants::find(&mut equations, model);

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::rigid_body::{RigidBody, Tensor};
 use super::structure::{Holonomy, Separation};
 use crate::expr::{Expr, Pool, Symbol};
-use crate::model::{CommonSymbols, Model, Point};
+use crate::model::{CommonSymbols, Model, Point, TransformationLaw};
 use crate::num::Number;
 
 /// Everything derived from one model.
@@ -88,6 +88,8 @@ pub struct Supplements {
     /// For each transformation of the file the new variables as functions of (q, p, t), if they can
     /// be written down.
     pub transformations: Vec<Option<Vec<(Symbol, Expr)>>>,
+    /// The laws of the transformations, those made of others written out where that is possible.
+    pub transformation_laws: Vec<Result<TransformationLaw, NoClosedForm>>,
     /// New variables of transformations and constants of the complete integral, as functions of
     /// (q, p, t), as far as they can be written down.
     pub new_variables: Vec<(Symbol, Expr)>,

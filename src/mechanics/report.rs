@@ -5,18 +5,20 @@
 //! side, or the reason why there is none. Never here: how any of it is written.
 
 use super::bracket::{bracket, in_phase_space};
-use super::canonical::{PhaseMap, Verdict, phase_maps};
+use super::canonical::{PhaseMap, Verdict};
 use super::conservation::{Classed, class_of, classes};
 use super::constrain::with_reactions;
 use super::domain::widened;
 use super::equations::{ConstraintRow, Equations, Flow, NoClosedForm, Reason};
+use super::generating::GeneratingFunction;
+use super::group::written_maps;
 use super::hamilton_jacobi::HamiltonJacobi;
 use super::invariants::casimir_rate;
 use super::isolate::Solution;
 use super::rigid_body::{RigidBody, body_values, matrix, principal};
 use super::structure::{Holonomy, Separation};
 use crate::expr::{Expr, Symbol};
-use crate::model::{BodyNames, Constraint, Impulse, Mechanics, Model};
+use crate::model::{BodyNames, Constraint, Impulse, Mechanics, Model, Transformation};
 use crate::num::DoubleDouble;
 
 /// The left-hand side of a line.
@@ -291,6 +293,8 @@ pub struct TransformationReport {
     pub backwards: Option<Solution>,
     /// K(Q, P, t), or why there is none.
     pub hamiltonian: Result<Expr, NoClosedForm>,
+    /// Its generating functions of each type, if it is canonical and they can be looked for.
+    pub functions: Vec<GeneratingFunction>,
 }
 
 /// A generator of the file.
@@ -307,12 +311,17 @@ pub struct GeneratorReport {
 }
 
 fn transformations(model: &Model, equations: &mut Equations) -> Vec<TransformationReport> {
-    let maps = phase_maps(model, equations);
-    let report = |map: PhaseMap| {
+    let maps = written_maps(model, equations);
+    let report = |(given, map): (Transformation, PhaseMap)| {
         let verdict = map.verdict(model, equations);
         let backwards = map.backwards(model, equations);
         let hamiltonian = map.new_hamiltonian(model, equations, &verdict, backwards.as_ref());
-        TransformationReport { map, verdict, backwards, hamiltonian }
+        let functions = if verdict.canonical {
+            map.generating_functions(model, equations, &given)
+        } else {
+            Vec::new()
+        };
+        TransformationReport { map, verdict, backwards, hamiltonian, functions }
     };
     maps.into_iter().map(report).collect()
 }

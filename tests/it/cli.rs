@@ -23,6 +23,7 @@ mod section;
 mod signals;
 mod sweep;
 mod transformations;
+mod transformations_made;
 mod write;
 
 use std::path::Path;

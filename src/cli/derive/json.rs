@@ -5,7 +5,9 @@ use serde_json::{Map, Value, json};
 
 use super::against::Comparison;
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Further, HamiltonJacobi, Holonomy, Left, Line, Report, Separation};
+use crate::mechanics::{
+    Further, GeneratingFunction, HamiltonJacobi, Holonomy, Left, Line, Report, Separation,
+};
 use crate::model::{Action, Direction, Event, Model};
 
 pub(super) fn write(
@@ -218,11 +220,24 @@ impl Page<'_> {
                 "new": map(&known.map.forwards, &known.map.new),
                 "old": map(&known.backwards, &known.map.old),
                 "valence": valence,
+                "generating_functions": self.generating_functions(&known.functions),
                 "failing_brackets": failing.collect::<Vec<_>>(),
                 "why": why,
             })
         });
         all.collect()
+    }
+
+    /// F1 … F4 where they exist, and why others do not.
+    fn generating_functions(&self, known: &[GeneratingFunction]) -> Value {
+        let all = known.iter().map(|one| {
+            let value = match &one.function {
+                Ok(e) => json!({ "F": self.text(*e), "proved": one.proved }),
+                Err(why) => json!({ "F": null, "why": why.to_string() }),
+            };
+            (one.of.name().to_owned(), value)
+        });
+        Value::Object(all.collect())
     }
 
     /// Each generator G with [H, G].

@@ -391,6 +391,15 @@ impl Page<'_> {
             if let Some(valence) = verdict.valence {
                 self.line(&format!("  a scale transformation of valence {}", self.math(valence)));
             }
+            for one in &known.functions {
+                let name = one.of.name();
+                let words = match &one.function {
+                    Ok(e) if one.proved => format!("{} = {}", name, self.math(*e)),
+                    Ok(e) => format!("{} = {}   (near the start)", name, self.math(*e)),
+                    Err(why) => format!("{}: none; {}", name, self.words(&why.to_string())),
+                };
+                self.line(&format!("  {words}"));
+            }
             match &known.hamiltonian {
                 Ok(e) => self.line(&format!("  K = {}", self.math(*e))),
                 Err(why) if verdict.canonical => {
