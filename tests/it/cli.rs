@@ -3,6 +3,7 @@
 mod actions;
 mod adiabatic;
 mod bracket;
+mod capture;
 mod check;
 mod completions;
 mod derive;

@@ -6,6 +6,7 @@ mod conserved;
 mod frames;
 mod gauge;
 mod holonomy;
+mod infinitesimal;
 mod similarity;
 
 use nalgebra::{DMatrix, DVector};

@@ -185,3 +185,50 @@ fn the_other_three_generating_functions() {
     let point = by("F2", "q^3*P");
     check_functions(&point, ["q^3", "p_q/(3*q^2)"], [false, true, true, true]);
 }
+
+/// Symplectic Euler is F2 = q P + h H(q, P); Störmer and Verlet's step is one of half the length and then the inverse of one
+/// backwards: the map of these generating functions is the step that the method takes, to rounding.
+/// Source: Hairer, Lubich & Wanner, *Geometric Numerical Integration*, §§ II.4, VI.5.
+#[test]
+fn a_step_of_the_leapfrog_is_a_composition_of_generating_functions() {
+    let file = "title = \"T\"\n[coordinates]\nq = { initial = 0.8, momentum = 0.5 }\n[parameters]\nh = 0.1\n\
+                [hamiltonian]\nH = \"p_q^2/2 - cos(q)\"\n";
+    let euler = |name: &str, sign: &str, new: &str| {
+        format!(
+            "[[transformations]]\nname = \"{name}\"\nkind = \"F2\"\nnew = [{new}, \"{name}P\"]\n\
+             F = \"q*{name}P {sign} 1/2*h*({name}P^2/2 - cos(q))\"\n"
+        )
+    };
+    let text = format!(
+        "{file}{}{}{}\n{}\n",
+        euler("a", "+", "\"aQ\""),
+        euler("b", "-", "\"bQ\""),
+        made("c", "inverse", "\"b\"", "\"cQ\", \"cP\""),
+        made("step", "compose", "\"a\", \"c\"", "\"X\", \"Y\"")
+    );
+    let maps = with_file(&text, &["derive", "system.toml", "--format", "json"]).json();
+    for map in maps["transformations"].as_array().expect("a list") {
+        assert_eq!((&map["canonical"], &map["proved"]), (&json!(true), &json!(true)), "{map}");
+    }
+    let row = |words: &[&str]| -> (Vec<String>, Vec<f64>) {
+        let words = [&["run", "system.toml", "--format", "json"], words].concat();
+        // the long step is warned of on standard error
+        let found: Value =
+            serde_json::from_str(&with_file(&text, &words).stdout).expect("an object");
+        let names = found["columns"].as_array().expect("columns").iter();
+        let last = found["rows"].as_array().expect("rows").last().expect("a row").as_array();
+        let last = last.expect("a row").iter().map(|x| x.as_f64().unwrap_or(f64::NAN)).collect();
+        (names.map(|name| name.as_str().expect("a name").to_owned()).collect(), last)
+    };
+    let of = |(names, row): &(Vec<String>, Vec<f64>), name: &str| {
+        row[names.iter().position(|n| n == name).unwrap_or_else(|| panic!("{name}: {names:?}"))]
+    };
+    let start = row(&["--at", "0", "--observe", "X=X", "--observe", "Y=Y"]);
+    let stepped = row(&["--method", "leapfrog", "--step", "0.1", "--at", "0.1"]);
+    for (map, method) in [("X", "q"), ("Y", "p_q")] {
+        let (map, method) = (of(&start, map), of(&stepped, method));
+        assert!((map - method).abs() < 1e-15, "{map} is not {method}");
+    }
+    // and that is no accident of a step that does nothing
+    assert!((of(&stepped, "q") - 0.8).abs() > 0.04);
+}
