@@ -17,6 +17,7 @@ mod expand;
 mod function;
 mod inverses;
 mod juxtaposition;
+mod kinks;
 mod latex;
 mod measure;
 mod memo;

@@ -15,7 +15,11 @@ mod domain;
 mod equations;
 mod flaw;
 mod frames;
+mod frobenius;
+mod gauge;
+mod generating;
 mod generator;
+mod group;
 mod hamilton;
 mod hamilton_jacobi;
 mod invariants;
@@ -28,18 +32,22 @@ mod new_hamiltonian;
 mod observe;
 mod poisson;
 mod poisson_structure;
+mod potential;
 mod rearrange;
 mod report;
 mod restricted;
 mod rigid_body;
 mod sampling;
+mod separation;
+mod similarity;
 mod slope;
+mod structure;
 mod symmetry;
 mod vakonomic;
 mod valuation;
 
 pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise};
-pub use canonical::{FailingBracket, PhaseMap, Verdict, phase_maps};
+pub use canonical::{FailingBracket, PhaseMap, Verdict};
 pub use conservation::{Class, Classed, class_of, classes};
 pub use constrain::with_reactions;
 pub use derive::{derive, derive_for_motion};
@@ -49,7 +57,10 @@ pub use equations::{
     CoordinateSymbols, Equations, Flow, NoClosedForm, Reason, Separable, Supplements, Vakonomic,
 };
 pub use flaw::StructureError;
+pub use gauge::Gauge;
+pub use generating::GeneratingFunction;
 pub use generator::{GeneratorFlow, flow_of};
+pub use group::phase_maps;
 pub use hamilton_jacobi::HamiltonJacobi;
 pub use invariants::{casimir_rate, is_changed_by_impulse};
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
@@ -62,4 +73,7 @@ pub use rigid_body::{
     COMPONENTS, RigidBody, Tensor, body_constants, body_values, matrix, principal,
 };
 pub use sampling::{POINTS, TRIES};
+pub use separation::separation;
+pub use similarity::Similarity;
+pub use structure::{Holonomy, Separation};
 pub use valuation::Valuation;

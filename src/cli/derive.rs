@@ -1,12 +1,14 @@
 //! `phaselab derive`: the consequences of a law of motion for reading, for typesetting, or for
 //! another program.
 
+mod against;
 mod json;
 mod latex;
 mod text;
 
 use std::ffi::OsString;
 
+use self::against::Comparison;
 use super::failure::CommandError;
 use super::format::Format;
 use super::open;
@@ -19,18 +21,23 @@ use crate::mechanics::{Further, Report};
 ///
 /// Momenta, mass matrix, equations of motion, the Hamiltonian (or why it has no closed form), the
 /// energy and the law of its change, cyclic coordinates, what is conserved and why; of every
-/// declared observable whether it is conserved; of transformations whether they are canonical, and
-/// K; of generators [H, G]; of a complete integral whether it is one.
+/// declared observable whether it is conserved; of constraints on the velocities whether they are
+/// holonomic; whether Hamilton-Jacobi separates in these coordinates; of transformations whether they
+/// are canonical, and K; of generators [H, G]; of a complete integral whether it is one.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   phaselab derive heavy-top
   phaselab derive my/system.toml --format latex > equations.tex
-  phaselab derive planet --format json | jq .equations")]
+  phaselab derive planet --format json | jq .equations
+  phaselab derive harmonic-oscillator --against \"1/2*m*x'^2 - 1/2*k*x^2 + 2*x*x'\"")]
 pub(super) struct Arguments {
     /// A preset's name, or a file.
     #[arg(value_name = "PRESET|FILE")]
     name: OsString,
+    /// Another Lagrangian, as an expression, a preset or a file: does it differ by a total derivative?
+    #[arg(long, value_name = "EXPR|PRESET|FILE", allow_hyphen_values = true)]
+    against: Option<String>,
     /// How it is written.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -42,11 +49,20 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let Derived { model, mut equations } = open::derive(&document, model)?;
     equations.find_closed_forms();
     let further = Further::of(&model, &mut equations);
+    let given = arguments.against.as_deref();
+    let compared = given.map(|given| Comparison::of(&model, &mut equations, given)).transpose()?;
     let report = Report::of(&model, &equations);
-    let text = match arguments.format {
+    let mut text = match arguments.format {
         Format::Text => text::write(&report, &further, Script::of_locale()),
         Format::Latex => latex::write(&report, &further),
-        Format::Json => json::write(&report, &further),
+        Format::Json => json::write(&report, &further, compared.as_ref()),
     };
+    match (arguments.format, &compared) {
+        (Format::Text, Some(known)) => {
+            text.push_str(&known.text(&equations.pool, Script::of_locale()));
+        }
+        (Format::Latex, Some(known)) => text.push_str(&known.latex(&equations.pool)),
+        _ => {}
+    }
     Output::print(arguments.format.form(), &text)
 }

@@ -1,4 +1,7 @@
-//! `phaselab symmetries`: Noether's symmetries of a Lagrangian, and what is constant because of each.
+//! `phaselab symmetries`: Noether's symmetries of a Lagrangian, and what is constant because of each; the other point
+//! symmetries of the equations of motion; mechanical similarity.
+
+mod similar;
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -7,6 +10,7 @@ use std::time::Instant;
 
 use serde_json::{Map, Value, json};
 
+use self::similar::Others;
 use super::assignment::{self, Assignment, number};
 use super::failure::CommandError;
 use super::format::Format;
@@ -15,15 +19,16 @@ use super::output::Output;
 use super::script::Script;
 use crate::experiment::Derived;
 use crate::expr::Expr;
-use crate::integrability::{Symmetries, Symmetry, symmetries};
+use crate::integrability::{Symmetries, Symmetry, Unsupported, point_symmetries, symmetries};
 use crate::mechanics::Equations;
 use crate::model::Model;
 
-/// Find Noether's symmetries of a Lagrangian.
+/// Find symmetries: Noether's of a Lagrangian, and Lie's of the equations of motion.
 ///
 /// Each is a change of time and coordinates that changes L dt by a total derivative only: shifts,
-/// rotations, boosts, dilations. Beside it stands what is constant because of it. The parameters
-/// have their values.
+/// rotations, boosts, dilations. Beside it stands what is constant because of it. Then come the
+/// changes that only take motions to motions, such as Kepler's third law, and the virial theorem where T
+/// and V are homogeneous. The parameters have their values.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -59,12 +64,33 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let most = arguments.budget.unwrap_or(BUDGET);
     let begin = Instant::now();
     let is_over = || begin.elapsed().as_secs_f64() > most;
-    let found = symmetries(&model, &mut equations, &is_over)
-        .map_err(|why| CommandError::CouldNot(why.to_string()))?;
+    let found = symmetries(&model, &mut equations, &is_over);
+    let points = point_symmetries(&model, &mut equations, found.as_ref().ok(), &is_over);
+    if let (Err(why), Err(_)) = (&found, &points) {
+        return Err(CommandError::CouldNot(why.to_string()));
+    }
+    let similarity = equations.similarity();
+    let others = Others { points, similarity };
     let text = match arguments.format {
-        Format::Text => text(&model, &equations, &found, Script::of_locale()),
-        Format::Latex => latex(&equations, &found),
-        Format::Json => json(&model, &equations, &found),
+        Format::Text => {
+            let script = Script::of_locale();
+            let own = match &found {
+                Ok(found) => text(&model, &equations, found, script),
+                Err(why) => {
+                    format!("{}\n\nNoether's symmetries: {why}\n", model.info.title)
+                }
+            };
+            own + &others.text(&equations, script)
+        }
+        Format::Latex => match &found {
+            Ok(found) => latex(&equations, found) + &others.latex(&equations),
+            Err(_) => others.latex(&equations),
+        },
+        Format::Json => {
+            let mut object = json(&model, &equations, &found);
+            others.json(&equations, &mut object);
+            format!("{object:#}\n")
+        }
     };
     let mut out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
     out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
@@ -114,7 +140,7 @@ fn latex(equations: &Equations, found: &Symmetries) -> String {
     format!("\\begin{{align*}}\n{}\n\\end{{align*}}\n", lines.join(" \\\\\n"))
 }
 
-fn json(model: &Model, equations: &Equations, found: &Symmetries) -> String {
+fn json(model: &Model, equations: &Equations, found: &Result<Symmetries, Unsupported>) -> Value {
     let text = |e: Expr| Value::String(equations.pool.text(e));
     let one = |s: &Symmetry| {
         let coordinates: Map<String, Value> = model
@@ -136,14 +162,17 @@ fn json(model: &Model, equations: &Equations, found: &Symmetries) -> String {
     };
     let parameters: Map<String, Value> =
         model.parameters.iter().map(|p| (p.name.clone(), json!(p.value))).collect();
-    let object = json!({
+    let mut object = json!({
         "phaselab": env!("CARGO_PKG_VERSION"),
         "title": model.info.title,
         "parameters": parameters,
         "method": null,
-        "symmetries": found.found.iter().map(one).collect::<Vec<_>>(),
-        "searched": found.searched,
-        "complete": found.complete,
+        "symmetries": found.iter().flat_map(|f| &f.found).map(one).collect::<Vec<_>>(),
+        "searched": found.as_ref().ok().map(|f| f.searched.as_str()),
+        "complete": found.as_ref().is_ok_and(|f| f.complete),
     });
-    format!("{object:#}\n")
+    if let Err(why) = found {
+        object["why"] = Value::String(why.to_string());
+    }
+    object
 }

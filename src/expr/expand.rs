@@ -14,6 +14,11 @@ pub(super) const TRIAL_TERMS: usize = 120;
 pub(super) const PROOF_TERMS: usize = 4000;
 
 impl Pool {
+    /// The expression with products of sums multiplied out.
+    pub fn multiplied_out(&mut self, e: Expr) -> Expr {
+        self.expand(e, PROOF_TERMS)
+    }
+
     /// Multiplies out products of sums and small positive powers of sums, everywhere in `e`, if the
     /// result has no more than `most` terms.
     pub(super) fn expand(&mut self, e: Expr, most: usize) -> Expr {

@@ -16,6 +16,7 @@ use super::echelon::{Echelon, reduced};
 use super::evaluator::{Evaluator, Random, Unsupported};
 use super::formula::cleared;
 use super::law;
+use super::naming::name_of;
 use super::transformations::{generators_of, products};
 use crate::expr::{Expr, Node, Pool, Symbol, Zero};
 use crate::mechanics::{Equations, is_changed_by_impulse};
@@ -23,13 +24,13 @@ use crate::model::Model;
 use crate::num::{Number, PRIMES, PrimeField, Residue, rational};
 
 /// The greatest degree of ξ, η and f in t, q and the other functions.
-const DEGREE: u32 = 3;
+pub(super) const DEGREE: u32 = 3;
 
 /// The largest number of unknown coefficients.
-const MOST: usize = 1_500;
+pub(super) const MOST: usize = 1_500;
 
 /// Rows beyond the rank that have to add nothing.
-const SPARE: usize = 12;
+pub(super) const SPARE: usize = 12;
 
 /// A symmetry of a Lagrangian.
 #[derive(Clone, Debug)]
@@ -121,7 +122,8 @@ pub fn symmetries(
         let rest = s.coordinates.iter().chain([&s.time, &s.gauge]);
         rest.map(|&e| pool.weight(e)).sum::<u64>()
     });
-    let searched = problem.words(pool);
+    let searched = words(pool, &problem.generators, &problem.monomials);
+    let searched = format!("changes of time and coordinates, and gauge terms, that are {searched}");
     for symmetry in &mut found {
         symmetry.between_impulses = is_changed_by_impulse(equations, model, symmetry.conserved);
     }
@@ -350,7 +352,7 @@ impl Problem {
         let proved = pool.is_zero(condition) == Zero::Proved;
         let conserved = pool.sum(&constant);
         let conserved = pool.simplify(conserved);
-        let name = self.name(pool, xi, &eta);
+        let name = name_of(pool, self.time, &self.positions, xi, &eta);
         Some(Symmetry {
             name,
             time: xi,
@@ -362,93 +364,19 @@ impl Problem {
             between_impulses: false,
         })
     }
-
-    /// What a symmetry is called.
-    fn name(&self, pool: &mut Pool, xi: Expr, eta: &[Expr]) -> String {
-        let mut moving = self.positions.clone();
-        moving.push(self.time);
-        let constant = |pool: &Pool, e: Expr| !pool.depends_on_any(e, &moving);
-        let time = self.time;
-        let still = eta.iter().all(|&e| e == Expr::ZERO);
-        let of_time = |pool: &Pool, e: Expr| !pool.depends_on_any(e, &self.positions);
-        let name = if still && constant(pool, xi) {
-            "time shift"
-        } else if xi == Expr::ZERO && eta.iter().all(|&e| constant(pool, e)) {
-            "translation"
-        } else if xi == Expr::ZERO && eta.iter().all(|&e| of_time(pool, e)) {
-            // η = v t + c
-            let rates: Vec<Expr> = eta.iter().map(|&e| pool.derivative(e, time)).collect();
-            if rates.iter().all(|&e| constant(pool, e)) {
-                "boost"
-            } else {
-                "translation that depends on the time"
-            }
-        } else if xi == Expr::ZERO {
-            let matrix: Vec<Vec<Expr>> = eta
-                .iter()
-                .map(|&e| self.positions.iter().map(|&q| pool.derivative(e, q)).collect())
-                .collect();
-            let linear = matrix.iter().flatten().all(|&e| constant(pool, e))
-                && eta.iter().all(|&e| !pool.depends(e, time));
-            if !linear {
-                "transformation of the coordinates"
-            } else if is_antisymmetric(pool, &matrix) {
-                "rotation"
-            } else {
-                "linear transformation of the coordinates"
-            }
-        } else {
-            let rate = pool.derivative(xi, time);
-            let shrinks = |pool: &mut Pool, q: Symbol, e: Expr| {
-                // η = a(t) q
-                let q_slope = pool.derivative(e, q);
-                let along = pool.variable(q);
-                let along = pool.mul(q_slope, along);
-                let rest = pool.sub(e, along);
-                of_time(pool, q_slope) && (rest == Expr::ZERO || pool.is_zero(rest) == Zero::Proved)
-            };
-            let mut each = self.positions.iter().zip(eta);
-            let scaled = of_time(pool, xi) && each.all(|(&q, &e)| shrinks(pool, q, e));
-            let bend = pool.derivative(rate, time);
-            if scaled && constant(pool, rate) && eta.iter().all(|&e| !pool.depends(e, time)) {
-                "dilation"
-            } else if scaled && bend != Expr::ZERO && constant(pool, bend) {
-                "conformal transformation"
-            } else {
-                "transformation of time and coordinates"
-            }
-        };
-        name.to_owned()
-    }
-
-    fn words(&self, pool: &Pool) -> String {
-        let all: Vec<String> = self.generators.iter().map(|&e| pool.text(e)).collect();
-        let highest = self.monomials.last().map_or(0, |&e| self.degree(pool, e));
-        format!(
-            "changes of time and coordinates, and gauge terms, that are polynomials of degree up to {highest} in {}",
-            all.join(", ")
-        )
-    }
-
-    fn degree(&self, pool: &Pool, e: Expr) -> u32 {
-        match pool.node(e) {
-            Node::Product(_, factors) if !self.generators.contains(&e) => {
-                factors.iter().filter_map(|(_, n)| n.as_integer()).sum::<i64>().unsigned_abs()
-                    as u32
-            }
-            _ => 1,
-        }
-    }
 }
 
-/// Whether A + Aᵀ = 0 is proved, so that exp(A) turns the coordinates.
-fn is_antisymmetric(pool: &mut Pool, matrix: &[Vec<Expr>]) -> bool {
-    (0..matrix.len()).all(|i| {
-        (0..=i).all(|j| {
-            let sum = pool.add(matrix[i][j], matrix[j][i]);
-            sum == Expr::ZERO || pool.is_zero(sum) == Zero::Proved
-        })
-    })
+/// What was searched: polynomials of a degree in these functions.
+pub(super) fn words(pool: &Pool, generators: &[Expr], monomials: &[Expr]) -> String {
+    let all: Vec<String> = generators.iter().map(|&e| pool.text(e)).collect();
+    let degree = |e: Expr| match pool.node(e) {
+        Node::Product(_, factors) if !generators.contains(&e) => {
+            factors.iter().filter_map(|(_, n)| n.as_integer()).sum::<i64>().unsigned_abs()
+        }
+        _ => 1,
+    };
+    let highest = monomials.last().map_or(0, |&e| degree(e));
+    format!("polynomials of degree up to {highest} in {}", all.join(", "))
 }
 
 /// L_t, L_q, L_q̇.

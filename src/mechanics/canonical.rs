@@ -103,6 +103,8 @@ impl PhaseMap {
                     relations.push(pool.sub(variable, e));
                 }
             }
+            // made of others: its law is looked up before
+            TransformationLaw::Inverse(_) | TransformationLaw::Composition(_) => {}
             TransformationLaw::Generating { types, function } => {
                 for ((c, &[position, momentum]), of) in pairs.zip(types) {
                     // the two that F does not depend on are its slopes, with a sign
@@ -155,7 +157,11 @@ impl PhaseMap {
     }
 
     /// Finds the new variables as functions of the old ones, if they can be written down.
-    fn find_forwards(&self, model: &Model, equations: &mut Equations) -> Option<Solution> {
+    pub(super) fn find_forwards(
+        &self,
+        model: &Model,
+        equations: &mut Equations,
+    ) -> Option<Solution> {
         let points: Vec<Valuation> =
             (0..LOOKED_AT).map(|n| Valuation::near_start(model, equations, n)).collect();
         // of a map that may be near the identity the branch that is nearest to it comes first
@@ -462,32 +468,6 @@ fn departure(matrix: &DMatrix<f64>) -> f64 {
     let unit =
         DMatrix::from_fn(size, size, |i, j| f64::from(i8::from(j == i + n) - i8::from(i == j + n)));
     (matrix * &unit * matrix.transpose() - unit).amax()
-}
-
-/// Finds the transformations of a model.
-pub(super) fn find(equations: &mut Equations, model: &Model) {
-    let mut all = Vec::new();
-    for given in &model.transformations {
-        let map = PhaseMap::relations(&mut equations.pool, model, given);
-        all.push(map.find_forwards(model, equations));
-    }
-    let shared: Vec<Symbol> = model.new_variables().into_iter().map(|(_, s)| s).collect();
-    let known = all.iter().flatten().flatten().copied();
-    equations.supplements.new_variables =
-        known.filter(|(symbol, _)| shared.contains(symbol)).collect();
-    equations.supplements.transformations = all;
-}
-
-/// The transformations of a model, as they were found with its equations.
-pub fn phase_maps(model: &Model, equations: &mut Equations) -> Vec<PhaseMap> {
-    let found = equations.supplements.transformations.clone();
-    let pool = &mut equations.pool;
-    let maps = model
-        .transformations
-        .iter()
-        .zip(found)
-        .map(|(given, forwards)| PhaseMap { forwards, ..PhaseMap::relations(pool, model, given) });
-    maps.collect()
 }
 
 /// Values put into an expression, which must leave none of these symbols.

@@ -9,6 +9,7 @@ use std::collections::BTreeSet;
 
 use super::derive::too_large;
 use super::equations::{CLOSED_FORM_LIMIT, Equations, Flow, NoClosedForm, Separable};
+use super::structure::Separation;
 use super::{constrain, hamilton, legendre, linear};
 use crate::expr::{Expr, Pool, Symbol, Zero};
 
@@ -24,11 +25,29 @@ impl Equations {
         self.hamiltonian();
         self.lagrangian();
         self.separable();
+        self.separation();
     }
 
     /// Returns whether a closed form has not been looked for yet.
     pub fn has_pending_forms(&self) -> bool {
-        self.pending.solved || self.pending.transform || self.pending.separable
+        self.pending.solved
+            || self.pending.transform
+            || self.pending.separable
+            || self.supplements.separation.is_none()
+    }
+
+    /// Whether Hamilton–Jacobi separates in the file's coordinates.
+    pub fn separation(&mut self) -> &Separation {
+        if self.supplements.separation.is_none() {
+            let before = self.pool.clone();
+            self.find_separation();
+            if self.pool.is_full() {
+                self.pool = before;
+                let why = "Levi-Civita's conditions grow beyond all bounds".to_owned();
+                self.supplements.separation = Some(Separation::Unknown(why));
+            }
+        }
+        self.supplements.separation.get_or_insert(Separation::Unknown(String::new()))
     }
 
     /// q̈ as a function of (q, q̇, t), or q̇ then ṗ of a Hamiltonian system.

@@ -3,9 +3,9 @@
 //! In: a [`Model`]. Out: [`Equations`]. Never here: the individual steps.
 
 use super::attitude;
-use super::canonical;
 use super::equations::{Equations, Flow, NoClosedForm};
 use super::frames;
+use super::group;
 use super::hamilton;
 use super::hamilton_jacobi;
 use super::invariants;
@@ -13,8 +13,9 @@ use super::lagrange;
 use super::poisson;
 use super::rigid_body;
 use super::vakonomic;
-use crate::expr::NODE_LIMIT;
+use crate::expr::{NODE_LIMIT, Symbol};
 use crate::model::{Mechanics, Model};
+use crate::num::Number;
 
 /// Derives everything that follows from a model's law of motion.
 ///
@@ -54,19 +55,30 @@ pub fn derive_for_motion(model: &Model) -> Result<Equations, NoClosedForm> {
     equations.supplements.body =
         model.body.as_ref().map(|body| rigid_body::compose(&mut pool, body));
     equations.pool = pool;
+    equations.supplements.constants = constants(model, &equations);
     attitude::find(&mut equations, model);
     equations.supplements.frames = frames::find(model, &mut equations);
     if let Some(comparison) = &model.comparison {
         equations.supplements.vakonomic =
             Some(vakonomic::vakonomic(&mut equations, model, comparison));
     }
-    canonical::find(&mut equations, model);
+    group::find(&mut equations, model);
     hamilton_jacobi::find(&mut equations, model);
+    equations.find_holonomy();
     invariants::find(&mut equations, model);
     if equations.pool.is_full() || longest(&equations) > NODE_LIMIT as u64 {
         return Err(too_large());
     }
     Ok(equations)
+}
+
+/// The parameters and what follows from a body, with their values as exact numbers.
+fn constants(model: &Model, equations: &Equations) -> Vec<(Symbol, Number)> {
+    let values = model.parameter_values();
+    let body = equations.supplements.body.as_ref();
+    let body = rigid_body::body_values(model, &equations.pool, body, &values);
+    let own = model.parameters.iter().map(|p| p.symbol).zip(values);
+    own.chain(body).map(|(s, x)| (s, Number::Real(x).canonical())).collect()
 }
 
 pub(super) fn too_large() -> NoClosedForm {

@@ -1,8 +1,12 @@
 //! What follows from a law of motion: the equations and everything derived with them.
 
+use std::collections::HashMap;
+
 use super::rigid_body::{RigidBody, Tensor};
+use super::structure::{Holonomy, Separation};
 use crate::expr::{Expr, Pool, Symbol};
-use crate::model::{CommonSymbols, Model, Point};
+use crate::model::{CommonSymbols, Model, Point, TransformationLaw};
+use crate::num::Number;
 
 /// Everything derived from one model.
 ///
@@ -84,6 +88,8 @@ pub struct Supplements {
     /// For each transformation of the file the new variables as functions of (q, p, t), if they can
     /// be written down.
     pub transformations: Vec<Option<Vec<(Symbol, Expr)>>>,
+    /// The laws of the transformations, those made of others written out where that is possible.
+    pub transformation_laws: Vec<Result<TransformationLaw, NoClosedForm>>,
     /// New variables of transformations and constants of the complete integral, as functions of
     /// (q, p, t), as far as they can be written down.
     pub new_variables: Vec<(Symbol, Expr)>,
@@ -91,6 +97,12 @@ pub struct Supplements {
     pub shown_velocities: Option<Vec<Expr>>,
     /// The symbols of the attitude matrix, by rows.
     pub attitude_symbols: Option<[[Symbol; 3]; 3]>,
+    /// Of each constraint whether it is holonomic.
+    pub holonomy: Vec<Holonomy>,
+    /// Whether Hamilton–Jacobi separates in the file's coordinates, once it has been found out.
+    pub separation: Option<Separation>,
+    /// The file's values of the parameters and of what follows from a body, as exact numbers.
+    pub constants: Vec<(Symbol, Number)>,
 }
 
 impl Supplements {
@@ -281,6 +293,12 @@ impl NoClosedForm {
 }
 
 impl Equations {
+    /// The file's values of the parameters, to be substituted for their symbols.
+    pub(super) fn parameter_values(&mut self) -> HashMap<Symbol, Expr> {
+        let constants = self.supplements.constants.clone();
+        constants.into_iter().map(|(s, n)| (s, self.pool.number(n))).collect()
+    }
+
     /// Returns whether the state consists of positions and velocities (Lagrangian) rather than
     /// momenta.
     pub fn is_lagrangian(&self) -> bool {

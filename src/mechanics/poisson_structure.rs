@@ -25,9 +25,11 @@ const PROOF_PRODUCTS: usize = 20_000;
 /// The largest number of nodes of an expression that a message quotes.
 const LONGEST: u64 = 60;
 
-/// Finds what is false in the brackets and Casimirs of a Poisson system, or meaningless in a body.
+/// Finds what is false in the brackets and Casimirs of a Poisson system, meaningless in a body, or cannot be written down of
+/// transformations.
 pub fn flaws(model: &Model, equations: &Equations) -> Vec<StructureError> {
     let mut flaws = rigid_body::flaws(model, &equations.pool, equations.supplements.body.as_ref());
+    flaws.extend(super::group::flaws(model, equations));
     let Mechanics::Poisson { brackets, casimirs, place, .. } = &model.mechanics else {
         return flaws;
     };

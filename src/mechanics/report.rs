@@ -5,17 +5,20 @@
 //! side, or the reason why there is none. Never here: how any of it is written.
 
 use super::bracket::{bracket, in_phase_space};
-use super::canonical::{PhaseMap, Verdict, phase_maps};
+use super::canonical::{PhaseMap, Verdict};
 use super::conservation::{Classed, class_of, classes};
 use super::constrain::with_reactions;
 use super::domain::widened;
 use super::equations::{ConstraintRow, Equations, Flow, NoClosedForm, Reason};
+use super::generating::GeneratingFunction;
+use super::group::written_maps;
 use super::hamilton_jacobi::HamiltonJacobi;
 use super::invariants::casimir_rate;
 use super::isolate::Solution;
 use super::rigid_body::{RigidBody, body_values, matrix, principal};
+use super::structure::{Holonomy, Separation};
 use crate::expr::{Expr, Symbol};
-use crate::model::{BodyNames, Constraint, Impulse, Mechanics, Model};
+use crate::model::{BodyNames, Constraint, Impulse, Mechanics, Model, Transformation};
 use crate::num::DoubleDouble;
 
 /// The left-hand side of a line.
@@ -64,6 +67,8 @@ pub struct Constrained<'a> {
     pub row: &'a ConstraintRow,
     /// λ, if it is known in closed form.
     pub multiplier: Option<Expr>,
+    /// Whether it is holonomic.
+    pub holonomy: &'a Holonomy,
 }
 
 /// The force of one constraint on one coordinate: a factor times the multiplier.
@@ -180,6 +185,8 @@ pub struct Report<'a> {
     pub cyclic: Vec<Symbol>,
     /// The conserved quantities, each with its reason.
     pub conserved: Vec<ConservedReport<'a>>,
+    /// Whether Hamilton–Jacobi separates in the file's coordinates, once it has been found out.
+    pub separation: Option<&'a Separation>,
 }
 
 impl<'a> Report<'a> {
@@ -199,6 +206,7 @@ impl<'a> Report<'a> {
         };
         let solved = equations.multipliers.as_ref();
         let rows = equations.constraints.iter();
+        let holonomy = &equations.supplements.holonomy;
         let constraints = model.constraints.iter().zip(rows.clone()).enumerate();
         let momenta = coordinates.iter().zip(&equations.momenta);
         let rates = rates(model);
@@ -219,7 +227,7 @@ impl<'a> Report<'a> {
             constraints: constraints
                 .map(|(k, (constraint, row))| {
                     let multiplier = solved.ok().map(|solved| solved[k]);
-                    Constrained { constraint, row, multiplier }
+                    Constrained { constraint, row, multiplier, holonomy: &holonomy[k] }
                 })
                 .collect(),
             multipliers: solved.map(|solved| {
@@ -244,6 +252,7 @@ impl<'a> Report<'a> {
             energy_rate: equations.energy_rate,
             cyclic: equations.cyclic.iter().map(|&i| position(i)).collect(),
             conserved: conserved(model, equations),
+            separation: equations.supplements.separation.as_ref(),
         }
     }
 
@@ -284,6 +293,8 @@ pub struct TransformationReport {
     pub backwards: Option<Solution>,
     /// K(Q, P, t), or why there is none.
     pub hamiltonian: Result<Expr, NoClosedForm>,
+    /// Its generating functions of each type, if it is canonical and they can be looked for.
+    pub functions: Vec<GeneratingFunction>,
 }
 
 /// A generator of the file.
@@ -300,12 +311,17 @@ pub struct GeneratorReport {
 }
 
 fn transformations(model: &Model, equations: &mut Equations) -> Vec<TransformationReport> {
-    let maps = phase_maps(model, equations);
-    let report = |map: PhaseMap| {
+    let maps = written_maps(model, equations);
+    let report = |(given, map): (Transformation, PhaseMap)| {
         let verdict = map.verdict(model, equations);
         let backwards = map.backwards(model, equations);
         let hamiltonian = map.new_hamiltonian(model, equations, &verdict, backwards.as_ref());
-        TransformationReport { map, verdict, backwards, hamiltonian }
+        let functions = if verdict.canonical {
+            map.generating_functions(model, equations, &given)
+        } else {
+            Vec::new()
+        };
+        TransformationReport { map, verdict, backwards, hamiltonian, functions }
     };
     maps.into_iter().map(report).collect()
 }

@@ -33,6 +33,10 @@ pub enum TransformationLaw {
         /// P of each pair.
         momenta: Vec<Expr>,
     },
+    /// The inverse of the transformation with this index, which stands before it.
+    Inverse(usize),
+    /// Those with these indices, which stand before it, one after the other.
+    Composition(Vec<usize>),
 }
 
 /// Which variables of a pair a generating function depends on.

@@ -353,9 +353,10 @@ const TRANSFORMATION: Section = Section {
         key(
             "kind",
             Text,
-            "`F1` of q, Q; `F2` of q, P; `F3` of p, Q; `F4` of p, P; `mixed`, `explicit`",
+            "`F1` of q, Q; `F2` of q, P; `F3` of p, Q; `F4` of p, P; `mixed`, `explicit`, `inverse`, `compose`",
         ),
         key("types", Texts, "the kind for each pair, where they differ"),
+        key("of", Texts, "the transformations above that it is made of, the first to act first"),
         key("F", Formula, "the generating function"),
         key("Q", Names, "the new coordinates as functions of q, p, t, where it is explicit"),
         key("P", Names, "the new momenta"),

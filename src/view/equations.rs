@@ -8,7 +8,7 @@ use super::text_page::TextPage;
 use super::theme::Role;
 use crate::app::Lab;
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Constant, Flow, Left, Line, NoClosedForm, Report};
+use crate::mechanics::{Constant, Flow, Holonomy, Left, Line, NoClosedForm, Report};
 
 /// Expressions with more nodes than this are not written out.
 const MOST: u64 = 4_000;
@@ -146,7 +146,8 @@ impl Writer<'_> {
         }
         self.page.heading("Constraints");
         for known in &report.constraints {
-            self.put("0", known.constraint.expression, &known.constraint.name);
+            let remark = self.constraint_remark(&known.constraint.name, known.holonomy);
+            self.put("0", known.constraint.expression, &remark);
         }
         self.page.heading("Multipliers: the force on each coordinate is +λ times the slope of the constraint as written");
         match &report.multipliers {
@@ -157,6 +158,22 @@ impl Writer<'_> {
             }
             Err(why) => self.not_closed(why),
         }
+    }
+
+    /// The name of a constraint, and whether it is holonomic where that is a question.
+    fn constraint_remark(&self, name: &str, holonomy: &Holonomy) -> String {
+        let words = match holonomy {
+            Holonomy::Given => return name.to_owned(),
+            Holonomy::Holonomic { constant, at_these_parameters, .. } => {
+                let constant = constant
+                    .map_or_else(String::new, |e| format!(": {} is constant", self.write(e)));
+                let here = if *at_these_parameters { " at the file's parameters" } else { "" };
+                format!("holonomic{here}{constant}")
+            }
+            Holonomy::Not { .. } => "not holonomic: proved".to_owned(),
+            Holonomy::Unknown => "holonomic or not: not known".to_owned(),
+        };
+        format!("{name}; {words}")
     }
 
     fn motion(&mut self) {

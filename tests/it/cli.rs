@@ -3,6 +3,7 @@
 mod actions;
 mod adiabatic;
 mod bracket;
+mod capture;
 mod check;
 mod completions;
 mod derive;
@@ -23,6 +24,7 @@ mod section;
 mod signals;
 mod sweep;
 mod transformations;
+mod transformations_made;
 mod write;
 
 use std::path::Path;

@@ -3,6 +3,7 @@
 
 mod absent;
 mod found;
+mod lie;
 mod negatives;
 mod noether;
 mod relations;

@@ -4,6 +4,10 @@ mod bracket;
 mod closed_forms;
 mod conserved;
 mod frames;
+mod gauge;
+mod holonomy;
+mod infinitesimal;
+mod similarity;
 
 use nalgebra::{DMatrix, DVector};
 use phaselab::expr::{Expr, Pool, Symbol, Zero};

@@ -3,11 +3,18 @@
 
 use serde_json::{Map, Value, json};
 
+use super::against::Comparison;
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Further, HamiltonJacobi, Left, Line, Report};
+use crate::mechanics::{
+    Further, GeneratingFunction, HamiltonJacobi, Holonomy, Left, Line, Report, Separation,
+};
 use crate::model::{Action, Direction, Event, Model};
 
-pub(super) fn write(report: &Report<'_>, further: &Further) -> String {
+pub(super) fn write(
+    report: &Report<'_>,
+    further: &Further,
+    compared: Option<&Comparison>,
+) -> String {
     let page = Page { report };
     let mut why = Vec::new();
     let solved = match &report.motion {
@@ -57,6 +64,8 @@ pub(super) fn write(report: &Report<'_>, further: &Further) -> String {
         "events": events(report.model),
         "transformations": page.transformations(further),
         "generators": page.generators(further),
+        "separates": report.separation.and_then(Separation::answer),
+        "separation": page.separation(),
     });
     if let Some(body) = &report.body {
         let expressions = page.map(&body.lines);
@@ -69,6 +78,9 @@ pub(super) fn write(report: &Report<'_>, further: &Further) -> String {
             "axes": body.axes,
             "expressions": expressions,
         });
+    }
+    if let Some(compared) = compared {
+        object["against"] = compared.json(&report.equations.pool);
     }
     if let Some(integral) = &further.hamilton_jacobi {
         object["hamilton_jacobi"] = page.hamilton_jacobi(integral);
@@ -135,7 +147,9 @@ impl Page<'_> {
             json!({
                 "name": known.constraint.name,
                 "expression": self.text(known.constraint.expression),
-                "holonomic": known.row.position.is_some(),
+                "holonomic": known.holonomy.answer(),
+                "given": if known.row.position.is_some() { "position" } else { "velocity" },
+                "holonomy": self.holonomy(known.holonomy),
                 "coefficients": coefficients,
                 "rate": self.text(known.row.rate),
                 "multiplier": self.left(Left::Symbol(known.row.multiplier)),
@@ -143,6 +157,37 @@ impl Page<'_> {
             })
         });
         all.collect()
+    }
+
+    /// What is known of a constraint on the velocities by Frobenius' theorem.
+    fn holonomy(&self, known: &Holonomy) -> Value {
+        match known {
+            Holonomy::Given | Holonomy::Unknown => Value::Null,
+            Holonomy::Holonomic { constant, together, at_these_parameters } => json!({
+                "constant": constant.map(|e| self.text(e)),
+                "with_the_others": together,
+                "for_all_parameters": !at_these_parameters,
+            }),
+            Holonomy::Not { variables, component } => {
+                let all = variables.iter().map(|&s| self.left(Left::Symbol(s)));
+                json!({ "component": self.text(*component), "in": all.collect::<Vec<_>>() })
+            }
+        }
+    }
+
+    /// Whether Hamilton–Jacobi separates, and why not.
+    fn separation(&self) -> Value {
+        match self.report.separation {
+            None => Value::Null,
+            Some(Separation::Separates { at_these_parameters }) => {
+                json!({ "for_all_parameters": !at_these_parameters })
+            }
+            Some(Separation::Not(a, b)) => {
+                let pair = [a, b].map(|&s| self.left(Left::Symbol(s)));
+                json!({ "fails_for": pair })
+            }
+            Some(Separation::Unknown(why)) => json!({ "why": why }),
+        }
     }
 
     /// Each transformation: whether it is canonical, and K.
@@ -175,11 +220,24 @@ impl Page<'_> {
                 "new": map(&known.map.forwards, &known.map.new),
                 "old": map(&known.backwards, &known.map.old),
                 "valence": valence,
+                "generating_functions": self.generating_functions(&known.functions),
                 "failing_brackets": failing.collect::<Vec<_>>(),
                 "why": why,
             })
         });
         all.collect()
+    }
+
+    /// F1 … F4 where they exist, and why others do not.
+    fn generating_functions(&self, known: &[GeneratingFunction]) -> Value {
+        let all = known.iter().map(|one| {
+            let value = match &one.function {
+                Ok(e) => json!({ "F": self.text(*e), "proved": one.proved }),
+                Err(why) => json!({ "F": null, "why": why.to_string() }),
+            };
+            (one.of.name().to_owned(), value)
+        });
+        Value::Object(all.collect())
     }
 
     /// Each generator G with [H, G].

@@ -1,7 +1,7 @@
 //! The report on a law of motion as a fragment for LaTeX with amsmath.
 
 use crate::expr::Symbol;
-use crate::mechanics::{Further, Left, Line, Report};
+use crate::mechanics::{Further, Holonomy, Left, Line, Report};
 
 pub(super) fn write(report: &Report<'_>, further: &Further) -> String {
     let pool = &report.equations.pool;
@@ -14,6 +14,14 @@ pub(super) fn write(report: &Report<'_>, further: &Further) -> String {
     }
     for known in &report.constraints {
         page.add(&pool.latex(known.constraint.expression), "0");
+        match known.holonomy {
+            Holonomy::Holonomic { constant: Some(e), .. } => {
+                page.add(&pool.latex(*e), "\\text{constant (holonomic)}");
+            }
+            Holonomy::Holonomic { .. } => page.lines.push("&\\text{holonomic}".to_owned()),
+            Holonomy::Not { .. } => page.lines.push("&\\text{not holonomic}".to_owned()),
+            Holonomy::Given | Holonomy::Unknown => {}
+        }
     }
     let is_lagrangian = report.model.is_lagrangian();
     if is_lagrangian {
@@ -36,6 +44,11 @@ pub(super) fn write(report: &Report<'_>, further: &Further) -> String {
         page.lines([&report.energy]);
     }
     page.add("\\frac{dE}{dt}", &pool.latex(report.energy_rate));
+    let answer = report.separation.filter(|_| report.model.coordinates.len() > 1);
+    if let Some(separates) = answer.and_then(crate::mechanics::Separation::answer) {
+        let words = if separates { "separates" } else { "does not separate" };
+        page.lines.push(format!("&\\text{{Hamilton--Jacobi {words} in these coordinates}}"));
+    }
     for known in &further.transformations {
         for (symbol, e) in known.map.forwards.iter().flatten() {
             page.add(&pool.symbol_info(*symbol).latex, &pool.latex(*e));

@@ -6,7 +6,9 @@ use unicode_width::UnicodeWidthStr;
 
 use super::super::script::Script;
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Class, Classed, Constant, Further, Left, Line, NoClosedForm, Report};
+use crate::mechanics::{
+    Class, Classed, Constant, Further, Holonomy, Left, Line, NoClosedForm, Report, Separation,
+};
 use crate::model::Model;
 
 pub(super) fn write(report: &Report<'_>, further: &Further, script: Script) -> String {
@@ -23,6 +25,7 @@ pub(super) fn write(report: &Report<'_>, further: &Further, script: Script) -> S
     page.energy();
     page.conserved();
     page.changing(&further.classes);
+    page.separation();
     page.transformations(further);
     page.generators(further);
     page.hamilton_jacobi(further);
@@ -111,7 +114,73 @@ impl Page<'_> {
             };
             let (name, e) = (&known.constraint.name, self.math(known.constraint.expression));
             self.line(&format!("  {e} = 0   ({name}; {kind})"));
+            if let Some(words) = self.holonomy(known.holonomy) {
+                self.line(&format!("    {words}"));
+            }
         }
+    }
+
+    /// Whether a constraint on the velocities is holonomic, and why.
+    fn holonomy(&self, known: &Holonomy) -> Option<String> {
+        let words = match known {
+            Holonomy::Given => return None,
+            Holonomy::Holonomic { constant, together, at_these_parameters } => {
+                let with = if *together { " with the other constraints" } else { "" };
+                let here = if *at_these_parameters {
+                    " at the file's values of the parameters"
+                } else {
+                    ""
+                };
+                let constant = constant.map(|e| format!(": {} is constant", self.math(e)));
+                let constant = constant.unwrap_or_default();
+                format!("holonomic{with}{here}, proved (Frobenius){constant}")
+            }
+            Holonomy::Not { variables, component } => {
+                let variables: Vec<String> =
+                    variables.iter().map(|&s| format!("d{}", self.symbol(s))).collect();
+                let product = match self.report.constraints.len() {
+                    1 => "its form ω",
+                    _ => "the product of all their forms",
+                };
+                format!(
+                    "not holonomic, proved (Frobenius): dω times {product} has the component {} in {}",
+                    self.math(*component),
+                    variables.join(" ")
+                )
+            }
+            Holonomy::Unknown => "holonomic or not: neither is proved".to_owned(),
+        };
+        Some(self.words(&words))
+    }
+
+    /// Whether Hamilton–Jacobi separates in the file's coordinates.
+    fn separation(&mut self) {
+        let report = self.report;
+        let Some(known) = report.separation.filter(|_| report.model.coordinates.len() > 1) else {
+            return;
+        };
+        let words = match known {
+            Separation::Separates { at_these_parameters: false } => {
+                "separates in these coordinates (Levi-Civita's conditions, proved)".to_owned()
+            }
+            Separation::Separates { at_these_parameters: true } => {
+                "separates in these coordinates at the file's values of the parameters \
+                 (Levi-Civita's conditions, proved)"
+                    .to_owned()
+            }
+            Separation::Not(a, b) => format!(
+                "does not separate in these coordinates: Levi-Civita's condition fails for {} and {}",
+                self.symbol(*a),
+                self.symbol(*b)
+            ),
+            Separation::Unknown(why) => {
+                let why = self.words(why);
+                format!("separates or not: not known; {why}")
+            }
+        };
+        self.heading("The Hamilton-Jacobi equation");
+        let words = self.words(&words);
+        self.line(&format!("  {words}"));
     }
 
     /// λ in closed form, and its force on each coordinate.
@@ -321,6 +390,15 @@ impl Page<'_> {
             }
             if let Some(valence) = verdict.valence {
                 self.line(&format!("  a scale transformation of valence {}", self.math(valence)));
+            }
+            for one in &known.functions {
+                let name = one.of.name();
+                let words = match &one.function {
+                    Ok(e) if one.proved => format!("{} = {}", name, self.math(*e)),
+                    Ok(e) => format!("{} = {}   (near the start)", name, self.math(*e)),
+                    Err(why) => format!("{}: none; {}", name, self.words(&why.to_string())),
+                };
+                self.line(&format!("  {words}"));
             }
             match &known.hamiltonian {
                 Ok(e) => self.line(&format!("  K = {}", self.math(*e))),

@@ -179,6 +179,13 @@ impl Check<'_> {
             let momenta = self.explicit(written, &mut scope, &new, 1)?;
             return Some(TransformationLaw::Explicit { positions, momenta });
         }
+        if let Some(made @ ("inverse" | "compose")) = kind {
+            return self.made_of_others(written, k, made == "inverse");
+        }
+        if let Some(of) = written.of.first() {
+            self.error(of.span(), "`of` belongs to kind = \"inverse\" and kind = \"compose\"");
+            return None;
+        }
         let types = self.types(written, n)?;
         if given {
             let message = "a transformation by a generating function has no `Q` and `P` of its own";
@@ -196,6 +203,62 @@ impl Check<'_> {
         let function = self.formula(&mut scope, "a generating function", formula)?;
         self.has_its_variables(function, &types, &new, formula)
             .then_some(TransformationLaw::Generating { types, function })
+    }
+
+    /// The inverse of a transformation, or several one after the other: of those that stand above.
+    fn made_of_others(
+        &mut self,
+        written: &DraftTransformation,
+        k: usize,
+        inverse: bool,
+    ) -> Option<TransformationLaw> {
+        let kind = if inverse { "inverse" } else { "compose" };
+        if let Some(function) = &written.function {
+            self.error(
+                function.span(),
+                "a transformation made of others has no generating function",
+            );
+        }
+        if written.positions.is_some() || written.momenta.is_some() {
+            let message = "a transformation made of others has no `Q` and `P` of its own";
+            self.error(written.place.clone(), message);
+        }
+        let of = &written.of;
+        let right = if inverse { of.len() == 1 } else { of.len() >= 2 };
+        if !right {
+            let place = of.first().map_or(written.place.clone(), Spanned::span);
+            let message =
+                format!("`{kind}` is of {} others", if inverse { "one" } else { "two or more" });
+            let help = if inverse {
+                "write of = [\"name\"], a transformation above this one"
+            } else {
+                "write of = [\"first\", \"second\"], transformations above this one, the first to act first"
+            };
+            self.mistakes.push(Diagnostic::error(place, message).with_help(help));
+            return None;
+        }
+        let mut found = Vec::new();
+        for name in of {
+            let above = &self.model.transformations[..k];
+            match above.iter().position(|t| t.name == *name.get_ref()) {
+                Some(i) => found.push(i),
+                None => {
+                    let names: Vec<&str> = above.iter().map(|t| t.name.as_str()).collect();
+                    let message = format!("there is no transformation `{}` above", name.get_ref());
+                    let help = match nearest(name.get_ref(), names.iter().copied()) {
+                        Some(near) => format!("did you mean `{near}`?"),
+                        None if names.is_empty() => "there is none above".to_owned(),
+                        None => format!("there are {}", names.join(", ")),
+                    };
+                    self.mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
+                }
+            }
+        }
+        let complete = found.len() == written.of.len();
+        complete.then(|| match found[..] {
+            [one] if inverse => TransformationLaw::Inverse(one),
+            _ => TransformationLaw::Composition(found),
+        })
     }
 
     /// The type of the generating function for each pair.
@@ -232,11 +295,11 @@ impl Check<'_> {
         }
         let Some(kind) = &written.kind else {
             let message = "this transformation has no `kind`";
-            let help = "write kind = \"F1\", \"F2\", \"F3\", \"F4\" or \"explicit\"";
+            let help = "write kind = \"F1\", \"F2\", \"F3\", \"F4\", \"explicit\", \"inverse\" or \"compose\"";
             self.mistakes.push(Diagnostic::error(written.place.clone(), message).with_help(help));
             return None;
         };
-        read(kind, &["explicit", "mixed"]).map(|kind| vec![kind; n])
+        read(kind, &["explicit", "mixed", "inverse", "compose"]).map(|kind| vec![kind; n])
     }
 
     /// Reads one half of an explicit transformation in the order of its new variables.

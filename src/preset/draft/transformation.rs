@@ -12,6 +12,8 @@ pub(in crate::preset) struct DraftTransformation {
     pub(in crate::preset) name: Option<Spanned<String>>,
     pub(in crate::preset) kind: Option<Spanned<String>>,
     pub(in crate::preset) types: Vec<Spanned<String>>,
+    /// The transformations it is made of.
+    pub(in crate::preset) of: Vec<Spanned<String>>,
     pub(in crate::preset) function: Option<Formula>,
     pub(in crate::preset) positions: Option<Vec<NamedFormula>>,
     pub(in crate::preset) momenta: Option<Vec<NamedFormula>>,
@@ -46,12 +48,13 @@ fn transformation(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftTran
     let name = table.name(mistakes);
     let kind = table.text("kind", mistakes);
     let types = names(&mut table, "types", "a type", mistakes);
+    let of = names(&mut table, "of", "a transformation", mistakes);
     let function = table.formula("F", mistakes);
     let [positions, momenta] = ["Q", "P"].map(|key| named(&mut table, key, mistakes));
     let new = names(&mut table, "new", "a new variable", mistakes);
     let place = table.place.clone();
     table.finish(mistakes);
-    DraftTransformation { name, kind, types, function, positions, momenta, new, place }
+    DraftTransformation { name, kind, types, of, function, positions, momenta, new, place }
 }
 
 /// A list of texts.

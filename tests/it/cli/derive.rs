@@ -168,3 +168,54 @@ fn an_observable_is_classed_where_accelerations_have_no_closed_form() {
     assert_eq!((class(1), &object["observables"][1]["rate"]), ("not conserved", &Value::Null));
     assert_eq!(class(2), "conserved (proved)");
 }
+
+/// Knife edge and rolling hoop; a central force in polar and in Cartesian coordinates.
+#[test]
+fn holonomic_and_separable_are_said() {
+    let object = phaselab(&["derive", "knife-edge", "--format", "json"]).json();
+    assert_eq!(object["constraints"][0]["holonomic"], false);
+    assert_eq!(object["constraints"][0]["given"], "velocity");
+    let object = phaselab(&["derive", "rolling-hoop", "--format", "json"]).json();
+    assert_eq!(object["constraints"][0]["holonomic"], true);
+    assert_eq!(text(&object["constraints"][0]["holonomy"]["constant"]), "r*theta - x");
+    let object = phaselab(&["derive", "rolling-disc", "--format", "json"]).json();
+    for constraint in object["constraints"].as_array().expect("constraints") {
+        assert_eq!(constraint["holonomic"], false, "{constraint}");
+    }
+    let object = phaselab(&["derive", "smooth-sphere", "--format", "json"]).json();
+    assert_eq!(object["constraints"][0]["given"], "position");
+    assert!(object["separates"].is_null(), "{object}");
+    let object = phaselab(&["derive", "planet", "--format", "json"]).json();
+    assert_eq!(object["separates"], true);
+    assert_eq!(object["separation"]["for_all_parameters"], true);
+    let object = phaselab(&["derive", "kepler-brackets", "--format", "json"]).json();
+    assert_eq!(object["separates"], false, "{object}");
+    let words = phaselab(&["derive", "spherical-pendulum"]).success();
+    assert!(words.contains("separates in these coordinates"), "{words}");
+    let words = phaselab(&["derive", "henon-heiles"]).success();
+    assert!(words.contains("does not separate in these coordinates"), "{words}");
+}
+
+/// What separates for one value of a parameter only is said to do so.
+#[test]
+fn a_special_value_of_a_parameter_is_told_apart() {
+    let file = "title = \"T\"\n[coordinates]\nx = { initial = 1, momentum = 0 }\n\
+                y = { initial = 1, momentum = 0 }\n[parameters]\nc = 0\n\
+                [hamiltonian]\nH = \"p_x^2/2 + p_y^2/2 + x^4 + y^4 + c*x*y\"\n";
+    let object = with_file(file, &["derive", "system.toml", "--format", "json"]).json();
+    assert_eq!(object["separates"], true);
+    assert_eq!(object["separation"]["for_all_parameters"], false);
+}
+
+#[test]
+fn another_lagrangian_is_compared() {
+    let other = "1/2*m*theta'^2 + m*cos(theta) + 2*theta*theta'";
+    let command = ["derive", "system.toml", "--against", other, "--format", "json"];
+    let object = with_file(PENDULUM, &command).json();
+    assert_eq!(object["against"]["total_derivative"], true, "{object}");
+    assert_eq!(text(&object["against"]["of"]), "-theta^2");
+    let words = with_file(PENDULUM, &["derive", "system.toml", "--against", "theta^2"]).success();
+    assert!(words.contains("not a total derivative"), "{words}");
+    let itself = phaselab(&["derive", "pendulum", "--against", "pendulum"]).success();
+    assert!(itself.contains("the same equations of motion"), "{itself}");
+}

@@ -61,3 +61,27 @@ fn symmetries_are_told_with_their_constants() {
     let text = phaselab(&["symmetries", "free-particle"]).success();
     assert!(text.contains("time shift"), "{text}");
 }
+
+/// Kepler's third law is a symmetry without an integral; its averages are those of the virial theorem.
+#[test]
+fn similarity_is_told() {
+    let answer = json(&["symmetries", "planet", "--format", "json"]);
+    let all = answer["point_symmetries"]["found"].as_array().expect("a list");
+    let law = all.iter().find(|s| s["noether"] == false).unwrap_or_else(|| panic!("{answer}"));
+    assert_eq!(law["name"], "dilation");
+    assert_eq!(law["proved"], true);
+    assert_eq!(answer["similarity"]["degree"], "-1");
+    assert_eq!(answer["similarity"]["period_exponent"], "3/2");
+    assert_eq!(answer["similarity"]["mean_T_over_mean_V"], "-1/2");
+    let text = phaselab(&["symmetries", "planet"]).success();
+    for part in ["not Noether's", "virial theorem"] {
+        assert!(text.contains(part), "{text}");
+    }
+    let latex = phaselab(&["symmetries", "planet", "--format", "latex"]).success();
+    assert!(latex.contains("\\langle T \\rangle"), "{latex}");
+    // where friction acts there is no similarity, and nothing of Noether's
+    let answer = json(&["symmetries", "damped-pendulum", "--format", "json"]);
+    assert!(answer["similarity"].is_null());
+    assert_eq!(answer["symmetries"], serde_json::json!([]));
+    assert_eq!(answer["point_symmetries"]["found"][0]["name"], "time shift");
+}

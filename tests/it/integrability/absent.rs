@@ -127,4 +127,36 @@ fn what_separates_where() {
     check(["u", "v"], parabolic, true);
     check(["x", "y"], "1/2*(p_x^2 + p_y^2) + x^2*y - 1/3*y^3", false);
     check(["x", "y"], "1/2*(p_x^2 + p_y^2) + x^4 + y^2", true);
+    // the isotropic oscillator in both, any other central force in polar coordinates only
+    check(["x", "y"], "1/2*(p_x^2 + p_y^2) + 3*(x^2 + y^2)", true);
+    check(["x", "y"], "1/2*(p_x^2 + p_y^2) + (x^2 + y^2)^2", false);
+    check(["r", "phi"], "1/2*(p_r^2 + p_phi^2/r^2) + r^4 - exp(-r)/r", true);
+    // two centres: in elliptic coordinates, with H of Liouville's form
+    let elliptic = "(p_u^2 + p_v^2)/(2*(cosh(u)^2 - cos(v)^2)) \
+                    - (3*cosh(u) + cos(v))/(cosh(u)^2 - cos(v)^2)";
+    check(["u", "v"], elliptic, true);
+    check(["x", "y"], "1/2*(p_x^2 + p_y^2) - 1/sqrt((x-1)^2 + y^2) - 1/sqrt((x+1)^2 + y^2)", false);
+}
+
+/// Levi-Civita's conditions hold on each side of a kink, and nothing separates across it.
+#[test]
+fn what_separates_in_pieces_is_not_proved_to_separate() {
+    use phaselab::integrability::separates;
+    use phaselab::mechanics;
+    let kinks = [
+        "max(x, y)",
+        "sign(x)*sign(y)",
+        "sign(x)*y",
+        "x/abs(x)*y",
+        "abs(x + y)",
+        "sqrt((x + y)^2)",
+        "asin(sin(x + y))",
+        "min(x^2, y^2)",
+    ];
+    for v in kinks {
+        let h = format!("1/2*(p_x^2 + p_y^2) + {v}");
+        let model = hamiltonian(&["x", "y"], &[], &h);
+        let mut equations = mechanics::derive(&model).expect("derivable");
+        assert_ne!(separates(&model, &mut equations), Some(true), "{v}");
+    }
 }

@@ -1,0 +1,187 @@
+//! What `phaselab symmetries` says beyond Noether's: point symmetries of the equations of motion, and mechanical similarity
+//! with the virial theorem.
+//!
+//! In: what was found. Out: text, LaTeX, keys of the JSON object. Never here: the search.
+
+use serde_json::{Map, Value, json};
+
+use super::super::script::Script;
+use crate::expr::{Expr, Pool};
+use crate::integrability::{PointSymmetries, PointSymmetry, Unsupported};
+use crate::mechanics::{Equations, Similarity};
+use crate::num::Number;
+
+/// The point symmetries, and the similarity.
+pub(super) struct Others {
+    pub(super) points: Result<PointSymmetries, Unsupported>,
+    pub(super) similarity: Option<Similarity>,
+}
+
+/// `x by …, y by …`.
+fn moved(equations: &Equations, script: Script, symmetry: &PointSymmetry) -> String {
+    let math = |e: Expr| script.math(&equations.pool, e);
+    let mut moved = Vec::new();
+    if symmetry.time != Expr::ZERO {
+        moved.push(format!("t by {}", math(symmetry.time)));
+    }
+    for (c, &e) in equations.coordinates.iter().zip(&symmetry.coordinates) {
+        if e != Expr::ZERO {
+            moved.push(format!("{} by {}", script.symbol(&equations.pool, c.position), math(e)));
+        }
+    }
+    moved.join(", ")
+}
+
+/// The exponents of a scaling by name, `t` first.
+fn scaling(equations: &Equations, exponents: &[Number]) -> Vec<(String, String)> {
+    let mut pool = Pool::new();
+    let names = equations.coordinates.iter().map(|c| c.position);
+    let names = names.map(|s| equations.pool.symbol_info(s).name.clone());
+    let mut texts = Vec::new();
+    for &n in exponents {
+        let e = pool.number(n);
+        texts.push(pool.text(e));
+    }
+    ["t".to_owned()].into_iter().chain(names).zip(texts).collect()
+}
+
+impl Others {
+    pub(super) fn text(&self, equations: &Equations, script: Script) -> String {
+        let mut text = String::new();
+        match &self.points {
+            Err(why) => text.push_str(&format!("\nPoint symmetries of the equations: {why}\n")),
+            Ok(points) => {
+                let own = points.found.iter().filter(|s| s.noether == Some(true)).count();
+                let others: Vec<&PointSymmetry> =
+                    points.found.iter().filter(|s| s.noether != Some(true)).collect();
+                for symmetry in &others {
+                    let here =
+                        if symmetry.for_all_parameters { "" } else { " at these parameters" };
+                    let kind = match symmetry.noether {
+                        Some(false) => "takes motions to motions; not Noether's",
+                        _ => "takes motions to motions",
+                    };
+                    text.push_str(&format!("\n{}\n", symmetry.name));
+                    text.push_str(&format!("  moves {}\n", moved(equations, script, symmetry)));
+                    if let Some(exponents) = &symmetry.scaling {
+                        let scaled = scaling(equations, exponents).into_iter();
+                        let scaled = scaled.filter(|(_, n)| n != "0");
+                        let scaled: Vec<String> =
+                            scaled.map(|(q, n)| format!("{q} by s^{n}")).collect();
+                        text.push_str(&format!("  scales {} for any s > 0\n", scaled.join(", ")));
+                    }
+                    text.push_str(&format!("  {kind}   (proved{here})\n"));
+                }
+                let (count, searched) = (points.found.len(), &points.searched);
+                let complete =
+                    if points.complete { ", and there are no others (proved)" } else { "" };
+                text.push_str(&format!(
+                    "\n{count} point symmetries of the equations of motion, {own} of them \
+                     Noether's{complete} among\n  {searched}\n"
+                ));
+            }
+        }
+        if let Some(known) = &self.similarity {
+            let math = |e: Expr| script.math(&equations.pool, e);
+            let names: Vec<String> =
+                known.scaled.iter().map(|&s| script.symbol(&equations.pool, s)).collect();
+            let mut pool = equations.pool.clone();
+            let (period, virial) = exponents(&mut pool, known);
+            let [period, virial] = [period, virial].map(|e| script.math(&pool, e));
+            text.push_str(&format!(
+                "\nSimilarity\n  T is of degree 2 and V of degree {} in {} (proved)\n  a motion {} times as large \
+                 takes l^({period}) times as long\n  virial theorem: <T> = ({virial}) <V> where {} stays bounded\n",
+                math(known.degree),
+                names.join(", "),
+                "l",
+                math(known.virial),
+            ));
+        }
+        text
+    }
+
+    pub(super) fn latex(&self, equations: &Equations) -> String {
+        let pool = &equations.pool;
+        let mut lines = Vec::new();
+        let others = self.points.iter().flat_map(|points| &points.found);
+        for symmetry in others.filter(|s| s.noether != Some(true)) {
+            let mut terms = Vec::new();
+            if symmetry.time != Expr::ZERO {
+                terms.push(format!("\\left({}\\right) \\partial_t", pool.latex(symmetry.time)));
+            }
+            for (c, &e) in equations.coordinates.iter().zip(&symmetry.coordinates) {
+                if e != Expr::ZERO {
+                    let name = &pool.symbol_info(c.position).latex;
+                    terms.push(format!("\\left({}\\right) \\partial_{{{name}}}", pool.latex(e)));
+                }
+            }
+            lines.push(format!("X &= {}", terms.join(" + ")));
+        }
+        if let Some(known) = &self.similarity {
+            let mut pool = pool.clone();
+            let (_, virial) = exponents(&mut pool, known);
+            let virial = pool.latex(virial);
+            lines.push(format!(
+                "\\langle T \\rangle &= \\left({virial}\\right) \\langle V \\rangle"
+            ));
+        }
+        if lines.is_empty() {
+            return String::new();
+        }
+        format!("\\begin{{align*}}\n{}\n\\end{{align*}}\n", lines.join(" \\\\\n"))
+    }
+
+    pub(super) fn json(&self, equations: &Equations, object: &mut Value) {
+        let text = |e: Expr| Value::String(equations.pool.text(e));
+        let one = |s: &PointSymmetry| {
+            let coordinates: Map<String, Value> = equations
+                .coordinates
+                .iter()
+                .zip(&s.coordinates)
+                .map(|(c, &e)| (equations.pool.symbol_info(c.position).name.clone(), text(e)))
+                .collect();
+            let scaling: Option<Map<String, Value>> = s.scaling.as_ref().map(|exponents| {
+                let all = scaling(equations, exponents).into_iter();
+                all.map(|(name, n)| (name, Value::String(n))).collect()
+            });
+            json!({
+                "name": s.name,
+                "time": text(s.time),
+                "coordinates": coordinates,
+                "noether": s.noether,
+                "proved": true,
+                "for_all_parameters": s.for_all_parameters,
+                "scaling": scaling,
+            })
+        };
+        object["point_symmetries"] = match &self.points {
+            Ok(points) => json!({
+                "found": points.found.iter().map(one).collect::<Vec<_>>(),
+                "searched": points.searched,
+                "complete": points.complete,
+            }),
+            Err(why) => json!({ "found": [], "why": why.to_string() }),
+        };
+        object["similarity"] = self.similarity.as_ref().map_or(Value::Null, |known| {
+            let mut pool = equations.pool.clone();
+            let (period, virial) = exponents(&mut pool, known);
+            let name = |s| pool.symbol_info(s).name.clone();
+            let scaled: Vec<String> = known.scaled.iter().map(|&s| name(s)).collect();
+            json!({
+                "coordinates": scaled,
+                "kinetic": text(known.kinetic),
+                "potential": text(known.potential),
+                "degree": text(known.degree),
+                "period_exponent": pool.text(period),
+                "virial": text(known.virial),
+                "mean_T_over_mean_V": pool.text(virial),
+            })
+        });
+    }
+}
+
+/// 1 − k/2, of which power the period is, and k/2 of ⟨T⟩ = (k/2) ⟨V⟩.
+fn exponents(pool: &mut Pool, known: &Similarity) -> (Expr, Expr) {
+    let half = pool.scale(Number::HALF, known.degree);
+    (pool.sub(Expr::ONE, half), half)
+}

@@ -1,0 +1,494 @@
+//! Lie point symmetries of the equations of motion: changes of time and coordinates that take solutions to solutions,
+//! whether or not they come from the Lagrangian.
+//!
+//! In: a model with accelerations q̈ = F(q, q̇, t). Out: generators ξ ∂_t + Σ η^i ∂_i, those of Noether first. The condition
+//! η^{i(2)} = (ξ ∂_t + η^j ∂_j + η^{j(1)} ∂/∂q̇^j) F^i, with η^{(1)} = D η − q̇ D ξ, η^{(2)} = D η^{(1)} − q̈ D ξ and D along the
+//! motion, is linear in the coefficients of ξ and η; it is solved modulo a prime over the same monomials as Noether's, and
+//! each solution is proved symbolically. Never here: what is constant.
+//! Source: P. J. Olver, *Applications of Lie Groups to Differential Equations*, § 2.3.
+
+use std::collections::HashMap;
+
+use rustc_hash::FxHashMap;
+
+use super::ansatz::orders;
+use super::echelon::{Echelon, reduced};
+use super::evaluator::{Evaluator, Random, Unsupported};
+use super::formula::cleared;
+use super::law;
+use super::naming::name_of;
+use super::noether::{DEGREE, MOST, SPARE, Symmetries, words};
+use super::transformations::{generators_of, products};
+use crate::expr::{Expr, Pool, Symbol, Zero};
+use crate::mechanics::{Equations, Flow};
+use crate::model::Model;
+use crate::num::{Number, PRIMES, PrimeField, Residue, rational};
+
+/// The points at which symmetries are compared as functions.
+const COMPARED: usize = 40;
+
+/// A symmetry of the equations of motion.
+#[derive(Clone, Debug)]
+pub struct PointSymmetry {
+    /// What it is called.
+    pub name: String,
+    /// ξ, the change of time.
+    pub time: Expr,
+    /// η, the change of each coordinate.
+    pub coordinates: Vec<Expr>,
+    /// Whether it is one of Noether's: it changes L dt by a total derivative. `None` where neither answer is proved, or
+    /// there is no Lagrangian that is the whole law.
+    pub noether: Option<bool>,
+    /// Whether it is so for all values of the parameters, and not only at the present ones.
+    pub for_all_parameters: bool,
+    /// Of a scaling t → λ^a t, q_i → λ^{b_i} q_i: a and the b_i.
+    pub scaling: Option<Vec<Number>>,
+}
+
+/// The symmetries of the equations that were found, and where. All of them are proved.
+#[derive(Clone, Debug)]
+pub struct PointSymmetries {
+    /// A basis of them, Noether's first.
+    pub found: Vec<PointSymmetry>,
+    /// What was searched, in words.
+    pub searched: String,
+    /// Whether their number is proved: the ansatz has no others.
+    pub complete: bool,
+}
+
+/// Searches for Lie point symmetries of the equations of motion, at the parameters' values. `noether` are those that come
+/// from the Lagrangian, if they are known.
+///
+/// # Errors
+/// Returns an error if there are constraints, the equations cannot be solved for the accelerations, or they have a function
+/// that cannot be evaluated modulo a prime.
+pub fn point_symmetries(
+    model: &Model,
+    equations: &mut Equations,
+    noether: Option<&Symmetries>,
+    is_over: &dyn Fn() -> bool,
+) -> Result<PointSymmetries, Unsupported> {
+    if !model.constraints.is_empty() {
+        let why = "symmetries of equations under constraints are not searched";
+        return Err(Unsupported(why.to_owned()));
+    }
+    let symbolic = accelerations(equations)?;
+    let values: HashMap<Symbol, Expr> = law::constants(model, equations)
+        .into_iter()
+        .map(|(s, n)| (s, equations.pool.number(n)))
+        .collect();
+    let lagrangian = equations.lagrangian().clone().ok();
+    let pool = &mut equations.pool;
+    let here: Vec<Expr> = symbolic.iter().map(|&e| pool.substitute(e, &values)).collect();
+    let law = match lagrangian {
+        Some(law) => pool.substitute(law, &values),
+        None => pool.sum(&here),
+    };
+    let time = equations.symbols.time;
+    let (positions, velocities): (Vec<Symbol>, Vec<Symbol>) =
+        equations.coordinates.iter().map(|c| (c.position, c.velocity)).unzip();
+    let moving: Vec<Symbol> = positions.iter().chain(&velocities).chain([&time]).copied().collect();
+    if here.iter().any(|&e| pool.may_have_kink(e, &moving)) {
+        return Err(Unsupported("the equations of motion have kinks".to_owned()));
+    }
+    let generators = generators_of(pool, law, time, &positions, &velocities);
+    let mut degree = DEGREE;
+    let mut monomials = products(pool, &generators, degree);
+    while degree > 1 && monomials.len() * (positions.len() + 2) > MOST {
+        degree -= 1;
+        monomials = products(pool, &generators, degree);
+    }
+    let first: Vec<(Expr, Vec<Expr>)> = noether
+        .iter()
+        .flat_map(|known| &known.found)
+        .filter(|s| s.proved)
+        .map(|s| (s.time, s.coordinates.clone()))
+        .collect();
+    let mut problem = Problem {
+        motion: Motion::of(pool, time, positions, velocities, here.clone()),
+        monomials,
+        field: PrimeField::nth(0),
+        overgeneral: false,
+    };
+    let solved = problem.solve(pool, &first, is_over)?;
+    let motion = problem.motion.clone();
+    let named = (symbolic != here).then(|| {
+        let Motion { time, positions, velocities, .. } = motion.clone();
+        Motion::of(pool, time, positions, velocities, symbolic)
+    });
+    let mut complete = !problem.overgeneral;
+    let mut found = Vec::new();
+    let known = noether.iter().flat_map(|known| &known.found).filter(|s| s.proved);
+    for s in known {
+        found.push(PointSymmetry {
+            name: s.name.clone(),
+            time: s.time,
+            coordinates: s.coordinates.clone(),
+            noether: Some(true),
+            for_all_parameters: s.for_all_parameters,
+            scaling: scaling(pool, &motion, s.time, &s.coordinates),
+        });
+    }
+    for vector in solved {
+        let Some((xi, eta)) = problem.exact(pool, &vector) else {
+            complete = false;
+            continue;
+        };
+        let by_name = named.as_ref().is_none_or(|named| named.is_symmetry(pool, xi, &eta));
+        if !by_name && !motion.is_symmetry(pool, xi, &eta) {
+            complete = false;
+            continue;
+        }
+        found.push(PointSymmetry {
+            name: name_of(pool, motion.time, &motion.positions, xi, &eta),
+            scaling: scaling(pool, &motion, xi, &eta),
+            time: xi,
+            coordinates: eta,
+            noether: None,
+            for_all_parameters: by_name,
+        });
+    }
+    if noether.is_some() {
+        // the change of L dt: X⁽¹⁾L + L Dξ
+        for symmetry in found.iter_mut().filter(|s| s.noether.is_none()) {
+            let change =
+                motion.change_of(&mut equations.pool, law, symmetry.time, &symmetry.coordinates);
+            symmetry.noether = equations.gauge(change, Expr::ZERO).total_derivative;
+        }
+    }
+    let searched = words(&equations.pool, &generators, &problem.monomials);
+    let searched = format!("changes of time and coordinates that are {searched}");
+    Ok(PointSymmetries { found, searched, complete })
+}
+
+/// q̈ as a function of (q, q̇, t).
+fn accelerations(equations: &mut Equations) -> Result<Vec<Expr>, Unsupported> {
+    let unknown = |why: String| Unsupported(format!("the accelerations are not known: {why}"));
+    match equations.flow.clone() {
+        Flow::Lagrange { .. } => equations.solved().clone().map_err(|why| unknown(why.0)),
+        Flow::Poisson { .. } => {
+            Err(Unsupported("a Poisson system has no accelerations".to_owned()))
+        }
+        Flow::Hamilton { velocities, momentum_rates } => {
+            let lagrangian = equations.lagrangian().clone().map_err(|why| unknown(why.0))?;
+            let coordinates = equations.coordinates.clone();
+            let pool = &mut equations.pool;
+            let mut along = vec![(equations.symbols.time, Expr::ONE)];
+            let mut momenta = HashMap::new();
+            for ((c, &v), &rate) in coordinates.iter().zip(&velocities).zip(&momentum_rates) {
+                along.extend([(c.position, v), (c.momentum, rate)]);
+                momenta.insert(c.momentum, pool.derivative(lagrangian, c.velocity));
+            }
+            let solved = velocities.iter().map(|&v| {
+                let rate = pool.derivation(v, &along);
+                let rate = pool.substitute(rate, &momenta);
+                pool.simplify(rate)
+            });
+            Ok(solved.collect())
+        }
+    }
+}
+
+/// Equations of motion solved for the accelerations.
+#[derive(Clone)]
+struct Motion {
+    time: Symbol,
+    positions: Vec<Symbol>,
+    velocities: Vec<Symbol>,
+    accelerations: Vec<Expr>,
+    /// Of each acceleration its slopes by t, q and q̇.
+    slopes: Vec<(Expr, Vec<Expr>, Vec<Expr>)>,
+}
+
+impl Motion {
+    fn of(
+        pool: &mut Pool,
+        time: Symbol,
+        positions: Vec<Symbol>,
+        velocities: Vec<Symbol>,
+        accelerations: Vec<Expr>,
+    ) -> Motion {
+        let mut slopes = Vec::new();
+        for &f in &accelerations {
+            let by_time = pool.derivative(f, time);
+            let by_position = positions.iter().map(|&q| pool.derivative(f, q)).collect();
+            let by_velocity = velocities.iter().map(|&v| pool.derivative(f, v)).collect();
+            slopes.push((by_time, by_position, by_velocity));
+        }
+        Motion { time, positions, velocities, accelerations, slopes }
+    }
+
+    /// D of functions of (q, t).
+    fn first(&self, pool: &mut Pool) -> Vec<(Symbol, Expr)> {
+        let mut seeds = vec![(self.time, Expr::ONE)];
+        let both = self.positions.iter().zip(&self.velocities);
+        seeds.extend(both.map(|(&q, &v)| (q, pool.variable(v))));
+        seeds
+    }
+
+    /// D along the motion.
+    fn along(&self, pool: &mut Pool) -> Vec<(Symbol, Expr)> {
+        let mut seeds = self.first(pool);
+        seeds.extend(self.velocities.iter().copied().zip(self.accelerations.iter().copied()));
+        seeds
+    }
+
+    /// D ξ and the η^{i(1)}.
+    fn prolonged(&self, pool: &mut Pool, xi: Expr, eta: &[Expr]) -> (Expr, Vec<Expr>) {
+        let seeds = self.first(pool);
+        let rate = pool.derivation(xi, &seeds);
+        let mut all = Vec::new();
+        for (&e, &v) in eta.iter().zip(&self.velocities) {
+            let moved = pool.derivation(e, &seeds);
+            let v = pool.variable(v);
+            let carried = pool.mul(v, rate);
+            all.push(pool.sub(moved, carried));
+        }
+        (rate, all)
+    }
+
+    /// Whether the second prolongation is proved to leave q̈ = F as it is.
+    fn is_symmetry(&self, pool: &mut Pool, xi: Expr, eta: &[Expr]) -> bool {
+        let (rate, first) = self.prolonged(pool, xi, eta);
+        let seeds = self.along(pool);
+        (0..eta.len()).all(|i| {
+            let (by_time, by_position, by_velocity) = &self.slopes[i];
+            let moved = pool.derivation(first[i], &seeds);
+            let carried = pool.mul(self.accelerations[i], rate);
+            let mut terms = vec![pool.neg(moved), carried, pool.mul(xi, *by_time)];
+            for j in 0..eta.len() {
+                terms.push(pool.mul(eta[j], by_position[j]));
+                terms.push(pool.mul(first[j], by_velocity[j]));
+            }
+            let condition = pool.sum(&terms);
+            pool.is_zero(condition) == Zero::Proved
+        })
+    }
+
+    /// X⁽¹⁾L + L Dξ.
+    fn change_of(&self, pool: &mut Pool, lagrangian: Expr, xi: Expr, eta: &[Expr]) -> Expr {
+        let (rate, first) = self.prolonged(pool, xi, eta);
+        let mut seeds = vec![(self.time, xi)];
+        seeds.extend(self.positions.iter().copied().zip(eta.iter().copied()));
+        seeds.extend(self.velocities.iter().copied().zip(first));
+        let moved = pool.derivation(lagrangian, &seeds);
+        let stretched = pool.mul(lagrangian, rate);
+        pool.add(moved, stretched)
+    }
+}
+
+/// The condition on the coefficients of ξ and η.
+struct Problem {
+    motion: Motion,
+    monomials: Vec<Expr>,
+    field: PrimeField,
+    overgeneral: bool,
+}
+
+impl Problem {
+    /// The solutions modulo a prime that are not combinations of the `first` ones, as sparse as they come.
+    fn solve(
+        &mut self,
+        pool: &mut Pool,
+        first: &[(Expr, Vec<Expr>)],
+        is_over: &dyn Fn() -> bool,
+    ) -> Result<Vec<Vec<Residue>>, Unsupported> {
+        let motion = self.motion.clone();
+        let (n, m) = (motion.positions.len(), self.monomials.len());
+        let seeds = motion.first(pool);
+        let moved: Vec<Expr> = self.monomials.iter().map(|&e| pool.derivation(e, &seeds)).collect();
+        let mut roots = [self.monomials.clone(), moved.clone()].concat();
+        roots.extend(&motion.accelerations);
+        for (by_time, by_position, by_velocity) in &motion.slopes {
+            roots.push(*by_time);
+            roots.extend(by_position.iter().chain(by_velocity));
+        }
+        roots.extend(first.iter().flat_map(|(xi, eta)| [xi].into_iter().chain(eta)));
+        let moving: Vec<Symbol> = motion
+            .positions
+            .iter()
+            .chain(&motion.velocities)
+            .chain([&motion.time])
+            .copied()
+            .collect();
+        let evaluator = Evaluator::new(pool, &roots, &moving)?;
+        self.overgeneral = evaluator.overgeneral;
+        let mut random = Random::new(3);
+        let works = |k: &usize| {
+            let mut random = Random::new(5);
+            (0..40).any(|_| {
+                self.rows(&evaluator, &moved, first, PrimeField::nth(*k), &mut random).is_some()
+            })
+        };
+        let Some(k) = (0..PRIMES.len()).find(works) else {
+            let why = "no point was found at which the accelerations have values modulo a prime";
+            return Err(Unsupported(why.to_owned()));
+        };
+        self.field = PrimeField::nth(k);
+        let width = m * (n + 1);
+        let mut functions = Echelon::new(self.field, m);
+        let mut echelon = Echelon::new(self.field, width);
+        let mut points: Vec<(Vec<Residue>, Vec<Residue>)> = Vec::new();
+        let (mut idle, mut tries) = (0, 0);
+        while idle < SPARE || points.len() < COMPARED {
+            tries += 1;
+            if is_over() || tries > 100 * MOST {
+                return Err(Unsupported("the time allowed ran out".to_owned()));
+            }
+            let Some((values, rows, known)) =
+                self.rows(&evaluator, &moved, first, self.field, &mut random)
+            else {
+                continue;
+            };
+            if points.len() < COMPARED {
+                points.push((values.clone(), known));
+            }
+            let new = functions.add(values);
+            let more = rows.into_iter().fold(false, |more, row| echelon.add(row) || more);
+            idle = if new || more { 0 } else { idle + 1 };
+        }
+        for block in 0..=n {
+            for k in (0..m).filter(|&k| !functions.leads(k)) {
+                let mut row = vec![Residue::ZERO; width];
+                row[block * m + k] = self.field.one();
+                echelon.add(row);
+            }
+        }
+        let basis = echelon.null_space();
+        let mut all: Vec<Vec<Residue>> = Vec::new();
+        for order in orders(width, 6) {
+            all.extend(reduced(self.field, &basis, &order));
+        }
+        all.sort_by_key(|v| v.iter().filter(|x| !x.is_zero()).count());
+        // as functions at the points: those known first
+        let mut chosen = Echelon::new(self.field, COMPARED * (n + 1));
+        for (s, _) in first.iter().enumerate() {
+            let row = points.iter().flat_map(|(_, known)| &known[s * (n + 1)..][..=n]);
+            chosen.add(row.copied().collect());
+        }
+        let mut best = Vec::new();
+        for vector in all {
+            let mut row = Vec::new();
+            for (values, _) in &points {
+                for block in 0..=n {
+                    let mut sum = Residue::ZERO;
+                    for (&c, &x) in vector[block * m..][..m].iter().zip(values) {
+                        sum = self.field.add(sum, self.field.mul(c, x));
+                    }
+                    row.push(sum);
+                }
+            }
+            if chosen.add(row) {
+                best.push(vector);
+            }
+        }
+        Ok(best)
+    }
+
+    /// The monomials' values at a random point, the conditions there on the coefficients of ξ and of each η, and the values
+    /// of the `first` symmetries.
+    #[expect(clippy::type_complexity, reason = "three rows of one point")]
+    fn rows(
+        &self,
+        evaluator: &Evaluator,
+        moved: &[Expr],
+        first: &[(Expr, Vec<Expr>)],
+        field: PrimeField,
+        random: &mut Random,
+    ) -> Option<(Vec<Residue>, Vec<Vec<Residue>>, Vec<Residue>)> {
+        let motion = &self.motion;
+        let mut state: FxHashMap<Symbol, Residue> = FxHashMap::default();
+        for &s in motion.positions.iter().chain(&motion.velocities).chain([&motion.time]) {
+            state.insert(s, random.residue(&field));
+        }
+        let point = evaluator.point(field, random, 7, &|s| state.get(&s).copied())?;
+        let value = |e: Expr| evaluator.value(&point, e);
+        let speeds: Vec<Residue> = motion.velocities.iter().map(|v| state[v]).collect();
+        let forces: Vec<Residue> = motion.accelerations.iter().map(|&f| value(f)).collect();
+        let seed = |s: Symbol| {
+            if s == motion.time {
+                field.one()
+            } else if let Some(k) = motion.positions.iter().position(|&q| q == s) {
+                speeds[k]
+            } else {
+                motion.velocities.iter().position(|&v| v == s).map_or(Residue::ZERO, |k| forces[k])
+            }
+        };
+        let rates = evaluator.rates(&point, &seed)?;
+        let values: Vec<Residue> = self.monomials.iter().map(|&e| value(e)).collect();
+        let slopes: Vec<Residue> = moved.iter().map(|&e| value(e)).collect();
+        let bends: Vec<Residue> = moved.iter().map(|&e| evaluator.rate(&rates, e)).collect();
+        let combined = |a: Residue, b: Residue, c: Residue| {
+            let each = values.iter().zip(&slopes).zip(&bends);
+            each.map(move |((&m, &d), &dd)| {
+                let sum = field.add(field.mul(m, a), field.mul(d, b));
+                field.add(sum, field.mul(dd, c))
+            })
+        };
+        let mut rows = Vec::new();
+        for (i, (by_time, by_position, by_velocity)) in motion.slopes.iter().enumerate() {
+            let mut row = Vec::new();
+            // ξ: −F_t m + (Σ q̇ ∂F/∂q̇ − 2F) Dm − q̇ D²m
+            let mut across = Residue::ZERO;
+            for (&v, &e) in speeds.iter().zip(by_velocity) {
+                across = field.add(across, field.mul(v, value(e)));
+            }
+            let twice = field.add(forces[i], forces[i]);
+            row.extend(combined(
+                field.neg(value(*by_time)),
+                field.sub(across, twice),
+                field.neg(speeds[i]),
+            ));
+            // η^k: δ D²m − ∂F/∂q̇ Dm − ∂F/∂q m
+            for k in 0..speeds.len() {
+                let own = if k == i { field.one() } else { Residue::ZERO };
+                row.extend(combined(
+                    field.neg(value(by_position[k])),
+                    field.neg(value(by_velocity[k])),
+                    own,
+                ));
+            }
+            rows.push(row);
+        }
+        let known = first.iter().flat_map(|(xi, eta)| [xi].into_iter().chain(eta));
+        let known = known.map(|&e| value(e)).collect();
+        Some((values, rows, known))
+    }
+
+    /// ξ and η with rational coefficients.
+    fn exact(&self, pool: &mut Pool, vector: &[Residue]) -> Option<(Expr, Vec<Expr>)> {
+        let (n, m) = (self.motion.positions.len(), self.monomials.len());
+        let lead = vector.iter().find(|x| !x.is_zero())?;
+        let scale = self.field.inverse(*lead)?;
+        let mut places = Vec::new();
+        let mut coefficients = Vec::new();
+        for (k, &x) in vector.iter().enumerate().filter(|(_, x)| !x.is_zero()) {
+            let x = self.field.value(self.field.mul(x, scale));
+            let (a, b) = rational(x.into(), self.field.prime().into(), 16)?;
+            let c @ Number::Rational(..) = Number::ratio(a, b) else { return None };
+            places.push(k);
+            coefficients.push(pool.number(c));
+        }
+        let coefficients = cleared(pool, &coefficients);
+        let mut blocks = vec![Vec::new(); n + 1];
+        for (k, c) in places.into_iter().zip(coefficients) {
+            blocks[k / m].push(pool.mul(c, self.monomials[k % m]));
+        }
+        let mut sums = blocks.iter().map(|terms| pool.sum(terms));
+        let xi = sums.next()?;
+        Some((xi, sums.collect()))
+    }
+}
+
+/// The exponents of a scaling of time and coordinates, t first.
+fn scaling(pool: &mut Pool, motion: &Motion, xi: Expr, eta: &[Expr]) -> Option<Vec<Number>> {
+    let mut exponents = Vec::new();
+    for (&s, &e) in
+        [&motion.time].into_iter().chain(&motion.positions).zip([&xi].into_iter().chain(eta))
+    {
+        let x = pool.variable(s);
+        let ratio = pool.div(e, x);
+        exponents.push(pool.as_number(ratio)?);
+    }
+    Some(exponents)
+}

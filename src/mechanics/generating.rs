@@ -1,0 +1,209 @@
+//! The other generating functions of a canonical transformation, by Legendre's transformation: F2 = F1 + QP, F3 = F1 − qp,
+//! F4 = F1 + QP − qp.
+//!
+//! In: a map whose new variables are known in closed form. Out: F1 … F4 as functions of their variables, each with its
+//! relations proved or holding at points near the start; where one does not exist, why. Never here: mixed types.
+//! Source: *The Principles of Dynamics*, § 3.2.1.
+
+use std::collections::HashMap;
+
+use super::canonical::PhaseMap;
+use super::equations::{Equations, NoClosedForm};
+use super::isolate::{self, Solution};
+use super::linear;
+use super::potential::potential;
+use super::valuation::Valuation;
+use crate::expr::{Expr, Pool, Symbol, Zero};
+use crate::model::{GeneratingType, Model, Transformation, TransformationLaw};
+use crate::num::Number;
+
+/// The points at which a function has to give the map.
+const POINTS: u64 = 24;
+
+/// A generating function of a map, if it has one of this type.
+#[derive(Clone, Debug)]
+pub struct GeneratingFunction {
+    /// Its type, for all pairs.
+    pub of: GeneratingType,
+    /// The function, or why there is none.
+    pub function: Result<Expr, NoClosedForm>,
+    /// Whether its relations are proved; else they hold at points near the start.
+    pub proved: bool,
+}
+
+impl PhaseMap {
+    /// The generating functions of one type for all pairs; none where the new variables are not known in closed form. The
+    /// map has to be canonical.
+    pub fn generating_functions(
+        &self,
+        model: &Model,
+        equations: &mut Equations,
+        given: &Transformation,
+    ) -> Vec<GeneratingFunction> {
+        let Some(forwards) = self.forwards.clone() else { return Vec::new() };
+        let Some(value) = self.value_of_first(&mut equations.pool, given, &forwards) else {
+            return Vec::new();
+        };
+        let all = GeneratingType::ALL.into_iter().map(|of| {
+            let written = match &given.law {
+                TransformationLaw::Generating { types, function }
+                    if types.iter().all(|known| *known == of) =>
+                {
+                    Some(*function)
+                }
+                _ => None,
+            };
+            let (function, proved) = match written {
+                Some(function) => (Ok(function), true),
+                None => self.of_type(model, equations, given, &forwards, value, of),
+            };
+            GeneratingFunction { of, function, proved }
+        });
+        all.collect()
+    }
+
+    /// Σ over pairs of Q P, or of q p, as functions of the old variables.
+    fn work(pool: &mut Pool, positions: &[Expr], momenta: &[Expr]) -> Expr {
+        let terms: Vec<Expr> =
+            positions.iter().zip(momenta).map(|(&q, &p)| pool.mul(q, p)).collect();
+        pool.sum(&terms)
+    }
+
+    /// The new variables in order, as functions of the old ones.
+    fn images_of(&self, forwards: &Solution) -> Option<Vec<Expr>> {
+        let value = |s: &Symbol| forwards.iter().find(|(found, _)| found == s).map(|&(_, e)| e);
+        self.new.iter().map(value).collect()
+    }
+
+    /// F1 as a function of (q, p, t): dF1 = p dq − P dQ at fixed t.
+    fn value_of_first(
+        &self,
+        pool: &mut Pool,
+        given: &Transformation,
+        forwards: &Solution,
+    ) -> Option<Expr> {
+        let n = self.old.len() / 2;
+        let images = self.images_of(forwards)?;
+        let old: Vec<Expr> = self.old.iter().map(|&s| pool.variable(s)).collect();
+        if let TransformationLaw::Generating { types, function } = &given.law {
+            let map: HashMap<Symbol, Expr> = forwards.iter().copied().collect();
+            let function = pool.substitute(*function, &map);
+            let mut terms = vec![(Number::ONE, function)];
+            for (i, of) in types.iter().enumerate() {
+                if !of.has_position() {
+                    terms.push((Number::ONE, pool.mul(old[i], old[n + i])));
+                }
+                if !of.has_new_position() {
+                    terms.push((Number::MINUS_ONE, pool.mul(images[i], images[n + i])));
+                }
+            }
+            let value = pool.linear(Number::ZERO, &terms);
+            return Some(pool.simplify(value));
+        }
+        let mut form = Vec::new();
+        for (k, &s) in self.old.iter().enumerate() {
+            let mut terms = Vec::new();
+            if k < n {
+                terms.push((Number::ONE, old[n + k]));
+            }
+            for i in 0..n {
+                let slope = pool.derivative(images[i], s);
+                terms.push((Number::MINUS_ONE, pool.mul(images[n + i], slope)));
+            }
+            let slope = pool.linear(Number::ZERO, &terms);
+            form.push(pool.simplify(slope));
+        }
+        potential(pool, &form, &self.old)
+    }
+
+    fn of_type(
+        &self,
+        model: &Model,
+        equations: &mut Equations,
+        given: &Transformation,
+        forwards: &Solution,
+        first: Expr,
+        of: GeneratingType,
+    ) -> (Result<Expr, NoClosedForm>, bool) {
+        let no = |why: String| (Err(NoClosedForm(why)), false);
+        let n = self.old.len() / 2;
+        let Some(images) = self.images_of(forwards) else {
+            return no("the new variables are not known".to_owned());
+        };
+        // the old half that it does not have follows from the new half that it has
+        let missing = if of.has_position() { &self.old[n..] } else { &self.old[..n] };
+        let kept = if of.has_new_position() { 0..n } else { n..2 * n };
+        let (names, values) = (&self.new[kept.clone()], &images[kept]);
+        let pool = &mut equations.pool;
+        let mut matrix = Vec::new();
+        let mut relations = Vec::new();
+        for (&name, &value) in names.iter().zip(values) {
+            let row: Vec<Expr> = missing.iter().map(|&s| pool.derivative(value, s)).collect();
+            matrix.push(row);
+            let variable = pool.variable(name);
+            relations.push(pool.sub(variable, value));
+        }
+        let single = n == 1 && pool.is_zero(matrix[0][0]) == Zero::Proved;
+        if single || (n > 1 && linear::solve(pool, &matrix, &vec![Expr::ZERO; n]).is_err()) {
+            let letters = [
+                if of.has_position() { "q" } else { "p" },
+                if of.has_new_position() { "Q" } else { "P" },
+            ];
+            return no(format!("{} and {} are not independent", letters[0], letters[1]));
+        }
+        let old: Vec<Expr> = self.old.iter().map(|&s| pool.variable(s)).collect();
+        let mut terms = vec![(Number::ONE, first)];
+        if !of.has_position() {
+            terms.push((Number::MINUS_ONE, PhaseMap::work(pool, &old[..n], &old[n..])));
+        }
+        if !of.has_new_position() {
+            terms.push((Number::ONE, PhaseMap::work(pool, &images[..n], &images[n..])));
+        }
+        let value = pool.linear(Number::ZERO, &terms);
+        let points: Vec<Valuation> = (0..POINTS)
+            .filter_map(|k| {
+                let at = Valuation::near_start(model, equations, k);
+                self.image(&equations.pool, &at)
+            })
+            .collect();
+        let mut found: Option<(Expr, bool)> = None;
+        let relations_of = |pool: &mut Pool, function: Expr| {
+            let law = TransformationLaw::Generating { types: vec![of; n], function };
+            PhaseMap::relations(pool, model, &Transformation { law, ..given.clone() }).relations
+        };
+        let map: HashMap<Symbol, Expr> = forwards.iter().copied().collect();
+        let mut accept = |pool: &mut Pool, solution: &Solution| {
+            let put: HashMap<Symbol, Expr> = solution.iter().copied().collect();
+            let function = isolate::tidy(pool, value, &put);
+            let function = pool.simplify(function);
+            if pool.depends_on_any(function, missing) {
+                return false;
+            }
+            let relations = relations_of(pool, function);
+            let mut right = 0;
+            for at in &points {
+                for &e in &relations {
+                    let (left, size) = pool.evaluate_with_size(e, &|s| at.at(s));
+                    if left.is_finite() && left.abs() > 1e-9 * (1.0 + size) {
+                        return false;
+                    }
+                    right += usize::from(left.is_finite());
+                }
+            }
+            if right < 2 * relations.len() {
+                return false;
+            }
+            let proved = relations.iter().all(|&e| {
+                let e = pool.substitute(e, &map);
+                pool.is_zero(e) == Zero::Proved
+            });
+            found = Some((function, proved));
+            true
+        };
+        let solved = isolate::solve(&mut equations.pool, &relations, missing, &mut accept);
+        match (solved, found) {
+            (Some(_), Some((function, proved))) => (Ok(function), proved),
+            _ => no("its variables cannot be solved for the others".to_owned()),
+        }
+    }
+}

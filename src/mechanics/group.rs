@@ -1,0 +1,188 @@
+//! The transformations of a model, with those made of others: the inverse of one, and several applied one after the other.
+//!
+//! In: transformations whose laws are known. Out: the law of the one made of them, of the same kinds as those of a file; or
+//! why it cannot be written down. Never here: whether it is canonical, which is asked of it as of any other.
+//!
+//! With G = −F, old and new variables exchanged, the inverse of F1(q, Q) is the F1 of G, that of F2(q, P) the F3, that of
+//! F3(p, Q) the F2, that of F4(p, P) the F4.
+//! Source: *The Principles of Dynamics*, § 3.2.
+
+use std::collections::HashMap;
+
+use super::canonical::PhaseMap;
+use super::equations::{Equations, NoClosedForm};
+use super::flaw::StructureError;
+use super::isolate::Solution;
+use crate::expr::{Expr, Symbol};
+use crate::model::{GeneratingType, Model, Transformation, TransformationLaw};
+
+/// Finds the transformations of a model.
+pub(super) fn find(equations: &mut Equations, model: &Model) {
+    let mut all: Vec<Option<Solution>> = Vec::new();
+    for given in &model.transformations {
+        let before = equations.supplements.transformation_laws.clone();
+        let law = resolved(model, equations, given, &before, &all);
+        let forwards = law.as_ref().ok().and_then(|law| {
+            let given = Transformation { law: law.clone(), ..given.clone() };
+            let map = PhaseMap::relations(&mut equations.pool, model, &given);
+            map.find_forwards(model, equations)
+        });
+        equations.supplements.transformation_laws.push(law);
+        all.push(forwards);
+    }
+    let shared: Vec<Symbol> = model.new_variables().into_iter().map(|(_, s)| s).collect();
+    let known = all.iter().flatten().flatten().copied();
+    equations.supplements.new_variables =
+        known.filter(|(symbol, _)| shared.contains(symbol)).collect();
+    equations.supplements.transformations = all;
+}
+
+/// The transformations of a model with their laws, those made of others written out, and the maps as they were found with
+/// its equations. What cannot be written down is left out.
+pub(super) fn written_maps(
+    model: &Model,
+    equations: &mut Equations,
+) -> Vec<(Transformation, PhaseMap)> {
+    let found = equations.supplements.transformations.clone();
+    let laws = equations.supplements.transformation_laws.clone();
+    let pool = &mut equations.pool;
+    let all = model.transformations.iter().zip(found).zip(laws);
+    let maps = all.filter_map(|((given, forwards), law)| {
+        let given = Transformation { law: law.ok()?, ..given.clone() };
+        let mut map = PhaseMap::relations(pool, model, &given);
+        map.forwards = forwards;
+        Some((given, map))
+    });
+    maps.collect()
+}
+
+/// The maps alone.
+pub fn phase_maps(model: &Model, equations: &mut Equations) -> Vec<PhaseMap> {
+    written_maps(model, equations).into_iter().map(|(_, map)| map).collect()
+}
+
+/// The law of a transformation, given those before it and their new variables as functions of the old ones.
+pub(super) fn resolved(
+    model: &Model,
+    equations: &mut Equations,
+    given: &Transformation,
+    before: &[Result<TransformationLaw, NoClosedForm>],
+    forwards: &[Option<Solution>],
+) -> Result<TransformationLaw, NoClosedForm> {
+    match &given.law {
+        TransformationLaw::Inverse(k) => {
+            let law = before[*k].clone()?;
+            let of = Transformation { law, ..model.transformations[*k].clone() };
+            inverse(model, equations, given, &of)
+        }
+        TransformationLaw::Composition(parts) => {
+            let mut known = Vec::new();
+            for &k in parts {
+                let of = &model.transformations[k];
+                let Some(solution) = &forwards[k] else {
+                    let name = &of.name;
+                    let why = format!("the new variables of `{name}` are not known in closed form");
+                    return Err(NoClosedForm(why));
+                };
+                known.push((of.new.concat(), solution.clone()));
+            }
+            Ok(composition(model, equations, given, &known))
+        }
+        law => Ok(law.clone()),
+    }
+}
+
+fn old_variables(model: &Model) -> Vec<Symbol> {
+    let positions = model.coordinates.iter().map(|c| c.position);
+    positions.chain(model.coordinates.iter().map(|c| c.momentum)).collect()
+}
+
+/// New variables in the order Q…, P….
+fn in_order(new: &[[Symbol; 2]]) -> Vec<Symbol> {
+    [0, 1].iter().flat_map(|&half| new.iter().map(move |pair| pair[half])).collect()
+}
+
+fn inverse(
+    model: &Model,
+    equations: &mut Equations,
+    given: &Transformation,
+    of: &Transformation,
+) -> Result<TransformationLaw, NoClosedForm> {
+    let old = old_variables(model);
+    let (theirs, own) = (in_order(&of.new), in_order(&given.new));
+    let pool = &mut equations.pool;
+    let mut exchanged: HashMap<Symbol, Expr> = HashMap::new();
+    for k in 0..old.len() {
+        exchanged.insert(theirs[k], pool.variable(old[k]));
+        exchanged.insert(old[k], pool.variable(own[k]));
+    }
+    if let TransformationLaw::Generating { types, function } = &of.law {
+        let function = pool.substitute(*function, &exchanged);
+        let function = pool.neg(function);
+        let types = types.iter().map(|of| match of {
+            GeneratingType::F1 => GeneratingType::F1,
+            GeneratingType::F2 => GeneratingType::F3,
+            GeneratingType::F3 => GeneratingType::F2,
+            GeneratingType::F4 => GeneratingType::F4,
+        });
+        return Ok(TransformationLaw::Generating { types: types.collect(), function });
+    }
+    let map = PhaseMap::relations(pool, model, of);
+    let Some(backwards) = map.backwards(model, equations) else {
+        let why = format!("the inverse of `{}` cannot be written down", of.name);
+        return Err(NoClosedForm(why));
+    };
+    let pool = &mut equations.pool;
+    let mut all = Vec::new();
+    for &symbol in &old {
+        let Some(&(_, e)) = backwards.iter().find(|(found, _)| *found == symbol) else {
+            return Err(NoClosedForm(format!("the inverse of `{}` is not complete", of.name)));
+        };
+        all.push(pool.substitute(e, &exchanged));
+    }
+    let momenta = all.split_off(old.len() / 2);
+    Ok(TransformationLaw::Explicit { positions: all, momenta })
+}
+
+/// The parts one after the other, the first one first.
+fn composition(
+    model: &Model,
+    equations: &mut Equations,
+    given: &Transformation,
+    parts: &[(Vec<Symbol>, Solution)],
+) -> TransformationLaw {
+    let old = old_variables(model);
+    let pool = &mut equations.pool;
+    let mut values: Vec<Expr> = old.iter().map(|&s| pool.variable(s)).collect();
+    for (new, solution) in parts {
+        let pairs: Vec<[Symbol; 2]> = new.chunks(2).map(|pair| [pair[0], pair[1]]).collect();
+        let before: HashMap<Symbol, Expr> = old.iter().copied().zip(values.clone()).collect();
+        let ordered = in_order(&pairs);
+        values = ordered
+            .into_iter()
+            .map(|symbol| {
+                let known = solution.iter().find(|(found, _)| *found == symbol);
+                let e = known.map_or(Expr::ZERO, |&(_, e)| e);
+                let e = pool.substitute(e, &before);
+                pool.simplify(e)
+            })
+            .collect();
+    }
+    let momenta = values.split_off(given.new.len());
+    TransformationLaw::Explicit { positions: values, momenta }
+}
+
+/// The transformations of a file whose laws cannot be written down.
+pub(super) fn flaws(model: &Model, equations: &Equations) -> Vec<StructureError> {
+    let laws = equations.supplements.transformation_laws.iter();
+    let all = model.transformations.iter().zip(laws).filter_map(|(given, law)| {
+        let why = law.as_ref().err()?;
+        Some(StructureError {
+            place: given.place.clone(),
+            message: format!("`{}` cannot be written down: {why}", given.name),
+            help: "write it out as an explicit transformation or by a generating function"
+                .to_owned(),
+        })
+    });
+    all.collect()
+}

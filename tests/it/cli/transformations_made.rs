@@ -1,0 +1,234 @@
+//! Transformations made of others, and the other generating functions of one: against maps written out by hand, and
+//! against the differential of the function.
+
+use serde_json::{Value, json};
+
+use super::with_file;
+use crate::build::{names, read, sample};
+
+const FREE: &str = "title = \"T\"\n[coordinates]\nq = { initial = 1.0, momentum = 0.3 }\n\
+                    [parameters]\nm = 1.3\nc = 2.0\n[hamiltonian]\nH = \"p_q^2/(2*m) + q^4\"\n";
+
+fn derived(rest: &[&str]) -> Vec<Value> {
+    let text = format!("{FREE}{}", rest.join("\n"));
+    let found = with_file(&text, &["derive", "system.toml", "--format", "json"]).json();
+    found["transformations"].as_array().expect("a list").clone()
+}
+
+const SHEAR: &str = "[[transformations]]\nname = \"shear\"\nkind = \"explicit\"\n\
+                     Q = { A = \"q + p_q^2\" }\nP = { B = \"p_q\" }";
+const SWAP: &str =
+    "[[transformations]]\nname = \"swap\"\nkind = \"F1\"\nF = \"q*C\"\nnew = [\"C\", \"D\"]";
+
+fn made(name: &str, kind: &str, of: &str, new: &str) -> String {
+    format!("[[transformations]]\nname = \"{name}\"\nkind = \"{kind}\"\nof = [{of}]\nnew = [{new}]")
+}
+
+#[test]
+fn the_first_acts_first() {
+    let one = made("one", "compose", "\"shear\", \"swap\"", "\"X\", \"Y\"");
+    let other = made("other", "compose", "\"swap\", \"shear\"", "\"U\", \"V\"");
+    let thrice = made("thrice", "compose", "\"swap\", \"swap\", \"swap\"", "\"R\", \"S\"");
+    let found = derived(&[SHEAR, SWAP, &one, &other, &thrice]);
+    assert_eq!(found[1]["new"], json!({ "C": "p_q", "D": "-q" }));
+    assert_eq!(found[2]["new"], json!({ "X": "p_q", "Y": "-p_q^2 - q" }));
+    assert_eq!(found[3]["new"], json!({ "U": "p_q + q^2", "V": "-q" }));
+    assert_eq!(found[4]["new"], json!({ "R": "-p_q", "S": "q" }));
+    for made in &found[2..] {
+        assert_eq!((&made["canonical"], &made["proved"]), (&json!(true), &json!(true)));
+    }
+}
+
+#[test]
+fn an_inverse_undoes() {
+    let back = made("back", "inverse", "\"shear\"", "\"X\", \"Y\"");
+    let identity = made("identity", "compose", "\"shear\", \"back\"", "\"U\", \"V\"");
+    let again = made("again", "inverse", "\"swap\"", "\"R\", \"S\"");
+    let twice = made("twice", "inverse", "\"again\"", "\"K1\", \"K2\"");
+    let found = derived(&[SHEAR, SWAP, &back, &identity, &again, &twice]);
+    assert_eq!(found[2]["new"], json!({ "X": "q - p_q^2", "Y": "p_q" }));
+    assert_eq!(found[3]["new"], json!({ "U": "q", "V": "p_q" }));
+    assert_eq!(found[4]["new"], json!({ "R": "-p_q", "S": "q" }));
+    assert_eq!(found[5]["new"], json!({ "K1": "p_q", "K2": "-q" }));
+    assert!(found.iter().all(|one| one["canonical"] == true), "{found:?}");
+}
+
+/// A boost, Q = q − ct, P = p − mc, and its inverse by the function of the third kind.
+#[test]
+fn with_the_time() {
+    let boost = "[[transformations]]\nname = \"boost\"\nkind = \"F2\"\nF = \"(q - c*t)*(B + m*c)\"\n\
+                 new = [\"A\", \"B\"]";
+    let back = made("back", "inverse", "\"boost\"", "\"X\", \"Y\"");
+    let by_hand = "[[transformations]]\nname = \"by hand\"\nkind = \"F3\"\nF = \"-(U - c*t)*(p_q + m*c)\"\n\
+                   new = [\"U\", \"V\"]";
+    let found = derived(&[boost, &back, by_hand]);
+    let rename = |value: &Value| -> String {
+        value.as_str().expect("K").replace('X', "U").replace('Y', "V")
+    };
+    assert_eq!(found[1]["new"]["X"], found[2]["new"]["U"]);
+    assert_eq!(found[1]["new"]["Y"], found[2]["new"]["V"]);
+    assert_eq!(rename(&found[1]["K"]), rename(&found[2]["K"]));
+}
+
+/// Valences are multiplied, and a map that is not canonical stays so.
+#[test]
+fn scale_transformations_make_a_group_with_their_valences() {
+    let two = "[[transformations]]\nname = \"two\"\nkind = \"explicit\"\nQ = { A = \"2*q\" }\nP = { B = \"p_q\" }";
+    let three = "[[transformations]]\nname = \"three\"\nkind = \"explicit\"\nQ = { C = \"q\" }\nP = { D = \"3*p_q\" }";
+    let six = made("six", "compose", "\"two\", \"three\"", "\"X\", \"Y\"");
+    let half = made("half", "inverse", "\"two\"", "\"U\", \"V\"");
+    let none = made("none", "compose", "\"two\", \"half\"", "\"R\", \"S\"");
+    let found = derived(&[two, three, &six, &half, &none]);
+    let valences: Vec<&Value> = found.iter().map(|one| &one["valence"]).collect();
+    assert_eq!(valences[..4], [&json!("2"), &json!("3"), &json!("6"), &json!("1/2")]);
+    assert_eq!(found[2]["canonical"], false);
+    assert_eq!(found[4]["canonical"], true);
+    assert_eq!(found[2]["failing_brackets"][0]["is"], "6");
+    assert_eq!(found[0]["generating_functions"], json!({}));
+}
+
+#[test]
+fn what_is_made_of_nothing_is_a_mistake() {
+    let check = |rest: &[&str], words: &[&str]| {
+        let text = format!("{FREE}{}", rest.join("\n"));
+        with_file(&text, &["derive", "system.toml"]).fails(65, words);
+    };
+    check(&[&made("b", "inverse", "\"sher\"", ""), SHEAR], &["no transformation `sher` above"]);
+    check(&[SHEAR, &made("b", "inverse", "\"sheer\"", "")], &["did you mean `shear`?"]);
+    check(&[SHEAR, &made("b", "inverse", "\"b\"", "")], &["no transformation `b` above"]);
+    check(&[SHEAR, &made("b", "compose", "\"shear\"", "")], &["two or more"]);
+    check(&[SHEAR, &made("b", "inverse", "\"shear\", \"shear\"", "")], &["is of one other"]);
+    check(
+        &[SHEAR, "[[transformations]]\nname = \"b\"\nkind = \"F2\"\nof = [\"shear\"]\nF = \"q*P\""],
+        &["`of`"],
+    );
+    // Kepler's equation has no solution in closed form
+    let kepler = "[[transformations]]\nname = \"k\"\nkind = \"explicit\"\nQ = { A = \"q - 1/2*sin(q)\" }\n\
+                  P = { B = \"p_q/(1 - 1/2*cos(q))\" }";
+    check(
+        &[kepler, &made("b", "inverse", "\"k\"", "")],
+        &["inverse of `k` cannot be written down"],
+    );
+}
+
+/// The differential of each generating function, by differences at points of the map: p dq − P dQ and the like.
+fn check_functions(given: &str, old: [&str; 2], expected: [bool; 4]) {
+    let found = derived(&[given]).remove(0);
+    let functions = &found["generating_functions"];
+    for (k, name) in ["F1", "F2", "F3", "F4"].iter().enumerate() {
+        let one = &functions[name];
+        let Some(text) = one["F"].as_str() else {
+            assert!(!expected[k], "{name}: {one}");
+            assert!(
+                one["why"].as_str().is_some_and(|why| why.contains("not independent")),
+                "{one}"
+            );
+            continue;
+        };
+        assert!(expected[k], "{name} = {text}");
+        let mut model = names(&["z"], &["q", "pq", "Q", "P", "m", "c"]);
+        let mut expression = |text: &str| read(&mut model, &text.replace("p_q", "pq"));
+        let function = expression(text);
+        let map = old.map(&mut expression);
+        let value = |e, q: f64, p: f64, new: [f64; 2]| {
+            model.pool.evaluate(e, &|s| match model.pool.symbol_info(s).name.as_str() {
+                "q" => q,
+                "pq" => p,
+                "Q" => new[0],
+                "P" => new[1],
+                "m" => 1.3,
+                "c" => 2.0,
+                _ => 0.0,
+            })
+        };
+        let image = |q: f64, p: f64| map.map(|e| value(e, q, p, [0.0; 2]));
+        for seed in 0..6 {
+            let mut at = names(&["u", "v"], &[]);
+            let [u, v] = ["u", "v"].map(|name| at.pool.symbol(name));
+            let (q, p) = (0.9 + 0.1 * sample(seed)(u), 0.3 + 0.1 * sample(seed)(v));
+            let [new_q, new_p] = image(q, p);
+            for (dq, dp) in [(1.0, 0.0), (0.0, 1.0), (0.6, -0.8)] {
+                let h = 1e-5;
+                let ends = [h, -h].map(|h| {
+                    let (q, p) = (q + h * dq, p + h * dp);
+                    let new = image(q, p);
+                    (value(function, q, p, new), new)
+                });
+                let slope = |a: f64, b: f64| (a - b) / (2.0 * h);
+                let left = slope(ends[0].0, ends[1].0);
+                let [d_q, d_p] = [0, 1].map(|i| slope(ends[0].1[i], ends[1].1[i]));
+                let old = if k < 2 { p * dq } else { -q * dp };
+                let new = if k % 2 == 0 { -new_p * d_q } else { new_q * d_p };
+                assert!((left - old - new).abs() < 1e-6, "{name} = {text}: {left} {}", old + new);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_other_three_generating_functions() {
+    let by = |kind: &str, f: &str| {
+        format!("[[transformations]]\nname = \"a\"\nkind = \"{kind}\"\nF = \"{f}\"")
+    };
+    // the identity, the exchange, a shear
+    check_functions(&by("F2", "q*P"), ["q", "p_q"], [false, true, true, false]);
+    check_functions(&by("F1", "q*Q"), ["p_q", "-q"], [true, false, false, true]);
+    check_functions(&by("F2", "q*P + 1/2*c*q^2"), ["q", "p_q - c*q"], [false, true, true, true]);
+    // a general linear map has all four, from whichever it is given by
+    let linear = ["2*q + 3*p_q", "q + 2*p_q"];
+    let explicit = format!(
+        "[[transformations]]\nname = \"a\"\nkind = \"explicit\"\nQ = {{ Q = \"{}\" }}\nP = {{ P = \"{}\" }}",
+        linear[0], linear[1]
+    );
+    check_functions(&explicit, linear, [true; 4]);
+    // a point transformation
+    let point = by("F2", "q^3*P");
+    check_functions(&point, ["q^3", "p_q/(3*q^2)"], [false, true, true, true]);
+}
+
+/// Symplectic Euler is F2 = q P + h H(q, P); Störmer and Verlet's step is one of half the length and then the inverse of one
+/// backwards: the map of these generating functions is the step that the method takes, to rounding.
+/// Source: Hairer, Lubich & Wanner, *Geometric Numerical Integration*, §§ II.4, VI.5.
+#[test]
+fn a_step_of_the_leapfrog_is_a_composition_of_generating_functions() {
+    let file = "title = \"T\"\n[coordinates]\nq = { initial = 0.8, momentum = 0.5 }\n[parameters]\nh = 0.1\n\
+                [hamiltonian]\nH = \"p_q^2/2 - cos(q)\"\n";
+    let euler = |name: &str, sign: &str, new: &str| {
+        format!(
+            "[[transformations]]\nname = \"{name}\"\nkind = \"F2\"\nnew = [{new}, \"{name}P\"]\n\
+             F = \"q*{name}P {sign} 1/2*h*({name}P^2/2 - cos(q))\"\n"
+        )
+    };
+    let text = format!(
+        "{file}{}{}{}\n{}\n",
+        euler("a", "+", "\"aQ\""),
+        euler("b", "-", "\"bQ\""),
+        made("c", "inverse", "\"b\"", "\"cQ\", \"cP\""),
+        made("step", "compose", "\"a\", \"c\"", "\"X\", \"Y\"")
+    );
+    let maps = with_file(&text, &["derive", "system.toml", "--format", "json"]).json();
+    for map in maps["transformations"].as_array().expect("a list") {
+        assert_eq!((&map["canonical"], &map["proved"]), (&json!(true), &json!(true)), "{map}");
+    }
+    let row = |words: &[&str]| -> (Vec<String>, Vec<f64>) {
+        let words = [&["run", "system.toml", "--format", "json"], words].concat();
+        // the long step is warned of on standard error
+        let found: Value =
+            serde_json::from_str(&with_file(&text, &words).stdout).expect("an object");
+        let names = found["columns"].as_array().expect("columns").iter();
+        let last = found["rows"].as_array().expect("rows").last().expect("a row").as_array();
+        let last = last.expect("a row").iter().map(|x| x.as_f64().unwrap_or(f64::NAN)).collect();
+        (names.map(|name| name.as_str().expect("a name").to_owned()).collect(), last)
+    };
+    let of = |(names, row): &(Vec<String>, Vec<f64>), name: &str| {
+        row[names.iter().position(|n| n == name).unwrap_or_else(|| panic!("{name}: {names:?}"))]
+    };
+    let start = row(&["--at", "0", "--observe", "X=X", "--observe", "Y=Y"]);
+    let stepped = row(&["--method", "leapfrog", "--step", "0.1", "--at", "0.1"]);
+    for (map, method) in [("X", "q"), ("Y", "p_q")] {
+        let (map, method) = (of(&start, map), of(&stepped, method));
+        assert!((map - method).abs() < 1e-15, "{map} is not {method}");
+    }
+    // and that is no accident of a step that does nothing
+    assert!((of(&stepped, "q") - 0.8).abs() > 0.04);
+}
