@@ -25,6 +25,7 @@ pub mod key;
 pub mod keymap;
 mod lab;
 mod menu;
+mod nearest;
 mod notification;
 mod palette;
 mod perform;

@@ -25,7 +25,12 @@ impl App {
             self.notice = None;
         }
         match action {
-            Action::Quit if self.closes_with_quit() => self.back(),
+            Action::Quit if self.closes_with_quit() => {
+                if let Some(Overlay::Help { search, .. }) = &mut self.overlay {
+                    *search = None;
+                }
+                self.back()
+            }
             Action::Quit | Action::QuitAll => self.quit(),
             Action::Suspend => vec![Effect::Suspend],
             Action::Repaint => vec![Effect::Repaint],
@@ -47,7 +52,12 @@ impl App {
             Action::PageUp => self.jump(-self.screenful()),
             Action::PageDown => self.jump(self.screenful()),
             Action::Search => {
-                self.picker.search(|_| ());
+                if let Some(Overlay::Help { search, typing, .. }) = &mut self.overlay {
+                    search.get_or_insert_default();
+                    *typing = true;
+                } else {
+                    self.picker.search(|_| ());
+                }
                 Vec::new()
             }
             Action::Open => self.open_selected(),
@@ -245,11 +255,15 @@ impl App {
     }
 
     fn help(&mut self) -> Vec<Effect> {
-        match self.overlay {
-            Some(Overlay::Help { .. }) => return self.back(),
+        match &mut self.overlay {
+            Some(Overlay::Help { search, typing, .. }) => {
+                (*search, *typing) = (None, false);
+                return self.back();
+            }
             _ => {
-                let editing = matches!(self.overlay, Some(Overlay::Workbench));
-                self.overlay = Some(Overlay::Help { scroll: self.scroll, editing });
+                let below = self.overlay.take().map(Box::new);
+                let scroll = self.scroll;
+                self.overlay = Some(Overlay::Help { scroll, below, search: None, typing: false });
             }
         }
         self.scroll = 0;
@@ -261,9 +275,15 @@ impl App {
             return self.leave_buffer();
         }
         match self.overlay.take() {
-            Some(Overlay::Help { scroll, editing }) => {
+            Some(Overlay::Help { scroll, below, search: Some(_), .. }) => {
+                // The first Esc shows all keys again.
+                self.overlay = Some(Overlay::Help { scroll, below, search: None, typing: false });
+                self.scroll = 0;
+                return Vec::new();
+            }
+            Some(Overlay::Help { scroll, below, .. }) => {
                 self.scroll = scroll;
-                self.overlay = editing.then_some(Overlay::Workbench);
+                self.overlay = below.map(|below| *below);
                 return Vec::new();
             }
             Some(Overlay::Prompt(Prompt { under_way: Some(_), .. })) => {
@@ -359,7 +379,8 @@ impl App {
     /// Returns the number of lines that a page up or down moves.
     fn screenful(&self) -> isize {
         let places = self.places();
-        let text = places.contains(&Place::Text) || places.contains(&Place::Plain);
+        let pages = [Place::Text, Place::HelpSearch, Place::Plain];
+        let text = pages.iter().any(|place| places.contains(place));
         if text { isize::from(self.drawn.rows.saturating_sub(2).max(1) as i16) } else { 10 }
     }
 

@@ -3,6 +3,7 @@
 //! In: the parts of this room. Out: an [`App`] and its queries. Never here: how it changes (`update`).
 
 use serde::{Deserialize, Serialize};
+use tui_input::Input;
 
 use super::action::Action;
 use super::event::{Drawn, Effect, LoadError};
@@ -96,8 +97,12 @@ pub enum Overlay {
     Help {
         /// How far the page below was scrolled.
         scroll: u16,
-        /// Whether the editor was open below.
-        editing: bool,
+        /// What was open below.
+        below: Option<Box<Overlay>>,
+        /// What is searched for among the keys, once a search was begun.
+        search: Option<Input>,
+        /// Whether the search is being typed.
+        typing: bool,
     },
     /// A message that must be read: what is wrong with a file.
     Message(LoadError),
@@ -183,10 +188,15 @@ impl App {
 
     /// Returns the active places, innermost first.
     pub fn places(&self) -> &'static [Place] {
-        match &self.overlay {
-            Some(Overlay::Help { .. } | Overlay::Message(_)) => {
-                chain([Place::Text, Place::Anywhere])
-            }
+        self.places_over(self.overlay.as_ref())
+    }
+
+    /// Returns the active places while this lies over the page.
+    fn places_over(&self, overlay: Option<&Overlay>) -> &'static [Place] {
+        match overlay {
+            Some(Overlay::Help { typing: true, .. }) => chain([Place::HelpSearch, Place::Typing]),
+            Some(Overlay::Help { .. }) => chain([Place::Help, Place::Text]),
+            Some(Overlay::Message(_)) => chain([Place::Text, Place::Anywhere]),
             Some(Overlay::Menu(Menu { filter: None, .. })) => chain([Place::Menu, Place::Anywhere]),
             Some(Overlay::Menu(_)) => chain([Place::Menu, Place::Typing]),
             Some(Overlay::Field(_) | Overlay::Prompt(_)) => chain([Place::Field, Place::Typing]),
@@ -195,15 +205,15 @@ impl App {
                 let inner = if asks { Place::Field } else { Place::Workbench };
                 chain([inner, Place::Typing])
             }
-            None => self.places_below(),
+            None => chain(self.places_of_page()),
         }
     }
 
-    /// Returns the active places of the page or the editor under the help.
+    /// Returns the active places of what is under the help: a prompt, the editor, or else the page.
     pub fn places_below(&self) -> &'static [Place] {
-        match self.overlay {
-            Some(Overlay::Help { editing: true, .. }) => chain([Place::Workbench, Place::Typing]),
-            _ => chain(self.places_of_page()),
+        match &self.overlay {
+            Some(Overlay::Help { below, .. }) => self.places_over(below.as_deref()),
+            _ => self.places_over(None),
         }
     }
 

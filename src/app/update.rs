@@ -119,6 +119,11 @@ impl App {
                 let changed = menu.filter.as_mut().is_some_and(|filter| edit(filter, key));
                 menu.selected = if changed { 0 } else { menu.selected };
             }
+            Some(Overlay::Help { search: Some(search), typing: true, .. }) => {
+                if edit(search, key) {
+                    self.scroll = 0;
+                }
+            }
             Some(Overlay::Help { .. } | Overlay::Message(_)) => return self.unknown(key),
             None if searching => {
                 self.picker.search(|input| {
@@ -147,6 +152,10 @@ impl App {
             Some(Overlay::Workbench) => self.paste_into_buffer(text),
             Some(Overlay::Field(field)) => field.paste(text),
             Some(Overlay::Prompt(prompt)) => paste(&mut prompt.input, text),
+            Some(Overlay::Help { search: Some(search), typing: true, .. }) => {
+                self.scroll = 0;
+                paste(search, text)
+            }
             Some(Overlay::Menu(menu)) => {
                 menu.selected = 0;
                 menu.filter.as_mut().is_none_or(|filter| paste(filter, text))

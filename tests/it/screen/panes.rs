@@ -44,6 +44,58 @@ fn every_pane_of_a_large_screen_is_there() {
     }
 }
 
+/// The help begins with the focused pane, and a search leaves what fits it; where there is room it has two columns.
+#[test]
+fn the_help_begins_here_and_is_searched() {
+    let mut app = in_lab();
+    press(&mut app, "Tab Tab Tab Tab ?");
+    let text = rows(&screen(&app, &rich(), (80, 24)));
+    assert!(text[2].contains("Here: Plots"), "{text:#?}");
+    let buffer = screen(&app, &rich(), (200, 60));
+    let (left, right) = (find(&buffer, "Here: Plots"), find(&buffer, "Anywhere"));
+    let (left, right) = (left.expect("left"), right.expect("right, without scrolling"));
+    assert!(left.0 < 20 && right.0 > 90, "{left:?} {right:?}");
+    press(&mut app, "/ c u r s o r Space r e a d s");
+    let buffer = screen(&app, &rich(), (80, 24));
+    assert!(find(&buffer, "put a cursor on the plot").is_some(), "{:#?}", rows(&buffer));
+    assert!(find(&buffer, "stretch the horizontal").is_none());
+    press(&mut app, "x x x");
+    assert!(find(&screen(&app, &rich(), (80, 24)), "No match").is_some());
+    press(&mut app, "Esc");
+    assert!(find(&screen(&app, &rich(), (80, 24)), "stretch the horizontal").is_some());
+}
+
+/// A page longer than a wide screen is high continues in a second column, and no row of it is lost or shown twice.
+#[test]
+fn wide_pages_have_two_columns() {
+    let mut app = in_lab();
+    press(&mut app, "?");
+    let (_, drawn) = super::drawn(&app, &rich(), (200, 30));
+    assert!(drawn.beyond > 0 && drawn.rows == 2 * 25, "{drawn:?}");
+    let mut seen = String::new();
+    let mut scroll = 0;
+    while scroll <= drawn.beyond {
+        app.scroll = scroll;
+        let buffer = screen(&app, &rich(), (200, 30));
+        let text = rows(&buffer);
+        let part = |from: usize, to: usize| -> Vec<String> {
+            let cut = |row: &String| row.chars().skip(from).take(to - from).collect();
+            text[2..27].iter().map(cut).collect()
+        };
+        for row in part(2, 99).into_iter().chain(part(101, 198)) {
+            seen += row.trim();
+            seen += "\n";
+        }
+        scroll += drawn.rows;
+    }
+    app.scroll = drawn.beyond;
+    seen += &rows(&screen(&app, &rich(), (200, 30))).join("\n");
+    for row in phaselab::app::keymap::KEYS {
+        let begins: String = row.help.chars().take(40).collect();
+        assert!(seen.contains(begins.trim()), "{}", row.help);
+    }
+}
+
 #[test]
 fn a_standard_screen_is_whole() {
     let buffer = screen(&in_lab(), &rich(), (80, 24));
