@@ -47,7 +47,7 @@ pub use action::{Action, Axes, Direction};
 pub use buffer::{Asking, BufferDiagnostic, SourceBuffer, State as SheetState, Unsaved};
 pub use edit::{Checked, EditCommand, SaveError};
 pub use editor::{Caret, Editor};
-pub use event::{Drawn, Effect, Event, LoadError, Loaded};
+pub use event::{Drawn, DrawnPanes, Effect, Event, LawInView, LoadError, Loaded};
 pub use field::{Field, Purpose};
 pub use findings::{Findings, Search};
 pub use fuzzy::Fit;

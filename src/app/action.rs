@@ -69,6 +69,8 @@ pub enum Action {
     EditCommand(EditCommand),
     /// Save a still image of the screen.
     Still,
+    /// Copy the equations as LaTeX.
+    CopyLatex,
     /// Export the recorded motion as a table.
     Data,
     /// Start or stop recording the screen as a cast.

@@ -31,6 +31,10 @@ pub enum Place {
     Values,
     /// The gauges.
     Gauges,
+    /// The law of motion.
+    Law,
+    /// The page of equations.
+    Equations,
     /// A page of text, the help included.
     Text,
     /// The key help.
@@ -51,7 +55,7 @@ pub enum Place {
 
 impl Place {
     /// Every place, in the order of the help page.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 20] = [
         Self::Anywhere,
         Self::Picker,
         Self::Search,
@@ -61,6 +65,8 @@ impl Place {
         Self::Plot,
         Self::Values,
         Self::Gauges,
+        Self::Law,
+        Self::Equations,
         Self::Text,
         Self::Help,
         Self::HelpSearch,
@@ -85,6 +91,8 @@ impl Place {
             Self::Plot => "Plots",
             Self::Values => "Parameters and initial values",
             Self::Gauges => "Gauges",
+            Self::Law => "Law of motion",
+            Self::Equations => "Equations",
             Self::Text => "Pages of text",
             Self::Help => "This help",
             Self::HelpSearch => "Searching this help",
@@ -99,8 +107,8 @@ impl Place {
 
 /// The combinations of places that can be active together, the innermost first.
 #[rustfmt::skip]
-pub const CHAINS: [&[Place]; 15] = {
-    use Place::{Always, Anywhere, Experiment, Field, Gauges, Help, HelpSearch, Lab, Menu, Picker, Plain, Plot, Search, Space, Text, Typing, Values, Workbench};
+pub const CHAINS: [&[Place]; 17] = {
+    use Place::{Always, Anywhere, Equations, Experiment, Field, Gauges, Help, HelpSearch, Lab, Law, Menu, Picker, Plain, Plot, Search, Space, Text, Typing, Values, Workbench};
     [
         &[Picker, Anywhere, Always],
         &[Search, Typing, Always],
@@ -108,6 +116,8 @@ pub const CHAINS: [&[Place]; 15] = {
         &[Plot, Lab, Experiment, Anywhere, Always],
         &[Values, Lab, Experiment, Anywhere, Always],
         &[Gauges, Lab, Experiment, Anywhere, Always],
+        &[Law, Lab, Experiment, Anywhere, Always],
+        &[Equations, Text, Experiment, Anywhere, Always],
         &[Text, Experiment, Anywhere, Always],
         &[Plain, Experiment, Anywhere, Always],
         &[Help, Text, Anywhere, Always],
@@ -311,6 +321,15 @@ pub const KEYS: &[Binding] = &[
     row(Place::Gauges, &[PAGE_DOWN], Action::PageDown, "", "ten gauges down"),
     row(Place::Gauges, &[HOME], Action::First, "", "the first gauge"),
     row(Place::Gauges, &[END], Action::Last, "", "the last gauge"),
+
+    row(Place::Law, &[UP, c('k')], Action::Move(Direction::Up), "", "a line up"),
+    row(Place::Law, &[DOWN, c('j')], Action::Move(Direction::Down), "scroll", "a line down"),
+    row(Place::Law, &[PAGE_UP], Action::PageUp, "", "ten lines up"),
+    row(Place::Law, &[PAGE_DOWN], Action::PageDown, "", "ten lines down"),
+    row(Place::Law, &[HOME], Action::First, "", "to the beginning"),
+    row(Place::Law, &[END], Action::Last, "", "to the end"),
+
+    row(Place::Equations, &[c('y')], Action::CopyLatex, "copy", "copy the equations as LaTeX, or write them into a file where the terminal has no clipboard"),
 
     row(Place::Text, &[UP, c('k')], Action::Move(Direction::Up), "", "a line up"),
     row(Place::Text, &[DOWN, c('j')], Action::Move(Direction::Down), "scroll", "a line down"),

@@ -188,6 +188,8 @@ fn where_active(place: Place) -> &'static str {
         Place::Plot => "it is for a plot; Tab focuses one",
         Place::Values => "it is for parameters or initial values; Tab focuses them",
         Place::Gauges => "it is for the gauges; Tab focuses them",
+        Place::Law => "it is for the law of motion, where not all of it is in view",
+        Place::Equations => "it is for page 2, the equations",
         Place::Text => "it is for pages of text",
         Place::Help | Place::HelpSearch => "it is for the help, which ? opens",
         Place::Plain => "it is for page 9, the plain reading",
@@ -288,6 +290,7 @@ impl Lab {
             Pane::Parameters => "parameters",
             Pane::Initial => "initial values",
             Pane::Gauges => "gauges",
+            Pane::Law => "law of motion",
         };
         name.to_owned()
     }

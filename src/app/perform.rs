@@ -123,6 +123,10 @@ impl App {
             Action::Edit => self.edit_file(),
             Action::Still => vec![Effect::Still],
             Action::Data => vec![Effect::Data],
+            Action::CopyLatex => {
+                let text = lab.loaded.latex();
+                vec![Effect::Copy { what: "The equations", text, ending: "tex" }]
+            }
             Action::Record => {
                 self.recording = !self.recording;
                 vec![Effect::Record(self.recording)]
@@ -353,6 +357,7 @@ impl App {
             Some(Overlay::Help { .. } | Overlay::Message(_)) => self.roll(by),
             None => match (self.page, &mut self.lab) {
                 (Page::Picker, _) | (_, None) => self.picker.step(by),
+                (Page::Lab, Some(lab)) if lab.focus == Pane::Law => lab.roll_law(by),
                 (Page::Lab, Some(lab)) => {
                     if let Pane::Plot(_) = lab.focus {
                         let way = if by < 0 { Direction::Up } else { Direction::Down };

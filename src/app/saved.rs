@@ -79,6 +79,7 @@ impl Lab {
         }
         if self.panes().any(|pane| pane == saved.focus) {
             (self.focus, self.zoomed) = (saved.focus, saved.zoomed);
+            self.untouched = false;
         }
         self.selection = saved.selection;
         self.select(|place| place);

@@ -48,6 +48,8 @@ pub struct App {
     pub scroll: u16,
     /// The files being edited, also while the editor is closed.
     pub workbench: Workbench,
+    /// Whether the status and the keys are shown below the panes, which demos may leave out.
+    pub footer: bool,
     /// The available themes, each with a description.
     pub themes: Vec<(&'static str, &'static str)>,
     /// The theme chosen by the user, instead of the one at the start.
@@ -131,6 +133,7 @@ impl App {
             recording: false,
             scroll: 0,
             workbench: Workbench::default(),
+            footer: true,
             themes: Vec::new(),
             theme: None,
             reading: Reading::default(),
@@ -228,10 +231,10 @@ impl App {
                 (Pane::Plot(_), _) => [Place::Plot, Place::Lab],
                 (Pane::Parameters | Pane::Initial, _) => [Place::Values, Place::Lab],
                 (Pane::Gauges, _) => [Place::Gauges, Place::Lab],
+                (Pane::Law, _) => [Place::Law, Place::Lab],
             },
-            (Page::Equations | Page::Notes | Page::Numbers, Some(_)) => {
-                [Place::Text, Place::Experiment]
-            }
+            (Page::Equations, Some(_)) => [Place::Equations, Place::Text],
+            (Page::Notes | Page::Numbers, Some(_)) => [Place::Text, Place::Experiment],
             (Page::Plain, Some(_)) => [Place::Plain, Place::Experiment],
         }
     }

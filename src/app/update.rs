@@ -81,6 +81,9 @@ impl App {
             }
             Event::Drawn(drawn) => {
                 self.drawn = drawn;
+                if let (Some(panes), Some(lab)) = (drawn.panes, &mut self.lab) {
+                    lab.take_drawn(panes);
+                }
                 self.follow_cursor();
                 self.scroll = self.scroll.min(drawn.beyond);
                 Vec::new()
@@ -96,6 +99,9 @@ impl App {
 
     fn press(&mut self, key: KeyEvent) -> Vec<Effect> {
         self.drop_hold();
+        if let Some(lab) = self.lab.as_mut().filter(|_| self.page != Page::Picker) {
+            lab.untouched = false;
+        }
         let places = self.places();
         if let Some(action) = keymap::action(key, places) {
             let effects = self.perform(action);

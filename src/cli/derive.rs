@@ -2,7 +2,6 @@
 //! another program.
 
 mod json;
-mod latex;
 mod text;
 
 use std::ffi::OsString;
@@ -13,7 +12,7 @@ use super::open;
 use super::output::Output;
 use super::script::Script;
 use crate::experiment::Derived;
-use crate::mechanics::{Further, Report};
+use crate::mechanics::{Further, Report, latex};
 
 /// Show what follows from L or H: equations of motion, and what is conserved and why.
 ///
@@ -45,7 +44,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let report = Report::of(&model, &equations);
     let text = match arguments.format {
         Format::Text => text::write(&report, &further, Script::of_locale()),
-        Format::Latex => latex::write(&report, &further),
+        Format::Latex => latex(&report, &further),
         Format::Json => json::write(&report, &further),
     };
     Output::print(arguments.format.form(), &text)

@@ -67,7 +67,9 @@ pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
     }
     // The plain page contains the status itself and must not change while it is read.
     let status = !matches!(app.page, Page::Picker | Page::Plain) && app.lab.is_some();
-    let screen = Screen::of(area, status);
+    // A value is typed in the footer.
+    let footer = app.footer || matches!(app.overlay, Some(Overlay::Field(_)));
+    let screen = Screen::of(area, status && app.footer, footer);
     header_footer::header(canvas, screen.header, app);
     let drawn = body(canvas, screen.body, app);
     header_footer::notice(canvas, screen.body, app);
@@ -106,8 +108,8 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
             Drawn::default()
         }
         (Page::Lab, Some(lab)) => {
-            lab_page::draw(canvas, area, app, lab);
-            Drawn::default()
+            let panes = lab_page::draw(canvas, area, app, lab);
+            Drawn { panes: Some(panes), ..Drawn::default() }
         }
         (page, Some(lab)) => text_page(canvas, area, (app, lab), page),
     };

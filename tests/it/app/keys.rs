@@ -6,7 +6,9 @@ use std::time::Duration;
 
 use crossterm::event::KeyEvent;
 use phaselab::app::keymap::{self, CHAINS, KEYS, Place};
-use phaselab::app::{App, Choice, Drawn, Effect, Event, Menu, Overlay, Page, Pane, ValueId};
+use phaselab::app::{
+    App, Choice, Drawn, DrawnPanes, Effect, Event, LawInView, Menu, Overlay, Page, Pane, ValueId,
+};
 use phaselab::experiment::Status;
 use phaselab::instrument::Sight;
 
@@ -77,8 +79,16 @@ fn states_made(place: Place) -> Vec<App> {
             press(&mut app, "Down");
             vec![app]
         }
-        Place::Text => vec![scrolled("2")],
+        Place::Text => vec![scrolled("3")],
         Place::Help => vec![lab("?")],
+        Place::Law => {
+            let mut app = in_lab();
+            let panes = DrawnPanes { single: false, law: LawInView::Clipped(90) };
+            app.update(Event::Drawn(Drawn { panes: Some(panes), ..Drawn::default() }));
+            press(&mut app, "Shift-Tab PgDn PgDn");
+            vec![app]
+        }
+        Place::Equations => vec![lab("2")],
         Place::HelpSearch => vec![scrolled("? / z o o m")],
         Place::Plain => {
             let mut app = scrolled("9");
@@ -148,6 +158,7 @@ fn facts(app: &App) -> Vec<(String, String)> {
     fact("parameter", selection.parameter.to_string());
     fact("initial value", selection.initial.to_string());
     fact("gauge", selection.gauge.to_string());
+    fact("law scrolled", lab.law_scroll.to_string());
     for index in 0..lab.count(ValueId::Parameter) {
         let target = ValueId::Parameter(index);
         let name = lab.value_info(target).unwrap().name;
@@ -292,7 +303,8 @@ fn the_help_is_reached_from_everywhere_and_leads_back() {
         ("E", Place::Workbench),
         ("", Place::Values),
         ("Tab Tab Tab Tab", Place::Plot),
-        ("2", Place::Text),
+        ("2", Place::Equations),
+        ("3", Place::Text),
     ];
     for (keys, place) in cases {
         let mut app = in_lab();
@@ -314,6 +326,22 @@ fn the_help_is_reached_from_everywhere_and_leads_back() {
     let mut app = at_picker();
     press(&mut app, "/ p e F1 Esc");
     assert_eq!(app.picker.search.as_ref().map(|input| input.value()), Some("pe"));
+}
+
+/// What is copied is what `derive --format latex` prints: equations with their left sides, in an environment.
+#[test]
+fn the_equations_are_copied_as_latex() {
+    let mut app = in_lab();
+    assert!(press(&mut app, "y").is_empty(), "not on the page of panes");
+    let effects = press(&mut app, "2 y");
+    let copied = effects.iter().find_map(|effect| match effect {
+        Effect::Copy { text, ending, .. } => Some((text, *ending)),
+        _ => None,
+    });
+    let (text, ending) = copied.expect("it is copied");
+    assert_eq!(ending, "tex");
+    assert!(text.starts_with("% Simple pendulum\n\\begin{align*}\nL &= "), "{text}");
+    assert!(text.contains("\\ddot{\\theta} &= ") && text.ends_with("\\end{align*}\n"), "{text}");
 }
 
 /// In every list Home and End go to its ends, and a page is more than a line.
