@@ -24,6 +24,7 @@ mod impulse;
 pub mod key;
 pub mod keymap;
 mod lab;
+mod mend;
 mod menu;
 mod nearest;
 mod notification;

@@ -65,6 +65,8 @@ pub enum Action {
     ApplyFlow,
     /// Edit the system's file.
     Edit,
+    /// Begin a system of one's own in the editor.
+    NewSystem,
     /// Apply an editor command to the text being edited.
     EditCommand(EditCommand),
     /// Save a still image of the screen.

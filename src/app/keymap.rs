@@ -41,6 +41,8 @@ pub enum Place {
     Help,
     /// The search among its keys.
     HelpSearch,
+    /// What is wrong with a file that cannot be opened.
+    Message,
     /// The plain-reading page.
     Plain,
     /// A pop-up list.
@@ -55,7 +57,7 @@ pub enum Place {
 
 impl Place {
     /// Every place, in the order of the help page.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 21] = [
         Self::Anywhere,
         Self::Picker,
         Self::Search,
@@ -70,6 +72,7 @@ impl Place {
         Self::Text,
         Self::Help,
         Self::HelpSearch,
+        Self::Message,
         Self::Plain,
         Self::Menu,
         Self::Workbench,
@@ -96,6 +99,7 @@ impl Place {
             Self::Text => "Pages of text",
             Self::Help => "This help",
             Self::HelpSearch => "Searching this help",
+            Self::Message => "The errors of a file",
             Self::Plain => "Plain reading",
             Self::Menu => "Pop-up lists",
             Self::Workbench => "Editing the file",
@@ -108,7 +112,7 @@ impl Place {
 /// The combinations of places that can be active together, the innermost first.
 #[rustfmt::skip]
 pub const CHAINS: [&[Place]; 17] = {
-    use Place::{Always, Anywhere, Equations, Experiment, Field, Gauges, Help, HelpSearch, Lab, Law, Menu, Picker, Plain, Plot, Search, Space, Text, Typing, Values, Workbench};
+    use Place::{Always, Anywhere, Equations, Experiment, Field, Gauges, Help, HelpSearch, Lab, Law, Menu, Message, Picker, Plain, Plot, Search, Space, Text, Typing, Values, Workbench};
     [
         &[Picker, Anywhere, Always],
         &[Search, Typing, Always],
@@ -122,7 +126,7 @@ pub const CHAINS: [&[Place]; 17] = {
         &[Plain, Experiment, Anywhere, Always],
         &[Help, Text, Anywhere, Always],
         &[HelpSearch, Typing, Always],
-        &[Text, Anywhere, Always],
+        &[Message, Text, Anywhere, Always],
         &[Menu, Anywhere, Always],
         &[Menu, Typing, Always],
         &[Field, Typing, Always],
@@ -221,6 +225,8 @@ pub const KEYS: &[Binding] = &[
     row(Place::Picker, &[ENTER], Action::Open, "open", "open the system in the lab"),
     row(Place::Picker, &[c('/')], Action::Search, "search", "search by name, topic or summary; any other letter begins it too"),
 
+    row(Place::Picker, &[ctrl('n')], Action::NewSystem, "new", "new system: a file of your own to begin from, in the editor; nothing is written until it is saved"),
+
     row(Place::Search, &[UP], Action::Move(Direction::Up), "", "the match above"),
     row(Place::Search, &[DOWN, TAB], Action::Move(Direction::Down), "choose", "the match below"),
     row(Place::Search, &[PAGE_UP], Action::PageUp, "", "ten matches up"),
@@ -254,6 +260,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('C')], Action::ClearCompanions, "", "clear all motions beside the main one"),
     row(Place::Experiment, &[c('W')], Action::Export, "", "write a preset file of the system as it is now, with every changed value"),
     row(Place::Experiment, &[c('E')], Action::Edit, "edit", "edit the system's file while it runs; the motion follows the text"),
+    row(Place::Experiment, &[ctrl('n')], Action::NewSystem, "", "new system: begin a file of your own, in the editor; this motion can be continued from the list of systems"),
     row(Place::Experiment, &[c('S')], Action::Still, "", "write a screenshot (a drawing, SVG) into the current folder"),
     row(Place::Experiment, &[c('D')], Action::Data, "", "write the data of the motion so far as a table (CSV) into the current folder"),
     row(Place::Experiment, &[c('O')], Action::Record, "", "record the screen into a cast in the current folder, or end the recording"),
@@ -347,6 +354,8 @@ pub const KEYS: &[Binding] = &[
     row(Place::HelpSearch, &[HOME], Action::First, "", "to the beginning"),
     row(Place::HelpSearch, &[END], Action::Last, "", "to the end"),
     row(Place::HelpSearch, &[ENTER], Action::Accept, "keep", "keep what was found, and end the typing"),
+
+    row(Place::Message, &[c('E')], Action::Edit, "edit", "edit the file, from its first error on; once it has none its motion begins"),
 
     row(Place::Plain, &[ENTER], Action::ReadAnew, "read", "read the current state"),
     row(Place::Plain, &[c('A')], Action::ReadOn, "by itself", "read the current state every two seconds, or only when asked"),

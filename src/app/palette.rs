@@ -191,6 +191,7 @@ fn where_active(place: Place) -> &'static str {
         Place::Law => "it is for the law of motion, where not all of it is in view",
         Place::Equations => "it is for page 2, the equations",
         Place::Text => "it is for pages of text",
+        Place::Message => "it is for a file that cannot be opened",
         Place::Help | Place::HelpSearch => "it is for the help, which ? opens",
         Place::Plain => "it is for page 9, the plain reading",
         Place::Menu => "it is for pop-up lists, as this one",

@@ -69,6 +69,8 @@ impl App {
                 Vec::new()
             }
             Action::EditCommand(work) => self.work(work),
+            Action::NewSystem => self.new_system(),
+            Action::Edit if matches!(self.overlay, Some(Overlay::Message(_))) => self.mend_file(),
             other => self.in_lab(other),
         }
     }

@@ -70,6 +70,8 @@ pub struct App {
     pub(super) asked: Option<(String, bool)>,
     /// The session to resume once its system is loaded.
     pub(super) resuming: Option<Saved>,
+    /// The wrong file whose text was asked for, until its first mistake is shown.
+    pub(super) mending: Option<String>,
     /// The session as it was when the user left the lab for the list of systems.
     pub(super) left: Option<Saved>,
 }
@@ -144,6 +146,7 @@ impl App {
             drawn: Drawn::default(),
             asked: None,
             resuming: None,
+            mending: None,
             left: None,
         };
         let first = match open {
@@ -199,7 +202,7 @@ impl App {
         match overlay {
             Some(Overlay::Help { typing: true, .. }) => chain([Place::HelpSearch, Place::Typing]),
             Some(Overlay::Help { .. }) => chain([Place::Help, Place::Text]),
-            Some(Overlay::Message(_)) => chain([Place::Text, Place::Anywhere]),
+            Some(Overlay::Message(_)) => chain([Place::Message, Place::Text]),
             Some(Overlay::Menu(Menu { filter: None, .. })) => chain([Place::Menu, Place::Anywhere]),
             Some(Overlay::Menu(_)) => chain([Place::Menu, Place::Typing]),
             Some(Overlay::Field(_) | Overlay::Prompt(_)) => chain([Place::Field, Place::Typing]),

@@ -67,7 +67,10 @@ impl App {
                 Vec::new()
             }
             Event::FileRead { text, asked } => {
-                self.changed_on_disk(&text, asked);
+                match self.mending.clone().filter(|_| asked && self.open_buffer().is_none()) {
+                    Some(name) => self.edit_wrong(name, &text),
+                    None => self.changed_on_disk(&text, asked),
+                }
                 Vec::new()
             }
             Event::Computed { ticket, outcome } => self.computed(ticket, outcome),
@@ -99,6 +102,7 @@ impl App {
 
     fn press(&mut self, key: KeyEvent) -> Vec<Effect> {
         self.drop_hold();
+        self.mending = None;
         if let Some(lab) = self.lab.as_mut().filter(|_| self.page != Page::Picker) {
             lab.untouched = false;
         }

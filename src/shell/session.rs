@@ -450,7 +450,7 @@ impl Session {
     /// one.
     fn answer(&mut self) -> bool {
         let Some(answer) = self.checker.take() else { return false };
-        let name = self.app.lab.as_ref().map(|lab| lab.loaded.name.clone());
+        let name = self.app.checked_system();
         let Some(name) = name.filter(|_| self.app.awaits(answer.ticket)) else { return false };
         let outcome = answer.outcome.map(|ready| self.begin(name, *ready));
         let (ticket, took) = (answer.ticket, answer.took);

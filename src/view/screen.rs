@@ -99,8 +99,8 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
         canvas.target(area, HitTarget::Text);
         return page.draw(canvas, inner, app.scroll);
     }
-    if let (Some(sheet), Some(lab)) = (app.open_buffer(), &app.lab) {
-        return workbench::draw(canvas, area, (app, lab), sheet);
+    if let Some(sheet) = app.open_buffer() {
+        return workbench::draw(canvas, area, app, sheet);
     }
     let drawn = match (app.page, &app.lab) {
         (Page::Picker, _) | (_, None) => {

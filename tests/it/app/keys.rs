@@ -7,7 +7,8 @@ use std::time::Duration;
 use crossterm::event::KeyEvent;
 use phaselab::app::keymap::{self, CHAINS, KEYS, Place};
 use phaselab::app::{
-    App, Choice, Drawn, DrawnPanes, Effect, Event, LawInView, Menu, Overlay, Page, Pane, ValueId,
+    App, Choice, Drawn, DrawnPanes, Effect, Event, LawInView, LoadError, Menu, Overlay, Page, Pane,
+    ValueId,
 };
 use phaselab::experiment::Status;
 use phaselab::instrument::Sight;
@@ -81,6 +82,7 @@ fn states_made(place: Place) -> Vec<App> {
         }
         Place::Text => vec![scrolled("3")],
         Place::Help => vec![lab("?")],
+        Place::Message => vec![wrong_file()],
         Place::Law => {
             let mut app = in_lab();
             let panes = DrawnPanes { single: false, law: LawInView::Clipped(90) };
@@ -102,6 +104,14 @@ fn states_made(place: Place) -> Vec<App> {
         }
         Place::Field | Place::Typing => vec![lab("Enter")],
     }
+}
+
+/// The list of systems, with the errors of a file over it.
+fn wrong_file() -> App {
+    let (mut app, _) = App::new(crate::hand::catalog(), Some("./wrong.toml"));
+    let (name, message) = ("./wrong.toml".to_owned(), "error: a mistake".to_owned());
+    app.update(Event::Loaded(Err(LoadError { name, message })));
+    app
 }
 
 /// The ball on the merry-go-round, with its first picture focused.
