@@ -206,7 +206,9 @@ fn foot(
             let errors = if count == 1 { "1 error".to_owned() } else { format!("{count} errors") };
             (
                 Role::Bad,
-                format!("{errors}; Ctrl-n goes to the next, and the motion begins at none."),
+                format!(
+                    "{errors}: Ctrl-n goes to the next. The motion begins once there are none."
+                ),
             )
         }
         SheetState::Wrong if count == 1 => {

@@ -133,7 +133,7 @@ fn facts(app: &App) -> Vec<(String, String)> {
     let over = match &app.overlay {
         None => "nothing".to_owned(),
         Some(Overlay::Help { search, typing, .. }) => {
-            let search = search.as_ref().map(|input| input.value());
+            let search = search.as_ref().map(tui_input::Input::value);
             format!("the keys, search {search:?} typing {typing}")
         }
         Some(Overlay::Message(failure)) => failure.message.clone(),
@@ -335,7 +335,7 @@ fn the_help_is_reached_from_everywhere_and_leads_back() {
     }
     let mut app = at_picker();
     press(&mut app, "/ p e F1 Esc");
-    assert_eq!(app.picker.search.as_ref().map(|input| input.value()), Some("pe"));
+    assert_eq!(app.picker.search.as_ref().map(tui_input::Input::value), Some("pe"));
 }
 
 /// What is copied is what `derive --format latex` prints: equations with their left sides, in an environment.
