@@ -25,6 +25,7 @@ mod hamilton_jacobi;
 mod invariants;
 mod isolate;
 mod lagrange;
+mod latex;
 mod legendre;
 mod linear;
 mod modulo;
@@ -63,6 +64,7 @@ pub use generator::{GeneratorFlow, flow_of};
 pub use group::phase_maps;
 pub use hamilton_jacobi::HamiltonJacobi;
 pub use invariants::{casimir_rate, is_changed_by_impulse};
+pub use latex::latex;
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
 pub use poisson_structure::flaws;
 pub use report::{

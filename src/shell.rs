@@ -17,6 +17,7 @@ pub(crate) mod atomic_file;
 mod bandwidth;
 mod cast_player;
 mod checker;
+mod clipboard;
 pub mod config;
 mod decoder;
 mod demo;

@@ -65,10 +65,14 @@ pub enum Action {
     ApplyFlow,
     /// Edit the system's file.
     Edit,
+    /// Begin a system of one's own in the editor.
+    NewSystem,
     /// Apply an editor command to the text being edited.
     EditCommand(EditCommand),
     /// Save a still image of the screen.
     Still,
+    /// Copy the equations as LaTeX.
+    CopyLatex,
     /// Export the recorded motion as a table.
     Data,
     /// Start or stop recording the screen as a cast.

@@ -341,6 +341,13 @@ impl SourceBuffer {
         self.flaws = mistakes.iter().map(flaw).collect();
     }
 
+    /// Goes to the first mistake.
+    pub(super) fn step_to_first(&mut self) {
+        if let Some(from) = self.flaws.iter().map(|flaw| flaw.from).min() {
+            self.editor.go(from);
+        }
+    }
+
     /// Goes to the next mistake (+1) or the previous one (−1). Returns whether there is one.
     pub(super) fn step(&mut self, sign: i8) -> bool {
         let cursor = self.editor.cursor();

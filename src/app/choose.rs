@@ -98,6 +98,12 @@ impl App {
                 self.overlay = Some(Overlay::Workbench);
                 self.accept_in_buffer()
             }
+            Some(Overlay::Help { scroll, below, search, .. }) => {
+                // An empty search shows all keys.
+                let search = search.filter(|input| !input.value().trim().is_empty());
+                self.overlay = Some(Overlay::Help { scroll, below, search, typing: false });
+                Vec::new()
+            }
             other => {
                 self.overlay = other;
                 Vec::new()
@@ -128,6 +134,7 @@ impl App {
             (_, Choice::Equilibrium(index)) => self.begin_at_equilibrium(index, None),
             (_, Choice::Mode(index, mode)) => self.begin_at_equilibrium(index, Some(mode)),
             (_, Choice::Action(action)) => self.perform(action),
+            (_, Choice::ActionAt(place, action)) => self.perform_at(place, action),
             (_, Choice::System(index)) => self.open_system(index),
             (_, Choice::Value(target)) => self.type_into(target),
             (_, Choice::Pane(pane)) => self.look_at(pane),

@@ -52,7 +52,13 @@ impl App {
 
     /// Returns the buffer of the system in the lab, if it has one.
     pub(super) fn own_buffer(&self) -> Option<&SourceBuffer> {
-        let lab = self.lab.as_ref()?;
+        let Some(lab) = &self.lab else {
+            // A text that is edited while no system runs.
+            return self
+                .workbench
+                .top()
+                .filter(|buffer| self.page == Page::Lab && buffer.state != State::Left);
+        };
         self.workbench.of(&lab.loaded.name, self.file().as_deref())
     }
 
@@ -97,6 +103,9 @@ impl App {
 
     /// Returns the buffer of the system in the lab, as it was left.
     fn ready_buffer(&mut self) -> Option<&mut SourceBuffer> {
+        if self.lab.is_none() {
+            return self.workbench.top_mut().filter(|buffer| buffer.state != State::Left);
+        }
         let place = self.file();
         Some(self.workbench.lay(&self.lab.as_ref()?.loaded, place))
     }
@@ -228,10 +237,15 @@ impl App {
         let message = match (stopped, buffer.is_modified()) {
             (true, _) => format!("{} is no longer being checked; E goes on with it.", buffer.title),
             (false, true) => format!("{} is not saved; E goes back to it.", buffer.title),
+            (false, false) if self.lab.is_none() => return self.leave_alone(),
             (false, false) => return Vec::new(),
         };
         self.notice = Some(Notification::info(message));
-        if stopped { vec![Effect::StopCheck] } else { Vec::new() }
+        let mut effects = if stopped { vec![Effect::StopCheck] } else { Vec::new() };
+        if self.lab.is_none() {
+            effects.extend(self.leave_alone());
+        }
+        effects
     }
 
     /// Handles Enter in a prompt.
@@ -376,6 +390,7 @@ impl App {
     /// Handles the result of a check; if the text is correct, its system is already running.
     pub(super) fn checked(&mut self, checked: Checked) -> Vec<Effect> {
         let Checked { ticket, outcome, took } = checked;
+        let mends = self.mending.take().is_some();
         let Some(buffer) = self.buffer().filter(|buffer| buffer.awaits(ticket)) else {
             return Vec::new();
         };
@@ -398,6 +413,9 @@ impl App {
             (Err(_), Found::Older) => Vec::new(),
             (Err(mistakes), Found::Newest) => {
                 buffer.is_wrong(&mistakes);
+                if mends {
+                    buffer.step_to_first();
+                }
                 let saved = buffer.saved_as().filter(|_| buffer.unlooked);
                 buffer.unlooked = false;
                 if let Some(message) = saved {

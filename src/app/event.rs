@@ -14,7 +14,7 @@ use crate::diagnostic::Document;
 use crate::experiment::{Command, Snapshot};
 use crate::instrument::{Answer, Physics};
 use crate::job::{Outcome, Share};
-use crate::mechanics::Equations;
+use crate::mechanics::{Equations, Further, Report, latex};
 use crate::model::Model;
 use crate::system::System;
 
@@ -85,6 +85,29 @@ pub struct Drawn {
     pub cursor: Option<(u16, u16)>,
     /// The coordinates of the cursor of the focused plot.
     pub reading: Option<[f64; 2]>,
+    /// The panes of the lab, if they were drawn.
+    pub panes: Option<DrawnPanes>,
+}
+
+/// What drawing the panes of the lab has determined.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct DrawnPanes {
+    /// Whether there is room for one pane only.
+    pub single: bool,
+    /// How much of the law of motion is in view.
+    pub law: LawInView,
+}
+
+/// How much of the law of motion is in view.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LawInView {
+    /// All of it.
+    #[default]
+    Whole,
+    /// Its pane has room for all but this many rows.
+    Clipped(u16),
+    /// It has no pane until it is focused.
+    Aside,
 }
 
 /// A system ready to be shown.
@@ -105,6 +128,14 @@ pub struct Loaded {
 }
 
 impl Loaded {
+    /// Returns what follows from its law as a fragment for LaTeX, as `phaselab derive --format latex` writes it.
+    pub fn latex(&self) -> String {
+        let mut equations = (*self.equations).clone();
+        equations.find_closed_forms();
+        let further = Further::of(&self.model, &mut equations);
+        latex(&Report::of(&self.model, &equations), &further)
+    }
+
     /// Returns the system as instruments see it.
     pub fn physics(&self) -> Physics<'_> {
         Physics { model: &self.model, equations: &self.equations, system: &self.system }
@@ -173,6 +204,16 @@ pub enum Effect {
     Mouse(bool),
     /// Write a still image of the screen to a new file.
     Still,
+    /// Put a text into the terminal's clipboard or, where it has none, write it to a new file with this ending.
+    /// [`Event::Written`] answers.
+    Copy {
+        /// What is copied, for the answer.
+        what: &'static str,
+        /// The text.
+        text: String,
+        /// The ending of the file.
+        ending: &'static str,
+    },
     /// Write the recorded motion as a table to a new file.
     Data,
     /// Start or stop recording the screen.

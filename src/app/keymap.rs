@@ -31,8 +31,18 @@ pub enum Place {
     Values,
     /// The gauges.
     Gauges,
+    /// The law of motion.
+    Law,
+    /// The page of equations.
+    Equations,
     /// A page of text, the help included.
     Text,
+    /// The key help.
+    Help,
+    /// The search among its keys.
+    HelpSearch,
+    /// What is wrong with a file that cannot be opened.
+    Message,
     /// The plain-reading page.
     Plain,
     /// A pop-up list.
@@ -47,7 +57,7 @@ pub enum Place {
 
 impl Place {
     /// Every place, in the order of the help page.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 21] = [
         Self::Anywhere,
         Self::Picker,
         Self::Search,
@@ -57,7 +67,12 @@ impl Place {
         Self::Plot,
         Self::Values,
         Self::Gauges,
+        Self::Law,
+        Self::Equations,
         Self::Text,
+        Self::Help,
+        Self::HelpSearch,
+        Self::Message,
         Self::Plain,
         Self::Menu,
         Self::Workbench,
@@ -79,7 +94,12 @@ impl Place {
             Self::Plot => "Plots",
             Self::Values => "Parameters and initial values",
             Self::Gauges => "Gauges",
+            Self::Law => "Law of motion",
+            Self::Equations => "Equations",
             Self::Text => "Pages of text",
+            Self::Help => "This help",
+            Self::HelpSearch => "Searching this help",
+            Self::Message => "The errors of a file",
             Self::Plain => "Plain reading",
             Self::Menu => "Pop-up lists",
             Self::Workbench => "Editing the file",
@@ -91,8 +111,8 @@ impl Place {
 
 /// The combinations of places that can be active together, the innermost first.
 #[rustfmt::skip]
-pub const CHAINS: [&[Place]; 13] = {
-    use Place::{Always, Anywhere, Experiment, Field, Gauges, Lab, Menu, Picker, Plain, Plot, Search, Space, Text, Typing, Values, Workbench};
+pub const CHAINS: [&[Place]; 17] = {
+    use Place::{Always, Anywhere, Equations, Experiment, Field, Gauges, Help, HelpSearch, Lab, Law, Menu, Message, Picker, Plain, Plot, Search, Space, Text, Typing, Values, Workbench};
     [
         &[Picker, Anywhere, Always],
         &[Search, Typing, Always],
@@ -100,9 +120,13 @@ pub const CHAINS: [&[Place]; 13] = {
         &[Plot, Lab, Experiment, Anywhere, Always],
         &[Values, Lab, Experiment, Anywhere, Always],
         &[Gauges, Lab, Experiment, Anywhere, Always],
+        &[Law, Lab, Experiment, Anywhere, Always],
+        &[Equations, Text, Experiment, Anywhere, Always],
         &[Text, Experiment, Anywhere, Always],
         &[Plain, Experiment, Anywhere, Always],
-        &[Text, Anywhere, Always],
+        &[Help, Text, Anywhere, Always],
+        &[HelpSearch, Typing, Always],
+        &[Message, Text, Anywhere, Always],
         &[Menu, Anywhere, Always],
         &[Menu, Typing, Always],
         &[Field, Typing, Always],
@@ -201,8 +225,14 @@ pub const KEYS: &[Binding] = &[
     row(Place::Picker, &[ENTER], Action::Open, "open", "open the system in the lab"),
     row(Place::Picker, &[c('/')], Action::Search, "search", "search by name, topic or summary; any other letter begins it too"),
 
+    row(Place::Picker, &[ctrl('n')], Action::NewSystem, "new", "new system: a file of your own to begin from, in the editor; nothing is written until it is saved"),
+
     row(Place::Search, &[UP], Action::Move(Direction::Up), "", "the match above"),
     row(Place::Search, &[DOWN, TAB], Action::Move(Direction::Down), "choose", "the match below"),
+    row(Place::Search, &[PAGE_UP], Action::PageUp, "", "ten matches up"),
+    row(Place::Search, &[PAGE_DOWN], Action::PageDown, "", "ten matches down"),
+    row(Place::Search, &[HOME], Action::First, "", "the first match"),
+    row(Place::Search, &[END], Action::Last, "", "the last match"),
     row(Place::Search, &[ENTER], Action::Open, "open", "open the match in the lab"),
 
     row(Place::Experiment, &[c(' '), c('p')], Action::PlayPause, "pause", "pause or resume"),
@@ -230,6 +260,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('C')], Action::ClearCompanions, "", "clear all motions beside the main one"),
     row(Place::Experiment, &[c('W')], Action::Export, "", "write a preset file of the system as it is now, with every changed value"),
     row(Place::Experiment, &[c('E')], Action::Edit, "edit", "edit the system's file while it runs; the motion follows the text"),
+    row(Place::Experiment, &[ctrl('n')], Action::NewSystem, "", "new system: begin a file of your own, in the editor; this motion can be continued from the list of systems"),
     row(Place::Experiment, &[c('S')], Action::Still, "", "write a screenshot (a drawing, SVG) into the current folder"),
     row(Place::Experiment, &[c('D')], Action::Data, "", "write the data of the motion so far as a table (CSV) into the current folder"),
     row(Place::Experiment, &[c('O')], Action::Record, "", "record the screen into a cast in the current folder, or end the recording"),
@@ -280,6 +311,8 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Values, &[UP, c('k')], Action::Move(Direction::Up), "", "the value above"),
     row(Place::Values, &[DOWN, c('j')], Action::Move(Direction::Down), "choose", "the value below"),
+    row(Place::Values, &[PAGE_UP], Action::PageUp, "", "ten values up"),
+    row(Place::Values, &[PAGE_DOWN], Action::PageDown, "", "ten values down"),
     row(Place::Values, &[HOME], Action::First, "", "the first value"),
     row(Place::Values, &[END], Action::Last, "", "the last value"),
     row(Place::Values, &[LEFT, c('h')], change(-1, false), "", "less, by a fine step"),
@@ -291,6 +324,19 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Gauges, &[UP, c('k')], Action::Move(Direction::Up), "", "the gauge above"),
     row(Place::Gauges, &[DOWN, c('j')], Action::Move(Direction::Down), "choose", "the gauge below"),
+    row(Place::Gauges, &[PAGE_UP], Action::PageUp, "", "ten gauges up"),
+    row(Place::Gauges, &[PAGE_DOWN], Action::PageDown, "", "ten gauges down"),
+    row(Place::Gauges, &[HOME], Action::First, "", "the first gauge"),
+    row(Place::Gauges, &[END], Action::Last, "", "the last gauge"),
+
+    row(Place::Law, &[UP, c('k')], Action::Move(Direction::Up), "", "a line up"),
+    row(Place::Law, &[DOWN, c('j')], Action::Move(Direction::Down), "scroll", "a line down"),
+    row(Place::Law, &[PAGE_UP], Action::PageUp, "", "ten lines up"),
+    row(Place::Law, &[PAGE_DOWN], Action::PageDown, "", "ten lines down"),
+    row(Place::Law, &[HOME], Action::First, "", "to the beginning"),
+    row(Place::Law, &[END], Action::Last, "", "to the end"),
+
+    row(Place::Equations, &[c('y')], Action::CopyLatex, "copy", "copy the equations as LaTeX, or write them into a file where the terminal has no clipboard"),
 
     row(Place::Text, &[UP, c('k')], Action::Move(Direction::Up), "", "a line up"),
     row(Place::Text, &[DOWN, c('j')], Action::Move(Direction::Down), "scroll", "a line down"),
@@ -298,6 +344,18 @@ pub const KEYS: &[Binding] = &[
     row(Place::Text, &[PAGE_DOWN, c('f')], Action::PageDown, "", "a page down"),
     row(Place::Text, &[HOME, c('g')], Action::First, "", "to the beginning"),
     row(Place::Text, &[END, c('G')], Action::Last, "", "to the end"),
+
+    row(Place::Help, &[c('/')], Action::Search, "search", "search these keys for words"),
+
+    row(Place::HelpSearch, &[UP], Action::Move(Direction::Up), "", "a line up"),
+    row(Place::HelpSearch, &[DOWN], Action::Move(Direction::Down), "scroll", "a line down"),
+    row(Place::HelpSearch, &[PAGE_UP], Action::PageUp, "", "a page up"),
+    row(Place::HelpSearch, &[PAGE_DOWN], Action::PageDown, "", "a page down"),
+    row(Place::HelpSearch, &[HOME], Action::First, "", "to the beginning"),
+    row(Place::HelpSearch, &[END], Action::Last, "", "to the end"),
+    row(Place::HelpSearch, &[ENTER], Action::Accept, "keep", "keep what was found, and end the typing"),
+
+    row(Place::Message, &[c('E')], Action::Edit, "edit", "edit the file, from its first error on; once it has none its motion begins"),
 
     row(Place::Plain, &[ENTER], Action::ReadAnew, "read", "read the current state"),
     row(Place::Plain, &[c('A')], Action::ReadOn, "by itself", "read the current state every two seconds, or only when asked"),
@@ -312,6 +370,8 @@ pub const KEYS: &[Binding] = &[
     row(Place::Menu, &[DOWN], Action::Move(Direction::Down), "choose", "the line below"),
     row(Place::Menu, &[PAGE_UP], Action::PageUp, "", "ten lines up"),
     row(Place::Menu, &[PAGE_DOWN], Action::PageDown, "", "ten lines down"),
+    row(Place::Menu, &[HOME], Action::First, "", "the first line"),
+    row(Place::Menu, &[END], Action::Last, "", "the last line"),
     row(Place::Menu, &[TAB], Action::Mark, "mark", "mark the line, where several can be taken"),
     row(Place::Menu, &[ENTER], Action::Accept, "take", "take the line"),
 
@@ -326,10 +386,10 @@ pub const KEYS: &[Binding] = &[
     row(Place::Workbench, &[ctrl('y')], Action::EditCommand(EditCommand::Copy), "", "copy it"),
     row(Place::Workbench, &[ctrl('v')], Action::EditCommand(EditCommand::PutBack), "", "paste what was cut or copied last"),
     row(Place::Workbench, &[ctrl('o')], Action::EditCommand(EditCommand::Reread), "", "reload the file as another program left it; for a shipped system, its original text"),
-    row(Place::Workbench, &[plain(KeyCode::F(1))], Action::Help, "help", "show these keys"),
 
     row(Place::Field, &[ENTER], Action::Accept, "accept", "accept what is typed"),
 
+    row(Place::Typing, &[plain(KeyCode::F(1))], Action::Help, "help", "show these keys, then go on typing"),
     row(Place::Typing, &[ESC], Action::Back, "leave", "cancel"),
 ];
 

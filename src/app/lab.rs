@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::change::PendingChanges;
 use super::history::History;
 use super::side::{Answers, EquilibriaSearch};
-use super::{Loaded, Search, ValueId};
+use super::{DrawnPanes, LawInView, Loaded, Search, ValueId};
 use crate::experiment::{Checkpoint, Snapshot, Status};
 use crate::expr::Zero;
 use crate::instrument::{CameraPose, Plot, Present};
@@ -30,6 +30,8 @@ pub enum Pane {
     Initial,
     /// The gauges.
     Gauges,
+    /// The law of motion, which has the focus only where not all of it is in view.
+    Law,
 }
 
 /// The selected lines of the lists.
@@ -60,6 +62,12 @@ pub struct Lab {
     pub zoomed: bool,
     /// What is selected in the lists.
     pub selection: Selection,
+    /// The number of rows by which the law of motion is scrolled.
+    pub law_scroll: u16,
+    /// Whether no key has been pressed yet: the focus is where the program put it.
+    pub untouched: bool,
+    /// What drawing the panes has determined.
+    drawn: DrawnPanes,
     rods: Rods,
     /// The results computed in the background for the pictures, and the jobs under way.
     pub(super) answers: Answers,
@@ -129,6 +137,9 @@ impl Lab {
             front: None,
             zoomed: false,
             selection: Selection::default(),
+            law_scroll: 0,
+            untouched: true,
+            drawn: DrawnPanes::default(),
             answers: Answers::default(),
             closed_forms_asked: None,
             search: Search::default(),
@@ -221,7 +232,36 @@ impl Lab {
     /// Returns the panes in Tab order.
     pub fn panes(&self) -> impl DoubleEndedIterator<Item = Pane> + Clone {
         let lists = [Pane::Parameters, Pane::Initial, Pane::Gauges];
-        (0..self.plots.len()).map(Pane::Plot).chain(lists)
+        let clipped = self.drawn.law != LawInView::Whole || self.focus == Pane::Law;
+        let law = clipped.then_some(Pane::Law);
+        (0..self.plots.len()).map(Pane::Plot).chain(law).chain(lists)
+    }
+
+    /// Takes in what drawing the panes has determined. Where there is room for one only, the motion comes first.
+    pub(super) fn take_drawn(&mut self, drawn: DrawnPanes) {
+        self.drawn = drawn;
+        if let LawInView::Clipped(beyond) = drawn.law {
+            self.law_scroll = self.law_scroll.min(beyond);
+        } else if drawn.law == LawInView::Whole {
+            self.law_scroll = 0;
+        }
+        if drawn.single && self.untouched {
+            self.focus = self.motion().unwrap_or(self.focus);
+        }
+    }
+
+    /// Returns the pane in which the motion is seen: the first one in space, or else the first picture.
+    pub fn motion(&self) -> Option<Pane> {
+        let scene = self.plots.iter().position(|plot| plot.kind.is_scene());
+        let first = (!self.plots.is_empty()).then_some(0);
+        scene.or(first).map(Pane::Plot)
+    }
+
+    /// Scrolls the law of motion.
+    pub(super) fn roll_law(&mut self, by: isize) {
+        let LawInView::Clipped(beyond) = self.drawn.law else { return };
+        let rows = usize::from(self.law_scroll).saturating_add_signed(by);
+        self.law_scroll = rows.min(beyond.into()) as u16;
     }
 
     /// Returns the focused picture and its index.
@@ -237,7 +277,7 @@ impl Lab {
         let target = match self.focus {
             Pane::Parameters => ValueId::Parameter(self.selection.parameter),
             Pane::Initial => ValueId::Initial(self.selection.initial),
-            Pane::Plot(_) | Pane::Gauges => return None,
+            Pane::Plot(_) | Pane::Gauges | Pane::Law => return None,
         };
         self.value_info(target).map(|_| target)
     }
@@ -249,7 +289,7 @@ impl Lab {
             Pane::Parameters => (self.count(ValueId::Parameter), &mut self.selection.parameter),
             Pane::Initial => (self.loaded.model.moving(), &mut self.selection.initial),
             Pane::Gauges => (gauges, &mut self.selection.gauge),
-            Pane::Plot(_) => return,
+            Pane::Plot(_) | Pane::Law => return,
         };
         *place = to(*place).min(count.saturating_sub(1));
     }

@@ -6,6 +6,7 @@ use tui_input::Input;
 
 use super::action::Action;
 use super::fuzzy::{Fit, Query, Texts};
+use super::keymap::Place;
 use super::{Pane, ValueId};
 use crate::instrument::Plot;
 
@@ -79,6 +80,8 @@ pub enum Choice {
     Method(&'static str),
     /// An action.
     Action(Action),
+    /// An action in the nearest pane of this place, which then has the focus.
+    ActionAt(Place, Action),
     /// The impulse of this index.
     Impulse(usize),
     /// The constant of the motion of this index among those that have a flow.

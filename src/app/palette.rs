@@ -28,7 +28,8 @@ impl App {
         };
         let often = rows(|row| !row.hint.is_empty() && !moves(row.action));
         let seldom = rows(|row| row.hint.is_empty() && !moves(row.action));
-        let elsewhere = KEYS.iter().filter(|row| !places.contains(&row.place));
+        let elsewhere = || KEYS.iter().filter(|row| !places.contains(&row.place));
+        let near = |row: &&Binding| self.nearest(row.place).is_some();
         let line = |row: &Binding| self.line_of(row, None);
         let (mut items, refused): (Vec<Item>, Vec<Item>) =
             often.map(line).partition(|item| item.refusal.is_none());
@@ -37,6 +38,12 @@ impl App {
             items.extend(lab.value_lines());
         }
         items.extend(seldom.map(line));
+        let nearby = elsewhere().filter(near).map(|row| self.line_nearby(row));
+        let (nearby, moving): (Vec<Item>, Vec<Item>) = nearby.partition(|item| match item.choice {
+            Choice::ActionAt(_, action) => !moves(action),
+            _ => true,
+        });
+        items.extend(nearby);
         if let Some(lab) = &self.lab {
             items.extend(lab.pane_lines());
             items.extend(method_lines(&lab.loaded.system));
@@ -44,11 +51,27 @@ impl App {
         items.extend(self.theme_lines());
         items.extend(self.system_lines());
         items.extend(rows(|row| moves(row.action)).map(line));
+        items.extend(moving);
         items.extend(refused);
-        items.extend(elsewhere.map(|row| self.line_of(row, Some(where_active(row.place)))));
+        let far = elsewhere().filter(|row| !near(row));
+        items.extend(far.map(|row| self.line_of(row, Some(where_active(row.place)))));
         self.overlay =
             Some(Overlay::Menu(Menu::new("What do you want to do?", Choosing::Action, items)));
         Vec::new()
+    }
+
+    /// The line of an action that is carried out in the nearest pane of its place.
+    fn line_nearby(&self, row: &Binding) -> Item {
+        let item = self.line_of(row, None);
+        let name = match (self.nearest(row.place), &self.lab) {
+            (Some(pane), Some(lab)) => lab.titled(pane),
+            _ => return item,
+        };
+        Item {
+            about: format!("{}: in {name}, which then has the focus", item.about),
+            choice: Choice::ActionAt(row.place, row.action),
+            ..item
+        }
     }
 
     fn line_of(&self, row: &Binding, elsewhere: Option<&str>) -> Item {
@@ -165,7 +188,11 @@ fn where_active(place: Place) -> &'static str {
         Place::Plot => "it is for a plot; Tab focuses one",
         Place::Values => "it is for parameters or initial values; Tab focuses them",
         Place::Gauges => "it is for the gauges; Tab focuses them",
+        Place::Law => "it is for the law of motion, where not all of it is in view",
+        Place::Equations => "it is for page 2, the equations",
         Place::Text => "it is for pages of text",
+        Place::Message => "it is for a file that cannot be opened",
+        Place::Help | Place::HelpSearch => "it is for the help, which ? opens",
         Place::Plain => "it is for page 9, the plain reading",
         Place::Menu => "it is for pop-up lists, as this one",
         Place::Workbench => "it is for the editor of the system's file, which E opens",
@@ -233,13 +260,18 @@ impl Lab {
     /// Returns a line for each pane.
     fn pane_lines(&self) -> Vec<Item> {
         let line = |pane: Pane| Item {
-            label: format!("focus: {}{}", self.kind_of(pane), self.name_of(pane)),
+            label: format!("focus: {}", self.titled(pane)),
             about: "a pane of the lab".to_owned(),
             keys: String::new(),
             refusal: None,
             choice: Choice::Pane(pane),
         };
         self.panes().map(line).collect()
+    }
+
+    /// Returns the name of a pane with the word for its kind.
+    pub(super) fn titled(&self, pane: Pane) -> String {
+        format!("{}{}", self.kind_of(pane), self.name_of(pane))
     }
 
     /// Returns the prefix of a pane's name if the name itself consists only of quantities.
@@ -259,6 +291,7 @@ impl Lab {
             Pane::Parameters => "parameters",
             Pane::Initial => "initial values",
             Pane::Gauges => "gauges",
+            Pane::Law => "law of motion",
         };
         name.to_owned()
     }

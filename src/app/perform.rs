@@ -25,7 +25,12 @@ impl App {
             self.notice = None;
         }
         match action {
-            Action::Quit if self.closes_with_quit() => self.back(),
+            Action::Quit if self.closes_with_quit() => {
+                if let Some(Overlay::Help { search, .. }) = &mut self.overlay {
+                    *search = None;
+                }
+                self.back()
+            }
             Action::Quit | Action::QuitAll => self.quit(),
             Action::Suspend => vec![Effect::Suspend],
             Action::Repaint => vec![Effect::Repaint],
@@ -47,7 +52,12 @@ impl App {
             Action::PageUp => self.jump(-self.screenful()),
             Action::PageDown => self.jump(self.screenful()),
             Action::Search => {
-                self.picker.search(|_| ());
+                if let Some(Overlay::Help { search, typing, .. }) = &mut self.overlay {
+                    search.get_or_insert_default();
+                    *typing = true;
+                } else {
+                    self.picker.search(|_| ());
+                }
                 Vec::new()
             }
             Action::Open => self.open_selected(),
@@ -59,6 +69,8 @@ impl App {
                 Vec::new()
             }
             Action::EditCommand(work) => self.work(work),
+            Action::NewSystem => self.new_system(),
+            Action::Edit if matches!(self.overlay, Some(Overlay::Message(_))) => self.mend_file(),
             other => self.in_lab(other),
         }
     }
@@ -113,6 +125,10 @@ impl App {
             Action::Edit => self.edit_file(),
             Action::Still => vec![Effect::Still],
             Action::Data => vec![Effect::Data],
+            Action::CopyLatex => {
+                let text = lab.loaded.latex();
+                vec![Effect::Copy { what: "The equations", text, ending: "tex" }]
+            }
             Action::Record => {
                 self.recording = !self.recording;
                 vec![Effect::Record(self.recording)]
@@ -245,11 +261,15 @@ impl App {
     }
 
     fn help(&mut self) -> Vec<Effect> {
-        match self.overlay {
-            Some(Overlay::Help { .. }) => return self.back(),
+        match &mut self.overlay {
+            Some(Overlay::Help { search, typing, .. }) => {
+                (*search, *typing) = (None, false);
+                return self.back();
+            }
             _ => {
-                let editing = matches!(self.overlay, Some(Overlay::Workbench));
-                self.overlay = Some(Overlay::Help { scroll: self.scroll, editing });
+                let below = self.overlay.take().map(Box::new);
+                let scroll = self.scroll;
+                self.overlay = Some(Overlay::Help { scroll, below, search: None, typing: false });
             }
         }
         self.scroll = 0;
@@ -261,9 +281,15 @@ impl App {
             return self.leave_buffer();
         }
         match self.overlay.take() {
-            Some(Overlay::Help { scroll, editing }) => {
+            Some(Overlay::Help { scroll, below, search: Some(_), .. }) => {
+                // The first Esc shows all keys again.
+                self.overlay = Some(Overlay::Help { scroll, below, search: None, typing: false });
+                self.scroll = 0;
+                return Vec::new();
+            }
+            Some(Overlay::Help { scroll, below, .. }) => {
                 self.scroll = scroll;
-                self.overlay = editing.then_some(Overlay::Workbench);
+                self.overlay = below.map(|below| *below);
                 return Vec::new();
             }
             Some(Overlay::Prompt(Prompt { under_way: Some(_), .. })) => {
@@ -333,6 +359,7 @@ impl App {
             Some(Overlay::Help { .. } | Overlay::Message(_)) => self.roll(by),
             None => match (self.page, &mut self.lab) {
                 (Page::Picker, _) | (_, None) => self.picker.step(by),
+                (Page::Lab, Some(lab)) if lab.focus == Pane::Law => lab.roll_law(by),
                 (Page::Lab, Some(lab)) => {
                     if let Pane::Plot(_) = lab.focus {
                         let way = if by < 0 { Direction::Up } else { Direction::Down };
@@ -359,7 +386,8 @@ impl App {
     /// Returns the number of lines that a page up or down moves.
     fn screenful(&self) -> isize {
         let places = self.places();
-        let text = places.contains(&Place::Text) || places.contains(&Place::Plain);
+        let pages = [Place::Text, Place::HelpSearch, Place::Plain];
+        let text = pages.iter().any(|place| places.contains(place));
         if text { isize::from(self.drawn.rows.saturating_sub(2).max(1) as i16) } else { 10 }
     }
 

@@ -151,6 +151,11 @@ impl App {
             (None, HitTarget::Systems | HitTarget::System(_) | HitTarget::Session) => {
                 self.picker.step(-up);
             }
+            (None, HitTarget::Pane(Pane::Law)) => {
+                if let Some(lab) = &mut self.lab {
+                    lab.roll_law(-up * LINES);
+                }
+            }
             (None, hit) => {
                 let Some(lab) = &mut self.lab else { return Vec::new() };
                 let factor = if up > 0 { NOTCH } else { 1.0 / NOTCH };

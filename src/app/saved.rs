@@ -12,6 +12,9 @@ use super::{App, Effect, Lab, Loaded, Overlay, Page, Pane, Selection, SheetState
 use crate::experiment::{Checkpoint, Command};
 use crate::instrument::{Plot, SavedPlot};
 
+/// The name of a system that has no file yet.
+pub(super) const NEW_SYSTEM: &str = "system";
+
 /// A session.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Saved {
@@ -79,6 +82,7 @@ impl Lab {
         }
         if self.panes().any(|pane| pane == saved.focus) {
             (self.focus, self.zoomed) = (saved.focus, saved.zoomed);
+            self.untouched = false;
         }
         self.selection = saved.selection;
         self.select(|place| place);
@@ -91,7 +95,9 @@ impl App {
         if self.page == Page::Picker {
             return self.left.clone();
         }
-        let lab = self.lab.as_ref()?;
+        // A system without a file could not be found again; its text is kept among the unsaved ones.
+        let has_file = |lab: &&Lab| lab.loaded.name != NEW_SYSTEM || self.file().is_some();
+        let Some(lab) = self.lab.as_ref().filter(has_file) else { return self.left.clone() };
         let runs = |buffer: &SourceBuffer| buffer.is_modified() && buffer.state != SheetState::Left;
         let edited = self.own_buffer().is_some_and(runs);
         Some(Saved { edited, ..Saved::of(lab, self.page)? })
@@ -143,7 +149,10 @@ impl App {
 
     /// Replaces the system in the lab by one rebuilt from a changed file; the motion and its view continue.
     pub(super) fn rebuilt(&mut self, loaded: Loaded) -> Vec<Effect> {
-        let Some(old) = self.lab.take() else { return self.loaded(loaded) };
+        let Some(old) = self.lab.take() else {
+            let alone = matches!(self.overlay, Some(Overlay::Workbench));
+            return if alone { self.mended(loaded) } else { self.loaded(loaded) };
+        };
         let mut saved = Saved::of(&old, self.page);
         if let (Some(saved), None, Some(seen)) = (&mut saved, &old.awaited, old.seen()) {
             // The recorded trail continues too.

@@ -3,6 +3,7 @@
 //! In: the parts of this room. Out: an [`App`] and its queries. Never here: how it changes (`update`).
 
 use serde::{Deserialize, Serialize};
+use tui_input::Input;
 
 use super::action::Action;
 use super::event::{Drawn, Effect, LoadError};
@@ -47,6 +48,8 @@ pub struct App {
     pub scroll: u16,
     /// The files being edited, also while the editor is closed.
     pub workbench: Workbench,
+    /// Whether the status and the keys are shown below the panes, which demos may leave out.
+    pub footer: bool,
     /// The available themes, each with a description.
     pub themes: Vec<(&'static str, &'static str)>,
     /// The theme chosen by the user, instead of the one at the start.
@@ -67,6 +70,8 @@ pub struct App {
     pub(super) asked: Option<(String, bool)>,
     /// The session to resume once its system is loaded.
     pub(super) resuming: Option<Saved>,
+    /// The wrong file whose text was asked for, until its first mistake is shown.
+    pub(super) mending: Option<String>,
     /// The session as it was when the user left the lab for the list of systems.
     pub(super) left: Option<Saved>,
 }
@@ -96,8 +101,12 @@ pub enum Overlay {
     Help {
         /// How far the page below was scrolled.
         scroll: u16,
-        /// Whether the editor was open below.
-        editing: bool,
+        /// What was open below.
+        below: Option<Box<Overlay>>,
+        /// What is searched for among the keys, once a search was begun.
+        search: Option<Input>,
+        /// Whether the search is being typed.
+        typing: bool,
     },
     /// A message that must be read: what is wrong with a file.
     Message(LoadError),
@@ -126,6 +135,7 @@ impl App {
             recording: false,
             scroll: 0,
             workbench: Workbench::default(),
+            footer: true,
             themes: Vec::new(),
             theme: None,
             reading: Reading::default(),
@@ -136,6 +146,7 @@ impl App {
             drawn: Drawn::default(),
             asked: None,
             resuming: None,
+            mending: None,
             left: None,
         };
         let first = match open {
@@ -183,10 +194,15 @@ impl App {
 
     /// Returns the active places, innermost first.
     pub fn places(&self) -> &'static [Place] {
-        match &self.overlay {
-            Some(Overlay::Help { .. } | Overlay::Message(_)) => {
-                chain([Place::Text, Place::Anywhere])
-            }
+        self.places_over(self.overlay.as_ref())
+    }
+
+    /// Returns the active places while this lies over the page.
+    fn places_over(&self, overlay: Option<&Overlay>) -> &'static [Place] {
+        match overlay {
+            Some(Overlay::Help { typing: true, .. }) => chain([Place::HelpSearch, Place::Typing]),
+            Some(Overlay::Help { .. }) => chain([Place::Help, Place::Text]),
+            Some(Overlay::Message(_)) => chain([Place::Message, Place::Text]),
             Some(Overlay::Menu(Menu { filter: None, .. })) => chain([Place::Menu, Place::Anywhere]),
             Some(Overlay::Menu(_)) => chain([Place::Menu, Place::Typing]),
             Some(Overlay::Field(_) | Overlay::Prompt(_)) => chain([Place::Field, Place::Typing]),
@@ -195,15 +211,15 @@ impl App {
                 let inner = if asks { Place::Field } else { Place::Workbench };
                 chain([inner, Place::Typing])
             }
-            None => self.places_below(),
+            None => chain(self.places_of_page()),
         }
     }
 
-    /// Returns the active places of the page or the editor under the help.
+    /// Returns the active places of what is under the help: a prompt, the editor, or else the page.
     pub fn places_below(&self) -> &'static [Place] {
-        match self.overlay {
-            Some(Overlay::Help { editing: true, .. }) => chain([Place::Workbench, Place::Typing]),
-            _ => chain(self.places_of_page()),
+        match &self.overlay {
+            Some(Overlay::Help { below, .. }) => self.places_over(below.as_deref()),
+            _ => self.places_over(None),
         }
     }
 
@@ -218,10 +234,10 @@ impl App {
                 (Pane::Plot(_), _) => [Place::Plot, Place::Lab],
                 (Pane::Parameters | Pane::Initial, _) => [Place::Values, Place::Lab],
                 (Pane::Gauges, _) => [Place::Gauges, Place::Lab],
+                (Pane::Law, _) => [Place::Law, Place::Lab],
             },
-            (Page::Equations | Page::Notes | Page::Numbers, Some(_)) => {
-                [Place::Text, Place::Experiment]
-            }
+            (Page::Equations, Some(_)) => [Place::Equations, Place::Text],
+            (Page::Notes | Page::Numbers, Some(_)) => [Place::Text, Place::Experiment],
             (Page::Plain, Some(_)) => [Place::Plain, Place::Experiment],
         }
     }

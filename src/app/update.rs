@@ -67,7 +67,10 @@ impl App {
                 Vec::new()
             }
             Event::FileRead { text, asked } => {
-                self.changed_on_disk(&text, asked);
+                match self.mending.clone().filter(|_| asked && self.open_buffer().is_none()) {
+                    Some(name) => self.edit_wrong(name, &text),
+                    None => self.changed_on_disk(&text, asked),
+                }
                 Vec::new()
             }
             Event::Computed { ticket, outcome } => self.computed(ticket, outcome),
@@ -81,6 +84,9 @@ impl App {
             }
             Event::Drawn(drawn) => {
                 self.drawn = drawn;
+                if let (Some(panes), Some(lab)) = (drawn.panes, &mut self.lab) {
+                    lab.take_drawn(panes);
+                }
                 self.follow_cursor();
                 self.scroll = self.scroll.min(drawn.beyond);
                 Vec::new()
@@ -96,6 +102,10 @@ impl App {
 
     fn press(&mut self, key: KeyEvent) -> Vec<Effect> {
         self.drop_hold();
+        self.mending = None;
+        if let Some(lab) = self.lab.as_mut().filter(|_| self.page != Page::Picker) {
+            lab.untouched = false;
+        }
         let places = self.places();
         if let Some(action) = keymap::action(key, places) {
             let effects = self.perform(action);
@@ -118,6 +128,11 @@ impl App {
             Some(Overlay::Menu(menu)) => {
                 let changed = menu.filter.as_mut().is_some_and(|filter| edit(filter, key));
                 menu.selected = if changed { 0 } else { menu.selected };
+            }
+            Some(Overlay::Help { search: Some(search), typing: true, .. }) => {
+                if edit(search, key) {
+                    self.scroll = 0;
+                }
             }
             Some(Overlay::Help { .. } | Overlay::Message(_)) => return self.unknown(key),
             None if searching => {
@@ -147,6 +162,10 @@ impl App {
             Some(Overlay::Workbench) => self.paste_into_buffer(text),
             Some(Overlay::Field(field)) => field.paste(text),
             Some(Overlay::Prompt(prompt)) => paste(&mut prompt.input, text),
+            Some(Overlay::Help { search: Some(search), typing: true, .. }) => {
+                self.scroll = 0;
+                paste(search, text)
+            }
             Some(Overlay::Menu(menu)) => {
                 menu.selected = 0;
                 menu.filter.as_mut().is_none_or(|filter| paste(filter, text))

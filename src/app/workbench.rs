@@ -68,6 +68,17 @@ impl Workbench {
         &mut self.buffers[top]
     }
 
+    /// Puts a text on top that no running system has, or what is kept of it unsaved, and has it checked at once.
+    pub(super) fn lay_text(&mut self, text: Unsaved) {
+        let at = self.buffers.iter().rposition(|s| s.is_of(&text.name, text.place.as_deref()));
+        let mut buffer = match at {
+            Some(at) => self.buffers.remove(at),
+            None => SourceBuffer::of_unsaved(text),
+        };
+        buffer.touch_at_once(false);
+        self.buffers.push(buffer);
+    }
+
     /// Marks all buffers as left, since another system was loaded; no check is awaited any more.
     pub(super) fn clear(&mut self) {
         self.buffers.retain(SourceBuffer::is_modified);

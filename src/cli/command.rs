@@ -62,6 +62,7 @@ pub(super) struct Arguments {
 /// The text below the help of the program itself.
 const EXAMPLES: &str = "\
 Examples:
+  phaselab tour                        begin here: three minutes, to a law of your own
   phaselab                             choose a system and watch it move
   phaselab double-pendulum             open a preset
   phaselab my/system.toml              open a file
@@ -99,6 +100,7 @@ enum Command {
     Record(Box<record::Arguments>),
     Script(demo::Arguments),
     Play(play::Arguments),
+    Tour(lesson::Tour),
     Lessons(lesson::Lessons),
     Lesson(lesson::Check),
     Methods(methods::Arguments),
@@ -168,6 +170,7 @@ fn execute(command: Command, interrupt: &Interrupt) -> Result<(), CommandError> 
         Command::Record(arguments) => record::perform(&arguments),
         Command::Script(arguments) => demo::perform(&arguments),
         Command::Play(arguments) => play::perform(&arguments, interrupt),
+        Command::Tour(arguments) => lesson::tour(&arguments, interrupt, &LESSONS),
         Command::Lessons(arguments) => lesson::perform(&arguments, interrupt, &LESSONS),
         Command::Lesson(arguments) => lesson::check(&arguments, &LESSONS),
         Command::Methods(arguments) => methods::perform(&arguments),

@@ -3,7 +3,6 @@
 
 mod against;
 mod json;
-mod latex;
 mod text;
 
 use std::ffi::OsString;
@@ -15,7 +14,7 @@ use super::open;
 use super::output::Output;
 use super::script::Script;
 use crate::experiment::Derived;
-use crate::mechanics::{Further, Report};
+use crate::mechanics::{Further, Report, latex};
 
 /// Show what follows from L or H: equations of motion, and what is conserved and why.
 ///
@@ -54,7 +53,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let report = Report::of(&model, &equations);
     let mut text = match arguments.format {
         Format::Text => text::write(&report, &further, Script::of_locale()),
-        Format::Latex => latex::write(&report, &further),
+        Format::Latex => latex(&report, &further),
         Format::Json => json::write(&report, &further, compared.as_ref()),
     };
     match (arguments.format, &compared) {

@@ -48,6 +48,29 @@ enum Format {
     Json,
 }
 
+/// Take the tour: three minutes, from the pendulum to a Lagrangian of your own.
+///
+/// It is the lesson `tour`. It can be left at any time (q) and goes on there the next time.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab tour
+  phaselab tour --restart                from its beginning")]
+pub(super) struct Tour {
+    /// Begin at the beginning, wherever the tour was left.
+    #[arg(long)]
+    restart: bool,
+}
+
+/// Takes the tour.
+pub(super) fn tour(
+    arguments: &Tour,
+    interrupt: &Interrupt,
+    shared: &Shared,
+) -> Result<(), CommandError> {
+    take("tour", arguments.restart, interrupt, shared)
+}
+
 /// Check lessons.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\

@@ -5,9 +5,10 @@
 
 use std::mem;
 use std::sync::Arc;
+use std::time::Duration;
 
 use super::clock::{Clock, Micros};
-use crate::app::{App, Effect, Event, LoadError, Loaded, ValueId};
+use crate::app::{App, Checked, Effect, Event, LoadError, Loaded, ValueId};
 use crate::diagnostic::Document;
 use crate::experiment::{Command, Experiment, Prepared, Progress, Status};
 use crate::preset::Catalog;
@@ -181,6 +182,7 @@ impl HeadlessLab {
                     self.happen(Event::Loaded(loaded));
                     self.look_at_motion();
                 }
+                Effect::Check { ticket, title, text } => self.check(ticket, title, text),
                 Effect::Repaint => self.repaint = true,
                 Effect::Quit => self.left = true,
                 // A demo has no terminal to configure and no files to write.
@@ -198,13 +200,31 @@ impl HeadlessLab {
         let ready = found.and_then(|document| Prepared::of(&document).map_err(|why| why.report));
         match ready {
             Err(message) => Err(LoadError { name, message }),
-            Ok(Prepared { model, equations, system, mut experiment, document }) => {
-                self.epoch += 1;
-                experiment.set_epoch(self.epoch);
-                self.base = (self.clock.frame(), experiment.time(), experiment.speed());
-                self.experiment = Some(experiment);
-                Ok(Loaded { name, epoch: self.epoch, model, equations, system, document })
-            }
+            Ok(ready) => Ok(self.begin(name, ready)),
         }
+    }
+
+    /// Starts a system.
+    fn begin(&mut self, name: String, ready: Prepared) -> Loaded {
+        let Prepared { model, equations, system, mut experiment, document } = ready;
+        self.epoch += 1;
+        experiment.set_epoch(self.epoch);
+        self.base = (self.clock.frame(), experiment.time(), experiment.speed());
+        self.experiment = Some(experiment);
+        Loaded { name, epoch: self.epoch, model, equations, system, document }
+    }
+
+    /// Checks a text being edited; one without mistakes runs at once.
+    fn check(&mut self, ticket: u64, title: String, text: String) {
+        let Some(name) = self.app.checked_system().filter(|_| self.app.awaits(ticket)) else {
+            return;
+        };
+        let outcome = match Prepared::of(&Document::new(title, text)) {
+            Ok(ready) => Ok(self.begin(name, ready)),
+            Err(unready) => Err(unready.mistakes),
+        };
+        let took = Duration::ZERO;
+        self.happen(Event::Checked(Box::new(Checked { ticket, outcome, took })));
+        self.look_at_motion();
     }
 }

@@ -378,6 +378,7 @@ impl Lesson {
     /// Opens the system again as its file says, so that what follows does not depend on what the person did.
     fn begin_anew(&mut self) {
         self.runner.lab = self.runner.lab.anew(self.runner.script.head.fps);
+        self.runner.lab.app.footer = self.runner.script.head.footer;
         self.runner.keys.clear();
         self.time = 0;
     }

@@ -53,6 +53,8 @@ pub struct Head {
     pub colour: ColourDepth,
     /// The glyph set.
     pub glyphs: Glyphs,
+    /// Whether the status and the keys are shown below the panes.
+    pub footer: bool,
 }
 
 impl Default for Head {
@@ -65,6 +67,7 @@ impl Default for Head {
             theme: "dark",
             colour: ColourDepth::True,
             glyphs: Glyphs::Braille,
+            footer: true,
         }
     }
 }

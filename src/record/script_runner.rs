@@ -96,7 +96,8 @@ impl ScriptRunner {
         size: Size,
         budget: Budget,
     ) -> Result<ScriptRunner, Diagnostic> {
-        let lab = HeadlessLab::open(document, called, script.head.fps, budget);
+        let mut lab = HeadlessLab::open(document, called, script.head.fps, budget);
+        lab.app.footer = script.head.footer;
         if lab.app.lab.is_none() {
             let place = script.head.open.as_ref().map_or(0..0, |open| open.place.clone());
             let message = format!("`{called}` cannot be opened: it has mistakes");

@@ -14,6 +14,7 @@ use crossterm::event::Event;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 
+use super::clipboard;
 use super::decoder::Decoder;
 use super::events::EventSource;
 use super::governor::Governor;
@@ -52,6 +53,11 @@ pub trait Screen {
     /// Called at the end, before the terminal is waited for, to save what must not be lost; `hurried` says that the
     /// program is being terminated and there is little time.
     fn on_exit(&mut self, _hurried: bool) {}
+
+    /// Returns a text to be put into the terminal's clipboard, once.
+    fn clipboard(&mut self) -> Option<String> {
+        None
+    }
 
     /// Sets the level of detail of the next pictures, as the bandwidth allows.
     fn reduce(&mut self, _detail: Detail) {}
@@ -183,6 +189,9 @@ impl<E: EventSource> FrameLoop<'_, E> {
                     ScreenRequest::Frames(count) => self.governor.want(count),
                     ScreenRequest::Suspend => self.suspend()?,
                     ScreenRequest::Quit => return Ok(Ending::Quit),
+                }
+                if let Some(text) = page.clipboard() {
+                    clipboard::write(&text, &mut self.queue)?;
                 }
             }
             if due <= Instant::now() && !self.queue.is_busy() {

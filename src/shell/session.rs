@@ -19,6 +19,7 @@ use tracing::{error, info};
 
 use super::atomic_file;
 use super::checker::Checker;
+use super::clipboard;
 use super::files::{self, FileChange, Watch};
 use super::frame_loop::{Pace, Screen, ScreenRequest};
 use super::loader::Loader;
@@ -74,6 +75,9 @@ pub(super) struct Session {
     still: Duration,
     /// The screen's size when it was last drawn.
     size: Size,
+    /// Whether the terminal has a clipboard, and what is to be put into it.
+    has_clipboard: bool,
+    clipboard: Option<String>,
     /// The result of saving at the end.
     left: Option<Left>,
 }
@@ -148,6 +152,8 @@ impl Session {
             painter: Painter::default(),
             still: Duration::ZERO,
             size: Size::default(),
+            has_clipboard: clipboard::is_there(&|name| std::env::var(name).ok()),
+            clipboard: None,
             left: None,
         };
         session.perform(effects);
@@ -352,6 +358,7 @@ impl Session {
                 Effect::Mouse(on) => request = ScreenRequest::Mouse(on),
                 Effect::Still => self.still(),
                 Effect::Data => self.data(),
+                Effect::Copy { what, text, ending } => self.copy(what, text, ending),
                 Effect::Record(true) => self.record(),
                 Effect::Record(false) => self.end_recording(),
                 Effect::Suspend => request = ScreenRequest::Suspend,
@@ -443,7 +450,7 @@ impl Session {
     /// one.
     fn answer(&mut self) -> bool {
         let Some(answer) = self.checker.take() else { return false };
-        let name = self.app.lab.as_ref().map(|lab| lab.loaded.name.clone());
+        let name = self.app.checked_system();
         let Some(name) = name.filter(|_| self.app.awaits(answer.ticket)) else { return false };
         let outcome = answer.outcome.map(|ready| self.begin(name, *ready));
         let (ticket, took) = (answer.ticket, answer.took);
@@ -509,6 +516,17 @@ impl Session {
             let drawing = screenshot::write(&screen, palette, screenshot::Form::Svg, &title);
             put(&stem, "svg", drawing.as_bytes())
         });
+    }
+
+    /// Puts a text into the terminal's clipboard, or else into a file.
+    fn copy(&mut self, what: &'static str, text: String, ending: &'static str) {
+        if self.has_clipboard && text.len() <= clipboard::MOST {
+            self.clipboard = Some(text);
+            let format = if ending == "tex" { " as LaTeX" } else { "" };
+            return self.report(Ok(format!("{what} are copied{format}: paste them anywhere.")));
+        }
+        let stem = self.stem();
+        self.write_file(move || put(&stem, ending, text.as_bytes()));
     }
 
     /// Saves a table of the recorded motion.
@@ -744,6 +762,10 @@ impl Screen for Session {
 
     fn is_typing(&self) -> bool {
         self.app.is_typing()
+    }
+
+    fn clipboard(&mut self) -> Option<String> {
+        self.clipboard.take()
     }
 
     fn on_exit(&mut self, hurried: bool) {

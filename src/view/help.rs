@@ -2,20 +2,75 @@
 //!
 //! In: the table of key bindings. Out: a page of text. Never here: a key that is not in the table.
 
-use super::RenderStyle;
-use super::text_page::TextPage;
-use crate::app::keymap::{Binding, KEYS, Place};
+use ratatui::layout::Rect;
+use tui_input::Input;
 
-/// Builds the page; the active contexts come first.
-pub(super) fn document(look: &RenderStyle, active: &[Place]) -> TextPage {
+use super::RenderStyle;
+use super::canvas::{Canvas, columns, row};
+use super::layout::split_rows;
+use super::text_page::TextPage;
+use super::theme::Role;
+use crate::app::keymap::{Binding, KEYS, Place};
+use crate::app::{Drawn, HitTarget};
+
+/// Draws the page from `scroll` on, and above it the search, if there is one.
+pub(super) fn draw(
+    canvas: &mut Canvas<'_>,
+    area: Rect,
+    active: &[Place],
+    (search, typing): (Option<&Input>, bool),
+    scroll: u16,
+) -> Drawn {
+    let title = [canvas.span(Role::Title, "Keys")];
+    let mut inner = canvas.pane(area, &title, true);
+    canvas.target(area, HitTarget::Text);
+    let sought = search.map_or("", |input| input.value());
+    if let Some(input) = search {
+        let (above, below) = split_rows(inner, 1);
+        let field = columns(above, 1, above.width.saturating_sub(2));
+        let used = canvas.left(field, Role::Accent, "/ ");
+        let place = columns(field, used, field.width);
+        let room = usize::from(place.width.saturating_sub(1));
+        let skipped = input.visual_scroll(room);
+        let text: String = sought.chars().skip(skipped).take(room).collect();
+        canvas.left(place, Role::Text, &text);
+        if typing {
+            let cursor = input.visual_cursor().saturating_sub(skipped).min(room) as u16;
+            canvas.point(columns(row(place, 0), cursor, 1).as_position());
+        }
+        inner = below;
+    }
+    let page = document(canvas.look, active, sought);
+    page.draw_in_columns(canvas, inner, scroll)
+}
+
+/// Builds the page: the keys of what has the focus come first, then those of the page around it, then all others. Of a
+/// search only what was found is left.
+fn document(look: &RenderStyle, active: &[Place], sought: &str) -> TextPage {
     let mut page = TextPage::default();
-    let (here, elsewhere): (Vec<Place>, Vec<Place>) =
-        Place::ALL.into_iter().partition(|place| active.contains(place));
-    for place in here.into_iter().chain(elsewhere) {
-        page.heading(place.title());
-        for row in KEYS.iter().filter(|row| row.place == place) {
+    let elsewhere = Place::ALL.into_iter().filter(|place| !active.contains(place));
+    let words: Vec<String> = sought.split_whitespace().map(str::to_lowercase).collect();
+    let mut none = true;
+    for (index, place) in active.iter().copied().chain(elsewhere).enumerate() {
+        let fits = |row: &&Binding| {
+            let text = format!("{} {} {}", keys(row, look), row.help, place.title());
+            let text = text.to_lowercase();
+            words.iter().all(|word| text.contains(word))
+        };
+        let rows: Vec<&Binding> =
+            KEYS.iter().filter(|row| row.place == place).filter(fits).collect();
+        if rows.is_empty() {
+            continue;
+        }
+        none = false;
+        let title = place.title();
+        page.heading(&if index == 0 { format!("Here: {title}") } else { title.to_owned() });
+        for row in rows {
             page.item(&keys(row, look), row.help);
         }
+    }
+    if none {
+        page.words(Role::Dim, "No match; Esc shows all keys.");
     }
     page
 }

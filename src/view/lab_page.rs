@@ -6,7 +6,7 @@ use ratatui::layout::Rect;
 use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns, row, wide};
-use super::layout::{Slot, panes};
+use super::layout::{Slot, is_single, panes};
 use super::number::brief;
 use super::quantity::Quantities;
 use super::region::Region;
@@ -15,16 +15,17 @@ use super::theme::Role;
 use super::values::{Values, window};
 use super::wrap::{capitalised, words};
 use super::{equations, gauges, picture};
-use crate::app::{App, Field, HitTarget, Lab, Overlay, Pane, ValueId};
+use crate::app::{App, DrawnPanes, Field, HitTarget, Lab, LawInView, Overlay, Pane, ValueId};
 use crate::experiment::{Failure, Status};
 
-/// Draws all panes of the layout.
-pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) {
+/// Draws all panes of the layout, and returns what that has determined.
+pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) -> DrawnPanes {
     let field = match &app.overlay {
         Some(Overlay::Field(field)) => Some(field),
         _ => None,
     };
     let slots = panes(area, lab);
+    let mut in_view = LawInView::Aside;
     let shown: Vec<usize> = slots.iter().filter_map(|(slot, _)| slot.plot()).collect();
     for (slot, place) in slots {
         match slot {
@@ -36,6 +37,10 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) {
                     (0..lab.plots.len()).filter(here).take_while(|_| last && !lab.zoomed).collect();
                 plot(canvas, place, lab, (index, &sharing));
             }
+            Slot::Law | Slot::Pane(Pane::Law) => {
+                let title = [canvas.span(Role::Title, name(Pane::Law))];
+                in_view = law(canvas, place, lab, &title);
+            }
             Slot::Pane(pane) => {
                 let mut title = vec![canvas.span(Role::Title, name(pane))];
                 if pane == Pane::Gauges {
@@ -44,32 +49,46 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) {
                 list(canvas, place, (lab, pane), &title, field);
             }
             Slot::Values(pane) => {
-                let both = [Pane::Parameters, Pane::Initial];
+                let both = [Pane::Parameters, Pane::Initial, Pane::Law];
                 let title = tabs(canvas, &both, pane);
-                list(canvas, place, (lab, pane), &title, field);
+                if pane == Pane::Law {
+                    in_view = law(canvas, place, lab, &title);
+                } else {
+                    list(canvas, place, (lab, pane), &title, field);
+                }
                 tab_targets(canvas, place, &title, &both);
             }
             Slot::Lists(pane) => {
-                let all = [Pane::Parameters, Pane::Initial, Pane::Gauges];
+                let all = [Pane::Parameters, Pane::Initial, Pane::Gauges, Pane::Law];
                 let title = tabs(canvas, &all, pane);
-                list(canvas, place, (lab, pane), &title, field);
+                if pane == Pane::Law {
+                    in_view = law(canvas, place, lab, &title);
+                } else {
+                    list(canvas, place, (lab, pane), &title, field);
+                }
                 tab_targets(canvas, place, &title, &all);
-            }
-            Slot::Law => {
-                let title = [canvas.span(Role::Title, "Law of motion")];
-                let inner = canvas.pane(place, &title, false);
-                let mut kept = std::mem::take(&mut canvas.kept);
-                let rows = kept.law(&lab.loaded.equations, inner.width, || {
-                    equations::law(lab, canvas.look).laid_out(canvas, inner.width)
-                });
-                draw_rows(canvas, inner, 0, rows);
-                canvas.kept = kept;
             }
         }
     }
     if let Some(Status::Failed(fault)) = lab.snapshot.as_ref().map(|s| &s.status) {
         stopped(canvas, area, fault);
     }
+    DrawnPanes { single: is_single(area), law: in_view }
+}
+
+/// Draws the law of motion, and returns how much of it is in view.
+fn law(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, title: &[Span]) -> LawInView {
+    let inner = canvas.pane(area, title, lab.focus == Pane::Law);
+    canvas.target(area, HitTarget::Pane(Pane::Law));
+    let mut kept = std::mem::take(&mut canvas.kept);
+    let rows = kept.law(&lab.loaded.equations, inner.width, || {
+        equations::law(lab, canvas.look).laid_out(canvas, inner.width)
+    });
+    let drawn = draw_rows(canvas, inner, lab.law_scroll, rows);
+    canvas.kept = kept;
+    let above = lab.law_scroll.min(drawn.beyond);
+    out_of_sight(canvas, area, above.into(), usize::from(drawn.beyond - above));
+    if drawn.beyond == 0 { LawInView::Whole } else { LawInView::Clipped(drawn.beyond) }
 }
 
 /// The time from which the gauges measure, if it is not the beginning.
@@ -88,7 +107,8 @@ fn tabs(canvas: &Canvas<'_>, panes: &[Pane], shown: Pane) -> Vec<Span> {
             spans.push(canvas.span(Role::Border, canvas.look.glyphs.pick(" │ ", " | ")));
         }
         let role = if *pane == shown { Role::Title } else { Role::Dim };
-        spans.push(canvas.span(role, name(*pane)));
+        let name = if *pane == Pane::Law { "Law" } else { name(*pane) };
+        spans.push(canvas.span(role, name));
     }
     spans
 }
@@ -113,6 +133,7 @@ fn name(pane: Pane) -> &'static str {
         Pane::Parameters => "Parameters",
         Pane::Initial => "Initial values",
         Pane::Gauges => "Gauges",
+        Pane::Law => "Law of motion",
     }
 }
 
@@ -138,7 +159,7 @@ fn list(
             let all = lab.snapshot.as_ref().map_or(&[][..], |s| &s.gauges);
             gauges::draw(canvas, inner, all, selected);
         }
-        Pane::Plot(_) => {}
+        Pane::Plot(_) | Pane::Law => {}
     }
 }
 
@@ -149,21 +170,26 @@ fn beyond(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, pane: Pane) {
         Pane::Parameters => (lab.count(ValueId::Parameter), lab.selection.parameter),
         Pane::Initial => (lab.count(ValueId::Initial), lab.selection.initial),
         Pane::Gauges => (gauges, lab.selection.gauge),
-        Pane::Plot(_) => return,
+        Pane::Plot(_) | Pane::Law => return,
     };
     let rows = usize::from(area.height.saturating_sub(2));
     let hidden = count.saturating_sub(rows);
-    if hidden == 0 || area.width < 16 {
+    let above = if hidden == 0 { 0 } else { window(selected, count, rows) };
+    out_of_sight(canvas, area, above, hidden.saturating_sub(above));
+}
+
+/// Says in the lower border of a pane how many of its rows are out of sight.
+fn out_of_sight(canvas: &mut Canvas<'_>, area: Rect, above: usize, below: usize) {
+    if above + below == 0 || area.width < 16 {
         return;
     }
-    let above = window(selected, count, rows);
     let glyphs = canvas.look.glyphs;
     let mut parts = Vec::new();
     if above > 0 {
         parts.push(format!("+{above} {}", glyphs.pick("↑", "up")));
     }
-    if hidden > above {
-        parts.push(format!("+{} {}", hidden - above, glyphs.pick("↓", "down")));
+    if below > 0 {
+        parts.push(format!("+{below} {}", glyphs.pick("↓", "down")));
     }
     let border = row(area, usize::from(area.height - 1));
     let place = columns(border, 2, border.width.saturating_sub(4));

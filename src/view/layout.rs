@@ -14,7 +14,7 @@ pub(super) const LEAST: (u16, u16) = (40, 10);
 const PLOT: (u16, u16) = (50, 13);
 const LISTS: (u16, u16) = (40, 52);
 
-/// A screen's parts: a header, the body, a status line if there is one, and a line of hints.
+/// A screen's parts: a header, the body, a status line and a line of hints, if there are any.
 pub(super) struct Screen {
     pub(super) header: Rect,
     pub(super) body: Rect,
@@ -23,14 +23,15 @@ pub(super) struct Screen {
 }
 
 impl Screen {
-    pub(super) fn of(area: Rect, status: bool) -> Self {
+    pub(super) fn of(area: Rect, status: bool, footer: bool) -> Self {
         let line = |y: u16| Rect { y, height: 1, ..area };
-        let below = 1 + u16::from(status);
+        let (status, footer) = (u16::from(status), u16::from(footer));
+        let below = status + footer;
         Self {
             header: line(area.y),
             body: Rect { y: area.y + 1, height: area.height - 1 - below, ..area },
-            status: Rect { height: below - 1, ..line(area.bottom() - below) },
-            footer: line(area.bottom() - 1),
+            status: Rect { height: status, ..line(area.bottom() - below) },
+            footer: Rect { height: footer, ..line(area.bottom() - footer) },
         }
     }
 }
@@ -74,8 +75,15 @@ pub(super) fn panes(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
         let (above, below) = split_rows(area, height / 2);
         vec![(plot_slot(lab), above), (Slot::Lists(list(lab)), below)]
     } else {
-        vec![(Slot::Pane(lab.focus), area)]
+        // The motion comes first, until a key has been pressed.
+        let motion = lab.motion().filter(|_| lab.untouched);
+        vec![(Slot::Pane(motion.unwrap_or(lab.focus)), area)]
     }
+}
+
+/// Whether there is room for one pane only.
+pub(super) fn is_single(area: Rect) -> bool {
+    area.width < 64 && area.height < 16
 }
 
 /// Rows for the reason of the selected gauge.
@@ -210,7 +218,10 @@ fn list(lab: &Lab) -> Pane {
 
 /// The list of values shown if there is room for only one.
 fn values(lab: &Lab) -> Pane {
-    if lab.focus == Pane::Initial { Pane::Initial } else { Pane::Parameters }
+    match lab.focus {
+        Pane::Initial | Pane::Law => lab.focus,
+        _ => Pane::Parameters,
+    }
 }
 
 /// Places panes side by side in equal widths.

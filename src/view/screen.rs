@@ -67,7 +67,9 @@ pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
     }
     // The plain page contains the status itself and must not change while it is read.
     let status = !matches!(app.page, Page::Picker | Page::Plain) && app.lab.is_some();
-    let screen = Screen::of(area, status);
+    // A value is typed in the footer.
+    let footer = app.footer || matches!(app.overlay, Some(Overlay::Field(_)));
+    let screen = Screen::of(area, status && app.footer, footer);
     header_footer::header(canvas, screen.header, app);
     let drawn = body(canvas, screen.body, app);
     header_footer::notice(canvas, screen.body, app);
@@ -77,22 +79,28 @@ pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
 }
 
 fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
-    let look = canvas.look;
     let over = app.overlay.as_ref();
-    if let Some(Overlay::Help { .. }) = over {
-        let page = help::document(look, app.places_below());
-        return text(canvas, area, "Keys", page, app.scroll);
+    if let Some(Overlay::Help { search, typing, .. }) = over {
+        return help::draw(
+            canvas,
+            area,
+            app.places_below(),
+            (search.as_ref(), *typing),
+            app.scroll,
+        );
     }
     if let Some(Overlay::Message(failure)) = over {
         let mut page = TextPage::default();
         for line in failure.message.lines() {
             page.row(vec![(Role::Text, line.to_owned())]);
         }
-        let title = format!("{} has mistakes", failure.name);
-        return text(canvas, area, &title, page, app.scroll);
+        let title = [canvas.span(Role::Title, format!("{} has mistakes", failure.name))];
+        let inner = canvas.pane(area, &title, true);
+        canvas.target(area, HitTarget::Text);
+        return page.draw(canvas, inner, app.scroll);
     }
-    if let (Some(sheet), Some(lab)) = (app.open_buffer(), &app.lab) {
-        return workbench::draw(canvas, area, (app, lab), sheet);
+    if let Some(sheet) = app.open_buffer() {
+        return workbench::draw(canvas, area, app, sheet);
     }
     let drawn = match (app.page, &app.lab) {
         (Page::Picker, _) | (_, None) => {
@@ -100,8 +108,8 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
             Drawn::default()
         }
         (Page::Lab, Some(lab)) => {
-            lab_page::draw(canvas, area, app, lab);
-            Drawn::default()
+            let panes = lab_page::draw(canvas, area, app, lab);
+            Drawn { panes: Some(panes), ..Drawn::default() }
         }
         (page, Some(lab)) => text_page(canvas, area, (app, lab), page),
     };
@@ -137,7 +145,7 @@ fn text(canvas: &mut Canvas<'_>, area: Rect, title: &str, page: TextPage, scroll
     let title = [canvas.span(Role::Title, title)];
     let inner = canvas.pane(area, &title, true);
     canvas.target(area, HitTarget::Text);
-    page.draw(canvas, inner, scroll)
+    page.draw_in_columns(canvas, inner, scroll)
 }
 
 /// Draws the message for a screen that is too small for anything else.

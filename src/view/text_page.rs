@@ -14,6 +14,10 @@ use crate::app::Drawn;
 /// The greatest line length that is easy to read.
 const MEASURE: u16 = 110;
 
+/// The width from which a long page has two columns, and the gap between them.
+const TWO_COLUMNS: u16 = 160;
+const BETWEEN: u16 = 2;
+
 /// Columns of an item's label, of a name and of a number; on narrow pages, the columns left for a unit.
 const LABEL: usize = 20;
 const NAME: usize = 30;
@@ -91,6 +95,38 @@ impl TextPage {
     pub(super) fn draw(self, canvas: &mut Canvas<'_>, area: Rect, scroll: u16) -> Drawn {
         let rows = self.laid_out(canvas, area.width);
         draw_rows(canvas, area, scroll, &rows)
+    }
+
+    /// Draws the rows from `scroll` on, in two columns where the area is wide and the page is longer than one.
+    pub(super) fn draw_in_columns(self, canvas: &mut Canvas<'_>, area: Rect, scroll: u16) -> Drawn {
+        let half = area.width.saturating_sub(BETWEEN) / 2;
+        let height = usize::from(area.height);
+        let whole = self.laid_out(canvas, area.width);
+        if area.width < TWO_COLUMNS || whole.len() <= height {
+            return draw_rows(canvas, area, scroll, &whole);
+        }
+        let lines = self.laid_out(canvas, half);
+        let beyond = lines.len().saturating_sub(2 * height);
+        let first = usize::from(scroll).min(beyond);
+        // A page that fits is parted at a gap, so that no section is torn; the lower the better.
+        let parted = (lines.len().saturating_sub(height)..=height).rev();
+        let gap = parted.clone().find(|at| lines.get(*at).is_some_and(Vec::is_empty));
+        let (split, skipped) = match gap.filter(|_| beyond == 0) {
+            Some(gap) => (gap, 1),
+            None => (height, 0),
+        };
+        let right = lines.iter().skip(first + split + skipped).take(height);
+        for (index, line) in lines.iter().skip(first).take(split).enumerate() {
+            canvas.spans(columns(row(area, index), 1, measure(half) + 1), line);
+        }
+        for (index, line) in right.enumerate() {
+            canvas.spans(columns(row(area, index), half + BETWEEN, measure(half) + 1), line);
+        }
+        if beyond > 0 {
+            scroll_bar(canvas, area, first, lines.len() - height);
+        }
+        let rows = area.height.saturating_mul(2);
+        Drawn { beyond: beyond.min(usize::from(u16::MAX)) as u16, rows, ..Drawn::default() }
     }
 
     /// The rows of the page in an area of this width.

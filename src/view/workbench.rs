@@ -14,7 +14,7 @@ use super::layout::{split_columns, split_rows};
 use super::theme::Role;
 use super::wrap::words;
 use crate::app::{
-    App, Asking, BufferDiagnostic, Caret, Drawn, Lab, Notification, SheetState, SourceBuffer,
+    App, Asking, BufferDiagnostic, Caret, Drawn, Notification, SheetState, SourceBuffer,
 };
 
 /// The width from which the motion is shown beside the text.
@@ -24,14 +24,9 @@ const WIDE: u16 = 112;
 const FOOT: u16 = 4;
 
 /// Draws the workbench, and the lab if there is room beside it.
-pub(super) fn draw(
-    canvas: &mut Canvas<'_>,
-    area: Rect,
-    (app, lab): (&App, &Lab),
-    sheet: &SourceBuffer,
-) -> Drawn {
+pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, sheet: &SourceBuffer) -> Drawn {
     let mut left = area;
-    if area.width >= WIDE {
+    if let Some(lab) = app.lab.as_ref().filter(|_| area.width >= WIDE) {
         let (text, beside) = split_columns(area, area.width * 11 / 20);
         canvas.beside = true;
         lab_page::draw(canvas, beside, app, lab);
@@ -49,7 +44,7 @@ pub(super) fn draw(
     let (text, below) = split_rows(inner, inner.height - foot);
     let drawn = lines(canvas, text, sheet);
     let below = columns(below, 1, below.width.saturating_sub(2));
-    self::foot(canvas, below, sheet, app.notice.as_ref());
+    self::foot(canvas, below, sheet, (app.notice.as_ref(), app.lab.is_some()));
     drawn
 }
 
@@ -186,7 +181,12 @@ fn comment(line: &str) -> Option<usize> {
 }
 
 /// Draws the status of the text or the open prompt; a notification replaces the first line.
-fn foot(canvas: &mut Canvas<'_>, area: Rect, sheet: &SourceBuffer, notice: Option<&Notification>) {
+fn foot(
+    canvas: &mut Canvas<'_>,
+    area: Rect,
+    sheet: &SourceBuffer,
+    (notice, runs): (Option<&Notification>, bool),
+) {
     if let Some(asking) = &sheet.asking {
         return self::asking(canvas, area, asking, notice);
     }
@@ -202,6 +202,15 @@ fn foot(canvas: &mut Canvas<'_>, area: Rect, sheet: &SourceBuffer, notice: Optio
             (Role::Dim, "Checking takes long; Esc stops it.".to_owned())
         }
         SheetState::Changed | SheetState::Left => (Role::Dim, "Checking…".to_owned()),
+        SheetState::Wrong if !runs => {
+            let errors = if count == 1 { "1 error".to_owned() } else { format!("{count} errors") };
+            (
+                Role::Bad,
+                format!(
+                    "{errors}: Ctrl-n goes to the next. The motion begins once there are none."
+                ),
+            )
+        }
         SheetState::Wrong if count == 1 => {
             (Role::Bad, "1 error – still running the last valid version.".to_owned())
         }

@@ -6,6 +6,7 @@ mod equilibria;
 mod flow;
 mod invariants;
 mod keys;
+mod mend;
 pub(crate) mod real;
 mod saved;
 mod scripts;

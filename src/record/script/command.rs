@@ -42,6 +42,7 @@ pub const COMMANDS: &[Command] = &[
     row("Theme", "Theme dark", "the theme, a name out of `phaselab theme list`", theme),
     row("Color", "Color true", "how many colours are used: `true` (where it is left out), `256`, `16` or `never`", colour),
     row("Glyphs", "Glyphs braille", "what is drawn with: `braille` (where it is left out), `half`, `ascii`, …", glyphs),
+    row("Hide", "Hide footer", "leave out the lines below the panes, the status and the keys, so that the picture has their room", hide),
     row("Pace", "Pace 150ms", "how long each key from here on is given to be seen", pace),
     row("Press", "Press KEY [xN] [KEY …]", "press keys: `z`, `Tab`, `Down x3`, `Shift-Left`, `Ctrl-r`", press),
     row("Type", "Type \"TEXT\"", "type a text, key by key", typed),
@@ -127,6 +128,11 @@ fn glyphs(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
         Diagnostic::error(word.place, message).with_help("there are braille half ascii")
     })?;
     Ok(head(move |head| head.glyphs = glyphs))
+}
+
+fn hide(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+    line.one_of("what is hidden", &["footer"])?;
+    Ok(head(|head| head.footer = false))
 }
 
 fn pace(line: &mut Line<'_>) -> Result<Said, Diagnostic> {

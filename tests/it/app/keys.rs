@@ -6,7 +6,10 @@ use std::time::Duration;
 
 use crossterm::event::KeyEvent;
 use phaselab::app::keymap::{self, CHAINS, KEYS, Place};
-use phaselab::app::{App, Choice, Drawn, Effect, Event, Menu, Overlay, Page, ValueId};
+use phaselab::app::{
+    App, Choice, Drawn, DrawnPanes, Effect, Event, LawInView, LoadError, Menu, Overlay, Page, Pane,
+    ValueId,
+};
 use phaselab::experiment::Status;
 use phaselab::instrument::Sight;
 
@@ -77,7 +80,18 @@ fn states_made(place: Place) -> Vec<App> {
             press(&mut app, "Down");
             vec![app]
         }
-        Place::Text => vec![scrolled("2")],
+        Place::Text => vec![scrolled("3")],
+        Place::Help => vec![lab("?")],
+        Place::Message => vec![wrong_file()],
+        Place::Law => {
+            let mut app = in_lab();
+            let panes = DrawnPanes { single: false, law: LawInView::Clipped(90) };
+            app.update(Event::Drawn(Drawn { panes: Some(panes), ..Drawn::default() }));
+            press(&mut app, "Shift-Tab PgDn PgDn");
+            vec![app]
+        }
+        Place::Equations => vec![lab("2")],
+        Place::HelpSearch => vec![scrolled("? / z o o m")],
         Place::Plain => {
             let mut app = scrolled("9");
             app.reading.line = 40;
@@ -90,6 +104,14 @@ fn states_made(place: Place) -> Vec<App> {
         }
         Place::Field | Place::Typing => vec![lab("Enter")],
     }
+}
+
+/// The list of systems, with the errors of a file over it.
+fn wrong_file() -> App {
+    let (mut app, _) = App::new(crate::hand::catalog(), Some("./wrong.toml"));
+    let (name, message) = ("./wrong.toml".to_owned(), "error: a mistake".to_owned());
+    app.update(Event::Loaded(Err(LoadError { name, message })));
+    app
 }
 
 /// The ball on the merry-go-round, with its first picture focused.
@@ -110,7 +132,10 @@ fn facts(app: &App) -> Vec<(String, String)> {
     fact("page", format!("{:?}", app.page));
     let over = match &app.overlay {
         None => "nothing".to_owned(),
-        Some(Overlay::Help { .. }) => "the keys".to_owned(),
+        Some(Overlay::Help { search, typing, .. }) => {
+            let search = search.as_ref().map(tui_input::Input::value);
+            format!("the keys, search {search:?} typing {typing}")
+        }
         Some(Overlay::Message(failure)) => failure.message.clone(),
         Some(Overlay::Menu(menu)) => {
             format!("list {:?} line {} marked {:?}", menu.title, menu.selected, menu.marked)
@@ -143,6 +168,7 @@ fn facts(app: &App) -> Vec<(String, String)> {
     fact("parameter", selection.parameter.to_string());
     fact("initial value", selection.initial.to_string());
     fact("gauge", selection.gauge.to_string());
+    fact("law scrolled", lab.law_scroll.to_string());
     for index in 0..lab.count(ValueId::Parameter) {
         let target = ValueId::Parameter(index);
         let name = lab.value_info(target).unwrap().name;
@@ -237,13 +263,16 @@ fn the_palette_lists_every_row_and_does_what_its_key_does() {
             let places = app.places();
             for row in KEYS {
                 let line = menu.items.iter().position(|item| {
-                    item.choice == Choice::Action(row.action)
+                    let near = Choice::ActionAt(row.place, row.action);
+                    (item.choice == Choice::Action(row.action) || item.choice == near)
                         && item.label.ends_with(row.help)
                         && item.about.starts_with(row.place.title())
                 });
                 let line = line.unwrap_or_else(|| panic!("{} is not listed", row.help));
                 let item = &menu.items[line];
-                let here = places.contains(&row.place);
+                let near = matches!(item.choice, Choice::ActionAt(..));
+                let here = places.contains(&row.place) || near;
+                assert_eq!(near, !places.contains(&row.place) && app.nearest(row.place).is_some());
                 assert!(item.refusal.is_none() == (here && app.offers(row.action)), "{item:?}");
                 let mut open = open.clone();
                 if let Some(Overlay::Menu(menu)) = &mut open.overlay {
@@ -253,6 +282,10 @@ fn the_palette_lists_every_row_and_does_what_its_key_does() {
                     press(&mut open, "Enter");
                     let told = open.notice.map(|notice| notice.text).unwrap_or_default();
                     assert!(told.contains(item.refusal.as_ref().unwrap()), "{told}");
+                    continue;
+                }
+                if near {
+                    // What it does there is shown by a test of its own.
                     continue;
                 }
                 let mut taken = app.clone();
@@ -266,6 +299,116 @@ fn the_palette_lists_every_row_and_does_what_its_key_does() {
             }
         }
     }
+}
+
+/// The help lies over whatever was open, also over a field and a prompt, and leads back to it.
+#[test]
+fn the_help_is_reached_from_everywhere_and_leads_back() {
+    let over = |app: &App| facts(app).into_iter().find(|(name, _)| name == "over it").unwrap().1;
+    let cases = [
+        ("Enter", Place::Field),
+        ("{ H", Place::Field),
+        (": z o", Place::Menu),
+        ("m", Place::Menu),
+        ("E", Place::Workbench),
+        ("", Place::Values),
+        ("Tab Tab Tab Tab", Place::Plot),
+        ("2", Place::Equations),
+        ("3", Place::Text),
+    ];
+    for (keys, place) in cases {
+        let mut app = in_lab();
+        press(&mut app, keys);
+        let before = over(&app);
+        press(&mut app, "F1");
+        assert!(over(&app).starts_with("the keys"), "{keys}");
+        assert_eq!(app.places_below()[0], place, "{keys}: what holds here comes first");
+        press(&mut app, "Esc");
+        assert_eq!(over(&app), before, "{keys}");
+        // A search takes letters, q among them; the first Esc ends it, the second leads back.
+        press(&mut app, "F1 / q u");
+        assert_eq!(over(&app), "the keys, search Some(\"qu\") typing true", "{keys}");
+        press(&mut app, "Enter");
+        assert_eq!(over(&app), "the keys, search Some(\"qu\") typing false", "{keys}");
+        press(&mut app, "Esc Esc");
+        assert_eq!(over(&app), before, "{keys}");
+    }
+    let mut app = at_picker();
+    press(&mut app, "/ p e F1 Esc");
+    assert_eq!(app.picker.search.as_ref().map(tui_input::Input::value), Some("pe"));
+}
+
+/// What is copied is what `derive --format latex` prints: equations with their left sides, in an environment.
+#[test]
+fn the_equations_are_copied_as_latex() {
+    let mut app = in_lab();
+    assert!(press(&mut app, "y").is_empty(), "not on the page of panes");
+    let effects = press(&mut app, "2 y");
+    let copied = effects.iter().find_map(|effect| match effect {
+        Effect::Copy { text, ending, .. } => Some((text, *ending)),
+        _ => None,
+    });
+    let (text, ending) = copied.expect("it is copied");
+    assert_eq!(ending, "tex");
+    assert!(text.starts_with("% Simple pendulum\n\\begin{align*}\nL &= "), "{text}");
+    assert!(text.contains("\\ddot{\\theta} &= ") && text.ends_with("\\end{align*}\n"), "{text}");
+}
+
+/// In every list Home and End go to its ends, and a page is more than a line.
+#[test]
+fn lists_have_ends_and_pages() {
+    let line = |app: &App| match &app.overlay {
+        Some(Overlay::Menu(menu)) => menu.selected,
+        _ => app.picker.selected,
+    };
+    for (app, keys) in [(in_lab(), ":"), (in_lab(), ": e"), (in_lab(), "m"), (at_picker(), "/ p")] {
+        let mut app = app;
+        press(&mut app, keys);
+        press(&mut app, "End");
+        let last = line(&app);
+        assert!(last > 1, "{keys}");
+        press(&mut app, "Down");
+        assert_eq!(line(&app), last, "{keys}: nothing lies below the end");
+        press(&mut app, "PgUp");
+        assert_eq!(line(&app), last.saturating_sub(10), "{keys}");
+        press(&mut app, "PgDn Home");
+        assert_eq!(line(&app), 0, "{keys}");
+        press(&mut app, "PgDn");
+        assert_eq!(line(&app), last.min(10), "{keys}");
+    }
+}
+
+/// An action for plots goes to the nearest one, and the focus with it, whatever has the focus and whichever page is
+/// shown.
+#[test]
+fn the_palette_acts_on_the_nearest_pane() {
+    for begin in ["", "Tab", "Tab Tab", "2", "3"] {
+        let mut app = in_lab();
+        press(&mut app, begin);
+        press(&mut app, ":");
+        app.update(Event::Paste("put a cursor".to_owned()));
+        press(&mut app, "Enter");
+        let lab = app.lab.as_ref().unwrap();
+        assert_eq!((app.page, lab.focus), (Page::Lab, Pane::Plot(1)), "{begin}");
+        let cursor = lab.plots[1].viewport().unwrap().cursor;
+        assert_eq!(cursor, Some([0.5, 0.5]), "{begin}");
+        let told = app.notice.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
+        assert_eq!(told, "The focus moved to phase plane, p_θ against θ.", "{begin}");
+    }
+    // The motion in space is another pane; a plot that was focused is the nearest.
+    let mut app = in_lab();
+    press(&mut app, ":");
+    app.update(Event::Paste("look from higher".to_owned()));
+    press(&mut app, "Enter");
+    assert_eq!(app.lab.as_ref().unwrap().focus, Pane::Plot(0));
+    let mut app = in_lab();
+    press(&mut app, "Tab Tab Tab Tab Tab Tab Tab :");
+    app.update(Event::Paste("put a cursor".to_owned()));
+    press(&mut app, "Enter");
+    assert_eq!(app.lab.as_ref().unwrap().focus, Pane::Plot(3), "the one focused last");
+    // Among the systems there is no pane.
+    let (_, menu) = palette(&at_picker());
+    assert!(menu.items.iter().all(|item| !matches!(item.choice, Choice::ActionAt(..))));
 }
 
 #[test]

@@ -40,6 +40,7 @@ fn place(app: &App) -> String {
                 Pane::Parameters => format!("parameter {}", lab.selection.parameter),
                 Pane::Initial => format!("initial {}", lab.selection.initial),
                 Pane::Gauges => format!("gauge {}", lab.selection.gauge),
+                Pane::Law => format!("law {}", lab.law_scroll),
             };
             format!("lab {pane}{}", if lab.zoomed { " zoomed" } else { "" })
         }

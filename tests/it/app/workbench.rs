@@ -515,7 +515,7 @@ fn saving_what_has_a_mistake_says_so() {
 fn the_keys_are_shown_over_the_editor_which_is_there_again_afterwards() {
     let mut app = edited();
     press(&mut app, "x y F1");
-    assert!(matches!(app.overlay, Some(Overlay::Help { editing: true, .. })));
+    assert!(matches!(app.overlay, Some(Overlay::Help { below: Some(_), .. })));
     assert_eq!(app.places_below()[0], Place::Workbench);
     for back in ["Esc", "F1", "?"] {
         press(&mut app, back);

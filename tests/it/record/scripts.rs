@@ -29,6 +29,15 @@ fn mistakes(text: &str) -> Vec<String> {
 }
 
 #[test]
+fn a_demo_is_shown_without_the_footer() {
+    let keys = "Assert screen \"? help\"";
+    for (hide, seen) in [("", true), ("Hide footer\n", false)] {
+        let found = mistakes(&format!("{hide}Wait 1s\n{keys}"));
+        assert_eq!(found.is_empty(), seen, "{found:?}");
+    }
+}
+
+#[test]
 fn mistakes_stand_in_their_places() {
     let check = |text: &str, expected: &[&str]| assert_eq!(mistakes(text), expected, "{text}");
     check("Wait 1s", &[]);
@@ -54,6 +63,8 @@ fn mistakes_stand_in_their_places() {
     check("Size 80\nWait 1s", &["1:6 a size is written 100x30, columns and rows"]);
     check("Size 8x8\nWait 1s", &["1:6 a screen has from 40x11 to 400x150 characters"]);
     check("Theme drak\nWait 1s", &["1:7 `drak` is not a theme; did you mean `dark`?"]);
+    check("Hide footer\nWait 1s", &[]);
+    check("Hide panes\nWait 1s", &["1:6 `panes` is not what is hidden; there are footer"]);
     check("Fps 1000\nWait 1s", &["1:5 `1000`: there are 1 to 60 frames in a second"]);
     check(
         "Marker \"a\"\nWait 1s\nMarker \"a\"",

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use phaselab::app::{App, Event, Notification};
+use phaselab::app::{App, Drawn, DrawnPanes, Event, LawInView, Notification, Pane};
 use phaselab::experiment::{Gauge, Growth, Status, Verdict};
 use phaselab::instrument::{Along, Plot};
 use phaselab::integrate::{Occurrence, OccurrenceKind};
@@ -41,6 +41,135 @@ fn every_pane_of_a_large_screen_is_there() {
     }
     for text in ["1 Lab", "? help", "q quit", "taylor", "fps", "mass of the bob"] {
         assert!(find(&buffer, text).is_some(), "{text}");
+    }
+}
+
+/// The help begins with the focused pane, and a search leaves what fits it; where there is room it has two columns.
+#[test]
+fn the_help_begins_here_and_is_searched() {
+    let mut app = in_lab();
+    press(&mut app, "Tab Tab Tab Tab ?");
+    let text = rows(&screen(&app, &rich(), (80, 24)));
+    assert!(text[2].contains("Here: Plots"), "{text:#?}");
+    let buffer = screen(&app, &rich(), (200, 60));
+    let (left, right) = (find(&buffer, "Here: Plots"), find(&buffer, "Anywhere"));
+    let (left, right) = (left.expect("left"), right.expect("right, without scrolling"));
+    assert!(left.0 < 20 && right.0 > 90, "{left:?} {right:?}");
+    press(&mut app, "/ c u r s o r Space r e a d s");
+    let buffer = screen(&app, &rich(), (80, 24));
+    assert!(find(&buffer, "put a cursor on the plot").is_some(), "{:#?}", rows(&buffer));
+    assert!(find(&buffer, "stretch the horizontal").is_none());
+    press(&mut app, "x x x");
+    assert!(find(&screen(&app, &rich(), (80, 24)), "No match").is_some());
+    press(&mut app, "Esc");
+    assert!(find(&screen(&app, &rich(), (80, 24)), "stretch the horizontal").is_some());
+}
+
+/// The law of motion says how much of it is out of sight; then Tab reaches it, and arrows scroll it to its end.
+#[test]
+fn the_law_of_motion_scrolls_where_it_is_clipped() {
+    for (size, keys) in [((120, 40), "Shift-Tab"), ((80, 24), "Shift-Tab"), ((40, 20), "Shift-Tab")]
+    {
+        let mut app = lab("heavy-top", 1.0);
+        let (_, drawn) = super::drawn(&app, &rich(), size);
+        app.update(Event::Drawn(drawn));
+        press(&mut app, keys);
+        assert_eq!(app.lab.as_ref().unwrap().focus, Pane::Law, "{size:?}");
+        let (buffer, drawn) = super::drawn(&app, &rich(), size);
+        app.update(Event::Drawn(drawn));
+        let Some(LawInView::Clipped(beyond)) = drawn.panes.map(|panes| panes.law) else {
+            panic!("{size:?}: {drawn:?}")
+        };
+        assert!(find(&buffer, &format!("+{beyond} ↓")).is_some(), "{size:?} {:#?}", rows(&buffer));
+        assert!(find(&buffer, "L = ").is_some(), "{size:?}");
+        press(&mut app, "Down");
+        assert_eq!(app.lab.as_ref().unwrap().law_scroll, 1);
+        let buffer = screen(&app, &rich(), size);
+        assert!(find(&buffer, &format!("+1 ↑ +{} ↓", beyond - 1)).is_some(), "{size:?}");
+        press(&mut app, "End Down");
+        assert_eq!(app.lab.as_ref().unwrap().law_scroll, beyond, "no further than its end");
+        let buffer = screen(&app, &rich(), size);
+        assert!(find(&buffer, &format!("+{beyond} ↑")).is_some(), "{size:?}");
+        press(&mut app, "Home");
+        assert_eq!(app.lab.as_ref().unwrap().law_scroll, 0);
+    }
+    // Where all of it is in view there is nothing to scroll, and Tab passes it by.
+    let mut app = in_lab();
+    let panes = DrawnPanes { single: false, law: LawInView::Whole };
+    app.update(Event::Drawn(Drawn { panes: Some(panes), ..Drawn::default() }));
+    press(&mut app, "Shift-Tab");
+    assert!(matches!(app.lab.as_ref().unwrap().focus, Pane::Plot(_)));
+}
+
+/// On the smallest screen the motion is what is seen, with the status; a key goes to the other panes.
+#[test]
+fn on_the_smallest_screen_the_motion_comes_first() {
+    for name in ["pendulum", "heavy-top", "double-well"] {
+        let mut app = lab(name, 2.0);
+        let (buffer, drawn) = super::drawn(&app, &rich(), (40, 10));
+        assert!(find(&buffer, "Parameters").is_none(), "{name}: {:#?}", rows(&buffer));
+        let dots = buffer
+            .content
+            .iter()
+            .filter(|cell| cell.symbol().chars().any(|c| ('\u{2801}'..='\u{28ff}').contains(&c)));
+        assert!(dots.count() > 5, "{name}: a picture");
+        assert!(rows(&buffer)[8].contains("t 2"), "{name}: the status");
+        app.update(Event::Drawn(drawn));
+        assert_eq!(app.lab.as_ref().unwrap().focus, app.lab.as_ref().unwrap().motion().unwrap());
+        press(&mut app, "Shift-Tab");
+        let buffer = screen(&app, &rich(), (40, 10));
+        assert!(find(&buffer, "Gauges").is_some(), "{name}: {:#?}", rows(&buffer));
+    }
+    // Where there is room for more, the parameters have the focus.
+    let mut app = in_lab();
+    let (_, drawn) = super::drawn(&app, &rich(), (80, 24));
+    app.update(Event::Drawn(drawn));
+    assert_eq!(app.lab.as_ref().unwrap().focus, Pane::Parameters);
+}
+
+/// Without the footer the panes have its room; a value that is typed is seen all the same.
+#[test]
+fn a_footer_can_be_left_out() {
+    let mut app = in_lab();
+    let with = rows(&screen(&app, &rich(), (80, 24)));
+    app.footer = false;
+    let without = rows(&screen(&app, &rich(), (80, 24)));
+    assert!(with[23].contains("quit") && with[22].contains("fps"));
+    assert!(without[23].starts_with('╰') || without[23].starts_with('└'), "{without:#?}");
+    assert!(!without.join("").contains("fps") && !without.join("").contains("quit"));
+    press(&mut app, "Enter");
+    let typing = rows(&screen(&app, &rich(), (80, 24)));
+    assert!(typing[23].contains("m = "), "{typing:#?}");
+}
+
+/// A page longer than a wide screen is high continues in a second column, and no row of it is lost or shown twice.
+#[test]
+fn wide_pages_have_two_columns() {
+    let mut app = in_lab();
+    press(&mut app, "?");
+    let (_, drawn) = super::drawn(&app, &rich(), (200, 30));
+    assert!(drawn.beyond > 0 && drawn.rows == 2 * 25, "{drawn:?}");
+    let mut seen = String::new();
+    let mut scroll = 0;
+    while scroll <= drawn.beyond {
+        app.scroll = scroll;
+        let buffer = screen(&app, &rich(), (200, 30));
+        let text = rows(&buffer);
+        let part = |from: usize, to: usize| -> Vec<String> {
+            let cut = |row: &String| row.chars().skip(from).take(to - from).collect();
+            text[2..27].iter().map(cut).collect()
+        };
+        for row in part(2, 99).into_iter().chain(part(101, 198)) {
+            seen += row.trim();
+            seen += "\n";
+        }
+        scroll += drawn.rows;
+    }
+    app.scroll = drawn.beyond;
+    seen += &rows(&screen(&app, &rich(), (200, 30))).join("\n");
+    for row in phaselab::app::keymap::KEYS {
+        let begins: String = row.help.chars().take(40).collect();
+        assert!(seen.contains(begins.trim()), "{}", row.help);
     }
 }
 

@@ -1,9 +1,13 @@
 //! The report on a law of motion as a fragment for LaTeX with amsmath.
+//!
+//! In: a report. Out: an `align*` environment, with the title in a comment above it. Never here: files, a clipboard.
 
+use super::Holonomy;
+use super::report::{Further, Left, Line, Report};
 use crate::expr::Symbol;
-use crate::mechanics::{Further, Holonomy, Left, Line, Report};
 
-pub(super) fn write(report: &Report<'_>, further: &Further) -> String {
+/// Writes the report as a fragment for LaTeX.
+pub fn latex(report: &Report<'_>, further: &Further) -> String {
     let pool = &report.equations.pool;
     let mut page = Page { report, lines: Vec::new() };
     page.lines(report.body.iter().flat_map(|body| &body.lines));

@@ -1,0 +1,89 @@
+//! Texts edited while no system runs: a file that is wrong, and a new system.
+//!
+//! In: the name of a file with mistakes, its text; the template. Out: the editor, at the first mistake; the lab, as soon as
+//! a text has none. Never here: how a text is checked, or files.
+
+use std::path::PathBuf;
+
+use super::buffer::Unsaved;
+use super::saved::NEW_SYSTEM;
+use super::{App, Effect, Lab, Loaded, Overlay, Page};
+use crate::experiment::Command;
+use crate::preset::{Origin, is_path, template};
+
+impl App {
+    /// Asks for the text of the file whose mistakes are shown.
+    pub(super) fn mend_file(&mut self) -> Vec<Effect> {
+        let Some(name) = self.failed_system().map(str::to_owned) else { return Vec::new() };
+        let Some(place) = self.place_of(&name) else {
+            return self.notify("This system has no file that could be edited.");
+        };
+        self.mending = Some(name);
+        vec![Effect::Reread(place)]
+    }
+
+    /// The file of a system of this name, if it has one.
+    fn place_of(&self, name: &str) -> Option<PathBuf> {
+        if is_path(name) {
+            return Some(PathBuf::from(name));
+        }
+        let entry = self.picker.entries.iter().find(|entry| entry.name == name)?;
+        match &entry.origin {
+            Origin::User(path) => Some(path.clone()),
+            Origin::Shipped => None,
+        }
+    }
+
+    /// Opens the editor with the text of a wrong file; its check says where the mistakes are.
+    pub(super) fn edit_wrong(&mut self, name: String, text: &str) {
+        let place = self.place_of(&name);
+        let title = place.as_ref().map_or_else(|| name.clone(), |p| p.display().to_string());
+        let (text, of) = (text.to_owned(), text.to_owned());
+        self.edit_alone(Unsaved { name, title, place, text, of });
+    }
+
+    /// Opens the editor with a system of one's own to begin from; nothing is written until it is saved.
+    pub(super) fn new_system(&mut self) -> Vec<Effect> {
+        let title = format!("{NEW_SYSTEM}.toml");
+        let (text, of) = (template().to_owned(), template().to_owned());
+        self.edit_alone(Unsaved { name: NEW_SYSTEM.to_owned(), title, place: None, text, of });
+        Vec::new()
+    }
+
+    /// Leaves the system in the lab, and edits a text that becomes the next one.
+    fn edit_alone(&mut self, text: Unsaved) {
+        // The session that is left can be continued from the list of systems.
+        if self.page != Page::Picker {
+            self.go(Page::Picker);
+        }
+        self.drop_hold();
+        self.asked = None;
+        self.workbench.clear();
+        self.workbench.lay_text(text);
+        (self.lab, self.picker.failure) = (None, None);
+        (self.page, self.overlay, self.scroll) = (Page::Lab, Some(Overlay::Workbench), 0);
+    }
+
+    /// Begins the motion of a text edited without a system, as soon as it has no mistakes.
+    pub(super) fn mended(&mut self, loaded: Loaded) -> Vec<Effect> {
+        self.lab = Some(Lab::new(loaded));
+        self.meter.forget();
+        vec![Effect::Tell(Command::Play)]
+    }
+
+    /// Leaves the editor where no system runs: the list of systems is below.
+    pub(super) fn leave_alone(&mut self) -> Vec<Effect> {
+        let notice = self.notice.take();
+        self.go(Page::Picker);
+        self.notice = notice;
+        self.picker.take().map(|name| self.ask(name, false)).into_iter().collect()
+    }
+
+    /// Returns the name of the system that a checked text is to have.
+    pub fn checked_system(&self) -> Option<String> {
+        match &self.lab {
+            Some(lab) => Some(lab.loaded.name.clone()),
+            None => self.own_buffer().map(|buffer| buffer.name.clone()),
+        }
+    }
+}

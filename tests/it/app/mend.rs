@@ -1,0 +1,117 @@
+//! Texts edited while no system runs: a wrong file where its mistakes are shown, and a new system.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use phaselab::app::{App, Checked, Effect, Event, LoadError, Overlay, Page, Pane, SheetState};
+use phaselab::diagnostic::Document;
+use phaselab::preset::template;
+
+use crate::hand::{catalog, in_lab, lowered, press};
+use crate::screen::{rich, rows};
+
+/// The text of a wrong file: `sni` for `sin`, on the fourth line from the end of the template's beginning.
+fn wrong() -> String {
+    template().replace("m g l cos θ", "m g l csc2(θ)")
+}
+
+/// Carries out the checks that are asked for.
+fn rest(app: &mut App) {
+    let effects = app.update(Event::Tick(Duration::from_secs(1)));
+    let check = effects.into_iter().find_map(|effect| match effect {
+        Effect::Check { ticket, title, text } => Some((ticket, title, text)),
+        _ => None,
+    });
+    let (ticket, title, text) = check.expect("the text is checked");
+    assert!(app.awaits(ticket));
+    let document = Document::new(title, text.clone());
+    let outcome = match document.read() {
+        Ok(_) => Ok(lowered(&text)),
+        Err(mistakes) => Err(mistakes),
+    };
+    let outcome = outcome.map(|mut loaded| {
+        loaded.name = app.checked_system().expect("a name");
+        loaded
+    });
+    app.update(Event::Checked(Box::new(Checked { ticket, outcome, took: Duration::ZERO })));
+}
+
+fn text_of(app: &App) -> String {
+    let area = ratatui::layout::Rect::new(0, 0, 120, 40);
+    let mut buffer = ratatui::buffer::Buffer::empty(area);
+    phaselab::view::draw(app, &rich(), area, &mut buffer);
+    rows(&buffer).join("\n")
+}
+
+#[test]
+fn a_wrong_file_is_edited_at_its_first_mistake_and_then_runs() {
+    let name = "./wrong.toml";
+    let (mut app, _) = App::new(catalog(), Some(name));
+    let message = "error: a mistake".to_owned();
+    app.update(Event::Loaded(Err(LoadError { name: name.to_owned(), message })));
+    assert!(matches!(app.overlay, Some(Overlay::Message(_))));
+    assert!(text_of(&app).contains("E edit"), "the key is among the hints");
+    assert_eq!(press(&mut app, "E"), [Effect::Reread(PathBuf::from(name))]);
+    app.update(Event::FileRead { text: wrong(), asked: true });
+    rest(&mut app);
+    let buffer = app.open_buffer().expect("the editor is open");
+    assert_eq!(buffer.state, SheetState::Wrong);
+    let line = wrong().lines().position(|line| line.contains("csc2")).unwrap();
+    assert_eq!(buffer.editor.cursor().row, line, "at the first mistake");
+    let text = text_of(&app);
+    assert!(text.contains("1 error") && text.contains("csc2"), "{text}");
+    assert!(!text.contains("last valid version"), "nothing runs yet: {text}");
+    // The mend: the name of the function is typed anew.
+    let at = buffer.editor.cursor().column;
+    let from = wrong().lines().nth(line).unwrap().chars().take(at).collect::<String>();
+    assert!(from.ends_with("m g l "), "{from}");
+    press(&mut app, "Delete Delete Delete Delete c o s");
+    rest(&mut app);
+    let buffer = app.open_buffer().expect("the editor stays open");
+    assert_eq!(buffer.state, SheetState::Runs(Some(Duration::ZERO)));
+    assert_eq!(app.lab.as_ref().map(|lab| lab.loaded.name.as_str()), Some(name));
+    press(&mut app, "Esc");
+    assert_eq!(app.page, Page::Lab);
+    assert!(app.overlay.is_none() && app.lab.as_ref().unwrap().focus == Pane::Parameters);
+    assert!(app.unsaved().iter().any(|text| text.name == name), "it is not saved yet");
+}
+
+#[test]
+fn a_wrong_file_that_is_left_leads_back_to_the_systems() {
+    let name = "./wrong.toml";
+    let (mut app, _) = App::new(catalog(), Some(name));
+    let message = "error: a mistake".to_owned();
+    app.update(Event::Loaded(Err(LoadError { name: name.to_owned(), message })));
+    press(&mut app, "E");
+    app.update(Event::FileRead { text: wrong(), asked: true });
+    rest(&mut app);
+    let effects = press(&mut app, "Esc");
+    assert_eq!(app.page, Page::Picker);
+    assert!(effects.iter().any(|effect| matches!(effect, Effect::Load(_))), "a preview again");
+    assert!(app.unsaved().is_empty());
+}
+
+#[test]
+fn a_new_system_begins_from_the_template_and_writes_nothing() {
+    let mut app = in_lab();
+    let effects = press(&mut app, "Ctrl-n");
+    assert!(effects.is_empty(), "{effects:?}");
+    rest(&mut app);
+    let buffer = app.open_buffer().expect("the editor is open");
+    assert_eq!(buffer.editor.text(), template());
+    assert!(buffer.place.is_none() && !buffer.is_modified());
+    assert!(app.lab.is_some(), "it moves");
+    assert_eq!(app.saved().map(|saved| saved.open), Some("pendulum".to_owned()));
+    assert!(app.picker.session().is_some(), "what was left can be continued");
+    // Saving asks for a name.
+    press(&mut app, "Ctrl-s");
+    let effects = press(&mut app, "Enter");
+    let name = match &effects[..] {
+        [Effect::SaveCopy { name, text }] => {
+            assert_eq!(text, template());
+            name.clone()
+        }
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(name, "my-system");
+}
