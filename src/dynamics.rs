@@ -6,6 +6,7 @@
 
 mod action;
 mod carrier;
+mod conformal;
 mod conjugate;
 mod equilibria;
 mod error;
@@ -23,6 +24,7 @@ mod transverse;
 
 pub use action::{Lagrangian, Path};
 pub use carrier::Carrier;
+pub use conformal::conformal_rate;
 pub use conjugate::conjugate_points;
 pub use equilibria::{Equilibria, Equilibrium, Kind, Mode, equilibria, equilibria_watched};
 pub use error::DynamicsError;

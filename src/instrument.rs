@@ -5,8 +5,10 @@
 //! system and its current state. Out: [`Plot`]s, [`Picture`]s, [`Job`](crate::job::Job)s. Never here: cells and
 //! colours (`view` draws any picture), keys, threads.
 
+mod ensemble;
 mod equilibria;
 mod exponents;
+mod orbit;
 mod phase;
 mod picture;
 mod plot;

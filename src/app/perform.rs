@@ -141,6 +141,8 @@ impl App {
             Action::AddNeighbour => self.add_neighbour(),
             Action::Equilibria => self.find_equilibria(),
             Action::Exponents => self.show_picture("exponents"),
+            Action::Ensemble => self.show_picture("ensemble"),
+            Action::PeriodicOrbit => self.find_orbit(),
             Action::Pin => vec![Effect::Tell(Command::Pin)],
             Action::ClearCompanions => self.clear_companions(),
             Action::AddOrbits => self.add_orbits(),

@@ -27,7 +27,10 @@ fn with_all_kinds() -> App {
     let lab = app.lab.as_mut().unwrap();
     for kind in kinds() {
         if !lab.plots.iter().any(|plot| plot.kind == kind) {
-            lab.plots.push(Plot::new(kind, (Vec::new(), None), &lab.loaded.model));
+            let offer = kind.offers(lab.loaded.physics()).remove(0);
+            let shown = (offer.columns, offer.view);
+            let plot = Plot::new(kind, shown, &lab.loaded.model).opened(lab.loaded.physics());
+            lab.plots.push(plot);
         }
     }
     app
