@@ -19,6 +19,7 @@ mod lyapunov;
 mod orbit;
 mod phase_space;
 mod quadrature;
+mod spectrum;
 mod stationary_path;
 mod transverse;
 
@@ -34,5 +35,6 @@ pub use gali::{Gali, gali};
 pub use lyapunov::{Chaos, Lyapunov, lyapunov};
 pub use orbit::{Fixed, Orbit, periodic_orbit};
 pub use phase_space::{PhaseSpace, VectorField};
+pub use spectrum::{MeanRate, SpectralLine, Spectrum, mean_rate, spectrum};
 pub use stationary_path::{PathKind, StationaryPath, morse_index, stationary_path};
 pub use transverse::Removed;

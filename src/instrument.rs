@@ -19,6 +19,7 @@ mod seed;
 mod separation;
 mod sight;
 mod space;
+mod spectrum;
 mod table;
 mod time;
 

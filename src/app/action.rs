@@ -105,6 +105,8 @@ pub enum Action {
     Ensemble,
     /// Find the periodic orbit near the motion; again where it is shown: near where the motion is now.
     PeriodicOrbit,
+    /// Find the frequencies of the motion.
+    Spectrum,
     /// Keep the present run beside what follows.
     Pin,
     /// Remove all motions beside the main one.

@@ -229,6 +229,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('V')], Action::Exponents, "", "measure the Lyapunov exponent of the motion: regular or chaotic"),
     row(Place::Experiment, &[c('K')], Action::Ensemble, "", "carry a cloud of starts along with the motion: its density, and ∮ p dq around it"),
     row(Place::Experiment, &[c('t')], Action::PeriodicOrbit, "", "find the periodic orbit near the motion: period, action, multipliers; again: near where it is now"),
+    row(Place::Experiment, &[c('w')], Action::Spectrum, "", "find the frequencies ω of the motion: lines, and what they are combinations of"),
     row(Place::Experiment, &[c('C')], Action::ClearCompanions, "", "clear all motions beside the main one"),
     row(Place::Experiment, &[c('W')], Action::Export, "", "write a preset file of the system as it is now, with every changed value"),
     row(Place::Experiment, &[c('E')], Action::Edit, "edit", "edit the system's file while it runs; the motion follows the text"),

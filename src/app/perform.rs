@@ -143,6 +143,7 @@ impl App {
             Action::Exponents => self.show_picture("exponents"),
             Action::Ensemble => self.show_picture("ensemble"),
             Action::PeriodicOrbit => self.find_orbit(),
+            Action::Spectrum => self.show_picture("spectrum"),
             Action::Pin => vec![Effect::Tell(Command::Pin)],
             Action::ClearCompanions => self.clear_companions(),
             Action::AddOrbits => self.add_orbits(),

@@ -49,8 +49,7 @@ pub fn conformal_rate<'a>(
         let here = (0..half).map(|i| change[(i, half + i)]).sum::<f64>() / half as f64;
         let rate = *rate.get_or_insert(here);
         let off = (change - &unit * rate).amax();
-        // NaN is no rate either
-        if !(off <= SAME * derivative.amax()) {
+        if off.is_nan() || off > SAME * derivative.amax() {
             return Ok(None);
         }
     }

@@ -45,6 +45,8 @@ pub enum Across {
     Time,
     /// Time over a range.
     Times([f64; 2]),
+    /// A number of this name, over a range.
+    Named(String, [f64; 2]),
 }
 
 /// The vertical axis.

@@ -7,13 +7,15 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::{Across, Columns, Heading, Physics, Picture, Plot, Present, Seed};
-use super::{ensemble, exponents, orbit, phase, potential, section, separation, space, time};
+use super::{
+    ensemble, exponents, orbit, phase, potential, section, separation, space, spectrum, time,
+};
 use crate::job::Job;
 use crate::model::Model;
 use crate::system::InitialOverride;
 
 /// All kinds, in the order in which the lab opens with them.
-pub static INSTRUMENTS: [&dyn Instrument; 9] = [
+pub static INSTRUMENTS: [&dyn Instrument; 10] = [
     &space::Space,
     &phase::Phase,
     &section::Section,
@@ -23,10 +25,11 @@ pub static INSTRUMENTS: [&dyn Instrument; 9] = [
     &exponents::Exponents,
     &ensemble::Ensemble,
     &orbit::Orbit,
+    &spectrum::Spectrum,
 ];
 
 /// Kinds that the file format names but this version does not support.
-pub const NOT_YET: [&str; 3] = ["spectrum", "transformation", "action"];
+pub const NOT_YET: [&str; 2] = ["transformation", "action"];
 
 /// A kind of plot: one row of [`INSTRUMENTS`]. Common behaviour has defaults.
 pub trait Instrument: Sync {

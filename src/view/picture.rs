@@ -182,6 +182,10 @@ pub(super) fn draw(
             let scale = through(Scale::linear(from, to), (viewport, 0));
             Some(Axis::new("t", q.lab.loaded.model.time_unit(), scale))
         }
+        Across::Named(name, [from, to]) => {
+            let name = q.look.glyphs.text(&name).into_owned();
+            Some(Axis::new(name, "", through(Scale::linear(from, to), (viewport, 0))))
+        }
         Across::Time => {
             Some(Axis::new("t", q.lab.loaded.model.time_unit(), window(q, viewport, 1)))
         }
@@ -338,7 +342,8 @@ fn legend(canvas: &mut Canvas<'_>, area: Rect, lines: &[String]) {
     let room = usize::from(area.width).saturating_sub(2);
     let wrapped = lines.iter().flat_map(|line| wrap::words(&look.glyphs.text(line), room.max(1)));
     for (y, line) in (area.y..area.bottom()).zip(wrapped) {
-        canvas.buffer.set_stringn(area.x + 1, y, &line, room, look.theme[Role::Text]);
+        let line = format!("{line} ");
+        canvas.buffer.set_stringn(area.x + 1, y, line, room, look.theme[Role::Text]);
     }
 }
 

@@ -306,3 +306,27 @@ fn the_prompt_is_answered_on_the_side_and_its_question_given_up_with_it() {
     app.update(ran(&asked[0]));
     assert!(app.overlay.is_none());
 }
+
+#[test]
+fn a_key_finds_the_frequency_of_the_pendulum() {
+    let mut app = in_lab();
+    press(&mut app, "w z");
+    let lab = app.lab.as_ref().unwrap();
+    let (_, plot) = lab.focused_plot().unwrap();
+    assert_eq!(plot.kind.name(), "spectrum");
+    let measure = |word: &str| {
+        let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
+        (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot)).unwrap()
+    };
+    // ω = √(g/l) agm(1, cos ½θ₀), θ₀ = 2
+    let (mut a, mut b) = (1.0_f64, 1.0_f64.cos());
+    for _ in 0..8 {
+        (a, b) = (0.5 * (a + b), (a * b).sqrt());
+    }
+    let exact = 9.81_f64.sqrt() * a;
+    assert!((measure("frequency") - exact).abs() < 1e-10, "{} {exact}", measure("frequency"));
+    assert_eq!(measure("fundamentals"), 1.0);
+    assert!(measure("lines") >= 5.0);
+    let shown = screen(&app, 120, 40).concat();
+    assert!(shown.contains("ω₁ = 2.47") && shown.contains("3ω₁ = 7.4"), "{shown}");
+}
