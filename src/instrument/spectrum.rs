@@ -277,7 +277,8 @@ fn told(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     if lines.lines.is_empty() {
         all.push("no line stands out".to_owned());
     }
-    all.extend(mean(answer).map(|rate| {
+    let advances = mean(answer).filter(|rate| rate.rate.abs() > rate.error);
+    all.extend(advances.map(|rate| {
         let error = significant(rate.error, 1, 1.0..10.0);
         format!("mean rate {} ± {error}{unit}", short(rate.rate))
     }));
