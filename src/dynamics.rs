@@ -6,6 +6,7 @@
 
 mod action;
 mod carrier;
+mod conformal;
 mod conjugate;
 mod equilibria;
 mod error;
@@ -18,11 +19,13 @@ mod lyapunov;
 mod orbit;
 mod phase_space;
 mod quadrature;
+mod spectrum;
 mod stationary_path;
 mod transverse;
 
 pub use action::{Lagrangian, Path};
 pub use carrier::Carrier;
+pub use conformal::conformal_rate;
 pub use conjugate::conjugate_points;
 pub use equilibria::{Equilibria, Equilibrium, Kind, Mode, equilibria, equilibria_watched};
 pub use error::DynamicsError;
@@ -32,5 +35,6 @@ pub use gali::{Gali, gali};
 pub use lyapunov::{Chaos, Lyapunov, lyapunov};
 pub use orbit::{Fixed, Orbit, periodic_orbit};
 pub use phase_space::{PhaseSpace, VectorField};
+pub use spectrum::{MeanRate, SpectralLine, Spectrum, mean_rate, spectrum};
 pub use stationary_path::{PathKind, StationaryPath, morse_index, stationary_path};
 pub use transverse::Removed;

@@ -1,17 +1,21 @@
-//! Many starts of one system, and where their orbits cross a surface of section.
+//! Many starts of one system: where their orbits cross a surface of section, and where the flow carries them.
 //!
 //! In: a compiled [`System`](crate::system::System), a method, a [`Start`] for each orbit. Out: one result an orbit, in
 //! the order asked for and the same to the last bit whatever the number of threads. Never here: whole runs with their
 //! gauges (`orbits`), files, what is printed.
 
+mod closed_curve;
 mod energy_shell;
+mod flow;
 mod plane;
 mod pool;
 mod region;
 mod section;
 mod start;
 
+pub use closed_curve::{Circulation, ClosedCurve};
 pub use energy_shell::{EnergyShell, NotOnShell, Root};
+pub use flow::{Carried, Flow};
 pub use plane::{NotInPlane, SectionPlane};
 pub use pool::{PoolError, in_order};
 pub use region::{Region, spread};

@@ -5,8 +5,10 @@
 //! system and its current state. Out: [`Plot`]s, [`Picture`]s, [`Job`](crate::job::Job)s. Never here: cells and
 //! colours (`view` draws any picture), keys, threads.
 
+mod ensemble;
 mod equilibria;
 mod exponents;
+mod orbit;
 mod phase;
 mod picture;
 mod plot;
@@ -17,6 +19,7 @@ mod seed;
 mod separation;
 mod sight;
 mod space;
+mod spectrum;
 mod table;
 mod time;
 

@@ -105,6 +105,12 @@ pub enum Action {
     Equilibria,
     /// Show the largest Lyapunov exponent of the motion, measured in the background.
     Exponents,
+    /// Carry a cloud of starts along with the motion, as a density with ∮ p dq around it.
+    Ensemble,
+    /// Find the periodic orbit near the motion; again where it is shown: near where the motion is now.
+    PeriodicOrbit,
+    /// Find the frequencies of the motion.
+    Spectrum,
     /// Keep the present run beside what follows.
     Pin,
     /// Remove all motions beside the main one.

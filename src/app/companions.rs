@@ -71,6 +71,15 @@ impl App {
         Vec::new()
     }
 
+    /// Shows the periodic orbit near the motion; where it is shown already, it is looked for near where the motion is now.
+    pub(super) fn find_orbit(&mut self) -> Vec<Effect> {
+        let shown = self.lab.as_ref().and_then(|lab| lab.focused_plot());
+        if shown.is_some_and(|(_, plot)| plot.kind.name() == "orbit") {
+            return self.add_orbits();
+        }
+        self.show_picture("orbit")
+    }
+
     /// Removes all motions beside the main one.
     pub(super) fn clear_companions(&mut self) -> Vec<Effect> {
         match self.lab.as_ref().and_then(Lab::seen) {
@@ -96,7 +105,11 @@ impl Lab {
         let Some(kind) = named(kind) else { return false };
         let known = self.plots.iter().position(|plot| plot.kind == kind);
         let index = known.unwrap_or_else(|| {
-            self.plots.push(Plot::new(kind, (Vec::new(), None), &self.loaded.model));
+            let physics = self.loaded.physics();
+            let offer = kind.offers(physics).into_iter().next();
+            let (columns, view) =
+                offer.map_or((Vec::new(), None), |offer| (offer.columns, offer.view));
+            self.plots.push(Plot::new(kind, (columns, view), physics.model).opened(physics));
             self.plots.len() - 1
         });
         self.focus = Pane::Plot(index);

@@ -214,9 +214,10 @@ impl App {
         let reading = self.drawn.reading;
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let Some((index, plot)) = lab.focused_plot() else { return Vec::new() };
-        if !plot.kind.is_section() {
-            return self
-                .notify("Orbits are added to a section; v chooses one, if the file has it.");
+        if !plot.kind.takes_seeds() {
+            return self.notify(
+                "Orbits are added to a section, and an ensemble begins anew; v chooses one.",
+            );
         }
         let cursor = plot.viewport().and_then(|viewport| viewport.cursor);
         let through = reading.filter(|_| cursor.is_some());
@@ -246,10 +247,14 @@ impl App {
     pub(super) fn clear_orbits(&mut self) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let Some((index, plot)) = lab.focused_plot() else { return Vec::new() };
-        if !plot.kind.is_section() {
+        if !plot.kind.takes_seeds() {
             return self.notify("Only a section has orbits and crossings to clear.");
         }
+        let section = plot.kind.is_section();
         lab.redraw(index, |plot, _| plot.seeds.clear());
+        if !section {
+            return Vec::new();
+        }
         vec![Effect::Tell(Command::ForgetCrossings)]
     }
 }

@@ -48,7 +48,7 @@ pub fn equilibria_search(
 }
 
 /// The coordinates, and the rates that belong to the state, by a value of each channel.
-fn given(physics: Physics<'_>, value: impl Fn(usize) -> f64) -> Vec<InitialOverride> {
+pub(super) fn given(physics: Physics<'_>, value: impl Fn(usize) -> f64) -> Vec<InitialOverride> {
     let form = physics.system.form();
     let channels = physics.system.channels().iter().enumerate();
     let one = |(channel, kind): (usize, ChannelKind)| match kind {

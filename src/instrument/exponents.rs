@@ -121,6 +121,7 @@ impl Instrument for Exponents {
             level(largest - off),
             level(largest + off),
             (CURVE, Layer::Line(curve, Ink::Accent.into())),
+            (CURVE, Layer::Legend(vec![found.reason.clone()])),
         ];
         let short = |x: f64| significant(x, 3, 1e-4..1e4);
         let name = format!(

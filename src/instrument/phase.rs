@@ -225,7 +225,11 @@ fn plane(system: &System, plot: &Plot) -> Option<(Form, [usize; 2])> {
 }
 
 /// The initial values of a point, if both axes belong to the state and are not the same.
-fn initial_values(plot: &Plot, physics: Physics<'_>, at: [f64; 2]) -> Option<Vec<InitialOverride>> {
+pub(super) fn initial_values(
+    plot: &Plot,
+    physics: Physics<'_>,
+    at: [f64; 2],
+) -> Option<Vec<InitialOverride>> {
     let kind = |axis| Some(physics.system.channels().get(plot.column(axis)?)?.kind);
     let given = |kind: ChannelKind, value: f64| match kind {
         ChannelKind::Position(i) => Some(((i, false), InitialOverride::Position(i, value))),

@@ -45,6 +45,8 @@ pub enum Across {
     Time,
     /// Time over a range.
     Times([f64; 2]),
+    /// A number of this name, over a range.
+    Named(String, [f64; 2]),
 }
 
 /// The vertical axis.
@@ -56,6 +58,15 @@ pub enum Upwards {
     Shared(Vec<usize>),
     /// The name and unit of a channel, over a range that is rounded outwards.
     Around(usize, [f64; 2]),
+    /// A channel, over all of its motion or a range, with words behind its name.
+    Annotated {
+        /// The channel.
+        channel: usize,
+        /// The range.
+        range: Option<[f64; 2]>,
+        /// The words.
+        words: String,
+    },
     /// A number of this name, over a range that is rounded outwards.
     Named(String, [f64; 2]),
 }
@@ -97,6 +108,8 @@ pub enum Layer {
     Line(Vec<[f64; 2]>, Stroke),
     /// Single points.
     Points(Arc<Vec<[f64; 2]>>, Ink),
+    /// Many points, shaded by how many there are in each cell.
+    Cloud(Arc<Vec<[f64; 2]>>),
     /// Where the running motion has crossed a surface of section.
     Crossings {
         /// The index of the surface.
@@ -128,6 +141,8 @@ pub enum Layer {
     },
     /// A marker at a point.
     Point([f64; 2], Sign, Ink),
+    /// Lines of text in a corner, over everything else.
+    Legend(Vec<String>),
 }
 
 /// The style of a line.

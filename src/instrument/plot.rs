@@ -235,8 +235,8 @@ impl Plot {
         }
     }
 
-    /// Adds orbits to a section: the one through a point, or some spread over what is seen. Returns whether there is a
-    /// section to add them to, and room for them.
+    /// Adds orbits to a section: the one through a point, or some spread over what is seen; or begins a cloud there.
+    /// Returns whether there is something to add them to, and room for them.
     pub fn add_orbits(
         &mut self,
         present: &Present<'_>,
@@ -245,6 +245,10 @@ impl Plot {
     ) -> bool {
         let seen = self.kind.seed(self, present, answer);
         let seed = through.map_or(seen, |at| seen.map(|_| Seed::Through(at)));
+        // a cloud has one place, a section many orbits
+        if seed.is_some() && !self.kind.is_section() {
+            self.seeds.clear();
+        }
         let added = seed.filter(|_| self.seeds.len() < MOST_SEEDS);
         self.seeds.extend(added);
         added.is_some()

@@ -7,13 +7,15 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::{Across, Columns, Heading, Physics, Picture, Plot, Present, Seed};
-use super::{exponents, phase, potential, section, separation, space, time};
+use super::{
+    ensemble, exponents, orbit, phase, potential, section, separation, space, spectrum, time,
+};
 use crate::job::Job;
 use crate::model::Model;
 use crate::system::InitialOverride;
 
 /// All kinds, in the order in which the lab opens with them.
-pub static INSTRUMENTS: [&dyn Instrument; 7] = [
+pub static INSTRUMENTS: [&dyn Instrument; 10] = [
     &space::Space,
     &phase::Phase,
     &section::Section,
@@ -21,10 +23,13 @@ pub static INSTRUMENTS: [&dyn Instrument; 7] = [
     &time::Time,
     &separation::Separation,
     &exponents::Exponents,
+    &ensemble::Ensemble,
+    &orbit::Orbit,
+    &spectrum::Spectrum,
 ];
 
 /// Kinds that the file format names but this version does not support.
-pub const NOT_YET: [&str; 4] = ["spectrum", "ensemble", "transformation", "action"];
+pub const NOT_YET: [&str; 2] = ["transformation", "action"];
 
 /// A kind of plot: one row of [`INSTRUMENTS`]. Common behaviour has defaults.
 pub trait Instrument: Sync {
@@ -49,6 +54,11 @@ pub trait Instrument: Sync {
     /// Whether it shows a surface of section, which a file specifies beside its axes.
     fn is_section(&self) -> bool {
         false
+    }
+
+    /// Whether a person adds starts to it by a key: through a point, or over what is seen.
+    fn takes_seeds(&self) -> bool {
+        self.is_section()
     }
 
     /// Whether it shows a view of the file, besides what is chosen. A kind without choices does.

@@ -15,7 +15,7 @@ use super::plot::ticks::nice_range;
 use super::plot::{Ages, Axes, Axis, Frame, Marker, Pen, Raster, Scale};
 use super::quantity::{Quantities, through};
 use super::theme::Role;
-use super::{companions, cursor, space};
+use super::{companions, cursor, space, wrap};
 use crate::analysis::{Curve, Landscape};
 use crate::instrument::{
     Across, Entry, Heading, Ink, Layer, Level, Picture, Plot, Sign, Upwards, Viewport,
@@ -182,6 +182,10 @@ pub(super) fn draw(
             let scale = through(Scale::linear(from, to), (viewport, 0));
             Some(Axis::new("t", q.lab.loaded.model.time_unit(), scale))
         }
+        Across::Named(name, [from, to]) => {
+            let name = q.look.glyphs.text(&name).into_owned();
+            Some(Axis::new(name, "", through(Scale::linear(from, to), (viewport, 0))))
+        }
         Across::Time => {
             Some(Axis::new("t", q.lab.loaded.model.time_unit(), window(q, viewport, 1)))
         }
@@ -216,6 +220,11 @@ pub(super) fn draw(
         marks
     });
     raster.draw(canvas.buffer);
+    for (_, layer) in &layers {
+        if let Layer::Legend(lines) = layer {
+            legend(canvas, frame.area, lines);
+        }
+    }
     let reading = cursor::draw(canvas, area, &frame, (viewport, &marks));
     if q.lab.focused_plot().is_some_and(|(_, focused)| std::ptr::eq(focused, plot)) {
         canvas.reading = reading;
@@ -231,6 +240,13 @@ fn axis_upwards(q: &Quantities<'_>, upwards: &Upwards, viewport: Viewport) -> Ax
             let (lo, hi) = nice_range(*low, *high);
             let scale = through(Scale::linear(lo, hi), (viewport, 1));
             Axis::new(q.name(*channel), q.unit(*channel), scale)
+        }
+        Upwards::Annotated { channel, range, words } => {
+            let axis = q.axis(*channel, *range, (viewport, 1));
+            let words = q.look.glyphs.text(words);
+            let unit =
+                if axis.unit.is_empty() { String::new() } else { format!(" [{}]", axis.unit) };
+            Axis::new(format!("{}{unit}   {words}", axis.title), "", axis.scale)
         }
         Upwards::Named(name, [low, high]) => {
             let (lo, hi) = nice_range(*low, *high);
@@ -292,6 +308,9 @@ fn draw_layer(
         Layer::Points(points, ink) => {
             raster.points(frame, points.iter().copied(), &pen(canvas, *ink, level));
         }
+        Layer::Cloud(points) => {
+            raster.cloud(frame, points.iter().copied(), look.theme.density(), level);
+        }
         Layer::Crossings { section, channels, ink } => {
             raster.points(frame, crossings(q, *section, *channels), &pen(canvas, *ink, level));
         }
@@ -309,9 +328,22 @@ fn draw_layer(
         Layer::CompanionCrossings { section, channels } => {
             companions::crossings(canvas, raster, (frame, q), (*section, *channels, level));
         }
+        // written when the dots are there
+        Layer::Legend(_) => {}
         Layer::Point(at, sign, ink) => {
             raster.marker(frame, *at, marker(*sign), &pen(canvas, *ink, level));
         }
+    }
+}
+
+/// Writes lines into the upper left corner of a plot, wrapped, as far as there is room for them.
+fn legend(canvas: &mut Canvas<'_>, area: Rect, lines: &[String]) {
+    let look = canvas.look;
+    let room = usize::from(area.width).saturating_sub(2);
+    let wrapped = lines.iter().flat_map(|line| wrap::words(&look.glyphs.text(line), room.max(1)));
+    for (y, line) in (area.y..area.bottom()).zip(wrapped) {
+        let line = format!("{line} ");
+        canvas.buffer.set_stringn(area.x + 1, y, line, room, look.theme[Role::Text]);
     }
 }
 

@@ -6,6 +6,7 @@ mod flow;
 mod gali;
 mod lyapunov;
 mod orbit;
+mod spectrum;
 
 use phaselab::dynamics::PhaseSpace;
 use phaselab::integrate::{Method, Settings, method_named};

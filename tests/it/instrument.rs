@@ -27,7 +27,10 @@ fn with_all_kinds() -> App {
     let lab = app.lab.as_mut().unwrap();
     for kind in kinds() {
         if !lab.plots.iter().any(|plot| plot.kind == kind) {
-            lab.plots.push(Plot::new(kind, (Vec::new(), None), &lab.loaded.model));
+            let offer = kind.offers(lab.loaded.physics()).remove(0);
+            let shown = (offer.columns, offer.view);
+            let plot = Plot::new(kind, shown, &lab.loaded.model).opened(lab.loaded.physics());
+            lab.plots.push(plot);
         }
     }
     app
@@ -302,4 +305,31 @@ fn the_prompt_is_answered_on_the_side_and_its_question_given_up_with_it() {
     assert_eq!(press(&mut app, "Esc"), [Effect::StopComputing(Asker::Prompt)]);
     app.update(ran(&asked[0]));
     assert!(app.overlay.is_none());
+}
+
+#[test]
+fn a_key_finds_the_frequency_of_the_pendulum() {
+    let mut app = in_lab();
+    press(&mut app, "w z");
+    let lab = app.lab.as_ref().unwrap();
+    let (_, plot) = lab.focused_plot().unwrap();
+    assert_eq!(plot.kind.name(), "spectrum");
+    let measure = |word: &str| {
+        let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
+        (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot)).unwrap()
+    };
+    // ω = √(g/l) agm(1, cos ½θ₀), θ₀ = 2
+    let (mut a, mut b) = (1.0_f64, 1.0_f64.cos());
+    for _ in 0..8 {
+        (a, b) = (0.5 * (a + b), (a * b).sqrt());
+    }
+    let exact = 9.81_f64.sqrt() * a;
+    assert!((measure("frequency") - exact).abs() < 1e-10, "{} {exact}", measure("frequency"));
+    assert_eq!(measure("fundamentals"), 1.0);
+    assert!(measure("lines") >= 5.0);
+    let shown = screen(&app, 120, 40).concat();
+    for (name, frequency) in [("ω₁", exact), ("3ω₁", 3.0 * exact)] {
+        assert!(shown.contains(&format!("{name} = {frequency:.8}")), "{name} {frequency}: {shown}");
+    }
+    assert!(!shown.contains("mean rate"), "it swings: {shown}");
 }

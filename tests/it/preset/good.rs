@@ -293,7 +293,7 @@ x = "x"
 y = "p_x"
 x_range = ["-k", "k"]
 [[views]]
-kind = "spectrum"
+kind = "transformation"
 x = "x"
 "#,
     );
@@ -310,7 +310,7 @@ x = "x"
     assert_eq!(warnings[0].severity, Severity::Warning);
     assert_eq!(
         warnings[0].message,
-        "views of kind `spectrum` are not supported yet by this version"
+        "views of kind `transformation` are not supported yet by this version"
     );
 }
 

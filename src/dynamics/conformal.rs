@@ -1,0 +1,57 @@
+//! How fast the flow shrinks areas: the rate c at which Σ dp ∧ dq changes, where it is one number.
+//!
+//! With D = ∂f/∂z, the form changes at the rate Dᵀ𝕁 + 𝕁D. It is zero where the motion is Hamilton's, and c𝕁 where friction
+//! takes the same part of each momentum: then areas, and ∮ Σ p dq around every closed curve, are multiplied by e^{ct}
+//! (R. McLachlan and M. Perlmutter, J. Geom. Phys. 39 (2001) 276). For one degree of freedom c is the trace of D
+//! (Liouville).
+//!
+//! In: a phase space and some of its states. Out: the rate. Never here: curves.
+
+use nalgebra::DMatrix;
+
+use super::error::DynamicsError;
+use super::phase_space::PhaseSpace;
+use crate::system::Form;
+
+/// Rates that differ by less than this part of the size of D are the same.
+const SAME: f64 = 1e-10;
+
+/// The rate c at which areas change along the flow: `None` if it is not the same number everywhere, looked at in these
+/// states, or the variables are not canonical.
+///
+/// # Errors
+/// Returns an error if the law of motion cannot be evaluated at one of them.
+pub fn conformal_rate<'a>(
+    space: &PhaseSpace,
+    time: f64,
+    states: impl IntoIterator<Item = &'a [f64]>,
+) -> Result<Option<f64>, DynamicsError> {
+    if space.form() != Form::Momentum {
+        return Ok(None);
+    }
+    if space.is_hamiltonian() {
+        return Ok(Some(0.0));
+    }
+    if !space.is_autonomous() {
+        return Ok(None);
+    }
+    let size = space.dimension();
+    let half = size / 2;
+    let unit = DMatrix::from_fn(size, size, |i, j| {
+        f64::from(i8::from(j == i + half) - i8::from(i == j + half))
+    });
+    let mut field = space.vector_field();
+    let mut rate: Option<f64> = None;
+    for variables in states {
+        field.evaluate(time, variables)?;
+        let derivative = field.derivative();
+        let change = derivative.transpose() * &unit + &unit * &derivative;
+        let here = (0..half).map(|i| change[(i, half + i)]).sum::<f64>() / half as f64;
+        let rate = *rate.get_or_insert(here);
+        let off = (change - &unit * rate).amax();
+        if off.is_nan() || off > SAME * derivative.amax() {
+            return Ok(None);
+        }
+    }
+    Ok(rate)
+}

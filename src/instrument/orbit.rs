@@ -1,0 +1,340 @@
+//! `orbit`: the periodic orbit near the motion, with its period, its action, its multipliers and its stability.
+//!
+//! The job closes the orbit near the state at which the picture was begun, or was asked for again, by Newton's method
+//! ([`periodic_orbit`]), and follows it once around; it begins again where a parameter, the method or the initial values
+//! change.
+
+use super::equilibria::given;
+use super::{
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
+    Offer, Physics, Picture, Plot, Present, Seed, Sign, Upwards,
+};
+use crate::dynamics::{DynamicsError, Fixed, Orbit as Closed, PhaseSpace, Removed, periodic_orbit};
+use crate::ensemble::{Flow, Start};
+use crate::integrate::{Method, Settings, method_named};
+use crate::job::{Job, Progress};
+use crate::num::{math, significant};
+use crate::system::{ChannelKind, Form, InitialOverride, System};
+
+/// The levels of the picture.
+const TRAIL: Level = 0;
+const CURVE: Level = 2;
+const NOW: Level = 4;
+
+/// The points of the curve.
+const POINTS: usize = 512;
+
+/// What is beyond the extent of an orbit is this part of it.
+const MARGIN: f64 = 0.25;
+
+/// The row.
+pub(super) struct Orbit;
+
+/// What was found, and of which motion.
+struct Found {
+    conditions: Conditions,
+    /// The time of the motion when it was asked for.
+    asked: f64,
+    outcome: Result<Described, String>,
+}
+
+/// An orbit, and its points in the plane of the picture.
+struct Described {
+    orbit: Closed,
+    points: Vec<[f64; 2]>,
+    extent: [[f64; 2]; 2],
+}
+
+#[derive(Clone, PartialEq)]
+struct Conditions {
+    parameters: Vec<f64>,
+    initial: Vec<f64>,
+    method: &'static str,
+    settings: Settings,
+    seeds: Vec<Seed>,
+}
+
+impl Conditions {
+    fn of(plot: &Plot, present: &Present<'_>) -> Self {
+        Self {
+            parameters: present.parameters.to_vec(),
+            initial: present.initial.to_vec(),
+            method: present.method,
+            settings: present.settings,
+            seeds: plot.seeds.clone(),
+        }
+    }
+}
+
+impl Instrument for Orbit {
+    fn name(&self) -> &'static str {
+        "orbit"
+    }
+
+    fn written(&self) -> &'static [Axis] {
+        &[Axis::ACROSS, Axis::UPWARDS]
+    }
+
+    fn takes_seeds(&self) -> bool {
+        true
+    }
+
+    fn has_equal_axes(&self) -> bool {
+        true
+    }
+
+    fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
+        let offer = |(x, y): (usize, usize)| Offer {
+            label: format!("orbit: {} against {}", physics.shown(y), physics.shown(x)),
+            about: "the periodic orbit near the motion: period, action, multipliers".to_owned(),
+            columns: vec![vec![x], vec![y]],
+            view: None,
+        };
+        pairs(physics).into_iter().map(offer).collect()
+    }
+
+    fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
+        let [x, y] = [0, 1].map(|k| plot.column(k).map_or("?", |channel| physics.shown(channel)));
+        format!("periodic orbit, {y} against {x}")
+    }
+
+    fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
+        let title = plot.title(present.physics);
+        let of = |k| Some(Entry::Channel(plot.column(k)?));
+        Some(Heading {
+            title: title.unwrap_or("Periodic orbit").to_owned(),
+            given: title.is_some(),
+            entries: vec![of(0)?, of(1)?],
+        })
+    }
+
+    fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
+        let range = range(plot, present, answer, 0);
+        plot.column(0).map_or(Across::Nothing, |x| Across::Channel(x, range))
+    }
+
+    fn picture(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        _seen: [f64; 2],
+        answer: Option<&Answer>,
+    ) -> Option<Picture> {
+        let channels = [plot.column(0)?, plot.column(1)?];
+        let now = channels.map(|channel| present.value(channel));
+        let mut layers = vec![
+            (TRAIL, Layer::Trail(channels)),
+            (NOW, Layer::Point(now, Sign::Disc, Ink::Accent)),
+        ];
+        if let Some(found) = described(answer) {
+            layers.push((CURVE, Layer::Line(found.points.clone(), Ink::Curve(1).into())));
+        }
+        layers.push((NOW, Layer::Legend(legend(present.physics, answer))));
+        let upwards = Upwards::Channel(channels[1], range(plot, present, answer, 1));
+        Some(Picture::Axes { upwards, layers, occurrences: None })
+    }
+
+    fn start(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        at: [f64; 2],
+    ) -> Result<Vec<InitialOverride>, NoStart> {
+        let found = super::phase::initial_values(plot, present.physics, at);
+        found.ok_or(NoStart::Nothing)
+    }
+
+    /// The time at which the orbit is asked for again.
+    fn seed(&self, _plot: &Plot, present: &Present<'_>, _answer: Option<&Answer>) -> Option<Seed> {
+        Some(Seed::Through([present.time, 0.0]))
+    }
+
+    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+        let conditions = Conditions::of(plot, present);
+        let known = found(answer)
+            .filter(|known| known.conditions == conditions && known.asked <= present.time);
+        if known.is_some() {
+            return Need::Held;
+        }
+        let (Some(x), Some(y), Some(method)) =
+            (plot.column(0), plot.column(1), method_named(present.method))
+        else {
+            return Need::Nothing;
+        };
+        let Physics { model, equations, system } = present.physics;
+        let (model, equations, system) = (model.clone(), equations.clone(), system.clone());
+        let (asked, settings) = (present.time, present.settings);
+        let start = Start {
+            time: asked,
+            parameters: present.parameters.to_vec(),
+            overrides: given(present.physics, |channel| present.value(channel)),
+        };
+        Need::Job(Job::new("periodic orbit", move |progress: &Progress| {
+            let system = system.with_cancel(progress.token().clone());
+            let physics = Physics { model: &model, equations: &equations, system: &system.into() };
+            let outcome = close(physics, (method, settings), &start, [x, y]);
+            let outcome = outcome.map_err(|why| why.to_string());
+            Answer::new(Found { conditions: conditions.clone(), asked, outcome })
+        }))
+    }
+
+    fn measures(&self) -> &'static [Measure] {
+        &[
+            Measure {
+                word: "period",
+                about: "the period of the periodic orbit",
+                value: |_, _, answer| Some(described(answer)?.orbit.period),
+            },
+            Measure {
+                word: "action",
+                about: "∮ p dq along it",
+                value: |_, _, answer| described(answer)?.orbit.action,
+            },
+            Measure {
+                word: "energy",
+                about: "the energy on it",
+                value: |_, _, answer| Some(described(answer)?.orbit.energy),
+            },
+            Measure {
+                word: "trace",
+                about: "the sum of its multipliers without the trivial ones",
+                value: |_, _, answer| Some(described(answer)?.orbit.transverse.trace()),
+            },
+            Measure {
+                word: "residue",
+                about: "Greene's residue (2 − trace)/4, for two degrees of freedom or one with a drive",
+                value: |_, _, answer| residue(&described(answer)?.orbit),
+            },
+            Measure {
+                word: "stable",
+                about: "1 if no multiplier lies outside the unit circle, else 0",
+                value: |_, _, answer| Some(f64::from(u8::from(described(answer)?.orbit.stable))),
+            },
+        ]
+    }
+}
+
+/// Closes the orbit near a start, and follows it once around.
+fn close(
+    physics: Physics<'_>,
+    method: (&'static Method, Settings),
+    start: &Start,
+    channels: [usize; 2],
+) -> Result<Described, DynamicsError> {
+    let (system, parameters) = (physics.system, &start.parameters);
+    let space = PhaseSpace::of(physics.model, physics.equations, system, parameters)?;
+    let state = space.state(&start.state(system)?)?;
+    let fixed = if space.is_hamiltonian() && space.is_conservative() {
+        Fixed::Energy(system.energy(&state, parameters)?)
+    } else {
+        Fixed::Nothing
+    };
+    let orbit = periodic_orbit(&space, method, &state, None, fixed)?;
+    let flow = Flow {
+        system: System::clone(system),
+        method: (method.0, orbit.settings),
+        parameters: parameters.clone(),
+        start: orbit.state.time,
+    };
+    let part = |k: usize| orbit.state.time + orbit.period * k as f64 / POINTS as f64;
+    let times: Vec<f64> = (0..=POINTS).map(part).collect();
+    let around = flow.carry(&orbit.state, &times, &channels);
+    let points: Vec<[f64; 2]> = around.seen.iter().map(|row| [row[0], row[1]]).collect();
+    let mut extent = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+    for at in &points {
+        for (ends, x) in extent.iter_mut().zip(at) {
+            *ends = [ends[0].min(*x), ends[1].max(*x)];
+        }
+    }
+    Ok(Described { orbit, points, extent })
+}
+
+/// The pairs of quantities that are offered: two coordinates where there are two, and each coordinate with its rate.
+fn pairs(physics: Physics<'_>) -> Vec<(usize, usize)> {
+    let places: Vec<usize> = physics.positions().map(|(_, x)| x).collect();
+    let both = places.windows(2).map(|pair| (pair[0], pair[1]));
+    let rate = |i: usize| {
+        let of = |kind| physics.channel(kind);
+        of(ChannelKind::Momentum(i)).or_else(|| of(ChannelKind::Velocity(i)))
+    };
+    let own = physics.positions().filter_map(|(i, x)| Some((x, rate(i)?)));
+    match physics.system.form() {
+        Form::Variables => both.collect(),
+        _ => both.chain(own).collect(),
+    }
+}
+
+fn found(answer: Option<&Answer>) -> Option<&Found> {
+    answer?.of::<Found>()
+}
+
+fn described(answer: Option<&Answer>) -> Option<&Described> {
+    found(answer)?.outcome.as_ref().ok()
+}
+
+/// Greene's residue, where two multipliers are left (J. M. Greene, J. Math. Phys. 20 (1979) 1183).
+fn residue(orbit: &Closed) -> Option<f64> {
+    let area_preserving = matches!(orbit.trivial, Removed::FlowAndEnergy | Removed::Nothing);
+    (orbit.multipliers.len() == 2 && area_preserving)
+        .then(|| (2.0 - orbit.transverse.trace()) / 4.0)
+}
+
+/// What is told of the orbit, or why there is none.
+fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
+    let found = match found(answer).map(|found| &found.outcome) {
+        None => return vec!["looking for the periodic orbit near the motion".to_owned()],
+        Some(Err(why)) => return vec![why.clone()],
+        Some(Ok(found)) => found,
+    };
+    let orbit = &found.orbit;
+    let short = |x: f64| significant(x, 8, 1e-4..1e6).replace('-', "−");
+    let brief = |x: f64| significant(x, 5, 1e-3..1e5).replace('-', "−");
+    let unit = physics.model.time_unit();
+    let mut lines = vec![format!("T = {} {unit}", short(orbit.period)).trim_end().to_owned()];
+    lines.extend(orbit.action.map(|action| format!("∮ p dq = {}", short(action))));
+    let multiplier = |[re, im]: [f64; 2]| {
+        if im == 0.0 {
+            brief(re)
+        } else {
+            let sign = if im < 0.0 { '−' } else { '+' };
+            format!("{} {sign} {}i", brief(re), brief(im.abs()))
+        }
+    };
+    let own: Vec<String> = orbit.multipliers.iter().map(|z| multiplier(*z)).collect();
+    let trivial = match orbit.trivial {
+        Removed::Nothing => "",
+        Removed::Flow => "1 (flow)",
+        Removed::FlowAndEnergy => "1 (flow), 1 (energy)",
+    };
+    let all = [own.join(", "), trivial.to_owned()];
+    let all: Vec<String> = all.into_iter().filter(|part| !part.is_empty()).collect();
+    lines.push(format!("multipliers {}", all.join(", ")));
+    let how = match (orbit.multipliers.is_empty(), orbit.stable) {
+        (true, _) => "neutral: one of a family in E".to_owned(),
+        (false, true) => "stable".to_owned(),
+        (false, false) => "unstable".to_owned(),
+    };
+    let residue = residue(orbit).map(|residue| format!(", residue {}", brief(residue)));
+    lines.push(how + &residue.unwrap_or_default());
+    lines
+}
+
+/// The range of an axis: the orbit and the motion, or a turn.
+fn range(
+    plot: &Plot,
+    present: &Present<'_>,
+    answer: Option<&Answer>,
+    axis: usize,
+) -> Option<[f64; 2]> {
+    let channel = plot.column(axis)?;
+    let [lo, hi] = described(answer)?.extent[axis];
+    let margin = MARGIN * (hi - lo);
+    let [lo, hi] = [lo - margin, hi + margin];
+    let period = present.physics.system.period(channel, present.parameters);
+    match period {
+        Some(period) if lo < -period / 2.0 || hi > period / 2.0 => {
+            Some([-period / 2.0, period / 2.0])
+        }
+        _ => (lo < hi && math::hypot(lo, hi).is_finite()).then_some([lo, hi]),
+    }
+}

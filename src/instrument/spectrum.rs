@@ -1,0 +1,307 @@
+//! `spectrum`: the lines of one quantity of the motion, with their frequencies, named as combinations k·ω of few; and the
+//! mean rate of an angle.
+//!
+//! The job follows the motion from its initial values at equal intervals of time, and finds the lines
+//! ([`spectrum`](crate::dynamics::spectrum)).
+
+use super::{
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
+    Physics, Picture, Plot, Present, Upwards,
+};
+use crate::dynamics::{MeanRate, Spectrum as Lines, mean_rate, spectrum};
+use crate::ensemble::{Flow, Start};
+use crate::integrate::{Settings, method_named};
+use crate::job::{Job, Progress};
+use crate::num::{math, significant};
+use crate::system::{ChannelKind, Form, InitialOverride, System};
+
+/// The levels of the picture.
+const CURVE: Level = 0;
+const LINES: Level = 2;
+
+/// How long the motion is followed, in seconds of the wall clock at the file's own speed, and how many numbers are taken.
+const SECONDS: f64 = 90.0;
+const COUNT: usize = 2048;
+
+/// The most lines that are looked for, and that are told.
+const MOST: usize = 10;
+const TOLD: usize = 6;
+
+/// What is shown goes down so many powers of ten, and so much beyond the last line.
+const POWERS: f64 = 9.0;
+const BEYOND: f64 = 1.3;
+
+/// The row.
+pub(super) struct Spectrum;
+
+/// What was found, and of which motion.
+struct Found {
+    conditions: Conditions,
+    outcome: Result<(Lines, Option<MeanRate>), String>,
+}
+
+#[derive(Clone, PartialEq)]
+struct Conditions {
+    parameters: Vec<f64>,
+    initial: Vec<f64>,
+    method: &'static str,
+    settings: Settings,
+}
+
+impl Instrument for Spectrum {
+    fn name(&self) -> &'static str {
+        "spectrum"
+    }
+
+    fn written(&self) -> &'static [Axis] {
+        &[Axis::UPWARDS]
+    }
+
+    fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
+        let known = physics.named().filter(|(index, _)| *index < physics.system.columns());
+        let offer = |(index, channel): (usize, &crate::system::Channel)| Offer {
+            label: format!("spectrum of {}", channel.shown),
+            about: "the frequencies of the motion, and what they are combinations of".to_owned(),
+            columns: vec![vec![index]],
+            view: None,
+        };
+        known.map(offer).collect()
+    }
+
+    fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
+        format!("spectrum of {}", plot.column(0).map_or("?", |channel| physics.shown(channel)))
+    }
+
+    fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
+        let title = plot.title(present.physics);
+        let entries = vec![Entry::Words("of the motion from its initial values".to_owned())];
+        let (title, given) = (title.unwrap_or("Spectrum").to_owned(), title.is_some());
+        Some(Heading { title, given, entries })
+    }
+
+    fn across(&self, _plot: &Plot, _present: &Present<'_>, answer: Option<&Answer>) -> Across {
+        let last = lines(answer).map_or(1.0, |found| {
+            let greatest = found.lines.iter().map(|line| line.frequency).fold(0.0, f64::max);
+            let known = found.curve.last().map_or(1.0, |at| at[0]);
+            if greatest > 0.0 { (BEYOND * greatest).min(known) } else { known }
+        });
+        Across::Named("ω".to_owned(), [0.0, last])
+    }
+
+    fn picture(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        _seen: [f64; 2],
+        answer: Option<&Answer>,
+    ) -> Option<Picture> {
+        let name = present.physics.shown(plot.column(0)?);
+        let axes = |range, layers| {
+            let upwards = Upwards::Named(format!("lg amplitude of {name}"), range);
+            Some(Picture::Axes { upwards, layers, occurrences: None })
+        };
+        let legend = (LINES, Layer::Legend(told(present.physics, answer)));
+        let Some(found) = lines(answer) else { return axes([-POWERS, 0.0], vec![legend]) };
+        let power = |x: f64| math::ln(x.max(f64::MIN_POSITIVE)) / std::f64::consts::LN_10;
+        let most = found.curve.iter().map(|at| at[1]).fold(0.0, f64::max);
+        let top = power(most).max(-300.0);
+        let floor = top - POWERS;
+        let curve = found.curve.iter().map(|at| [at[0], power(at[1]).max(floor)]).collect();
+        let line = |line: &crate::dynamics::SpectralLine| {
+            let ends = [floor, power(line.amplitude)].map(|y| [line.frequency, y]);
+            (LINES, Layer::Line(ends.to_vec(), Ink::Curve(1).into()))
+        };
+        let mut layers = vec![(CURVE, Layer::Line(curve, Ink::Level.into()))];
+        layers.extend(found.lines.iter().map(line));
+        layers.push(legend);
+        axes([floor, top + 1.0], layers)
+    }
+
+    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+        let conditions = Conditions {
+            parameters: present.parameters.to_vec(),
+            initial: present.initial.to_vec(),
+            method: present.method,
+            settings: present.settings,
+        };
+        if found(answer).is_some_and(|known| known.conditions == conditions) {
+            return Need::Held;
+        }
+        let Physics { model, equations, system } = present.physics;
+        let (Some(channel), Some(method)) = (plot.column(0), method_named(present.method)) else {
+            return Need::Nothing;
+        };
+        if channel >= system.columns() {
+            return Need::Nothing;
+        }
+        let (begin, speed, system) = (model.run.start, model.run.speed, system.clone());
+        // a force that depends on time has a frequency of its own
+        let timed = |e| equations.pool.depends(e, model.symbols.time);
+        let is_driven =
+            timed(equations.energy) || timed(equations.energy_rate) || !model.impulses.is_empty();
+        let fundamentals = system.degrees().max(1) + usize::from(is_driven);
+        let is_angle = matches!(system.channels()[channel].kind, ChannelKind::Position(_))
+            && system.period(channel, present.parameters).is_some();
+        Need::Job(Job::new("spectrum", move |progress: &Progress| {
+            let flow = Flow {
+                system: system.with_cancel(progress.token().clone()),
+                method: (method, conditions.settings),
+                parameters: conditions.parameters.clone(),
+                start: begin,
+            };
+            let speed = if speed.is_finite() && speed > 0.0 { speed } else { 1.0 };
+            let spacing = SECONDS * speed / COUNT as f64;
+            let start = beginning(&system, &conditions, begin);
+            let outcome = start.and_then(|start| {
+                let times: Vec<f64> = (0..COUNT).map(|k| begin + k as f64 * spacing).collect();
+                let seen = flow.carry(&start, &times, &[channel]).seen;
+                let values: Vec<f64> = seen.iter().map(|row| row[0]).collect();
+                if values.len() < COUNT {
+                    let time = begin + values.len() as f64 * spacing;
+                    return Err(format!(
+                        "the motion ends before t = {}",
+                        significant(time, 4, 1e-3..1e5)
+                    ));
+                }
+                let rate = mean_rate(&values, spacing).filter(|_| is_angle);
+                let straight = straightened(&values, spacing, rate);
+                progress.expect(MOST as u64);
+                let mut look = |count: usize| {
+                    progress.reach(count as u64);
+                    !progress.is_cancelled()
+                };
+                let lines = spectrum(&straight, spacing, (MOST, fundamentals), &mut look);
+                let lines = lines.ok_or_else(|| "the motion has no finite values".to_owned())?;
+                Ok((lines, rate))
+            });
+            Answer::new(Found { conditions: conditions.clone(), outcome })
+        }))
+    }
+
+    fn measures(&self) -> &'static [Measure] {
+        &[
+            Measure {
+                word: "lines",
+                about: "how many lines were found",
+                value: |_, _, answer| Some(lines(answer)?.lines.len() as f64),
+            },
+            Measure {
+                word: "frequency",
+                about: "ω of the strongest line",
+                value: |_, _, answer| Some(lines(answer)?.lines.first()?.frequency),
+            },
+            Measure {
+                word: "amplitude",
+                about: "the amplitude of the strongest line",
+                value: |_, _, answer| Some(lines(answer)?.lines.first()?.amplitude),
+            },
+            Measure {
+                word: "fundamentals",
+                about: "how many frequencies the lines are combinations of",
+                value: |_, _, answer| Some(lines(answer)?.fundamentals.len() as f64),
+            },
+            Measure {
+                word: "second",
+                about: "the second of those frequencies",
+                value: |_, _, answer| lines(answer)?.fundamentals.get(1).copied(),
+            },
+            Measure {
+                word: "rate",
+                about: "the mean rate of an angle",
+                value: |_, _, answer| Some(mean(answer)?.rate),
+            },
+        ]
+    }
+}
+
+/// The state of the initial values.
+fn beginning(
+    system: &System,
+    conditions: &Conditions,
+    time: f64,
+) -> Result<crate::system::State, String> {
+    let n = system.degrees();
+    let given = |(i, &x): (usize, &f64)| match system.form() {
+        _ if i < n => InitialOverride::Position(i, x),
+        Form::Velocity => InitialOverride::Velocity(i - n, x),
+        Form::Momentum | Form::Variables => InitialOverride::Momentum(i - n, x),
+    };
+    let overrides = conditions.initial.iter().enumerate().map(given).collect();
+    let start = Start { time, parameters: conditions.parameters.clone(), overrides };
+    start.state(system).map_err(|fault| fault.to_string())
+}
+
+/// An angle that goes round less its mean advance, so that what is left has lines.
+fn straightened(values: &[f64], spacing: f64, rate: Option<MeanRate>) -> Vec<f64> {
+    let turned = |rate: &MeanRate| rate.rate.abs() * spacing * values.len() as f64;
+    let rate = rate.filter(|rate| turned(rate) > std::f64::consts::TAU);
+    let rate = rate.map_or(0.0, |rate| rate.rate);
+    values.iter().enumerate().map(|(k, x)| x - rate * spacing * k as f64).collect()
+}
+
+fn found(answer: Option<&Answer>) -> Option<&Found> {
+    answer?.of::<Found>()
+}
+
+fn lines(answer: Option<&Answer>) -> Option<&Lines> {
+    found(answer)?.outcome.as_ref().ok().map(|(lines, _)| lines)
+}
+
+fn mean(answer: Option<&Answer>) -> Option<MeanRate> {
+    found(answer)?.outcome.as_ref().ok().and_then(|(_, rate)| *rate)
+}
+
+/// What is told of the lines, or why there are none.
+fn told(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
+    let lines = match found(answer).map(|found| &found.outcome) {
+        None => return vec!["looking for lines".to_owned()],
+        Some(Err(why)) => return vec![why.clone()],
+        Some(Ok((lines, _))) => lines,
+    };
+    let short = |x: f64| significant(x, 9, 1e-4..1e6).replace('-', "−");
+    let brief = |x: f64| significant(x, 3, 1e-3..1e5).replace('-', "−");
+    let unit = match physics.model.time_unit() {
+        "" => String::new(),
+        unit => format!(" rad/{unit}"),
+    };
+    let mut all: Vec<String> = lines
+        .lines
+        .iter()
+        .take(TOLD)
+        .map(|line| {
+            let name = line.combination.as_ref().map_or_else(|| "?".to_owned(), |k| named(k));
+            let (frequency, error) = (short(line.frequency), significant(line.error, 1, 1.0..10.0));
+            format!("{name} = {frequency} ± {error}{unit}, amplitude {}", brief(line.amplitude))
+        })
+        .collect();
+    if lines.lines.is_empty() {
+        all.push("no line stands out".to_owned());
+    }
+    let advances = mean(answer).filter(|rate| rate.rate.abs() > rate.error);
+    all.extend(advances.map(|rate| {
+        let error = significant(rate.error, 1, 1.0..10.0);
+        format!("mean rate {} ± {error}{unit}", short(rate.rate))
+    }));
+    all
+}
+
+/// A combination in words: `ω₁ − 2ω₂`.
+fn named(k: &[i32]) -> String {
+    let mut text = String::new();
+    for (i, &times) in k.iter().enumerate().filter(|(_, times)| **times != 0) {
+        let sign = match (text.is_empty(), times < 0) {
+            (true, false) => "",
+            (true, true) => "−",
+            (false, false) => " + ",
+            (false, true) => " − ",
+        };
+        let count = if times.abs() == 1 { String::new() } else { times.abs().to_string() };
+        let index: String = (i + 1).to_string().chars().map(subscript).collect();
+        text.push_str(&format!("{sign}{count}ω{index}"));
+    }
+    text
+}
+
+fn subscript(digit: char) -> char {
+    digit.to_digit(10).and_then(|d| char::from_u32(0x2080 + d)).unwrap_or(digit)
+}

@@ -1,0 +1,133 @@
+//! Lines of signals that are known, of a pendulum against its elliptic integral, and mean rates of angles.
+
+use std::f64::consts::TAU;
+
+use phaselab::diagnostic::Document;
+use phaselab::dynamics::{Spectrum, mean_rate, spectrum};
+use phaselab::ensemble::Flow;
+use phaselab::experiment::Prepared;
+use phaselab::integrate::{Settings, method_named};
+use phaselab::system::System;
+
+fn lines(signal: &dyn Fn(f64) -> f64, spacing: f64, fundamentals: usize) -> Spectrum {
+    let signal: Vec<f64> = (0..1024).map(|k| signal(spacing * f64::from(k))).collect();
+    spectrum(&signal, spacing, (8, fundamentals), &mut |_| true).unwrap()
+}
+
+/// Frequencies, amplitudes and phases of a known signal; the weakest line is a hundred thousand times fainter.
+const KNOWN: [(f64, f64, f64); 6] = [
+    (1.3, 1.0, 0.2),
+    (1.838_477_631_085_023_6, 0.4, -1.1),
+    (3.138_477_631_085_023_6, 0.05, 2.0),
+    (0.761_522_368_914_976_4, 1e-2, 0.5),
+    (1.423, 1e-3, -2.5),
+    (3.9, 1e-5, 1.0),
+];
+
+fn known(t: f64) -> f64 {
+    2.5 + KNOWN.iter().map(|(w, a, phase)| a * (w * t + phase).cos()).sum::<f64>()
+}
+
+#[test]
+fn known_lines_are_found_to_rounding_and_named() {
+    let found = lines(&known, 0.25, 3);
+    assert_eq!(found.lines.len(), 6, "{:#?}", found.lines);
+    assert!((found.mean - 2.5).abs() < 1e-12 && found.left < 1e-12);
+    // k·(1.3, 1.3 √2, 1.423): the third is the sum of the first two, the fourth 2·1.3 − 1.3 √2
+    let names = [[1, 0, 0], [0, 1, 0], [1, 1, 0], [2, -1, 0], [0, 0, 1], [3, 0, 0]];
+    for ((line, (frequency, amplitude, phase)), k) in found.lines.iter().zip(KNOWN).zip(names) {
+        assert!(
+            (line.frequency - frequency).abs() < 1e-12 / amplitude.sqrt(),
+            "{line:?} {frequency}"
+        );
+        assert!((line.amplitude - amplitude).abs() < 1e-12, "{line:?}");
+        assert!((line.phase - phase).abs() < 1e-11 / amplitude, "{line:?} {phase}");
+        assert_eq!(line.combination.as_deref(), Some(&k[..]));
+        assert!((line.frequency - frequency).abs() < 10.0 * line.error + 1e-15, "{line:?}");
+    }
+}
+
+#[test]
+fn what_is_no_combination_is_not_named_one() {
+    let found = lines(&known, 0.25, 2);
+    let unnamed: Vec<f64> =
+        found.lines.iter().filter(|l| l.combination.is_none()).map(|l| l.frequency).collect();
+    assert_eq!((found.fundamentals.len(), unnamed.len()), (2, 1));
+    assert!((unnamed[0] - 1.423).abs() < 1e-9);
+}
+
+#[test]
+fn noise_is_told_by_the_error() {
+    // pseudo-random numbers beside one line
+    let mut seed = 12_345_u64;
+    let mut noise = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    let signal: Vec<f64> =
+        (0..1024).map(|k| (0.7 * 0.25 * f64::from(k)).cos() + 1e-3 * noise()).collect();
+    let found = spectrum(&signal, 0.25, (1, 1), &mut |_| true).unwrap();
+    let (line, off) = (&found.lines[0], (found.lines[0].frequency - 0.7).abs());
+    assert!(off < 5.0 * line.error && line.error < 1e-5 && line.error > 1e-8, "{line:?} {off:e}");
+    assert!((found.left - 1e-3 / 12f64.sqrt()).abs() < 5e-5, "{}", found.left);
+    assert_eq!(spectrum(&[f64::NAN; 64], 0.1, (1, 1), &mut |_| true), None);
+    assert_eq!(spectrum(&[1.0; 64], 0.0, (1, 1), &mut |_| true), None);
+    // nothing moves, nothing stands out
+    let still = spectrum(&[1.0; 64], 0.1, (3, 1), &mut |_| true).unwrap();
+    assert_eq!((still.lines.len(), still.mean), (0, 1.0));
+}
+
+/// The angle of the pendulum L = ½ q̇² + cos q at equal intervals of time.
+fn pendulum(q: f64, velocity: f64, spacing: f64) -> Vec<f64> {
+    let text = format!(
+        "title = \"one\"\n[coordinates]\nq = {{ initial = {q:?}, velocity = {velocity:?} }}\n\
+         [lagrangian]\nL = \"1/2*q'^2 + cos(q)\"\n[run]\nuntil = 100.0\n"
+    );
+    let ready = Prepared::of(&Document::new("test", &text)).unwrap_or_else(|e| panic!("{e}"));
+    let start = ready.system.initial(0.0, &[], &[]).unwrap();
+    let method = (method_named("taylor").unwrap(), Settings::default());
+    let system = System::clone(&ready.system);
+    let flow = Flow { system, method, parameters: Vec::new(), start: 0.0 };
+    let times: Vec<f64> = (0..1024).map(|k| spacing * f64::from(k)).collect();
+    let carried = flow.carry(&start, &times, &[0]);
+    assert_eq!(carried.seen.len(), 1024);
+    carried.seen.iter().map(|row| row[0]).collect()
+}
+
+fn agm(mut a: f64, mut b: f64) -> f64 {
+    for _ in 0..8 {
+        (a, b) = (0.5 * (a + b), (a * b).sqrt());
+    }
+    a
+}
+
+#[test]
+fn a_pendulum_has_odd_multiples_of_its_frequency() {
+    let angle = pendulum(1.0, 0.0, 0.2);
+    let found = spectrum(&angle, 0.2, (4, 1), &mut |_| true).unwrap();
+    // ω = agm(1, cos ½)
+    let frequency = agm(1.0, 0.5_f64.cos());
+    for (line, odd) in found.lines.iter().zip([1, 3, 5, 7]) {
+        let off = (line.frequency - f64::from(odd) * frequency).abs();
+        assert!(off < 1e-11 / line.amplitude, "{odd}: {line:?} {off:e}");
+        assert_eq!(line.combination, Some(vec![odd]));
+    }
+    assert_eq!(found.lines.len(), 4);
+    // a pendulum that swings has no mean rate
+    let rate = mean_rate(&angle, 0.2).unwrap();
+    assert!(rate.rate.abs() < 1e-8, "{rate:?}");
+}
+
+#[test]
+fn a_pendulum_that_turns_over_has_the_mean_rate_of_its_elliptic_integral() {
+    // 2π/T = agm(p, √(p² − 4)), p the velocity at the bottom
+    let rate = mean_rate(&pendulum(0.0, 2.5, 0.2), 0.2).unwrap();
+    let exact = agm(2.5, 1.5);
+    assert!((rate.rate - exact).abs() < 1e-12, "{rate:?} {exact}");
+    assert!(rate.error < 1e-6 && (rate.rate - exact).abs() <= rate.error + 1e-15);
+    // a plain average over the same time is far from it
+    let angle = pendulum(0.0, 2.5, 0.2);
+    let plain = (angle[1023] - angle[0]) / (1023.0 * 0.2);
+    assert!((plain - exact).abs() > 1e-5, "{plain}");
+    assert_eq!(mean_rate(&[0.0, TAU], 1.0), None);
+}

@@ -1,0 +1,298 @@
+//! Clouds and closed curves carried by the flow: areas and Poincaré's integral against closed forms, the rate at which
+//! friction shrinks them, and the picture in the lab.
+
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+use phaselab::app::{App, Computation, Effect, Event, Loaded, Saved};
+use phaselab::diagnostic::Document;
+use phaselab::dynamics::{PhaseSpace, conformal_rate};
+use phaselab::ensemble::{ClosedCurve, Flow};
+use phaselab::experiment::{Command, Prepared};
+use phaselab::instrument::{Layer, Picture, Plot, Seed, named};
+use phaselab::integrate::{Settings, method_named};
+use phaselab::job::Progress;
+use phaselab::system::{ChannelKind, InitialOverride, State};
+
+use crate::hand::{catalog, press};
+
+fn prepared(text: &str) -> Prepared {
+    Prepared::of(&Document::new("test", text)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// An oscillator of one degree of freedom with the potential V and friction γ p.
+fn oscillator(potential: &str, friction: &str) -> Prepared {
+    prepared(&format!(
+        "title = \"one\"\n[coordinates]\nq = {{ initial = 1.0, velocity = 0.0 }}\n\
+         [parameters]\nc = 0.25\n[lagrangian]\nL = \"1/2*q'^2 - ({potential})\"\n\
+         dissipation = \"{friction}\"\n[run]\nuntil = 100.0\n"
+    ))
+}
+
+fn flow(ready: &Prepared) -> Flow {
+    let method = method_named("taylor").unwrap();
+    let parameters = ready.model.parameter_values();
+    let system = phaselab::system::System::clone(&ready.system);
+    Flow { system, method: (method, Settings::default()), parameters, start: 0.0 }
+}
+
+fn channel(ready: &Prepared, kind: ChannelKind) -> usize {
+    ready.system.channels().iter().position(|channel| channel.kind == kind).unwrap()
+}
+
+/// A circle of this radius about (q, p) of the first coordinate; the others are those of the file.
+fn circle(ready: &Prepared, centre: [f64; 2], radius: f64) -> impl Fn(f64) -> Option<State> + Sync {
+    let (system, parameters) = (Arc::clone(&ready.system), ready.model.parameter_values());
+    move |s: f64| {
+        let (sin, cos) = (TAU * s).sin_cos();
+        let q = InitialOverride::Position(0, centre[0] + radius * cos);
+        let p = InitialOverride::Momentum(0, centre[1] + radius * sin);
+        system.initial(0.0, &parameters, &[q, p]).ok()
+    }
+}
+
+/// The channels of a curve: two quantities of a picture, all coordinates, all momenta.
+fn channels(ready: &Prepared) -> Vec<usize> {
+    let n = ready.system.degrees();
+    let q = (0..n).map(|i| channel(ready, ChannelKind::Position(i)));
+    let p: Vec<usize> = (0..n).map(|i| channel(ready, ChannelKind::Momentum(i))).collect();
+    let q: Vec<usize> = q.collect();
+    [vec![q[0], p[0]], q, p].concat()
+}
+
+fn carried(ready: &Prepared, centre: [f64; 2], radius: f64, times: &[f64]) -> ClosedCurve {
+    let start = circle(ready, centre, radius);
+    let mut curve = ClosedCurve::new(&start, channels(ready), [f64::INFINITY; 2]).unwrap();
+    curve.carry(&flow(ready), times, &start).unwrap();
+    curve
+}
+
+#[test]
+fn a_harmonic_oscillator_turns_its_clouds_rigidly() {
+    let ready = oscillator("1/2*q^2", "0");
+    let times = [0.0, 0.9, TAU, 31.0];
+    let curve = carried(&ready, [1.0, 0.0], 0.3, &times);
+    for (k, t) in times.iter().enumerate() {
+        let (sin, cos) = t.sin_cos();
+        let points = curve.points(k);
+        let count = points.len() - 1;
+        for (i, [q, p]) in points.iter().enumerate() {
+            let (along, up) = (TAU * i as f64 / count as f64).sin_cos();
+            let (q0, p0) = (1.0 + 0.3 * up, 0.3 * along);
+            assert!((q - (q0 * cos + p0 * sin)).abs() < 1e-12, "{t} {i}");
+            assert!((p - (p0 * cos - q0 * sin)).abs() < 1e-12, "{t} {i}");
+        }
+        // counter-clockwise in (q, p) the integral is less than zero
+        let found = curve.circulation(k).unwrap();
+        assert!((found.value + PI * 0.09).abs() < 1e-11, "{found:?}");
+        assert!(found.error < 1e-9 && curve.is_resolved());
+    }
+}
+
+#[test]
+fn a_pendulum_stretches_a_curve_and_keeps_its_area() {
+    let ready = oscillator("-cos(q)", "0");
+    // across the separatrix, p = 2 cos(q/2): a part swings, a part turns over
+    let curve = carried(&ready, [2.0, 0.6], 0.5, &[0.0, 5.0, 12.0]);
+    assert!(curve.len() > 4 * 128, "it takes more points: {}", curve.len());
+    for k in 0..3 {
+        let found = curve.circulation(k).unwrap();
+        let off = (found.value + PI * 0.25).abs();
+        assert!(off <= found.error + 1e-12 && found.error < 1e-6, "{k} {found:?} {off:e}");
+    }
+    // no part of the polygon is long beside the whole
+    let points = curve.points(2);
+    let all = || points.iter().map(|at| at[0]);
+    let extent = all().fold(f64::MIN, f64::max) - all().fold(f64::MAX, f64::min);
+    assert!(points.windows(2).all(|pair| (pair[0][0] - pair[1][0]).abs() <= 0.05 * extent));
+}
+
+#[test]
+fn friction_shrinks_areas_at_its_rate_and_at_no_other() {
+    let ready = oscillator("-cos(q)", "1/2*c*q'^2");
+    let times = [0.0, 2.0, 12.0];
+    let curve = carried(&ready, [1.0, 0.5], 0.5, &times);
+    for (k, t) in times.iter().enumerate() {
+        let found = curve.circulation(k).unwrap().value;
+        let law = |rate: f64| -PI * 0.25 * (-rate * t).exp();
+        assert!((found / law(0.25) - 1.0).abs() < 1e-9, "{t} {found}");
+        assert!(*t == 0.0 || (found / law(0.26) - 1.0).abs() > 1e-2, "{t} {found}");
+    }
+}
+
+#[test]
+fn poincares_integral_is_that_of_all_pairs() {
+    let document = catalog().find("henon-heiles").unwrap();
+    let ready = Prepared::of(&document).unwrap();
+    let curve = carried(&ready, [0.1, 0.3], 0.1, &[0.0, 12.0]);
+    let first = curve.circulation(0).unwrap();
+    let last = curve.circulation(1).unwrap();
+    assert!((first.value + PI * 0.01).abs() < 1e-13);
+    assert!((last.value - first.value).abs() < 1e-12, "{last:?}");
+    // what is seen of it in one plane is not conserved
+    let shadow = |k: usize| -> f64 {
+        let points = curve.points(k);
+        points
+            .windows(2)
+            .map(|pair| 0.5 * (pair[0][1] + pair[1][1]) * (pair[1][0] - pair[0][0]))
+            .sum()
+    };
+    assert!((shadow(1) / shadow(0) - 1.0).abs() > 0.05, "{} {}", shadow(0), shadow(1));
+}
+
+#[test]
+fn where_a_start_is_lost_no_area_is_told() {
+    // q̈ = q²: some of the starts are at infinity before the others
+    let ready = oscillator("-q^3/3", "0");
+    let curve = carried(&ready, [1.0, 1.0], 0.9, &[0.5, 3.0]);
+    assert!(curve.circulation(0).is_some());
+    assert_eq!(curve.circulation(1), None);
+    assert!(curve.points(1).iter().any(|at| at[0].is_nan()));
+}
+
+/// The rate in some states of a file.
+fn rate(text: &str) -> Option<f64> {
+    let ready = prepared(text);
+    let parameters = ready.model.parameter_values();
+    let space = PhaseSpace::of(&ready.model, &ready.equations, &ready.system, &parameters).unwrap();
+    let n = space.dimension();
+    let states: Vec<Vec<f64>> = (0..7)
+        .map(|k| (0..n).map(|i| (0.3 + 0.7 * f64::from(k) + 0.4 * i as f64).sin()).collect())
+        .collect();
+    conformal_rate(&space, 0.0, states.iter().map(|state| &state[..])).unwrap()
+}
+
+#[test]
+fn the_rate_is_one_number_or_none() {
+    let two = |dissipation: &str| {
+        format!(
+            "title = \"two\"\n[coordinates]\nx = {{ initial = 1.0 }}\ny = {{ initial = 0.5 }}\n\
+             [lagrangian]\nL = \"1/2*(x'^2 + 2*y'^2) - x^2*y - x^2 - y^2\"\n\
+             dissipation = \"{dissipation}\"\n"
+        )
+    };
+    assert_eq!(rate(&two("0")), Some(0.0));
+    // 2 m takes twice the friction for the same rate
+    let same = rate(&two("1/2*0.3*(x'^2 + 2*y'^2)")).unwrap();
+    assert!((same + 0.3).abs() < 1e-14, "{same}");
+    assert_eq!(rate(&two("1/2*0.3*(x'^2 + y'^2)")), None, "the pairs shrink at different rates");
+    let one = |dissipation: &str| {
+        format!(
+            "title = \"one\"\n[coordinates]\nx = {{ initial = 1.0 }}\n[lagrangian]\n\
+             L = \"1/2*3*x'^2 - x^4\"\ndissipation = \"{dissipation}\"\n"
+        )
+    };
+    let one_pair = rate(&one("1/2*0.6*x'^2")).unwrap();
+    assert!((one_pair + 0.2).abs() < 1e-14, "{one_pair}");
+    assert_eq!(rate(&one("1/2*0.6*(x^2 - 1)*x'^2")), None, "it depends on the place");
+}
+
+/// Runs all jobs that are asked for, and those that follow.
+fn finish(app: &mut App, mut effects: Vec<Effect>) {
+    while let Some(effect) = effects.pop() {
+        if let Effect::Compute(Computation { ticket, job, .. }) = effect {
+            let outcome = job.run(&Progress::new());
+            effects.extend(app.update(Event::Computed { ticket, outcome }));
+        }
+    }
+}
+
+/// The lab with a motion and the picture of its cloud, and the motion.
+fn opened(ready: Prepared) -> (App, usize, phaselab::experiment::Experiment) {
+    let Prepared { document, model, equations, system, mut experiment } = ready;
+    experiment.set_epoch(1);
+    experiment.advance(0.01, u64::MAX);
+    let (mut app, _) = App::new(catalog(), Some("test"));
+    app.aside = true;
+    let name = "test".to_owned();
+    let loaded = Loaded { name, epoch: 1, document, model, equations, system };
+    let effects = app.update(Event::Loaded(Ok(loaded)));
+    finish(&mut app, effects);
+    let lab = app.lab.as_mut().unwrap();
+    let kind = named("ensemble").unwrap();
+    let offer = kind.offers(lab.loaded.physics()).remove(0);
+    lab.plots = vec![Plot::new(kind, (offer.columns, None), &lab.loaded.model)];
+    see(&mut app, &mut experiment, 0.01);
+    (app, 0, experiment)
+}
+
+fn see(app: &mut App, experiment: &mut phaselab::experiment::Experiment, time: f64) {
+    experiment.advance(time, u64::MAX);
+    let effects = app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
+    finish(app, effects);
+}
+
+fn measure(app: &App, word: &str) -> Option<f64> {
+    let lab = app.lab.as_ref().unwrap();
+    let plot = &lab.plots[0];
+    let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
+    (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot))
+}
+
+fn cloud(app: &App) -> Vec<[f64; 2]> {
+    let lab = app.lab.as_ref().unwrap();
+    let (plot, present) = (&lab.plots[0], lab.present().unwrap());
+    let picture = plot.kind.picture(plot, &present, [f64::NAN; 2], lab.answer(plot));
+    let Some(Picture::Axes { layers, .. }) = picture else { panic!("no picture") };
+    let found = layers.iter().find_map(|(_, layer)| match layer {
+        Layer::Cloud(points) => Some(points.to_vec()),
+        _ => None,
+    });
+    found.unwrap_or_default()
+}
+
+#[test]
+fn the_lab_carries_a_cloud_with_the_motion_and_begins_it_anew_where_it_must() {
+    let (mut app, _, mut experiment) = opened(oscillator("1/2*q^2", "1/2*c*q'^2"));
+    assert_eq!(measure(&app, "points"), Some(2000.0));
+    assert!((measure(&app, "rate").unwrap() + 0.25).abs() < 1e-14);
+    let begun = measure(&app, "action").unwrap();
+    // a disc about the motion, as far in both directions as the same energy goes
+    assert!((begun - PI * 0.09).abs() < 1e-4 * begun, "{begun}");
+    see(&mut app, &mut experiment, 3.0);
+    let off = measure(&app, "off").unwrap();
+    assert!(off < 1e-9, "{off:e}");
+    let ratio = measure(&app, "action").unwrap() / begun;
+    assert!((ratio.ln() + 0.25 * 2.99).abs() < 0.02, "{ratio}");
+    // the cloud is around the motion, which is its middle, as the law is linear
+    let lab = app.lab.as_ref().unwrap();
+    let own = lab.plots[0].column(0).map(|x| lab.present().unwrap().value(x)).unwrap();
+    let points = cloud(&app);
+    let middle = points.iter().map(|at| at[0]).sum::<f64>() / points.len() as f64;
+    assert!((middle - own).abs() < 0.05, "{middle} {own}");
+    // another parameter: a new cloud around where the motion is now
+    experiment.execute(Command::Parameter { index: 0, value: 0.5 });
+    see(&mut app, &mut experiment, 3.01);
+    assert!((measure(&app, "rate").unwrap() + 0.5).abs() < 1e-14);
+    assert!(measure(&app, "off").unwrap() < 1e-9);
+    // the motion begins again, and so does the cloud
+    experiment.execute(Command::Reset);
+    see(&mut app, &mut experiment, 0.02);
+    assert!((measure(&app, "action").unwrap() - PI * 0.09).abs() < 1e-2 * begun);
+}
+
+#[test]
+fn a_key_begins_the_cloud_over_what_is_seen_and_a_session_has_it() {
+    let (mut app, _, _) = opened(oscillator("-cos(q)", "0"));
+    press(&mut app, "Tab Tab Tab");
+    let effects = press(&mut app, "n");
+    finish(&mut app, effects);
+    let plot = app.lab.as_ref().unwrap().plots[0].clone();
+    let [Seed::Spread([[left, right], [below, above]])] = plot.seeds[..] else {
+        panic!("{:?}", plot.seeds)
+    };
+    let area = (right - left) * (above - below);
+    let action = measure(&app, "action").unwrap();
+    assert!((action / area - 1.0).abs() < 1e-9, "a box has the area of a box: {action} {area}");
+    // another takes its place
+    let effects = press(&mut app, "+ + + + n");
+    finish(&mut app, effects);
+    assert_eq!(app.lab.as_ref().unwrap().plots[0].seeds.len(), 1);
+    assert!(measure(&app, "action").unwrap() < 0.8 * area);
+    let text = toml::to_string(&app.saved().unwrap()).unwrap();
+    let read: Saved = toml::from_str(&text).unwrap();
+    let physics = app.lab.as_ref().unwrap().loaded.physics();
+    assert_eq!(read.plots[0].place(physics).as_ref(), app.lab.as_ref().unwrap().plots.first());
+    press(&mut app, "N");
+    assert_eq!(app.lab.as_ref().unwrap().plots[0].seeds, []);
+}

@@ -1,0 +1,190 @@
+//! Periodic orbits in the lab: closed near the motion, with period, action and multipliers held against published numbers
+//! and closed forms.
+
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+use phaselab::app::{App, Computation, Effect, Event, Loaded};
+use phaselab::diagnostic::Document;
+use phaselab::experiment::{Experiment, Prepared};
+use phaselab::instrument::{Layer, Picture};
+use phaselab::job::Progress;
+
+use crate::hand::{catalog, press};
+use crate::screen::{rich, rows};
+
+/// Hénon's and Heiles's system at E = 1/8, a little beside the orbit B.
+const HENON_HEILES: &str = r#"
+title = "beside orbit B"
+[coordinates]
+x = { initial = 0.0, momentum = "sqrt(2*(1/8 - y0^2/2 + y0^3/3) - p0^2)" }
+y = { initial = "y0", momentum = "p0" }
+[parameters]
+y0 = -0.18
+p0 = 0.004
+[hamiltonian]
+H = "1/2*(p_x^2 + p_y^2) + 1/2*(x^2 + y^2) + x^2*y - y^3/3"
+[run]
+until = 100.0
+"#;
+
+fn one(lagrangian: &str, rest: &str) -> String {
+    format!(
+        "title = \"one\"\n[coordinates]\nq = {{ initial = 1.0, velocity = 0.0 }}\n[lagrangian]\n\
+         L = \"{lagrangian}\"\n{rest}\n[run]\nuntil = 100.0\n"
+    )
+}
+
+fn finish(app: &mut App, mut effects: Vec<Effect>) {
+    while let Some(effect) = effects.pop() {
+        if let Effect::Compute(Computation { ticket, job, .. }) = effect {
+            let outcome = job.run(&Progress::new());
+            effects.extend(app.update(Event::Computed { ticket, outcome }));
+        }
+    }
+}
+
+/// The lab with a motion at a time, after `t` was pressed.
+fn opened(text: &str, time: f64) -> (App, Experiment) {
+    let ready =
+        Prepared::of(&Document::new("test", text)).unwrap_or_else(|error| panic!("{error}"));
+    let Prepared { document, model, equations, system, mut experiment } = ready;
+    experiment.set_epoch(1);
+    let (mut app, _) = App::new(catalog(), Some("test"));
+    app.aside = true;
+    let name = "test".to_owned();
+    let loaded = Loaded { name, epoch: 1, document, model, equations, system };
+    let effects = app.update(Event::Loaded(Ok(loaded)));
+    finish(&mut app, effects);
+    see(&mut app, &mut experiment, time);
+    let effects = press(&mut app, "t");
+    finish(&mut app, effects);
+    (app, experiment)
+}
+
+fn see(app: &mut App, experiment: &mut Experiment, time: f64) {
+    experiment.advance(time, u64::MAX);
+    let effects = app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
+    finish(app, effects);
+}
+
+fn measure(app: &App, word: &str) -> Option<f64> {
+    let lab = app.lab.as_ref().unwrap();
+    let (_, plot) = lab.focused_plot().unwrap();
+    assert_eq!(plot.kind.name(), "orbit");
+    let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
+    (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot))
+}
+
+fn layers(app: &App) -> Vec<Layer> {
+    let lab = app.lab.as_ref().unwrap();
+    let (_, plot) = lab.focused_plot().unwrap();
+    match plot.kind.picture(plot, &lab.present().unwrap(), [f64::NAN; 2], lab.answer(plot)) {
+        Some(Picture::Axes { layers, .. }) => layers.into_iter().map(|(_, layer)| layer).collect(),
+        other => panic!("{other:?}"),
+    }
+}
+
+fn curve(app: &App) -> Option<Vec<[f64; 2]>> {
+    layers(app).into_iter().find_map(|layer| match layer {
+        Layer::Line(points, _) => Some(points),
+        _ => None,
+    })
+}
+
+fn legend(app: &App) -> String {
+    let lines = layers(app).into_iter().find_map(|layer| match layer {
+        Layer::Legend(lines) => Some(lines),
+        _ => None,
+    });
+    lines.unwrap().join("\n")
+}
+
+#[test]
+fn orbit_b_of_henon_and_heiles_has_its_published_numbers() {
+    let (app, _) = opened(HENON_HEILES, 0.01);
+    let near = |word: &str, published: f64, error: f64| {
+        let found = measure(&app, word).unwrap();
+        assert!((found - published).abs() < error, "{word}: {found} {published}");
+    };
+    near("energy", 0.125, 1e-13);
+    near("period", 6.900_599_447_648_209, 1e-11);
+    near("trace", 4.026_594_859_728_68, 1e-9);
+    near("residue", (2.0 - 4.026_594_859_728_68) / 4.0, 1e-9);
+    assert_eq!(measure(&app, "stable"), Some(0.0));
+    // its exponent: ν + 1/ν is the trace, λ = ln ν / T
+    let half = measure(&app, "trace").unwrap() / 2.0;
+    let exponent = (half + (half * half - 1.0).sqrt()).ln() / measure(&app, "period").unwrap();
+    assert!((exponent - 0.191_954_536_236_23).abs() < 1e-10, "{exponent}");
+    let told = legend(&app);
+    for words in ["T = 6.9005994", "1 (flow), 1 (energy)", "unstable, residue −0.50665"] {
+        assert!(told.contains(words), "{words}: {told}");
+    }
+    // the curve closes, and passes through the published start
+    let curve = curve(&app).unwrap();
+    let [first, last] = [curve[0], curve[curve.len() - 1]];
+    assert!((0..2).all(|k| (first[k] - last[k]).abs() < 1e-11), "{first:?} {last:?}");
+    let start = [0.0, -0.185_405_087_090_802_14];
+    let away = |at: &[f64; 2]| (at[0] - start[0]).hypot(at[1] - start[1]);
+    assert!(curve.iter().map(away).fold(f64::MAX, f64::min) < 5e-3);
+}
+
+#[test]
+fn a_pendulum_has_the_period_of_its_elliptic_integral() {
+    let (app, _) = opened(&one("1/2*q'^2 + cos(q)", ""), 0.5);
+    // T = 2π / agm(1, cos ½)
+    let (mut a, mut b) = (1.0_f64, 0.5_f64.cos());
+    for _ in 0..6 {
+        (a, b) = (0.5 * (a + b), (a * b).sqrt());
+    }
+    assert!((measure(&app, "period").unwrap() - TAU / a).abs() < 1e-12);
+    // the flow and the energy leave nothing across the orbit
+    assert_eq!(measure(&app, "residue"), None);
+    assert!(legend(&app).contains("multipliers 1 (flow), 1 (energy)\nneutral"), "{}", legend(&app));
+    // the area within: ∮ p dq = 2 ∫ √(2 (cos q − cos 1)) dq, by Gauss's substitution q = sin φ
+    let n = 20_000;
+    let width = PI / f64::from(n);
+    let strip = |k: i32| {
+        let angle = -PI / 2.0 + (f64::from(k) + 0.5) * width;
+        let height = 2.0 * (angle.sin().cos() - 1.0_f64.cos());
+        2.0 * height.max(0.0).sqrt() * angle.cos() * width
+    };
+    let area: f64 = (0..n).map(strip).sum();
+    let found = measure(&app, "action").unwrap();
+    assert!((found - area).abs() < 1e-7, "{found} {area}");
+}
+
+#[test]
+fn a_limit_cycle_is_found_from_where_the_motion_is_now() {
+    // ẍ = (1 − x²) ẋ − x, with the period 6.66328685…
+    let text = one("1/2*q'^2 - 1/2*q^2", "dissipation = \"1/2*(q^2 - 1)*q'^2\"");
+    let (mut app, mut experiment) = opened(&text, 40.0);
+    let near = |app: &App| (measure(app, "period").unwrap() - 6.663_286_859_323).abs() < 1e-9;
+    assert!(near(&app), "{:?}", measure(&app, "period"));
+    assert_eq!(measure(&app, "stable"), Some(1.0));
+    // again, from later on: the answer is another, the orbit the same
+    see(&mut app, &mut experiment, 43.0);
+    let before = curve(&app).unwrap();
+    let effects = press(&mut app, "t");
+    finish(&mut app, effects);
+    let after = curve(&app).unwrap();
+    assert!(near(&app));
+    assert_ne!(before[0], after[0]);
+}
+
+#[test]
+fn where_nothing_comes_back_it_says_why() {
+    let (app, _) = opened(&one("1/2*q'^2", "").replace("velocity = 0.0", "velocity = 1.0"), 1.0);
+    assert_eq!((measure(&app, "period"), curve(&app)), (None, None));
+    assert!(
+        legend(&app).contains("no periodic orbit was found near the start"),
+        "{}",
+        legend(&app)
+    );
+    // and so does the screen
+    let area = ratatui::layout::Rect::new(0, 0, 120, 40);
+    let mut buffer = ratatui::buffer::Buffer::empty(area);
+    phaselab::view::draw(&app, &rich(), area, &mut buffer);
+    let shown = rows(&buffer).concat();
+    assert!(shown.contains("no periodic orbit was found"), "{shown}");
+}
