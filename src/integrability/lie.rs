@@ -344,7 +344,10 @@ impl Problem {
                 points.push((values.clone(), known));
             }
             let new = functions.add(values);
-            let more = rows.into_iter().fold(false, |more, row| echelon.add(row) || more);
+            let mut more = false;
+            for row in rows {
+                more |= echelon.add(row);
+            }
             idle = if new || more { 0 } else { idle + 1 };
         }
         for block in 0..=n {

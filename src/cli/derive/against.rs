@@ -3,6 +3,8 @@
 //! In: an expression, or a file with a Lagrangian. Out: the answer, and the function whose derivative the difference is.
 //! Never here: the proof.
 
+use std::path::Path;
+
 use serde_json::{Value, json};
 
 use super::super::assignment;
@@ -31,7 +33,8 @@ impl Comparison {
             let why = "--against: the system has no Lagrangian in closed form".to_owned();
             return Err(CommandError::CouldNot(why));
         };
-        let is_file = given.ends_with(".toml") || crate::preset::find(given).is_ok();
+        let is_file = Path::new(given).extension().is_some_and(|end| end == "toml")
+            || crate::preset::find(given).is_ok();
         let text = if is_file { of_file(model, given)? } else { given.to_owned() };
         let other = assignment::expression(model, &mut equations.pool, &text, "--against")?;
         let mut allowed: Vec<_> =
