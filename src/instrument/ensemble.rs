@@ -34,6 +34,9 @@ const COUNT: usize = 2000;
 const FRAMES: usize = 32;
 const RATE: f64 = 30.0;
 
+/// Those of the first part, so that there is something to see soon.
+const FIRST_FRAMES: usize = 4;
+
 /// The size of a cloud: of its values, in a coordinate that is an angle, and where neither has a scale.
 const OF_VALUE: f64 = 0.3;
 const OF_TURN: f64 = 0.08;
@@ -437,7 +440,8 @@ impl Task {
             Some(known) if known.end > self.now => known.end + spacing,
             _ => self.now,
         };
-        let times: Vec<f64> = (0..FRAMES).map(|k| first + k as f64 * spacing).collect();
+        let frames = if known.is_some() { FRAMES } else { FIRST_FRAMES };
+        let times: Vec<f64> = (0..frames).map(|k| first + k as f64 * spacing).collect();
         let points = match known {
             Some(known) => known.points.clone(),
             None => self.origin.inside().map(|at| self.state(at)).collect(),
