@@ -255,7 +255,7 @@ fn the_equations_are_written_in_mathematics() {
     let mut app = in_lab();
     press(&mut app, "2");
     let text = rows(&screen(&app, &rich(), (120, 40))).join("\n");
-    for line in ["L = ½ m l² θ′² + m l g cos θ", "p_θ = m l² θ′", "θ″ = −g sin θ/l", "∂L/∂t = 0"]
+    for line in ["L = ½ m l² θ′² + m g l cos θ", "p_θ = m l² θ′", "θ″ = −(g/l) sin θ", "∂L/∂t = 0"]
     {
         assert!(text.contains(line), "{line} in\n{text}");
     }
