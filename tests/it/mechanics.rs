@@ -48,7 +48,7 @@ fn pendulum() {
     let model = lagrangian(&["theta"], &["m", "g", "l"], "1/2*m*l^2*theta'^2 + m*g*l*cos(theta)");
     let e = check(model, &["-g/l*sin(theta)"]);
     assert_eq!(e.pool.unicode(e.energy), "½ m l² θ̇² − m g l cos θ");
-    assert_eq!(e.pool.unicode(*e.hamiltonian.as_ref().expect("H")), "½ p_θ²/(m l²) − m g l cos θ");
+    assert_eq!(e.pool.unicode(*e.hamiltonian.as_ref().expect("H")), "p_θ²/(2 m l²) − m g l cos θ");
     assert!(e.separable.is_ok());
     assert!(e.cyclic.is_empty());
 }

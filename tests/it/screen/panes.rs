@@ -778,9 +778,9 @@ fn names_are_whole_or_not_there_and_cuts_are_marked() {
     app.update(Event::Snapshot(Arc::new(seen)));
     for size in [(60, 20), (80, 24), (120, 40)] {
         let rows = rows(&screen(&app, &rich(), size));
-        let row = rows.iter().position(|row| row.contains("  moment about any axis"));
+        let row = rows.iter().position(|row| row.contains("  moment of inertia about"));
         let Some(row) = row else { continue };
-        let whole = rows[row..row + 3].join(" ").contains("symmetry axis");
+        let whole = rows[row..row + 3].join(" ").contains("fixed point");
         assert!(whole || rows[row].contains('…') || rows[row + 1].contains('…'), "{rows:#?}");
     }
 }
