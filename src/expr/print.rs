@@ -59,6 +59,10 @@ pub(super) trait Style {
     /// Returns whether a fractional coefficient is written in front (`½ m`) and not in the
     /// fraction.
     fn coefficient_in_front(&self, n: Number, has_denominator: bool) -> bool;
+    /// Returns whether terms and factors are ordered as in a textbook; else in the order of their handles.
+    fn textbook(&self) -> bool {
+        true
+    }
     /// Returns whether a quotient of constants stands before functions: `(g/l) sin θ`.
     fn constants_apart(&self) -> bool {
         true
@@ -108,7 +112,11 @@ impl Printer<'_> {
 
     fn sum(&self, constant: Number, terms: &[(Number, Expr)]) -> Piece {
         let mut ordered = terms.to_vec();
-        ordered.sort_by_cached_key(|&(_, t)| self.order_of_term(t));
+        if self.style.textbook() {
+            ordered.sort_by_cached_key(|&(_, t)| self.order_of_term(t));
+        } else {
+            ordered.sort_by_key(|&(_, t)| (Reverse(self.rank(t)), t));
+        }
         let mut parts: Vec<(bool, String)> =
             ordered.iter().map(|&(c, t)| (c.is_negative(), self.term(c.abs(), t))).collect();
         if !constant.is_zero() {
@@ -264,12 +272,15 @@ impl Printer<'_> {
             Node::Symbol(s) => {
                 let info = self.pool.symbol_info(*s);
                 match info.rank {
+                    Rank::Constant if !self.style.textbook() => return (2, s.0),
                     Rank::Constant => return (2 + standing(&info.name), s.0),
                     Rank::Variable | Rank::Momentum => return (7, s.0),
                     Rank::Rate => return (8, s.0),
                 }
             }
-            Node::Sum(_, terms) if self.is_constant(e) && !self.has_call(e) => {
+            Node::Sum(_, terms)
+                if self.style.textbook() && self.is_constant(e) && !self.has_call(e) =>
+            {
                 let name = |&(_, t): &(Number, Expr)| {
                     self.pool.as_symbol(t).map(|s| self.pool.symbol_info(s).name.as_str())
                 };

@@ -210,7 +210,7 @@ fn check_there_and_back(model: &Model, h: &str) {
 fn the_legendre_transform_goes_there_and_back() {
     check_there_and_back(
         &lagrangian(&["x"], &["m", "k"], "1/2*m*x'^2 - 1/2*k*x^2"),
-        "p_x^2/(2*m) + 1/2*k*x^2",
+        "1/2*p_x^2/m + 1/2*k*x^2",
     );
     check_there_and_back(
         &lagrangian(&["x", "y"], &["b"], "1/2*x'^2 + x'*y' + y'^2 + b*x*y'"),
