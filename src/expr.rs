@@ -36,6 +36,7 @@ mod symbol;
 mod syntax;
 mod terms;
 mod text;
+mod textbook;
 mod token;
 mod trigonometry;
 mod unicode;

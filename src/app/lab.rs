@@ -105,20 +105,23 @@ fn rods(loaded: &Loaded) -> Rods {
     }
 }
 
-/// Returns for each line whether its length is independent of the coordinates.
+/// Returns for each line whether it is a rod, which turns: its length is independent of the coordinates, its direction is not.
 fn rods_among(loaded: &Loaded, shapes: &[Shape]) -> Vec<bool> {
     let mut pool = loaded.equations.pool.clone();
     let is_rod = |shape: &Shape| {
         let Shape::Line { from, to } = shape else { return false };
-        let squares = [0, 1, 2].map(|k| {
-            let difference = pool.sub(to[k], from[k]);
-            pool.powi(difference, 2)
-        });
+        let along = [0, 1, 2].map(|k| pool.sub(to[k], from[k]));
+        let squares = along.map(|difference| pool.powi(difference, 2));
         let length = pool.sum(&squares);
-        loaded.equations.coordinates.iter().all(|c| {
-            let slope = pool.derivative(length, c.position);
-            pool.is_zero(slope) == Zero::Proved
-        })
+        let coordinates = &loaded.equations.coordinates;
+        let turns = along
+            .iter()
+            .any(|&component| coordinates.iter().any(|c| pool.depends(component, c.position)));
+        turns
+            && coordinates.iter().all(|c| {
+                let slope = pool.derivative(length, c.position);
+                pool.is_zero(slope) == Zero::Proved
+            })
     };
     shapes.iter().map(is_rod).collect()
 }

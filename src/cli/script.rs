@@ -23,7 +23,7 @@ impl Script {
     pub(super) fn math(self, pool: &Pool, e: Expr) -> String {
         match self {
             Script::Unicode => pool.unicode(e),
-            Script::Ascii => pool.text(e),
+            Script::Ascii => pool.ascii(e),
         }
     }
 

@@ -8,7 +8,7 @@ use crate::num::Number;
 impl Pool {
     /// The expression in LaTeX, for math mode.
     pub fn latex(&self, e: Expr) -> String {
-        Printer { pool: self, style: &Latex }.piece(e).text
+        self.in_textbook_form(e, |pool, e| Printer { pool, style: &Latex }.piece(e).text)
     }
 }
 
@@ -62,10 +62,8 @@ impl Style for Latex {
             && function.row().arity == 1
             && *function != FunctionId::Abs
         {
-            let inner = printer.piece(arguments[0]).text;
-            let name = function.row().latex;
-            let text = format!("{name}^{{{n}}}\\left({inner}\\right)");
-            return Piece { text, level: Level::Power };
+            let name = format!("{}^{{{n}}}", function.row().latex);
+            return applied(printer, &name, arguments[0]);
         }
         // a dotted symbol takes an exponent directly; a power or a fraction needs parentheses
         let exponent = self.number(exponent);
@@ -77,6 +75,11 @@ impl Style for Latex {
     }
 
     fn call(&self, printer: &Printer<'_>, function: FunctionId, arguments: &[Expr]) -> Piece {
+        if let ([argument], false) =
+            (arguments, matches!(function, FunctionId::Abs | FunctionId::Exp))
+        {
+            return applied(printer, function.row().latex, *argument);
+        }
         let inner: Vec<String> = arguments.iter().map(|&a| printer.piece(a).text).collect();
         let text = match function {
             FunctionId::Abs => format!("\\left|{}\\right|", inner[0]),
@@ -91,4 +94,15 @@ impl Style for Latex {
     fn coefficient_in_front(&self, n: Number, has_denominator: bool) -> bool {
         !has_denominator && matches!(n, Number::Rational(_, d) if d != 1)
     }
+}
+
+/// `\sin \theta`, `\sin\left(2 \theta\right)`.
+fn applied(printer: &Printer<'_>, name: &str, argument: Expr) -> Piece {
+    let inner = printer.piece(argument).text;
+    let text = if printer.pool.as_symbol(argument).is_some() && name.starts_with('\\') {
+        format!("{name} {inner}")
+    } else {
+        format!("{name}\\left({inner}\\right)")
+    };
+    Piece { text, level: Level::Power }
 }

@@ -62,6 +62,11 @@ impl Pool {
         pool
     }
 
+    /// A pool with the same symbols and no other expression.
+    pub(super) fn with_the_same_symbols(&self) -> Pool {
+        Pool { symbols: self.symbols.clone(), names: self.names.clone(), ..Pool::new() }
+    }
+
     /// Radicands of even roots that powers have removed, such as x in (√x)². They are nonnegative
     /// wherever the original expressions have a value.
     pub fn under_roots(&self) -> &[Expr] {

@@ -1,10 +1,15 @@
 //! Printing of expressions: the order of terms and factors, the parentheses, the fractions. The
 //! three notations (file, Unicode, LaTeX) differ only in a [`Style`].
 
+use std::cmp::Reverse;
+
 use super::node::{Expr, FunctionId, Node};
 use super::pool::Pool;
-use super::symbol::Rank;
+use super::symbol::{Rank, Symbol};
 use crate::num::Number;
+
+/// What terms are ordered by.
+type OrderOfTerm = (Reverse<Rank>, bool, usize, bool, [Vec<Symbol>; 3], Expr);
 
 /// The binding strength of a written piece.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -54,6 +59,14 @@ pub(super) trait Style {
     /// Returns whether a fractional coefficient is written in front (`½ m`) and not in the
     /// fraction.
     fn coefficient_in_front(&self, n: Number, has_denominator: bool) -> bool;
+    /// Returns whether terms and factors are ordered as in a textbook; else in the order of their handles.
+    fn textbook(&self) -> bool {
+        true
+    }
+    /// Returns whether a quotient of constants stands before functions: `(g/l) sin θ`.
+    fn constants_apart(&self) -> bool {
+        true
+    }
 }
 
 /// Writes expressions of one pool in one style.
@@ -99,7 +112,11 @@ impl Printer<'_> {
 
     fn sum(&self, constant: Number, terms: &[(Number, Expr)]) -> Piece {
         let mut ordered = terms.to_vec();
-        ordered.sort_by_key(|&(_, t)| (std::cmp::Reverse(self.rank(t)), t));
+        if self.style.textbook() {
+            ordered.sort_by_cached_key(|&(_, t)| self.order_of_term(t));
+        } else {
+            ordered.sort_by_key(|&(_, t)| (Reverse(self.rank(t)), t));
+        }
         let mut parts: Vec<(bool, String)> =
             ordered.iter().map(|&(c, t)| (c.is_negative(), self.term(c.abs(), t))).collect();
         if !constant.is_zero() {
@@ -143,22 +160,45 @@ impl Printer<'_> {
         }
         let mut ordered = factors.to_vec();
         ordered.sort_by_key(|&(base, _)| self.order(base));
-        let below: Vec<(Expr, Number)> =
-            ordered.iter().filter(|(_, n)| n.is_negative()).map(|&(b, n)| (b, -n)).collect();
-        let above: Vec<(Expr, Number)> =
-            ordered.into_iter().filter(|(_, n)| !n.is_negative()).collect();
+        let (below, above): (Vec<_>, Vec<_>) =
+            ordered.into_iter().partition(|(_, n)| n.is_negative());
+        let below: Vec<(Expr, Number)> = below.into_iter().map(|(b, n)| (b, -n)).collect();
         let (front, over, under) = match c {
             Number::Rational(n, d) if !self.style.coefficient_in_front(c, !below.is_empty()) => {
                 (Number::ONE, Number::integer(n), Number::integer(d))
             }
             _ => (c, Number::ONE, Number::ONE),
         };
-        let above = self.factors(if front.is_one() { over } else { front }, &above);
+        let coefficient = if front.is_one() { over } else { front };
+        let constants = above.iter().take_while(|&&(base, _)| self.is_constant(base)).count();
+        let (first, rest) = above.split_at(constants);
+        let apart = self.style.constants_apart()
+            && rest.last().is_some_and(|&(base, _)| matches!(self.pool.node(base), Node::Call(..)));
+        // (5/7) g sin φ, and (g/l) sin θ
+        let number_below = below.is_empty() && !under.is_one();
+        let constant_below = under.is_one()
+            && constants > 0
+            && matches!(below[..], [(base, _)] if self.pool.as_symbol(base).is_some() && self.is_constant(base));
+        if apart && (number_below || constant_below) {
+            let in_fraction = if number_below { &[] } else { first };
+            let (over, under) =
+                (self.factors(coefficient, in_fraction), self.factors(under, &below));
+            let mut pieces = vec![self.wrap(self.style.fraction(&over, &under), Level::Power)];
+            let apart = if number_below { &above[..] } else { rest };
+            pieces.extend(apart.iter().map(|&factor| self.wrap(self.factor(factor), Level::Power)));
+            return Piece { text: self.style.join(&pieces), level: Level::Product };
+        }
+        let above = self.factors(coefficient, &above);
         if below.is_empty() && under.is_one() {
             return above;
         }
         let below = self.factors(under, &below);
         self.style.fraction(&above, &below)
+    }
+
+    /// `base ^ n` for a positive `n`.
+    fn factor(&self, (base, n): (Expr, Number)) -> Piece {
+        if n.is_one() { self.piece(base) } else { self.style.numeric_power(self, base, n) }
     }
 
     fn factors(&self, c: Number, factors: &[(Expr, Number)]) -> Piece {
@@ -170,17 +210,9 @@ impl Printer<'_> {
             pieces.push(self.wrap(self.style.number(c), Level::Product));
         }
         if let (true, &[(base, n)]) = (pieces.is_empty(), factors) {
-            return if n.is_one() {
-                self.piece(base)
-            } else {
-                self.style.numeric_power(self, base, n)
-            };
+            return self.factor((base, n));
         }
-        for &(base, n) in factors {
-            let piece =
-                if n.is_one() { self.piece(base) } else { self.style.numeric_power(self, base, n) };
-            pieces.push(self.wrap(piece, Level::Power));
-        }
+        pieces.extend(factors.iter().map(|&factor| self.wrap(self.factor(factor), Level::Power)));
         Piece { text: self.style.join(&pieces), level: Level::Product }
     }
 
@@ -190,19 +222,87 @@ impl Printer<'_> {
         ranks.max().unwrap_or_default().max(Rank::Variable)
     }
 
-    /// The order of factors: constants, variables, rates, brackets, functions.
+    fn is_constant(&self, e: Expr) -> bool {
+        let constant = |s| self.pool.symbol_info(s).rank == Rank::Constant;
+        self.pool.symbols_of(e).into_iter().all(constant)
+    }
+
+    fn has_call(&self, e: Expr) -> bool {
+        self.pool.reachable(&[e]).iter().any(|&part| matches!(self.pool.node(part), Node::Call(..)))
+    }
+
+    /// The order of terms: rates before momenta before coordinates; terms without functions first, then squares before
+    /// products of several, all in the order in which the variables were introduced. A constant stands after the powers
+    /// and before the functions.
+    fn order_of_term(&self, term: Expr) -> OrderOfTerm {
+        let rank = self.rank(term);
+        let highest = |&s: &Symbol| self.pool.symbol_info(s).rank.max(Rank::Variable) == rank;
+        let (constants, variables): (Vec<Symbol>, Vec<Symbol>) = self
+            .pool
+            .symbols_of(term)
+            .into_iter()
+            .partition(|&s| self.pool.symbol_info(s).rank == Rank::Constant);
+        let leading: Vec<Symbol> = variables.iter().copied().filter(|s| highest(s)).collect();
+        let (mut several, mut linear) = (0, rank > Rank::Variable);
+        let alone = [(term, Number::ONE)];
+        let factors = match self.pool.node(term) {
+            Node::Product(_, factors) => &factors[..],
+            _ => &alone,
+        };
+        for &(base, n) in factors.iter().filter(|(_, n)| !n.is_negative()) {
+            if !self.has_call(base) && leading.iter().any(|&s| self.pool.depends(base, s)) {
+                several += 1;
+                linear &= n.is_one() && self.pool.as_symbol(base).is_some();
+            }
+        }
+        let quotient = factors.iter().any(|(_, n)| n.is_negative());
+        let several = match (variables.is_empty(), quotient) {
+            (false, _) => several.max(1),
+            (true, false) => usize::MAX - 1,
+            (true, true) => usize::MAX,
+        };
+        let leading = if linear || rank == Rank::Variable { variables.clone() } else { leading };
+        (Reverse(rank), self.has_call(term), several, linear, [leading, variables, constants], term)
+    }
+
+    /// The order of factors: sums of masses, constants, sums of constants, variables, rates, brackets, functions.
     fn order(&self, e: Expr) -> (u8, u32) {
         let class = match self.pool.node(e) {
             Node::Number(_) | Node::Pi => 0,
-            Node::Symbol(s) => match self.pool.symbol_info(*s).rank {
-                Rank::Constant => return (1, s.0),
-                Rank::Variable | Rank::Momentum => return (2, s.0),
-                Rank::Rate => return (3, s.0),
-            },
-            Node::Sum(..) | Node::Product(..) => 4,
-            Node::Power(..) => 5,
-            Node::Call(..) => 6,
+            Node::Symbol(s) => {
+                let info = self.pool.symbol_info(*s);
+                match info.rank {
+                    Rank::Constant if !self.style.textbook() => return (2, s.0),
+                    Rank::Constant => return (2 + standing(&info.name), s.0),
+                    Rank::Variable | Rank::Momentum => return (7, s.0),
+                    Rank::Rate => return (8, s.0),
+                }
+            }
+            Node::Sum(_, terms)
+                if self.style.textbook() && self.is_constant(e) && !self.has_call(e) =>
+            {
+                let name = |&(_, t): &(Number, Expr)| {
+                    self.pool.as_symbol(t).map(|s| self.pool.symbol_info(s).name.as_str())
+                };
+                let names: Option<Vec<&str>> = terms.iter().map(name).collect();
+                let masses = names.is_some_and(|names| names.iter().any(|n| standing(n) == 1));
+                if masses { 1 } else { 6 }
+            }
+            Node::Sum(..) | Node::Product(..) => 9,
+            Node::Power(..) => 10,
+            Node::Call(..) => 11,
         };
         (class, e.0)
+    }
+}
+
+/// The place of a constant among constants by its usual meaning: charges and the constant of gravitation, masses, the
+/// acceleration g, all others.
+fn standing(name: &str) -> u8 {
+    match name.trim_end_matches(|c: char| c.is_ascii_digit()) {
+        "G" | "e" | "q" => 0,
+        "m" | "M" if name != "M0" => 1,
+        "g" => 2,
+        _ => 3,
     }
 }

@@ -95,7 +95,7 @@ impl Pool {
         if self.cost(b) < self.cost(a) { b } else { a }
     }
 
-    fn simplify_parts(&mut self, e: Expr) -> Expr {
+    pub(super) fn simplify_parts(&mut self, e: Expr) -> Expr {
         self.rewrite(Pass::Shorten, e, |pool, rebuilt| {
             let joined = pool.join_terms(rebuilt);
             let factored = pool.factor_out(joined);

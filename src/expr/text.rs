@@ -6,13 +6,23 @@ use super::print::{Level, Piece, Printer, Style};
 use crate::num::Number;
 
 impl Pool {
-    /// The expression in the syntax of preset files.
+    /// The expression as a textbook writes it, in the syntax of preset files.
+    pub fn ascii(&self, e: Expr) -> String {
+        self.in_textbook_form(e, |pool, e| {
+            Printer { pool, style: &Text { textbook: true } }.piece(e).text
+        })
+    }
+
+    /// The expression in the syntax of preset files, which parses back to the same expression.
     pub fn text(&self, e: Expr) -> String {
-        Printer { pool: self, style: &Text }.piece(e).text
+        Printer { pool: self, style: &Text { textbook: false } }.piece(e).text
     }
 }
 
-struct Text;
+/// The syntax of files, ordered as in a textbook or by handles.
+struct Text {
+    textbook: bool,
+}
 
 impl Style for Text {
     fn symbol<'p>(&self, pool: &'p Pool, e: Expr) -> &'p str {
@@ -58,7 +68,15 @@ impl Style for Text {
         Piece { text, level: Level::Atom }
     }
 
-    fn coefficient_in_front(&self, n: Number, _: bool) -> bool {
-        matches!(n, Number::Rational(1, d) if d != 1)
+    fn coefficient_in_front(&self, n: Number, has_denominator: bool) -> bool {
+        !(self.textbook && has_denominator) && matches!(n, Number::Rational(1, d) if d != 1)
+    }
+
+    fn textbook(&self) -> bool {
+        self.textbook
+    }
+
+    fn constants_apart(&self) -> bool {
+        false
     }
 }

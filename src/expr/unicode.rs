@@ -10,7 +10,7 @@ use crate::num::Number;
 impl Pool {
     /// The expression in Unicode mathematics.
     pub fn unicode(&self, e: Expr) -> String {
-        Printer { pool: self, style: &Unicode }.piece(e).text
+        self.in_textbook_form(e, |pool, e| Printer { pool, style: &Unicode }.piece(e).text)
     }
 }
 
@@ -57,7 +57,9 @@ impl Style for Unicode {
         let wrap = |piece: &Piece, wrapped| {
             if wrapped { self.parenthesise(&piece.text) } else { piece.text.clone() }
         };
-        let bare = below.text.starts_with(|c: char| c.is_ascii_digit()) && ends_bare(&above.text);
+        let bare = below.level >= Level::Power
+            && below.text.starts_with(|c: char| c.is_ascii_digit())
+            && ends_bare(&above.text);
         let above = wrap(above, above.level < Level::Product || bare);
         let text = format!("{above}/{}", wrap(below, below.level < Level::Power));
         Piece { text, level: Level::Product }
@@ -106,8 +108,9 @@ impl Style for Unicode {
         Piece { text, level: Level::Atom }
     }
 
-    fn coefficient_in_front(&self, n: Number, _: bool) -> bool {
-        glyph(n).is_some() || matches!(n, Number::Rational(_, d) if is_decimal(d))
+    fn coefficient_in_front(&self, n: Number, has_denominator: bool) -> bool {
+        matches!(n, Number::Rational(_, d) if is_decimal(d))
+            || !has_denominator && glyph(n).is_some()
     }
 }
 

@@ -43,7 +43,7 @@ pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
             weight if weight > MOST => {
                 format!("… ({weight} pieces: phaselab invariants prints them)")
             }
-            _ if look.glyphs.is_ascii() => pool.text(e),
+            _ if look.glyphs.is_ascii() => pool.ascii(e),
             _ => pool.unicode(e),
         }
     };

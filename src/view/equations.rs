@@ -55,7 +55,7 @@ impl Writer<'_> {
         if pool.weight(e) > MOST {
             return format!("… ({} pieces: phaselab derive prints them)", pool.weight(e));
         }
-        if self.look.glyphs.is_ascii() { pool.text(e) } else { pool.unicode(e) }
+        if self.look.glyphs.is_ascii() { pool.ascii(e) } else { pool.unicode(e) }
     }
 
     fn symbol(&self, symbol: Symbol) -> String {

@@ -7,6 +7,7 @@ mod body;
 mod circle;
 mod colours;
 mod reference_frame;
+mod rod;
 mod scene;
 mod solid;
 
@@ -73,6 +74,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         q,
         reference_frame,
         seen: eye.frame,
+        eye: *eye,
         beside: None,
         colours: colours(q, *eye),
     };
@@ -88,21 +90,26 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         }
     }
     artist.take(q, None);
-    for (shape, _) in q.lab.shapes(*eye) {
-        artist.shape(shape, &mut kept);
+    for (shape, rod) in q.lab.shapes(*eye) {
+        match shape {
+            Shape::Line { from, to } if rod => artist.rod(from, to),
+            _ => artist.shape(shape, &mut kept),
+        }
     }
+    artist.halos();
     canvas.kept = kept;
     let seen = eye.frame.and_then(|frame| q.lab.loaded.equations.supplements.frames.get(frame));
     let forces = artist.apparent(seen.map_or(&[], Vec::as_slice));
     artist.raster.draw(canvas.buffer);
     for (tip, label) in std::mem::take(&mut artist.labels) {
         let Some(at) = artist.frame.cell(tip) else { continue };
-        // Where there is no room beside the tip the label is above it.
-        let (x, y) = if at.x + 1 < area.right() {
-            (at.x + 1, at.y)
-        } else {
-            (at.x, at.y.saturating_sub(1).max(area.y))
-        };
+        // Where there is no room beside the tip the label is above it, and ends at the edge.
+        let (mut x, mut y) = (at.x + 1, at.y);
+        let width = label.chars().count() as u16;
+        if x + width > area.right() {
+            x = area.right().saturating_sub(width).max(area.x);
+            y = if at.y > area.y { at.y - 1 } else { at.y + 1 };
+        }
         canvas.write(Position { x, y }, area.right() - x, &label, canvas.style(Role::Accent));
     }
     legend(canvas, area, &forces);
@@ -118,6 +125,8 @@ struct ScenePainter<'a> {
     camera: Camera,
     q: &'a Quantities<'a>,
     reference_frame: Option<ReferenceFrame>,
+    /// Where it is seen from.
+    eye: CameraPose,
     /// The index of the reference frame.
     seen: Option<usize>,
     /// The number of the motion beside the main one that is being drawn.
@@ -428,7 +437,7 @@ impl ScenePainter<'_> {
     /// The colour of the mass at a point, and of its trace: the masses that move are counted first, then one that stays
     /// where it is, such as a sun, then the traces of other points.
     fn colour(&self, point: &Point) -> usize {
-        self.colours.iter().position(|other| other == point).unwrap_or(self.colours.len())
+        colours::colour(self.q, &self.colours, point)
     }
 
     /// Draws the pieces of the model's body and its principal axes, with its centre of mass at a point.

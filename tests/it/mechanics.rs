@@ -52,7 +52,7 @@ fn pendulum() {
     let model = lagrangian(&["theta"], &["m", "g", "l"], "1/2*m*l^2*theta'^2 + m*g*l*cos(theta)");
     let e = check(model, &["-g/l*sin(theta)"]);
     assert_eq!(e.pool.unicode(e.energy), "½ m l² θ̇² − m g l cos θ");
-    assert_eq!(e.pool.unicode(*e.hamiltonian.as_ref().expect("H")), "½ p_θ²/(m l²) − m g l cos θ");
+    assert_eq!(e.pool.unicode(*e.hamiltonian.as_ref().expect("H")), "p_θ²/(2 m l²) − m g l cos θ");
     assert!(e.separable.is_ok());
     assert!(e.cyclic.is_empty());
 }
@@ -77,7 +77,7 @@ fn heavy_symmetric_top() {
     );
     assert_eq!(e.cyclic, [1, 2]);
     let h = e.pool.unicode(*e.hamiltonian.as_ref().expect("H"));
-    assert_eq!(h, "½ p_θ²/I₁ + ½ p_ψ²/I₃ + ½ (p_φ − p_ψ cos θ)²/(I₁ sin² θ) + Mgl cos θ");
+    assert_eq!(h, "p_θ²/(2 I₁) + p_ψ²/(2 I₃) + (p_φ − p_ψ cos θ)²/(2 I₁ sin² θ) + Mgl cos θ");
 }
 
 #[test]
@@ -104,8 +104,8 @@ fn double_pendulum() {
                 ),
             ],
         );
-        let h = "½ p_b²/(m₂ l₂²) + ½ (p_a − l₁ p_b cos(a − b)/l₂)²/(l₁² (m₁ + m₂ sin²(a − b))) \
-                 − l₁ g (m₁ + m₂) cos a − m₂ l₂ g cos b";
+        let h = "p_b²/(2 m₂ l₂²) + (p_a − (l₁/l₂) p_b cos(a − b))²/(2 l₁² (m₁ + m₂ sin²(a − b))) \
+                 − (m₁ + m₂) g l₁ cos a − m₂ g l₂ cos b";
         assert_eq!(e.pool.unicode(*e.hamiltonian.as_ref().expect("H")), h);
     }
 }

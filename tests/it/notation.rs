@@ -218,3 +218,68 @@ fn what_the_lab_prints_of_every_preset_can_be_typed() {
     }
     assert!(seen >= 3 * 2 * catalog.entries().len(), "{seen}");
 }
+
+/// Equations as a textbook prints them, term by term and factor by factor.
+#[test]
+fn expressions_are_printed_as_in_a_textbook() {
+    let file = r#"
+title = "Letters"
+[coordinates]
+x1 = { initial = 0.5 }
+x2 = { initial = 0.5 }
+theta = { symbol = "θ", initial = 1.0 }
+[parameters]
+l = 1.0
+m = 1.0
+M = 1.0
+g = 9.81
+a = 1.0
+[lagrangian]
+L = "1/2*(m + M)*(x1'^2 + x2'^2 + l^2*theta'^2) - m*g*a*cos(theta)"
+"#;
+    let model = read(file).unwrap().model;
+    let mut pool = model.pool.clone();
+    let mut differ: Vec<String> = Vec::new();
+    let mut check = |plain: &str, unicode: &str, latex: &str| {
+        let e = typed(&model, &mut pool, plain).unwrap();
+        let written = [pool.unicode(e), pool.latex(e)];
+        if written != [unicode, latex] {
+            differ.push(format!("{plain}: {written:?}, not {:?}", [unicode, latex]));
+        }
+        for text in [pool.unicode(e), pool.ascii(e), pool.text(e)] {
+            let again = typed(&model, &mut pool, &text).unwrap();
+            let difference = pool.sub(again, e);
+            assert_eq!(pool.is_zero(difference), Zero::Proved, "{plain}: {text}");
+        }
+        let text = pool.text(e);
+        assert_eq!(typed(&model, &mut pool, &text), Ok(e), "{plain}");
+    };
+    // quotients of constants stand before functions, masses and g before lengths
+    check("-g*sin(theta)/l", "−(g/l) sin θ", r"-\frac{g}{l} \sin \theta");
+    check("5/7*sin(theta)*g", "(5/7) g sin θ", r"\frac{5}{7} g \sin \theta");
+    check("l*m*cos(2*theta)*g", "m g l cos(2 θ)", r"m g l \cos\left(2 \theta\right)");
+    check("x1'*(m + M)/2", "½ (m + M) ẋ₁", r"\frac{1}{2} \left(m + M\right) \dot{x_{1}}");
+    // halves go below a line that is there
+    check("1/2*x1^2/m", "x₁²/(2 m)", r"\frac{{x_{1}}^{2}}{2 m}");
+    // common denominators
+    check("x1'^2/m + x2'^2/m", "(ẋ₁² + ẋ₂²)/m", r"\frac{{\dot{x_{1}}}^{2} + {\dot{x_{2}}}^{2}}{m}");
+    check("g - 2*g/(m*(1/m + 1/M))", "(m − M) g/(m + M)", r"\frac{\left(m - M\right) g}{m + M}");
+    check(
+        "(x1*cos(theta)/(m + M) + g/l)/(m*cos(theta)^2/(m + M) - 1)",
+        "−((m + M) g + l x₁ cos θ)/(l (M + m sin² θ))",
+        r"-\frac{\left(m + M\right) g + l x_{1} \cos \theta}{l \left(M + m \sin^{2} \theta\right)}",
+    );
+    check("m*x1*x2 + M*x1*x2 + a", "(m + M) x₁ x₂ + a", r"\left(m + M\right) x_{1} x_{2} + a");
+    // a quotient that goes without remainder
+    check("(M*l + m*l + M*a + m*a)/(m + M)", "l + a", "l + a");
+    check("cos(theta)/sin(theta)*x1", "x₁ cot θ", r"x_{1} \cot \theta");
+    // what is added to a momentum, and an inverse sum that would only become longer, stay
+    check("a/(m + M + g/l^2)", "a/(m + M + g/l²)", r"\frac{a}{m + M + \frac{g}{{l}^{2}}}");
+    // squares before products, terms in the order of their variables, the constant last
+    check("x2*x1 + x2^2 + x1^2", "x₁² + x₂² + x₁ x₂", "{x_{1}}^{2} + {x_{2}}^{2} + x_{1} x_{2}");
+    check("-a - x2 - x1", "−x₁ − x₂ − a", "-x_{1} - x_{2} - a");
+    check("a - x1", "a − x₁", "a - x_{1}");
+    check("m*sin(theta)^2 + M", "M + m sin² θ", r"M + m \sin^{2} \theta");
+    check("-(-x1 - a)", "x₁ + a", "x_{1} + a");
+    assert!(differ.is_empty(), "{}", differ.join("\n"));
+}

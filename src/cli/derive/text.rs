@@ -191,11 +191,8 @@ impl Page<'_> {
         }
         self.lines_or_why("Multipliers", &report.multipliers);
         let rows = report.reactions.iter().map(|reaction| {
-            let factor = match self.math(reaction.factor) {
-                one if one == "1" => String::new(),
-                other => format!("({other}) "),
-            };
-            let force = format!("{factor}{}", self.symbol(reaction.multiplier));
+            let factor = self.math(reaction.factor);
+            let force = scaled(&factor, &self.symbol(reaction.multiplier));
             (format!("on {}", self.symbol(reaction.on)), force)
         });
         let rows: Vec<_> = rows.collect();
@@ -509,5 +506,25 @@ impl Page<'_> {
     /// Text as the reader's terminal can show it.
     fn words(&self, text: &str) -> String {
         self.script.words(text)
+    }
+}
+
+/// A symbol times a factor that is already written: `−λ`, `2 x λ`, `−λ sin φ`.
+fn scaled(factor: &str, symbol: &str) -> String {
+    let (minus, size) = match factor.strip_prefix(['−', '-']) {
+        Some(size) => (&factor[..factor.len() - size.len()], size),
+        None => ("", factor),
+    };
+    let words = size.split(' ').count();
+    let function = ["sin", "cos", "tan", "cot"].iter().any(|name| size.contains(name));
+    let sum = [" + ", " − ", " - "].iter().any(|sign| size.contains(sign));
+    if size == "1" {
+        format!("{minus}{symbol}")
+    } else if function && words == 2 {
+        format!("{minus}{symbol} {size}")
+    } else if function || sum || size.contains('/') {
+        format!("({factor}) {symbol}")
+    } else {
+        format!("{minus}{size} {symbol}")
     }
 }

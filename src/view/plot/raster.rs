@@ -6,6 +6,7 @@
 
 mod cloud;
 mod course;
+mod halo;
 mod kept_trail;
 mod letter;
 mod polyline;

@@ -23,7 +23,7 @@ pub(super) fn colours(q: &Quantities<'_>, eye: CameraPose) -> Vec<Point> {
         _ => None,
     });
     for at in traces {
-        if !points.contains(&at) {
+        if !points.contains(&at) && !points.iter().any(|mass| is_shadow(q, &at, mass)) {
             points.push(at);
         }
     }
@@ -31,4 +31,18 @@ pub(super) fn colours(q: &Quantities<'_>, eye: CameraPose) -> Vec<Point> {
         points.insert((1 + index).min(points.len()), at);
     }
     points
+}
+
+/// The colour of the mass or trace at a point: its own, or that of the mass whose shadow it is.
+pub(super) fn colour(q: &Quantities<'_>, points: &[Point], at: &Point) -> usize {
+    let own = points.iter().position(|other| other == at);
+    let shadow = || points.iter().position(|mass| is_shadow(q, at, mass));
+    own.or_else(shadow).unwrap_or(points.len())
+}
+
+/// Whether a point is another one seen in a plane across an axis: on the floor below it, say.
+fn is_shadow(q: &Quantities<'_>, at: &Point, mass: &Point) -> bool {
+    let apart: Vec<usize> = (0..3).filter(|&k| at[k] != mass[k]).collect();
+    let moves = |e| !matches!(q.place(e), Source::Number(_));
+    matches!(apart[..], [k] if !moves(at[k])) && mass.iter().any(|e| moves(*e))
 }

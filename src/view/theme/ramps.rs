@@ -14,11 +14,11 @@ pub(super) struct Ramps {
 }
 
 impl Ramps {
-    /// `ages` steps from nearly the background to the colour, brightened.
+    /// `ages` steps from nearly the background to the colour, which only the newest reaches, a little brightened.
     pub(super) fn trail(&self, ink: &PaletteColour, ages: usize) -> Vec<Shade> {
         let background = self.palette.background;
         let colour = ink.rgb.unwrap_or(self.palette.foreground);
-        let newest = colour.mix(self.palette.foreground, 0.35);
+        let newest = colour.mix(self.palette.foreground, 0.12);
         let base = ink.ansi;
         // Bright has more contrast than plain on black, but less on white.
         let oldest = if self.contrast(Color::DarkGray) < self.contrast(base) {

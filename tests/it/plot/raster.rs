@@ -332,3 +332,24 @@ fn shared_cells_are_a_part_of_those_with_dots() {
     assert_eq!(raster(0.0, 0.999).shared(&raster(0.0, 0.39)), 0.5, "beside counts too");
     assert_eq!(Raster::new(area, Glyphs::Ascii).shared(&raster(0.0, 1.0)), 0.0);
 }
+
+/// A halo takes the dots of lower layers around a disc, and no others.
+#[test]
+fn a_halo_blanks_what_is_below_and_near() {
+    let dots = |glyphs: Glyphs, layer: u8, halo: bool| {
+        let area = Rect::new(0, 0, 20, 10);
+        let frame = Frame { x: Scale::linear(0.0, 40.0), y: Scale::linear(0.0, 40.0), area };
+        let mut raster = Raster::new(area, glyphs);
+        raster.line(&frame, [0.0, 20.5], [40.0, 20.5], &Pen::new(Style::new(), layer));
+        if halo {
+            raster.halo(&frame, [20.0, 20.0], 4.0, 2);
+        }
+        raster.count()
+    };
+    let whole = dots(Glyphs::Braille, 2, false);
+    // of 40 dots in a row those within the radius and a dot and a half
+    let left = dots(Glyphs::Braille, 2, true);
+    assert!((10..=12).contains(&(whole - left)), "{whole} {left}");
+    assert_eq!(dots(Glyphs::Braille, 3, true), whole, "a rod goes on to its mass");
+    assert_eq!(dots(Glyphs::Ascii, 2, true), dots(Glyphs::Ascii, 2, false));
+}

@@ -384,7 +384,7 @@ fn the_equations_are_written_in_mathematics() {
     let mut app = in_lab();
     press(&mut app, "2");
     let text = rows(&screen(&app, &rich(), (120, 40))).join("\n");
-    for line in ["L = ½ m l² θ′² + m l g cos θ", "p_θ = m l² θ′", "θ″ = −g sin θ/l", "∂L/∂t = 0"]
+    for line in ["L = ½ m l² θ′² + m g l cos θ", "p_θ = m l² θ′", "θ″ = −(g/l) sin θ", "∂L/∂t = 0"]
     {
         assert!(text.contains(line), "{line} in\n{text}");
     }
@@ -907,9 +907,9 @@ fn names_are_whole_or_not_there_and_cuts_are_marked() {
     app.update(Event::Snapshot(Arc::new(seen)));
     for size in [(60, 20), (80, 24), (120, 40)] {
         let rows = rows(&screen(&app, &rich(), size));
-        let row = rows.iter().position(|row| row.contains("  moment about any axis"));
+        let row = rows.iter().position(|row| row.contains("  moment of inertia about"));
         let Some(row) = row else { continue };
-        let whole = rows[row..row + 3].join(" ").contains("symmetry axis");
+        let whole = rows[row..row + 3].join(" ").contains("fixed point");
         assert!(whole || rows[row].contains('…') || rows[row + 1].contains('…'), "{rows:#?}");
     }
 }

@@ -1,0 +1,308 @@
+//! An expression as a textbook writes it: terms over the same denominator are one fraction, no fraction stands inside
+//! another where that is no longer, and cos u/sin u is cot u.
+//!
+//! In: an expression. Out: an equal one, in a pool of its own, to be printed. Never here: the notation.
+
+use rustc_hash::FxHashMap;
+
+use super::expand::TRIAL_TERMS;
+use super::node::{Expr, FunctionId, Node};
+use super::pool::Pool;
+use super::symbol::Rank;
+use crate::num::Number;
+
+/// Heavier expressions are printed as they stand.
+const HEAVIEST: u64 = 250;
+
+type Factor = (Expr, Number);
+
+impl Pool {
+    /// Hands `print` the expression as a textbook writes it, and the pool it is in.
+    pub(super) fn in_textbook_form(
+        &self,
+        e: Expr,
+        print: impl Fn(&Pool, Expr) -> String,
+    ) -> String {
+        let matters =
+            |&part: &Expr| matches!(self.node(part), Node::Sum(..)) || self.has_quotient(part);
+        if self.weight(e) > HEAVIEST || !self.reachable(&[e]).iter().any(matters) {
+            return print(self, e);
+        }
+        let mut pool = self.with_the_same_symbols();
+        let copy = pool.copy_from(self, e);
+        let joined = pool.each_part(copy, |pool, part| match pool.node(part) {
+            Node::Sum(..) => pool.join_fractions(part),
+            Node::Product(..) => pool.flatten_fractions(part),
+            _ => part,
+        });
+        let written = pool.each_part(joined, |pool, part| match pool.node(part) {
+            Node::Sum(..) => pool.collect_constants(part),
+            Node::Product(..) => pool.quotient_of_sine_and_cosine(part),
+            _ => part,
+        });
+        print(&pool, written)
+    }
+
+    /// Returns whether a node is a product with something in its denominator.
+    fn has_quotient(&self, e: Expr) -> bool {
+        matches!(self.node(e), Node::Product(_, factors) if factors.iter().any(|(_, n)| n.is_negative()))
+    }
+
+    fn copy_from(&mut self, other: &Pool, e: Expr) -> Expr {
+        let mut copies: FxHashMap<Expr, Expr> = FxHashMap::default();
+        // handles ascend in both pools, so what is ordered by handles remains so
+        for part in other.reachable(&[e]) {
+            let of = |part: &Expr| copies[part];
+            let node = match other.node(part) {
+                Node::Sum(constant, terms) => {
+                    Node::Sum(*constant, terms.iter().map(|(c, t)| (*c, of(t))).collect())
+                }
+                Node::Product(c, factors) => {
+                    Node::Product(*c, factors.iter().map(|(b, n)| (of(b), *n)).collect())
+                }
+                Node::Power(base, exponent) => Node::Power(of(base), of(exponent)),
+                Node::Call(function, arguments) => {
+                    Node::Call(*function, arguments.iter().map(of).collect())
+                }
+                plain @ (Node::Number(_) | Node::Pi | Node::Symbol(_)) => plain.clone(),
+            };
+            let copy = self.intern(node);
+            copies.insert(part, copy);
+        }
+        copies[&e]
+    }
+
+    /// Rewrites an expression from its parts upwards, once.
+    fn each_part(&mut self, e: Expr, change: impl Fn(&mut Pool, Expr) -> Expr) -> Expr {
+        let mut changed: FxHashMap<Expr, Expr> = FxHashMap::default();
+        for part in self.reachable(&[e]) {
+            let rebuilt = self.rebuild_from(part, &changed);
+            let new = change(self, rebuilt);
+            changed.insert(part, new);
+        }
+        changed[&e]
+    }
+
+    /// A term as what stands above and below its line.
+    fn above_and_below(&self, term: Expr) -> (Vec<Factor>, Vec<Factor>) {
+        match self.node(term) {
+            Node::Product(_, factors) => factors.iter().partition(|(_, n)| !n.is_negative()),
+            _ => (vec![(term, Number::ONE)], Vec::new()),
+        }
+    }
+
+    /// `a/d + b/d` as `(a + b)/d`, and one denominator for all terms if that is shorter.
+    fn join_fractions(&mut self, e: Expr) -> Expr {
+        let shared = self.shared(e);
+        let Node::Sum(constant, terms) = &*shared else { return e };
+        let mut groups: Vec<(Vec<Factor>, Rank, Vec<(Number, Expr)>)> = Vec::new();
+        for &(c, term) in terms {
+            let (above, below) = self.above_and_below(term);
+            let rank = self.rank_of(term);
+            if below.is_empty() {
+                groups.push((below, rank, vec![(c, term)]));
+                continue;
+            }
+            let above = self.monomial(Number::ONE, &above);
+            match groups.iter_mut().find(|(known, r, _)| *known == below && *r == rank) {
+                Some((_, _, all)) => all.push((c, above)),
+                None => groups.push((below, rank, vec![(c, above)])),
+            }
+        }
+        let mut joined = Vec::with_capacity(groups.len());
+        for (below, _, above) in groups {
+            let above = self.linear(Number::ZERO, &above);
+            let mut factors = below;
+            factors.push((above, Number::ONE));
+            joined.push((Number::ONE, self.monomial(Number::ONE, &factors)));
+        }
+        let grouped = self.linear(*constant, &joined);
+        let momenta = terms.iter().any(|&(_, t)| self.rank_of(t) == Rank::Momentum);
+        let below_a_sum = joined.iter().any(|&(_, term)| {
+            let (_, below) = self.above_and_below(term);
+            below.iter().any(|&(base, _)| matches!(self.node(base), Node::Sum(..)))
+        });
+        match self.over_one_denominator(grouped) {
+            Some(one) if below_a_sum && !momenta && self.cost(one) < self.cost(grouped) => one,
+            _ => grouped,
+        }
+    }
+
+    /// A product without fractions inside its factors, where that is no longer; a denominator that is half fractions
+    /// has none afterwards.
+    fn flatten_fractions(&mut self, e: Expr) -> Expr {
+        let mut flat = e;
+        // what leaves a denominator may cancel above, so denominators come first
+        while let Some(flatter) = self
+            .flatter(flat, Number::is_negative)
+            .or_else(|| self.flatter(flat, |n| !n.is_negative()))
+        {
+            flat = flatter;
+        }
+        self.cancel_sums(flat)
+    }
+
+    /// The product with one fraction fewer inside a factor whose exponent is as `side` says.
+    fn flatter(&mut self, e: Expr, side: impl Fn(Number) -> bool) -> Option<Expr> {
+        let Node::Product(c, factors) = &*self.shared(e) else { return None };
+        for (i, &(base, n)) in factors.iter().enumerate() {
+            if n.as_integer().is_none() || !side(n) {
+                continue;
+            }
+            let Some(one) = self.over_one_denominator(base) else { continue };
+            let mut trial = factors.to_vec();
+            trial[i] = (one, n);
+            let then = self.monomial(*c, &trial);
+            let mixed = self.summands(base);
+            let whole =
+                mixed.iter().filter(|&&(_, t)| self.above_and_below(t).1.is_empty()).count();
+            let inside = n.is_negative() && 2 * whole <= mixed.len();
+            if then != e && (inside || self.cost(then) <= self.cost(e)) {
+                return Some(then);
+            }
+        }
+        None
+    }
+
+    /// `(M a + m a)/(M + m)` as `a`.
+    fn cancel_sums(&mut self, e: Expr) -> Expr {
+        let Node::Product(c, factors) = &*self.shared(e) else { return e };
+        let is_sum = |(base, _): &&Factor| matches!(self.node(*base), Node::Sum(..));
+        let (above, below): (Vec<Factor>, Vec<Factor>) =
+            factors.iter().filter(is_sum).partition(|(_, n)| !n.is_negative());
+        for &(whole, _) in above.iter().filter(|(_, n)| n.is_one()) {
+            for &(divisor, n) in below.iter().filter(|(_, n)| n.as_integer().is_some()) {
+                let Some(quotient) = self.quotient_of_sums(whole, divisor) else { continue };
+                let mut left: Vec<Factor> = factors
+                    .iter()
+                    .filter(|(base, _)| ![whole, divisor].contains(base))
+                    .copied()
+                    .collect();
+                left.extend([(quotient, Number::ONE), (divisor, n + Number::ONE)]);
+                return self.monomial(*c, &left);
+            }
+        }
+        e
+    }
+
+    /// The quotient of two sums if it is a sum itself, and the divisor has a term that is a symbol.
+    fn quotient_of_sums(&mut self, whole: Expr, divisor: Expr) -> Option<Expr> {
+        let (k, symbol) =
+            self.summands(divisor).into_iter().find(|&(_, term)| self.as_symbol(term).is_some())?;
+        let expanded = self.expand(whole, TRIAL_TERMS);
+        let holds = |pool: &Pool, term: Expr| match pool.node(term) {
+            Node::Product(_, factors) => factors.contains(&(symbol, Number::ONE)),
+            _ => term == symbol,
+        };
+        let parts: Vec<(Number, Expr)> =
+            self.summands(expanded).into_iter().filter(|&(_, term)| holds(self, term)).collect();
+        let parts: Vec<(Number, Expr)> =
+            parts.into_iter().map(|(c, term)| (c, self.div(term, symbol))).collect();
+        let sum = self.linear(Number::ZERO, &parts);
+        let quotient = self.scale(k.recip(), sum);
+        let again = self.mul(quotient, divisor);
+        let again = self.expand(again, TRIAL_TERMS);
+        (again == expanded && quotient != Expr::ZERO).then(|| self.simplify_parts(quotient))
+    }
+
+    /// A sum with fractions as one fraction; `None` if it has none, or is a momentum and what is added to it, as in
+    /// `p + e A/c`.
+    fn over_one_denominator(&mut self, e: Expr) -> Option<Expr> {
+        let Node::Sum(..) = self.node(e) else { return None };
+        let terms = self.summands(e);
+        let mut below: Vec<Factor> = Vec::new();
+        for &(_, term) in &terms {
+            let momentum = |s| self.symbol_info(s).rank == Rank::Momentum;
+            if self.as_symbol(term).is_some_and(momentum) {
+                return None;
+            }
+            for (base, n) in self.above_and_below(term).1 {
+                n.as_integer()?;
+                match below.iter_mut().find(|(known, _)| *known == base) {
+                    Some((_, least)) => *least = (*least).min(n),
+                    None => below.push((base, n)),
+                }
+            }
+        }
+        if below.is_empty() {
+            return None;
+        }
+        let raised: Vec<Factor> = below.iter().map(|&(base, n)| (base, -n)).collect();
+        let raised = self.monomial(Number::ONE, &raised);
+        let lifted: Vec<(Number, Expr)> =
+            terms.into_iter().map(|(c, term)| (c, self.mul(term, raised))).collect();
+        let above = self.linear(Number::ZERO, &lifted);
+        let expanded = self.expand(above, TRIAL_TERMS);
+        let short = [above, expanded].map(|e| self.simplify_parts(e));
+        let above = if self.cost(short[1]) < self.cost(short[0]) { short[1] } else { short[0] };
+        below.push((above, Number::ONE));
+        Some(self.monomial(Number::ONE, &below))
+    }
+
+    /// `m x + M x` as `(m + M) x`.
+    fn collect_constants(&mut self, e: Expr) -> Expr {
+        let Node::Sum(constant, terms) = &*self.shared(e) else { return e };
+        let is_constant = |&(base, _): &Factor| self.rank_of(base) == Rank::Constant;
+        let mut groups: Vec<(Vec<Factor>, Vec<(Number, Vec<Factor>)>)> = Vec::new();
+        for &(c, term) in terms {
+            let factors = match self.node(term) {
+                Node::Product(_, factors) => factors.to_vec(),
+                _ => vec![(term, Number::ONE)],
+            };
+            let (constants, rest): (Vec<Factor>, Vec<Factor>) =
+                factors.into_iter().partition(is_constant);
+            match groups.iter_mut().find(|(known, _)| *known == rest && !rest.is_empty()) {
+                Some((_, all)) => all.push((c, constants)),
+                None => groups.push((rest, vec![(c, constants)])),
+            }
+        }
+        if groups.len() == terms.len() {
+            return e;
+        }
+        let mut collected = Vec::with_capacity(groups.len());
+        for (mut rest, constants) in groups {
+            let constants: Vec<(Number, Expr)> =
+                constants.into_iter().map(|(c, f)| (c, self.monomial(Number::ONE, &f))).collect();
+            let sum = self.linear(Number::ZERO, &constants);
+            let sum = self.simplify_parts(sum);
+            rest.push((sum, Number::ONE));
+            collected.push((Number::ONE, self.monomial(Number::ONE, &rest)));
+        }
+        self.linear(*constant, &collected)
+    }
+
+    /// `cos u/sin u` as `cot u`, `sin u/cos u` as `tan u`.
+    fn quotient_of_sine_and_cosine(&mut self, e: Expr) -> Expr {
+        let shared = self.shared(e);
+        let Node::Product(c, factors) = &*shared else { return e };
+        let mut factors = factors.to_vec();
+        for (over, under, quotient) in [
+            (FunctionId::Cos, FunctionId::Sin, FunctionId::Cot),
+            (FunctionId::Sin, FunctionId::Cos, FunctionId::Tan),
+        ] {
+            let argument = |(base, n): &Factor, function, power| match self.node(*base) {
+                Node::Call(f, u) if *f == function && *n == power => Some(u[0]),
+                _ => None,
+            };
+            let above: Vec<Expr> =
+                factors.iter().filter_map(|f| argument(f, over, Number::ONE)).collect();
+            let both: Vec<Expr> = factors
+                .iter()
+                .filter_map(|f| argument(f, under, Number::MINUS_ONE))
+                .filter(|u| above.contains(u))
+                .collect();
+            for u in both {
+                let pair = [over, under].map(|f| self.call(f, &[u]));
+                factors.retain(|(base, _)| !pair.contains(base));
+                factors.push((self.call(quotient, &[u]), Number::ONE));
+            }
+        }
+        self.monomial(*c, &factors)
+    }
+
+    /// The highest rank among the symbols of an expression.
+    fn rank_of(&self, e: Expr) -> Rank {
+        let ranks = self.symbols_of(e).into_iter().map(|s| self.symbol_info(s).rank);
+        ranks.max().unwrap_or_default()
+    }
+}

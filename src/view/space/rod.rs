@@ -1,0 +1,44 @@
+//! What is told from a track at a glance: rods, which are two dots wide, and masses, which keep the dots around them blank.
+//!
+//! In: the lines and masses of a scene. Out: dots. Never here: which lines are rods, which their constant lengths tell.
+
+use super::{SOLID, ScenePainter, TRACK};
+use crate::model::{Point, Shape};
+use crate::view::glyphs::Glyphs;
+use crate::view::plot::Pen;
+use crate::view::theme::Role;
+
+impl ScenePainter<'_> {
+    /// Draws a rod: in a plane a line two dots wide where dots are fine enough, else a line.
+    pub(super) fn rod(&mut self, from: &Point, to: &Point) {
+        let pen = Pen::new(self.q.look.theme[Role::Text], SOLID);
+        let (from, to) = (self.point(from), self.point(to));
+        self.curve(&[from, to], &pen);
+        let fine = matches!(self.q.look.glyphs, Glyphs::Braille | Glyphs::Octant);
+        if self.range.is_some() || !fine {
+            return;
+        }
+        let size = self.raster.size();
+        let dot = [
+            (self.frame.x.hi - self.frame.x.lo) / f64::from(size[0].max(1)),
+            (self.frame.y.hi - self.frame.y.lo) / f64::from(size[1].max(1)),
+        ];
+        let (a, b) = (self.flat(from), self.flat(to));
+        let steep = ((b[1] - a[1]) / dot[1]).abs() > ((b[0] - a[0]) / dot[0]).abs();
+        let beside =
+            |p: [f64; 2]| if steep { [p[0] + dot[0], p[1]] } else { [p[0], p[1] + dot[1]] };
+        self.raster.polyline(&self.frame, [beside(a), beside(b)], &pen);
+    }
+
+    /// Blanks the tracks around the masses that are drawn with their radius.
+    pub(super) fn halos(&mut self) {
+        for (shape, _) in self.q.lab.shapes(self.eye) {
+            let Shape::Mass { at, radius: Some(radius) } = shape else { continue };
+            let (at, radius) = (self.point(at), self.q.number(*radius).abs());
+            if self.cells(radius).is_some() && !self.depth.hides_point(self.camera.project(at)) {
+                let centre = self.flat(at);
+                self.raster.halo(&self.frame, centre, radius, TRACK);
+            }
+        }
+    }
+}
