@@ -1,0 +1,261 @@
+//! A cloud under way: its points, the closed curve around it, and the job that carries both on, in parts.
+//!
+//! In: an [`Origin`], or a [`Cloud`] that was carried so far. Out: the next [`Cloud`]. Never here: how it is drawn.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use super::super::{Answer, Physics, Plot, Present, Seed};
+use super::origin::Origin;
+use crate::dynamics::{PhaseSpace, conformal_rate};
+use crate::ensemble::{Carried, Circulation, ClosedCurve, Flow, in_order};
+use crate::integrate::{Method, Settings};
+use crate::job::Progress;
+use crate::mechanics::Equations;
+use crate::model::Model;
+use crate::system::{ChannelKind, State, System};
+
+/// The starts of a cloud.
+const COUNT: usize = 2000;
+
+/// The frames that are computed in one part, and how many there are in a second of the wall clock at the file's own speed.
+const FRAMES: usize = 32;
+const RATE: f64 = 30.0;
+
+/// Those of the first part, so that there is something to see soon.
+const FIRST_FRAMES: usize = 4;
+
+/// The states of a cloud that are looked at for the rate at which areas shrink.
+const PROBES: usize = 16;
+
+/// A cloud under way.
+pub(super) struct Cloud {
+    pub(super) conditions: Conditions,
+    pub(super) origin: Origin,
+    /// The time of the motion when this part was asked for, and the time up to which the cloud is known.
+    asked: f64,
+    pub(super) end: f64,
+    pub(super) frames: Vec<Frame>,
+    /// Where the points are at the end.
+    points: Vec<Option<State>>,
+    pub(super) curve: Option<ClosedCurve>,
+    /// ∮ Σ p dq at the beginning.
+    pub(super) first: Option<Circulation>,
+    /// The rate at which it changes, if that is known.
+    pub(super) rate: Option<f64>,
+    /// The extent of all that was seen.
+    pub(super) extent: [[f64; 2]; 2],
+    pub(super) failure: Option<String>,
+}
+
+/// What is seen at one time.
+#[derive(Clone)]
+pub(super) struct Frame {
+    pub(super) time: f64,
+    pub(super) cloud: Arc<Vec<[f64; 2]>>,
+    pub(super) curve: Arc<Vec<[f64; 2]>>,
+    pub(super) action: Option<Circulation>,
+}
+
+/// What a cloud depends on.
+#[derive(Clone, PartialEq)]
+pub(super) struct Conditions {
+    parameters: Vec<f64>,
+    initial: Vec<f64>,
+    method: &'static str,
+    settings: Settings,
+    pub(super) seed: Option<Seed>,
+}
+
+impl Conditions {
+    pub(super) fn of(plot: &Plot, present: &Present<'_>) -> Self {
+        Self {
+            parameters: present.parameters.to_vec(),
+            initial: present.initial.to_vec(),
+            method: present.method,
+            settings: present.settings,
+            seed: plot.seeds.last().copied(),
+        }
+    }
+}
+
+impl Cloud {
+    /// Whether the motion at this time has all that a picture needs for some time.
+    pub(super) fn holds(&self, now: f64) -> bool {
+        let beyond = self.end - now;
+        self.failure.is_some() || self.began(now) && beyond > 0.5 * (self.end - self.asked)
+    }
+
+    /// Whether it is known from this time on.
+    pub(super) fn began(&self, now: f64) -> bool {
+        self.frames.first().is_some_and(|frame| frame.time <= now)
+    }
+}
+
+/// What a job computes: a cloud from its beginning, or from where it was left.
+pub(super) struct Task {
+    pub(super) plot: Plot,
+    pub(super) model: Arc<Model>,
+    pub(super) equations: Arc<Equations>,
+    pub(super) system: Arc<System>,
+    pub(super) method: (&'static Method, Settings),
+    pub(super) conditions: Conditions,
+    pub(super) origin: Origin,
+    pub(super) now: f64,
+    pub(super) known: Option<Answer>,
+}
+
+impl Task {
+    fn physics(&self) -> Physics<'_> {
+        Physics { model: &self.model, equations: &self.equations, system: &self.system }
+    }
+
+    /// The next part, about twice as long as the motion took since the last was asked for.
+    pub(super) fn next(&self, progress: &Progress) -> Cloud {
+        let parameters = &self.conditions.parameters;
+        let system = self.system.with_cancel(progress.token().clone());
+        let flow = Flow {
+            system,
+            method: self.method,
+            parameters: parameters.clone(),
+            start: self.model.run.start,
+        };
+        let flow = match self.state(self.origin.centre) {
+            Some(centre) => flow.settled(&centre),
+            None => flow,
+        };
+        let known = self.known.as_ref().and_then(Answer::of::<Cloud>);
+        let speed = Some(self.model.run.speed).filter(|s| s.is_finite() && *s > 0.0);
+        let least = FRAMES as f64 * speed.unwrap_or(1.0) / RATE;
+        let passed = known.map_or(0.0, |known| self.now - known.asked);
+        let spacing = (2.0 * passed).max(least) / FRAMES as f64;
+        let first = match known {
+            Some(known) if known.end > self.now => known.end + spacing,
+            _ => self.now,
+        };
+        let frames = if known.is_some() { FRAMES } else { FIRST_FRAMES };
+        let times: Vec<f64> = (0..frames).map(|k| first + k as f64 * spacing).collect();
+        let points = match known {
+            Some(known) => known.points.clone(),
+            None => self.origin.inside(COUNT).map(|at| self.state(at)).collect(),
+        };
+        let mut carried: Vec<Carried> = Vec::with_capacity(points.len());
+        progress.expect(points.len() as u64);
+        let axes = self.axes();
+        let one = |i: usize| {
+            let from = points[i].as_ref();
+            from.map_or_else(Carried::default, |from| flow.carry(from, &times, &axes))
+        };
+        let threads = in_order(0, points.len(), progress.token(), one, |i, result| {
+            progress.reach(i as u64);
+            carried.push(result);
+            ControlFlow::Continue(())
+        });
+        let start = |s: f64| self.state(self.origin.boundary(s));
+        let mut curve = match known {
+            Some(known) => known.curve.clone(),
+            None => self.channels().and_then(|all| ClosedCurve::new(&start, all, self.scales())),
+        };
+        let mut failure = threads.err().map(|why| why.to_string());
+        if let Some(curve) = &mut curve
+            && let Err(why) = curve.carry(&flow, &times, &start)
+        {
+            failure = Some(why.to_string());
+        }
+        let frame = |(k, &time): (usize, &f64)| {
+            let at = |one: &Carried| one.seen.get(k).map_or([f64::NAN; 2], |row| [row[0], row[1]]);
+            Frame {
+                time,
+                cloud: Arc::new(carried.iter().map(at).collect()),
+                curve: Arc::new(curve.as_ref().map_or_else(Vec::new, |curve| curve.points(k))),
+                action: curve.as_ref().and_then(|curve| curve.circulation(k)),
+            }
+        };
+        let new: Vec<Frame> = times.iter().enumerate().map(frame).collect();
+        let extent = extent(known.map(|known| known.extent), &new);
+        let known_frames = known.map_or(&[][..], |known| &known.frames);
+        let seen = known_frames.iter().rposition(|frame| frame.time <= self.now).unwrap_or(0);
+        let old = known_frames.iter().skip(seen).filter(|frame| frame.time < first).cloned();
+        Cloud {
+            conditions: self.conditions.clone(),
+            origin: self.origin.clone(),
+            asked: self.now,
+            end: times.last().copied().unwrap_or(self.now),
+            frames: old.chain(new).collect(),
+            points: carried.into_iter().map(|one| one.end).collect(),
+            first: known.map_or_else(|| self.first(&start), |known| known.first),
+            rate: known.map_or_else(|| self.rate(&points), |known| known.rate),
+            curve,
+            extent,
+            failure,
+        }
+    }
+
+    fn state(&self, at: [f64; 2]) -> Option<State> {
+        self.origin.state(at, &self.plot, self.physics(), &self.conditions.parameters)
+    }
+
+    fn axes(&self) -> Vec<usize> {
+        [0, 1].into_iter().filter_map(|k| self.plot.column(k)).collect()
+    }
+
+    /// The periods of the two quantities.
+    fn scales(&self) -> [f64; 2] {
+        [0, 1].map(|k| {
+            let channel = self.plot.column(k);
+            let period = channel.and_then(|c| self.system.period(c, &self.conditions.parameters));
+            period.unwrap_or(f64::INFINITY)
+        })
+    }
+
+    /// The two quantities, the coordinates, the momenta; without momenta there is no integral.
+    fn channels(&self) -> Option<Vec<usize>> {
+        let physics = self.physics();
+        let degrees = 0..self.system.degrees();
+        let kinds = degrees.clone().map(ChannelKind::Position);
+        let kinds = kinds.chain(degrees.map(ChannelKind::Momentum));
+        let pairs: Vec<usize> = kinds.map(|kind| physics.channel(kind)).collect::<Option<_>>()?;
+        Some([self.axes(), pairs].concat())
+    }
+
+    /// The integral around the curve where it began.
+    fn first(&self, start: &(dyn Fn(f64) -> Option<State> + Sync)) -> Option<Circulation> {
+        let mut curve = ClosedCurve::new(start, self.channels()?, self.scales())?;
+        let flow = Flow {
+            system: System::clone(&self.system),
+            method: self.method,
+            parameters: self.conditions.parameters.clone(),
+            start: self.model.run.start,
+        };
+        curve.carry(&flow, &[self.origin.time], start).ok()?;
+        curve.circulation(0)
+    }
+
+    /// The rate at which the integral changes, where it is one number.
+    fn rate(&self, points: &[Option<State>]) -> Option<f64> {
+        let parameters = &self.conditions.parameters;
+        let space = PhaseSpace::of(&self.model, &self.equations, &self.system, parameters);
+        let space = space.ok()?;
+        let states: Vec<State> = points
+            .iter()
+            .flatten()
+            .step_by((COUNT / PROBES).max(1))
+            .filter_map(|state| space.state(state).ok())
+            .collect();
+        let variables = states.iter().map(|state| space.variables(state));
+        conformal_rate(&space, self.origin.time, variables).ok()?
+    }
+}
+
+/// The extent of all that was seen, with what is in these frames.
+fn extent(known: Option<[[f64; 2]; 2]>, frames: &[Frame]) -> [[f64; 2]; 2] {
+    let mut extent = known.unwrap_or([[f64::INFINITY, f64::NEG_INFINITY]; 2]);
+    for frame in frames {
+        for at in frame.cloud.iter().chain(frame.curve.iter()) {
+            for (ends, x) in extent.iter_mut().zip(at) {
+                *ends = [ends[0].min(*x), ends[1].max(*x)];
+            }
+        }
+    }
+    extent
+}
