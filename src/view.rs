@@ -26,6 +26,7 @@ mod hit_test;
 mod kept;
 mod lab_page;
 mod layout;
+mod legend;
 pub mod lesson;
 mod look;
 mod marks;

@@ -257,7 +257,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('d')], Action::AddNeighbour, "", "add a neighbour, a motion from close beside, and show how they part: ln d against time"),
     row(Place::Experiment, &[c('F')], Action::Equilibria, "", "find equilibria and their small oscillations, to begin there or along a mode"),
     row(Place::Experiment, &[c('V')], Action::Exponents, "", "measure the Lyapunov exponent of the motion: regular or chaotic"),
-    row(Place::Experiment, &[c('K')], Action::Ensemble, "", "carry a cloud of starts along with the motion: its density, and ∮ p dq around it"),
+    row(Place::Experiment, &[c('K')], Action::Ensemble, "", "carry a cloud of starts along with the motion: its density, and the action ∫ p dq around it"),
     row(Place::Experiment, &[c('t')], Action::PeriodicOrbit, "", "find the periodic orbit near the motion: period, action, multipliers; again: near where it is now"),
     row(Place::Experiment, &[c('w')], Action::Spectrum, "", "find the frequencies ω of the motion: lines, and what they are combinations of"),
     row(Place::Experiment, &[c('C')], Action::ClearCompanions, "", "clear all motions beside the main one"),

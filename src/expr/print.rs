@@ -251,7 +251,8 @@ impl Printer<'_> {
         };
         for &(base, n) in factors.iter().filter(|(_, n)| !n.is_negative()) {
             if !self.has_call(base) && leading.iter().any(|&s| self.pool.depends(base, s)) {
-                several += 1;
+                // ½ y² before λ (3 x² y − y³)
+                several += if matches!(self.pool.node(base), Node::Sum(..)) { 2 } else { 1 };
                 linear &= n.is_one() && self.pool.as_symbol(base).is_some();
             }
         }

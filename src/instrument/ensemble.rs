@@ -63,7 +63,7 @@ impl Instrument for Ensemble {
         };
         let offer = |(x, y): (usize, usize)| Offer {
             label: format!("ensemble: {} against {}", physics.shown(y), physics.shown(x)),
-            about: "a cloud of starts carried by the flow, and ∮ p dq around it".to_owned(),
+            about: "a cloud of starts carried by the flow, and the action ∫ p dq around it".to_owned(),
             columns: vec![vec![x], vec![y]],
             view: None,
         };
@@ -184,7 +184,7 @@ impl Instrument for Ensemble {
             },
             Measure {
                 word: "action",
-                about: "∮ p dq around the cloud: its area, for one degree of freedom",
+                about: "the action ∫ p dq around the cloud: its area, for one degree of freedom",
                 value: |_, present, answer| Some(shown(present, answer)?.action?.value.abs()),
             },
             Measure {
@@ -241,15 +241,15 @@ fn sentence(present: &Present<'_>, answer: Option<&Answer>) -> String {
     let Some(action) = frame.action else {
         return match &cloud.curve {
             None => String::new(),
-            Some(curve) if curve.is_whole() => "∮ p dq: stretched too far to be known".to_owned(),
-            Some(_) => "∮ p dq: a part of the curve is lost".to_owned(),
+            Some(curve) if curve.is_whole() => "action: stretched too far to be known".to_owned(),
+            Some(_) => "action: a part of the curve is lost".to_owned(),
         };
     };
     // behind a motion that is faster than it can be carried
     let spacing = cloud.frames.windows(2).next().map_or(0.0, |pair| pair[1].time - pair[0].time);
     let late = present.time - frame.time > 2.0 * spacing;
     let at = if late { format!(" at t = {}", short(frame.time)) } else { String::new() };
-    let value = format!("∮ p dq {}{at}", short(action.value.abs()));
+    let value = format!("action {}{at}", short(action.value.abs()));
     match (cloud.rate, off(present, answer)) {
         (Some(rate), Some(off)) => {
             let law = if rate == 0.0 {

@@ -187,7 +187,7 @@ impl Instrument for Orbit {
             },
             Measure {
                 word: "action",
-                about: "∮ p dq along it",
+                about: "the action ∫ p dq along it",
                 value: |_, _, answer| described(answer)?.orbit.action,
             },
             Measure {
@@ -291,7 +291,7 @@ fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     let brief = |x: f64| significant(x, 5, 1e-3..1e5).replace('-', "−");
     let unit = physics.model.time_unit();
     let mut lines = vec![format!("T = {} {unit}", short(orbit.period)).trim_end().to_owned()];
-    lines.extend(orbit.action.map(|action| format!("∮ p dq = {}", short(action))));
+    lines.extend(orbit.action.map(|action| format!("action = {}", short(action))));
     let multiplier = |[re, im]: [f64; 2]| {
         if im == 0.0 {
             brief(re)

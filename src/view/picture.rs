@@ -15,7 +15,7 @@ use super::plot::ticks::nice_range;
 use super::plot::{Ages, Axes, Axis, Frame, Marker, Pen, Raster, Scale};
 use super::quantity::{Quantities, through};
 use super::theme::Role;
-use super::{companions, cursor, space, wrap};
+use super::{companions, cursor, legend, space};
 use crate::analysis::{Curve, Landscape};
 use crate::instrument::{
     Across, Entry, Heading, Ink, Layer, Level, Picture, Plot, Sign, Upwards, Viewport,
@@ -199,6 +199,7 @@ pub(super) fn draw(
         Picture::Axes { upwards, layers, occurrences } => (upwards, layers, occurrences),
     };
     let look = canvas.look;
+    let (area, beside) = legend::beside(area, &layers, canvas.look);
     let axes = Axes::new(across?, axis_upwards(q, &upwards, viewport));
     let mut axes = if viewport.equal { axes.equal() } else { axes };
     if let Across::Time = plot.kind.across(plot, &present, answer) {
@@ -222,7 +223,7 @@ pub(super) fn draw(
     raster.draw(canvas.buffer);
     for (_, layer) in &layers {
         if let Layer::Legend(lines) = layer {
-            legend(canvas, frame.area, lines);
+            legend::draw(canvas, beside.unwrap_or(frame.area), lines);
         }
     }
     let reading = cursor::draw(canvas, area, &frame, (viewport, &marks));
@@ -333,17 +334,6 @@ fn draw_layer(
         Layer::Point(at, sign, ink) => {
             raster.marker(frame, *at, marker(*sign), &pen(canvas, *ink, level));
         }
-    }
-}
-
-/// Writes lines into the upper left corner of a plot, wrapped, as far as there is room for them.
-fn legend(canvas: &mut Canvas<'_>, area: Rect, lines: &[String]) {
-    let look = canvas.look;
-    let room = usize::from(area.width).saturating_sub(2);
-    let wrapped = lines.iter().flat_map(|line| wrap::words(&look.glyphs.text(line), room.max(1)));
-    for (y, line) in (area.y..area.bottom()).zip(wrapped) {
-        let line = format!("{line} ");
-        canvas.buffer.set_stringn(area.x + 1, y, line, room, look.theme[Role::Text]);
     }
 }
 
