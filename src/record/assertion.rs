@@ -72,7 +72,12 @@ fn compared(
             let within = within.unwrap_or(0.0);
             let sentence = match measure {
                 Measure::Count => format!("{what} is {left}"),
-                _ => format!("{what} is {left}, {off:.1e} off {right}, within {within:e}"),
+                _ if off == 0.0 => format!("{what} is {left}, exactly"),
+                _ => format!(
+                    "{what} is {left}, {} off {right}, within {}",
+                    tolerance(off),
+                    tolerance(within)
+                ),
             };
             (off <= within, sentence)
         }
@@ -92,7 +97,9 @@ fn compared(
             match measure {
                 Measure::Count => format!("{what} is {left}, not {right}"),
                 _ => format!(
-                    "{what} is {left}, which is {off:.1e} off {right}, not within {within:e}"
+                    "{what} is {left}, which is {} off {right}, not within {}",
+                    tolerance(off),
+                    tolerance(within)
                 ),
             }
         }
@@ -100,6 +107,11 @@ fn compared(
         Relation::More => format!("{what} is {}, not above {}", short(left), short(right)),
     };
     Finding { holds, sentence }
+}
+
+/// A difference with two digits, for display only.
+fn tolerance(x: f64) -> String {
+    significant(x, 2, 1e-3..1e4)
 }
 
 /// A number with four digits, for display only.

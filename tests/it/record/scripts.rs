@@ -112,7 +112,7 @@ fn claims_are_held_against_the_moment() {
     check("Assert t < 0.5", &["2:1 this is false: t is 1, not below 0.5"]);
     check(
         "Assert t = 2 within 0.5",
-        &["2:1 this is false: t is 1, which is 1.0e0 off 2, not within 5e-1"],
+        &["2:1 this is false: t is 1, which is 1 off 2, not within 0.5"],
     );
     check("Assert drift energy < 1e-12", &[]);
     check(
