@@ -63,7 +63,8 @@ impl Instrument for Ensemble {
         };
         let offer = |(x, y): (usize, usize)| Offer {
             label: format!("ensemble: {} against {}", physics.shown(y), physics.shown(x)),
-            about: "a cloud of starts carried by the flow, and the action ∫ p dq around it".to_owned(),
+            about: "a cloud of starts carried by the flow, and the action ∫ p dq around it"
+                .to_owned(),
             columns: vec![vec![x], vec![y]],
             view: None,
         };

@@ -20,6 +20,9 @@ use crate::num::{DoubleDouble, math};
 const HALVINGS: u32 = 60;
 const STEPS: u32 = 100;
 
+/// The number of halvings where little is to be tried.
+const FEW_HALVINGS: u32 = 8;
+
 /// A residual this small relative to the terms is rounding in double-double …
 const ROUNDING: f64 = 1e-29;
 
@@ -97,6 +100,8 @@ pub(super) struct Legendre {
     /// (q, native rates).
     state: Vec<DoubleDouble>,
     newton: Newton,
+    /// Whether little is tried where the first guess does not lead to a solution.
+    pub(super) hasty: bool,
 }
 
 /// What an iteration needs, kept for the next: a landscape takes thousands.
@@ -130,7 +135,7 @@ impl Legendre {
         let degrees = program.inputs() / 2;
         let state = vec![DoubleDouble::ZERO; 2 * degrees];
         let values = Evaluator::new(program);
-        Legendre { native, values, degrees, state, newton: Newton::new(degrees) }
+        Legendre { native, values, degrees, state, newton: Newton::new(degrees), hasty: false }
     }
 
     pub(super) fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
@@ -169,15 +174,15 @@ impl Legendre {
         let unknown: Vec<usize> = (0..n).filter(|&i| targets[i].is_some()).collect();
         self.state.copy_from_slice(&state[..2 * n]);
         let mut found = self.iterate(time, targets, &unknown);
-        if found.is_err() {
+        if found.is_err() && !self.hasty {
             self.state.copy_from_slice(&state[..2 * n]);
             for &i in &unknown {
                 self.state[n + i] = DoubleDouble::ZERO;
             }
             found = self.iterate(time, targets, &unknown);
         }
-        if let (Err(LegendreError::NotConverging | LegendreError::Singular), [only]) =
-            (&found, &unknown[..])
+        if let (Err(LegendreError::NotConverging | LegendreError::Singular), [only], false) =
+            (&found, &unknown[..], self.hasty)
         {
             // what is wrong at the guess explains more than a search that found nothing
             found = self.between_signs(time, state, targets, *only).or(found);
@@ -368,6 +373,7 @@ impl Legendre {
         let n = self.degrees;
         let Newton { factored, scales: [scales, scales_there], step, missed, next, before } =
             newton;
+        let halvings = if self.hasty { FEW_HALVINGS } else { HALVINGS };
         self.missing(time, targets, unknown, scales, step)?;
         let mut left = None;
         let mut last_change = f64::INFINITY;
@@ -385,7 +391,7 @@ impl Legendre {
             let mut size = 1.0;
             let mut change = 0.0_f64;
             let (mut old, mut new) = (f64::INFINITY, f64::INFINITY);
-            for halving in 0..=HALVINGS {
+            for halving in 0..=halvings {
                 change = 0.0;
                 for (k, &i) in unknown.iter().enumerate() {
                     self.state[n + i] = before[k] + step[k] * size;
@@ -403,7 +409,7 @@ impl Legendre {
                     }
                     break;
                 }
-                if halving == HALVINGS {
+                if halving == halvings {
                     return Err(LegendreError::NotConverging);
                 }
                 size *= 0.5;

@@ -9,7 +9,7 @@ const IN_CIRCLES: &[(&str, usize)] = &[
     ("analysis", 2),
     ("app", 18),
     ("cli", 5),
-    ("instrument", 12),
+    ("instrument", 14),
     ("integrate", 2),
     ("preset", 2),
     ("record", 2),

@@ -65,6 +65,9 @@ fn shown(lesson: &mut Lesson) -> String {
 
 const HALF: &str = "Predict \"How far?\" r within 0.1\nWait 3s\nOutcome\nSay \"after\"\n";
 
+/// It shows how to go about, asks little and predicts nothing.
+const TOUR: &str = "tour";
+
 #[test]
 fn shipped_lessons_are_true_with_every_answer() {
     assert!(lessons().len() >= 8);
@@ -76,14 +79,15 @@ fn shipped_lessons_are_true_with_every_answer() {
         let open = script.head.open.clone().expect("a system").text;
         let checked = check_lesson(&script, &system(&open), &open);
         let checked = checked.unwrap_or_else(|why| panic!("{}", report(&why)));
-        assert!(checked.questions >= 3 && checked.tasks >= 1, "{name}: {checked:?}");
+        let (questions, tasks) = if name == TOUR { (1, 2) } else { (3, 1) };
+        assert!(checked.questions >= questions && checked.tasks >= tasks, "{name}: {checked:?}");
         assert!(checked.wrong >= 2 * checked.questions - 1, "{name}: {checked:?}");
     });
 }
 
 #[test]
 fn shipped_lessons_ask_for_a_value_and_end_with_the_lab() {
-    for name in lessons() {
+    for name in lessons().into_iter().filter(|name| *name != TOUR) {
         let script = Script::read(&lesson(name).expect("a lesson")).expect("a script");
         let has = |wanted: fn(&LessonStep) -> bool| {
             let mut steps = script.steps.iter().map(|(_, step)| step);
