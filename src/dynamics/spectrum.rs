@@ -73,7 +73,7 @@ pub struct MeanRate {
 }
 
 /// The spectrum of a signal at intervals of `spacing`: at most `most` lines, named by at most `fundamentals` frequencies.
-/// `look` is told of each line, and says whether to go on. `None` if there are too few numbers or one is not finite.
+/// `look` is given each line, and says whether to go on. `None` if there are too few numbers or one is not finite.
 pub fn spectrum(
     signal: &[f64],
     spacing: f64,

@@ -11,6 +11,7 @@ mod origin;
 
 use std::sync::Arc;
 
+use super::conditions::Conditions;
 use super::phase::initial_values;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
@@ -21,7 +22,7 @@ use crate::job::Job;
 use crate::num::{math, significant};
 use crate::system::{ChannelKind, Form, InitialOverride};
 
-use cloud::{Cloud, Conditions, Frame, Task};
+use cloud::{Cloud, Frame, Task};
 use origin::Origin;
 
 /// The levels of the picture.
@@ -72,18 +73,12 @@ impl Instrument for Ensemble {
     }
 
     fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
-        let [x, y] = [0, 1].map(|k| plot.column(k).map_or("?", |channel| physics.shown(channel)));
-        format!("ensemble, {y} against {x}")
+        format!("ensemble, {}", plot.against(physics))
     }
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
-        let title = plot.title(present.physics);
         let of = |k| Some(Entry::Channel(plot.column(k)?));
-        Some(Heading {
-            title: title.unwrap_or("Ensemble").to_owned(),
-            given: title.is_some(),
-            entries: vec![of(0)?, of(1)?],
-        })
+        Some(plot.heading(present.physics, "Ensemble", vec![of(0)?, of(1)?]))
     }
 
     fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
@@ -143,7 +138,7 @@ impl Instrument for Ensemble {
             return Need::Nothing;
         }
         let Some(method) = method_named(present.method) else { return Need::Nothing };
-        let conditions = Conditions::of(plot, present);
+        let conditions = Conditions::of(present, &plot.seeds);
         let known = cloud(answer)
             .filter(|known| known.conditions == conditions && known.origin.time <= present.time);
         if known.is_some_and(|known| known.holds(present.time)) {
@@ -151,7 +146,7 @@ impl Instrument for Ensemble {
         }
         let origin = match known {
             Some(known) => known.origin.clone(),
-            None => match Origin::of(plot, present, conditions.seed) {
+            None => match Origin::of(plot, present, conditions.seeds.last().copied()) {
                 Some(origin) => origin,
                 None => return Need::Nothing,
             },

@@ -3,16 +3,15 @@
 //! The job follows the variational equations along the motion from its initial values, over a time that is doubled until
 //! the exponent has been followed long enough ([`lyapunov`](crate::dynamics::lyapunov)); the picture fills as it does.
 
+use super::conditions::Conditions;
 use super::{
     Across, Answer, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, Present, Stroke, Upwards,
 };
 use crate::dynamics::{Chaos, Lyapunov, PhaseSpace, lyapunov};
-use crate::ensemble::Start;
 use crate::integrate::{Method, Settings, method_named};
 use crate::job::{Job, Progress};
 use crate::num::significant;
-use crate::system::{Form, InitialOverride};
 
 /// The levels of the picture.
 const BAND: Level = 0;
@@ -33,25 +32,6 @@ struct Measured {
     conditions: Conditions,
     doublings: u32,
     found: Result<Lyapunov, String>,
-}
-
-#[derive(Clone, PartialEq)]
-struct Conditions {
-    parameters: Vec<f64>,
-    initial: Vec<f64>,
-    method: &'static str,
-    settings: Settings,
-}
-
-impl Conditions {
-    fn of(present: &Present<'_>) -> Self {
-        Self {
-            parameters: present.parameters.to_vec(),
-            initial: present.initial.to_vec(),
-            method: present.method,
-            settings: present.settings,
-        }
-    }
 }
 
 impl Instrument for Exponents {
@@ -134,8 +114,8 @@ impl Instrument for Exponents {
         axes(&name, [least.min(0.0), greatest], layers)
     }
 
-    fn job(&self, _plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
-        let conditions = Conditions::of(present);
+    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+        let conditions = Conditions::of(present, &plot.seeds);
         let known = measured(answer).filter(|known| known.conditions == conditions);
         let doublings = match known {
             None => 0,
@@ -196,18 +176,7 @@ fn state(
     conditions: &Conditions,
     start: f64,
 ) -> Result<crate::system::State, String> {
-    let system = space.system();
-    let n = system.degrees();
-    let rate = |i: usize, x: f64| match system.form() {
-        Form::Velocity => InitialOverride::Velocity(i, x),
-        Form::Momentum | Form::Variables => InitialOverride::Momentum(i, x),
-    };
-    let given = conditions.initial.iter().enumerate();
-    let given =
-        given.map(|(i, &x)| if i < n { InitialOverride::Position(i, x) } else { rate(i - n, x) });
-    let parameters = conditions.parameters.clone();
-    let start = Start { time: start, parameters, overrides: given.collect() };
-    let state = start.state(system).and_then(|state| space.state(&state));
+    let state = conditions.state(space.system(), start).and_then(|state| space.state(&state));
     state.map_err(|fault| fault.to_string())
 }
 

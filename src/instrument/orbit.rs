@@ -4,6 +4,7 @@
 //! ([`periodic_orbit`]), and follows it once around; it begins again where a parameter, the method or the initial values
 //! change.
 
+use super::conditions::Conditions;
 use super::equilibria::given;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
@@ -45,27 +46,6 @@ struct Described {
     extent: [[f64; 2]; 2],
 }
 
-#[derive(Clone, PartialEq)]
-struct Conditions {
-    parameters: Vec<f64>,
-    initial: Vec<f64>,
-    method: &'static str,
-    settings: Settings,
-    seeds: Vec<Seed>,
-}
-
-impl Conditions {
-    fn of(plot: &Plot, present: &Present<'_>) -> Self {
-        Self {
-            parameters: present.parameters.to_vec(),
-            initial: present.initial.to_vec(),
-            method: present.method,
-            settings: present.settings,
-            seeds: plot.seeds.clone(),
-        }
-    }
-}
-
 impl Instrument for Orbit {
     fn name(&self) -> &'static str {
         "orbit"
@@ -94,18 +74,12 @@ impl Instrument for Orbit {
     }
 
     fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
-        let [x, y] = [0, 1].map(|k| plot.column(k).map_or("?", |channel| physics.shown(channel)));
-        format!("periodic orbit, {y} against {x}")
+        format!("periodic orbit, {}", plot.against(physics))
     }
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
-        let title = plot.title(present.physics);
         let of = |k| Some(Entry::Channel(plot.column(k)?));
-        Some(Heading {
-            title: title.unwrap_or("Periodic orbit").to_owned(),
-            given: title.is_some(),
-            entries: vec![of(0)?, of(1)?],
-        })
+        Some(plot.heading(present.physics, "Periodic orbit", vec![of(0)?, of(1)?]))
     }
 
     fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
@@ -150,7 +124,7 @@ impl Instrument for Orbit {
     }
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
-        let conditions = Conditions::of(plot, present);
+        let conditions = Conditions::of(present, &plot.seeds);
         let known = found(answer)
             .filter(|known| known.conditions == conditions && known.asked <= present.time);
         if known.is_some() {
@@ -279,7 +253,7 @@ fn residue(orbit: &Closed) -> Option<f64> {
         .then(|| (2.0 - orbit.transverse.trace()) / 4.0)
 }
 
-/// What is told of the orbit, or why there is none.
+/// What is said of the orbit, or why there is none.
 fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     let found = match found(answer).map(|found| &found.outcome) {
         None => return vec!["looking for the periodic orbit near the motion".to_owned()],

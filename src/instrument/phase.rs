@@ -68,8 +68,7 @@ impl Instrument for Phase {
     }
 
     fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
-        let [x, y] = [0, 1].map(|k| plot.column(k).map_or("?", |channel| physics.shown(channel)));
-        format!("{y} against {x}")
+        plot.against(physics)
     }
 
     fn lead(&self) -> &'static str {
@@ -77,18 +76,13 @@ impl Instrument for Phase {
     }
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
-        let title = plot.title(present.physics);
-        Some(Heading {
-            title: title
-                .unwrap_or(if plot.is_plane(present.physics) { "Plane" } else { "Phase" })
-                .to_owned(),
-            given: title.is_some(),
-            entries: vec![
-                Entry::Channel(plot.column(0)?),
-                Entry::Channel(plot.column(1)?),
-                Entry::Happenings,
-            ],
-        })
+        let otherwise = if plot.is_plane(present.physics) { "Plane" } else { "Phase" };
+        let entries = vec![
+            Entry::Channel(plot.column(0)?),
+            Entry::Channel(plot.column(1)?),
+            Entry::Happenings,
+        ];
+        Some(plot.heading(present.physics, otherwise, entries))
     }
 
     fn across(&self, plot: &Plot, _present: &Present<'_>, answer: Option<&Answer>) -> Across {

@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use super::table::is_view_of;
 use super::{
-    Answer, CameraPose, INSTRUMENTS, Instrument, MOST_SEEDS, Physics, Present, Seed, Sight,
-    Viewport, named,
+    Answer, CameraPose, Entry, Heading, INSTRUMENTS, Instrument, MOST_SEEDS, Physics, Present,
+    Seed, Sight, Viewport, named,
 };
 use crate::model::Model;
 use crate::system::{Channel, ChannelKind};
@@ -155,6 +155,23 @@ impl Plot {
     /// The name of the plot without a picture.
     pub fn words(&self, physics: Physics<'_>) -> String {
         self.title(physics).map_or_else(|| self.kind.words(self, physics), str::to_owned)
+    }
+
+    /// The line above it: the file's own title, or else this one.
+    pub(super) fn heading(
+        &self,
+        physics: Physics<'_>,
+        otherwise: &str,
+        entries: Vec<Entry>,
+    ) -> Heading {
+        let own = self.title(physics);
+        Heading { title: own.unwrap_or(otherwise).to_owned(), given: own.is_some(), entries }
+    }
+
+    /// Its two quantities in words: `p against q`.
+    pub(super) fn against(&self, physics: Physics<'_>) -> String {
+        let [x, y] = [0, 1].map(|k| self.column(k).map_or("?", |channel| physics.shown(channel)));
+        format!("{y} against {x}")
     }
 
     /// The title that the file gives to a view of the same quantities.

@@ -126,26 +126,21 @@ impl Instrument for Section {
     }
 
     fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
-        let [x, y] = [0, 1].map(|k| plot.column(k).map_or("?", |channel| physics.shown(channel)));
         let on = view(plot, physics).map_or_else(String::new, |view| surface(physics, view));
-        format!("section at {on}, {y} against {x}")
+        format!("section at {on}, {}", plot.against(physics))
     }
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
         let view = view(plot, present.physics)?;
-        let title = plot.title(present.physics);
         let count = present.crossed.get(view.section?).copied().unwrap_or(0);
-        Some(Heading {
-            title: title.unwrap_or("Section").to_owned(),
-            given: title.is_some(),
-            entries: vec![
-                Entry::Words(surface(present.physics, view)),
-                Entry::Words(match count {
-                    1 => "1 crossing".to_owned(),
-                    _ => format!("{count} crossings"),
-                }),
-            ],
-        })
+        let entries = vec![
+            Entry::Words(surface(present.physics, view)),
+            Entry::Words(match count {
+                1 => "1 crossing".to_owned(),
+                _ => format!("{count} crossings"),
+            }),
+        ];
+        Some(plot.heading(present.physics, "Section", entries))
     }
 
     fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {

@@ -4,16 +4,17 @@
 //! The job follows the motion from its initial values at equal intervals of time, and finds the lines
 //! ([`spectrum`](crate::dynamics::spectrum)).
 
+use super::conditions::Conditions;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, Present, Upwards,
 };
 use crate::dynamics::{MeanRate, Spectrum as Lines, mean_rate, spectrum};
-use crate::ensemble::{Flow, Start};
-use crate::integrate::{Settings, method_named};
+use crate::ensemble::Flow;
+use crate::integrate::method_named;
 use crate::job::{Job, Progress};
 use crate::num::{math, significant};
-use crate::system::{ChannelKind, Form, InitialOverride, System};
+use crate::system::ChannelKind;
 
 /// The levels of the picture.
 const CURVE: Level = 0;
@@ -23,7 +24,7 @@ const LINES: Level = 2;
 const SECONDS: f64 = 90.0;
 const COUNT: usize = 2048;
 
-/// The most lines that are looked for, and that are told.
+/// The most lines that are looked for, and that are listed.
 const MOST: usize = 10;
 const TOLD: usize = 6;
 
@@ -38,14 +39,6 @@ pub(super) struct Spectrum;
 struct Found {
     conditions: Conditions,
     outcome: Result<(Lines, Option<MeanRate>), String>,
-}
-
-#[derive(Clone, PartialEq)]
-struct Conditions {
-    parameters: Vec<f64>,
-    initial: Vec<f64>,
-    method: &'static str,
-    settings: Settings,
 }
 
 impl Instrument for Spectrum {
@@ -73,10 +66,8 @@ impl Instrument for Spectrum {
     }
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
-        let title = plot.title(present.physics);
         let entries = vec![Entry::Words("of the motion from its initial values".to_owned())];
-        let (title, given) = (title.unwrap_or("Spectrum").to_owned(), title.is_some());
-        Some(Heading { title, given, entries })
+        Some(plot.heading(present.physics, "Spectrum", entries))
     }
 
     fn across(&self, _plot: &Plot, _present: &Present<'_>, answer: Option<&Answer>) -> Across {
@@ -100,7 +91,7 @@ impl Instrument for Spectrum {
             let upwards = Upwards::Named(format!("lg amplitude of {name}"), range);
             Some(Picture::Axes { upwards, layers, occurrences: None })
         };
-        let legend = (LINES, Layer::Legend(told(present.physics, answer)));
+        let legend = (LINES, Layer::Legend(sentences(present.physics, answer)));
         let Some(found) = lines(answer) else { return axes([-POWERS, 0.0], vec![legend]) };
         let power = |x: f64| math::ln(x.max(f64::MIN_POSITIVE)) / std::f64::consts::LN_10;
         let most = found.curve.iter().map(|at| at[1]).fold(0.0, f64::max);
@@ -118,12 +109,7 @@ impl Instrument for Spectrum {
     }
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
-        let conditions = Conditions {
-            parameters: present.parameters.to_vec(),
-            initial: present.initial.to_vec(),
-            method: present.method,
-            settings: present.settings,
-        };
+        let conditions = Conditions::of(present, &plot.seeds);
         if found(answer).is_some_and(|known| known.conditions == conditions) {
             return Need::Held;
         }
@@ -151,7 +137,7 @@ impl Instrument for Spectrum {
             };
             let speed = if speed.is_finite() && speed > 0.0 { speed } else { 1.0 };
             let spacing = SECONDS * speed / COUNT as f64;
-            let start = beginning(&system, &conditions, begin);
+            let start = conditions.state(&system, begin).map_err(|fault| fault.to_string());
             let outcome = start.and_then(|start| {
                 let times: Vec<f64> = (0..COUNT).map(|k| begin + k as f64 * spacing).collect();
                 let seen = flow.carry(&start, &times, &[channel]).seen;
@@ -214,23 +200,6 @@ impl Instrument for Spectrum {
     }
 }
 
-/// The state of the initial values.
-fn beginning(
-    system: &System,
-    conditions: &Conditions,
-    time: f64,
-) -> Result<crate::system::State, String> {
-    let n = system.degrees();
-    let given = |(i, &x): (usize, &f64)| match system.form() {
-        _ if i < n => InitialOverride::Position(i, x),
-        Form::Velocity => InitialOverride::Velocity(i - n, x),
-        Form::Momentum | Form::Variables => InitialOverride::Momentum(i - n, x),
-    };
-    let overrides = conditions.initial.iter().enumerate().map(given).collect();
-    let start = Start { time, parameters: conditions.parameters.clone(), overrides };
-    start.state(system).map_err(|fault| fault.to_string())
-}
-
 /// An angle that goes round less its mean advance, so that what is left has lines.
 fn straightened(values: &[f64], spacing: f64, rate: Option<MeanRate>) -> Vec<f64> {
     let turned = |rate: &MeanRate| rate.rate.abs() * spacing * values.len() as f64;
@@ -251,8 +220,8 @@ fn mean(answer: Option<&Answer>) -> Option<MeanRate> {
     found(answer)?.outcome.as_ref().ok().and_then(|(_, rate)| *rate)
 }
 
-/// What is told of the lines, or why there are none.
-fn told(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
+/// What is said of the lines, or why there are none.
+fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     let lines = match found(answer).map(|found| &found.outcome) {
         None => return vec!["looking for lines".to_owned()],
         Some(Err(why)) => return vec![why.clone()],

@@ -46,12 +46,11 @@ impl Instrument for Time {
     }
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
-        let title = plot.title(present.physics);
         let curves = plot.columns.first()?.iter().enumerate();
         let mut entries: Vec<Entry> =
             curves.map(|(i, channel)| Entry::Curve(i, *channel)).collect();
         entries.push(Entry::Happenings);
-        Some(Heading { title: title.unwrap_or("Time").to_owned(), given: title.is_some(), entries })
+        Some(plot.heading(present.physics, "Time", entries))
     }
 
     fn across(&self, _plot: &Plot, _present: &Present<'_>, _answer: Option<&Answer>) -> Across {

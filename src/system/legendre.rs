@@ -100,8 +100,8 @@ pub(super) struct Legendre {
     /// (q, native rates).
     state: Vec<DoubleDouble>,
     newton: Newton,
-    /// Whether little is tried where the first guess does not lead to a solution.
-    pub(super) hasty: bool,
+    /// Whether solutions are looked for near the guess only.
+    pub(super) near_only: bool,
 }
 
 /// What an iteration needs, kept for the next: a landscape takes thousands.
@@ -135,7 +135,7 @@ impl Legendre {
         let degrees = program.inputs() / 2;
         let state = vec![DoubleDouble::ZERO; 2 * degrees];
         let values = Evaluator::new(program);
-        Legendre { native, values, degrees, state, newton: Newton::new(degrees), hasty: false }
+        Legendre { native, values, degrees, state, newton: Newton::new(degrees), near_only: false }
     }
 
     pub(super) fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
@@ -174,7 +174,7 @@ impl Legendre {
         let unknown: Vec<usize> = (0..n).filter(|&i| targets[i].is_some()).collect();
         self.state.copy_from_slice(&state[..2 * n]);
         let mut found = self.iterate(time, targets, &unknown);
-        if found.is_err() && !self.hasty {
+        if found.is_err() && !self.near_only {
             self.state.copy_from_slice(&state[..2 * n]);
             for &i in &unknown {
                 self.state[n + i] = DoubleDouble::ZERO;
@@ -182,7 +182,7 @@ impl Legendre {
             found = self.iterate(time, targets, &unknown);
         }
         if let (Err(LegendreError::NotConverging | LegendreError::Singular), [only], false) =
-            (&found, &unknown[..], self.hasty)
+            (&found, &unknown[..], self.near_only)
         {
             // what is wrong at the guess explains more than a search that found nothing
             found = self.between_signs(time, state, targets, *only).or(found);
@@ -373,7 +373,7 @@ impl Legendre {
         let n = self.degrees;
         let Newton { factored, scales: [scales, scales_there], step, missed, next, before } =
             newton;
-        let halvings = if self.hasty { FEW_HALVINGS } else { HALVINGS };
+        let halvings = if self.near_only { FEW_HALVINGS } else { HALVINGS };
         self.missing(time, targets, unknown, scales, step)?;
         let mut left = None;
         let mut last_change = f64::INFINITY;

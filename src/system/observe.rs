@@ -144,11 +144,11 @@ impl Observer {
             for (x, &position) in row.iter_mut().zip(positions) {
                 let energy = self.energy_at(time, form, position, rate);
                 empty += usize::from(energy.is_none());
-                self.legendre.hasty = empty >= MOST_EMPTY;
+                self.legendre.near_only = empty >= MOST_EMPTY;
                 *x = energy.unwrap_or(f64::NAN);
             }
         }
-        self.legendre.hasty = false;
+        self.legendre.near_only = false;
     }
 
     fn energy_at(&mut self, time: f64, form: Form, position: f64, rate: f64) -> Option<f64> {

@@ -39,7 +39,7 @@ pub(crate) fn shipped(preset: &str) -> Recording {
 }
 
 /// Does the same with every name, on all cores.
-pub(crate) fn on_all_cores(names: &[&str], work: impl Fn(usize, &str) + Sync) {
+pub(crate) fn on_all_cores(names: &[&str], work: impl Fn(&str) + Sync) {
     let next = AtomicUsize::new(0);
     let cores = available_parallelism().map_or(1, usize::from);
     thread::scope(|scope| {
@@ -48,7 +48,7 @@ pub(crate) fn on_all_cores(names: &[&str], work: impl Fn(usize, &str) + Sync) {
                 loop {
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     let Some(name) = names.get(index) else { return };
-                    work(index, name);
+                    work(name);
                 }
             });
         }

@@ -5,7 +5,8 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use super::super::{Answer, Physics, Plot, Present, Seed};
+use super::super::conditions::Conditions;
+use super::super::{Answer, Physics, Plot};
 use super::origin::Origin;
 use crate::dynamics::{PhaseSpace, conformal_rate};
 use crate::ensemble::{Carried, Circulation, ClosedCurve, Flow, in_order};
@@ -55,28 +56,6 @@ pub(super) struct Frame {
     pub(super) cloud: Arc<Vec<[f64; 2]>>,
     pub(super) curve: Arc<Vec<[f64; 2]>>,
     pub(super) action: Option<Circulation>,
-}
-
-/// What a cloud depends on.
-#[derive(Clone, PartialEq)]
-pub(super) struct Conditions {
-    parameters: Vec<f64>,
-    initial: Vec<f64>,
-    method: &'static str,
-    settings: Settings,
-    pub(super) seed: Option<Seed>,
-}
-
-impl Conditions {
-    pub(super) fn of(plot: &Plot, present: &Present<'_>) -> Self {
-        Self {
-            parameters: present.parameters.to_vec(),
-            initial: present.initial.to_vec(),
-            method: present.method,
-            settings: present.settings,
-            seed: plot.seeds.last().copied(),
-        }
-    }
 }
 
 impl Cloud {

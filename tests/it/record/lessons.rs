@@ -71,7 +71,7 @@ const TOUR: &str = "tour";
 #[test]
 fn shipped_lessons_are_true_with_every_answer() {
     assert!(lessons().len() >= 8);
-    on_all_cores(&lessons(), |_, name| {
+    on_all_cores(&lessons(), |name| {
         let source = lesson(name).expect("a lesson");
         let report = |mistakes: &[_]| source.report(mistakes, false);
         let script = Script::read(&source).unwrap_or_else(|why| panic!("{}", report(&why)));

@@ -1,0 +1,41 @@
+//! What the result of a job depends on: when it changes, the job is begun anew.
+//!
+//! In: the present, what was added. Out: [`Conditions`], to be compared. Never here: what is computed.
+
+use super::{Present, Seed};
+use crate::integrate::Settings;
+use crate::system::{Form, InitialOverride, MotionError, State, System};
+
+/// The values of the system, the method, and what a person added to the plot.
+#[derive(Clone, PartialEq)]
+pub(super) struct Conditions {
+    pub(super) parameters: Vec<f64>,
+    initial: Vec<f64>,
+    method: &'static str,
+    pub(super) settings: Settings,
+    pub(super) seeds: Vec<Seed>,
+}
+
+impl Conditions {
+    pub(super) fn of(present: &Present<'_>, seeds: &[Seed]) -> Self {
+        Self {
+            parameters: present.parameters.to_vec(),
+            initial: present.initial.to_vec(),
+            method: present.method,
+            settings: present.settings,
+            seeds: seeds.to_vec(),
+        }
+    }
+
+    /// The state of the initial values.
+    pub(super) fn state(&self, system: &System, time: f64) -> Result<State, MotionError> {
+        let n = system.degrees();
+        let given = |(i, &x): (usize, &f64)| match system.form() {
+            _ if i < n => InitialOverride::Position(i, x),
+            Form::Velocity => InitialOverride::Velocity(i - n, x),
+            Form::Momentum | Form::Variables => InitialOverride::Momentum(i - n, x),
+        };
+        let given: Vec<InitialOverride> = self.initial.iter().enumerate().map(given).collect();
+        system.initial(time, &self.parameters, &given)
+    }
+}
