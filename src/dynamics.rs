@@ -17,6 +17,7 @@ mod linear;
 mod lobatto;
 mod lyapunov;
 mod orbit;
+mod orbit_units;
 mod phase_space;
 mod quadrature;
 mod spectrum;

@@ -13,6 +13,7 @@ use nalgebra::{DMatrix, DVector};
 use super::error::DynamicsError;
 use super::linear;
 use super::orbit::{Fixed, Newton, Orbit};
+use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings};
 use crate::num::DoubleDouble;
@@ -227,6 +228,12 @@ impl Walk<'_> {
         Ok(point)
     }
 
+    /// The equations of an orbit of the family, in the units of the file.
+    fn newton<'s>(&self, space: &'s PhaseSpace) -> Newton<'s> {
+        let units = OrbitUnits::of_file(space.dimension());
+        Newton { space, method: self.method, fixed: self.held(), units }
+    }
+
     /// The residual of the orbit's equations at (z, T, μ), and their derivatives.
     fn equations(
         &self,
@@ -236,7 +243,7 @@ impl Walk<'_> {
     ) -> Result<(DVector<f64>, DMatrix<f64>, f64), DynamicsError> {
         let n = self.space.dimension();
         let space = self.space_at(parameter);
-        let newton = Newton { space: &space, method: self.method, fixed: self.held() };
+        let newton = self.newton(&space);
         let look = newton.look(state, period)?;
         let (matrix, right) = newton.equations(&look);
         let mut full = DMatrix::zeros(n + 2, n + 2);
@@ -245,7 +252,7 @@ impl Walk<'_> {
             let step = DIFFERENCE * parameter.abs().max(1e-2);
             let at = |parameter: f64| -> Result<DVector<f64>, DynamicsError> {
                 let space = self.space_at(parameter);
-                let newton = Newton { space: &space, method: self.method, fixed: self.held() };
+                let newton = self.newton(&space);
                 Ok(newton.missed(&newton.look(state, period)?))
             };
             let slope = (at(parameter + step)? - at(parameter - step)?) / (2.0 * step);
@@ -369,7 +376,7 @@ impl Walk<'_> {
         parameter: f64,
     ) -> Result<Option<Point>, DynamicsError> {
         let space = self.space_at(parameter);
-        let newton = Newton { space: &space, method: self.method, fixed: self.held() };
+        let newton = self.newton(&space);
         let orbit = newton.at(&state, period)?;
         let tangent = from.tangent.clone();
         let value = self.value_of(&orbit, parameter);

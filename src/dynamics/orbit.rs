@@ -14,6 +14,7 @@ use super::carrier::Carrier;
 use super::error::DynamicsError;
 use super::flow_map::flow_map;
 use super::linear;
+use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
 use super::quadrature::gauss;
 use super::transverse::{self, Removed};
@@ -111,7 +112,9 @@ pub fn periodic_orbit(
     if !(period > 0.0 && period.is_finite()) {
         return Err(unsuited("a period is above zero"));
     }
-    let mut newton = Newton { space, method, fixed };
+    let apart = |state: &State| difference(space, state, start);
+    let units = OrbitUnits::of_motion(space, method, (start, period), apart)?;
+    let mut newton = Newton { space, method, fixed, units };
     let mut closed = newton.solve(start, period)?;
     // the same orbit may have been followed several times
     if !matches!(fixed, Fixed::Period(_)) {
@@ -214,9 +217,10 @@ pub(super) struct Newton<'a> {
     pub(super) space: &'a PhaseSpace,
     pub(super) method: (&'static Method, Settings),
     pub(super) fixed: Fixed,
+    pub(super) units: OrbitUnits,
 }
 
-/// The motion over one period.
+/// The motion over one period, in the units of the orbit but for the monodromy matrix and the energy.
 pub(super) struct Look {
     miss: DVector<f64>,
     monodromy: DMatrix<f64>,
@@ -238,19 +242,26 @@ impl Newton<'_> {
         field.evaluate(state.time, space.variables(state))?;
         let first = field.rate();
         field.evaluate(map.time, space.variables(&map.state))?;
-        let miss = difference(space, &map.state, state);
+        let miss = self.units.scaled(&difference(space, &map.state, state));
         let energy = space.system().energy(state, space.parameters())?;
-        let size = DVector::from_column_slice(space.variables(state)).amax();
-        let size = size.max(first.amax() * period.min(1.0));
-        let rates = [first, field.rate()];
+        let rates = [first, field.rate()].map(|rate| self.units.rates(&rate));
+        let size = self.size(state).max(rates[0].amax() * (period / self.units.time()).min(1.0));
         Ok(Look { miss, monodromy: map.matrix, rates, energy, size, settings: map.settings })
+    }
+
+    /// The size of a state.
+    fn size(&self, state: &State) -> f64 {
+        let variables = DVector::from_column_slice(self.space.variables(state));
+        self.units.scaled(&variables).amax()
     }
 
     /// What is missing: closure, and the energy in units of length.
     fn residual(&self, look: &Look) -> f64 {
-        let slope = look.rates[0].norm().max(f64::MIN_POSITIVE);
         let energy = match self.fixed {
-            Fixed::Energy(wanted) => (wanted - look.energy) / slope,
+            Fixed::Energy(wanted) => {
+                let slope = self.units.gradient(&look.rates[0]).norm();
+                (wanted - look.energy) / slope.max(f64::MIN_POSITIVE)
+            }
             _ => 0.0,
         };
         math::hypot(look.miss.norm(), energy)
@@ -267,14 +278,15 @@ impl Newton<'_> {
                 break;
             }
             let step = self.step(&look, residual).ok_or_else(|| no_orbit(residual, time))?;
+            let change = self.units.unscaled(&step.rows(0, n).into_owned());
             let mut part = 1.0;
             let mut next = None;
             for _ in 0..HALVINGS {
                 let mut there = state.clone();
                 for i in 0..n {
-                    there.set(i, state.exact(i) + DoubleDouble::from(part * step[i]));
+                    there.set(i, state.exact(i) + DoubleDouble::from(part * change[i]));
                 }
-                let later = time + part * step[n];
+                let later = time + part * step[n] * self.units.time();
                 if (0.2 * period..5.0 * period).contains(&later) {
                     match self.look(&there, later) {
                         Ok(found) if self.residual(&found) < residual => {
@@ -292,7 +304,8 @@ impl Newton<'_> {
             stalled = if better > 0.5 * residual { stalled + 1 } else { 0 };
             (state, time, look, residual) = (there, later, found, better);
         }
-        let still = look.rates[0].norm() * time < 1e-6 * look.size;
+        let turned = time / self.units.time();
+        let still = look.rates[0].norm() * turned < 1e-6 * look.size;
         if residual > CLOSED * look.size || still {
             return Err(no_orbit(residual, time));
         }
@@ -313,7 +326,9 @@ impl Newton<'_> {
         let n = self.space.dimension();
         let autonomous = self.space.is_autonomous();
         let mut matrix = DMatrix::zeros(n + 2, n + 1);
-        matrix.view_mut((0, 0), (n, n)).copy_from(&(&look.monodromy - DMatrix::identity(n, n)));
+        matrix
+            .view_mut((0, 0), (n, n))
+            .copy_from(&(self.units.map(&look.monodromy) - DMatrix::identity(n, n)));
         let speed = look.rates[0].norm();
         if autonomous && speed > 0.0 {
             // the state does not move along the orbit
@@ -323,24 +338,20 @@ impl Newton<'_> {
             matrix.view_mut((0, n), (n, 1)).copy_from(&look.rates[1]);
         }
         if let Fixed::Energy(_) = self.fixed {
-            // ∇H = −𝕁 f, in units of the speed
-            let half = n / 2;
-            for i in 0..half {
-                matrix[(n + 1, i)] = -look.rates[0][half + i] / speed;
-                matrix[(n + 1, half + i)] = look.rates[0][i] / speed;
-            }
+            let gradient = self.units.gradient(&look.rates[0]);
+            matrix.view_mut((n + 1, 0), (1, n)).copy_from(&gradient.normalize().transpose());
         }
         (matrix, -self.missed(look))
     }
 
     /// The distance by which the motion does not close, no motion along the orbit, and the energy in
-    /// excess in units of the speed.
+    /// excess in units of its gradient.
     pub(super) fn missed(&self, look: &Look) -> DVector<f64> {
         let n = self.space.dimension();
         let mut missed = DVector::zeros(n + 2);
         missed.rows_mut(0, n).copy_from(&look.miss);
         if let Fixed::Energy(wanted) = self.fixed {
-            missed[n + 1] = (look.energy - wanted) / look.rates[0].norm();
+            missed[n + 1] = (look.energy - wanted) / self.units.gradient(&look.rates[0]).norm();
         }
         missed
     }
@@ -372,11 +383,12 @@ impl Newton<'_> {
             (true, false) => Removed::Flow,
             (false, _) => Removed::Nothing,
         };
-        let frame = transverse::frame(&field.rate(), trivial, space.is_hamiltonian());
-        let transverse = frame.transpose() * &closed.monodromy * &frame;
+        let rate = self.units.rates(&field.rate());
+        let frame = transverse::frame(&rate, trivial, space.is_hamiltonian());
+        let transverse = frame.transpose() * self.units.map(&closed.monodromy) * &frame;
         let multipliers = linear::eigenvalues(&transverse);
         let stable = multipliers.iter().all(|z| math::hypot(z[0], z[1]) <= 1.0 + ON_CIRCLE);
-        let size = DVector::from_column_slice(space.variables(&closed.state)).amax();
+        let size = self.size(&closed.state);
         Ok(Orbit {
             period: closed.period,
             energy: space.system().energy(&closed.state, space.parameters())?,
@@ -426,6 +438,6 @@ impl Newton<'_> {
 fn no_orbit(residual: f64, period: f64) -> DynamicsError {
     DynamicsError::Unsuited(format!(
         "no periodic orbit was found near the start: the best one misses itself by {residual:.1e} \
-         after {period:.6}"
+         of its size after {period:.6}"
     ))
 }

@@ -119,3 +119,24 @@ fn where_nothing_returns_no_orbit_is_claimed() {
         assert!(matches!(found, Err(DynamicsError::Unsuited(_) | DynamicsError::Motion(_))));
     }
 }
+
+/// In metres, seconds and kilogrammes of atoms and of galaxies the numbers are others and the orbit is the same.
+#[test]
+fn an_orbit_does_not_depend_on_units() {
+    for (length, time, mass) in [(1e-10, 1e-15, 1e-30), (1e20, 1e15, 1e40), (1e-10, 1e6, 1.0)] {
+        let text = format!(
+            "title = \"t\"\n[coordinates]\nx = {{ initial = 0 }}\ny = {{ initial = {} }}\n\
+             [parameters]\nm = {mass:e}\na = {length:e}\nb = {time:e}\n[hamiltonian]\n\
+             H = \"1/2*(p_x^2 + p_y^2)/m + m/b^2*(1/2*(x^2 + y^2) + (x^2*y - y^3/3)/a)\"\n",
+            -0.18 * length
+        );
+        let momentum = 0.46 * mass * length / time;
+        let case = file(&text, &[0.0, -0.18 * length, momentum, 0.0]);
+        let energy = mass * (length / time).powi(2);
+        let found = of(&case, None, Fixed::Energy(0.125 * energy));
+        close(found.period / time, 6.900_599_447_648_208_6, 1e-12);
+        close(found.energy / energy, 0.125, 1e-14);
+        close(found.transverse.trace(), 4.026_594_859_728_68, 1e-10);
+        assert!(found.closure < 1e-13 && !found.stable, "{}", found.closure);
+    }
+}
