@@ -47,7 +47,7 @@ impl OrbitUnits {
                 extents = extents.sup(&apart(&state).abs());
             }
         }
-        let variables = if space.is_hamiltonian() { conformal(&extents) } else { filled(extents) };
+        let variables = if space.is_hamiltonian() { conformal(&extents) } else { filled(&extents) };
         Ok(OrbitUnits { variables, time: period })
     }
 
@@ -95,7 +95,7 @@ impl OrbitUnits {
 }
 
 /// Extents with those that are zero, or not finite, as the largest.
-fn filled(extents: DVector<f64>) -> DVector<f64> {
+fn filled(extents: &DVector<f64>) -> DVector<f64> {
     let good = |x: f64| x > 0.0 && x.is_finite();
     let largest = extents.iter().copied().filter(|x| good(*x)).fold(0.0, f64::max);
     let largest = if good(largest) { largest } else { 1.0 };
@@ -112,7 +112,7 @@ fn conformal(extents: &DVector<f64>) -> DVector<f64> {
     let common = math::exp(known.iter().sum::<f64>() / known.len().max(1) as f64);
     let product = (0..half).map(|i| extents[i] * extents[half + i]).fold(0.0, f64::max);
     if !good(product) {
-        return filled(extents.clone());
+        return filled(extents);
     }
     DVector::from_fn(extents.len(), |k, _| {
         let ratio = ratios[k % half];
