@@ -6,7 +6,9 @@
 
 mod brackets;
 mod check;
+mod conservation;
 mod invariants;
+mod motion;
 mod start;
 
 pub use check::{false_claims, flaws};

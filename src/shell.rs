@@ -31,6 +31,7 @@ mod lab;
 mod lesson;
 mod loader;
 mod log;
+mod new_file;
 pub mod options;
 mod panic;
 mod progress;

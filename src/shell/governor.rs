@@ -143,12 +143,21 @@ impl Governor {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use ratatui::buffer::Buffer;
     use ratatui::layout::{Rect, Size};
     use ratatui::style::{Color, Style};
 
     use super::*;
+    use crate::app::{App, Event, Loaded};
+    use crate::experiment::{Experiment, Prepared};
+    use crate::preset::Catalog;
+    use crate::view::colour::ColourDepth;
     use crate::view::frame::Frames;
+    use crate::view::glyphs::Glyphs;
+    use crate::view::theme::Theme;
+    use crate::view::{self, RenderStyle};
 
     const BUDGET: u32 = 16 * 1024;
 
@@ -272,5 +281,96 @@ mod tests {
         assert!(governor.soon(now) < now + Duration::from_millis(70));
         governor.sent(BUDGET as usize / 2, now);
         assert!(governor.soon(now) >= now + Duration::from_millis(500));
+    }
+
+    /// A running system, and the terminal that shows it.
+    struct OpenSystem {
+        app: App,
+        experiment: Experiment,
+        look: RenderStyle,
+        screen: Frames,
+        size: Size,
+    }
+
+    impl OpenSystem {
+        fn of(name: &str, depth: ColourDepth, (width, height): (u16, u16)) -> Self {
+            let catalog = Catalog::with_folder(None);
+            let document = catalog.find(name).expect("a shipped preset");
+            let ready = Prepared::of(&document).expect("a preset without mistakes");
+            let Prepared { document, model, equations, system, mut experiment } = ready;
+            let name = name.to_owned();
+            experiment.set_epoch(1);
+            let (mut app, _) = App::new(&catalog, Some(&name));
+            let loaded = Loaded { name, epoch: 1, document, model, equations, system };
+            app.update(Event::Loaded(Ok(loaded)));
+            let look = RenderStyle { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
+            Self {
+                app,
+                experiment,
+                look,
+                screen: Frames::new(true).expect("memory"),
+                size: Size { width, height },
+            }
+        }
+
+        /// Returns the size in bytes of a frame at this time of the clock, in seconds.
+        fn frame(&mut self, time: f64, most: usize, detail: Detail) -> usize {
+            self.experiment.advance(time * self.experiment.speed(), u64::MAX);
+            self.app.update(Event::Tick(Duration::from_secs(1) / 30));
+            self.app.update(Event::Snapshot(Arc::new(self.experiment.snapshot())));
+            let look = self.look.reduced(detail);
+            let draw = |area, buffer: &mut Buffer| {
+                view::draw(&self.app, &look, area, buffer);
+            };
+            self.screen.next_within(self.size, most, draw).expect("bytes").len()
+        }
+    }
+
+    /// Returns the mean and the greatest size in bytes of this many frames, at 30 per second, after the first two
+    /// seconds.
+    fn frames(name: &str, count: u32) -> (usize, usize) {
+        let mut motion = OpenSystem::of(name, ColourDepth::Ansi256, (80, 24));
+        let frame =
+            |frame: u32| motion.frame(f64::from(frame) / 30.0, usize::MAX, Detail::default());
+        let bytes = (0..count + 60).map(frame).collect::<Vec<_>>().split_off(60);
+        (bytes.iter().sum::<usize>() / bytes.len(), bytes.iter().max().copied().unwrap_or(0))
+    }
+
+    #[test]
+    fn frames_fit_a_slow_line() {
+        let limits = [
+            ("pendulum", 350, 600),
+            ("planet", 450, 1000),
+            ("double-pendulum", 350, 1200),
+            ("henon-heiles", 350, 1500),
+            ("solar-system", 350, 1300),
+            ("foucault", 350, 1500),
+            ("toda", 350, 1300),
+        ];
+        let found = limits.map(|(name, ..)| (name, frames(name, 200)));
+        let fits =
+            |((_, mean, most), (_, bytes)): (&(&str, usize, usize), &(&str, (usize, usize)))| {
+                bytes.0 <= *mean && bytes.1 <= *most
+            };
+        assert!(limits.iter().zip(&found).all(fits), "name, mean and greatest: {found:?}");
+    }
+
+    #[test]
+    fn a_limit_of_the_line_is_kept_to() {
+        for size in [(80, 24), (200, 60)] {
+            let mut motion = OpenSystem::of("double-pendulum", ColourDepth::True, size);
+            let start = Instant::now();
+            let mut governor = Governor::new(15, Some(BUDGET), start);
+            let (mut now, mut sum, mut count) = (start, 0, 0);
+            while now - start < Duration::from_secs(10) {
+                let time = (now - start).as_secs_f64();
+                let bytes = motion.frame(time, governor.most(), governor.detail());
+                governor.sent(bytes, now);
+                (sum, count) = (sum + bytes, count + 1);
+                now = governor.due();
+            }
+            assert!(sum <= BUDGET as usize * 11, "{size:?}: {sum} bytes in ten seconds");
+            assert!(count >= 20, "{size:?}: {count} frames in ten seconds");
+        }
     }
 }

@@ -10,7 +10,7 @@ use std::time::Instant;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Size;
 
-use super::atomic_file::{NOTHING, NewFile};
+use super::new_file::{NOTHING, NewFile};
 use crate::record::cast_writer::{Cast, Version};
 use crate::record::plain;
 use crate::view::frame::Frames;

@@ -1,0 +1,103 @@
+//! The quantities that a file declares conserved without a proof: what is seen of them along the motion.
+//!
+//! In: a model, its equations, samples of a motion. Out: a diagnostic for each quantity that is not conserved. Never
+//! here: the motion.
+
+use crate::diagnostic::{Diagnostic, SourceRange};
+use crate::expr::Expr;
+use crate::mechanics::{Class, Conserved, Equations, class_of};
+use crate::model::Model;
+
+/// The tolerated drift of a conserved quantity, relative to the size of its terms.
+const TOLERANCE: f64 = 1e-10;
+
+/// A rate longer than this is not reported.
+const LONGEST: u64 = 60;
+
+/// The quantity of that name that is proved to be conserved.
+pub(super) fn known<'a>(equations: &'a Equations, name: &str) -> Option<&'a Conserved> {
+    equations.conserved.iter().find(|c| c.name == name && c.reason.is_proved())
+}
+
+/// A quantity declared conserved for which that is not proved.
+pub(super) struct Claim {
+    pub(super) name: String,
+    pub(super) place: SourceRange,
+    pub(super) expression: Expr,
+    /// Its rate of change, if it is known not to vanish but may be too small to detect.
+    pub(super) rate: Option<Expr>,
+    /// Whether that rate is nonzero somewhere along the motion.
+    pub(super) refuted: bool,
+    first: f64,
+    size: f64,
+    farthest: f64,
+}
+
+pub(super) fn open_claims(model: &Model, equations: &mut Equations) -> Vec<Claim> {
+    let observed = model.observables.iter().filter(|o| o.conserved == Some(true));
+    let observed = observed.map(|o| (&o.name, o.expression, &o.place));
+    let expected = model.expect.conserves.iter().map(|(name, e, place)| (name, *e, place));
+    let all: Vec<(&String, Expr, &SourceRange)> =
+        observed.chain(expected).filter(|(name, ..)| known(equations, name).is_none()).collect();
+    let claim = |(name, expression, place): (&String, Expr, &SourceRange)| {
+        let classed = class_of(model, equations, name, expression);
+        let rate = classed.rate.ok().filter(|_| classed.class == Class::Changing);
+        Claim {
+            name: name.clone(),
+            place: place.clone(),
+            expression,
+            rate: rate.filter(|&rate| equations.pool.may_hide(rate)),
+            refuted: false,
+            first: f64::NAN,
+            size: 0.0,
+            farthest: 0.0,
+        }
+    };
+    all.into_iter().map(claim).collect()
+}
+
+impl Claim {
+    pub(super) fn sample(&mut self, value: f64, size: f64) {
+        if self.first.is_nan() {
+            self.first = value;
+        }
+        self.size = self.size.max(size);
+        let distance = (value - self.first).abs();
+        self.farthest =
+            if distance.is_finite() { self.farthest.max(distance) } else { f64::INFINITY };
+    }
+
+    /// A quantity that changes by too little to detect, for instance by a distant force, is not
+    /// conserved.
+    pub(super) fn unseen(&self, equations: &Equations, end: f64) -> Option<Diagnostic> {
+        let (Claim { name, .. }, Some(rate), true) = (self, self.rate, self.refuted) else {
+            return None;
+        };
+        let mut help = format!("it only keeps its value to rounding until t = {end}");
+        if equations.pool.weight(rate) <= LONGEST {
+            let rate = equations.pool.unicode(rate);
+            help.push_str(&format!("; its rate of change is {rate}"));
+        }
+        let message = format!("`{name}` is said to be conserved, but it is not");
+        Some(Diagnostic::error(self.place.clone(), message).with_help(help))
+    }
+
+    pub(super) fn mistake(&self, equations: &Equations, end: f64) -> Option<Diagnostic> {
+        let Claim { name, .. } = self;
+        if self.first.is_nan() {
+            let message = format!("`{name}` is said to be conserved, but it is not a number");
+            return Some(Diagnostic::error(self.place.clone(), message));
+        }
+        if self.farthest <= TOLERANCE * self.size {
+            return None;
+        }
+        let drift = self.farthest / self.size;
+        let message = format!("`{name}` is said to be conserved, but it is not");
+        let mut help = format!("it drifts by {drift:.1e} of its size until t = {end}");
+        if name == "energy" {
+            let rate = equations.pool.unicode(equations.energy_rate);
+            help = format!("{help}; dE/dt = {rate}");
+        }
+        Some(Diagnostic::error(self.place.clone(), message).with_help(help))
+    }
+}

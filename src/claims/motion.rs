@@ -1,0 +1,407 @@
+//! The motion against which the claims of a file are checked: followed from event to event within a budget of steps.
+//!
+//! In: a model, its equations and its system. Out: a diagnostic for each value, event and conserved quantity that is
+//! not as the file has it, and for a motion that cannot start. Never here: what is proved symbolically.
+
+use super::conservation::Claim;
+use super::start;
+use crate::diagnostic::{Diagnostic, SourceRange};
+use crate::expr::{Expr, Symbol};
+use crate::integrate::{self, Occurrence, Reached, Settings, method_named};
+use crate::mechanics::{Equations, Flow};
+use crate::model::{ExpectedValue, Model};
+use crate::system::{ChannelKind, MotionError, MotionErrorKind, Observer, State, System};
+
+/// The assumed relative error of the values of a motion where a rate is evaluated.
+const SLACK: f64 = 1e-9;
+
+/// The number of samples of the motion.
+const SAMPLES: u32 = 200;
+
+/// The duration of the motion if the file does not specify it.
+const LENGTH: f64 = 10.0;
+
+/// The work allowed for the claims of one file: the number of steps for a system whose equations
+/// have one term. Larger systems get fewer.
+const WORK: u64 = 4_000_000;
+
+/// The minimal number of steps, however large the system.
+const FEWEST_STEPS: u64 = 5_000;
+
+/// The cost of an event in steps, since it is located and divides a step.
+const EVENT: u64 = 4;
+
+/// The number of steps allowed for claims: the larger the equations, the fewer.
+fn steps_for(equations: &Equations) -> u64 {
+    let pool = &equations.pool;
+    let roots: Vec<Expr> = match &equations.flow {
+        Flow::Lagrange { mass, force, .. } => {
+            mass.concat().into_iter().chain(force.clone()).collect()
+        }
+        Flow::Hamilton { velocities, momentum_rates } => {
+            velocities.iter().chain(momentum_rates).copied().collect()
+        }
+        Flow::Poisson { rates } => rates.clone(),
+    };
+    (WORK / (pool.reachable(&roots).len() as u64).max(1)).max(FEWEST_STEPS)
+}
+
+/// Whether the method that the file names, if it names one, can take a first step from a state.
+fn own_method_starts(model: &Model, system: &System, state: &State, parameters: &[f64]) -> bool {
+    let run = &model.run;
+    let Some(method) = method_named(&run.method).filter(|_| run.method != "auto") else {
+        return false;
+    };
+    let settings = Settings { step: run.step, tolerance: run.tolerance };
+    let Ok(mut course) = integrate::Propagator::new(system, method, settings, parameters) else {
+        return false;
+    };
+    let end = run.until.unwrap_or(run.start + LENGTH);
+    let begun = course.begin(state, parameters);
+    begun.and_then(|()| course.reach(end, end, &mut 1)).is_ok()
+}
+
+/// The motion against which claims are checked.
+pub(super) struct Motion<'a> {
+    system: &'a System,
+    course: integrate::Propagator,
+    observer: Observer,
+    values: Vec<f64>,
+    /// The number of steps allowed in total, and the number left.
+    allowed: u64,
+    budget: u64,
+    occurrences: Vec<Occurrence>,
+    /// The propagator's count of changes of its constraints when the observer was created.
+    holdings: u64,
+}
+
+/// Why a motion ended before a claim could be checked.
+enum Short {
+    MotionError(MotionError),
+    Long(u64, f64),
+    Ended(f64),
+}
+
+impl std::fmt::Display for Short {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Short::MotionError(fault) => fault.fmt(f),
+            Short::Ended(time) => write!(f, "an event has ended the motion at t = {time}"),
+            Short::Long(steps, time) => {
+                write!(f, "the {steps} steps that a check may take led only to t = {time}")
+            }
+        }
+    }
+}
+
+impl Short {
+    /// The time it reached.
+    fn time(&self) -> f64 {
+        match self {
+            Short::MotionError(fault) => fault.time,
+            Short::Long(_, time) | Short::Ended(time) => *time,
+        }
+    }
+}
+
+/// The place in the file that explains why a start is impossible.
+fn place_of(model: &Model, fault: &MotionError) -> SourceRange {
+    let constraint = match &fault.kind {
+        MotionErrorKind::ConstraintMissed(name, _) => {
+            model.constraints.iter().find(|c| c.name == *name)
+        }
+        MotionErrorKind::FreeVelocities(_) => model.constraints.first(),
+        _ => None,
+    };
+    constraint.map_or(0..0, |c| c.place.clone())
+}
+
+impl<'a> Motion<'a> {
+    /// The motion at its start, with a first step that is known to succeed.
+    pub(super) fn begin(
+        model: &Model,
+        equations: &Equations,
+        system: &'a System,
+    ) -> Result<Motion<'a>, Diagnostic> {
+        let refused = |place: SourceRange, why: String| {
+            Diagnostic::error(place, format!("the motion cannot begin: {why}"))
+        };
+        let parameters = model.parameter_values();
+        let method =
+            method_named("auto").ok_or_else(|| refused(0..0, "there is no method".into()))?;
+        let course = integrate::Propagator::new(system, method, Settings::default(), &parameters);
+        let course = course.map_err(|refusal| refused(0..0, refusal.to_string()))?;
+        let allowed = steps_for(equations);
+        let mut motion = Motion {
+            system,
+            course,
+            observer: system.observer(&parameters),
+            values: vec![f64::NAN; system.channels().len()],
+            allowed,
+            budget: allowed,
+            occurrences: Vec::new(),
+            holdings: 0,
+        };
+        let state = system.initial(model.run.start, &parameters, &[]);
+        let state = state.map_err(|fault| match &fault.kind {
+            MotionErrorKind::ConstraintMissed(..) | MotionErrorKind::FreeVelocities(_) => {
+                refused(place_of(model, &fault), fault.to_string())
+            }
+            _ => motion
+                .at_the_start(model, equations, Some(&fault))
+                .unwrap_or_else(|| refused(place_of(model, &fault), fault.to_string())),
+        })?;
+        let begun = motion.course.begin(&state, &parameters);
+        // also where the motion cannot begin, since the values give the reason
+        let outcome = motion.observer.observe(&state, &mut motion.values);
+        let outcome = begun.and(outcome);
+        // the first step, taken once more afterwards from the start
+        let stepped = outcome.and_then(|()| {
+            let end = model.run.until.unwrap_or(model.run.start + LENGTH);
+            motion.course.reach(end, end, &mut 1)?;
+            motion.course.begin(&state, &parameters)
+        });
+        let fault = stepped.err().filter(|fault| fault.time == model.run.start);
+        let fault = fault.filter(|_| !own_method_starts(model, system, &state, &parameters));
+        match motion.at_the_start(model, equations, fault.as_ref()) {
+            Some(mistake) => Err(mistake),
+            None => {
+                if motion.course.begin(&state, &parameters).is_err() {
+                    return Err(refused(model.law_place.clone(), "its state is lost".into()));
+                }
+                Ok(motion)
+            }
+        }
+    }
+
+    /// The reason why it cannot start, if it cannot.
+    fn at_the_start(
+        &self,
+        model: &Model,
+        equations: &Equations,
+        fault: Option<&MotionError>,
+    ) -> Option<Diagnostic> {
+        let energy = self.seen(ChannelKind::Energy);
+        let at = |symbol| self.value_of(model, equations, symbol, model.run.start);
+        start::mistake(model, equations, fault, energy, &at)
+    }
+
+    /// The value of a channel at the last sample.
+    fn seen(&self, kind: ChannelKind) -> f64 {
+        let channel = self.system.channels().iter().position(|c| c.kind == kind);
+        channel.map_or(f64::NAN, |i| self.values[i])
+    }
+
+    /// The value of a symbol at the last sample.
+    fn value_of(&self, model: &Model, equations: &Equations, symbol: Symbol, time: f64) -> f64 {
+        for (i, c) in equations.coordinates.iter().enumerate() {
+            let kind = match symbol {
+                s if s == c.position => ChannelKind::Position(i),
+                s if s == c.velocity => ChannelKind::Velocity(i),
+                s if s == c.momentum => ChannelKind::Momentum(i),
+                _ => continue,
+            };
+            return self.seen(kind);
+        }
+        if symbol == equations.symbols.time {
+            return time;
+        }
+        if symbol == equations.symbols.energy {
+            return self.seen(ChannelKind::Energy);
+        }
+        if let Some(parameter) = model.parameters.iter().find(|p| p.symbol == symbol) {
+            return parameter.value;
+        }
+        let body = self.system.body_values(&model.parameter_values());
+        body.iter().find(|(s, _)| *s == symbol).map_or(f64::NAN, |(_, value)| *value)
+    }
+
+    /// Follows the motion and checks all its claims.
+    pub(super) fn follow(
+        mut self,
+        model: &Model,
+        equations: &Equations,
+        mut claims: Vec<Claim>,
+        mistakes: &mut Vec<Diagnostic>,
+    ) {
+        let start = model.run.start;
+        let end = model.run.until.unwrap_or(start + LENGTH);
+        let samples = if claims.is_empty() { 0 } else { SAMPLES };
+        let sample_time = |k| start + (end - start) * f64::from(k) / f64::from(SAMPLES - 1);
+        let values = model.expect.values.iter().map(|value| (value.at, Some(value)));
+        let mut schedule: Vec<(f64, Option<&ExpectedValue>)> =
+            (0..samples).map(|k| (sample_time(k), None)).chain(values).collect();
+        schedule.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let last = schedule.last().map_or(end, |(time, _)| *time);
+        let last = model.expect.counts.iter().map(|count| count.until).fold(last, f64::max);
+        let last = model.expect.events.iter().map(|event| event.at + 1.0).fold(last, f64::max);
+        for (k, &(time, value)) in schedule.iter().enumerate() {
+            if let (true, Some(value)) = (time < start, value) {
+                let message = format!("the motion begins at {start}; {time} is before it");
+                mistakes.push(Diagnostic::error(value.place.clone(), message));
+                continue;
+            }
+            if let Err(short) = self.reach(time, last) {
+                let values = schedule[k..].iter().filter_map(|(_, value)| *value);
+                let values = values.map(|value| (&value.name, &value.place));
+                let unchecked = |(name, place): (&String, &SourceRange)| {
+                    let message = format!("`{name}` cannot be checked: {short}");
+                    Diagnostic::error(place.clone(), message)
+                };
+                mistakes.extend(values.map(unchecked));
+                // what is conserved is so until the motion ends
+                if matches!(short, Short::Ended(_)) {
+                    self.sample(model, equations, &mut claims);
+                    break;
+                }
+                let claims = claims.iter().map(|claim| (&claim.name, &claim.place));
+                return mistakes.extend(claims.map(unchecked));
+            }
+            match value {
+                Some(value) => mistakes.extend(self.compare(value)),
+                None => self.sample(model, equations, &mut claims),
+            }
+        }
+        mistakes.extend(claims.iter().filter_map(|claim| {
+            claim.mistake(equations, end).or_else(|| claim.unseen(equations, end))
+        }));
+        if !(model.expect.events.is_empty() && model.expect.counts.is_empty()) {
+            let short = self.reach(last, last).err().filter(|why| !matches!(why, Short::Ended(_)));
+            mistakes.extend(self.false_occurrences(model, short.as_ref()));
+        }
+    }
+
+    /// Events that did not occur when, or as often as, the file states.
+    fn false_occurrences(&self, model: &Model, short: Option<&Short>) -> Vec<Diagnostic> {
+        let times = |name: &str| -> Vec<f64> {
+            self.occurrences.iter().filter(|h| h.name == name).map(|h| h.time).collect()
+        };
+        let until = short.map_or(String::new(), |why| format!("; {why}"));
+        let mut mistakes = Vec::new();
+        for expected in &model.expect.events {
+            let (name, nth, at) = (&expected.name, expected.nth, expected.at);
+            let message = match times(name).get(nth.wrapping_sub(1)) {
+                Some(&time) if (time - at).abs() <= expected.within => continue,
+                Some(time) => format!(
+                    "`{name}` happens at t = {time}, not {at}: it is off by {:.1e}",
+                    (time - at).abs()
+                ),
+                None => format!("`{name}` does not happen {nth} times{until}"),
+            };
+            mistakes.push(Diagnostic::error(expected.place.clone(), message));
+        }
+        for expected in &model.expect.counts {
+            let (name, is) = (&expected.name, expected.is);
+            let found = times(name).iter().filter(|time| **time <= expected.until).count();
+            let unseen = short.filter(|why| why.time() < expected.until);
+            let message = match unseen {
+                Some(why) if found <= is => format!(
+                    "`{name}` cannot be counted until t = {}: {why}; it happens {found} times until \
+                     then",
+                    expected.until
+                ),
+                None if found == is => continue,
+                Some(why) => format!("`{name}` happens {found} times and more, not {is}: {why}"),
+                None => {
+                    format!("`{name}` happens {found} times until t = {}, not {is}", expected.until)
+                }
+            };
+            mistakes.push(Diagnostic::error(expected.place.clone(), message));
+        }
+        mistakes
+    }
+
+    fn reach(&mut self, time: f64, limit: f64) -> Result<(), Short> {
+        loop {
+            match self.course.reach(time, limit, &mut self.budget).map_err(Short::MotionError)? {
+                Reached::There => break,
+                Reached::Underway => {
+                    return Err(Short::Long(self.allowed, self.course.state().time));
+                }
+                Reached::Ended => return Err(Short::Ended(self.course.state().time)),
+                // no claim is made of the crossings of a picture
+                Reached::Happened(integrate::Occurrence {
+                    kind: integrate::OccurrenceKind::Crossing(_),
+                    ..
+                }) => {}
+                Reached::Happened(occurrence) => {
+                    if self.budget < EVENT {
+                        return Err(Short::Long(self.allowed, occurrence.time));
+                    }
+                    self.budget -= EVENT;
+                    if matches!(occurrence.kind, integrate::OccurrenceKind::Release(_)) {
+                        let parameters = self.observer.parameters().to_vec();
+                        self.observer = self.course.system().observer(&parameters);
+                    }
+                    self.occurrences.push(occurrence);
+                }
+            }
+        }
+        if self.holdings != self.course.holdings() {
+            self.holdings = self.course.holdings();
+            let parameters = self.observer.parameters().to_vec();
+            self.observer = self.course.system().observer(&parameters);
+        }
+        self.observer.observe(self.course.state(), &mut self.values).map_err(Short::MotionError)
+    }
+
+    fn compare(&self, expected: &ExpectedValue) -> Option<Diagnostic> {
+        let ExpectedValue { name, at, is, within, .. } = expected;
+        let channel = self.system.channel_of(expected.expression)?;
+        let value = self.values[channel];
+        let error = (value - is).abs();
+        // written so that a NaN is wrong
+        if error <= *within {
+            return None;
+        }
+        let message = format!("{name}: this is {value} at t = {at}, not {is}");
+        let help = format!("it is off by {error:.1e}; up to {within:e} would be right");
+        Some(Diagnostic::error(expected.place.clone(), message).with_help(help))
+    }
+
+    fn sample(&mut self, model: &Model, equations: &Equations, claims: &mut [Claim]) {
+        let time = self.course.state().time;
+        let at = |symbol: Symbol| self.value_of(model, equations, symbol, time);
+        for claim in claims {
+            let Some(channel) = self.system.channel_of(claim.expression) else { continue };
+            let value = self.values[channel];
+            let (_, size) = equations.pool.evaluate_with_size(claim.expression, &at);
+            claim.sample(value, if size.is_finite() { size } else { value.abs() });
+            claim.refuted |= claim
+                .rate
+                .is_some_and(|e| equations.pool.vanishes_at(e, SLACK, &at) == Some(false));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mechanics;
+
+    fn steps(law: &str) -> (u64, u64) {
+        let text = format!(
+            "title = \"a\"\n[coordinates]\nx = {{ initial = 1 }}\n[lagrangian]\nL = \"{law}\""
+        );
+        let model = crate::preset::read(&text).expect("right").model;
+        let equations = mechanics::derive(&model).expect("derivable");
+        let Flow::Lagrange { mass, force, .. } = &equations.flow else { panic!("a Lagrangian") };
+        let roots: Vec<Expr> = mass.concat().into_iter().chain(force.clone()).collect();
+        (steps_for(&equations), equations.pool.reachable(&roots).len() as u64)
+    }
+
+    #[test]
+    fn claims_are_worth_four_million_evaluations_of_one_part() {
+        let (steps, parts) = steps("1/2*x'^2 - 1/2*x^2");
+        assert!(parts < 20);
+        assert_eq!(steps, 4_000_000 / parts);
+    }
+
+    #[test]
+    fn large_systems_are_still_given_five_thousand_steps() {
+        let terms: Vec<String> = (1..400).map(|k| format!("sin({k}*x)/({k} + x^2)")).collect();
+        let (steps, parts) = steps(&format!("1/2*x'^2 - ({})", terms.join(" + ")));
+        assert!(parts > 800, "{parts}");
+        assert_eq!(steps, 5_000);
+    }
+}

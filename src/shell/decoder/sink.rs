@@ -1,0 +1,231 @@
+//! The sink of the parser: what a character, a control byte or an escape sequence means as an event.
+//!
+//! In: what `vte` has parsed. Out: crossterm's events, in order; reports that were not enabled are noise. Never here:
+//! bytes, or time.
+
+use std::collections::VecDeque;
+use std::mem;
+
+use crossterm::event::{
+    Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
+};
+use vte::{Params, Perform};
+
+use super::PASTE_LIMIT;
+use crate::app::key;
+
+/// A sequence that the parser considers finished although one more character is to come.
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
+pub(super) enum Prefix {
+    #[default]
+    None,
+    /// `ESC O`: keypad and function keys of the VT100.
+    Keypad,
+    /// `ESC [ [`: function keys of the Linux console.
+    Console,
+}
+
+/// The reports that the terminal was told to send.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Expected {
+    /// Bracketed pastes.
+    pub(super) pastes: bool,
+    /// Mouse reports.
+    pub(super) mouse: bool,
+    /// Focus reports.
+    pub(super) focus: bool,
+}
+
+/// The output of the parser.
+#[derive(Default)]
+pub(super) struct Sink {
+    pub(super) events: VecDeque<Event>,
+    pub(super) prefix: Prefix,
+    /// Whether Alt applies to the next key.
+    pub(super) alt: bool,
+    pub(super) paste: Option<String>,
+    /// The reports that are not noise.
+    pub(super) expects: Expected,
+    /// The remaining bytes of a mouse report in the old form, which is not supported.
+    pub(super) skip: usize,
+    /// Whether the parser has completed something since this was last cleared.
+    pub(super) settled: bool,
+}
+
+impl Sink {
+    pub(super) fn press(&mut self, code: KeyCode) {
+        self.press_with(code, 1);
+    }
+
+    /// Emits a key with modifiers in xterm's encoding: one more than the sum of shift 1, alt 2, ctrl 4.
+    fn press_with(&mut self, code: KeyCode, modifiers: u16) {
+        let bits = modifiers.saturating_sub(1);
+        let held = [
+            (bits & 1 != 0, KeyModifiers::SHIFT),
+            (bits & 2 != 0 || mem::take(&mut self.alt), KeyModifiers::ALT),
+            (bits & 4 != 0, KeyModifiers::CONTROL),
+        ];
+        let held = held.into_iter().filter(|(held, _)| *held).map(|(_, modifier)| modifier);
+        let typed = match code {
+            KeyCode::Char(c) => key::character(c),
+            code => code.into(),
+        };
+        if self.paste.is_none() {
+            let modifiers = held.fold(typed.modifiers, |all, modifier| all | modifier);
+            self.events.push_back(Event::Key(KeyEvent::new(code, modifiers)));
+        }
+    }
+
+    fn write(&mut self, character: char) {
+        let Some(paste) = &mut self.paste else {
+            self.press(KeyCode::Char(character));
+            return;
+        };
+        if paste.len() + character.len_utf8() <= PASTE_LIMIT {
+            paste.push(character);
+        }
+    }
+
+    /// Handles keys that end in `~`, by their number.
+    fn numbered(&mut self, number: u16, modifiers: u16) {
+        let code = match number {
+            1 | 7 => KeyCode::Home,
+            3 => KeyCode::Delete,
+            4 | 8 => KeyCode::End,
+            5 => KeyCode::PageUp,
+            6 => KeyCode::PageDown,
+            11..=15 => KeyCode::F((number - 10) as u8),
+            17..=21 => KeyCode::F((number - 11) as u8),
+            23 | 24 => KeyCode::F((number - 12) as u8),
+            200 if self.expects.pastes => {
+                self.paste = Some(String::new());
+                return;
+            }
+            201 => {
+                self.events.extend(self.paste.take().map(Event::Paste));
+                return;
+            }
+            _ => return,
+        };
+        self.press_with(code, modifiers);
+    }
+
+    /// Handles a mouse report of xterm's mode 1006: button and modifiers, column and row counted from 1.
+    fn report(&mut self, [button, column, row]: [u16; 3], released: bool) {
+        let kind = match (button & !0b1_1100, released) {
+            (0, false) => MouseEventKind::Down(MouseButton::Left),
+            (0, true) => MouseEventKind::Up(MouseButton::Left),
+            (32, false) => MouseEventKind::Drag(MouseButton::Left),
+            (64, false) => MouseEventKind::ScrollUp,
+            (65, false) => MouseEventKind::ScrollDown,
+            _ => return,
+        };
+        let held = [(4, KeyModifiers::SHIFT), (8, KeyModifiers::ALT), (16, KeyModifiers::CONTROL)];
+        let held = held.into_iter().filter(|(bit, _)| button & bit != 0);
+        let modifiers = held.fold(KeyModifiers::NONE, |all, (_, modifier)| all | modifier);
+        if let (Some(column), Some(row)) = (column.checked_sub(1), row.checked_sub(1))
+            && self.paste.is_none()
+        {
+            self.events.push_back(Event::Mouse(MouseEvent { kind, column, row, modifiers }));
+        }
+    }
+
+    fn focus(&mut self, gained: bool) {
+        if self.paste.is_none() {
+            self.events.push_back(if gained { Event::FocusGained } else { Event::FocusLost });
+        }
+    }
+
+    /// Handles keys that end in a letter.
+    fn lettered(&mut self, letter: char, modifiers: u16) {
+        let code = match letter {
+            'A' => KeyCode::Up,
+            'B' => KeyCode::Down,
+            'C' => KeyCode::Right,
+            'D' => KeyCode::Left,
+            'F' => KeyCode::End,
+            'H' => KeyCode::Home,
+            'P' => KeyCode::F(1),
+            'Q' => KeyCode::F(2),
+            'R' => KeyCode::F(3),
+            'S' => KeyCode::F(4),
+            'Z' => {
+                self.press_with(KeyCode::BackTab, 2);
+                return;
+            }
+            _ => return,
+        };
+        self.press_with(code, modifiers);
+    }
+}
+
+impl Perform for Sink {
+    fn print(&mut self, character: char) {
+        self.settled = true;
+        match mem::take(&mut self.prefix) {
+            Prefix::None if character == '\x7f' => self.press(KeyCode::Backspace),
+            Prefix::None => self.write(character),
+            Prefix::Keypad => match character {
+                'M' => self.press(KeyCode::Enter),
+                'j'..='y' => self.write(char::from(character as u8 - 0x40)),
+                letter => self.lettered(letter, 1),
+            },
+            Prefix::Console => {
+                if let 'A'..='E' = character {
+                    self.press(KeyCode::F(character as u8 - b'A' + 1));
+                }
+            }
+        }
+    }
+
+    fn execute(&mut self, byte: u8) {
+        self.settled = true;
+        self.prefix = Prefix::None;
+        match byte {
+            b'\t' | b'\n' | b'\r' if self.paste.is_some() => self.write(byte.into()),
+            0 => self.press_with(KeyCode::Char(' '), 5),
+            8 | 0x7f => self.press(KeyCode::Backspace),
+            b'\t' => self.press(KeyCode::Tab),
+            b'\n' | b'\r' => self.press(KeyCode::Enter),
+            1..=26 => self.press_with(KeyCode::Char((byte + 0x60).into()), 5),
+            _ => self.press_with(KeyCode::Char((byte + 0x40).into()), 5),
+        }
+    }
+
+    fn csi_dispatch(&mut self, params: &Params, intermediates: &[u8], _: bool, action: char) {
+        self.settled = true;
+        let numbers = || params.iter().map(|p| p.first().copied().unwrap_or(0));
+        let (first, modifiers) = (numbers().next().unwrap_or(0), numbers().nth(1).unwrap_or(1));
+        match action {
+            'M' | 'm' if intermediates == b"<" && self.expects.mouse => {
+                if let [button, column, row] = numbers().collect::<Vec<_>>()[..] {
+                    self.report([button, column, row], action == 'm');
+                }
+            }
+            // These are answers to queries, which this program never sends.
+            _ if !intermediates.is_empty() => {}
+            // A terminal that supports only the oldest mouse protocol sends three more bytes.
+            'M' if self.expects.mouse => self.skip = 3,
+            'I' | 'O' if self.expects.focus && first == 0 => self.focus(action == 'I'),
+            '[' => self.prefix = Prefix::Console,
+            '~' => self.numbered(first, modifiers),
+            // With another number it is an answer, such as the cursor position.
+            letter if first <= 1 => self.lettered(letter, modifiers),
+            _ => {}
+        }
+    }
+
+    fn esc_dispatch(&mut self, intermediates: &[u8], _: bool, byte: u8) {
+        self.settled = true;
+        match byte {
+            // This ends a string that the parser has skipped.
+            b'\\' => {}
+            _ if !intermediates.is_empty() => {}
+            b'O' => self.prefix = Prefix::Keypad,
+            _ => {
+                self.alt = true;
+                self.press(KeyCode::Char(byte.into()));
+            }
+        }
+    }
+}

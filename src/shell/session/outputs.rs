@@ -1,0 +1,150 @@
+//! Outputs: the files that a key asks for (system, table, drawing, recording), and what goes to the clipboard.
+//!
+//! In: the application's state. Out: files in the current folder, written aside, with a sentence about each. Never
+//! here: what is in a table or a drawing.
+
+use std::io;
+use std::path::Path;
+use std::sync::Arc;
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use tracing::{error, info};
+
+use super::super::clipboard;
+use super::super::new_file;
+use super::super::recorder::Recorder;
+use super::super::writer::WriteReport;
+use super::Session;
+use crate::app::{Event, Loaded, Notification};
+use crate::experiment::{Export, Snapshot};
+use crate::record::{data, plain, screenshot};
+use crate::view::colour::ColourDepth;
+use crate::view::glyphs::Glyphs;
+use crate::view::theme::{PALETTES, Palette, Theme};
+use crate::view::{self, RenderStyle};
+
+impl Session {
+    /// Exports the current state as a system file.
+    pub(super) fn export(&mut self) {
+        let Some((loaded, snapshot)) = self.seen() else {
+            return self.report(Err("There is no motion here to write down.".to_owned()));
+        };
+        self.write_file(move || {
+            let Loaded { name, document, model, system, .. } = &loaded;
+            let export = Export::of(document, (model, system), &snapshot)?;
+            let Export { text, missing } = export.with_what_holds(document)?;
+            let written = put(name, "toml", text.as_bytes())?;
+            Ok([vec![written], missing].concat().join(" "))
+        });
+    }
+
+    /// Returns the system in the lab and its newest snapshot.
+    fn seen(&self) -> Option<(Loaded, Arc<Snapshot>)> {
+        let lab = self.app.lab.as_ref()?;
+        lab.seen()?;
+        Some((lab.loaded.clone(), Arc::clone(lab.snapshot.as_ref()?)))
+    }
+
+    /// Starts to write a file that a key requested; the outcome is reported.
+    fn write_file(&mut self, work: impl FnOnce() -> WriteReport + Send + 'static) {
+        if let Err(why) = self.writer.begin(work) {
+            self.report(Err(why));
+        }
+    }
+
+    /// Reports the outcome of writing a file.
+    pub(super) fn report(&mut self, report: WriteReport) {
+        info!("{report:?}");
+        self.app.update(Event::Written(report));
+    }
+
+    /// Returns the stem for files about the current state.
+    fn stem(&self) -> String {
+        self.app.lab.as_ref().map_or_else(|| "phaselab".to_owned(), |lab| lab.loaded.name.clone())
+    }
+
+    fn title(&self) -> String {
+        let lab = self.app.lab.as_ref();
+        lab.map_or_else(|| "phaselab".to_owned(), |lab| lab.loaded.model.info.title.clone())
+    }
+
+    /// Saves a drawing of the screen, with all colours and the finest dots whatever the terminal supports.
+    pub(super) fn still(&mut self) {
+        let palette = self.palette();
+        let look =
+            RenderStyle { theme: Theme::new(palette, ColourDepth::True), glyphs: Glyphs::Braille };
+        let area = Rect::from(self.size);
+        let mut screen = Buffer::empty(area);
+        view::draw(&self.app, &look, area, &mut screen);
+        plain(&mut screen);
+        let (stem, title) = (self.stem(), self.title());
+        self.write_file(move || {
+            let drawing = screenshot::write(&screen, palette, screenshot::Form::Svg, &title);
+            put(&stem, "svg", drawing.as_bytes())
+        });
+    }
+
+    /// Puts a text into the terminal's clipboard, or else into a file.
+    pub(super) fn copy(&mut self, what: &'static str, text: String, ending: &'static str) {
+        if self.has_clipboard && text.len() <= clipboard::MOST {
+            self.clipboard = Some(text);
+            let format = if ending == "tex" { " as LaTeX" } else { "" };
+            return self.report(Ok(format!("{what} are copied{format}: paste them anywhere.")));
+        }
+        let stem = self.stem();
+        self.write_file(move || put(&stem, ending, text.as_bytes()));
+    }
+
+    /// Saves a table of the recorded motion.
+    pub(super) fn data(&mut self) {
+        let Some((loaded, snapshot)) = self.seen() else {
+            return self.report(Err("There is no motion here to write down.".to_owned()));
+        };
+        self.write_file(move || {
+            let mut table = Vec::new();
+            data::write(&loaded, &snapshot, &mut table).map_err(|why| why.to_string())?;
+            put(&loaded.name, "csv", &table)
+        });
+    }
+
+    /// Starts a recording, or reports why that is impossible.
+    pub(super) fn record(&mut self) {
+        let palette = self.palette();
+        match Recorder::begin(&self.stem(), &self.title(), self.size, palette) {
+            Ok(recorder) => self.recorder = Some(recorder),
+            Err(why) => self.give_up_recording(&why),
+        }
+    }
+
+    /// Ends the recording after an error, but keeps what was recorded; the next attempt begins another file.
+    pub(super) fn give_up_recording(&mut self, why: &io::Error) {
+        let recorder = self.recorder.take();
+        let report = recorder.map_or_else(|| why.to_string(), |recorder| recorder.give_up(why));
+        error!("{report}");
+        self.app.recording = false;
+        self.app.notice = Some(Notification::error(format!("{report}.")));
+    }
+
+    /// Ends a recording, and reports its name.
+    pub(super) fn end_recording(&mut self) {
+        self.app.recording = false;
+        if let Some(recorder) = self.recorder.take() {
+            let end = move || recorder.end(true).map_err(|why| why.to_string());
+            self.write_file(move || end().map(|name| format!("{name} is written.")));
+        }
+    }
+
+    /// Returns the palette shown.
+    fn palette(&self) -> &'static Palette {
+        let named = |p: &&Palette| Some(p.name) == self.app.theme_shown();
+        PALETTES.iter().find(named).unwrap_or_else(|| self.look.theme.palette())
+    }
+}
+
+/// Writes a file about the current state into the current folder. Returns a sentence about it.
+fn put(stem: &str, ending: &'static str, bytes: &[u8]) -> WriteReport {
+    let path =
+        new_file::write_new(Path::new(""), stem, ending, bytes).map_err(|why| why.to_string())?;
+    Ok(format!("{} is written.", path.display()))
+}
