@@ -27,14 +27,10 @@ use std::{io, mem};
 use crossterm::event::{Event, KeyCode};
 use vte::Parser;
 
+pub use self::sink::PASTE_LIMIT;
 use self::sink::{Prefix, Sink};
 use super::events::EventSource;
 use super::terminal::{Mode, Terminal};
-use crate::app::LONGEST_PASTE;
-
-/// The maximum size of a paste, in bytes: a character more than the application accepts, so that the cut is
-/// reported there.
-pub const PASTE_LIMIT: usize = LONGEST_PASTE + 4;
 
 const ESC: u8 = 0x1b;
 

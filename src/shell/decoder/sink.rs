@@ -11,8 +11,11 @@ use crossterm::event::{
 };
 use vte::{Params, Perform};
 
-use super::PASTE_LIMIT;
-use crate::app::key;
+use crate::app::{LONGEST_PASTE, key};
+
+/// The maximum size of a paste, in bytes: a character more than the application accepts, so that the cut is
+/// reported there.
+pub const PASTE_LIMIT: usize = LONGEST_PASTE + 4;
 
 /// A sequence that the parser considers finished although one more character is to come.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
