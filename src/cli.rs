@@ -15,6 +15,7 @@ mod config;
 mod crowd;
 mod decimal;
 mod demo;
+mod demo_source;
 mod derive;
 mod doctor;
 mod equilibria;
@@ -53,6 +54,5 @@ mod sweep;
 mod symmetries;
 mod theme;
 
-use command::unknown;
 pub use command::{command, main};
 pub use exit::{EXITS, Exit};

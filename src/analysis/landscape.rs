@@ -4,12 +4,14 @@
 //! In: the compiled system and the region of the motion. Out: a [`Landscape`]. Never here: when to
 //! compute it again, or how it is drawn.
 
+mod energy;
 mod level;
 mod saddle;
 
 use crate::num::math;
-use crate::system::{Form, Observer, System};
+use crate::system::{Form, System};
 
+use energy::{Energy, spread};
 pub use level::Grid;
 use saddle::saddles;
 
@@ -82,28 +84,6 @@ impl Landscape {
             saddles: saddles.into_iter().map(|s| s.at).collect(),
         })
     }
-}
-
-/// The energy as a function of one coordinate and its rate.
-pub(super) struct Energy {
-    observer: Observer,
-    time: f64,
-    form: Form,
-}
-
-impl Energy {
-    /// Values on a grid, row by row from the first rate.
-    pub(super) fn grid(&mut self, positions: &[f64], rates: &[f64]) -> Vec<f64> {
-        let mut values = vec![f64::NAN; positions.len() * rates.len()];
-        self.observer.energy_on_grid(self.time, self.form, positions, rates, &mut values);
-        values
-    }
-}
-
-/// Returns `count` evenly spaced values from one end to the other.
-pub(super) fn spread([from, to]: [f64; 2], count: usize) -> Vec<f64> {
-    let last = (count - 1) as f64;
-    (0..count).map(|i| from + (to - from) * i as f64 / last).collect()
 }
 
 /// The region in which saddles are searched for: somewhat more than one period, or than the motion,

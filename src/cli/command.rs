@@ -14,6 +14,7 @@ use super::check;
 use super::completions;
 use super::config;
 use super::demo;
+use super::demo_source;
 use super::derive;
 use super::doctor;
 use super::equilibria;
@@ -43,6 +44,8 @@ use super::theme;
 use crate::diagnostic::nearest;
 use crate::preset::{Catalog, is_path};
 use crate::printable;
+use crate::shell::Options;
+use crate::shell::options::{Words, with_defaults};
 
 /// A laboratory for analytical mechanics.
 ///
@@ -134,12 +137,25 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     }
 }
 
-pub(super) fn parse(command: clap::Command, words: &[OsString]) -> Result<Arguments, clap::Error> {
+fn parse(command: clap::Command, words: &[OsString]) -> Result<Arguments, clap::Error> {
     Arguments::from_arg_matches(&command.try_get_matches_from(words)?)
 }
 
+/// The options of the lab among the words, over defaults for them.
+fn options(defaults: Words, words: &[OsString]) -> Result<Options, CommandError> {
+    // the words were already valid, and so are the defaults
+    let arguments = parse(with_defaults(command(), defaults), words)
+        .map_err(|why| CommandError::WrongUse(why.to_string().trim_end().to_owned()))?;
+    Ok(arguments.lab.options)
+}
+
 fn perform(arguments: Arguments, words: &[OsString]) -> Result<(), CommandError> {
-    let Some(command) = arguments.command else { return lab::perform(&arguments.lab, words) };
+    let Some(command) = arguments.command else {
+        return match arguments.lab.system().and_then(unknown) {
+            Some(message) => Err(CommandError::WrongUse(message)),
+            None => lab::perform(&arguments.lab, words, options),
+        };
+    };
     let interrupt = Interrupt::watch();
     execute(command, &interrupt).map_err(|failure| match interrupt.signal() {
         // whatever failed, the signal stopped it
@@ -169,23 +185,23 @@ fn execute(command: Command, interrupt: &Interrupt) -> Result<(), CommandError> 
         Command::Actions(arguments) => actions::perform(&arguments, interrupt),
         Command::Record(arguments) => record::perform(&arguments),
         Command::Script(arguments) => demo::perform(&arguments),
-        Command::Play(arguments) => play::perform(&arguments, interrupt),
+        Command::Play(arguments) => play::perform(&arguments, options, interrupt),
         Command::Tour(arguments) => lesson::tour(&arguments, interrupt, &LESSONS),
         Command::Lessons(arguments) => lesson::perform(&arguments, interrupt, &LESSONS),
         Command::Lesson(arguments) => lesson::check(&arguments, &LESSONS),
         Command::Methods(arguments) => methods::perform(&arguments),
         Command::Doctor(arguments) => doctor::perform(&arguments),
         Command::Config(arguments) => config::perform(&arguments),
-        Command::Completions(arguments) => completions::perform(&arguments),
-        Command::Man(arguments) => manual::perform(&arguments),
+        Command::Completions(arguments) => completions::perform(&arguments, self::command()),
+        Command::Man(arguments) => manual::perform(&arguments, self::command()),
         Command::Theme(arguments) => theme::perform(&arguments),
     }
 }
 
 /// What lessons need of the commands that perform scripts.
 const LESSONS: lesson::Shared = lesson::Shared {
-    scripted: play::scripted,
-    request: || lab::request(None, &["phaselab".into()]),
+    scripted: demo_source::scripted,
+    request: || lab::request(None, &["phaselab".into()], options),
     ended: lab::how_it_ended,
 };
 
@@ -253,7 +269,7 @@ fn misspelt(words: &[OsString]) -> Option<String> {
 }
 
 /// The message for a word that is neither a command nor a preset, with the nearest that is.
-pub(super) fn unknown(word: &str) -> Option<String> {
+fn unknown(word: &str) -> Option<String> {
     let catalog = Catalog::load();
     let presets = || catalog.entries().iter().map(|entry| entry.name.as_str());
     if is_path(word) || presets().any(|preset| preset == word) {

@@ -21,13 +21,13 @@ pub(super) struct Arguments {
     shell: Shell,
 }
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
-    Output::print(Form::Text, &script(arguments.shell))
+/// `command` is the whole command line.
+pub(super) fn perform(arguments: &Arguments, command: clap::Command) -> Result<(), CommandError> {
+    Output::print(Form::Text, &script(arguments.shell, command))
 }
 
 /// The whole script.
-fn script(shell: Shell) -> String {
-    let mut command = super::command();
+fn script(shell: Shell, mut command: clap::Command) -> String {
     let named = named(&command);
     let mut bytes = Vec::new();
     clap_complete::generate(shell, &mut command, "phaselab", &mut bytes);

@@ -5,10 +5,12 @@ use std::io::IsTerminal;
 
 use super::failure::CommandError;
 use super::output::{Form, Output};
-use super::{config, play, record, stderr};
+use super::{config, demo_source, record, stderr};
 use crate::preset::{Catalog, Origin, is_path};
 use crate::record::ScriptRunner;
-use crate::shell::{self, Ending, LabError, Options, Request, SessionError, options};
+use crate::shell::{
+    self, Ending, LabError, Options, Request, SessionError, options, options::Words,
+};
 
 /// What to open and how to show it.
 #[derive(Debug, clap::Args)]
@@ -21,12 +23,26 @@ pub(super) struct Arguments {
     #[arg(long, conflicts_with_all = ["resume", "watch", "log"])]
     demo: bool,
     #[command(flatten)]
-    options: Options,
+    pub(super) options: Options,
 }
+
+impl Arguments {
+    /// The name of the system to open; a demo's name is not one.
+    pub(super) fn system(&self) -> Option<&str> {
+        self.name.as_deref().filter(|_| !self.demo)
+    }
+}
+
+/// Reads the options among the words of the command line, over defaults for them.
+pub(super) type ReadOptions = fn(Words, &[OsString]) -> Result<Options, CommandError>;
 
 /// The request for a terminal: the options of the command line, then those of the environment, then the
 /// configuration.
-pub(super) fn request(name: Option<String>, words: &[OsString]) -> Result<Request, CommandError> {
+pub(super) fn request(
+    name: Option<String>,
+    words: &[OsString],
+    read: ReadOptions,
+) -> Result<Request, CommandError> {
     let variable = |name: &str| std::env::var(name).ok();
     let environment = options::of_environment(&variable).map_err(CommandError::WrongUse)?;
     let mut defaults = config::options()?;
@@ -35,24 +51,21 @@ pub(super) fn request(name: Option<String>, words: &[OsString]) -> Result<Reques
         defaults.retain(|(name, _)| *name != "color");
     }
     defaults.extend(environment);
-    let command = options::with_defaults(super::command(), defaults);
-    // the words were already valid, and so are the defaults
-    let arguments = super::command::parse(command, words)
-        .map_err(|why| CommandError::WrongUse(why.to_string().trim_end().to_owned()))?;
-    Ok(Request::new(name, &arguments.lab.options))
+    Ok(Request::new(name, &read(defaults, words)?))
 }
 
-pub(super) fn perform(arguments: &Arguments, words: &[OsString]) -> Result<(), CommandError> {
+pub(super) fn perform(
+    arguments: &Arguments,
+    words: &[OsString],
+    read: ReadOptions,
+) -> Result<(), CommandError> {
     if arguments.demo {
-        return perform_demo(arguments, words);
-    }
-    if let Some(message) = arguments.name.as_deref().and_then(super::unknown) {
-        return Err(CommandError::WrongUse(message));
+        return perform_demo(arguments, words, read);
     }
     if arguments.options.watch {
         watchable(arguments.name.as_deref())?;
     }
-    let mut request = request(arguments.name.clone(), words)?;
+    let mut request = request(arguments.name.clone(), words, read)?;
     let mut ended = shell::run(&request);
     let not_found = matches!(ended, Err(LabError::SessionError(_) | LabError::NotFound(_)));
     if not_found && request.resume && !arguments.options.resume {
@@ -68,10 +81,14 @@ pub(super) fn perform(arguments: &Arguments, words: &[OsString]) -> Result<(), C
 
 /// Performs a demo on the terminal. Its last picture stays, and mistakes in its script are reported after the
 /// terminal is restored.
-fn perform_demo(arguments: &Arguments, words: &[OsString]) -> Result<(), CommandError> {
-    let request = request(None, words)?;
-    let source = play::source(arguments.name.as_deref())?;
-    let (script, system, name) = play::scripted(&source)?;
+fn perform_demo(
+    arguments: &Arguments,
+    words: &[OsString],
+    read: ReadOptions,
+) -> Result<(), CommandError> {
+    let request = request(None, words, read)?;
+    let source = demo_source::source(arguments.name.as_deref())?;
+    let (script, system, name) = demo_source::scripted(&source)?;
     let wrong = |mistake| record::located(&source, &[mistake]);
     let performance = ScriptRunner::watched(script, &system, &name).map_err(wrong)?;
     let (ending, outcome) = match shell::perform_demo(performance, &request) {

@@ -56,10 +56,11 @@ const ENVIRONMENT: &[(&str, &str)] = &[
     ("XDG_STATE_HOME", "Where the last session is kept."),
 ];
 
-pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
+/// `command` is the whole command line.
+pub(super) fn perform(arguments: &Arguments, command: clap::Command) -> Result<(), CommandError> {
     let page = match arguments.command.as_slice() {
-        [] => whole(),
-        words => of_command(words)?,
+        [] => whole(command),
+        words => of_command(command, words)?,
     };
     let mut out = Output::open(None, Form::Text)?;
     page.and_then(|page| out.write_all(&page)).map_err(|error| out.failed(&error))?;
@@ -67,8 +68,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
 }
 
 /// The page of the program.
-fn whole() -> io::Result<Vec<u8>> {
-    let command = super::command();
+fn whole(command: clap::Command) -> io::Result<Vec<u8>> {
     let examples = examples(&command);
     let man = Man::new(command.disable_help_subcommand(true)).manual("phaselab");
     let mut page = Vec::new();
@@ -102,8 +102,10 @@ fn whole() -> io::Result<Vec<u8>> {
 }
 
 /// The page of one command.
-fn of_command(words: &[String]) -> Result<io::Result<Vec<u8>>, CommandError> {
-    let mut command = super::command();
+fn of_command(
+    mut command: clap::Command,
+    words: &[String],
+) -> Result<io::Result<Vec<u8>>, CommandError> {
     command.build();
     let mut found = &command;
     for word in words {

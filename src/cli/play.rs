@@ -2,12 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use super::demo_source::scripted;
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
-use super::{lab, open, record};
+use super::lab::{self, ReadOptions};
+use super::record;
 use crate::diagnostic::Document;
-use crate::preset::{demo, is_path};
-use crate::record::{RecordedCast, Script};
+use crate::preset::demo;
+use crate::record::RecordedCast;
 use crate::shell;
 use crate::{file, printable};
 
@@ -33,9 +35,13 @@ pub(super) struct Arguments {
 /// The greatest size of a cast that is read.
 const LIMIT: u64 = 64 << 20;
 
-pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+pub(super) fn perform(
+    arguments: &Arguments,
+    read: ReadOptions,
+    interrupt: &Interrupt,
+) -> Result<(), CommandError> {
     let cast = read_cast(&arguments.file)?;
-    let request = lab::request(None, &["phaselab".into()])?;
+    let request = lab::request(None, &["phaselab".into()], read)?;
     // the terminal must be restored first
     interrupt.stand_aside();
     lab::how_it_ended(shell::show(cast, &request))
@@ -65,47 +71,4 @@ fn recorded(source: &Document) -> Result<RecordedCast, CommandError> {
     let recording = record::recorded(&script, source, &system, &name, None)?;
     record::hold(source, &recording)?;
     Ok(recording.into())
-}
-
-/// The tour, which is played if no demo is named.
-const TOUR: &str = include_str!("tour.demo");
-
-/// The text of a script: a file's, a preset's demo, or the tour.
-pub(super) fn source(name: Option<&str>) -> Result<Document, CommandError> {
-    let Some(name) = name else { return Ok(Document::new("tour.demo", TOUR)) };
-    let path = Path::new(name);
-    let is_script = path.extension().is_some_and(|ending| ending == "demo");
-    if is_script || (is_path(name) && path.extension().is_none_or(|ending| ending != "toml")) {
-        return Document::open(path).map_err(|why| CommandError::reading(path, &why));
-    }
-    record::own_demo(name, "name a script, as in --demo my.demo")
-}
-
-/// A script with its system and the system's name on the screen.
-pub(super) fn scripted(source: &Document) -> Result<(Script, Document, String), CommandError> {
-    let script = Script::read(source).map_err(|mistakes| record::located(source, &mistakes))?;
-    let Some(system) = &script.head.open else {
-        let what = format!("{} does not say which system it is about: Open NAME", source.path);
-        return Err(CommandError::WrongFile(what));
-    };
-    let document = open::find(&system.text)?;
-    // the mistakes of the system are reported for the system's own file
-    open::read(&document)?;
-    let name = record::called(&system.text).to_owned();
-    Ok((script, document, name))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::record::play;
-
-    #[test]
-    fn the_tour_is_short_and_true() {
-        let source = source(None).expect("there is one");
-        let (script, system, name) = scripted(&source).expect("without mistakes");
-        let recording = play(&script, &system, &name, (80, 24)).expect("it can be played");
-        assert_eq!(recording.false_claims, []);
-        assert!((8..=15).contains(&(recording.end / 1_000_000)), "{}", recording.end);
-    }
 }

@@ -23,6 +23,7 @@ use super::clock::{Micros, SECOND};
 
 pub use command::{CLAIMS, COMMANDS, Command, read_size};
 use line::Line;
+pub use line::Text;
 
 /// The longest demo in seconds; a script that waits for a day would fill the memory.
 pub const LONGEST: u64 = 3600;
@@ -81,15 +82,6 @@ impl Head {
             glyphs: self.glyphs,
         }
     }
-}
-
-/// A piece of a line whose meaning depends on the system, and its range.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Text {
-    /// The text without quotes.
-    pub text: String,
-    /// The range in the script.
-    pub place: SourceRange,
 }
 
 /// The path of one value in a sweep.

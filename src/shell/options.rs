@@ -15,11 +15,13 @@ use clap::{ArgAction, Args, Command, ValueEnum};
 
 use super::bandwidth::Bandwidth;
 use super::log::LogFile;
-use super::request::MOST_FRAMES;
 use crate::diagnostic::nearest;
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::PALETTES;
+
+/// The maximum number of frames per second that can be requested.
+pub const MOST_FRAMES: u16 = 240;
 
 /// The options of the laboratory, with their defaults.
 #[derive(Args, Clone, PartialEq, Eq, Debug)]

@@ -3,8 +3,6 @@
 //! In: [`Options`]. Out: the render style and the frame settings. Never here: where options come from; queries to
 //! the terminal.
 
-use crate::preset::NotFound;
-use crate::printable;
 use crate::view::RenderStyle;
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
@@ -12,19 +10,14 @@ use crate::view::theme::Theme;
 
 use super::bandwidth::Bandwidth;
 use super::frame_loop::Pace;
-use super::log::{LogError, LogFile};
-use super::options::Options;
-use super::store::SessionError;
-use super::terminal::TerminalError;
+use super::log::LogFile;
+use super::options::{MOST_FRAMES, Options};
 
 /// The frames per second on a local terminal.
 const NEAR: u16 = 30;
 
 /// The frames per second over a remote connection.
 const FAR: u16 = 15;
-
-/// The maximum number of frames per second that can be requested.
-pub const MOST_FRAMES: u16 = 240;
 
 /// The maximum if motion is to be reduced.
 const CALM: u16 = 4;
@@ -62,32 +55,6 @@ pub struct Request {
     pub mouse: bool,
     /// Whether to rebuild the system whenever its file has changed.
     pub watch: bool,
-}
-
-/// Why the laboratory could not be opened, or not be left cleanly.
-#[derive(Debug, thiserror::Error)]
-pub enum LabError {
-    /// There is no terminal.
-    #[error(transparent)]
-    TerminalError(#[from] TerminalError),
-    /// There is no such preset or file.
-    #[error(transparent)]
-    NotFound(#[from] NotFound),
-    /// There is no session to resume.
-    #[error(transparent)]
-    SessionError(#[from] SessionError),
-    /// The session could not be saved at the end.
-    #[error("the session is not saved: {}", printable::why(.0))]
-    Unsaved(std::io::Error),
-    /// The log cannot be written.
-    #[error(transparent)]
-    LogError(#[from] LogError),
-    /// The recording could not be saved at the end.
-    #[error("the recording is not whole: {}", printable::why(.0))]
-    Unrecorded(std::io::Error),
-    /// The system refuses something that the laboratory needs.
-    #[error("the laboratory cannot go on: {}", printable::why(.0))]
-    System(#[from] std::io::Error),
 }
 
 impl Request {

@@ -3,7 +3,7 @@
 //! In: the energy over a region of the phase plane. Out: the saddles, and their energies. Never
 //! here: which of them matter.
 
-use super::{Energy, spread};
+use super::energy::{Energy, spread};
 
 /// A point where the energy has a minimum in one direction and a maximum in another.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,7 +4,8 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 use super::system::formulas;
-use super::table::{Table, Value};
+use super::table::Table;
+use super::value::Value;
 use super::{Formula, NamedFormula, value};
 use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 

@@ -3,13 +3,11 @@
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
+use super::value::Value;
 use super::{Formula, TOP_LEVEL, value};
 use crate::diagnostic::nearest;
 use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 use crate::preset::schema::{Key, Kind, Section};
-
-/// A value of TOML with its span.
-pub(in crate::preset) type Value<'d> = Spanned<DeValue<'d>>;
 
 /// A table that is being read.
 pub(in crate::preset) struct Table<'d> {

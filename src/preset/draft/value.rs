@@ -4,10 +4,12 @@ use toml::Spanned;
 use toml::de::{DeArray, DeValue};
 
 use super::Formula;
-use super::table::Value;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::{Allowed, Model, Scope};
 use crate::printable::is_steering;
+
+/// A value of TOML with its span.
+pub(in crate::preset) type Value<'d> = Spanned<DeValue<'d>>;
 
 /// The kind of a value, with its article.
 pub(in crate::preset) fn kind(value: &DeValue<'_>) -> &'static str {

@@ -3,7 +3,8 @@
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::table::{Table, Value};
+use super::table::Table;
+use super::value::Value;
 use super::{Formula, value};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 

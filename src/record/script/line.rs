@@ -2,11 +2,18 @@
 //!
 //! In: the line. Out: its pieces, or what was expected in place of something else. Never here: what they mean.
 
-use crate::diagnostic::Diagnostic;
-use crate::diagnostic::nearest;
+use crate::diagnostic::{Diagnostic, SourceRange, nearest};
 
-use super::Text;
 use crate::record::clock::{Micros, SECOND};
+
+/// A piece of a line whose meaning depends on the system, and its range.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Text {
+    /// The text without quotes.
+    pub text: String,
+    /// The range in the script.
+    pub place: SourceRange,
+}
 
 /// A line that is read from left to right.
 pub(in crate::record) struct Line<'a> {

@@ -7,7 +7,7 @@
 
 use ratatui::style::{Color, Modifier};
 
-use super::{CURVES, PaletteColour, Role};
+use super::role::{CURVES, PaletteColour, Role};
 use crate::view::colour::{ColourDepth, Rgb};
 
 /// A named set of colours.

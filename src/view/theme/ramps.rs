@@ -4,7 +4,9 @@
 
 use ratatui::style::{Color, Modifier, Style};
 
-use super::{Dash, Palette, PaletteColour, Shade};
+use super::dash::Dash;
+use super::palettes::Palette;
+use super::role::{PaletteColour, Shade};
 use crate::view::colour::{ColourDepth, Rgb};
 
 /// Makes the ramps of a palette at a depth.
