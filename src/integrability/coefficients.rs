@@ -16,7 +16,7 @@ use crate::expr::{Expr, Pool, Symbol};
 use crate::num::{Number, PrimeField, Residue, rational};
 
 /// Bits by which a fraction from one prime has to be smaller than one by chance.
-const SPARE_BITS: u32 = 16;
+pub(super) const SPARE_BITS: u32 = 16;
 
 /// The greatest total degree in the parameters of a coefficient that is no monomial.
 const HIGHEST: u32 = 4;
@@ -41,7 +41,7 @@ struct Sampled<'a> {
 
 /// The one combination of some columns that is constant, with first coefficient 1; `None` if there is none or more
 /// than one.
-fn only(
+pub(super) fn only(
     ground: &Ground<'_>,
     atoms: &Atoms,
     ansatz: &Ansatz,
@@ -102,7 +102,8 @@ pub(super) fn rationals(
     None
 }
 
-fn exact(n: i128, d: i128) -> Option<Number> {
+/// A fraction, if it is short.
+pub(super) fn exact(n: i128, d: i128) -> Option<Number> {
     match Number::ratio(n, d) {
         exact @ Number::Rational(..) => Some(exact),
         Number::Real(_) => None,

@@ -80,6 +80,7 @@ pub(super) struct Evaluator {
     units: Vec<bool>,
     /// Whether logarithms or arctangents may be related, so that points are too general.
     pub(super) overgeneral: bool,
+    radicals: Radicals,
 }
 
 /// The values at one point.
@@ -152,6 +153,62 @@ pub(super) fn terms(pool: &mut Pool, e: Expr) -> Vec<(Number, Expr)> {
     }
     all
 }
+
+/// The numbers of which square roots are taken.
+#[derive(Clone, Debug, Default)]
+struct Radicals {
+    /// Square-free and without common factors; none where there are other roots of numbers.
+    numbers: Vec<i64>,
+    /// The position among them for each node under a root.
+    of: FxHashMap<usize, usize>,
+    /// Which roots are the negative ones, a bit for each.
+    negative: u32,
+}
+
+impl Radicals {
+    fn new(pool: &Pool, orders: &FxHashMap<Expr, u64>, index: &FxHashMap<Expr, usize>) -> Radicals {
+        let mut radicals = Radicals::default();
+        for (base, order) in orders.iter().filter(|(_, order)| **order > 1) {
+            let Node::Number(number) = *pool.node(*base) else { continue };
+            let Some(free) = square_free(number).filter(|_| *order == 2) else {
+                return Radicals::default();
+            };
+            let known = radicals.numbers.iter().position(|&known| known == free);
+            let k = known.unwrap_or_else(|| {
+                radicals.numbers.push(free);
+                radicals.numbers.len() - 1
+            });
+            radicals.of.insert(index[base], k);
+        }
+        let all = &radicals.numbers;
+        let divisor = |a: i64, b: i64| a / (least_common(a, b) / b);
+        let coprime = (0..all.len()).all(|i| (0..i).all(|j| divisor(all[i], all[j]) == 1));
+        if coprime && all.len() <= MOST_RADICALS { radicals } else { Radicals::default() }
+    }
+}
+
+/// The square-free part of the product of numerator and denominator of a positive fraction.
+fn square_free(number: Number) -> Option<i64> {
+    let Number::Rational(n, d) = number else { return None };
+    let mut free = n.checked_mul(d).filter(|free| *free > 1)?;
+    let mut k = 2_i64;
+    while k.checked_mul(k).is_some_and(|square| square <= free) {
+        if k > LARGEST_FACTOR {
+            return None;
+        }
+        while free % (k * k) == 0 {
+            free /= k * k;
+        }
+        k += 1;
+    }
+    Some(free)
+}
+
+/// The largest factor that is looked for in a number under a root.
+const LARGEST_FACTOR: i64 = 10_000;
+
+/// The largest number of different square roots of numbers.
+const MOST_RADICALS: usize = 3;
 
 impl Evaluator {
     /// Compiles expressions. Functions of what does not contain the `moving` symbols have the same value at every
@@ -260,13 +317,26 @@ impl Evaluator {
         let fixed = |all: &Units| -> Vec<bool> {
             all.order.iter().map(|&term| !pool.depends_on_any(term, moving)).collect()
         };
+        let radicals = Radicals::new(pool, &roots_of, &index);
         Ok(Evaluator {
             steps,
             index,
             circles: fixed(&circles),
             units: fixed(&units),
             overgeneral: opaque > 1,
+            radicals,
         })
+    }
+
+    /// The square-free numbers of which square roots are taken; none where there are other roots of numbers.
+    pub(super) fn radicals(&self) -> &[i64] {
+        &self.radicals.numbers
+    }
+
+    /// The same with the negative roots of some of those numbers, a bit for each.
+    pub(super) fn conjugate(&self, negative: u32) -> Evaluator {
+        let radicals = Radicals { negative, ..self.radicals.clone() };
+        Evaluator { radicals, ..self.clone() }
     }
 
     /// Evaluates everything at a point whose symbols have the values `at`. `None` where something has no value.
@@ -326,6 +396,10 @@ impl Evaluator {
                             Some(&root) => root,
                             None => {
                                 let root = field.root(values[base], d)?;
+                                let sign = self.radicals.of.get(&base);
+                                let negative =
+                                    sign.is_some_and(|k| self.radicals.negative >> k & 1 == 1);
+                                let root = if negative { field.neg(root) } else { root };
                                 roots.insert((base, d), root);
                                 root
                             }

@@ -87,23 +87,30 @@ fn gcd(a: i128, b: i128) -> i128 {
     a
 }
 
-/// The ansatz in words: what was searched, and so where nothing else is.
-pub(super) fn words(pool: &Pool, law: &Law, atoms: &Atoms, ansatz: &Ansatz) -> String {
+/// The ansatz in words: what was searched, and so where nothing else is. `print` writes an expression.
+pub(super) fn words(
+    law: &Law,
+    atoms: &Atoms,
+    ansatz: &Ansatz,
+    print: &dyn Fn(Expr) -> String,
+) -> String {
     let list = |all: Vec<String>| all.join(", ");
-    let others = list(atoms.coefficients.iter().map(|g| pool.text(g.expression)).collect());
+    let others = list(atoms.coefficients.iter().map(|g| print(g.expression)).collect());
     if law.positions == 0 {
         return format!("polynomials of degree up to {} in {others}", ansatz.bounds[0].1);
     }
-    let momenta = list(atoms.momenta.iter().map(|&p| pool.text(p)).collect());
+    let momenta = list(atoms.momenta.iter().map(|&p| print(p)).collect());
     let mut degrees: Vec<(u32, u32)> = ansatz.bounds.clone();
     degrees.sort_unstable_by(|a, b| b.cmp(a));
-    let bounds: Vec<String> = degrees.iter().map(|(k, n)| format!("{n} for degree {k}")).collect();
+    let list_of = |all: Vec<u32>| all.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
+    let in_momenta = list_of(degrees.iter().map(|(k, _)| *k).collect());
     if others.is_empty() {
-        let degrees: Vec<String> = degrees.iter().map(|(k, _)| k.to_string()).collect();
-        return format!("polynomials in {momenta} of degree {}", degrees.join(", "));
+        return format!("polynomials in {momenta} of degree {in_momenta}");
     }
+    let in_others = list_of(degrees.iter().map(|(_, n)| *n).collect());
+    let turn = if degrees.len() > 1 { " in turn" } else { "" };
     format!(
-        "polynomials in {momenta} whose coefficients are polynomials in {others}, of degree up to {}",
-        bounds.join(", ")
+        "polynomials in {momenta} of degree {in_momenta} whose coefficients are polynomials in {others} \
+         of degree up to {in_others}{turn}"
     )
 }

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use super::evaluator::Evaluator;
 use super::law::Law;
-use crate::expr::{Expr, Node, Pool, Symbol};
+use crate::expr::{Expr, Node, Pool, Symbol, Zero};
 use crate::mechanics::{Equations, in_phase_space};
 
 /// A constant of the motion that the equations already have.
@@ -21,6 +21,8 @@ pub struct Known {
     pub(super) here: Expr,
     /// Its degree in the momenta, or in the variables of a Poisson system.
     pub degree: u32,
+    /// Whether it is a polynomial in the momenta, or in the variables of a Poisson system.
+    pub(super) is_polynomial: bool,
 }
 
 /// The proved constants of the motion that the equations have, as functions of the law's variables.
@@ -43,6 +45,7 @@ pub(super) fn of(
             equations.open(conserved.expression)
         };
         let pool = &mut equations.pool;
+        let opened = as_momentum(pool, law, opened);
         let here = pool.substitute(opened, values);
         let foreign = |s: &Symbol| !law.variables.contains(s);
         if pool.symbols_of(here).iter().any(foreign) || pool.symbols_of(here).is_empty() {
@@ -55,47 +58,77 @@ pub(super) fn of(
             continue;
         }
         let moving = if law.positions == 0 { &law.variables[..] } else { law.momenta() };
-        let degree = degree(pool, here, moving).max(1);
-        all.push(Known { name: conserved.name, expression: opened, here, degree });
+        let (degree, is_polynomial) = degree(pool, here, moving);
+        let degree = degree.max(1);
+        all.push(Known { name: conserved.name, expression: opened, here, degree, is_polynomial });
     }
     all
 }
 
-/// The degree of a function in some symbols, as it is written; a function that is no polynomial in them counts as of
-/// degree 2.
-pub(super) fn degree(pool: &Pool, e: Expr, symbols: &[Symbol]) -> u32 {
-    let mut known: HashMap<Expr, u32> = HashMap::new();
+/// A function of phase space that is nothing but a momentum, as that momentum.
+fn as_momentum(pool: &mut Pool, law: &Law, e: Expr) -> Expr {
+    if !law.hamiltonian || matches!(pool.node(e), Node::Symbol(_)) {
+        return e;
+    }
+    let symbols = pool.symbols_of(e);
+    let momenta = law.momenta().iter().filter(|p| symbols.contains(*p)).copied();
+    for p in momenta.collect::<Vec<_>>() {
+        let p = pool.variable(p);
+        let rest = pool.sub(e, p);
+        if pool.is_zero(rest) == Zero::Proved {
+            return p;
+        }
+    }
+    e
+}
+
+/// The degree of a function in some symbols, as it is written, and whether it is a polynomial in them; a function that is
+/// none counts as of degree 2.
+pub(super) fn degree(pool: &Pool, e: Expr, symbols: &[Symbol]) -> (u32, bool) {
+    let mut known: HashMap<Expr, (u32, bool)> = HashMap::new();
     for part in pool.reachable(&[e]) {
+        let of = |e: &Expr| known[e];
         let degree = match pool.node(part) {
-            Node::Symbol(s) => u32::from(symbols.contains(s)),
-            Node::Sum(_, parts) => parts.iter().map(|(_, t)| known[t]).max().unwrap_or(0),
+            Node::Symbol(s) => (u32::from(symbols.contains(s)), true),
+            Node::Sum(_, parts) => parts
+                .iter()
+                .map(|(_, t)| of(t))
+                .fold((0, true), |(n, all), (k, is)| (n.max(k), all && is)),
             Node::Product(_, factors) => factors
                 .iter()
-                .map(|(base, n)| match (known[base], n.as_integer()) {
-                    (0, _) => 0,
-                    (degree, Some(n)) if n > 0 => degree * n.unsigned_abs() as u32,
-                    _ => 2,
+                .map(|(base, n)| match (of(base), n.as_integer()) {
+                    ((0, is), _) => (0, is),
+                    ((degree, is), Some(n)) if n > 0 => (degree * n.unsigned_abs() as u32, is),
+                    _ => (2, false),
                 })
-                .sum(),
-            node => 2 * u32::from(node.parts().iter().any(|p| known[p] > 0)),
+                .fold((0, true), |(n, all), (k, is)| (n + k, all && is)),
+            node => match node.parts().iter().any(|p| of(p).0 > 0) {
+                true => (2, false),
+                false => (0, true),
+            },
         };
         known.insert(part, degree);
     }
     known[&e]
 }
 
-/// Some functions, and all their products up to a degree, each as a list of their indices; no more than `most`.
+/// How much higher than the degree of an ansatz the powers of a constant are that is no polynomial.
+const MORE_POWERS: usize = 3;
+
+/// Some functions, and all their products up to a degree, each as a list of their indices; no more than `most`. What is
+/// no polynomial has degree 0: a few of its powers may lie in an ansatz of any degree.
 pub(super) fn products(degrees: &[u32], up_to: u32, most: usize) -> Vec<Vec<usize>> {
     let mut all: Vec<(Vec<usize>, u32)> = Vec::new();
     let mut begin = 0;
-    // one that is no polynomial may lie in an ansatz of any degree
     all.extend((0..degrees.len()).map(|i| (vec![i], degrees[i])));
     while begin < all.len() && all.len() < most {
         let end = all.len();
         for k in begin..end {
             let (factors, degree) = all[k].clone();
             for i in factors[factors.len() - 1]..degrees.len() {
-                if degree + degrees[i] <= up_to && all.len() < most {
+                let power = factors.iter().filter(|&&k| k == i).count();
+                let fits = degrees[i] > 0 || power < up_to as usize + MORE_POWERS;
+                if fits && degree + degrees[i] <= up_to && all.len() < most {
                     let mut longer = factors.clone();
                     longer.push(i);
                     all.push((longer, degree + degrees[i]));

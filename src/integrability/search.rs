@@ -16,20 +16,19 @@ use super::formula::{cleared, combination, words};
 use super::known::{self, Known, products};
 use super::law::{self, Law};
 use super::level::{self, Broken, Ground};
+use super::quadratic::with_root;
 use super::scope::{Scope, constants_of};
-use crate::expr::{Expr, Pool, Symbol, Zero};
+use super::vanishing::vanishes;
+use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Class, Equations, class_of, is_changed_by_impulse};
 use crate::model::Model;
-use crate::num::{Number, PRIMES, PrimeField};
+use crate::num::{PRIMES, PrimeField};
 
 /// The largest number of monomials in an ansatz, so that its matrix stays below 20 MB.
 pub const SIZE_LIMIT: usize = 1_500;
 
 /// The degree up to which is searched where none is given.
 const DEGREE: u32 = 6;
-
-/// How many coordinates are tried as the origin of the others in a proof.
-const MOST_ORIGINS: usize = 3;
 
 /// Why a search ends where as many are known as can be independent.
 const EXHAUSTED: &str = "no more can be independent";
@@ -82,8 +81,10 @@ pub struct Constant {
 pub struct Searched {
     /// The degree in the momenta.
     pub degree: u32,
-    /// The ansatz in words.
+    /// The ansatz in words, with expressions as files have them.
     pub family: String,
+    /// The same with expressions as the screen shows them.
+    pub shown: String,
     /// The number of its independent monomials.
     pub size: usize,
     /// Whether it is the standard family of its degree, of which absence is stated.
@@ -231,8 +232,17 @@ impl<'a> Search<'a> {
                         self.level(model, equations, answer, family, &atoms, &ansatz)?;
                     (complete, related) = (true, overgeneral);
                     answer.searched.retain(|s| (s.degree, s.standard) != (degree, i == 0) || i > 0);
-                    let family = words(&equations.pool, &self.law, &atoms, &ansatz);
-                    answer.searched.push(Searched { degree, family, size, standard: i == 0 });
+                    let pool = &equations.pool;
+                    let words =
+                        |print: &dyn Fn(Expr) -> String| words(&self.law, &atoms, &ansatz, print);
+                    let (family, shown) = (words(&|e| pool.text(e)), words(&|e| pool.unicode(e)));
+                    answer.searched.push(Searched {
+                        degree,
+                        family,
+                        shown,
+                        size,
+                        standard: i == 0,
+                    });
                     if self.is_exhausted(equations, answer) {
                         answer.ended = Some(EXHAUSTED.to_owned());
                         return Ok(());
@@ -271,7 +281,7 @@ impl<'a> Search<'a> {
         let known: Vec<(Expr, u32)> = answer
             .known
             .iter()
-            .map(|k| (k.here, k.degree))
+            .map(|k| (k.here, if k.is_polynomial { k.degree } else { 0 }))
             .chain(answer.found.iter().map(|c| (c.here, c.degree)))
             .collect();
         let functions: Vec<Expr> = known.iter().map(|(e, _)| *e).collect();
@@ -297,14 +307,19 @@ impl<'a> Search<'a> {
         let random = &mut self.random;
         let level = level::search(&ground, atoms, ansatz, &functions, &products, random)?;
         for vector in level.new {
-            let exact = rationals(&ground, (atoms, ansatz), &vector, &mut self.random);
+            let shape = (atoms, ansatz);
+            let exact = rationals(&ground, shape, &vector, &mut self.random);
+            let pool = &mut equations.pool;
+            let exact: Option<Vec<Expr>> = match exact {
+                Some(all) => Some(all.into_iter().map(|n| pool.number(n)).collect()),
+                None => with_root(pool, &ground, shape, &vector, &mut self.random),
+            };
             let columns: Vec<usize> = vector.iter().map(|(c, _)| *c).collect();
             let degree = columns.iter().map(|&c| ansatz.degree(c)).max().unwrap_or(degree);
             let degree = if self.law.positions == 0 { ansatz.total(&columns) } else { degree };
             let named = self.named(model, equations, family, ansatz, &columns);
             let here = exact.map(|exact| {
                 let pool = &mut equations.pool;
-                let exact: Vec<Expr> = exact.into_iter().map(|n| pool.number(n)).collect();
                 let exact = cleared(pool, &exact);
                 combination(pool, atoms, ansatz, &columns, &exact)
             });
@@ -389,46 +404,19 @@ impl<'a> Search<'a> {
         };
         let coefficients = lift.coefficients(pool, self.field, &mut self.random)?;
         let expression = combination(pool, &atoms, ansatz, columns, &coefficients);
+        let positions = &self.law.variables[..self.law.positions];
         let proved = match self.symbolic.rate(pool, expression) {
-            Some(rate) => self.vanishes(pool, rate),
+            Some(rate) => vanishes(pool, positions, rate),
             None => class_of(model, equations, "", expression).class == Class::Proved,
         };
         proved.then_some(expression)
     }
 
-    /// Whether a rate is proved to vanish, as it is or in other coordinates: their halves, which opens half angles, or
-    /// their differences. Each is a linear map that can be inverted, so that nothing is lost.
-    fn vanishes(&self, pool: &mut Pool, rate: Expr) -> bool {
-        if pool.is_zero(rate) == Zero::Proved {
-            return true;
-        }
-        let positions = &self.law.variables[..self.law.positions];
-        let doubled = positions.iter().map(|&q| {
-            let e = pool.variable(q);
-            (q, pool.scale(Number::integer(2), e))
-        });
-        let doubled: HashMap<Symbol, Expr> = doubled.collect();
-        let opened = pool.substitute(rate, &doubled);
-        if pool.is_zero(opened) == Zero::Proved {
-            return true;
-        }
-        // where differences of coordinates divide, one of them is the origin of the others
-        positions.iter().take(MOST_ORIGINS).any(|&origin| {
-            let from = pool.variable(origin);
-            let moved = positions.iter().filter(|&&q| q != origin).map(|&q| {
-                let e = pool.variable(q);
-                (q, pool.add(e, from))
-            });
-            let moved: HashMap<Symbol, Expr> = moved.collect();
-            let shifted = pool.substitute(rate, &moved);
-            pool.is_zero(shifted) == Zero::Proved
-        })
-    }
-
     /// The proof of a constant for the present values of the parameters.
     fn proof_here(&self, model: &Model, equations: &mut Equations, here: Expr) -> Proof {
+        let positions = &self.law.variables[..self.law.positions];
         let proved = match self.law.rate(&mut equations.pool, here) {
-            Some(rate) => self.vanishes(&mut equations.pool, rate),
+            Some(rate) => vanishes(&mut equations.pool, positions, rate),
             None => match class_of(model, equations, "", here).class {
                 Class::Proved => return Proof::Proved,
                 class => class == Class::AtTheseParameters,

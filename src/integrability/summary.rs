@@ -13,7 +13,7 @@ pub fn summary(invariants: &Invariants, relations: &Relations) -> String {
     let unproved = invariants.found.iter().any(|c| c.proof == Proof::Unproved);
     let caution = if unproved { " (not all of them proved)" } else { "" };
     let total = invariants.independent().saturating_sub(relations.casimirs);
-    let commuting = relations.in_involution.len().saturating_sub(relations.casimirs);
+    let commuting = relations.commuting().saturating_sub(relations.casimirs);
     let plural = if n == 1 { "invariant" } else { "invariants" };
     if n > 0 && commuting >= n {
         if total > n {

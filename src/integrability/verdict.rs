@@ -5,9 +5,11 @@
 
 use std::collections::HashMap;
 
+use super::involution::{self, Commuting, Given};
 use super::law;
 use super::search::{Invariants, Proof};
-use crate::expr::{Expr, Symbol, Zero};
+use super::vanishing::vanishes;
+use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, bracket};
 use crate::model::Model;
 
@@ -18,6 +20,8 @@ pub struct Relations {
     pub brackets: Vec<Vec<Option<Expr>>>,
     /// A largest set of independent constants that commute with each other, as indices.
     pub in_involution: Vec<usize>,
+    /// Constants made of the others that commute with those and among themselves, and are independent of them.
+    pub completing: Vec<Commuting>,
     /// The number of degrees of freedom: half the dimension, less Casimirs.
     pub freedoms: Option<usize>,
     /// The number of independent Casimirs among the constants.
@@ -46,6 +50,10 @@ pub fn relations(
         .into_iter()
         .map(|(s, n)| (s, equations.pool.number(n)))
         .collect();
+    let positions: Vec<Symbol> = match model.is_poisson() {
+        true => Vec::new(),
+        false => equations.coordinates.iter().map(|c| c.position).collect(),
+    };
     let n = functions.len();
     let mut brackets: Vec<Vec<Option<Expr>>> = vec![vec![None; n]; n];
     // that each is constant is proved, and without time this is that it commutes with H
@@ -70,7 +78,7 @@ pub fn relations(
                 let pool = &mut equations.pool;
                 if e != Expr::ZERO {
                     let here = pool.substitute(e, &values);
-                    if pool.is_zero(here) == Zero::Proved {
+                    if vanishes(pool, &positions, here) {
                         e = Expr::ZERO;
                     }
                 }
@@ -87,11 +95,32 @@ pub fn relations(
         .count();
     let freedoms =
         hamiltonian.then(|| (invariants.dimension - casimirs.min(invariants.dimension)) / 2);
-    let mut verdict = verdict(invariants, freedoms, casimirs, in_involution.len());
+    let completing = match freedoms {
+        Some(n) if !invariants.driven => {
+            let given = Given { functions: &functions, brackets: &brackets, proved: &proved };
+            involution::completed(model, equations, &given, &in_involution, n + casimirs)
+        }
+        _ => Vec::new(),
+    };
+    let commuting = in_involution.len() + completing.len();
+    let mut verdict = verdict(invariants, freedoms, casimirs, commuting);
     if !model.impulses.is_empty() {
         verdict.push_str(" (between impulses)");
     }
-    Relations { brackets, in_involution, freedoms, casimirs, verdict }
+    Relations { brackets, in_involution, completing, freedoms, casimirs, verdict }
+}
+
+impl Relations {
+    /// The number of independent constants that commute with each other.
+    pub fn commuting(&self) -> usize {
+        self.in_involution.len() + self.completing.len()
+    }
+
+    /// What commutes with each other, by the names of the constants: `energy`, `p_phi`, `I1^2 + I2^2`.
+    pub fn commuting_names(&self, names: &[String]) -> Vec<String> {
+        let own = self.in_involution.iter().map(|&i| names[i].clone());
+        own.chain(self.completing.iter().map(|c| c.in_names(names))).collect()
+    }
 }
 
 /// Whether a function has zero bracket with every variable.

@@ -72,10 +72,16 @@ pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
         );
     }
     page.words(Role::Dim, capital(&findings.relations.verdict));
+    let relations = &findings.relations;
+    if !relations.completing.is_empty() {
+        let names = relations.commuting_names(&findings.names).join(", ");
+        page.words(Role::Dim, look.glyphs.text(&format!("In involution: {names} (proved).")));
+    }
     // where nothing was looked for, the ansatz says nothing
     let needless = invariants.found.is_empty() && invariants.is_exhausted();
     if let Some(searched) = invariants.searched.last().filter(|_| !needless) {
-        let words = format!("Searched up to degree {}: {}.", searched.degree, searched.family);
+        let family = if look.glyphs.is_ascii() { &searched.family } else { &searched.shown };
+        let words = format!("Searched up to degree {}: {family}.", searched.degree);
         page.words(Role::Dim, look.glyphs.text(&words));
     }
     if invariants.is_exhausted() {

@@ -3,6 +3,7 @@
 
 mod absent;
 mod found;
+mod involution;
 mod lie;
 mod negatives;
 mod noether;

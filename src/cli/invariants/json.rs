@@ -4,6 +4,7 @@
 use serde_json::{Value, json};
 
 use super::Answer;
+use super::Script;
 use crate::expr::Expr;
 use crate::integrability::Proof;
 
@@ -52,13 +53,13 @@ pub(super) fn write(answer: &Answer<'_>) -> String {
         "title": model.info.title,
         "parameters": parameters,
         "method": null,
-        "searched": answer.searched(),
+        "searched": answer.searched(Script::Ascii),
         "known": known.collect::<Vec<_>>(),
         "found": found.collect::<Vec<_>>(),
         "none_up_to": invariants.none_up_to,
         "independent": invariants.independent(),
         "degrees_of_freedom": relations.freedoms,
-        "in_involution": relations.in_involution.iter().map(|&i| &names[i]).collect::<Vec<_>>(),
+        "in_involution": relations.commuting_names(&names),
         "verdict": relations.verdict,
         "separates": answer.separates,
         "ansatz": ansatz.collect::<Vec<_>>(),

@@ -3,7 +3,7 @@
 use super::Answer;
 use super::Script;
 use crate::expr::Expr;
-use crate::integrability::Proof;
+use crate::integrability::{Proof, Searched};
 
 impl Answer<'_> {
     /// The names of all constants: those known, then I1, I2, … for those found.
@@ -14,14 +14,23 @@ impl Answer<'_> {
     }
 
     /// What was searched, word for word: the standard family of the highest degree and the one before it, of the
-    /// other parity.
-    pub(super) fn searched(&self) -> String {
+    /// other parity; expressions as in files, or as on the screen.
+    pub(super) fn searched(&self, script: Script) -> String {
+        let family = |searched: &Searched| family(searched, script);
         let standard: Vec<_> = self.invariants.searched.iter().filter(|s| s.standard).collect();
         match standard.as_slice() {
             [] => "nothing".to_owned(),
-            [one] => one.family.clone(),
-            [.., before, last] => format!("{}; and {}", last.family, before.family),
+            [one] => family(one),
+            [.., before, last] => format!("{}; and {}", family(last), family(before)),
         }
+    }
+}
+
+/// An ansatz in words.
+fn family(searched: &Searched, script: Script) -> String {
+    match script {
+        Script::Unicode => searched.shown.clone(),
+        Script::Ascii => searched.family.clone(),
     }
 }
 
@@ -69,6 +78,12 @@ pub(super) fn write(answer: &Answer<'_>, script: Script) -> String {
             ));
         }
     }
+    if !relations.completing.is_empty() {
+        let here = relations.completing.iter().all(|c| c.for_all_parameters);
+        let here = if here { "" } else { ", at these parameters" };
+        let names = relations.commuting_names(&names).join(", ");
+        text.push_str(&format!("\nin involution\n  {names}\n       proved{here}\n"));
+    }
     if answer.jacobi && answer.hamiltonian {
         text.push_str("\nbrackets\n");
         for i in 0..names.len() {
@@ -79,15 +94,18 @@ pub(super) fn write(answer: &Answer<'_>, script: Script) -> String {
             }
         }
     }
-    text.push_str(&format!("\nsearched\n  {}\n", answer.searched()));
+    text.push_str(&format!("\nsearched\n  {}\n", answer.searched(script)));
     let others: Vec<_> = invariants.searched.iter().filter(|s| !s.standard).collect();
     if let Some(other) = others.last() {
-        text.push_str(&format!("  also {}\n", other.family));
+        text.push_str(&format!("  also {}\n", family(other, script)));
     }
     if let Some(n) = invariants.none_up_to {
-        let else_ =
-            if invariants.found.is_empty() { "nothing but what is known" } else { "nothing else" };
-        text.push_str(&format!("  up to degree {n}: {else_} and its products (proved)\n"));
+        let but = if invariants.found.is_empty() {
+            "what is known and products of it"
+        } else {
+            "these and their products"
+        };
+        text.push_str(&format!("  up to degree {n}: nothing but {but} (proved)\n"));
     }
     if let Some(why) = &invariants.ended {
         text.push_str(&format!("  ended: {why}\n"));
