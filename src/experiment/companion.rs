@@ -22,6 +22,8 @@ pub enum Origin {
     Neighbour(Vec<f64>),
     /// A run as it was, with its initial values, its parameters and its method.
     Pinned(Vec<InitialOverride>),
+    /// The run before time was reversed.
+    Before,
 }
 
 impl Origin {
@@ -31,6 +33,7 @@ impl Origin {
             Origin::Start(_) => "start",
             Origin::Neighbour(_) => "neighbour",
             Origin::Pinned(_) => "pinned run",
+            Origin::Before => "run before",
         }
     }
 }
