@@ -30,7 +30,8 @@ pub use equilibria::{
 pub use picture::{Across, Entry, Heading, Ink, Layer, Level, Picture, Sign, Stroke, Upwards};
 pub use plot::{Columns, Plot, Quantity, SavedPlot};
 pub use potential::Along;
-pub use present::{Physics, Present};
+pub use exponents::largest_exponent;
+pub use present::{Physics, Present, Returned};
 pub use seed::{MOST_SEEDS, Seed};
 pub use sight::{CameraPose, Sight, Viewport};
 pub use table::{

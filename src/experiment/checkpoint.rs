@@ -40,6 +40,9 @@ pub struct Checkpoint {
     pub speed: Option<f64>,
     /// Whether time was running.
     pub running: bool,
+    /// Whether time ran backwards.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub backwards: bool,
     /// The state of the motion, or `None` if it had not begun.
     pub present: Option<MotionState>,
     /// The recorded past. It is never saved, because it is far longer than the rest and can be recomputed.
@@ -119,6 +122,7 @@ impl Checkpoint {
                 .filter(|_| setup.settings.tolerance != of_file.settings.tolerance),
             speed: (setup.speed != of_file.speed).then_some(setup.speed),
             running: snapshot.status == Status::Running,
+            backwards: snapshot.backwards,
             present: MotionState::of(model, system, snapshot),
             past: None,
         }
@@ -277,6 +281,7 @@ impl Experiment {
                 present.released.iter().filter(|name| self.constraint(name).is_none()).cloned(),
             );
             match self.restore_state(present) {
+                Ok(()) if checkpoint.backwards => self.go_on_backwards(),
                 Ok(()) => self.restore_past(checkpoint.past.as_ref(), present),
                 Err(why) => {
                     self.restart();

@@ -12,7 +12,6 @@ use std::sync::Arc;
 use super::observed_motion::ObservedMotion;
 use super::{Companion, CrossingLog, Origin, Trail};
 use crate::analysis::{Separation, distance};
-use crate::integrate::Stepping;
 
 /// Half the distance between 1 and the next number.
 const ROUNDING: f64 = 1.110_223_024_625_156_5e-16;
@@ -24,7 +23,7 @@ pub struct Return {
     pub turned: f64,
     /// The time at which the run before began.
     pub start: f64,
-    /// ε, the error of a step: the tolerance or the rounding, times the size of the motion.
+    /// ε, the error of a step: the tolerance or, where steps are fixed, the rounding, times the size of the motion.
     pub step_error: f64,
     /// The distance from the run before, in canonical variables, now or where it was seen last.
     pub distance: Option<f64>,
@@ -57,10 +56,6 @@ impl Echo {
             variables.iter().map(|&i| row.get(1 + i).map_or(0.0, |x| x * x)).sum::<f64>()
         };
         let size = trail.rows().map(greatest).fold(0.0, f64::max);
-        let tolerance = match run.method().stepping {
-            Stepping::Adaptive => run.settings().tolerance.unwrap_or(0.0),
-            Stepping::Fixed => 0.0,
-        };
         Some(Echo {
             at: turned,
             values: run.values().to_vec(),
@@ -70,7 +65,7 @@ impl Echo {
             start,
             distance: None,
             error: None,
-            step_error: tolerance.max(ROUNDING) * size.sqrt(),
+            step_error: run.tolerance().unwrap_or(ROUNDING) * size.sqrt(),
             run,
             trail,
         })

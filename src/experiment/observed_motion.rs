@@ -401,6 +401,11 @@ impl ObservedMotion {
         self.inner.settings()
     }
 
+    /// The tolerance in use, if the method has one.
+    pub(super) fn tolerance(&self) -> Option<f64> {
+        self.inner.tolerance()
+    }
+
     /// Where the fixed step was found to be beyond the stability limit, if it was.
     pub(super) fn unstable(&self) -> Option<Unstable> {
         self.inner.unstable()

@@ -18,6 +18,7 @@ use super::observed_motion::ObservedMotion;
 use super::{Companion, Experiment, Progress};
 use crate::analysis::Separation;
 use crate::expr::Expr;
+use crate::integrate::Stepping;
 use crate::model::Action;
 use crate::num::{math, short};
 
@@ -72,7 +73,12 @@ impl Experiment {
     }
 
     /// Lets the motion run the other way from where it is. Returns the one until now.
+    ///
+    /// Equal steps are taken to their end first, so that the way back takes the same ones.
     pub(super) fn turn(&mut self) -> Result<ObservedMotion, String> {
+        if self.motion.method().stepping == Stepping::Fixed {
+            self.motion.reach_end().map_err(|fault| self.motion.dated(fault).to_string())?;
+        }
         let system = match self.other_way.take() {
             Some(system) => system,
             None => {
@@ -98,6 +104,18 @@ impl Experiment {
         motion.set_steps(self.motion.steps());
         self.other_way = Some(self.motion.whole().clone());
         Ok(std::mem::replace(&mut self.motion, motion))
+    }
+
+    /// Goes on backwards from a state that was taken up, without a run before it.
+    pub(super) fn go_on_backwards(&mut self) {
+        match self.turn() {
+            Ok(_) => {
+                self.began = self.clock();
+                self.recorder.turn(self.clock(), true);
+                self.record();
+            }
+            Err(why) => self.tell(why),
+        }
     }
 
     /// Lets time run forwards again, for a motion that is about to begin.

@@ -504,6 +504,11 @@ impl Propagator {
         self.stepper.step_size()
     }
 
+    /// The tolerance in use, if the method has one.
+    pub fn tolerance(&self) -> Option<f64> {
+        self.stepper.tolerance()
+    }
+
     /// The instability of the method's fixed step, if one was found.
     pub fn unstable(&self) -> Option<Unstable> {
         self.stepper.unstable()
