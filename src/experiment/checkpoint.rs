@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use super::gauges::Gauges;
 use super::reference::Reference;
-use super::{Experiment, Setup, Snapshot, Status, Trail};
+use super::{Experiment, SavedCompanion, Setup, Snapshot, Status, Trail};
 use crate::integrate::Settings;
 use crate::model::Model;
 use crate::system::{Channel, ChannelKind, Form, InitialOverride, MotionError, State, System};
@@ -45,6 +45,9 @@ pub struct Checkpoint {
     pub backwards: bool,
     /// The state of the motion, or `None` if it had not begun.
     pub present: Option<MotionState>,
+    /// The motions beside this one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub companions: Vec<SavedCompanion>,
     /// The recorded past. It is never saved, because it is far longer than the rest and can be recomputed.
     #[serde(skip)]
     pub past: Option<Past>,
@@ -124,6 +127,11 @@ impl Checkpoint {
             running: snapshot.status == Status::Running,
             backwards: snapshot.backwards,
             present: MotionState::of(model, system, snapshot),
+            companions: snapshot
+                .companions
+                .iter()
+                .filter_map(|one| SavedCompanion::of(model, one))
+                .collect(),
             past: None,
         }
     }
@@ -234,7 +242,7 @@ fn seen(system: &System, snapshot: &Snapshot) -> Vec<Named> {
 }
 
 /// Names an initial value as expressions do.
-fn named(model: &Model, given: InitialOverride) -> Option<Named> {
+pub(super) fn named(model: &Model, given: InitialOverride) -> Option<Named> {
     let (index, value) = match given {
         InitialOverride::Position(i, x)
         | InitialOverride::Velocity(i, x)
@@ -250,7 +258,7 @@ fn named(model: &Model, given: InitialOverride) -> Option<Named> {
 }
 
 /// Finds the initial value of a name, if the model has it.
-fn given(model: &Model, named: &Named) -> Option<InitialOverride> {
+pub(super) fn given(model: &Model, named: &Named) -> Option<InitialOverride> {
     let place = |name: &str| model.coordinates.iter().position(|c| c.name == name);
     let (name, value) = (named.name.as_str(), named.value);
     if let Some(i) = place(name) {
@@ -274,8 +282,12 @@ impl Experiment {
         let mut lost = self.restore_setup(checkpoint);
         self.running = checkpoint.running;
         let notices = std::mem::take(&mut self.notices);
+        self.companions.clear();
         self.restart();
         self.notices = notices;
+        let present = checkpoint.present.as_ref();
+        let same = present.is_some_and(|present| present.fits(&self.model, self.system()));
+        lost.extend(self.restore_companions(&checkpoint.companions, same));
         if let Some(present) = &checkpoint.present {
             lost.extend(
                 present.released.iter().filter(|name| self.constraint(name).is_none()).cloned(),

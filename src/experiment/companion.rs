@@ -53,6 +53,10 @@ pub struct Companion {
     pub parameters: Arc<[f64]>,
     /// The name of its method.
     pub method: &'static str,
+    /// Its step and tolerance, as they were set.
+    pub settings: Settings,
+    /// Its state, where it has come to.
+    pub state: Arc<State>,
     /// Its recorded motion.
     pub trail: Trail,
     /// Its crossings of the surfaces of section.
@@ -277,6 +281,8 @@ impl CompanionMotion {
             values: values.into(),
             parameters: self.parameters.as_slice().into(),
             method: self.motion.method().name,
+            settings: self.motion.settings(),
+            state: Arc::new(self.motion.state().clone()),
             trail: trail.clone(),
             crossings: self.crossings.clone(),
             message: self.message.clone(),

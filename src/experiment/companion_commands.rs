@@ -89,13 +89,9 @@ impl Experiment {
             self.tell(format!("{MOST_COMPANIONS} motions beside the main one are the most"));
             return None;
         };
+        self.name_variables();
         let system = self.motion.whole().clone();
         let parameters = self.setup.parameters.clone();
-        if self.companions.variables.is_empty() {
-            self.companions.variables = canonical(&system);
-        }
-        let periods = self.companions.variables.iter().map(|&i| system.period(i, &parameters));
-        self.companions.periods = periods.collect();
         let method = (self.motion.method(), self.motion.settings());
         let numbers = NUMBERS / MOST_COMPANIONS;
         let word = origin.word();
@@ -111,8 +107,18 @@ impl Experiment {
         }
     }
 
+    /// Finds the variables in which distances are measured.
+    pub(super) fn name_variables(&mut self) {
+        let (system, parameters) = (self.motion.whole(), &self.setup.parameters);
+        if self.companions.variables.is_empty() {
+            self.companions.variables = canonical(system);
+        }
+        let periods = self.companions.variables.iter().map(|&i| system.period(i, parameters));
+        self.companions.periods = periods.collect();
+    }
+
     /// Where a companion begins when the main motion does.
-    fn origin_state(&self, one: &CompanionMotion) -> Result<State, crate::system::MotionError> {
+    pub(super) fn origin_state(&self, one: &CompanionMotion) -> Result<State, crate::system::MotionError> {
         let start = self.setup.start;
         match &one.origin {
             Origin::Start(given) | Origin::Pinned(given) => {

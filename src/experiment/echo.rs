@@ -124,6 +124,8 @@ impl Echo {
             values: self.values.as_slice().into(),
             parameters: parameters.into(),
             method: self.run.method().name,
+            settings: self.run.settings(),
+            state: Arc::new(self.run.dated_state()),
             trail: self.trail.clone(),
             crossings: CrossingLog::new(surfaces),
             message: None,

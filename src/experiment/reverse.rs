@@ -175,6 +175,9 @@ impl Experiment {
         let gone = (returned.turned - returned.start).abs();
         let start = short(returned.start);
         match (returned.error, separation.slope()) {
+            (Some(0.0), _) => {
+                self.tell(format!("back at t = {start}: where it began, to the last bit"));
+            }
             (Some(error), Some(slope)) => {
                 let expected = returned.step_error * math::exp(slope.rate.max(0.0) * gone);
                 self.tell(format!(
