@@ -8,6 +8,7 @@ mod action;
 mod carrier;
 mod conformal;
 mod conjugate;
+mod drive;
 mod equilibria;
 mod error;
 mod family;

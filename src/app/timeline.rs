@@ -129,12 +129,8 @@ impl Lab {
         if physics.equations.energy_rate == Expr::ZERO {
             return None;
         }
-        let space = PhaseSpace::of(
-            physics.model,
-            physics.equations,
-            physics.system,
-            &seen.parameters,
-        );
+        let space =
+            PhaseSpace::of(physics.model, physics.equations, physics.system, &seen.parameters);
         let rate = space.ok().and_then(|space| {
             let state = space.state(&seen.state).ok()?;
             conformal_rate(&space, seen.time, [space.variables(&state)]).ok()?

@@ -11,6 +11,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::carrier::Carrier;
+use super::drive::driven_orbit;
 use super::error::DynamicsError;
 use super::flow_map::flow_map;
 use super::linear;
@@ -100,10 +101,13 @@ pub fn periodic_orbit(
 ) -> Result<Orbit, DynamicsError> {
     let period = match (period, fixed) {
         (Some(period), _) | (None, Fixed::Period(period)) => period,
+        (None, _) if let Some(drive) = space.drive() => {
+            return driven_orbit(space, method, start, drive);
+        }
         (None, _) if !space.is_autonomous() => {
             return Err(unsuited(
-                "the law of motion depends on time: give the period of the orbit, a multiple of \
-                 that of the law",
+                "the law of motion depends on time, and not by sines and cosines of a common period alone: give the \
+                 period of the orbit, a multiple of that of the law",
             ));
         }
         (None, _) => first_return(space, method, start)?,
@@ -132,7 +136,7 @@ fn unsuited(why: &str) -> DynamicsError {
 }
 
 /// The difference of two states, exact, and less whole periods of the coordinates.
-fn difference(space: &PhaseSpace, end: &State, start: &State) -> DVector<f64> {
+pub(super) fn difference(space: &PhaseSpace, end: &State, start: &State) -> DVector<f64> {
     DVector::from_fn(space.dimension(), |i, _| {
         let apart = end.exact(i) - start.exact(i);
         match space.periods()[i] {
@@ -197,10 +201,7 @@ fn first_return(
     }
     match best {
         Some((part, time)) if part < FAR => Ok(time),
-        _ => Err(unsuited(
-            "the motion does not return near its start: begin nearer to a periodic orbit, or give \
-             its period",
-        )),
+        _ => Err(no_return(space, best, (seen[seen.len() - 1].0 - start.time, steps))),
     }
 }
 
@@ -433,6 +434,28 @@ impl Newton<'_> {
         }
         Ok(Some(sum))
     }
+}
+
+/// Why no return was found: what was looked for, for how long, and what would help.
+fn no_return(
+    space: &PhaseSpace,
+    best: Option<(f64, f64)>,
+    (time, steps): (f64, u64),
+) -> DynamicsError {
+    let names = space.names().join(", ");
+    let found = match best {
+        Some((part, at)) => format!(
+            "came back no nearer than {:.0} % of its farthest distance, after {at:.6}",
+            100.0 * part
+        ),
+        None => "only moved away from its start, or stays at rest".to_owned(),
+    };
+    DynamicsError::Unsuited(format!(
+        "no periodic orbit to begin with: a return of ({names}) to within {:.0} % of its farthest distance was looked for \
+         over a time of {time:.6} ({steps} steps), and the motion {found}. Begin nearer to a periodic orbit, or give its \
+         period",
+        100.0 * FAR
+    ))
 }
 
 fn no_orbit(residual: f64, period: f64) -> DynamicsError {

@@ -118,7 +118,10 @@ impl Experiment {
     }
 
     /// Where a companion begins when the main motion does.
-    pub(super) fn origin_state(&self, one: &CompanionMotion) -> Result<State, crate::system::MotionError> {
+    pub(super) fn origin_state(
+        &self,
+        one: &CompanionMotion,
+    ) -> Result<State, crate::system::MotionError> {
         let start = self.setup.start;
         match &one.origin {
             Origin::Start(given) | Origin::Pinned(given) => {

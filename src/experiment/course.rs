@@ -12,9 +12,9 @@ use super::event_log::EventLog;
 use super::gauges::{Gauges, Present};
 use super::observed_motion::ObservedMotion;
 use super::recorder::Recorder;
-use super::scrub::Scrubbed;
+use super::scrubbed::Scrubbed;
 use super::setup::{MethodNotFound, Setup, choose_method};
-use super::snapshot::{Failure, Gauge, MethodFact, Snapshot, Status};
+use super::snapshot::{Failure, Gauge, MethodFact, Recorded, Snapshot, Status};
 use crate::cancel::Cancel;
 use crate::integrate::Stepping;
 use crate::integrate::{Occurrence, OccurrenceKind, Reached};
@@ -312,6 +312,18 @@ impl Experiment {
 
 /// The motion.
 impl Experiment {
+    /// The motion where it is looked at.
+    pub(super) fn seen(&self) -> &ObservedMotion {
+        self.scrubbed.as_ref().map_or(&self.motion, |scrubbed| &scrubbed.motion)
+    }
+
+    /// What of the motion can be looked at.
+    pub(super) fn recorded(&self) -> Recorded {
+        let from = self.motion.known_from().unwrap_or(self.clock());
+        let from = self.motion.sign() * from.max(self.began);
+        Recorded { from, to: self.time(), scrubbed: self.scrubbed.is_some() }
+    }
+
     /// Restarts from the initial values.
     pub(super) fn restart(&mut self) {
         self.face_forwards();

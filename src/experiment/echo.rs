@@ -10,26 +10,11 @@
 use std::sync::Arc;
 
 use super::observed_motion::ObservedMotion;
-use super::{Companion, CrossingLog, Origin, Trail};
+use super::{Companion, CrossingLog, Origin, Return, Trail};
 use crate::analysis::{Separation, distance};
 
 /// Half the distance between 1 and the next number.
 const ROUNDING: f64 = 1.110_223_024_625_156_5e-16;
-
-/// How a motion that went back has returned, or is about to.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Return {
-    /// The time at which it was reversed.
-    pub turned: f64,
-    /// The time at which the run before began.
-    pub start: f64,
-    /// ε, the error of a step: the tolerance or, where steps are fixed, the rounding, times the size of the motion.
-    pub step_error: f64,
-    /// The distance from the run before, in canonical variables, now or where it was seen last.
-    pub distance: Option<f64>,
-    /// The same at the start, once the motion has been there: the return error.
-    pub error: Option<f64>,
-}
 
 /// The run before time was reversed.
 pub(super) struct Echo {

@@ -9,8 +9,8 @@
 
 use std::sync::Arc;
 
-use super::companions::MOST_COMPANIONS;
 use super::companion_commands::canonical;
+use super::companions::MOST_COMPANIONS;
 use super::course::HORIZON;
 use super::echo::Echo;
 use super::gauges::Gauges;

@@ -43,7 +43,8 @@ impl Experiment {
                 return;
             }
             Ok(Some(first)) if first.is_finite() => {
-                return self.tell(format!("nothing before t = {} is known any more", short(sign * first)));
+                return self
+                    .tell(format!("nothing before t = {} is known any more", short(sign * first)));
             }
             Ok(Some(_)) => return self.tell("nothing before this is known any more".to_owned()),
             Ok(None) => {}

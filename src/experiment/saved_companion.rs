@@ -5,12 +5,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::checkpoint::{given, named};
 use super::companion::CompanionMotion;
 use super::companions::MOST_COMPANIONS;
+use super::named::{Named, given, named};
 use super::recorder::NUMBERS;
 use super::setup::choose_method;
-use super::{Companion, Experiment, Named, Origin};
+use super::{Companion, Experiment, Origin};
 use crate::integrate::Settings;
 use crate::model::Model;
 use crate::system::{Form, InitialOverride, State};
@@ -163,7 +163,13 @@ impl Experiment {
         };
         self.name_variables();
         let numbers = NUMBERS / MOST_COMPANIONS;
-        CompanionMotion::new(&system, (method, settings), (one.number, origin), &parameters, numbers)
-            .ok()
+        CompanionMotion::new(
+            &system,
+            (method, settings),
+            (one.number, origin),
+            &parameters,
+            numbers,
+        )
+        .ok()
     }
 }

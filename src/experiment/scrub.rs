@@ -4,29 +4,11 @@
 //! here: the step that takes the motion itself back (`rewind`).
 
 use super::course::HORIZON;
-use super::observed_motion::ObservedMotion;
+use super::scrubbed::Scrubbed;
 use super::{Command, Experiment, Recorded};
 use crate::num::short;
 
-/// A time in the past that is looked at.
-pub(super) struct Scrubbed {
-    /// A motion of the same system, at that time.
-    motion: ObservedMotion,
-}
-
 impl Experiment {
-    /// The motion where it is looked at.
-    pub(super) fn seen(&self) -> &ObservedMotion {
-        self.scrubbed.as_ref().map_or(&self.motion, |scrubbed| &scrubbed.motion)
-    }
-
-    /// What of the motion can be looked at.
-    pub(super) fn recorded(&self) -> Recorded {
-        let from = self.motion.known_from().unwrap_or(self.clock());
-        let from = self.motion.sign() * from.max(self.began);
-        Recorded { from, to: self.time(), scrubbed: self.scrubbed.is_some() }
-    }
-
     /// Pauses, and looks at a time in the past.
     pub(super) fn look_at(&mut self, time: f64) {
         self.running = false;

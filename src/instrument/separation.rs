@@ -163,18 +163,15 @@ fn return_heading(present: &Present<'_>, returned: Returned) -> Heading {
 }
 
 /// The distance from the run before over the time gone back, with ε e^{λT}.
-fn way_back(
-    present: &Present<'_>,
-    returned: Returned,
-    mut layers: Vec<(Level, Layer)>,
-) -> Picture {
+fn way_back(present: &Present<'_>, returned: Returned, mut layers: Vec<(Level, Layer)>) -> Picture {
     let all = returned.gone[1];
-    let mut name = "ln d from the run before".to_owned();
+    let mut name = match returned.distance {
+        Some(0.0) => "ln d   the way back is the same, to the last bit".to_owned(),
+        _ => "ln d from the run before".to_owned(),
+    };
     let mut range = range(present, 1);
     let ln = crate::num::math::ln;
-    if let (Some((rate, _)), true) =
-        (expected(present, returned, all), returned.step_error > 0.0)
-    {
+    if let (Some((rate, _)), true) = (expected(present, returned, all), returned.step_error > 0.0) {
         let ends = [0.0, all].map(|gone| [gone, ln(returned.step_error) + rate.max(0.0) * gone]);
         let stroke = Stroke { ink: Ink::Accent, covering: Some(0.5) };
         layers.push((SLOPE, Layer::Line(ends.to_vec(), stroke)));

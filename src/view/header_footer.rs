@@ -123,7 +123,8 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     ]);
     let timed = app.lab.as_ref().filter(|lab| timeline::is_shown(lab, snapshot));
     // the rates are of no use while nothing runs
-    let room = if timed.is_some() { area.width.saturating_sub(timeline::LEAST) } else { area.width };
+    let room =
+        if timed.is_some() { area.width.saturating_sub(timeline::LEAST) } else { area.width };
     let mut used = 0;
     for piece in pieces {
         let wide: usize = piece.iter().map(|(text, _)| text.width()).sum();

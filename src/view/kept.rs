@@ -193,7 +193,9 @@ impl Drawn {
     /// the oldest must be the first one drawn or a later one.
     fn continuation(&self, rows: &Trail) -> Option<usize> {
         let (oldest, began) = (rows.row(0)?, self.first.first()?);
-        if rows.order(oldest[0]) < rows.order(*began) || oldest[0] == *began && !same(oldest, &self.first) {
+        if rows.order(oldest[0]) < rows.order(*began)
+            || oldest[0] == *began && !same(oldest, &self.first)
+        {
             return None;
         }
         for (count, row) in rows.rows().rev().enumerate() {
@@ -237,7 +239,8 @@ fn same(a: &[f64], b: &[f64]) -> bool {
 /// The times from which the rows of a trail have each age, for its rows and the present after them.
 pub(super) fn since(rows: &Trail, ages: usize) -> Vec<f64> {
     let count = rows.len() + 1;
-    let begins = |age: usize| rows.row(age * count / ages).map_or(f64::INFINITY, |row| rows.order(row[0]));
+    let begins =
+        |age: usize| rows.row(age * count / ages).map_or(f64::INFINITY, |row| rows.order(row[0]));
     (0..ages).map(begins).collect()
 }
 

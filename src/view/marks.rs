@@ -37,7 +37,9 @@ impl<'a> Marks<'a> {
         let mut rows = trail.rows().rev().peekable();
         let mut later: Option<&[f64]> = None;
         for occurrence in q.snapshot.occurrences.iter().rev().take(MOST) {
-            while let Some(row) = rows.next_if(|row| trail.order(row[0]) > trail.order(occurrence.time)) {
+            while let Some(row) =
+                rows.next_if(|row| trail.order(row[0]) > trail.order(occurrence.time))
+            {
                 later = Some(row);
             }
             // Occurrences older than the trail have no point.

@@ -17,7 +17,9 @@ fn there_and_back(experiment: &mut Experiment, time: f64) -> f64 {
     assert_eq!((seen.time, &seen.status), (start, &Status::Paused));
     assert!(seen.backwards && seen.trail.rows().all(|row| row[0] >= start));
     let times: Vec<f64> = seen.trail.rows().map(|row| row[0]).collect();
-    assert!(times.windows(2).all(|pair| pair[1] < pair[0]) && times[0] >= time && times[0] < time + 0.1);
+    assert!(
+        times.windows(2).all(|pair| pair[1] < pair[0]) && times[0] >= time && times[0] < time + 0.1
+    );
     seen.returned.expect("it has returned").error.expect("it was at the start")
 }
 

@@ -25,7 +25,10 @@ fn what_is_seen_of_the_past_is_what_a_run_to_that_time_gives() {
             let rows = |s: &phaselab::experiment::Snapshot| {
                 s.trail.rows().filter(|row| row[0] < time).count()
             };
-            assert_eq!(rows(&seen), seen.trail.rows().filter(|row| row[0] <= time).count().min(rows(&seen)));
+            assert_eq!(
+                rows(&seen),
+                seen.trail.rows().filter(|row| row[0] <= time).count().min(rows(&seen))
+            );
             assert!(seen.trail.rows().all(|row| row[0] <= time));
         }
     }
