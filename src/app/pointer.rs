@@ -87,7 +87,7 @@ impl App {
             }
             HitTarget::Time(time) => {
                 self.hold = Some(Grab::Time);
-                return self.look_at_time(time);
+                return vec![Effect::Tell(Command::LookAt(time))];
             }
             HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place } => {
                 lab.focus = Pane::Plot(index);
@@ -104,7 +104,7 @@ impl App {
             (Some(Grab::Bar(grabbed)), HitTarget::Bar { target, value }) if grabbed == target => {
                 self.pull(target, value)
             }
-            (Some(Grab::Time), HitTarget::Time(time)) => self.look_at_time(time),
+            (Some(Grab::Time), HitTarget::Time(time)) => vec![Effect::Tell(Command::LookAt(time))],
             (
                 Some(Grab::Picture { index: grabbed, place: from, .. }),
                 HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place },

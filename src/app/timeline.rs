@@ -51,11 +51,6 @@ impl App {
         vec![Effect::Tell(Command::LookAt(time.clamp(low, high)))]
     }
 
-    /// Looks at the time that the mouse points at.
-    pub(super) fn look_at_time(&mut self, time: f64) -> Vec<Effect> {
-        vec![Effect::Tell(Command::LookAt(time))]
-    }
-
     /// Sets a mark at the time that is seen, or takes the mark there away.
     pub(super) fn mark_time(&mut self) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };

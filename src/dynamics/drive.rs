@@ -1,29 +1,16 @@
 //! The period of a law that depends on time: of its drive, where time enters by sines and cosines of a t + b alone.
 //!
-//! In: the equations, the parameters. Out: the common period, if there is one; the periodic orbit near a start whose period is
-//! a multiple of it. Never here: how an orbit is closed.
+//! In: the equations, the parameters. Out: the common period, if there is one. Never here: orbits.
 
-use super::error::DynamicsError;
-use super::flow_map::flow_map;
-use super::orbit::{Fixed, Orbit, difference, periodic_orbit};
-use super::phase_space::PhaseSpace;
 use crate::expr::{Expr, FunctionId, Node};
-use crate::integrate::{Method, Settings};
 use crate::mechanics::{Equations, Flow, Valuation};
 use crate::model::Model;
-use crate::system::State;
 
 /// The most turns of the slowest part of a drive in its common period.
 const TURNS: u32 = 64;
 
 /// A number of turns this close to a whole one is one.
 const WHOLE: f64 = 1e-9;
-
-/// The most periods of the drive in which an orbit is looked for.
-const MULTIPLES: u32 = 6;
-
-/// A return this near, relative to the farthest, is tried first.
-const NEAR: f64 = 0.1;
 
 /// The period of the drive of a law of motion at these parameters; `None` if it has none.
 pub(super) fn drive_period(
@@ -75,38 +62,4 @@ pub(super) fn drive_period(
     let common = |count: &u32| rates.iter().all(|rate| whole(f64::from(*count) * rate / slowest));
     let count = (1..=TURNS).find(common).filter(|_| slowest.is_finite())?;
     Some(f64::from(count) * turn)
-}
-
-/// The periodic orbit near a start whose period is that of the drive or a small multiple of it: where the motion returns
-/// near its start after one of them, that one comes first.
-pub(super) fn driven_orbit(
-    space: &PhaseSpace,
-    method: (&'static Method, Settings),
-    start: &State,
-    drive: f64,
-) -> Result<Orbit, DynamicsError> {
-    let mut misses: Vec<(u32, f64)> = Vec::new();
-    let mut state = start.clone();
-    for count in 1..=MULTIPLES {
-        let end = start.time + f64::from(count) * drive;
-        let map = flow_map(space, method, &state, end, &mut |_| {})?;
-        if let Some(fault) = map.failure {
-            return Err(fault.into());
-        }
-        state = map.state;
-        misses.push((count, difference(space, &state, start).norm()));
-    }
-    let farthest = misses.iter().map(|(_, miss)| *miss).fold(0.0, f64::max);
-    misses.sort_by_key(|(count, miss)| (*miss > NEAR * farthest, *count));
-    for (count, _) in &misses {
-        let period = f64::from(*count) * drive;
-        match periodic_orbit(space, method, start, Some(period), Fixed::Period(period)) {
-            Err(DynamicsError::Unsuited(_)) => {}
-            other => return other,
-        }
-    }
-    Err(DynamicsError::Unsuited(format!(
-        "no periodic orbit was found near the start with the period of the drive, {drive:.6}, or 2 to {MULTIPLES} times it: \
-         begin nearer to one, where the motion has settled, or give the period of the orbit"
-    )))
 }

@@ -11,7 +11,6 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::carrier::Carrier;
-use super::drive::driven_orbit;
 use super::error::DynamicsError;
 use super::flow_map::flow_map;
 use super::linear;
@@ -101,13 +100,10 @@ pub fn periodic_orbit(
 ) -> Result<Orbit, DynamicsError> {
     let period = match (period, fixed) {
         (Some(period), _) | (None, Fixed::Period(period)) => period,
-        (None, _) if let Some(drive) = space.drive() => {
-            return driven_orbit(space, method, start, drive);
-        }
         (None, _) if !space.is_autonomous() => {
             return Err(unsuited(
-                "the law of motion depends on time, and not by sines and cosines of a common period alone: give the \
-                 period of the orbit, a multiple of that of the law",
+                "the law of motion depends on time, and not by sines and cosines of a common period alone: \
+                 give the period of the orbit, a multiple of that of the law",
             ));
         }
         (None, _) => first_return(space, method, start)?,
@@ -162,8 +158,16 @@ fn first_return(
     let mut extent = vec![0.0_f64; space.dimension()];
     let mut seen: Vec<(f64, DVector<f64>)> = vec![(start.time, DVector::zeros(space.dimension()))];
     let mut best: Option<(f64, f64)> = None;
+    let mut stopped = None;
     for step in 1..=steps {
-        carrier.step(if fixed { f64::INFINITY } else { ENDLESS })?;
+        if let Err(why) = carrier.step(if fixed { f64::INFINITY } else { ENDLESS }) {
+            let why = DynamicsError::from(why);
+            if why.is_cancelled() {
+                return Err(why);
+            }
+            stopped = Some(why.to_string());
+            break;
+        }
         let (begin, end) = carrier.interval();
         for part in 1..=parts {
             let now = begin + (end - begin) * f64::from(part) / f64::from(parts);
@@ -201,7 +205,7 @@ fn first_return(
     }
     match best {
         Some((part, time)) if part < FAR => Ok(time),
-        _ => Err(no_return(space, best, (seen[seen.len() - 1].0 - start.time, steps))),
+        _ => Err(no_return(space, best, seen[seen.len() - 1].0 - start.time, stopped)),
     }
 }
 
@@ -440,20 +444,21 @@ impl Newton<'_> {
 fn no_return(
     space: &PhaseSpace,
     best: Option<(f64, f64)>,
-    (time, steps): (f64, u64),
+    time: f64,
+    stopped: Option<String>,
 ) -> DynamicsError {
-    let names = space.names().join(", ");
     let found = match best {
-        Some((part, at)) => format!(
-            "came back no nearer than {:.0} % of its farthest distance, after {at:.6}",
-            100.0 * part
-        ),
-        None => "only moved away from its start, or stays at rest".to_owned(),
+        Some((part, at)) => {
+            format!("came back no nearer than {:.0} % of it, after {at:.6}", 100.0 * part)
+        }
+        None => "only moved away from its start, or stays there".to_owned(),
     };
+    let stopped = stopped.map_or(String::new(), |why| format!("; then {why}"));
     DynamicsError::Unsuited(format!(
-        "no periodic orbit to begin with: a return of ({names}) to within {:.0} % of its farthest distance was looked for \
-         over a time of {time:.6} ({steps} steps), and the motion {found}. Begin nearer to a periodic orbit, or give its \
-         period",
+        "no periodic orbit to begin with: a return of ({}) to within {:.0} % of the farthest distance from the start was \
+         looked for over a time of {time:.6}, and the motion {found}{stopped}. Begin nearer to a periodic orbit, or give \
+         its period",
+        space.names().join(", "),
         100.0 * FAR
     ))
 }

@@ -38,9 +38,9 @@ pub struct Experiment {
     /// The reading of the clock at which time was reversed last, or the motion began.
     pub(super) began: f64,
     /// The run before time was reversed.
-    pub(super) echo: Option<Echo>,
+    pub(super) echo: Option<Box<Echo>>,
     /// The time in the past that is looked at.
-    pub(super) scrubbed: Option<Scrubbed>,
+    pub(super) scrubbed: Option<Box<Scrubbed>>,
     pub(super) recorder: Recorder,
     pub(super) gauges: Gauges,
     pub(super) running: bool,
@@ -284,7 +284,7 @@ impl Experiment {
             epoch: self.epoch,
             time: seen.time(),
             backwards: self.is_backwards(),
-            returned: self.echo.as_ref().map(Echo::returned),
+            returned: self.echo.as_ref().map(|echo| echo.returned()),
             recorded: self.recorded(),
             status: self.status(),
             speed: self.setup.speed,

@@ -33,7 +33,7 @@ impl Experiment {
             Err(why) => return self.tell(why),
         };
         let variables = self.variables();
-        self.echo = Echo::of(run, self.recorder.trail(), &variables);
+        self.echo = Echo::of(run, self.recorder.trail(), &variables).map(Box::new);
         self.ended = None;
         self.occurrences.clear();
         self.crossings.clear();

@@ -37,7 +37,7 @@ impl Experiment {
         };
         if motion.look_at(time, &known, horizon) {
             motion.look_at_terms();
-            self.scrubbed = Some(Scrubbed { motion });
+            self.scrubbed = Some(Box::new(Scrubbed { motion }));
         } else {
             self.tell(format!("t = {} cannot be looked at again", short(time)));
         }

@@ -10,7 +10,9 @@ use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
     Offer, Physics, Picture, Plot, Present, Seed, Sign, Upwards,
 };
-use crate::dynamics::{DynamicsError, Fixed, Orbit as Closed, PhaseSpace, Removed, periodic_orbit};
+use crate::dynamics::{
+    DynamicsError, Fixed, Orbit as Closed, PhaseSpace, Removed, driven_orbit, periodic_orbit,
+};
 use crate::ensemble::{Flow, Start};
 use crate::integrate::{Method, Settings, method_named};
 use crate::job::{Job, Progress};
@@ -213,7 +215,10 @@ fn close(
     } else {
         Fixed::Nothing
     };
-    let orbit = periodic_orbit(&space, method, &state, None, fixed)?;
+    let orbit = match space.drive() {
+        Some(drive) => driven_orbit(&space, method, &state, drive)?,
+        None => periodic_orbit(&space, method, &state, None, fixed)?,
+    };
     let flow = Flow {
         system: System::clone(system),
         method: (method.0, orbit.settings),

@@ -268,7 +268,9 @@ fn finish_rates(
     backwards: bool,
 ) -> Result<Arc<Program>, Symbol> {
     if backwards {
-        outputs.iter_mut().for_each(|rate| *rate = lowering.negative(*rate));
+        for rate in &mut outputs {
+            *rate = lowering.negative(*rate);
+        }
     }
     lowering.finish(outputs)
 }

@@ -230,7 +230,7 @@ fn a_motion_that_never_returns_is_told_what_was_looked_for() {
     let (app, _) = opened(&one("1/2*q'^2 + 1/2*q^2", ""), 1.0);
     let said = legend(&app);
     for words in
-        ["a return of (q, p_q) to within 50 %", "600 steps", "moved away", "give its period"]
+        ["a return of (q, p_q) to within 50 %", "over a time of", "moved away", "give its period"]
     {
         assert!(said.contains(words), "{said}");
     }
