@@ -159,7 +159,7 @@ fn first_return(
     let mut seen: Vec<(f64, DVector<f64>)> = vec![(start.time, DVector::zeros(space.dimension()))];
     let mut best: Option<(f64, f64)> = None;
     let mut stopped = None;
-    for step in 1..=steps {
+    'looking: for step in 1..=steps {
         if let Err(why) = carrier.step(if fixed { f64::INFINITY } else { ENDLESS }) {
             let why = DynamicsError::from(why);
             if why.is_cancelled() {
@@ -171,7 +171,13 @@ fn first_return(
         let (begin, end) = carrier.interval();
         for part in 1..=parts {
             let now = begin + (end - begin) * f64::from(part) / f64::from(parts);
-            let (state, _) = carrier.at(now)?;
+            let state = match carrier.at(now) {
+                Ok((state, _)) => state,
+                Err(why) => {
+                    stopped = Some(why.to_string());
+                    break 'looking;
+                }
+            };
             let apart = difference(space, &state, start);
             for (extent, x) in extent.iter_mut().zip(apart.iter()) {
                 *extent = extent.max(x.abs());
