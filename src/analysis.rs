@@ -13,5 +13,5 @@ mod verdict;
 pub use history::{History, Stretch};
 pub use inquiry::{Answer, Inquiry};
 pub use landscape::{Curve, Grid, Landscape, Plane};
-pub use separation::{Separation, Slope};
+pub use separation::{Separation, Slope, distance};
 pub use verdict::{Growth, LEFT, LOST, Verdict, rounding_floor};

@@ -40,6 +40,7 @@ mod search;
 mod side;
 mod speed;
 mod state;
+mod timeline;
 mod update;
 mod value;
 mod workbench;

@@ -27,10 +27,11 @@ mod time;
 pub use equilibria::{
     FoundEquilibria, described, described_mode, equilibria_search, start_along, start_at, value_at,
 };
+pub use exponents::largest_exponent;
 pub use picture::{Across, Entry, Heading, Ink, Layer, Level, Picture, Sign, Stroke, Upwards};
 pub use plot::{Columns, Plot, Quantity, SavedPlot};
 pub use potential::Along;
-pub use present::{Physics, Present};
+pub use present::{Physics, Present, Returned};
 pub use seed::{MOST_SEEDS, Seed};
 pub use sight::{CameraPose, Sight, Viewport};
 pub use table::{

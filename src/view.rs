@@ -47,6 +47,7 @@ mod space;
 pub mod sparkline;
 mod text_page;
 pub mod theme;
+mod timeline;
 mod values;
 mod workbench;
 mod wrap;

@@ -56,7 +56,7 @@ impl Stretch {
     }
 }
 
-/// A history of values at nearly increasing times.
+/// A history of values at nearly increasing times, or at nearly decreasing ones.
 #[derive(Clone, Debug, Default)]
 pub struct History {
     stretches: Vec<Stretch>,
@@ -105,7 +105,7 @@ impl History {
 
     /// The index of the interval in which a time lies.
     fn slot(&self, time: f64) -> u64 {
-        if self.width > 0.0 { ((time - self.origin) / self.width + EDGE) as u64 } else { 0 }
+        if self.width > 0.0 { ((time - self.origin).abs() / self.width + EDGE) as u64 } else { 0 }
     }
 
     /// Doubles the length of the intervals.

@@ -48,6 +48,19 @@ pub struct Slope {
     pub grown: f64,
 }
 
+/// The distance of two motions with these variables; a variable with a period takes the shorter way round.
+pub fn distance(one: &[f64], other: &[f64], periods: &[Option<f64>]) -> f64 {
+    let mut square = 0.0;
+    for (i, (a, b)) in one.iter().zip(other).enumerate() {
+        let mut apart = b - a;
+        if let Some(period) = periods.get(i).copied().flatten() {
+            apart -= (apart / period).round() * period;
+        }
+        square += apart * apart;
+    }
+    square.sqrt()
+}
+
 impl Separation {
     /// Adds the variables of both motions at a time; `periods` are those of the variables.
     pub fn add(&mut self, time: f64, one: &[f64], other: &[f64], periods: &[Option<f64>]) {
@@ -55,17 +68,10 @@ impl Separation {
             self.bounds = vec![[f64::INFINITY, f64::NEG_INFINITY]; one.len()];
             self.stride = 1;
         }
-        let mut square = 0.0;
-        for (i, (a, b)) in one.iter().zip(other).enumerate() {
-            let mut apart = b - a;
-            if let Some(period) = periods.get(i).copied().flatten() {
-                apart -= (apart / period).round() * period;
-            }
-            square += apart * apart;
-            let [least, greatest] = &mut self.bounds[i];
+        for (a, [least, greatest]) in one.iter().zip(&mut self.bounds) {
             (*least, *greatest) = (least.min(*a), greatest.max(*a));
         }
-        let distance = square.sqrt();
+        let distance = distance(one, other, periods);
         if !(distance.is_finite() && distance > 0.0) {
             return;
         }

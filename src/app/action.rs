@@ -41,6 +41,16 @@ pub enum Action {
     Step,
     /// Take a single step back.
     StepBack,
+    /// Reverse time.
+    Reverse,
+    /// Look at an earlier time of the recorded past.
+    LookEarlier,
+    /// Look at a later time of the recorded past.
+    LookLater,
+    /// Set a mark at the time that is seen, or take it away.
+    MarkTime,
+    /// Look at the mark before.
+    GoToMark,
     /// Slow the simulation down.
     Slower,
     /// Speed the simulation up.

@@ -38,6 +38,8 @@ pub enum HitTarget {
     },
     /// A gauge.
     Gauge(usize),
+    /// The time bar, at this time.
+    Time(f64),
     /// A spatial view of the motion.
     Space {
         /// Its index among the pictures.
@@ -61,6 +63,8 @@ pub enum HitTarget {
 pub enum Grab {
     /// The knob of a value's slider.
     Bar(ValueId),
+    /// The time bar.
+    Time,
     /// A picture.
     Picture {
         /// Its index.

@@ -85,6 +85,8 @@ pub struct Lab {
     pub(super) speed_wish: Option<f64>,
     pub(super) equilibria: EquilibriaSearch,
     pub(super) history: History,
+    /// The times that are marked, in order.
+    pub marks: Vec<f64>,
     /// The checkpoint that the experiment is to restore, until it has.
     pub(super) awaited: Option<Checkpoint>,
 }
@@ -152,6 +154,7 @@ impl Lab {
             speed_wish: None,
             equilibria: EquilibriaSearch::default(),
             history: History::default(),
+            marks: Vec::new(),
             awaited: None,
         }
     }
@@ -197,6 +200,7 @@ impl Lab {
             equilibria: self.equilibria_at(&snapshot.parameters),
             method: snapshot.method.name,
             settings: snapshot.setup.settings,
+            returned: self.returned(snapshot),
         }
     }
 

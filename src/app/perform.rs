@@ -90,6 +90,11 @@ impl App {
                 Some(Status::Paused) | None => vec![Effect::Tell(Command::Play)],
             },
             Action::Step => vec![Effect::Tell(Command::Pause), Effect::Tell(Command::Step(1))],
+            Action::Reverse => self.reverse(),
+            Action::LookEarlier => self.look_along(-1.0),
+            Action::LookLater => self.look_along(1.0),
+            Action::MarkTime => self.mark_time(),
+            Action::GoToMark => self.go_to_mark(),
             Action::StepBack => vec![Effect::Tell(Command::StepBack(1))],
             Action::Slower | Action::Faster => {
                 let shown = lab.snapshot.as_ref().map_or(1.0, |s| s.speed);

@@ -85,6 +85,10 @@ impl App {
                 self.hold = Some(Grab::Bar(target));
                 return self.pull(target, value);
             }
+            HitTarget::Time(time) => {
+                self.hold = Some(Grab::Time);
+                return vec![Effect::Tell(Command::LookAt(time))];
+            }
             HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place } => {
                 lab.focus = Pane::Plot(index);
                 lab.history.begin_group();
@@ -100,6 +104,7 @@ impl App {
             (Some(Grab::Bar(grabbed)), HitTarget::Bar { target, value }) if grabbed == target => {
                 self.pull(target, value)
             }
+            (Some(Grab::Time), HitTarget::Time(time)) => vec![Effect::Tell(Command::LookAt(time))],
             (
                 Some(Grab::Picture { index: grabbed, place: from, .. }),
                 HitTarget::Plot { index, place, .. } | HitTarget::Space { index, place },

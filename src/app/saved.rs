@@ -38,6 +38,9 @@ pub struct Saved {
     /// The unit of its time; empty where it has none.
     #[serde(default)]
     pub time_unit: String,
+    /// The times that are marked.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub marks: Vec<f64>,
     /// The pictures.
     pub plots: Vec<SavedPlot>,
     /// The state of the motion.
@@ -66,6 +69,7 @@ impl Saved {
             edited: false,
             plots: lab.plots.iter().map(|plot| SavedPlot::of(plot, lab.loaded.physics())).collect(),
             time_unit: model.time_unit().to_owned(),
+            marks: lab.marks.clone(),
             moment: checkpoint,
         })
     }
@@ -84,6 +88,7 @@ impl Lab {
             (self.focus, self.zoomed) = (saved.focus, saved.zoomed);
             self.untouched = false;
         }
+        self.marks = saved.marks.iter().copied().filter(|mark| mark.is_finite()).collect();
         self.selection = saved.selection;
         self.select(|place| place);
     }

@@ -9,7 +9,9 @@ use super::decimal;
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::study::{self, Study, StudyArguments, shown, table};
-use crate::dynamics::{Along, Bifurcation, Family, Fixed, Orbit, Removed, family, periodic_orbit};
+use crate::dynamics::{
+    Along, Bifurcation, Family, Fixed, Orbit, Removed, driven_orbit, family, periodic_orbit,
+};
 use crate::printable;
 
 /// Close the periodic orbit near the start.
@@ -77,8 +79,12 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let along = arguments.along.as_ref().map(|values| along(values, &study)).transpose()?;
     interrupt.ends_by_itself(|| ());
     let method = (study.method, study.settings);
-    let found = periodic_orbit(&study.space, method, &study.start, arguments.period, fixed);
+    let found = match (arguments.period, study.space.drive()) {
+        (None, Some(drive)) => driven_orbit(&study.space, method, &study.start, drive),
+        (period, _) => periodic_orbit(&study.space, method, &study.start, period, fixed),
+    };
     let orbit = found.map_err(study::failed)?;
+    let fixed = if study.space.is_autonomous() { fixed } else { Fixed::Period(orbit.period) };
     let values = arguments.along.as_ref().map_or(&[][..], |along| &along.values);
     let family = along
         .map(|along| family(&study.space, method, &orbit, (along, fixed), values))

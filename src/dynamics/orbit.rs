@@ -102,8 +102,8 @@ pub fn periodic_orbit(
         (Some(period), _) | (None, Fixed::Period(period)) => period,
         (None, _) if !space.is_autonomous() => {
             return Err(unsuited(
-                "the law of motion depends on time: give the period of the orbit, a multiple of \
-                 that of the law",
+                "the law of motion depends on time, and not by sines and cosines of a common period alone: \
+                 give the period of the orbit, a multiple of that of the law",
             ));
         }
         (None, _) => first_return(space, method, start)?,
@@ -132,7 +132,7 @@ fn unsuited(why: &str) -> DynamicsError {
 }
 
 /// The difference of two states, exact, and less whole periods of the coordinates.
-fn difference(space: &PhaseSpace, end: &State, start: &State) -> DVector<f64> {
+pub(super) fn difference(space: &PhaseSpace, end: &State, start: &State) -> DVector<f64> {
     DVector::from_fn(space.dimension(), |i, _| {
         let apart = end.exact(i) - start.exact(i);
         match space.periods()[i] {
@@ -158,12 +158,26 @@ fn first_return(
     let mut extent = vec![0.0_f64; space.dimension()];
     let mut seen: Vec<(f64, DVector<f64>)> = vec![(start.time, DVector::zeros(space.dimension()))];
     let mut best: Option<(f64, f64)> = None;
-    for step in 1..=steps {
-        carrier.step(if fixed { f64::INFINITY } else { ENDLESS })?;
+    let mut stopped = None;
+    'looking: for step in 1..=steps {
+        if let Err(why) = carrier.step(if fixed { f64::INFINITY } else { ENDLESS }) {
+            let why = DynamicsError::from(why);
+            if why.is_cancelled() {
+                return Err(why);
+            }
+            stopped = Some(why.to_string());
+            break;
+        }
         let (begin, end) = carrier.interval();
         for part in 1..=parts {
             let now = begin + (end - begin) * f64::from(part) / f64::from(parts);
-            let (state, _) = carrier.at(now)?;
+            let state = match carrier.at(now) {
+                Ok((state, _)) => state,
+                Err(why) => {
+                    stopped = Some(why.to_string());
+                    break 'looking;
+                }
+            };
             let apart = difference(space, &state, start);
             for (extent, x) in extent.iter_mut().zip(apart.iter()) {
                 *extent = extent.max(x.abs());
@@ -197,10 +211,7 @@ fn first_return(
     }
     match best {
         Some((part, time)) if part < FAR => Ok(time),
-        _ => Err(unsuited(
-            "the motion does not return near its start: begin nearer to a periodic orbit, or give \
-             its period",
-        )),
+        _ => Err(no_return(space, best, seen[seen.len() - 1].0 - start.time, stopped)),
     }
 }
 
@@ -433,6 +444,29 @@ impl Newton<'_> {
         }
         Ok(Some(sum))
     }
+}
+
+/// Why no return was found: what was looked for, for how long, and what would help.
+fn no_return(
+    space: &PhaseSpace,
+    best: Option<(f64, f64)>,
+    time: f64,
+    stopped: Option<String>,
+) -> DynamicsError {
+    let found = match best {
+        Some((part, at)) => {
+            format!("came back no nearer than {:.0} % of it, after {at:.6}", 100.0 * part)
+        }
+        None => "only moved away from its start, or stays there".to_owned(),
+    };
+    let stopped = stopped.map_or(String::new(), |why| format!("; then {why}"));
+    DynamicsError::Unsuited(format!(
+        "no periodic orbit to begin with: a return of ({}) to within {:.0} % of the farthest distance from the start was \
+         looked for over a time of {time:.6}, and the motion {found}{stopped}. Begin nearer to a periodic orbit, or give \
+         its period",
+        space.names().join(", "),
+        100.0 * FAR
+    ))
 }
 
 fn no_orbit(residual: f64, period: f64) -> DynamicsError {

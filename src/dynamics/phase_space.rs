@@ -3,6 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::drive::drive_period;
 use super::error::DynamicsError;
 use crate::expr::Expr;
 use crate::mechanics::Equations;
@@ -18,6 +19,8 @@ pub struct PhaseSpace {
     hamiltonian: bool,
     autonomous: bool,
     conservative: bool,
+    /// The period of the drive, of a law that depends on time.
+    drive: Option<f64>,
     periods: Vec<Option<f64>>,
     cyclic: Vec<usize>,
 }
@@ -60,6 +63,7 @@ impl PhaseSpace {
             names,
             hamiltonian,
             autonomous,
+            drive: (!autonomous).then(|| drive_period(model, equations, parameters)).flatten(),
             conservative: autonomous && equations.energy_rate == Expr::ZERO,
             periods,
             cyclic: equations.cyclic.clone(),
@@ -76,10 +80,16 @@ impl PhaseSpace {
         &self.parameters
     }
 
-    /// The same space at other parameters.
+    /// The same space at other parameters, at which the period of the drive is not known.
     #[must_use]
     pub fn at_parameters(&self, parameters: &[f64]) -> PhaseSpace {
-        PhaseSpace { parameters: parameters.to_vec(), ..self.clone() }
+        let drive = self.drive.filter(|_| parameters == self.parameters);
+        PhaseSpace { parameters: parameters.to_vec(), drive, ..self.clone() }
+    }
+
+    /// The period of the drive, where the law depends on time by sines and cosines of a t + b that have a common one.
+    pub fn drive(&self) -> Option<f64> {
+        self.drive
     }
 
     /// The names of the variables: coordinates, then momenta; or the variables of brackets.

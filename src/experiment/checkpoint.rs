@@ -12,8 +12,9 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::gauges::Gauges;
+use super::named::{Named, given, named};
 use super::reference::Reference;
-use super::{Experiment, Setup, Snapshot, Status, Trail};
+use super::{Experiment, SavedCompanion, Setup, Snapshot, Status, Trail};
 use crate::integrate::Settings;
 use crate::model::Model;
 use crate::system::{Channel, ChannelKind, Form, InitialOverride, MotionError, State, System};
@@ -40,8 +41,14 @@ pub struct Checkpoint {
     pub speed: Option<f64>,
     /// Whether time was running.
     pub running: bool,
+    /// Whether time ran backwards.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub backwards: bool,
     /// The state of the motion, or `None` if it had not begun.
     pub present: Option<MotionState>,
+    /// The motions beside this one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub companions: Vec<SavedCompanion>,
     /// The recorded past. It is never saved, because it is far longer than the rest and can be recomputed.
     #[serde(skip)]
     pub past: Option<Past>,
@@ -63,15 +70,6 @@ pub struct Changed {
     pub value: f64,
     /// The file's value when the checkpoint was made.
     pub of_file: f64,
-}
-
-/// A named number.
-#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
-pub struct Named {
-    /// The name.
-    pub name: String,
-    /// The number.
-    pub value: f64,
 }
 
 /// The state of a motion.
@@ -119,7 +117,13 @@ impl Checkpoint {
                 .filter(|_| setup.settings.tolerance != of_file.settings.tolerance),
             speed: (setup.speed != of_file.speed).then_some(setup.speed),
             running: snapshot.status == Status::Running,
+            backwards: snapshot.backwards,
             present: MotionState::of(model, system, snapshot),
+            companions: snapshot
+                .companions
+                .iter()
+                .filter_map(|one| SavedCompanion::of(model, one))
+                .collect(),
             past: None,
         }
     }
@@ -229,39 +233,6 @@ fn seen(system: &System, snapshot: &Snapshot) -> Vec<Named> {
         .collect()
 }
 
-/// Names an initial value as expressions do.
-fn named(model: &Model, given: InitialOverride) -> Option<Named> {
-    let (index, value) = match given {
-        InitialOverride::Position(i, x)
-        | InitialOverride::Velocity(i, x)
-        | InitialOverride::Momentum(i, x) => (i, x),
-    };
-    let name = &model.coordinates.get(index)?.name;
-    let name = match given {
-        InitialOverride::Position(..) => name.clone(),
-        InitialOverride::Velocity(..) => format!("{name}'"),
-        InitialOverride::Momentum(..) => format!("p_{name}"),
-    };
-    Some(Named { name, value })
-}
-
-/// Finds the initial value of a name, if the model has it.
-fn given(model: &Model, named: &Named) -> Option<InitialOverride> {
-    let place = |name: &str| model.coordinates.iter().position(|c| c.name == name);
-    let (name, value) = (named.name.as_str(), named.value);
-    if let Some(i) = place(name) {
-        return Some(InitialOverride::Position(i, value));
-    }
-    if model.is_poisson() {
-        return None;
-    }
-    if let Some(i) = name.strip_suffix('\'').and_then(place) {
-        return Some(InitialOverride::Velocity(i, value));
-    }
-    let i = name.strip_prefix("p_").and_then(place)?;
-    Some(InitialOverride::Momentum(i, value))
-}
-
 impl Experiment {
     /// Resumes from a checkpoint of this system or of one with similar names. Whatever does not apply here is
     /// reported in a notice.
@@ -270,13 +241,18 @@ impl Experiment {
         let mut lost = self.restore_setup(checkpoint);
         self.running = checkpoint.running;
         let notices = std::mem::take(&mut self.notices);
+        self.companions.clear();
         self.restart();
         self.notices = notices;
+        let present = checkpoint.present.as_ref();
+        let same = present.is_some_and(|present| present.fits(&self.model, self.system()));
+        lost.extend(self.restore_companions(&checkpoint.companions, same));
         if let Some(present) = &checkpoint.present {
             lost.extend(
                 present.released.iter().filter(|name| self.constraint(name).is_none()).cloned(),
             );
             match self.restore_state(present) {
+                Ok(()) if checkpoint.backwards => self.go_on_backwards(),
                 Ok(()) => self.restore_past(checkpoint.past.as_ref(), present),
                 Err(why) => {
                     self.restart();

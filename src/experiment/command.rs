@@ -16,6 +16,11 @@ pub enum Command {
     Step(u32),
     /// Pauses, and takes the motion back by this many single steps.
     StepBack(u32),
+    /// Pauses, and looks at a time in the recorded past. The next command that acts on the motion takes it up there; a time
+    /// from the present on leads back to the present.
+    LookAt(f64),
+    /// Reverses time: from the present state on the motion runs the other way, by the same method.
+    Reverse,
     /// Sets the simulated seconds per second of wall time; infinite for as fast as possible.
     Speed(f64),
     /// Sets a parameter. q and p are preserved, and the gauges take the new values as their

@@ -22,6 +22,8 @@ pub enum Origin {
     Neighbour(Vec<f64>),
     /// A run as it was, with its initial values, its parameters and its method.
     Pinned(Vec<InitialOverride>),
+    /// The run before time was reversed.
+    Before,
 }
 
 impl Origin {
@@ -31,6 +33,7 @@ impl Origin {
             Origin::Start(_) => "start",
             Origin::Neighbour(_) => "neighbour",
             Origin::Pinned(_) => "pinned run",
+            Origin::Before => "run before",
         }
     }
 }
@@ -50,6 +53,10 @@ pub struct Companion {
     pub parameters: Arc<[f64]>,
     /// The name of its method.
     pub method: &'static str,
+    /// Its step and tolerance, as they were set.
+    pub settings: Settings,
+    /// Its state, where it has come to.
+    pub state: Arc<State>,
     /// Its recorded motion.
     pub trail: Trail,
     /// Its crossings of the surfaces of section.
@@ -274,6 +281,8 @@ impl CompanionMotion {
             values: values.into(),
             parameters: self.parameters.as_slice().into(),
             method: self.motion.method().name,
+            settings: self.motion.settings(),
+            state: Arc::new(self.motion.state().clone()),
             trail: trail.clone(),
             crossings: self.crossings.clone(),
             message: self.message.clone(),

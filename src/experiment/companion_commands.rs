@@ -14,7 +14,7 @@ use crate::system::{ChannelKind, Form, InitialOverride, State, System};
 const DISPLACED: f64 = 1e-8;
 
 /// The channels of the canonical variables of a system, or of the variables of its brackets.
-fn canonical(system: &System) -> Vec<usize> {
+pub(super) fn canonical(system: &System) -> Vec<usize> {
     let wanted = |kind: ChannelKind| match kind {
         ChannelKind::Position(_) => true,
         ChannelKind::Momentum(_) => system.form() != Form::Variables,
@@ -81,17 +81,17 @@ impl Experiment {
 
     /// A companion that has yet to begin, if there is room for it.
     fn companion(&mut self, origin: Origin) -> Option<CompanionMotion> {
+        if self.is_backwards() {
+            self.tell("motions are added while time runs forwards".to_owned());
+            return None;
+        }
         let Some(number) = self.companions.number() else {
             self.tell(format!("{MOST_COMPANIONS} motions beside the main one are the most"));
             return None;
         };
+        self.name_variables();
         let system = self.motion.whole().clone();
         let parameters = self.setup.parameters.clone();
-        if self.companions.variables.is_empty() {
-            self.companions.variables = canonical(&system);
-        }
-        let periods = self.companions.variables.iter().map(|&i| system.period(i, &parameters));
-        self.companions.periods = periods.collect();
         let method = (self.motion.method(), self.motion.settings());
         let numbers = NUMBERS / MOST_COMPANIONS;
         let word = origin.word();
@@ -107,14 +107,27 @@ impl Experiment {
         }
     }
 
+    /// Finds the variables in which distances are measured.
+    pub(super) fn name_variables(&mut self) {
+        let (system, parameters) = (self.motion.whole(), &self.setup.parameters);
+        if self.companions.variables.is_empty() {
+            self.companions.variables = canonical(system);
+        }
+        let periods = self.companions.variables.iter().map(|&i| system.period(i, parameters));
+        self.companions.periods = periods.collect();
+    }
+
     /// Where a companion begins when the main motion does.
-    fn origin_state(&self, one: &CompanionMotion) -> Result<State, crate::system::MotionError> {
+    pub(super) fn origin_state(
+        &self,
+        one: &CompanionMotion,
+    ) -> Result<State, crate::system::MotionError> {
         let start = self.setup.start;
         match &one.origin {
             Origin::Start(given) | Origin::Pinned(given) => {
                 self.motion.whole().initial(start, &one.parameters, given)
             }
-            Origin::Neighbour(_) => {
+            Origin::Neighbour(_) | Origin::Before => {
                 self.initial_state().map(|state| Self::beside(&one.origin, &state))
             }
         }
@@ -172,14 +185,14 @@ impl Experiment {
 
     /// Whether a motion beside the main one has not reached its time.
     pub fn is_behind(&self) -> bool {
-        self.companions.are_behind(self.time())
+        !self.is_backwards() && self.companions.are_behind(self.time())
     }
 
     /// Advances the motions beside the main one to its time, in at most `budget` steps.
     pub(super) fn advance_companions(&mut self, budget: u64) {
         let ahead = HORIZON * self.setup.spacing;
         let time = self.time();
-        if time.is_finite() {
+        if time.is_finite() && !self.is_backwards() {
             self.companions.advance(time, ahead, budget);
         }
     }

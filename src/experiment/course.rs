@@ -7,12 +7,14 @@ use std::sync::Arc;
 
 use super::companions::Companions;
 use super::crossing_log::CrossingLog;
+use super::echo::Echo;
 use super::event_log::EventLog;
 use super::gauges::{Gauges, Present};
 use super::observed_motion::ObservedMotion;
 use super::recorder::Recorder;
+use super::scrubbed::Scrubbed;
 use super::setup::{MethodNotFound, Setup, choose_method};
-use super::snapshot::{Failure, Gauge, MethodFact, Snapshot, Status};
+use super::snapshot::{Failure, Gauge, MethodFact, Recorded, Snapshot, Status};
 use crate::cancel::Cancel;
 use crate::integrate::Stepping;
 use crate::integrate::{Occurrence, OccurrenceKind, Reached};
@@ -25,11 +27,20 @@ use crate::system::{self, State, System};
 /// A system in motion, with its gauges and its recorded past.
 pub struct Experiment {
     pub(super) model: Arc<Model>,
+    pub(super) equations: Arc<Equations>,
     /// The setup that a restart begins with.
     pub(super) setup: Setup,
     /// The initial values as numbers: coordinates, then velocities or momenta.
     initial: Arc<[f64]>,
     pub(super) motion: ObservedMotion,
+    /// The system run the other way, once it was needed.
+    pub(super) other_way: Option<System>,
+    /// The reading of the clock at which time was reversed last, or the motion began.
+    pub(super) began: f64,
+    /// The run before time was reversed.
+    pub(super) echo: Option<Box<Echo>>,
+    /// The time in the past that is looked at.
+    pub(super) scrubbed: Option<Box<Scrubbed>>,
     pub(super) recorder: Recorder,
     pub(super) gauges: Gauges,
     pub(super) running: bool,
@@ -63,7 +74,7 @@ pub enum Progress {
     Underway,
     /// It failed before the requested time.
     Stuck,
-    /// An event ended the motion before the requested time.
+    /// An event ended the motion before the requested time, or it is back where the run before it began, and paused.
     Ended,
 }
 
@@ -83,6 +94,11 @@ impl Experiment {
         let motion = ObservedMotion::new(system, method, setup.settings, &setup.parameters)?;
         let mut experiment = Experiment {
             model: Arc::clone(model),
+            equations: Arc::clone(equations),
+            other_way: None,
+            began: setup.start,
+            echo: None,
+            scrubbed: None,
             initial: Arc::default(),
             motion,
             recorder: Recorder::new(system.channels().len(), setup.spacing),
@@ -130,6 +146,16 @@ impl Experiment {
         self.motion.time()
     }
 
+    /// What [`Experiment::advance`] counts in: the time, or −t while time runs backwards. It never decreases along the way.
+    pub fn clock(&self) -> f64 {
+        self.motion.clock()
+    }
+
+    /// Whether time runs backwards.
+    pub fn is_backwards(&self) -> bool {
+        self.motion.sign() < 0.0
+    }
+
     /// Simulated seconds per second of wall time; infinite for as fast as possible.
     pub fn speed(&self) -> f64 {
         self.setup.speed
@@ -150,13 +176,19 @@ impl Experiment {
         self.motion.values()
     }
 
-    /// Advances the motion to `time`, recording and monitoring along the way, and stops early after `budget` steps
+    /// Advances the motion until its [clock](Experiment::clock) is at `time`, recording and monitoring along the way, and stops early after `budget` steps
     /// and rows. It advances even while paused; the caller decides whether time runs.
     ///
     /// The motions beside it follow to the time reached, with a budget of the same size. One that is behind makes the
     /// result `Underway`.
     pub fn advance(&mut self, time: f64, budget: u64) -> Progress {
-        let progress = self.advance_main(time, budget);
+        let progress = match self.way_home().filter(|home| *home <= time) {
+            Some(home) => match self.advance_main(home, budget) {
+                Progress::Arrived => self.come_home(),
+                other => other,
+            },
+            None => self.advance_main(time, budget),
+        };
         self.advance_companions(budget);
         match progress {
             Progress::Arrived if self.is_behind() => Progress::Underway,
@@ -181,7 +213,7 @@ impl Experiment {
             }
             budget -= 1;
         }
-        if time <= self.time() {
+        if time <= self.clock() {
             return Progress::Arrived;
         }
         let progress = self.reach(time, &mut budget);
@@ -211,7 +243,7 @@ impl Experiment {
     /// A sentence about the singular configurations of the constraints that the motion has passed.
     pub fn singular_passages(&self) -> Option<String> {
         let (count, first) = self.motion.singular_passages();
-        let time = short(first?);
+        let time = short(self.motion.sign() * first?);
         let again = if count > 1 { format!(" and {} more", count - 1) } else { String::new() };
         Some(format!(
             "passed a singular configuration of the constraints at t = {time}{again}: motions branch \
@@ -226,7 +258,7 @@ impl Experiment {
             "{} is not stable with the step {} where the motion is at t = {}: steps below {} are",
             self.motion.method().name,
             short(found.step),
-            short(found.time),
+            short(self.motion.sign() * found.time),
             short(found.limit)
         ))
     }
@@ -245,25 +277,31 @@ impl Experiment {
 
     /// Takes a snapshot of the current state.
     pub fn snapshot(&self) -> Snapshot {
+        let seen = self.seen();
+        let trail = self.recorder.trail();
+        let (companions, separations) = self.shown_beside(seen.time());
         Snapshot {
             epoch: self.epoch,
-            time: self.time(),
+            time: seen.time(),
+            backwards: self.is_backwards(),
+            returned: self.echo.as_ref().map(|echo| echo.returned()),
+            recorded: self.recorded(),
             status: self.status(),
             speed: self.setup.speed,
             parameters: self.setup.parameters.as_slice().into(),
             initial: Arc::clone(&self.initial),
             setup: Arc::new(self.setup.clone()),
-            state: Arc::new(self.motion.state().clone()),
-            values: self.motion.values().into(),
+            state: Arc::new(seen.dated_state()),
+            values: seen.values().into(),
             bounds: self.recorder.bounds(),
-            trail: self.recorder.trail(),
+            trail: if self.scrubbed.is_some() { trail.until(seen.time()) } else { trail },
             gauges: self.show_gauges(),
             method: self.method_fact(),
             notices: self.notices.as_slice().into(),
             occurrences: self.occurrences.clone(),
             crossings: self.crossings.clone(),
-            companions: self.companions.shown(self.time()),
-            separations: self.companions.separations(),
+            companions,
+            separations,
             released: (0..self.system().constraints())
                 .filter(|&k| self.system().is_released(k))
                 .collect(),
@@ -274,8 +312,23 @@ impl Experiment {
 
 /// The motion.
 impl Experiment {
+    /// The motion where it is looked at.
+    pub(super) fn seen(&self) -> &ObservedMotion {
+        self.scrubbed.as_ref().map_or(&self.motion, |scrubbed| &scrubbed.motion)
+    }
+
+    /// What of the motion can be looked at.
+    pub(super) fn recorded(&self) -> Recorded {
+        let from = self.motion.known_from().unwrap_or(self.clock());
+        let from = self.motion.sign() * from.max(self.began);
+        Recorded { from, to: self.time(), scrubbed: self.scrubbed.is_some() }
+    }
+
     /// Restarts from the initial values.
     pub(super) fn restart(&mut self) {
+        self.face_forwards();
+        self.scrubbed = None;
+        self.began = self.setup.start;
         self.fault = None;
         self.ended = None;
         self.occurrences.clear();
@@ -315,7 +368,8 @@ impl Experiment {
     fn reach(&mut self, time: f64, budget: &mut u64) -> Progress {
         // otherwise a polynomial motion would be over in one step; no other motion is limited by this
         let ahead = (HORIZON * self.setup.spacing).max(GROWTH * self.motion.step_size().abs());
-        let limit = self.setup.end.unwrap_or(self.time() + ahead).max(time);
+        let end = self.setup.end.filter(|_| !self.is_backwards());
+        let limit = end.unwrap_or(self.clock() + ahead).max(time);
         let reached = loop {
             let gauges = (&mut self.gauges, self.recorder.spacing());
             match self.motion.reach(time, limit, budget, gauges) {
@@ -323,7 +377,10 @@ impl Experiment {
                     kind: OccurrenceKind::Crossing(surface),
                     time,
                     ..
-                })) => self.crossings.push(surface, time, self.motion.values()),
+                })) => {
+                    let time = self.motion.sign() * time;
+                    self.crossings.push(surface, time, self.motion.values());
+                }
                 Ok(Reached::Happened(occurrence)) => {
                     let name = occurrence.name.clone();
                     match self.note(occurrence) {
@@ -347,7 +404,7 @@ impl Experiment {
             Err(fault) => {
                 // show what was computed before the fault, as far as possible
                 let _ = self.motion.reach_end();
-                self.fault = Some(fault.into());
+                self.fault = Some(self.motion.dated(fault).into());
                 Progress::Stuck
             }
         }
@@ -355,7 +412,12 @@ impl Experiment {
 
     /// Records an occurrence: rows of the trail before and after it, and gauges that continue from the state after an
     /// impulse. Returns a sentence about it.
-    pub(super) fn note(&mut self, occurrence: Occurrence) -> Result<String, system::MotionError> {
+    pub(super) fn note(
+        &mut self,
+        mut occurrence: Occurrence,
+    ) -> Result<String, system::MotionError> {
+        let clock = occurrence.time;
+        occurrence.time = self.motion.sign() * clock;
         let lead = format!("{} at t = {}", occurrence.name, short(occurrence.time));
         let sentence = match &occurrence.kind {
             OccurrenceKind::Mark | OccurrenceKind::Crossing(_) => lead,
@@ -369,7 +431,7 @@ impl Experiment {
             }
             OccurrenceKind::Impulse { .. } => {
                 let before = self.motion.values_before()?;
-                self.recorder.insert(occurrence.time, &before);
+                self.recorder.insert(clock, &before);
                 let after = self.motion.values();
                 self.gauges.shift(&before, after);
                 let given = self.energy_of(after) - self.energy_of(&before);
@@ -377,7 +439,7 @@ impl Experiment {
                 format!("{lead}: energy {sign}{}", short(given.abs()))
             }
         };
-        self.recorder.insert(occurrence.time, self.motion.values());
+        self.recorder.insert(clock, self.motion.values());
         self.occurrences.push(occurrence);
         Ok(sentence)
     }
@@ -393,8 +455,11 @@ impl Experiment {
     /// Records the current values as the row that is due.
     pub(super) fn record(&mut self) {
         self.rows += 1;
-        self.recorder.record(self.motion.time(), self.motion.values());
-        self.companions.expect(self.motion.time(), self.motion.values());
+        self.recorder.record(self.motion.clock(), self.motion.values());
+        if !self.is_backwards() {
+            self.companions.expect(self.motion.time(), self.motion.values());
+        }
+        self.compare_with_echo();
         self.recorder.set_spacing(self.spacing());
         let dense = self.recorder.spacing() <= self.motion.step_size().abs();
         self.gauge(|gauges, now| gauges.sample(now, dense));
@@ -433,7 +498,7 @@ impl Experiment {
     }
 
     fn show_gauges(&self) -> Arc<[Gauge]> {
-        self.gauges.show(&self.motion.present(&self.constants()))
+        self.gauges.show(&self.seen().present(&self.constants()))
     }
 
     fn method_fact(&self) -> MethodFact {

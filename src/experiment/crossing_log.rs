@@ -68,12 +68,12 @@ impl CrossingLog {
         }
     }
 
-    /// Forgets the crossings after a time, of a motion with this many channels.
-    pub(super) fn rewind(&mut self, time: f64, channels: usize) {
+    /// Forgets the crossings after a time, of a motion with this many channels; with the sign −1, those at earlier times.
+    pub(super) fn rewind(&mut self, time: f64, sign: f64, channels: usize) {
         for surface in 0..self.surfaces.len() {
             let rows: Vec<Vec<f64>> = self
                 .rows(surface, channels)
-                .filter(|row| row[0] <= time)
+                .filter(|row| sign * row[0] <= sign * time)
                 .map(<[f64]>::to_vec)
                 .collect();
             let gone = self.rows(surface, channels).count() - rows.len();
@@ -122,7 +122,7 @@ mod tests {
         assert_eq!(times.last(), Some(&(count as f64 - 1.0)));
         assert!(log.rows(1, channels).all(|row| row[channels] == -row[0]));
         let mut back = log.clone();
-        back.rewind(count as f64 - 3.5, channels);
+        back.rewind(count as f64 - 3.5, 1.0, channels);
         assert_eq!(back.counts(), [0, count as u64 - 3]);
         assert_eq!(back.rows(1, channels).count(), most + 4);
         assert_eq!(log.rows(0, channels).count(), 0);

@@ -75,9 +75,9 @@ impl EventLog {
         }
     }
 
-    /// Forgets what happened after a time.
-    pub(super) fn rewind(&mut self, time: f64) {
-        let later = |occurrence: &&Occurrence| occurrence.time > time;
+    /// Forgets what happened after a time; with the sign −1, what happened at earlier ones.
+    pub(super) fn rewind(&mut self, time: f64, sign: f64) {
+        let later = |occurrence: &&Occurrence| sign * occurrence.time > sign * time;
         let gone: Vec<String> = self.iter().filter(later).map(|o| o.name.clone()).collect();
         if gone.is_empty() {
             return;
@@ -167,7 +167,7 @@ mod tests {
         assert_eq!(times.last(), Some(&(count as f64 - 1.0)));
         assert_eq!(event_log.forgotten() as usize, count - times.len());
         let mut back = event_log.clone();
-        back.rewind(count as f64 - 10.5);
+        back.rewind(count as f64 - 10.5, 1.0);
         assert_eq!(back.count(), count as u64 - 10);
         assert_eq!(back.forgotten(), event_log.forgotten());
         assert_eq!(back.iter().next_back().map(|o| o.time), Some(count as f64 - 11.0));

@@ -22,7 +22,12 @@ const SINGLE_STEP_BUDGET: u64 = 20_000;
 impl Experiment {
     /// Executes a command. A command that cannot be executed is reported in a notice.
     pub fn execute(&mut self, command: Command) {
+        if self.scrubs(&command) {
+            return;
+        }
         match command {
+            Command::LookAt(time) => self.look_at(time),
+            Command::Reverse => self.reverse(),
             Command::Play => self.running = true,
             Command::Pause => self.running = false,
             Command::Step(count) => self.step(count),
@@ -54,7 +59,10 @@ impl Experiment {
             Command::AddStart(given) => self.add_start(given),
             Command::AddNeighbour => self.add_neighbour(),
             Command::Pin => self.pin(),
-            Command::ClearCompanions => self.companions.clear(),
+            Command::ClearCompanions => {
+                self.companions.clear();
+                self.echo = None;
+            }
             Command::Settings(settings) => self.change_method(self.motion.method(), settings),
             Command::Reference => {
                 self.gauge(Gauges::refer);
@@ -85,7 +93,7 @@ impl Experiment {
         }
         match self.motion.apply_impulse(index).and_then(|occurrence| self.note(occurrence)) {
             Ok(sentence) => self.tell(sentence),
-            Err(fault) => self.fault = Some(fault.into()),
+            Err(fault) => self.fault = Some(self.motion.dated(fault).into()),
         }
     }
 
@@ -93,7 +101,7 @@ impl Experiment {
         self.running = false;
         let speed =
             if self.setup.speed.is_finite() { self.setup.speed } else { self.model.run.speed };
-        let time = self.time() + f64::from(count) * FRAME * speed;
+        let time = self.clock() + f64::from(count) * FRAME * speed;
         self.advance(time, SINGLE_STEP_BUDGET);
     }
 
@@ -105,8 +113,9 @@ impl Experiment {
         }
         let old = self.setup.parameters.clone();
         self.setup.parameters[index] = value;
-        // what crossed before belongs to another system
+        // what crossed before belongs to another system, and so does the run before time was reversed
         self.crossings.clear();
+        self.echo = None;
         if !self.motion.has_begun() {
             return self.restart();
         }
@@ -203,6 +212,6 @@ impl Experiment {
     /// Continues from a state, or fails if there is none.
     fn continue_from(&mut self, state: Result<State, system::MotionError>) {
         let begun = state.and_then(|state| self.motion.go_on(&state, &self.setup.parameters));
-        self.fault = begun.err().map(super::Failure::from);
+        self.fault = begun.err().map(|fault| self.motion.dated(fault).into());
     }
 }

@@ -4,7 +4,7 @@
 //! commands.
 
 use super::gauges::{Gauges, Present};
-use super::step_log::StepLog;
+use super::step_log::{Known, StepLog};
 use crate::integrate::{
     self, Method, MethodError, Occurrence, OccurrenceKind, Reached, Settings, Stepping, Unstable,
 };
@@ -22,6 +22,8 @@ pub(super) struct ObservedMotion {
     watch: Watch,
     /// The states between the steps so far.
     log: StepLog,
+    /// −1 if the system is run backwards, so that the clock of its states is −t; otherwise 1.
+    sign: f64,
 }
 
 /// Samples the motion after every step.
@@ -54,6 +56,16 @@ impl Watch {
     }
 }
 
+/// The step before a time in the past of a motion, from which it is taken again.
+pub(super) struct KnownStep {
+    state: State,
+    steps: u64,
+    /// The size of a fixed step.
+    step: f64,
+    released: Vec<usize>,
+    start: f64,
+}
+
 /// One of so many equal steps is logged.
 const EQUAL_STEPS: u64 = 8;
 
@@ -69,6 +81,7 @@ impl ObservedMotion {
         parameters: &[f64],
     ) -> Result<ObservedMotion, MethodError> {
         Ok(ObservedMotion {
+            sign: if system.is_backwards() { -1.0 } else { 1.0 },
             inner: integrate::Propagator::new(system, method, settings, parameters)?,
             observer: system.observer(parameters),
             values: vec![f64::NAN; system.channels().len()],
@@ -77,6 +90,11 @@ impl ObservedMotion {
             watch: Watch::of(system, parameters),
             log: StepLog::default(),
         })
+    }
+
+    /// Another motion of the same system, to be [looked with](ObservedMotion::look_at).
+    pub(super) fn twin(&self, parameters: &[f64]) -> Result<ObservedMotion, MethodError> {
+        ObservedMotion::new(self.inner.whole(), self.method(), self.settings(), parameters)
     }
 
     /// Changes the method or its settings; the motion must then [continue](ObservedMotion::go_on) from its state.
@@ -110,6 +128,21 @@ impl ObservedMotion {
         self.inner.restore(state, parameters, start, released)?;
         self.observer = self.inner.system().observer(parameters);
         self.watch = Watch::of(self.inner.system(), parameters);
+        self.log.push(self.inner.state(), self.inner.steps());
+        self.look()
+    }
+
+    /// Begins at a state of its clock in which the motion was already, with these constraints released and, if steps are
+    /// fixed, with this step.
+    pub(super) fn begin_turned(
+        &mut self,
+        state: &State,
+        step: f64,
+        released: &[usize],
+    ) -> Result<(), MotionError> {
+        self.log.clear();
+        self.inner.restore_with_step(state, step, (state.time, released))?;
+        self.take_observer();
         self.log.push(self.inner.state(), self.inner.steps());
         self.look()
     }
@@ -175,9 +208,9 @@ impl ObservedMotion {
             let Watch { terms, state, values, .. } = &mut self.watch;
             if self.inner.inside(time, state).is_ok() && terms.look(state) {
                 if due && self.observer.observe(state, values).is_ok() {
-                    gauges.look_on_the_way(time, steps, values, terms);
+                    gauges.look_on_the_way(self.sign * time, steps, values, terms);
                 }
-                gauges.step(time, steps, terms, false);
+                gauges.step(self.sign * time, steps, terms, false);
             }
         }
         let (Watch { terms, values, .. }, state) = (&mut self.watch, self.inner.computed());
@@ -186,9 +219,9 @@ impl ObservedMotion {
                 && self.inner.method().order.is_some()
                 && self.observer.observe(state, values).is_ok()
             {
-                gauges.look_on_the_way(end, steps, values, terms);
+                gauges.look_on_the_way(self.sign * end, steps, values, terms);
             }
-            gauges.step(end, steps, terms, !sparse);
+            gauges.step(self.sign * end, steps, terms, !sparse);
         }
     }
 
@@ -213,9 +246,7 @@ impl ObservedMotion {
     ) -> Result<Option<f64>, MotionError> {
         let first = self.log.first().unwrap_or(f64::NAN);
         let Some(known) = self.log.back_to(time) else { return Ok(Some(first)) };
-        let system = self.inner.system();
-        let released: Vec<usize> =
-            (0..system.constraints()).filter(|&k| system.is_released(k)).collect();
+        let released = self.released();
         self.inner.go_back(&known.state, start, &released)?;
         self.inner.set_steps(known.steps);
         self.take_observer();
@@ -228,6 +259,64 @@ impl ObservedMotion {
         }
         self.look()?;
         Ok(None)
+    }
+
+    /// The indices of the released constraints.
+    pub(super) fn released(&self) -> Vec<usize> {
+        let system = self.inner.system();
+        (0..system.constraints()).filter(|&k| system.is_released(k)).collect()
+    }
+
+    /// The first reading of its clock that can be looked back to.
+    pub(super) fn known_from(&self) -> Option<f64> {
+        self.log.first()
+    }
+
+    /// Looks at a time in the past of a motion that began at `start` of its clock, and forgets nothing: what is known of
+    /// later times can be looked at again. No new step reaches further than `horizon` beyond that time. Returns whether
+    /// that time is known.
+    pub(super) fn look_back(&mut self, time: f64, horizon: f64, start: f64) -> bool {
+        let clock = self.sign * time;
+        let (begin, end) = self.inner.undisturbed();
+        if !(begin <= clock && clock <= end && begin < end) {
+            let Some(known) = self.known_at(time, start) else { return false };
+            if self.begin_at(&known).is_err() {
+                return false;
+            }
+        }
+        self.go_on_to(clock, horizon)
+    }
+
+    /// What is needed to look at a time in the past of a motion that began at `start` of its clock.
+    pub(super) fn known_at(&self, time: f64, start: f64) -> Option<KnownStep> {
+        let Known { state, steps, .. } = self.log.at(self.sign * time)?.clone();
+        let (step, released) = (self.inner.step_size().abs(), self.released());
+        Some(KnownStep { state, steps, step, released, start })
+    }
+
+    /// Goes to where another motion of the same system was at a time. Returns whether it came there.
+    pub(super) fn look_at(&mut self, time: f64, known: &KnownStep, horizon: f64) -> bool {
+        self.begin_at(known).is_ok() && self.go_on_to(self.sign * time, horizon)
+    }
+
+    fn begin_at(&mut self, known: &KnownStep) -> Result<(), MotionError> {
+        let KnownStep { state, steps, step, released, start } = known;
+        self.inner.restore_with_step(state, *step, (*start, released))?;
+        self.inner.set_steps(*steps);
+        self.take_observer();
+        Ok(())
+    }
+
+    /// Goes on to a reading of the clock. Returns whether it came there.
+    fn go_on_to(&mut self, clock: f64, horizon: f64) -> bool {
+        let mut budget = EQUAL_STEPS * 1000;
+        loop {
+            match self.inner.reach(clock, clock + horizon, &mut budget) {
+                Ok(Reached::Happened(_)) => {}
+                Ok(Reached::There) => return self.look().is_ok(),
+                Ok(Reached::Underway | Reached::Ended) | Err(_) => return false,
+            }
+        }
     }
 
     /// The number of impulses so far.
@@ -280,6 +369,11 @@ impl ObservedMotion {
         outcome.map_err(|fault| self.inner.explained(fault))
     }
 
+    /// A fault of this motion at its time.
+    pub(super) fn dated(&self, fault: MotionError) -> MotionError {
+        MotionError { time: self.sign * fault.time, ..fault }
+    }
+
     /// The value of every channel just before the last impulse.
     pub(super) fn values_before(&mut self) -> Result<Vec<f64>, MotionError> {
         let mut values = vec![f64::NAN; self.values.len()];
@@ -307,17 +401,39 @@ impl ObservedMotion {
         self.inner.settings()
     }
 
+    /// The tolerance in use, if the method has one.
+    pub(super) fn tolerance(&self) -> Option<f64> {
+        self.inner.tolerance()
+    }
+
     /// Where the fixed step was found to be beyond the stability limit, if it was.
     pub(super) fn unstable(&self) -> Option<Unstable> {
         self.inner.unstable()
     }
 
+    /// −1 if the motion runs backwards, otherwise 1.
+    pub(super) fn sign(&self) -> f64 {
+        self.sign
+    }
+
     /// The current time.
     pub(super) fn time(&self) -> f64 {
+        self.sign * self.clock()
+    }
+
+    /// The time, or −t if the motion runs backwards: it never decreases along the way.
+    pub(super) fn clock(&self) -> f64 {
         self.state().time
     }
 
-    /// The current state.
+    /// The current state, at its time.
+    pub(super) fn dated_state(&self) -> State {
+        let mut state = self.state().clone();
+        (state.time, state.time_carry) = (self.sign * state.time, self.sign * state.time_carry);
+        state
+    }
+
+    /// The current state, whose time is the clock.
     pub(super) fn state(&self) -> &State {
         self.inner.state()
     }
@@ -335,7 +451,7 @@ impl ObservedMotion {
         self.inner.set_steps(steps);
     }
 
-    /// Discards the motion until it [begins](ObservedMotion::begin) again; its time is `time`.
+    /// Discards the motion until it [begins](ObservedMotion::begin) again; its clock is at `time`.
     pub(super) fn forget(&mut self, time: f64) {
         self.values.fill(f64::NAN);
         self.inner.forget(time);

@@ -32,6 +32,8 @@ pub(super) struct Recorder {
     /// `sealed[k]` contains every 2ᵏ-th row, the oldest chunk first.
     sealed: [VecDeque<Arc<Vec<f64>>>; CHUNKS.len()],
     limits: [usize; CHUNKS.len()],
+    /// −1 if the times at which rows are due are −t, otherwise 1. Rows have t.
+    sign: f64,
     open: Arc<Vec<f64>>,
     bounds: Vec<(f64, f64)>,
 }
@@ -55,6 +57,7 @@ impl Recorder {
             last: None,
             sealed: Default::default(),
             limits: CHUNKS.map(|limit| limit.min((limit * most / all).max(2))),
+            sign: 1.0,
             open: Arc::default(),
             bounds: vec![(f64::INFINITY, f64::NEG_INFINITY); channels],
         }
@@ -66,6 +69,13 @@ impl Recorder {
         *self = Recorder { origin, limits, ..Recorder::new(self.width - 1, spacing) };
     }
 
+    /// Clears the recorder of all but the bounds; the next row is due when the clock, −t if `backwards`, is at `origin`.
+    pub(super) fn turn(&mut self, origin: f64, backwards: bool) {
+        let bounds = std::mem::take(&mut self.bounds);
+        self.restart(origin);
+        (self.bounds, self.sign) = (bounds, if backwards { -1.0 } else { 1.0 });
+    }
+
     /// The time between two rows.
     pub(super) fn spacing(&self) -> f64 {
         self.spacing
@@ -74,8 +84,10 @@ impl Recorder {
     /// Forgets the rows from a time on; the next one is due then. The bounds stay.
     pub(super) fn rewind(&mut self, time: f64) {
         let width = self.width;
-        let before =
-            |chunk: &[f64]| chunk.chunks_exact(width).take_while(|row| row[0] < time).count();
+        let sign = self.sign;
+        let before = |chunk: &[f64]| {
+            chunk.chunks_exact(width).take_while(|row| sign * row[0] < time).count()
+        };
         let rest = before(&self.open);
         Arc::make_mut(&mut self.open).truncate(rest * width);
         if rest == 0 {
@@ -133,7 +145,7 @@ impl Recorder {
         self.widen(values);
         // copies the open chunk if a snapshot still shares it
         let open = Arc::make_mut(&mut self.open);
-        open.push(time);
+        open.push(self.sign * time);
         open.extend_from_slice(values);
         if open.len() == CHUNK * self.width {
             let full = std::mem::take(&mut self.open);
@@ -184,7 +196,8 @@ impl Recorder {
     pub(super) fn trail(&self) -> Trail {
         let sealed = self.sealed.iter().rev().flatten().cloned().collect();
         let thinned = std::array::from_fn(|level| self.sealed[level].len());
-        Trail { sealed, thinned, open: Arc::clone(&self.open), width: self.width }
+        let backwards = self.sign < 0.0;
+        Trail { sealed, thinned, open: Arc::clone(&self.open), width: self.width, backwards }
     }
 
     /// The least and greatest value of every channel; (0, 0) if none was finite.

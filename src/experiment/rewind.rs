@@ -16,23 +16,35 @@ impl Experiment {
         if !self.motion.has_begun() {
             return;
         }
-        let speed =
-            if self.setup.speed.is_finite() { self.setup.speed } else { self.model.run.speed };
-        let now = self.time();
-        let time = (now - f64::from(count) * FRAME * speed).max(self.setup.start);
+        let now = self.clock();
+        let time = (now - f64::from(count) * self.frame()).max(self.began);
         if time >= now {
             return self.tell("this is the beginning of the motion".to_owned());
         }
+        self.take_back_to(time);
+    }
+
+    /// The time of a frame on the screen.
+    pub(super) fn frame(&self) -> f64 {
+        let speed =
+            if self.setup.speed.is_finite() { self.setup.speed } else { self.model.run.speed };
+        FRAME * speed
+    }
+
+    /// Takes the motion back to a reading of its clock. What was recorded after it is gone.
+    pub(super) fn take_back_to(&mut self, time: f64) {
+        let sign = self.motion.sign();
         let impulses = self.motion.impulses();
         // no step ends early that did not when it was first taken
         let limit = time + HORIZON * self.setup.spacing;
         match self.motion.back_to((time, limit), self.setup.start) {
             Err(fault) => {
-                self.fault = Some(fault.into());
+                self.fault = Some(self.motion.dated(fault).into());
                 return;
             }
             Ok(Some(first)) if first.is_finite() => {
-                return self.tell(format!("nothing before t = {} is known any more", short(first)));
+                return self
+                    .tell(format!("nothing before t = {} is known any more", short(sign * first)));
             }
             Ok(Some(_)) => return self.tell("nothing before this is known any more".to_owned()),
             Ok(None) => {}
@@ -40,8 +52,8 @@ impl Experiment {
         self.fault = None;
         self.ended = None;
         self.recorder.rewind(time);
-        self.occurrences.rewind(time);
-        self.crossings.rewind(time, self.motion.values().len());
+        self.occurrences.rewind(sign * time, sign);
+        self.crossings.rewind(sign * time, sign, self.motion.values().len());
         // an impulse has shifted what the gauges measure from
         if self.motion.impulses() == impulses {
             self.gauge(Gauges::look);

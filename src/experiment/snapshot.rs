@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Companion, CrossingLog, EventLog, Setup, Trail};
+use super::{Companion, CrossingLog, EventLog, Return, Setup, Trail};
 use crate::analysis::{Separation, Verdict};
 use crate::system::{Form, State};
 
@@ -13,6 +13,12 @@ pub struct Snapshot {
     pub epoch: u64,
     /// The simulated time.
     pub time: f64,
+    /// Whether time runs backwards.
+    pub backwards: bool,
+    /// How it has returned along the run before, if time was reversed.
+    pub returned: Option<Return>,
+    /// What of the motion is recorded and can be looked at: from when, to when, and whether it is looked at now.
+    pub recorded: Recorded,
     /// Whether time is running, paused, ended or failed.
     pub status: Status,
     /// The requested simulated seconds per second; infinite for as fast as possible.
@@ -57,6 +63,9 @@ impl Snapshot {
         Snapshot {
             epoch,
             time: 0.0,
+            backwards: false,
+            returned: None,
+            recorded: Recorded::default(),
             status: Status::Paused,
             speed: 1.0,
             parameters: Arc::default(),
@@ -77,6 +86,17 @@ impl Snapshot {
             taken_up: false,
         }
     }
+}
+
+/// The recorded past of a motion, which can be looked at again.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Recorded {
+    /// The first time that can be looked at; it is later than `to` if time runs backwards.
+    pub from: f64,
+    /// The time that the motion has reached.
+    pub to: f64,
+    /// Whether a time before is looked at.
+    pub scrubbed: bool,
 }
 
 /// Whether time runs.

@@ -64,6 +64,12 @@ impl StepLog {
         self.known.front().map(|known| known.state.time)
     }
 
+    /// The last state at or before a time. Nothing is forgotten.
+    pub(super) fn at(&self, time: f64) -> Option<&Known> {
+        let after = self.known.partition_point(|known| known.state.time <= time);
+        self.known.get(after.checked_sub(1)?)
+    }
+
     /// The last state at or before a time. Later ones are forgotten.
     pub(super) fn back_to(&mut self, time: f64) -> Option<Known> {
         if self.first()? > time {

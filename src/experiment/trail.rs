@@ -23,6 +23,8 @@ pub struct Trail {
     pub(super) thinned: [usize; THINNINGS],
     pub(super) open: Arc<Vec<f64>>,
     pub(super) width: usize,
+    /// Whether it was recorded while time ran backwards.
+    pub(super) backwards: bool,
 }
 
 impl Trail {
@@ -30,6 +32,39 @@ impl Trail {
     pub fn from_rows(width: usize, rows: &[Vec<f64>]) -> Trail {
         let open = rows.iter().flat_map(|row| row.iter().copied().take(width)).collect();
         Trail { open: Arc::new(open), width, ..Trail::default() }
+    }
+
+    /// A number that increases along the trail: the time, or its negative if time ran backwards.
+    pub fn order(&self, time: f64) -> f64 {
+        if self.backwards { -time } else { time }
+    }
+
+    /// The part of the trail that was recorded up to a time.
+    #[must_use]
+    pub fn until(&self, time: f64) -> Trail {
+        let (width, last) = (self.width.max(1), self.order(time));
+        let kept = |chunk: &[f64]| {
+            chunk.chunks_exact(width).take_while(|row| self.order(row[0]) <= last).count()
+        };
+        let mut trail = Trail { sealed: Vec::new(), ..self.clone() };
+        for (index, chunk) in self.sealed.iter().enumerate() {
+            let count = kept(chunk);
+            if count * width == chunk.len() {
+                trail.sealed.push(Arc::clone(chunk));
+                continue;
+            }
+            trail.open = Arc::new(chunk[..count * width].to_vec());
+            // the most thinned chunks come first
+            let mut left = index;
+            for level in (0..THINNINGS).rev() {
+                trail.thinned[level] = trail.thinned[level].min(left);
+                left -= trail.thinned[level];
+            }
+            return trail;
+        }
+        let count = kept(&self.open);
+        trail.open = Arc::new(self.open[..count * width].to_vec());
+        trail
     }
 
     /// The number of rows.

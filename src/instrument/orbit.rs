@@ -10,7 +10,9 @@ use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
     Offer, Physics, Picture, Plot, Present, Seed, Sign, Upwards,
 };
-use crate::dynamics::{DynamicsError, Fixed, Orbit as Closed, PhaseSpace, Removed, periodic_orbit};
+use crate::dynamics::{
+    DynamicsError, Fixed, Orbit as Closed, PhaseSpace, Removed, driven_orbit, periodic_orbit,
+};
 use crate::ensemble::{Flow, Start};
 use crate::integrate::{Method, Settings, method_named};
 use crate::job::{Job, Progress};
@@ -44,6 +46,8 @@ struct Described {
     orbit: Closed,
     points: Vec<[f64; 2]>,
     extent: [[f64; 2]; 2],
+    /// The period of the drive.
+    drive: Option<f64>,
 }
 
 impl Instrument for Orbit {
@@ -160,6 +164,14 @@ impl Instrument for Orbit {
                 value: |_, _, answer| Some(described(answer)?.orbit.period),
             },
             Measure {
+                word: "multiple",
+                about: "its period over that of the drive, for a law that depends on time",
+                value: |_, _, answer| {
+                    let found = described(answer)?;
+                    Some((found.orbit.period / found.drive?).round())
+                },
+            },
+            Measure {
                 word: "action",
                 about: "the action ∫ p dq along it",
                 value: |_, _, answer| described(answer)?.orbit.action,
@@ -203,7 +215,10 @@ fn close(
     } else {
         Fixed::Nothing
     };
-    let orbit = periodic_orbit(&space, method, &state, None, fixed)?;
+    let orbit = match space.drive() {
+        Some(drive) => driven_orbit(&space, method, &state, drive)?,
+        None => periodic_orbit(&space, method, &state, None, fixed)?,
+    };
     let flow = Flow {
         system: System::clone(system),
         method: (method.0, orbit.settings),
@@ -220,7 +235,7 @@ fn close(
             *ends = [ends[0].min(*x), ends[1].max(*x)];
         }
     }
-    Ok(Described { orbit, points, extent })
+    Ok(Described { orbit, points, extent, drive: space.drive() })
 }
 
 /// The pairs of quantities that are offered: two coordinates where there are two, and each coordinate with its rate.
@@ -265,6 +280,10 @@ fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     let brief = |x: f64| significant(x, 5, 1e-3..1e5).replace('-', "−");
     let unit = physics.model.time_unit();
     let mut lines = vec![format!("T = {} {unit}", short(orbit.period)).trim_end().to_owned()];
+    lines.extend(found.drive.map(|drive| match (orbit.period / drive).round() {
+        1.0 => "that of the drive".to_owned(),
+        count => format!("{count} × that of the drive"),
+    }));
     lines.extend(orbit.action.map(|action| format!("action = {}", short(action))));
     let multiplier = |[re, im]: [f64; 2]| {
         if im == 0.0 {

@@ -47,6 +47,23 @@ pub struct Present<'a> {
     pub method: &'static str,
     /// Its step and tolerance, as they were set.
     pub settings: Settings,
+    /// How the motion returns along the run before, if time was reversed.
+    pub returned: Option<Returned>,
+}
+
+/// A motion whose time was reversed, held against the run before.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Returned {
+    /// The time gone back, and back to the start of the run before.
+    pub gone: [f64; 2],
+    /// ε, the error of a step.
+    pub step_error: f64,
+    /// The distance from the run before at the same time.
+    pub distance: Option<f64>,
+    /// The return error: the distance from the start.
+    pub error: Option<f64>,
+    /// The Lyapunov exponent, where an instrument has measured it.
+    pub exponent: Option<f64>,
 }
 
 impl<'a> Physics<'a> {

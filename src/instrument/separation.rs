@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::{
     Across, Answer, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Offer,
-    Physics, Picture, Plot, Present, Stroke, Upwards,
+    Physics, Picture, Plot, Present, Returned, Stroke, Upwards,
 };
 use crate::analysis::{Separation as Distances, Slope};
 use crate::num::significant;
@@ -42,6 +42,9 @@ impl Instrument for Separation {
     }
 
     fn heading(&self, _plot: &Plot, present: &Present<'_>) -> Option<Heading> {
+        if let Some(returned) = present.returned {
+            return Some(return_heading(present, returned));
+        }
         let entries = match newest(present) {
             None => vec![Entry::Words("none beside this motion: d adds a neighbour".to_owned())],
             Some((number, _, None)) => {
@@ -56,6 +59,9 @@ impl Instrument for Separation {
     }
 
     fn across(&self, _plot: &Plot, present: &Present<'_>, _answer: Option<&Answer>) -> Across {
+        if let Some(Returned { gone: [_, all], .. }) = present.returned {
+            return Across::Named("time gone back".to_owned(), [0.0, all.max(f64::MIN_POSITIVE)]);
+        }
         Across::Times(range(present, 0).unwrap_or([present.time, present.time + 1.0]))
     }
 
@@ -70,6 +76,9 @@ impl Instrument for Separation {
         for (number, distances) in present.separations {
             let ink = Ink::Companion(*number);
             layers.push((CURVES, Layer::Line(distances.points().to_vec(), ink.into())));
+        }
+        if let Some(returned) = present.returned {
+            return Some(way_back(present, returned, layers));
         }
         if let Some((_, _, Some(slope))) = newest(present) {
             let ends = [slope.from, slope.to].map(|t| [t, slope.level + slope.rate * t]);
@@ -106,6 +115,19 @@ impl Instrument for Separation {
                 value: |_, present, _| newest(present)?.2.map(|slope| slope.grown),
             },
             Measure {
+                word: "error",
+                about: "the return error: how far a motion that was reversed came back to from its start",
+                value: |_, present, _| present.returned?.error,
+            },
+            Measure {
+                word: "expected",
+                about: "ε e^{λT} for the time gone back, ε the error of a step, λ measured or the slope",
+                value: |_, present, _| {
+                    let returned = present.returned?;
+                    Some(expected(present, returned, returned.gone[0])?.1)
+                },
+            },
+            Measure {
                 word: "distance",
                 about: "the distance of the newest motion from the main one",
                 value: |_, present, _| {
@@ -115,6 +137,51 @@ impl Instrument for Separation {
             },
         ]
     }
+}
+
+/// λ and ε e^{λT} after a time gone back: λ is that of an instrument, or else the slope of ln d. No distance is seen below
+/// the rounding of what is compared.
+fn expected(present: &Present<'_>, returned: Returned, gone: f64) -> Option<(f64, f64)> {
+    let slope = || newest(present)?.2.map(|slope| slope.rate);
+    let rate = returned.exponent.or_else(slope)?;
+    Some((rate, returned.step_error * crate::num::math::exp(rate.max(0.0) * gone)))
+}
+
+/// What stands above the distance of a motion that goes back.
+fn return_heading(present: &Present<'_>, returned: Returned) -> Heading {
+    let mut entries = Vec::new();
+    match (returned.error, returned.distance) {
+        (Some(error), _) => entries.push(Entry::Number("returned to".to_owned(), error)),
+        (None, Some(distance)) => entries.push(Entry::Number("d =".to_owned(), distance)),
+        (None, None) => {}
+    }
+    if let Some((rate, value)) = expected(present, returned, returned.gone[0]) {
+        entries.push(Entry::Number("ε e^λT =".to_owned(), value));
+        entries.push(Entry::Number("λ ≈".to_owned(), rate));
+    }
+    Heading { title: "Return error ln d".to_owned(), given: false, entries }
+}
+
+/// The distance from the run before over the time gone back, with ε e^{λT}.
+fn way_back(present: &Present<'_>, returned: Returned, mut layers: Vec<(Level, Layer)>) -> Picture {
+    let all = returned.gone[1];
+    let mut name = match returned.distance {
+        Some(0.0) => "ln d   the way back is the same, to the last bit".to_owned(),
+        _ => "ln d from the run before".to_owned(),
+    };
+    let mut range = range(present, 1);
+    let ln = crate::num::math::ln;
+    if let (Some((rate, _)), true) = (expected(present, returned, all), returned.step_error > 0.0) {
+        let ends = [0.0, all].map(|gone| [gone, ln(returned.step_error) + rate.max(0.0) * gone]);
+        let stroke = Stroke { ink: Ink::Accent, covering: Some(0.5) };
+        layers.push((SLOPE, Layer::Line(ends.to_vec(), stroke)));
+        let [low, high] = range.unwrap_or([ends[0][1], ends[1][1]]);
+        range = Some([low.min(ends[0][1]), high.max(ends[1][1])]);
+        let written = [rate, returned.step_error].map(|x| significant(x, 3, 1e-4..1e4));
+        name = format!("ln d   line: ε e^λT, λ = {}, ε = {}", written[0], written[1]);
+    }
+    let upwards = Upwards::Named(name, range.unwrap_or([-40.0, 0.0]));
+    Picture::Axes { upwards, layers, occurrences: None }
 }
 
 /// The last of the motions: its number, its distances and their slope.

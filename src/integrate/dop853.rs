@@ -354,6 +354,10 @@ impl Stepper for DormandPrince {
         &self.state
     }
 
+    fn tolerance(&self) -> Option<f64> {
+        Some(self.tolerance)
+    }
+
     fn interval(&self) -> (f64, f64) {
         (self.before.time, self.state.time)
     }

@@ -200,9 +200,23 @@ impl Propagator {
         start: f64,
         released: &[usize],
     ) -> Result<(), MotionError> {
+        let step = self.stepper.step_size().abs();
+        self.restore_with_step(state, step, (start, released))
+    }
+
+    /// Restores a motion that began at `start` and was left at this state, with this step if steps are fixed.
+    ///
+    /// # Errors
+    /// Returns an error if the motion cannot continue from there.
+    pub fn restore_with_step(
+        &mut self,
+        state: &State,
+        step: f64,
+        (start, released): (f64, &[usize]),
+    ) -> Result<(), MotionError> {
         let settings = self.settings;
         if self.method.stepping == Stepping::Fixed {
-            self.settings.step = Some(self.stepper.step_size().abs());
+            self.settings.step = Some(step);
         }
         let parameters = self.parameters.clone();
         let outcome = self.restore(state, &parameters, start, released);
@@ -488,6 +502,11 @@ impl Propagator {
     /// The size of the last step.
     pub fn step_size(&self) -> f64 {
         self.stepper.step_size()
+    }
+
+    /// The tolerance in use, if the method has one.
+    pub fn tolerance(&self) -> Option<f64> {
+        self.stepper.tolerance()
     }
 
     /// The instability of the method's fixed step, if one was found.

@@ -52,6 +52,11 @@ pub trait Stepper: Send {
         end - begin
     }
 
+    /// The relative tolerance in use, of a method that has one.
+    fn tolerance(&self) -> Option<f64> {
+        None
+    }
+
     /// The instability of the fixed step, if one was found.
     fn unstable(&self) -> Option<Unstable> {
         None

@@ -59,6 +59,7 @@ struct Taylor {
     step_size: StepSize,
     state: State,
     begin: f64,
+    tolerance: f64,
     /// Whether the unit of time in use was determined for this motion.
     scaled: bool,
     /// The size of the last step, from which the next series takes its unit of time. The current
@@ -150,6 +151,7 @@ impl Taylor {
         Ok(Taylor {
             system,
             series,
+            tolerance,
             step_size: StepSize::new(tolerance, order),
             state,
             begin: 0.0,
@@ -598,6 +600,10 @@ impl Stepper for Taylor {
 
     fn state(&self) -> &State {
         &self.state
+    }
+
+    fn tolerance(&self) -> Option<f64> {
+        Some(self.tolerance)
     }
 
     fn interval(&self) -> (f64, f64) {

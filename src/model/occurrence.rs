@@ -47,6 +47,18 @@ pub enum Direction {
     Either,
 }
 
+impl Direction {
+    /// The direction of a function of −t that has this direction as a function of t.
+    #[must_use]
+    pub fn reversed(self) -> Direction {
+        match self {
+            Direction::Rising => Direction::Falling,
+            Direction::Falling => Direction::Rising,
+            Direction::Either => Direction::Either,
+        }
+    }
+}
+
 /// The action of an event.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Action {

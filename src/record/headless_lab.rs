@@ -128,7 +128,7 @@ impl HeadlessLab {
     /// Sends a command to the experiment.
     pub(super) fn tell(&mut self, command: Command) {
         let Some(experiment) = &mut self.experiment else { return };
-        let clockwork = |e: &Experiment| (e.status() == Status::Running, e.time(), e.speed());
+        let clockwork = |e: &Experiment| (e.status() == Status::Running, e.clock(), e.speed());
         let before = clockwork(experiment);
         experiment.execute(command);
         let after = clockwork(experiment);
@@ -161,7 +161,7 @@ impl HeadlessLab {
             self.behind += 1;
         }
         if progress != Progress::Arrived {
-            self.base = (now, experiment.time(), speed);
+            self.base = (now, experiment.clock(), speed);
         }
     }
 
@@ -209,7 +209,7 @@ impl HeadlessLab {
         let Prepared { model, equations, system, mut experiment, document } = ready;
         self.epoch += 1;
         experiment.set_epoch(self.epoch);
-        self.base = (self.clock.frame(), experiment.time(), experiment.speed());
+        self.base = (self.clock.frame(), experiment.clock(), experiment.speed());
         self.experiment = Some(experiment);
         Loaded { name, epoch: self.epoch, model, equations, system, document }
     }

@@ -117,6 +117,8 @@ pub enum Step {
     },
     /// Sets the simulated seconds per second.
     Speed(Text),
+    /// Look at a time of the recorded past.
+    Look(Text),
     /// Sets the line below the screen; an empty text clears it.
     Caption(String),
     /// Begins a chapter.

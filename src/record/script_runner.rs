@@ -255,6 +255,11 @@ impl ScriptRunner {
                 self.lab.tell(Command::Speed(speed));
                 done("speed", format!("{speed}"))
             }
+            Step::Look(written) => {
+                let time = assertion::value(&self.lab.app, &written)?;
+                self.lab.tell(Command::LookAt(time));
+                done("look", format!("{time}"))
+            }
             Step::Caption(text) => {
                 self.caption.clone_from(&text);
                 done("caption", text)

@@ -429,6 +429,7 @@ mod tests {
             selection: Selection::default(),
             edited: true,
             time_unit: "s".to_owned(),
+            marks: vec![0.5],
             plots: Vec::new(),
             moment: Checkpoint {
                 parameters: vec![g],

@@ -55,6 +55,10 @@ pub(super) struct Shared {
     pub(super) known: Vec<Known>,
     /// The energy as a function of (q, native rates).
     energy: Arc<Program>,
+    /// Whether the time of its states is −t.
+    backwards: bool,
+    /// The channels that were given beside those of the model.
+    extra: Vec<model::Channel>,
 }
 
 /// Returns what the file specifies about an initial rate.
@@ -81,6 +85,33 @@ impl System {
         equations: &Equations,
         extra: &[model::Channel],
     ) -> Result<System, CompileError> {
+        Self::compile_along(model, equations, extra, false)
+    }
+
+    /// The same system run the other way: the time of its states is −t, and their rates of change are dx/d(−t) =
+    /// −dx/dt. Coordinates, velocities, momenta and all channels mean what they mean here, so that a state
+    /// belongs to both systems but for the sign of its time. Functions of events that only count in one direction count
+    /// in the same direction of t. Impulses are not undone. `model` and `equations` are those it was compiled from.
+    ///
+    /// # Errors
+    /// As [`System::compile`].
+    pub fn reversed(&self, model: &Model, equations: &Equations) -> Result<System, CompileError> {
+        let backwards = !self.is_backwards();
+        let reversed = Self::compile_along(model, equations, &self.shared.extra, backwards)?;
+        Ok(reversed.with_cancel(self.cancel.clone()))
+    }
+
+    /// Whether the time of its states is −t.
+    pub fn is_backwards(&self) -> bool {
+        self.shared.backwards
+    }
+
+    fn compile_along(
+        model: &Model,
+        equations: &Equations,
+        extra: &[model::Channel],
+        backwards: bool,
+    ) -> Result<System, CompileError> {
         let mut equations = equations.clone();
         let list = ObservableList::of(model, &mut equations, extra);
         let quantities = Quantities::of(&mut equations);
@@ -103,6 +134,7 @@ impl System {
             equations: &equations,
             quadratures,
             kkt: ConstraintSystem::default(),
+            backwards,
         };
         let unknown =
             |symbol| CompileError::Unknown(equations.pool.symbol_info(symbol).name.clone());
@@ -118,7 +150,7 @@ impl System {
         }
         let holding = holding.unwrap_or_default();
         let cancel = equations.pool.cancel().clone();
-        let shared = Arc::new(Shared { inertia, ..shared });
+        let shared = Arc::new(Shared { inertia, extra: extra.to_vec(), ..shared });
         Ok(System { shared, holding, cancel, tangents: None })
     }
 
@@ -177,6 +209,8 @@ impl System {
             watch: list.compile(builder)?,
             terms: quantities.compile(builder)?,
             inertia: None,
+            backwards: builder.backwards,
+            extra: Vec::new(),
         })
     }
 

@@ -126,7 +126,7 @@ impl Discontinuities {
             events: located()
                 .map(|e| CompiledEvent {
                     name: e.name.clone(),
-                    direction: e.direction,
+                    direction: if builder.backwards { e.direction.reversed() } else { e.direction },
                     action: e.action,
                 })
                 .collect(),

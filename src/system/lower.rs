@@ -101,6 +101,11 @@ impl<'a> Lowering<'a> {
         self.linear(Number::ZERO, &[(Number::ONE, a), (Number::MINUS_ONE, b)])
     }
 
+    /// `−a`.
+    pub(super) fn negative(&mut self, a: Register) -> Register {
+        self.linear(Number::ZERO, &[(Number::MINUS_ONE, a)])
+    }
+
     /// Σ row_i · x_i.
     pub(super) fn inner_product(&mut self, row: &[Expr], x: &[Register]) -> Register {
         let mut terms = Vec::new();

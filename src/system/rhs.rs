@@ -61,11 +61,20 @@ pub(super) struct ProgramBuilder<'a> {
     pub(super) parameters: Vec<Symbol>,
     pub(super) quadratures: Quadratures,
     pub(super) kkt: ConstraintSystem,
+    /// Whether the time of the programs is −t: the motion is run backwards.
+    pub(super) backwards: bool,
 }
 
 impl ProgramBuilder<'_> {
     pub(super) fn lowering(&mut self) -> Lowering<'_> {
-        Lowering::new(&mut self.pool, &self.parameters, self.equations.symbols.time)
+        let time = self.equations.symbols.time;
+        let mut lowering = Lowering::new(&mut self.pool, &self.parameters, time);
+        if self.backwards {
+            let clock = lowering.variable(time);
+            let t = lowering.negative(clock);
+            lowering.bind(time, t);
+        }
+        lowering
     }
 
     /// The form in which the equations are given.
@@ -115,7 +124,7 @@ impl ProgramBuilder<'_> {
     /// Rates of change of a state in the native form.
     pub(super) fn native_rates(&mut self) -> Result<Arc<Program>, Symbol> {
         let (equations, quadratures) = (self.equations, self.quadratures);
-        let kkt = self.kkt.clone();
+        let (kkt, backwards) = (self.kkt.clone(), self.backwards);
         let mut lowering = self.on_full_state();
         lowering.switch_at_cuts();
         let mut outputs = match &equations.flow {
@@ -134,7 +143,7 @@ impl ProgramBuilder<'_> {
         };
         outputs.extend(auxiliary_rates(&mut lowering, equations));
         outputs.extend(quadrature_rates(&mut lowering, equations, quadratures));
-        lowering.finish(outputs)
+        finish_rates(lowering, outputs, backwards)
     }
 
     /// A program whose inputs are a state (q, p), with the velocities of a Lagrangian system known
@@ -196,7 +205,7 @@ impl ProgramBuilder<'_> {
         let Flow::Lagrange { momentum_rates, .. } = &equations.flow else {
             return Ok((self.native_rates()?, true));
         };
-        let kkt = self.kkt.clone();
+        let (kkt, backwards) = (self.kkt.clone(), self.backwards);
         let finish = |mut lowering: Lowering<'_>| {
             if let (false, Flow::Lagrange { force, .. }) =
                 (equations.constraints.is_empty(), &equations.flow)
@@ -207,7 +216,7 @@ impl ProgramBuilder<'_> {
             outputs.extend(lowering.lower_all(momentum_rates));
             outputs.extend(auxiliary_rates(&mut lowering, equations));
             outputs.extend(quadrature_rates(&mut lowering, equations, quadratures));
-            lowering.finish(outputs)
+            finish_rates(lowering, outputs, backwards)
         };
         if let Some(lowering) = self.on_full_canonical_state() {
             return Ok((finish(lowering)?, true));
@@ -238,6 +247,7 @@ impl ProgramBuilder<'_> {
 
     fn half(&mut self, rates: &[Expr], action: Expr, work: Expr) -> Result<Arc<Program>, Symbol> {
         let (equations, quadratures) = (self.equations, self.quadratures);
+        let backwards = self.backwards;
         let mut lowering = self.lowering();
         bind_state(&mut lowering, &equations.coordinates, Form::Momentum);
         let mut outputs = lowering.lower_all(rates);
@@ -247,8 +257,22 @@ impl ProgramBuilder<'_> {
         if quadratures.work {
             outputs.push(lowering.lower(work));
         }
-        lowering.finish(outputs)
+        finish_rates(lowering, outputs, backwards)
     }
+}
+
+/// The finished program of rates of change; backwards, dx/d(−t) = −dx/dt.
+fn finish_rates(
+    mut lowering: Lowering<'_>,
+    mut outputs: Vec<Register>,
+    backwards: bool,
+) -> Result<Arc<Program>, Symbol> {
+    if backwards {
+        for rate in &mut outputs {
+            *rate = lowering.negative(*rate);
+        }
+    }
+    lowering.finish(outputs)
 }
 
 /// Makes a state's coordinates and rates the next inputs and returns the registers of the rates.

@@ -12,6 +12,7 @@ use super::help::keys;
 use super::number::{brief, fitted};
 use super::quantity::Quantities;
 use super::theme::Role;
+use super::timeline;
 use super::values::typing;
 use super::wrap::words_in;
 use crate::app::keymap::KEYS;
@@ -76,6 +77,9 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     let Some(snapshot) = app.snapshot().filter(|_| app.page != Page::Picker) else { return };
     let glyphs = canvas.look.glyphs;
     let (sign, word, role) = match &snapshot.status {
+        Status::Running if !app.held && snapshot.backwards => {
+            (glyphs.pick("◀", "<"), "back   ", Role::Warn)
+        }
         Status::Running if !app.held => (glyphs.pick("▶", ">"), "running", Role::Good),
         Status::Running | Status::Paused => (glyphs.pick("‖", "="), "paused ", Role::Warn),
         Status::Ended(_) => (glyphs.pick("■", "#"), "ended  ", Role::Warn),
@@ -117,13 +121,20 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
             if area.width < 100 { " fps".to_owned() } else { format!("/{} fps", app.meter.asked) },
         ),
     ]);
+    let timed = app.lab.as_ref().filter(|lab| timeline::is_shown(lab, snapshot));
+    // the rates are of no use while nothing runs
+    let room =
+        if timed.is_some() { area.width.saturating_sub(timeline::LEAST) } else { area.width };
     let mut used = 0;
     for piece in pieces {
         let wide: usize = piece.iter().map(|(text, _)| text.width()).sum();
-        if used + wide as u16 > area.width {
+        if used + wide as u16 > room {
             break;
         }
         used += canvas.spans(columns(area, used, area.width), &piece) + 2;
+    }
+    if let Some(lab) = timed {
+        timeline::draw(canvas, columns(area, used, area.width.saturating_sub(used)), lab, snapshot);
     }
 }
 

@@ -46,6 +46,7 @@ impl HitMap {
         let at = Position::new(column, row);
         let held = |region: &Region| match (self.hold, region) {
             (Some(Grab::Bar(held)), Region::Bar(target, _)) => held == *target,
+            (Some(Grab::Time), Region::Time(_)) => true,
             (Some(Grab::Picture { index, .. }), Region::Plot(i, _) | Region::Space(i)) => {
                 index == *i
             }
@@ -72,6 +73,12 @@ fn resolved(region: Region, area: Rect, at: Position) -> Option<HitTarget> {
             let along = f64::from(at.x) - f64::from(area.x);
             let share = along / f64::from(area.width.saturating_sub(1).max(1));
             HitTarget::Bar { target, value: scale.value(share.clamp(0.0, 1.0)) }
+        }
+        Region::Time([from, to]) => {
+            let along = f64::from(at.x) - f64::from(area.x);
+            let share = (along / f64::from(area.width.saturating_sub(1).max(1))).clamp(0.0, 1.0);
+            // both ends are met exactly
+            HitTarget::Time(if share < 1.0 { from + share * (to - from) } else { to })
         }
         Region::Space(index) => HitTarget::Space { index, place },
         Region::Plot(index, frame) => HitTarget::Plot { index, place, at: frame.at(at) },

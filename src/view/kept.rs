@@ -193,14 +193,16 @@ impl Drawn {
     /// the oldest must be the first one drawn or a later one.
     fn continuation(&self, rows: &Trail) -> Option<usize> {
         let (oldest, began) = (rows.row(0)?, self.first.first()?);
-        if oldest[0] < *began || oldest[0] == *began && !same(oldest, &self.first) {
+        if rows.order(oldest[0]) < rows.order(*began)
+            || oldest[0] == *began && !same(oldest, &self.first)
+        {
             return None;
         }
         for (count, row) in rows.rows().rev().enumerate() {
             if same(row, &self.last) {
                 return Some(count);
             }
-            if row[0] < self.last[0] {
+            if rows.order(row[0]) < rows.order(self.last[0]) {
                 return None;
             }
         }
@@ -220,7 +222,7 @@ impl Drawn {
         let all = rows.len();
         for row in (all - count.min(all)..all).filter_map(|index| rows.row(index)) {
             if let Some(point) = locate(row) {
-                self.trail.to(point, row[0]);
+                self.trail.to(point, rows.order(row[0]));
             }
         }
         if let Some(newest) = rows.row(all.wrapping_sub(1)) {
@@ -237,7 +239,8 @@ fn same(a: &[f64], b: &[f64]) -> bool {
 /// The times from which the rows of a trail have each age, for its rows and the present after them.
 pub(super) fn since(rows: &Trail, ages: usize) -> Vec<f64> {
     let count = rows.len() + 1;
-    let begins = |age: usize| rows.row(age * count / ages).map_or(f64::INFINITY, |row| row[0]);
+    let begins =
+        |age: usize| rows.row(age * count / ages).map_or(f64::INFINITY, |row| rows.order(row[0]));
     (0..ages).map(begins).collect()
 }
 

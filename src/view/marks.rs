@@ -33,10 +33,13 @@ impl<'a> Marks<'a> {
     /// the channels). For an impulse, the point is the one just after it.
     pub(super) fn of(q: &Quantities<'a>, place: impl Fn(&[f64]) -> Option<[f64; 2]>) -> Self {
         let mut points = Vec::new();
-        let mut rows = q.snapshot.trail.rows().rev().peekable();
+        let trail = &q.snapshot.trail;
+        let mut rows = trail.rows().rev().peekable();
         let mut later: Option<&[f64]> = None;
         for occurrence in q.snapshot.occurrences.iter().rev().take(MOST) {
-            while let Some(row) = rows.next_if(|row| row[0] > occurrence.time) {
+            while let Some(row) =
+                rows.next_if(|row| trail.order(row[0]) > trail.order(occurrence.time))
+            {
                 later = Some(row);
             }
             // Occurrences older than the trail have no point.

@@ -14,6 +14,8 @@ pub(super) enum Region {
     Plain(HitTarget),
     /// The bar of a value.
     Bar(ValueId, Scale),
+    /// The time bar, from one time to the other.
+    Time([f64; 2]),
     /// The inside of a plot's axes.
     Plot(usize, Frame),
     /// The inside of a picture of the motion in space.

@@ -16,7 +16,7 @@ pub trait Runnable: Send {
     fn execute(&mut self, command: Command);
     /// Advances to a time in at most `budget` steps.
     fn advance(&mut self, time: f64, budget: u64) -> Progress;
-    /// The current time.
+    /// What it advances in: the current time, or its negative while time runs backwards.
     fn time(&self) -> f64;
     /// Simulated seconds per second of wall time; infinite for as fast as possible.
     fn speed(&self) -> f64;
@@ -50,7 +50,7 @@ impl Runnable for Experiment {
     }
 
     fn time(&self) -> f64 {
-        Experiment::time(self)
+        Experiment::clock(self)
     }
 
     fn speed(&self) -> f64 {

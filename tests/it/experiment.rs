@@ -7,7 +7,9 @@ mod companions;
 mod export;
 mod gauges;
 mod record;
+mod reverse;
 mod rewind;
+mod scrub;
 mod verdicts;
 
 use std::sync::Arc;

@@ -188,3 +188,50 @@ fn where_nothing_comes_back_it_says_why() {
     let shown = rows(&buffer).concat();
     assert!(shown.contains("no periodic orbit was found"), "{shown}");
 }
+
+/// q̈ + 2γ q̇ + q = cos wt has one periodic orbit, of the amplitude 1/√((1 − w²)² + (2γw)²), and the multipliers of the motion
+/// without the drive.
+#[test]
+fn a_driven_motion_is_closed_over_the_period_of_its_drive() {
+    let text =
+        one("1/2*q'^2 - 1/2*q^2", "dissipation = \"0.1*q'^2\"\nforces = { q = \"cos(2*t)\" }");
+    let (app, _) = opened(&text, 3.0);
+    let (g, w) = (0.1_f64, 2.0_f64);
+    let period = measure(&app, "period").unwrap_or_else(|| panic!("{}", legend(&app)));
+    assert!((period - PI).abs() < 1e-12, "{period}");
+    assert_eq!((measure(&app, "multiple"), measure(&app, "stable")), (Some(1.0), Some(1.0)));
+    let trace = 2.0 * (-g * PI).exp() * ((1.0 - g * g).sqrt() * PI).cos();
+    assert!((measure(&app, "trace").unwrap() - trace).abs() < 1e-10);
+    let amplitude = 1.0 / ((1.0 - w * w).powi(2) + (2.0 * g * w).powi(2)).sqrt();
+    let greatest = curve(&app).unwrap().iter().map(|at| at[0]).fold(f64::MIN, f64::max);
+    // 512 points miss the top by no more than (π/512)² of it
+    assert!((greatest / amplitude - 1.0).abs() < 5e-5, "{greatest} {amplitude}");
+    assert!(legend(&app).contains("that of the drive"), "{}", legend(&app));
+}
+
+/// Two drives of frequencies 2 and 3 have the common period 2π; of frequencies 1 and √2 they have none.
+#[test]
+fn drives_have_a_common_period_or_none() {
+    let driven = |force: &str| {
+        let rest = format!("dissipation = \"0.1*q'^2\"\nforces = {{ q = \"{force}\" }}");
+        opened(&one("1/2*q'^2 - 2*q^2", &rest), 40.0).0
+    };
+    let app = driven("cos(2*t + 1) + sin(3*t)^2/4 + cos(3*t)");
+    assert!((measure(&app, "period").unwrap() - TAU).abs() < 1e-12);
+    for force in ["cos(t) + cos(sqrt(2)*t)", "exp(-t)", "t"] {
+        let app = driven(force);
+        assert_eq!(measure(&app, "period"), None);
+        assert!(legend(&app).contains("depends on time, and not by"), "{}", legend(&app));
+    }
+}
+
+#[test]
+fn a_motion_that_never_returns_is_told_what_was_looked_for() {
+    let (app, _) = opened(&one("1/2*q'^2 + 1/2*q^2", ""), 1.0);
+    let said = legend(&app);
+    for words in
+        ["a return of (q, p_q) to within 50 %", "over a time of", "moved away", "give its period"]
+    {
+        assert!(said.contains(words), "{said}");
+    }
+}

@@ -8,6 +8,7 @@ mod replay;
 mod schema;
 mod scripts;
 mod stills;
+mod timeline;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread::{self, available_parallelism};

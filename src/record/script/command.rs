@@ -50,6 +50,7 @@ pub const COMMANDS: &[Command] = &[
     row("Set", "Set NAME = EXPR", "set a parameter, or an initial value (which begins the motion again)", set),
     row("Sweep", "Sweep NAME [from EXPR] to EXPR [and NAME …] in 3s", "carry parameters or initial values evenly to other values while time passes; together they are one change to be taken back", sweep),
     row("Speed", "Speed EXPR", "simulated seconds in a second", speed),
+    row("Look", "Look at EXPR", "pause and look at a time of the recorded past; what acts on the motion takes it up there", look),
     row("Caption", "Caption \"TEXT\"", "write a line below the screen; without a text, take it away", caption),
     row("Marker", "Marker \"NAME\"", "begin a chapter: players can jump to it, stills be taken of it", marker),
     row("Assert", "Assert CLAIM", "claim something of this moment; the demo is wrong where it is false", assert),
@@ -222,6 +223,11 @@ fn expect(line: &mut Line<'_>, word: &str) -> Result<(), Diagnostic> {
 
 fn speed(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     Ok(Said::Step(Step::Speed(line.until(&[], "a speed")?)))
+}
+
+fn look(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+    expect(line, "at")?;
+    Ok(Said::Step(Step::Look(line.until(&[], "a time")?)))
 }
 
 fn caption(line: &mut Line<'_>) -> Result<Said, Diagnostic> {

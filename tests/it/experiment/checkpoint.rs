@@ -306,3 +306,71 @@ fn what_was_drawn_of_other_coordinates_goes() {
     });
     assert!(recorded(&taken, "x").len() <= 2);
 }
+
+/// Sessions keep the motions beside the main one: they go on to the last bit.
+#[test]
+fn companions_are_restored_to_the_last_bit() {
+    use phaselab::system::InitialOverride;
+    let mut experiment = shipped("henon-heiles");
+    run(&mut experiment, 6.0);
+    experiment.execute(Command::AddStart(vec![InitialOverride::Position(1, 0.2)]));
+    experiment.execute(Command::AddNeighbour);
+    experiment.execute(Command::Pin);
+    experiment.execute(Command::Method("gauss6".to_owned()));
+    experiment.execute(Command::StepSize(0.125));
+    run(&mut experiment, 10.0);
+    let seen = experiment.snapshot();
+    assert!(!experiment.is_behind());
+    let moment = Checkpoint::of(experiment.model(), experiment.system(), &seen);
+    let text = toml::to_string(&moment).expect("it is written");
+    let read: Checkpoint = toml::from_str(&text).expect("it is read");
+    assert_eq!(read, moment);
+    let mut other = shipped("henon-heiles");
+    other.execute(Command::TakeUp(Box::new(read)));
+    let there = other.snapshot();
+    let words = |s: &phaselab::experiment::Snapshot| -> Vec<(usize, &'static str, &'static str)> {
+        s.companions.iter().map(|one| (one.number, one.origin.word(), one.method)).collect()
+    };
+    assert_eq!(words(&there), words(&seen));
+    assert_eq!(words(&seen)[2], (3, "pinned run", "taylor"));
+    for (a, b) in seen.companions.iter().zip(there.companions.iter()) {
+        assert_eq!((&a.state.values, &a.state.carry), (&b.state.values, &b.state.carry));
+        assert_eq!((a.time, &a.origin, &a.parameters), (b.time, &b.origin, &b.parameters));
+    }
+    run(&mut experiment, 16.0);
+    run(&mut other, 16.0);
+    let (seen, there) = (experiment.snapshot(), other.snapshot());
+    for (a, b) in seen.companions.iter().zip(there.companions.iter()) {
+        let pairs = a.values.iter().zip(b.values.iter());
+        assert!(pairs.filter(|(a, _)| a.is_finite()).all(|(a, b)| (a - b).abs() < 1e-13));
+    }
+    // a name that is not there loses the motion, and says so
+    let mut broken = Checkpoint::of(experiment.model(), experiment.system(), &seen);
+    broken.companions[0].initial[0].name = "nowhere".to_owned();
+    let mut third = shipped("henon-heiles");
+    third.execute(Command::TakeUp(Box::new(broken)));
+    let seen = third.snapshot();
+    assert_eq!(seen.companions.len(), 2);
+    assert_eq!(seen.notices.last().unwrap(), "no longer there: motion 1");
+}
+
+/// A session that is left while time runs backwards goes on backwards.
+#[test]
+fn a_motion_that_goes_back_is_taken_up_going_back() {
+    let mut experiment = shipped("pendulum");
+    run(&mut experiment, 5.0);
+    experiment.execute(Command::Reverse);
+    experiment.advance(-3.0, super::PLENTY);
+    let seen = experiment.snapshot();
+    let moment = Checkpoint::of(experiment.model(), experiment.system(), &seen);
+    assert!(moment.backwards);
+    let mut other = shipped("pendulum");
+    other.execute(Command::TakeUp(Box::new(moment)));
+    assert!(other.is_backwards());
+    assert_eq!(other.snapshot().state.values, seen.state.values);
+    other.advance(-1.0, super::PLENTY);
+    let mut alone = shipped("pendulum");
+    run(&mut alone, 1.0);
+    let pairs = alone.values().iter().zip(other.values());
+    assert!(pairs.filter(|(a, _)| a.is_finite()).all(|(a, b)| (a - b).abs() < 1e-13));
+}

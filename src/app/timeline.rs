@@ -1,0 +1,145 @@
+//! The time line: time reversed, the recorded past looked at, and marks on it.
+//!
+//! In: keys and the mouse on the time bar. Out: commands. Never here: how a motion runs backwards, or what is recorded.
+
+use super::{App, Effect, Lab, Notification};
+use crate::dynamics::{PhaseSpace, conformal_rate};
+use crate::experiment::{Command, Recorded, Snapshot, Status};
+use crate::expr::Expr;
+use crate::instrument::{Plot, Returned, largest_exponent};
+use crate::num::short;
+
+/// The most marks.
+const MOST: usize = 32;
+
+/// A key moves the look by this part of the recorded past.
+const STEPS: f64 = 50.0;
+
+/// Times closer together than this part of the recorded past are one.
+const SAME: f64 = 1e-9;
+
+impl App {
+    /// Reverses time, and shows how the motion returns.
+    pub(super) fn reverse(&mut self) -> Vec<Effect> {
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        let Some(seen) = lab.seen() else { return Vec::new() };
+        if matches!(seen.status, Status::Failed(_)) {
+            return self.notify("There is no motion to reverse: reset it with r.");
+        }
+        let (back, paused) = (!seen.backwards, seen.status != Status::Running);
+        let sentence = if back { lab.what_grows() } else { None };
+        if back {
+            lab.show("separation");
+        }
+        self.notice = sentence.map(Notification::info);
+        let mut effects = vec![Effect::Tell(Command::Reverse)];
+        if paused {
+            effects.push(Effect::Tell(Command::Play));
+        }
+        effects
+    }
+
+    /// Looks at another time of the recorded past, so many fiftieths of it later.
+    pub(super) fn look_along(&mut self, by: f64) -> Vec<Effect> {
+        let Some(seen) = self.lab.as_ref().and_then(Lab::seen) else { return Vec::new() };
+        let Recorded { from, to, .. } = seen.recorded;
+        if from == to {
+            return self.notify("Nothing is recorded yet that could be looked at.");
+        }
+        let time = seen.time + by * (to - from) / STEPS;
+        let (low, high) = (from.min(to), from.max(to));
+        vec![Effect::Tell(Command::LookAt(time.clamp(low, high)))]
+    }
+
+    /// Sets a mark at the time that is seen, or takes the mark there away.
+    pub(super) fn mark_time(&mut self) -> Vec<Effect> {
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        let Some((time, near)) = lab.seen().map(|seen| {
+            let Recorded { from, to, .. } = seen.recorded;
+            (seen.time, SAME * (to - from).abs())
+        }) else {
+            return Vec::new();
+        };
+        let sentence = match lab.marks.iter().position(|mark| (mark - time).abs() <= near) {
+            Some(index) => {
+                lab.marks.remove(index);
+                format!("The mark at t = {} is taken away.", short(time))
+            }
+            None if lab.marks.len() == MOST => {
+                return self.notify(format!("{MOST} marks are the most; ; at a mark removes it."));
+            }
+            None => {
+                lab.marks.push(time);
+                lab.marks.sort_by(f64::total_cmp);
+                format!("A mark at t = {}; ' leads back to it.", short(time))
+            }
+        };
+        self.notice = Some(Notification::info(sentence));
+        Vec::new()
+    }
+
+    /// Looks at the mark before the time that is seen, and from the first one at the last.
+    pub(super) fn go_to_mark(&mut self) -> Vec<Effect> {
+        let Some(lab) = &self.lab else { return Vec::new() };
+        let Some(seen) = lab.seen() else { return Vec::new() };
+        if lab.marks.is_empty() {
+            return self.notify("There are no marks; ; sets one at the time that is seen.");
+        }
+        let Recorded { from, to, .. } = seen.recorded;
+        let (low, high) = (from.min(to), from.max(to));
+        let known = || lab.marks.iter().copied().filter(|mark| *mark >= low && *mark <= high);
+        let before = seen.time - SAME * (high - low);
+        let Some(mark) = known().rev().find(|mark| *mark < before).or_else(|| known().next_back())
+        else {
+            let times: Vec<String> = lab.marks.iter().map(|mark| short(*mark)).collect();
+            return self.notify(format!(
+                "The motion is known from t = {} to {}; the marks are at {}.",
+                short(low),
+                short(high),
+                times.join(", ")
+            ));
+        };
+        vec![Effect::Tell(Command::LookAt(mark))]
+    }
+}
+
+impl Lab {
+    /// How the motion returns along the run before, with the exponent that an instrument has measured.
+    pub(super) fn returned(&self, snapshot: &Snapshot) -> Option<Returned> {
+        let seen = snapshot.returned.as_ref()?;
+        let measured = |plot: &Plot| largest_exponent(self.answer(plot)?);
+        Some(Returned {
+            gone: [(snapshot.time - seen.turned).abs(), (seen.start - seen.turned).abs()],
+            step_error: seen.step_error,
+            distance: seen.distance,
+            error: seen.error,
+            exponent: self.plots.iter().find_map(measured),
+        })
+    }
+
+    /// What is said of a system whose energy is not conserved before its time is reversed.
+    fn what_grows(&self) -> Option<String> {
+        let seen = self.seen()?;
+        let physics = self.loaded.physics();
+        if physics.equations.energy_rate == Expr::ZERO {
+            return None;
+        }
+        let space =
+            PhaseSpace::of(physics.model, physics.equations, physics.system, &seen.parameters);
+        let rate = space.ok().and_then(|space| {
+            let state = space.state(&seen.state).ok()?;
+            conformal_rate(&space, seen.time, [space.variables(&state)]).ok()?
+        });
+        match rate {
+            Some(0.0) => None,
+            Some(rate) if rate < 0.0 => Some(format!(
+                "Backwards the friction gives back what it took: areas grow like e^{{{} t}}, and errors with them.",
+                short(-rate)
+            )),
+            _ => Some(
+                "The energy is not conserved here: what it lost comes back, and errors grow with it."
+                    .to_owned(),
+            ),
+        }
+    }
+}

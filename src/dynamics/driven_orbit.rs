@@ -1,0 +1,53 @@
+//! The periodic orbit near a start of a driven system: its period is that of the drive, or a small multiple of it.
+//!
+//! In: a start, the period of the drive. Out: the orbit, or what was looked for. Never here: how an orbit is closed.
+
+use super::error::DynamicsError;
+use super::flow_map::flow_map;
+use super::orbit::{Fixed, Orbit, difference, periodic_orbit};
+use super::phase_space::PhaseSpace;
+use crate::integrate::{Method, Settings};
+use crate::system::State;
+
+/// The most periods of the drive in which an orbit is looked for.
+const MULTIPLES: u32 = 6;
+
+/// A return this near, relative to the farthest, is tried first.
+const NEAR: f64 = 0.1;
+
+/// The periodic orbit near a start whose period is that of the drive or a small multiple of it: where the motion returns
+/// near its start after one of them, that one comes first.
+///
+/// # Errors
+/// Returns an error if there is none nearby, if the motion cannot be followed, or on cancellation.
+pub fn driven_orbit(
+    space: &PhaseSpace,
+    method: (&'static Method, Settings),
+    start: &State,
+    drive: f64,
+) -> Result<Orbit, DynamicsError> {
+    let mut misses: Vec<(u32, f64)> = Vec::new();
+    let mut state = start.clone();
+    for count in 1..=MULTIPLES {
+        let end = start.time + f64::from(count) * drive;
+        let map = flow_map(space, method, &state, end, &mut |_| {})?;
+        if let Some(fault) = map.failure {
+            return Err(fault.into());
+        }
+        state = map.state;
+        misses.push((count, difference(space, &state, start).norm()));
+    }
+    let farthest = misses.iter().map(|(_, miss)| *miss).fold(0.0, f64::max);
+    misses.sort_by_key(|(count, miss)| (*miss > NEAR * farthest, *count));
+    for (count, _) in &misses {
+        let period = f64::from(*count) * drive;
+        match periodic_orbit(space, method, start, Some(period), Fixed::Period(period)) {
+            Err(DynamicsError::Unsuited(_)) => {}
+            other => return other,
+        }
+    }
+    Err(DynamicsError::Unsuited(format!(
+        "no periodic orbit was found near the start with the period of the drive, {drive:.6}, or 2 to {MULTIPLES} times it: \
+         begin nearer to one, where the motion has settled, or give the period of the orbit"
+    )))
+}

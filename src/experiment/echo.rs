@@ -1,0 +1,119 @@
+//! The run before time was reversed: what a motion that goes back is held against.
+//!
+//! At the time t of the motion that goes back, the run before is taken from its log of steps, exactly by dense output. Their
+//! distance is the return error. Every step of both adds an error of size ε, which the way back to t multiplies by e^{λT}, T
+//! the time gone back: a chaotic motion returns to ε e^{λT} of where it began, a regular one to about ε.
+//!
+//! In: an observed motion that has ended, times. Out: its values at those times, the distance. Never here: how a motion runs
+//! backwards.
+
+use std::sync::Arc;
+
+use super::observed_motion::ObservedMotion;
+use super::{Companion, CrossingLog, Origin, Return, Trail};
+use crate::analysis::{Separation, distance};
+
+/// Half the distance between 1 and the next number.
+const ROUNDING: f64 = 1.110_223_024_625_156_5e-16;
+
+/// The run before time was reversed.
+pub(super) struct Echo {
+    run: ObservedMotion,
+    trail: Trail,
+    /// Its values where it was looked at last, and the time.
+    at: f64,
+    values: Vec<f64>,
+    separation: Arc<Separation>,
+    turned: f64,
+    /// When its clock began to count.
+    began: f64,
+    pub(super) start: f64,
+    distance: Option<f64>,
+    error: Option<f64>,
+    step_error: f64,
+}
+
+impl Echo {
+    /// The run that ends now, which has left this trail; `None` if none of it is known.
+    pub(super) fn of(run: ObservedMotion, trail: Trail, variables: &[usize]) -> Option<Echo> {
+        let (start, turned) = (run.sign() * run.known_from()?, run.time());
+        let greatest = |row: &[f64]| {
+            variables.iter().map(|&i| row.get(1 + i).map_or(0.0, |x| x * x)).sum::<f64>()
+        };
+        let size = trail.rows().map(greatest).fold(0.0, f64::max);
+        Some(Echo {
+            at: turned,
+            values: run.values().to_vec(),
+            separation: Arc::default(),
+            turned,
+            began: run.sign() * start,
+            start,
+            distance: None,
+            error: None,
+            step_error: run.tolerance().unwrap_or(ROUNDING) * size.sqrt(),
+            run,
+            trail,
+        })
+    }
+
+    /// Whether the run before has been at a time.
+    pub(super) fn covers(&self, time: f64) -> bool {
+        (time - self.start) * (time - self.turned) <= 0.0
+    }
+
+    /// The motion that goes back has these values at a time. `horizon` bounds the steps of the run before as it did then.
+    pub(super) fn compare(
+        &mut self,
+        (time, values): (f64, &[f64]),
+        horizon: f64,
+        (variables, periods): (&[usize], &[Option<f64>]),
+    ) {
+        if !self.covers(time) || !self.run.look_back(time, horizon, self.began) {
+            return;
+        }
+        self.at = time;
+        self.values.copy_from_slice(self.run.values());
+        let pick = |values: &[f64]| -> Vec<f64> { variables.iter().map(|&i| values[i]).collect() };
+        let (then, now) = (pick(&self.values), pick(values));
+        let distance = distance(&then, &now, periods);
+        self.distance = Some(distance);
+        if time == self.start {
+            self.error = Some(distance);
+        }
+        let gone = (time - self.turned).abs();
+        Arc::make_mut(&mut self.separation).add(gone, &then, &now, periods);
+    }
+
+    /// How the motion has returned so far.
+    pub(super) fn returned(&self) -> Return {
+        Return {
+            turned: self.turned,
+            start: self.start,
+            step_error: self.step_error,
+            distance: self.distance,
+            error: self.error,
+        }
+    }
+
+    /// The distance over the time gone back.
+    pub(super) fn separation(&self) -> Arc<Separation> {
+        Arc::clone(&self.separation)
+    }
+
+    /// The run before as a motion beside the main one, where it was at the time of the main one.
+    pub(super) fn shown(&self, number: usize, parameters: &[f64], surfaces: usize) -> Companion {
+        Companion {
+            number,
+            origin: Origin::Before,
+            time: self.at,
+            values: self.values.as_slice().into(),
+            parameters: parameters.into(),
+            method: self.run.method().name,
+            settings: self.run.settings(),
+            state: Arc::new(self.run.dated_state()),
+            trail: self.trail.clone(),
+            crossings: CrossingLog::new(surfaces),
+            message: None,
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! A motion beside the main one by names, to the last bit, to be restored elsewhere.
+//!
+//! In: a companion of a snapshot. Out: plain data, and the companion again, in another experiment of a system with the same
+//! names. Never here: the main motion (`checkpoint`).
+
+use serde::{Deserialize, Serialize};
+
+use super::companion::CompanionMotion;
+use super::companions::MOST_COMPANIONS;
+use super::named::{Named, given, named};
+use super::recorder::NUMBERS;
+use super::setup::choose_method;
+use super::{Companion, Experiment, Origin};
+use crate::integrate::Settings;
+use crate::model::Model;
+use crate::system::{Form, InitialOverride, State};
+
+/// A motion beside the main one.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct SavedCompanion {
+    /// Its number.
+    pub number: usize,
+    /// What it is.
+    pub origin: OriginKind,
+    /// The initial values that override the file's, of a start or a pinned run.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub initial: Vec<Named>,
+    /// How far each coordinate of a neighbour was displaced.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub displaced: Vec<f64>,
+    /// The parameters of a pinned run.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub parameters: Vec<Named>,
+    /// The method of a pinned run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub method: Option<String>,
+    /// Its step, if it was set.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub step: Option<f64>,
+    /// Its tolerance, if it was set.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+    /// Where it is: the time and its carried rounding error.
+    pub time: [f64; 2],
+    /// The meaning of the second half of `state`.
+    pub form: Form,
+    /// Each number of its state with its carried rounding error; empty if it had come to an end.
+    pub state: Vec<[f64; 2]>,
+}
+
+/// What a companion is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum OriginKind {
+    /// Another start.
+    Start,
+    /// A neighbour.
+    Neighbour,
+    /// A pinned run.
+    Pinned,
+}
+
+impl SavedCompanion {
+    /// A companion by names; `None` for one that belongs to the main motion itself.
+    pub(super) fn of(model: &Model, one: &Companion) -> Option<SavedCompanion> {
+        let (origin, given, displaced) = match &one.origin {
+            Origin::Start(given) => (OriginKind::Start, given.as_slice(), Vec::new()),
+            Origin::Neighbour(displaced) => (OriginKind::Neighbour, &[][..], displaced.clone()),
+            Origin::Pinned(given) => (OriginKind::Pinned, given.as_slice(), Vec::new()),
+            Origin::Before => return None,
+        };
+        let pinned = origin == OriginKind::Pinned;
+        let parameters = model.parameters.iter().zip(one.parameters.iter());
+        let parameters =
+            parameters.map(|(p, &value)| Named { name: p.name.clone(), value }).collect();
+        let state = one.state.values.iter().zip(&one.state.carry);
+        let goes_on = one.message.is_none() && one.state.is_finite();
+        Some(SavedCompanion {
+            number: one.number,
+            origin,
+            initial: given.iter().filter_map(|given| named(model, *given)).collect(),
+            displaced,
+            parameters: if pinned { parameters } else { Vec::new() },
+            method: pinned.then(|| one.method.to_owned()),
+            step: one.settings.step.filter(|_| pinned),
+            tolerance: one.settings.tolerance.filter(|_| pinned),
+            time: [one.state.time, one.state.time_carry],
+            form: one.state.form,
+            state: if goes_on { state.map(|(&v, &c)| [v, c]).collect() } else { Vec::new() },
+        })
+    }
+
+    fn state(&self) -> State {
+        State {
+            time: self.time[0],
+            time_carry: self.time[1],
+            form: self.form,
+            values: self.state.iter().map(|[value, _]| *value).collect(),
+            carry: self.state.iter().map(|[_, carry]| *carry).collect(),
+        }
+    }
+}
+
+impl Experiment {
+    /// Puts these companions in place of those there are; `exactly` if the coordinates are the same. Returns the names of
+    /// what could not be restored.
+    pub(super) fn restore_companions(
+        &mut self,
+        saved: &[SavedCompanion],
+        exactly: bool,
+    ) -> Vec<String> {
+        self.companions.clear();
+        let mut lost = Vec::new();
+        for one in saved.iter().take(MOST_COMPANIONS) {
+            let taken = self.companions.all.iter().any(|other| other.number == one.number);
+            let known = (1..=MOST_COMPANIONS).contains(&one.number) && !taken;
+            let motion = known.then(|| self.companion_of(one)).flatten();
+            let Some(mut motion) = motion else {
+                lost.push(format!("motion {}", one.number));
+                continue;
+            };
+            let state = one.state();
+            let system = self.motion.whole();
+            let poisson = state.form == Form::Variables;
+            let fits = exactly
+                && state.values.len() == system.state_len()
+                && state.is_finite()
+                && poisson == (system.form() == Form::Variables);
+            if fits {
+                motion.begin(Ok(state));
+            } else {
+                motion.begin(self.origin_state(&motion));
+            }
+            self.companions.all.push(motion);
+        }
+        lost
+    }
+
+    fn companion_of(&mut self, one: &SavedCompanion) -> Option<CompanionMotion> {
+        let initial: Vec<InitialOverride> =
+            one.initial.iter().map(|named| given(&self.model, named)).collect::<Option<_>>()?;
+        let degrees = self.system().degrees();
+        let origin = match one.origin {
+            OriginKind::Start => Origin::Start(initial),
+            OriginKind::Neighbour if one.displaced.len() == degrees => {
+                Origin::Neighbour(one.displaced.clone())
+            }
+            OriginKind::Neighbour => return None,
+            OriginKind::Pinned => Origin::Pinned(initial),
+        };
+        let mut parameters = self.setup.parameters.clone();
+        for named in &one.parameters {
+            let place = self.model.parameters.iter().position(|p| p.name == named.name)?;
+            parameters[place] = named.value;
+        }
+        let system = self.motion.whole().clone();
+        let (method, settings) = match &one.method {
+            Some(name) => (
+                choose_method(&system, name).ok()?,
+                Settings { step: one.step, tolerance: one.tolerance },
+            ),
+            None => (self.motion.method(), self.motion.settings()),
+        };
+        self.name_variables();
+        let numbers = NUMBERS / MOST_COMPANIONS;
+        CompanionMotion::new(
+            &system,
+            (method, settings),
+            (one.number, origin),
+            &parameters,
+            numbers,
+        )
+        .ok()
+    }
+}

@@ -1,0 +1,79 @@
+//! A look at the recorded past, which changes nothing: the motion stays where it is, and what was recorded stays too.
+//!
+//! In: a time between the first step that is known and the present. Out: a snapshot of that time, exact by dense output. Never
+//! here: the step that takes the motion itself back (`rewind`).
+
+use super::course::HORIZON;
+use super::scrubbed::Scrubbed;
+use super::{Command, Experiment, Recorded};
+use crate::num::short;
+
+impl Experiment {
+    /// Pauses, and looks at a time in the past.
+    pub(super) fn look_at(&mut self, time: f64) {
+        self.running = false;
+        if !self.motion.has_begun() || time.is_nan() {
+            return;
+        }
+        let (sign, Recorded { from, to, .. }) = (self.motion.sign(), self.recorded());
+        if sign * time >= sign * to {
+            self.scrubbed = None;
+            return;
+        }
+        if sign * time < sign * from {
+            let side = if sign < 0.0 { "after" } else { "before" };
+            self.tell(format!("nothing {side} t = {} is known any more", short(from)));
+        }
+        let time = if sign * time < sign * from { from } else { time };
+        let (horizon, start) = (HORIZON * self.setup.spacing, self.schedule_start());
+        let Some(known) = self.motion.known_at(time, start) else { return };
+        let viewer = match self.scrubbed.take() {
+            Some(scrubbed) => Ok(scrubbed.motion),
+            None => self.motion.twin(&self.setup.parameters),
+        };
+        let mut motion = match viewer {
+            Ok(motion) => motion,
+            Err(why) => return self.tell(why.to_string()),
+        };
+        if motion.look_at(time, &known, horizon) {
+            motion.look_at_terms();
+            self.scrubbed = Some(Box::new(Scrubbed { motion }));
+        } else {
+            self.tell(format!("t = {} cannot be looked at again", short(time)));
+        }
+    }
+
+    /// Does what a command means while the past is looked at. Returns whether that was all: otherwise the motion has been
+    /// taken back to the time looked at, or is about to begin again.
+    pub(super) fn scrubs(&mut self, command: &Command) -> bool {
+        let Some(scrubbed) = &self.scrubbed else { return false };
+        let (time, sign) = (scrubbed.motion.time(), self.motion.sign());
+        match command {
+            Command::LookAt(_) | Command::Speed(_) | Command::Follow(_) => false,
+            Command::Pause => true,
+            Command::Step(count) => {
+                self.look_at(time + sign * f64::from(*count) * self.frame());
+                true
+            }
+            Command::StepBack(count) => {
+                let earlier = time - sign * f64::from(*count) * self.frame();
+                let from = self.recorded().from;
+                self.look_at(if sign * earlier < sign * from { from } else { earlier });
+                true
+            }
+            Command::Reset
+            | Command::FullReset
+            | Command::Start(_)
+            | Command::Initial { .. }
+            | Command::TakeUp(_) => {
+                self.scrubbed = None;
+                false
+            }
+            _ => {
+                self.scrubbed = None;
+                self.take_back_to(sign * time);
+                false
+            }
+        }
+    }
+}
