@@ -102,10 +102,8 @@ pub(super) fn degree(pool: &Pool, e: Expr, symbols: &[Symbol]) -> (u32, bool) {
                     _ => (2, false),
                 })
                 .fold((0, true), |(n, all), (k, is)| (n + k, all && is)),
-            node => match node.parts().iter().any(|p| of(p).0 > 0) {
-                true => (2, false),
-                false => (0, true),
-            },
+            node if node.parts().iter().any(|p| of(p).0 > 0) => (2, false),
+            _ => (0, true),
         };
         known.insert(part, degree);
     }

@@ -50,9 +50,10 @@ pub fn relations(
         .into_iter()
         .map(|(s, n)| (s, equations.pool.number(n)))
         .collect();
-    let positions: Vec<Symbol> = match model.is_poisson() {
-        true => Vec::new(),
-        false => equations.coordinates.iter().map(|c| c.position).collect(),
+    let positions: Vec<Symbol> = if model.is_poisson() {
+        Vec::new()
+    } else {
+        equations.coordinates.iter().map(|c| c.position).collect()
     };
     let n = functions.len();
     let mut brackets: Vec<Vec<Option<Expr>>> = vec![vec![None; n]; n];
