@@ -67,6 +67,8 @@ pub struct Propagator {
     /// The number of changes of the enforced constraints among redundant ones.
     holdings: u64,
     ended: bool,
+    /// The last impulse, and the event that caused it.
+    impulse: Option<(usize, Option<usize>)>,
     steps: u64,
 }
 
@@ -105,6 +107,7 @@ impl Propagator {
             branch: None,
             holdings: 0,
             ended: false,
+            impulse: None,
             steps: 0,
         };
         motion.take_system();
@@ -428,7 +431,7 @@ impl Propagator {
     }
 
     fn to_native(&self, state: &State) -> Result<State, MotionError> {
-        if self.near.values.is_empty() {
+        if self.near.values.is_empty() || self.system.tangents() > 0 {
             self.system.convert(state, self.system.form(), &self.parameters)
         } else {
             self.system.convert_near(state, &self.near, &self.parameters)
@@ -472,6 +475,11 @@ impl Propagator {
     /// Its step or tolerance.
     pub fn settings(&self) -> Settings {
         self.settings
+    }
+
+    /// The last impulse by its index, and the event that caused it, if it was one.
+    pub fn last_impulse(&self) -> Option<(usize, Option<usize>)> {
+        self.impulse
     }
 
     /// The current state.

@@ -10,10 +10,10 @@
 //! with the bits that single steps give. Never here: a number that is not finite, time, which steps
 //! to take; for these the motion is evaluated operation by operation.
 
+use super::State;
 use super::program::{Op, Program, Register};
 use super::rates::Rates;
 use super::value::value_of;
-use super::State;
 use crate::num::accumulate;
 
 /// The number of registers: an index of eight bits needs no check.
@@ -23,16 +23,44 @@ const REGISTERS: usize = 256;
 #[derive(Clone, Copy, Debug)]
 enum Instruction {
     /// `constant + Σ coefficient · register`.
-    Linear { constant: f64, first: u32, count: u32, to: u8 },
-    Multiply { a: u8, b: u8, to: u8 },
-    Divide { a: u8, b: u8, to: u8 },
-    Root { a: u8, to: u8 },
+    Linear {
+        constant: f64,
+        first: u32,
+        count: u32,
+        to: u8,
+    },
+    Multiply {
+        a: u8,
+        b: u8,
+        to: u8,
+    },
+    Divide {
+        a: u8,
+        b: u8,
+        to: u8,
+    },
+    Root {
+        a: u8,
+        to: u8,
+    },
     /// Any other operation of a half, with its companion in the next register.
-    Other { half: bool, operation: Register, to: u8 },
+    Other {
+        half: bool,
+        operation: Register,
+        to: u8,
+    },
     /// Adds `factor · rate` to a number of the state.
-    Move { factor: u8, rate: u8, number: u8 },
+    Move {
+        factor: u8,
+        rate: u8,
+        number: u8,
+    },
     /// Adds two multiples of a rate, one after the other.
-    MoveTwice { factors: [u8; 2], rate: u8, number: u8 },
+    MoveTwice {
+        factors: [u8; 2],
+        rate: u8,
+        number: u8,
+    },
 }
 
 /// The register of every operation of one half.
