@@ -214,7 +214,7 @@ type StepByHand = fn(&mut [f64; 4], f64);
 const FIXED_STEPS: &[(&str, f64, StepByHand)] = &[
     ("leapfrog", 0.01, |x, h| leapfrog(x, h)),
     ("yoshida4", 0.02, |x, h| {
-        let outer = 1.0 / (2.0 - 2.0_f64.cbrt());
+        let outer = 1.351_207_191_959_657_8;
         for w in [outer, 1.0 - 2.0 * outer, outer] {
             leapfrog(x, w * h);
         }

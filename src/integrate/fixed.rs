@@ -123,7 +123,7 @@ impl<S: Scheme> FixedStep<S> {
     /// Checks occasionally whether the step is stable at the current state, until it is not.
     fn check_stability(&mut self) {
         let n = self.taken;
-        let due = n % STEPS_PER_CHECK == 0 || (n < STEPS_PER_CHECK && n.is_power_of_two());
+        let due = n.is_multiple_of(STEPS_PER_CHECK) || (n < STEPS_PER_CHECK && n.is_power_of_two());
         self.taken += 1;
         if !due || self.unstable.is_some() || self.scheme.modes().is_none() {
             return;
@@ -142,7 +142,7 @@ impl<S: Scheme> FixedStep<S> {
     fn batch(&mut self, time: f64, most: u64) -> u64 {
         let way = (time - self.origin.high) / self.step.high - self.count - 2.0;
         let unchecked = STEPS_PER_CHECK - self.taken % STEPS_PER_CHECK;
-        let begins = self.taken % STEPS_PER_CHECK == 0 || self.taken < STEPS_PER_CHECK;
+        let begins = self.taken.is_multiple_of(STEPS_PER_CHECK) || self.taken < STEPS_PER_CHECK;
         // a quotient that is negative or not a number counts as zero
         let count = (way as u64).min(most).min(unchecked);
         let last = self.origin + self.step * (self.count + count as f64);

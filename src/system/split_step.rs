@@ -293,7 +293,9 @@ fn needed(program: &Program) -> Option<Vec<bool>> {
             Op::Constant(_) | Op::Parameter(_) | Op::Input(_) => {}
             Op::Linear { first, count, .. } => {
                 let terms = &program.terms[first as usize..(first + count) as usize];
-                terms.iter().for_each(|term| need(&[term.register]));
+                for term in terms {
+                    need(&[term.register]);
+                }
             }
             Op::Scale(a, b) | Op::Multiply(a, b) | Op::Divide(a, b) | Op::ParametricPower(a, b) => {
                 need(&[a, b]);

@@ -216,7 +216,7 @@ fn linear_kicks_have_the_exponents_of_their_matrix() {
     let case = file(text);
     let found = lyapunov(&case.space, taylor(), &case.start, 60.0, &mut |_| {}).unwrap();
     // the eigenvalues of [[1, 1], [1, 2]] are (3 ± √5)/2
-    let exact = ((3.0 + 5.0_f64.sqrt()) / 2.0).ln();
+    let exact = f64::midpoint(3.0, 5.0_f64.sqrt()).ln();
     assert_eq!(found.exponents.len(), 2);
     for (found, wanted) in found.exponents.iter().zip([exact, -exact]) {
         assert!((found - wanted).abs() < 0.01, "{found} is not {wanted}");
