@@ -4,6 +4,8 @@
 //!   printed too and gives the steps per second.
 //! - `rates`: one evaluation of the equations of motion, compiled from the file's expressions and
 //!   hand-written. Their quotient is printed; it is measured in the same run.
+//! - `fixed step`: one step of a method of fixed step, many in a row that nobody looks at, and the same
+//!   method as a loop written by hand without compensated sums. Their quotient is printed likewise.
 
 #![allow(clippy::print_stdout, reason = "a benchmark reports on the terminal")]
 
@@ -205,12 +207,111 @@ fn quotient(rates: &mut Rates, by_hand: ByHand, numbers: &[f64]) -> f64 {
     quotients[quotients.len() / 2]
 }
 
+/// A step of a method, written by hand.
+type StepByHand = fn(&mut [f64; 4], f64);
+
+/// The methods of fixed step that are measured, on Hénon and Heiles.
+const FIXED_STEPS: &[(&str, f64, StepByHand)] = &[
+    ("leapfrog", 0.01, |x, h| leapfrog(x, h)),
+    ("yoshida4", 0.02, |x, h| {
+        let outer = 1.351_207_191_959_657_8;
+        for w in [outer, 1.0 - 2.0 * outer, outer] {
+            leapfrog(x, w * h);
+        }
+    }),
+    ("gauss4", 0.05, |x, h| gauss(x, h)),
+];
+
+fn force(x: &[f64; 4]) -> [f64; 2] {
+    [-x[0] - 2.0 * x[0] * x[1], -x[1] - x[0] * x[0] + x[1] * x[1]]
+}
+
+fn leapfrog(x: &mut [f64; 4], h: f64) {
+    for part in 0..2 {
+        let f = force(x);
+        (x[2], x[3]) = (x[2] + 0.5 * h * f[0], x[3] + 0.5 * h * f[1]);
+        if part == 0 {
+            (x[0], x[1]) = (x[0] + h * x[2], x[1] + h * x[3]);
+        }
+    }
+}
+
+/// Gauss's method of order 4 by fixed-point iteration from the slope at the beginning.
+fn gauss(x: &mut [f64; 4], h: f64) {
+    let r = 3.0_f64.sqrt() / 6.0;
+    let a = [[0.25, 0.25 - r], [0.25 + r, 0.25]];
+    let slope = |x: &[f64; 4]| {
+        let f = force(x);
+        [x[2], x[3], f[0], f[1]]
+    };
+    let mut k = [slope(x); 2];
+    loop {
+        let mut most = 0.0_f64;
+        let old = k;
+        for i in 0..2 {
+            let mut y = *x;
+            for (n, y) in y.iter_mut().enumerate() {
+                *y += h * (a[i][0] * old[0][n] + a[i][1] * old[1][n]);
+            }
+            k[i] = slope(&y);
+            for n in 0..4 {
+                most = most.max((k[i][n] - old[i][n]).abs());
+            }
+        }
+        if most <= 1e-16 {
+            break;
+        }
+    }
+    for (n, x) in x.iter_mut().enumerate() {
+        *x += h * 0.5 * (k[0][n] + k[1][n]);
+    }
+}
+
+fn fixed_step(criterion: &mut Criterion) {
+    const STEPS: u64 = 4096;
+    let motion = MOTIONS.iter().find(|m| m.name == "Hénon–Heiles").expect("is there");
+    let (system, state) = open(motion);
+    let mut group = criterion.benchmark_group("fixed step");
+    group.throughput(criterion::Throughput::Elements(STEPS));
+    for &(name, step, by_hand) in FIXED_STEPS {
+        let method = METHODS.iter().find(|m| m.name == name).expect("a method");
+        let settings = Settings { step: Some(step), tolerance: None };
+        let mut stepper = (method.make)(&system, &settings).expect("fits");
+        stepper.start(&state, &[]).expect("starts");
+        let many = |stepper: &mut dyn Stepper| {
+            stepper.steps(1e9, 1e9, &mut STEPS.clone()).expect("goes on");
+        };
+        let mut x = [state.values[0], state.values[1], state.values[2], state.values[3]];
+        let mut quotients: Vec<f64> = (0..41)
+            .map(|_| {
+                let begin = Instant::now();
+                many(stepper.as_mut());
+                let own = begin.elapsed();
+                let begin = Instant::now();
+                for _ in 0..STEPS {
+                    by_hand(black_box(&mut x), black_box(step));
+                }
+                own.as_secs_f64() / begin.elapsed().as_secs_f64()
+            })
+            .collect();
+        quotients.sort_by(f64::total_cmp);
+        println!("{name}: stepper / by hand = {:.2}", quotients[quotients.len() / 2]);
+        group.bench_function(format!("{name}, stepper"), |b| b.iter(|| many(stepper.as_mut())));
+        group.bench_function(format!("{name}, step by step"), |b| {
+            b.iter(|| (0..STEPS).for_each(|_| stepper.step(1e9).expect("goes on")));
+        });
+        group.bench_function(format!("{name}, by hand"), |b| {
+            b.iter(|| (0..STEPS).for_each(|_| by_hand(black_box(&mut x), black_box(step))));
+        });
+    }
+}
+
 criterion_group! {
     name = benches;
     config = Criterion::default()
         .sample_size(20)
         .warm_up_time(Duration::from_millis(200))
         .measurement_time(Duration::from_millis(600));
-    targets = unit_of_time, rates
+    targets = unit_of_time, rates, fixed_step
 }
 criterion_main!(benches);

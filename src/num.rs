@@ -5,6 +5,7 @@
 //! expression. A [`PrimeField`] has the residues in which ranks are computed. [`math`] has the elementary functions, with the same bits on every machine. Never
 //! here: expressions, units, files.
 
+mod compensated;
 mod convolution;
 mod double_double;
 mod extended_range;
@@ -16,6 +17,7 @@ mod number;
 mod prime_field;
 mod real;
 
+pub use compensated::accumulate;
 pub use convolution::Row;
 pub use double_double::DoubleDouble;
 pub use extended_range::ExtendedRange;

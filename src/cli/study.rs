@@ -62,11 +62,27 @@ impl Study {
         arguments: &StudyArguments,
         interrupt: &Interrupt,
     ) -> Result<Study, CommandError> {
+        Study::read(arguments, interrupt, false)
+    }
+
+    /// The same of a motion on which impulses may act.
+    pub(super) fn open_with_impulses(
+        arguments: &StudyArguments,
+        interrupt: &Interrupt,
+    ) -> Result<Study, CommandError> {
+        Study::read(arguments, interrupt, true)
+    }
+
+    fn read(
+        arguments: &StudyArguments,
+        interrupt: &Interrupt,
+        impulses: bool,
+    ) -> Result<Study, CommandError> {
         let reading = arguments.motion.read()?;
         let laid = arguments.motion.compile(reading, &[], "", interrupt)?;
         let Laid { model, equations, system, start, method, settings } = laid;
-        let space =
-            PhaseSpace::of(&model, &equations, &system, &start.parameters).map_err(failed)?;
+        let of = if impulses { PhaseSpace::through_impulses } else { PhaseSpace::of };
+        let space = of(&model, &equations, &system, &start.parameters).map_err(failed)?;
         let start = start
             .state(&system)
             .and_then(|state| space.state(&state))

@@ -2,13 +2,19 @@
 //!
 //! In: a phase space, a method, a state with vectors. Out: the state and the vectors later on.
 //! Never here: which vectors to carry, what becomes of them.
+//!
+//! Where impulses act, the motion is that of a [`Propagator`], and each impulse carries the vectors
+//! on by its [`Saltation`].
 
 use nalgebra::DMatrix;
 
 use super::error::DynamicsError;
 use super::phase_space::PhaseSpace;
-use crate::integrate::{Method, Settings, Stepper, Stepping};
-use crate::system::{MotionError, State, System};
+use crate::integrate::{Method, OccurrenceKind, Propagator, Reached, Settings, Stepper, Stepping};
+use crate::system::{MotionError, MotionErrorKind, Saltation, State, System};
+
+/// A motion changes within as many steps as these, also where they are short.
+const STEPS: f64 = 100.0;
 
 /// A motion with tangent vectors, in steps of a method. Under a method of fixed step the vectors
 /// are those of the method's own map.
@@ -19,14 +25,33 @@ pub struct Carrier {
     method: &'static Method,
     settings: Settings,
     stepper: Box<dyn Stepper>,
+    /// The motion where impulses act, in place of the stepper.
+    jumping: Option<Jumping>,
     steps: u64,
+}
+
+/// A motion with impulses.
+struct Jumping {
+    motion: Propagator,
+    saltation: Saltation,
+    begun: bool,
+    /// The times at which the last step began and ended.
+    span: (f64, f64),
+    /// The time of the last impulse, and whether an event caused it.
+    last: Option<(f64, bool)>,
+    /// The time from which the motion is smooth.
+    since: f64,
+    /// The size of the last step.
+    step: f64,
+    /// The product of the determinants of all impulses.
+    determinant: f64,
 }
 
 impl Carrier {
     /// A motion with `count` vectors, which must then be started.
     ///
     /// # Errors
-    /// Returns an error if the method does not suit the system.
+    /// Returns an error if the method does not suit the system, or if an impulse has no derivative.
     pub fn new(
         space: &PhaseSpace,
         method: &'static Method,
@@ -35,7 +60,22 @@ impl Carrier {
     ) -> Result<Carrier, DynamicsError> {
         let system = space.system().with_tangents(count);
         let stepper = (method.make)(&system, &settings)?;
-        Ok(Carrier { space: space.clone(), system, method, settings, stepper, steps: 0 })
+        let mut jumping = None;
+        if space.has_jumps() {
+            let parameters = space.parameters();
+            let unsuited = |why: &str| DynamicsError::Unsuited(why.to_owned());
+            jumping = Some(Jumping {
+                motion: Propagator::new(&system, method, settings, parameters)?,
+                saltation: Saltation::new(&system, parameters).map_err(unsuited)?,
+                begun: false,
+                span: (0.0, 0.0),
+                last: None,
+                since: 0.0,
+                step: 0.0,
+                determinant: 1.0,
+            });
+        }
+        Ok(Carrier { space: space.clone(), system, method, settings, stepper, jumping, steps: 0 })
     }
 
     /// Starts at a state of the space, with the columns of `vectors`.
@@ -56,7 +96,22 @@ impl Carrier {
             self.settings.step = Some(self.stepper.step_size().abs());
             self.stepper = (self.method.make)(&self.system, &self.settings)?;
         }
-        Ok(self.stepper.start(&full, self.space.parameters())?)
+        let Some(jumping) = &mut self.jumping else {
+            return Ok(self.stepper.start(&full, self.space.parameters())?);
+        };
+        if jumping.begun && full.time == jumping.motion.computed().time {
+            // the events of before stay known
+            return Ok(jumping.motion.go_on(&full, self.space.parameters())?);
+        }
+        if let Some(step) = self.settings.step {
+            let settings = Settings { step: Some(step), ..self.settings };
+            jumping.motion.change_method(self.method, settings)?;
+        }
+        jumping.motion.begin(&full, self.space.parameters())?;
+        jumping.begun = true;
+        jumping.span = (full.time, full.time);
+        jumping.since = full.time;
+        Ok(())
     }
 
     /// Takes one step towards `limit`.
@@ -70,7 +125,34 @@ impl Carrier {
             return Err(self.system.fault(kind, state.time, &state.values));
         }
         self.steps += 1;
-        self.stepper.step(limit)
+        let Some(jumping) = &mut self.jumping else { return self.stepper.step(limit) };
+        let begin = jumping.span.1;
+        match jumping.motion.reach(limit, limit, &mut 1)? {
+            Reached::There | Reached::Underway => jumping.step = jumping.motion.step_size(),
+            Reached::Happened(found) => match found.kind {
+                OccurrenceKind::Mark | OccurrenceKind::Crossing(_) => {}
+                OccurrenceKind::Impulse { .. } => {
+                    jumping.jump(&self.space, &self.system, &found.name)?;
+                }
+                OccurrenceKind::Stop | OccurrenceKind::Release(_) => {
+                    let state = jumping.motion.computed();
+                    let kind = MotionErrorKind::Ended(found.name);
+                    return Err(self.system.fault(kind, found.time, &state.values));
+                }
+            },
+            Reached::Ended => {
+                let state = jumping.motion.computed();
+                let kind = MotionErrorKind::Ended("an event".to_owned());
+                return Err(self.system.fault(kind, state.time, &state.values));
+            }
+        }
+        jumping.span = (begin, jumping.motion.undisturbed().1);
+        Ok(())
+    }
+
+    /// The product of the determinants of the derivatives of all impulses since the start.
+    pub fn jump_determinant(&self) -> f64 {
+        self.jumping.as_ref().map_or(1.0, |jumping| jumping.determinant)
     }
 
     /// The settings in use: the step is known after the start.
@@ -90,12 +172,12 @@ impl Carrier {
 
     /// The time at the end of the last step.
     pub fn time(&self) -> f64 {
-        self.stepper.time()
+        self.jumping.as_ref().map_or_else(|| self.stepper.time(), |jumping| jumping.span.1)
     }
 
     /// The times at which the last step began and ended.
     pub fn interval(&self) -> (f64, f64) {
-        self.stepper.interval()
+        self.jumping.as_ref().map_or_else(|| self.stepper.interval(), |jumping| jumping.span)
     }
 
     /// The state and the vectors, as columns, at a time within the last step.
@@ -103,14 +185,62 @@ impl Carrier {
     /// # Errors
     /// Returns an error if they cannot be evaluated.
     pub fn at(&mut self, time: f64) -> Result<(State, DMatrix<f64>), MotionError> {
-        let mut state = self.stepper.state().clone();
-        if time != state.time {
-            self.stepper.at(time, &mut state)?;
-        }
+        let state = match &mut self.jumping {
+            None => {
+                let mut state = self.stepper.state().clone();
+                if time != state.time {
+                    self.stepper.at(time, &mut state)?;
+                }
+                state
+            }
+            Some(jumping) => {
+                let mut state = jumping.motion.computed().clone();
+                if time != state.time {
+                    jumping.motion.inside(time, &mut state)?;
+                }
+                state
+            }
+        };
         let full = self.system.convert(&state, self.space.form(), self.space.parameters())?;
-        let (n, count) = (self.space.dimension(), self.system.tangents());
-        let first = self.system.tangent_place(0);
-        let vectors = DMatrix::from_column_slice(n, count, &full.values[first..first + n * count]);
+        let vectors = vectors_of(&self.system, &full);
         Ok((self.space.system().extended(&full, &self.system), vectors))
+    }
+}
+
+/// The tangent vectors of a state, as columns.
+fn vectors_of(system: &System, state: &State) -> DMatrix<f64> {
+    let (n, count) = (system.moving(), system.tangents());
+    let first = system.tangent_place(0);
+    DMatrix::from_column_slice(n, count, &state.values[first..first + n * count])
+}
+
+impl Jumping {
+    /// Carries the vectors through the impulse that has just acted on the state.
+    fn jump(&mut self, space: &PhaseSpace, system: &System, name: &str) -> Result<(), MotionError> {
+        let Some(impulse) = self.motion.last_impulse() else { return Ok(()) };
+        let (before, after) = (self.motion.before().clone(), self.motion.state().clone());
+        let caused = impulse.1.is_some();
+        if self.last.is_some_and(|(time, by_event)| time == after.time && (by_event || caused)) {
+            let kind = MotionErrorKind::Coincides(name.to_owned());
+            return Err(system.fault(kind, after.time, &after.values));
+        }
+        self.last = Some((after.time, caused));
+        let plain = space.system();
+        let [own_before, own_after] = [&before, &after].map(|s| plain.extended(s, system));
+        // a time in which the motion changes
+        let scale = (after.time - self.since).min(STEPS * self.step.abs());
+        self.since = after.time;
+        let rows = self.saltation.matrix(impulse, (&own_before, &own_after), scale)?;
+        let n = space.dimension();
+        let matrix = DMatrix::from_row_slice(n, n, &rows);
+        self.determinant *= matrix.determinant();
+        let before = system.convert(&before, space.form(), space.parameters())?;
+        let vectors = matrix * vectors_of(system, &before);
+        let mut full = system.convert(&after, space.form(), space.parameters())?;
+        let first = system.tangent_place(0);
+        for (i, &x) in vectors.iter().enumerate() {
+            full.set(first + i, x.into());
+        }
+        self.motion.go_on(&full, space.parameters())
     }
 }

@@ -31,7 +31,8 @@ pub struct FlowMap {
     pub matrix: DMatrix<f64>,
     /// Its determinant.
     pub determinant: f64,
-    /// exp ∫ div f dt along the motion: 1 where nothing but H acts.
+    /// exp ∫ div f dt along the motion: 1 where nothing but H acts. Over impulses, times the
+    /// determinants of their own derivatives.
     pub determinant_expected: f64,
     /// The largest entry of |M𝕁Mᵀ − 𝕁|; `None` if the variables are not canonical.
     pub symplectic_residual: Option<f64>,
@@ -55,6 +56,11 @@ pub fn flow_map(
     until: f64,
     look: &mut dyn FnMut(f64),
 ) -> Result<FlowMap, DynamicsError> {
+    if space.has_jumps() && until < start.time {
+        return Err(DynamicsError::Unsuited(
+            "impulses act on the motion, which is then followed forwards only".to_owned(),
+        ));
+    }
     let n = space.dimension();
     let mut carrier = Carrier::new(space, method, settings, n)?;
     carrier.start(start, &DMatrix::identity(n, n))?;
@@ -86,7 +92,7 @@ pub fn flow_map(
     Ok(FlowMap {
         time,
         determinant: matrix.determinant(),
-        determinant_expected: math::exp(logarithm),
+        determinant_expected: math::exp(logarithm) * carrier.jump_determinant(),
         symplectic_residual: symplectic.map(|(residual, _)| residual),
         symplectic_rounding: symplectic.map(|(_, rounding)| rounding),
         state,

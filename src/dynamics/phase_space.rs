@@ -21,6 +21,7 @@ pub struct PhaseSpace {
     conservative: bool,
     /// The period of the drive, of a law that depends on time.
     drive: Option<f64>,
+    jumps: bool,
     periods: Vec<Option<f64>>,
     cyclic: Vec<usize>,
 }
@@ -29,14 +30,32 @@ impl PhaseSpace {
     /// The phase space of a compiled system at these parameters.
     ///
     /// # Errors
-    /// Returns an error if the motion has no derivative everywhere, or is held to constraints.
+    /// Returns an error if the motion has no derivative everywhere, is held to constraints, or
+    /// impulses act on it.
     pub fn of(
         model: &Model,
         equations: &Equations,
         system: &System,
         parameters: &[f64],
     ) -> Result<PhaseSpace, DynamicsError> {
+        refuse_acts(system)?;
+        PhaseSpace::through_impulses(model, equations, system, parameters)
+    }
+
+    /// The phase space of a system on whose motion impulses may act, at their times or caused by
+    /// events. Between them it may be Hamilton's; over them it counts as neither Hamilton's nor
+    /// conservative.
+    ///
+    /// # Errors
+    /// Returns an error if the motion has no derivative everywhere else, or is held to constraints.
+    pub fn through_impulses(
+        model: &Model,
+        equations: &Equations,
+        system: &System,
+        parameters: &[f64],
+    ) -> Result<PhaseSpace, DynamicsError> {
         refuse(system)?;
+        let jumps = refuse_acts(system).is_err();
         let n = system.degrees();
         let channels = system.channels();
         let (names, degrees): (Vec<String>, _) = if system.form() == Form::Variables {
@@ -61,10 +80,11 @@ impl PhaseSpace {
             system: system.without_tangents(),
             parameters: parameters.to_vec(),
             names,
-            hamiltonian,
-            autonomous,
+            hamiltonian: hamiltonian && !jumps,
+            autonomous: autonomous && !acts_by_the_clock(system),
+            jumps,
             drive: (!autonomous).then(|| drive_period(model, equations, parameters)).flatten(),
-            conservative: autonomous && equations.energy_rate == Expr::ZERO,
+            conservative: autonomous && !jumps && equations.energy_rate == Expr::ZERO,
             periods,
             cyclic: equations.cyclic.clone(),
         })
@@ -120,6 +140,11 @@ impl PhaseSpace {
     /// Whether the energy is conserved at all times.
     pub fn is_conservative(&self) -> bool {
         self.conservative
+    }
+
+    /// Whether impulses may act on the motion, or events end it.
+    pub fn has_jumps(&self) -> bool {
+        self.jumps
     }
 
     /// The cyclic coordinates, by index.
@@ -180,7 +205,6 @@ impl PhaseSpace {
 /// Refuses what has no derivative at some places, where nothing here would notice.
 fn refuse(system: &System) -> Result<(), DynamicsError> {
     let unsuited = |why: &str| Err(DynamicsError::Unsuited(why.to_owned()));
-    let discontinuities = system.discontinuities();
     if system.constraints() > 0 {
         return unsuited(
             "the motion is held to constraints, and derivatives of such motions are not computed: \
@@ -193,15 +217,6 @@ fn refuse(system: &System) -> Result<(), DynamicsError> {
              derivatives of the motion are not computed",
         );
     }
-    if discontinuities.impulses.iter().any(|impulse| impulse.scheduled) {
-        return unsuited(
-            "impulses act on the way, across which derivatives of the motion are not computed",
-        );
-    }
-    let passive = |action: Action| matches!(action, Action::Mark | Action::Section(_));
-    if !discontinuities.events.iter().all(|event| passive(event.action)) {
-        return unsuited("events act on the motion, across which its derivatives are not computed");
-    }
     if !system.has_tangents_in(Form::Momentum) && system.form() == Form::Velocity {
         return unsuited(
             "its velocities follow from its momenta by iteration only, and derivatives of such \
@@ -209,6 +224,26 @@ fn refuse(system: &System) -> Result<(), DynamicsError> {
         );
     }
     Ok(())
+}
+
+/// Refuses impulses that act on the motion, and events that do.
+fn refuse_acts(system: &System) -> Result<(), DynamicsError> {
+    let unsuited = |why: &str| Err(DynamicsError::Unsuited(why.to_owned()));
+    if acts_by_the_clock(system) {
+        return unsuited(
+            "impulses act on the way, across which derivatives of the motion are not computed",
+        );
+    }
+    let passive = |action: Action| matches!(action, Action::Mark | Action::Section(_));
+    if !system.discontinuities().events.iter().all(|event| passive(event.action)) {
+        return unsuited("events act on the motion, across which its derivatives are not computed");
+    }
+    Ok(())
+}
+
+/// Whether impulses act at given times.
+fn acts_by_the_clock(system: &System) -> bool {
+    system.discontinuities().impulses.iter().any(|impulse| impulse.scheduled)
 }
 
 /// The rates of change f(z) of the variables z of a phase space, and their derivatives ∂f/∂z.

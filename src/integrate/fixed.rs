@@ -1,11 +1,12 @@
 //! The common part of all methods of fixed step: counting of time, direction, dense output, default
 //! step and stability. A method itself is a [`Scheme`].
 
+use super::clock::spacing;
 use super::initial_step;
 use super::method::{MethodError, Settings};
 use super::stability::{self, Modes, Unstable};
 use super::stepper::Stepper;
-use crate::num::{DoubleDouble, math};
+use crate::num::{DoubleDouble, accumulate};
 use crate::system::{Form, MotionError, MotionErrorKind, State, System};
 
 /// The default step, as a part of the motion's [time scale](super::initial_step::of).
@@ -15,7 +16,10 @@ const PART_OF_PACE: f64 = 1.0 / 10.0;
 const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
 
 /// Stability is checked after 1, 2, 4, … steps, and then at intervals of this many steps.
-const STEPS_PER_CHECK: f64 = 256.0;
+const STEPS_PER_CHECK: u64 = 256;
+
+/// The steps in a row that must change the time by more than this many of its last digits.
+const DIGITS_PER_STEP: f64 = 4.0;
 
 /// One step of a method.
 pub(super) trait Scheme: Clone + Send {
@@ -28,6 +32,12 @@ pub(super) trait Scheme: Clone + Send {
     /// Moves the numbers of `state` by one step. The time of `state` is that of the beginning of
     /// the step and is not changed.
     fn advance(&mut self, step: f64, state: &mut State) -> Result<(), MotionError>;
+
+    /// Moves the numbers of `state` by as many steps, with the same result as one by one. Returns
+    /// false, with the state unchanged, if they must be taken one by one.
+    fn advance_many(&mut self, _step: f64, _count: u64, _state: &mut State) -> bool {
+        false
+    }
 
     /// Begins the motion at a state in the system's native form, which may contain more information
     /// than the scheme's form.
@@ -60,7 +70,9 @@ pub(super) struct FixedStep<S> {
     origin: DoubleDouble,
     count: f64,
     /// The number of steps since the start, and an instability found on the way.
-    taken: f64,
+    taken: u64,
+    /// Whether steps may be taken many at once, until it is seen that they may not.
+    in_batches: bool,
     unstable: Option<Unstable>,
     before: State,
     state: State,
@@ -90,7 +102,8 @@ impl<S: Scheme> FixedStep<S> {
             step: DoubleDouble::ZERO,
             origin: DoubleDouble::ZERO,
             count: 0.0,
-            taken: 0.0,
+            taken: 0,
+            in_batches: true,
             unstable: None,
             before: state.clone(),
             next: state.clone(),
@@ -104,17 +117,14 @@ impl<S: Scheme> FixedStep<S> {
         self.origin = self.state.exact_time();
         self.count = 0.0;
         self.scheme.begin(&self.parameters);
+        self.in_batches = true;
     }
 
     /// Checks occasionally whether the step is stable at the current state, until it is not.
     fn check_stability(&mut self) {
         let n = self.taken;
-        let due = if n < STEPS_PER_CHECK {
-            n == 0.0 || math::log2(n).fract() == 0.0
-        } else {
-            n % STEPS_PER_CHECK == 0.0
-        };
-        self.taken += 1.0;
+        let due = n.is_multiple_of(STEPS_PER_CHECK) || (n < STEPS_PER_CHECK && n.is_power_of_two());
+        self.taken += 1;
         if !due || self.unstable.is_some() || self.scheme.modes().is_none() {
             return;
         }
@@ -124,6 +134,33 @@ impl<S: Scheme> FixedStep<S> {
         let z = stability::eigenvalues(&self.state.values, moving, step, rates);
         let limit = self.scheme.modes().and_then(|modes| modes.limit(&z, step));
         self.unstable = limit.map(|limit| Unstable { time, step: step.abs(), limit });
+    }
+
+    /// Takes many steps at once: all before the last one to `time`, at most `most`, up to the next
+    /// check of stability. Returns their number, which is zero if the next step must be taken by
+    /// itself.
+    fn batch(&mut self, time: f64, most: u64) -> u64 {
+        let way = (time - self.origin.high) / self.step.high - self.count - 2.0;
+        let unchecked = STEPS_PER_CHECK - self.taken % STEPS_PER_CHECK;
+        let begins = self.taken.is_multiple_of(STEPS_PER_CHECK) || self.taken < STEPS_PER_CHECK;
+        // a quotient that is negative or not a number counts as zero
+        let count = (way as u64).min(most).min(unchecked);
+        let last = self.origin + self.step * (self.count + count as f64);
+        let digits = DIGITS_PER_STEP * spacing(last.high.abs().max(self.state.time.abs()));
+        if begins || count < 2 || self.step.high.abs() < digits {
+            return 0;
+        }
+        self.next.copy_from(&self.state);
+        if !self.scheme.advance_many(self.step.high, count, &mut self.next) {
+            self.in_batches = false;
+            return 0;
+        }
+        (self.next.time, self.next.time_carry) = (last.high, last.low);
+        std::mem::swap(&mut self.state, &mut self.next);
+        self.before.copy_from(&self.state);
+        self.count += count as f64;
+        self.taken += count;
+        count
     }
 
     /// Returns an error on cancellation, or if there are more steps to the limit than can be
@@ -157,7 +194,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         };
         self.count_from_here(step);
         self.scheme.begin_near(state);
-        self.taken = 0.0;
+        self.taken = 0;
         Ok(())
     }
 
@@ -182,6 +219,19 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         self.count += 1.0;
         std::mem::swap(&mut self.before, &mut self.state);
         std::mem::swap(&mut self.state, &mut self.next);
+        Ok(())
+    }
+
+    fn steps(&mut self, time: f64, limit: f64, budget: &mut u64) -> Result<(), MotionError> {
+        let forwards = time > self.state.time;
+        while *budget > 0 && self.state.time != time && (self.state.time < time) == forwards {
+            // the last step of all is taken by itself
+            if self.in_batches && (self.step.high > 0.0) == forwards {
+                *budget -= self.batch(time, *budget - 1);
+            }
+            *budget -= 1;
+            self.step(limit)?;
+        }
         Ok(())
     }
 
@@ -228,10 +278,7 @@ pub(super) fn add(state: &mut State, factor: f64, rates: &[f64]) {
     let numbers = state.values.iter_mut().zip(&mut state.carry);
     for ((value, carry), &rate) in numbers.zip(rates) {
         if rate != 0.0 {
-            let sum = DoubleDouble::sum(*value, factor * rate);
-            let low = sum.low + *carry;
-            *value = sum.high + low;
-            *carry = low - (*value - sum.high);
+            accumulate(value, carry, factor * rate);
         }
     }
 }

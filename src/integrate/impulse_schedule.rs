@@ -22,6 +22,12 @@ impl ImpulseSchedule {
         self.schedule = schedule;
     }
 
+    /// Whether there are no impulses at any time.
+    pub(super) fn is_empty(&self) -> bool {
+        let timed = |schedule: &Schedule| schedule.interval.is_some() || !schedule.times.is_empty();
+        !self.schedule.iter().any(timed)
+    }
+
     /// Counts from here, with no impulse applied.
     pub(super) fn begin(&mut self, start: f64) {
         self.start = start;

@@ -67,6 +67,8 @@ pub struct Propagator {
     /// The number of changes of the enforced constraints among redundant ones.
     holdings: u64,
     ended: bool,
+    /// The last impulse, and the event that caused it.
+    impulse: Option<(usize, Option<usize>)>,
     steps: u64,
 }
 
@@ -105,6 +107,7 @@ impl Propagator {
             branch: None,
             holdings: 0,
             ended: false,
+            impulse: None,
             steps: 0,
         };
         motion.take_system();
@@ -322,15 +325,47 @@ impl Propagator {
             if *budget == 0 {
                 return Ok(Reached::Underway);
             }
-            *budget -= 1;
-            if self.stepper.time() <= self.clear
-                && let Err(fault) = self.step(limit)
-            {
+            let outcome = if self.stepper.time() > self.clear {
+                *budget -= 1;
+                Ok(())
+            } else if self.is_undisturbed() {
+                self.several_steps(time, limit, budget)
+            } else {
+                *budget -= 1;
+                self.step(limit)
+            };
+            if let Err(fault) = outcome {
                 self.note_passages(self.clear);
                 return Err(fault);
             }
             self.scan()?;
         }
+    }
+
+    /// Whether nothing can happen between two steps: nothing acts on the motion but its law, and
+    /// nothing is watched.
+    fn is_undisturbed(&self) -> bool {
+        self.method.stepping == Stepping::Fixed
+            && self.whole.constraints() == 0
+            && self.crossings.is_none()
+            && self.branch.is_none()
+            && self.system.attitude_place().is_none()
+            && self.impulse_schedule.is_empty()
+    }
+
+    /// Takes the steps to a time that nobody looks between.
+    fn several_steps(
+        &mut self,
+        time: f64,
+        limit: f64,
+        budget: &mut u64,
+    ) -> Result<(), MotionError> {
+        let most = *budget;
+        let outcome = self.stepper.steps(time, limit, budget);
+        // a step that failed was not taken
+        self.steps += most - *budget - u64::from(outcome.is_err());
+        self.clear = self.stepper.time();
+        outcome
     }
 
     fn step(&mut self, limit: f64) -> Result<(), MotionError> {
@@ -410,7 +445,7 @@ impl Propagator {
     }
 
     fn to_native(&self, state: &State) -> Result<State, MotionError> {
-        if self.near.values.is_empty() {
+        if self.near.values.is_empty() || self.system.tangents() > 0 {
             self.system.convert(state, self.system.form(), &self.parameters)
         } else {
             self.system.convert_near(state, &self.near, &self.parameters)
@@ -454,6 +489,11 @@ impl Propagator {
     /// Its step or tolerance.
     pub fn settings(&self) -> Settings {
         self.settings
+    }
+
+    /// The last impulse by its index, and the event that caused it, if it was one.
+    pub fn last_impulse(&self) -> Option<(usize, Option<usize>)> {
+        self.impulse
     }
 
     /// The current state.

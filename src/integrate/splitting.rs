@@ -8,7 +8,7 @@
 use super::fixed::{FixedStep, Scheme, add};
 use super::method::{Method, MethodError, Settings, StepperResult};
 use super::stability::Modes;
-use crate::system::{Form, MotionError, Rates, State, System};
+use crate::system::{Form, MotionError, Rates, SplitStep, State, System};
 
 /// What it requires of a system.
 pub(super) const NEEDS: &str = "H = T(p) + V(q, t)";
@@ -30,8 +30,9 @@ pub(super) fn make(
         return Err(MethodError { method: method.name, reason: format!("{NEEDS} does not hold") });
     };
     let zeros = vec![0.0; system.state_len()];
-    let scheme =
-        Splitting { drift, kick, weights, velocity: zeros.clone(), force: zeros, known: false };
+    let many = SplitStep::new(&drift, &kick, &weights);
+    let (velocity, force) = (zeros.clone(), zeros);
+    let scheme = Splitting { drift, kick, many, weights, velocity, force, known: false };
     Ok(Box::new(FixedStep::new(method.name, system, settings, scheme)?))
 }
 
@@ -39,6 +40,8 @@ pub(super) fn make(
 struct Splitting {
     drift: Rates,
     kick: Rates,
+    /// Many steps at once, where they can be a list of instructions.
+    many: Option<SplitStep>,
     weights: Vec<f64>,
     velocity: Vec<f64>,
     force: Vec<f64>,
@@ -55,7 +58,16 @@ impl Scheme for Splitting {
     fn begin(&mut self, parameters: &[f64]) {
         self.drift.set_parameters(parameters);
         self.kick.set_parameters(parameters);
+        if let Some(many) = &mut self.many {
+            many.set_parameters(parameters);
+        }
         self.known = false;
+    }
+
+    fn advance_many(&mut self, step: f64, count: u64, state: &mut State) -> bool {
+        let Some(many) = &mut self.many else { return false };
+        self.known = false;
+        many.advance(step, count, state)
     }
 
     fn advance(&mut self, step: f64, state: &mut State) -> Result<(), MotionError> {

@@ -16,6 +16,19 @@ pub trait Stepper: Send {
     /// nothing if the current time has reached the limit.
     fn step(&mut self, limit: f64) -> Result<(), MotionError>;
 
+    /// Takes steps, each as [`Stepper::step`] towards `limit` does, until `time` is reached or passed
+    /// or `budget` of them are taken, which are subtracted from it. Only the last step is available
+    /// afterwards. A method may take steps that nobody looks at faster than others, with the same
+    /// result.
+    fn steps(&mut self, time: f64, limit: f64, budget: &mut u64) -> Result<(), MotionError> {
+        let forwards = time > self.time();
+        while *budget > 0 && self.time() != time && (self.time() < time) == forwards {
+            *budget -= 1;
+            self.step(limit)?;
+        }
+        Ok(())
+    }
+
     /// Continues from a state that differs from the one at the end of the last step by rounding
     /// only, as one projected onto its constraints does. The last step remains available.
     fn replace_state(&mut self, state: &State);

@@ -28,11 +28,11 @@ pub struct Discontinuities {
     /// Impulses, in the order of the file.
     pub impulses: Vec<CompiledImpulse>,
     /// The functions of the events, of (q, native rates, action, work).
-    when: Arc<Program>,
+    pub(super) when: Arc<Program>,
     /// Quantities that show how fast these functions change, of the same inputs.
     variation: Arc<Program>,
     /// Q̂ of every impulse, of the same inputs.
-    change: Arc<Program>,
+    pub(super) change: Arc<Program>,
     /// The times of every impulse, followed by its interval (zero for none), as functions of the
     /// parameters.
     schedule: Arc<Program>,

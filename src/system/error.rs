@@ -72,6 +72,13 @@ pub enum MotionErrorKind {
     TooManySteps(f64, f64),
     /// This event occurs at ever shorter intervals, without end.
     PilesUp(String),
+    /// The motion grazes the surface of this event, and has no derivative there.
+    Grazes(String),
+    /// Another impulse acts at the time of the one that this event causes; derivatives depend on
+    /// which is first.
+    Coincides(String),
+    /// This event has ended a motion that was to be differentiated further.
+    Ended(String),
     /// The computation was cancelled.
     Cancelled,
     /// The motion reaches a point from which no series continues it.
@@ -151,6 +158,16 @@ impl fmt::Display for MotionError {
             MotionErrorKind::PilesUp(name) => {
                 write!(f, "`{name}` comes ever faster and piles up at t = {time}")?;
             }
+            MotionErrorKind::Grazes(name) => write!(
+                f,
+                "the motion grazes the surface of `{name}` at t = {time}, where it has no derivative"
+            )?,
+            MotionErrorKind::Coincides(name) => write!(
+                f,
+                "another impulse acts together with that of `{name}` at t = {time}, where the \
+                 motion has no derivative"
+            )?,
+            MotionErrorKind::Ended(name) => write!(f, "`{name}` ends the motion at t = {time}")?,
             MotionErrorKind::Sticks => write!(f, "the motion sticks at t = {time}")?,
             MotionErrorKind::Rough => {
                 write!(
@@ -178,7 +195,12 @@ impl fmt::Display for MotionError {
             | MotionErrorKind::FreeVelocities(_)
             | MotionErrorKind::SeveralStarts(_)
             | MotionErrorKind::Passable(..)
+            | MotionErrorKind::Ended(_)
             | MotionErrorKind::Cancelled => "",
+            MotionErrorKind::Grazes(_) => ": nearby motions meet it or pass by",
+            MotionErrorKind::Coincides(_) => {
+                ": which of them comes first is different in nearby motions"
+            }
             MotionErrorKind::Contradiction => ": give fewer of them",
             MotionErrorKind::NotFinite(_) => ": a collision, a pole, or a value outside a function",
             MotionErrorKind::NoVelocities => ": the momenta may lie outside their range",

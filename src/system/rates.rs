@@ -17,9 +17,9 @@ pub struct Rates {
     system: System,
     form: Form,
     /// The index in a state of each output.
-    places: Vec<usize>,
-    program: Arc<Program>,
-    values: Evaluator<f64>,
+    pub(super) places: Vec<usize>,
+    pub(super) program: Arc<Program>,
+    pub(super) values: Evaluator<f64>,
     /// Finds the velocities, if the program needs them and the state has momenta.
     solver: Option<Solver>,
 }

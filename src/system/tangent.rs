@@ -62,7 +62,7 @@ impl Program {
     }
 
     /// The registers whose derivatives enter those of the first outputs.
-    fn needed(&self, outputs: usize) -> Vec<bool> {
+    pub(super) fn needed(&self, outputs: usize) -> Vec<bool> {
         let mut needed = vec![false; self.ops.len()];
         for &output in &self.outputs[..outputs] {
             needed[output as usize] = true;

@@ -134,6 +134,11 @@ impl<R: Real> Evaluator<R> {
         self.registers[register as usize]
     }
 
+    /// Whether no underflow may count, so that numbers that are finite are right.
+    pub(super) fn is_ordinary(&self) -> bool {
+        !self.underflow_may_count
+    }
+
     /// Where the last evaluation lies relative to the kinks.
     pub(super) fn sides(&self) -> KinkSides {
         let value = |r: Register| self.registers[r as usize].value();

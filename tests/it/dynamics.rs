@@ -4,6 +4,7 @@ mod equilibria;
 mod family;
 mod flow;
 mod gali;
+mod impulses;
 mod lyapunov;
 mod orbit;
 mod spectrum;

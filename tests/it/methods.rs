@@ -1,5 +1,6 @@
 //! The table of methods: measurements of the properties it states.
 
+mod batches;
 mod branches;
 mod faults;
 mod kepler;

@@ -72,6 +72,7 @@ impl Propagator {
             crossings.after_impulse(&before, &after_impulse.after, event)?;
         }
         self.before.copy_from(&before);
+        self.impulse = Some((impulse, event));
         self.resume(&after_impulse.after)?;
         let discontinuities = self.system.discontinuities();
         let name = match event {
