@@ -90,12 +90,13 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
         );
     }
     if let Some(Overlay::Message(failure)) = over {
-        let mut page = TextPage::default();
-        for line in failure.message.lines() {
-            page.row(vec![(Role::Text, line.to_owned())]);
-        }
         let title = [canvas.span(Role::Title, format!("{} has mistakes", failure.name))];
         let inner = canvas.pane(area, &title, true);
+        let mut page = TextPage::default();
+        let lines = failure.message.lines();
+        for line in lines.flat_map(|line| wrap::report_line(line, inner.width.into())) {
+            page.row(vec![(Role::Text, line)]);
+        }
         canvas.target(area, HitTarget::Text);
         return page.draw(canvas, inner, app.scroll);
     }

@@ -19,6 +19,32 @@ pub(super) fn words_in(text: &str, width: usize, rows: usize) -> Vec<String> {
     lines
 }
 
+/// A line of an error report: a message is wrapped, below its first word if it is a note; source text and its marks
+/// stay as they are, because they stand in columns.
+pub(super) fn report_line(line: &str, width: usize) -> Vec<String> {
+    let body = line.trim_start();
+    let margin = line.width() - body.width();
+    let indent = ["= help: ", "= note: "]
+        .into_iter()
+        .find(|label| body.starts_with(label))
+        .map_or(2, str::len);
+    let message = indent > 2
+        || (margin == 0 && ["error: ", "warning: "].iter().any(|label| body.starts_with(label)));
+    let room = width.saturating_sub(margin + indent);
+    if line.width() <= width || !message || room == 0 {
+        return vec![line.to_owned()];
+    }
+    let (label, text) = if indent > 2 { body.split_at(indent) } else { ("", body) };
+    let lines = words(text, room).into_iter().enumerate();
+    let lead = if label.is_empty() { 0 } else { margin };
+    lines
+        .map(|(i, text)| match i {
+            0 => format!("{:lead$}{label}{text}", ""),
+            _ => format!("{:1$}{text}", "", margin + indent),
+        })
+        .collect()
+}
+
 /// The text with its first letter capitalised.
 pub(super) fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
@@ -139,4 +165,24 @@ fn split(text: &str, room: usize) -> (String, String) {
         head = longer;
     }
     (head, String::new())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::report_line;
+
+    #[test]
+    fn a_report_wraps_its_messages_and_never_its_source() {
+        let note = "  = help: write a product with a sign";
+        let lines = ["  = help: write a product", "          with a sign"];
+        assert_eq!(report_line(note, 26), lines);
+        assert_eq!(report_line(note, note.len()), [note]);
+        let error = "error: a word too many here";
+        assert_eq!(report_line(error, 20), ["error: a word too", "  many here"]);
+        for source in
+            ["11 | L = \"a long line of = help: text\"", "   |           ^^^^^^^^^^^^^^^^"]
+        {
+            assert_eq!(report_line(source, 12), [source]);
+        }
+    }
 }
