@@ -30,7 +30,7 @@ impl PendingChanges {
 
 /// A side of a change: the state before it, or after it.
 #[derive(Clone, Copy)]
-enum Side {
+enum ChangeSide {
     Before,
     After,
 }
@@ -171,19 +171,19 @@ impl Lab {
     /// Undoes the last change and returns its description. Returns `None` if there is none.
     pub(super) fn undo(&mut self) -> Option<(Vec<Effect>, String)> {
         let change = self.history.undo()?;
-        let label = format!("undone: {}", self.words(&change, Side::Before));
-        Some((self.carry_out(change, Side::Before), label))
+        let label = format!("undone: {}", self.words(&change, ChangeSide::Before));
+        Some((self.carry_out(change, ChangeSide::Before), label))
     }
 
     /// Redoes the change undone last and returns its description. Returns `None` if there is none.
     pub(super) fn redo(&mut self) -> Option<(Vec<Effect>, String)> {
         let change = self.history.redo()?;
-        let label = format!("redone: {}", self.words(&change, Side::After));
-        Some((self.carry_out(change, Side::After), label))
+        let label = format!("redone: {}", self.words(&change, ChangeSide::After));
+        Some((self.carry_out(change, ChangeSide::After), label))
     }
 
     /// Describes the transition to one side of a change: `g 9.81 → 3.2`.
-    fn words(&self, change: &Change, side: Side) -> String {
+    fn words(&self, change: &Change, side: ChangeSide) -> String {
         let named = |target| {
             self.value_info(target).map_or_else(String::new, |value_info| value_info.shown)
         };
@@ -219,7 +219,7 @@ impl Lab {
     }
 
     /// Applies one side of a change, and shows the pane in which it is visible.
-    fn carry_out(&mut self, change: Change, side: Side) -> Vec<Effect> {
+    fn carry_out(&mut self, change: Change, side: ChangeSide) -> Vec<Effect> {
         match change {
             Change::Parameter { index, numbers } => {
                 self.choose(ValueId::Parameter(index));
@@ -233,8 +233,8 @@ impl Lab {
             }
             Change::Start(given) => vec![self.begin_with(side.of(given))],
             Change::FullReset { parameters, given } => match side {
-                Side::After => vec![self.give_back()],
-                Side::Before => {
+                ChangeSide::After => vec![self.give_back()],
+                ChangeSide::Before => {
                     let mut effects = Vec::new();
                     for (index, value) in parameters.into_iter().enumerate() {
                         if self.value(ValueId::Parameter(index)) != Some(value) {
@@ -264,7 +264,7 @@ impl Lab {
                 vec![Effect::Tell(Command::Settings(settings))]
             }
             Change::Together(mut changes) => {
-                if matches!(side, Side::Before) {
+                if matches!(side, ChangeSide::Before) {
                     changes.reverse();
                 }
                 changes.into_iter().flat_map(|change| self.carry_out(change, side)).collect()
@@ -313,7 +313,7 @@ fn short(value: f64) -> String {
     significant(value, 6, 1e-4..1e7)
 }
 
-impl Side {
+impl ChangeSide {
     /// Orders a pair so that it leads to this side.
     fn way<T>(self, [before, after]: [T; 2]) -> [T; 2] {
         match self {

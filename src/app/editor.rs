@@ -28,8 +28,8 @@ pub struct Editor {
     anchor: Option<Caret>,
     /// The column that vertical moves aim for.
     goal: Option<usize>,
-    done: Vec<Change>,
-    undone: Vec<Change>,
+    done: Vec<Replacement>,
+    undone: Vec<Replacement>,
     /// Whether the next typed character joins the last change.
     typing: bool,
     /// The clipboard: what was cut or copied last.
@@ -40,7 +40,7 @@ pub struct Editor {
 
 /// The replacement of a range by another text.
 #[derive(Clone, Debug)]
-struct Change {
+struct Replacement {
     at: Caret,
     old: String,
     new: String,
@@ -281,7 +281,7 @@ impl Editor {
         let cursor = self.cursor;
         let old = self.exchange(from, to, text);
         if !(old.is_empty() && text.is_empty()) {
-            self.done.push(Change { at: from, old, new: text.to_owned(), cursor });
+            self.done.push(Replacement { at: from, old, new: text.to_owned(), cursor });
             self.undone.clear();
         }
         self.go(end_of(from, text));

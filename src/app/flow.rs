@@ -25,10 +25,10 @@ const SLICE: u64 = 200;
 const SLICES: u32 = 2_000;
 
 /// What a flow leads to: the initial values of the new orbit, or why there are none.
-type Carried = Result<Vec<InitialOverride>, String>;
+type FlowOutcome = Result<Vec<InitialOverride>, String>;
 
 /// What is carried.
-struct Start {
+struct FlowStart {
     model: Model,
     equations: Equations,
     generator: Expr,
@@ -38,8 +38,8 @@ struct Start {
     state: Vec<InitialOverride>,
 }
 
-impl Start {
-    fn carried(&self, progress: &Progress) -> Carried {
+impl FlowStart {
+    fn carried(&self, progress: &Progress) -> FlowOutcome {
         let mut equations = self.equations.clone();
         equations.pool.set_cancel(progress.token().clone());
         let mut source = self.model.clone();
@@ -120,7 +120,7 @@ impl App {
         };
         let Some((_, generator)) = lab.flows().into_iter().nth(index) else { return Vec::new() };
         let channels = lab.loaded.system.channels().iter().zip(snapshot.values.iter());
-        let start = Start {
+        let start = FlowStart {
             model: (*lab.loaded.model).clone(),
             equations: findings.equations.clone(),
             generator,
@@ -147,7 +147,7 @@ impl App {
         let lab = self.lab.as_mut()?;
         lab.flow.take_if(|waited| *waited == ticket)?;
         let carried = match outcome {
-            Outcome::Done(answer) => answer.of::<Carried>()?.clone(),
+            Outcome::Done(answer) => answer.of::<FlowOutcome>()?.clone(),
             Outcome::Failed(why) => Err(why.clone()),
             Outcome::Cancelled => return Some(Vec::new()),
         };

@@ -87,14 +87,14 @@ impl UnderWay {
 /// The results and running jobs for the plots of a lab.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Answers {
-    entries: Vec<Entry>,
+    entries: Vec<PlotJob>,
     /// Whether something has changed since the needs were last determined.
     pub(super) stale: bool,
 }
 
 /// The last result for a plot, and the job under way.
 #[derive(Clone, Debug)]
-struct Entry {
+struct PlotJob {
     kind: &'static dyn Instrument,
     columns: Columns,
     view: Option<usize>,
@@ -102,7 +102,7 @@ struct Entry {
     under_way: Option<UnderWay>,
 }
 
-impl Entry {
+impl PlotJob {
     /// Whether it belongs to a plot with these contents, whatever its view.
     fn is_of(&self, plot: &Plot) -> bool {
         self.kind == plot.kind && self.columns == plot.columns && self.view == plot.view
@@ -132,14 +132,14 @@ impl Answers {
         self.entries.iter_mut().filter_map(|entry| entry.under_way.as_mut())
     }
 
-    fn of(&self, plot: &Plot) -> Option<&Entry> {
+    fn of(&self, plot: &Plot) -> Option<&PlotJob> {
         self.entries.iter().find(|entry| entry.is_of(plot))
     }
 
     /// Takes in an outcome. Returns whether it was wanted.
     fn take(&mut self, ticket: u64, outcome: &Outcome<Answer>) -> bool {
         let waits =
-            |entry: &&mut Entry| entry.under_way.as_ref().is_some_and(|job| job.ticket == ticket);
+            |entry: &&mut PlotJob| entry.under_way.as_ref().is_some_and(|job| job.ticket == ticket);
         let Some(entry) = self.entries.iter_mut().find(waits) else { return false };
         entry.under_way = None;
         self.stale = true;
@@ -169,7 +169,7 @@ impl Lab {
         for (place, plot) in self.plots.iter().enumerate() {
             let Some(present) = self.present() else { return Vec::new() };
             let entry = self.answers.of(plot);
-            if entries.iter().any(|entry: &Entry| entry.is_of(plot)) {
+            if entries.iter().any(|entry: &PlotJob| entry.is_of(plot)) {
                 continue;
             }
             if let Some(entry) = entry.filter(|entry| entry.under_way.is_some()) {
@@ -191,7 +191,7 @@ impl Lab {
                 }
             };
             let (kind, columns, view) = (plot.kind, plot.columns.clone(), plot.view);
-            entries.push(Entry { kind, columns, view, answer, under_way });
+            entries.push(PlotJob { kind, columns, view, answer, under_way });
         }
         self.answers.entries = entries;
         wanted

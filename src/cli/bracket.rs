@@ -64,13 +64,13 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
         Ok(e) => mechanics::recognise(model, equations, *e),
         Err(_) => None,
     };
-    let start = Start { parameters, given };
+    let start = BracketPoint { parameters, given };
     let value = match &expression {
         Ok(e) => start.value(&derived, *e),
         Err(_) => start.value_by_chain_rule(&mut derived, f, g),
     };
     let Derived { model, equations } = &derived;
-    let answer = Answer { arguments, model, f, g, expression, recognised, value };
+    let answer = BracketReport { arguments, model, f, g, expression, recognised, value };
     let text = match arguments.format {
         Format::Text => answer.text(equations, Script::of_locale()),
         Format::Latex => answer.latex(equations),
@@ -80,12 +80,12 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
 }
 
 /// The point at which the value is evaluated.
-struct Start {
+struct BracketPoint {
     parameters: Vec<f64>,
     given: Vec<InitialOverride>,
 }
 
-impl Start {
+impl BracketPoint {
     /// The value of a function on phase space.
     fn value(&self, derived: &Derived, e: Expr) -> Result<f64, String> {
         let channel = Channel { written: "bracket".to_owned(), expression: e };
@@ -122,7 +122,7 @@ fn finite(value: Option<f64>) -> Result<f64, String> {
 }
 
 /// The contents of the report.
-struct Answer<'a> {
+struct BracketReport<'a> {
     arguments: &'a Arguments,
     model: &'a Model,
     f: Expr,
@@ -135,7 +135,7 @@ struct Answer<'a> {
 /// The note for a system with constraints.
 const UNCONSTRAINED: &str = "the bracket of the phase space without the constraints";
 
-impl Answer<'_> {
+impl BracketReport<'_> {
     /// `[` and `]`, or `{` and `}` if the file gives its own brackets.
     fn braces(&self) -> (&'static str, &'static str) {
         if self.model.is_poisson() { ("{", "}") } else { ("[", "]") }

@@ -34,10 +34,10 @@ type Finish = Box<dyn FnOnce() + Send>;
 
 /// A request to end the process.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Interrupt(Arc<Shared>);
+pub(super) struct Interrupt(Arc<SignalState>);
 
 #[derive(Default)]
-struct Shared {
+struct SignalState {
     /// The signal that came first.
     signal: AtomicI32,
     cancel: Cancel,
@@ -49,9 +49,9 @@ struct Shared {
     saving: AtomicBool,
 }
 
-impl fmt::Debug for Shared {
+impl fmt::Debug for SignalState {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Shared").field("signal", &self.signal).finish_non_exhaustive()
+        f.debug_struct("SignalState").field("signal", &self.signal).finish_non_exhaustive()
     }
 }
 

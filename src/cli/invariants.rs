@@ -106,7 +106,7 @@ struct At {
 }
 
 /// What is reported.
-struct Answer<'a> {
+struct InvariantsReport<'a> {
     model: &'a Model,
     equations: &'a Equations,
     invariants: Invariants,
@@ -138,8 +138,16 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let relations = relations(model, equations, &invariants, hamiltonian);
     let separates = separates(model, equations);
     let jacobi = arguments.jacobi;
-    let answer =
-        Answer { model, equations, invariants, relations, hamiltonian, separates, jacobi, scan };
+    let answer = InvariantsReport {
+        model,
+        equations,
+        invariants,
+        relations,
+        hamiltonian,
+        separates,
+        jacobi,
+        scan,
+    };
     let text = match arguments.format {
         Format::Text => text::write(&answer, Script::of_locale()),
         Format::Latex => text::latex(&answer),

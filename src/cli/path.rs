@@ -94,7 +94,7 @@ const INTERVALS: u32 = 200;
 const HOLDS: f64 = 1e-9;
 
 /// A path with what is known of it.
-struct Found {
+struct JudgedPath {
     action: f64,
     /// `None` if it does not make the action stationary.
     nature: Option<(usize, PathKind)>,
@@ -210,7 +210,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         };
         varied.push((epsilon, lagrangian.action(&mut path, duration).map_err(failed)?));
     }
-    let found = Found { action, nature, conjugate, rows, varied };
+    let found = JudgedPath { action, nature, conjugate, rows, varied };
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
     crowd::write(out, &found.written(arguments.format, &laid), interrupt)
 }
@@ -364,7 +364,7 @@ fn word(kind: PathKind) -> &'static str {
     }
 }
 
-impl Found {
+impl JudgedPath {
     fn columns(model: &Model) -> Vec<String> {
         let all = model.coordinates.iter();
         let positions = all.clone().map(|c| c.name.clone());
@@ -376,7 +376,7 @@ impl Found {
 
     /// The result in a format.
     fn written(&self, format: TableFormat, laid: &Laid) -> String {
-        let columns = Found::columns(&laid.model);
+        let columns = JudgedPath::columns(&laid.model);
         let (index, kind) = (self.nature.map(|n| n.0), self.nature.map(|n| word(n.1)));
         if format == TableFormat::Json {
             let mut members = crowd::members(&laid.header());

@@ -145,7 +145,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         crossings(&laid.system, laid.method, laid.settings, &start, &plan)
     };
     let orbits = crowd::collect(&arguments.crowd, starts.len(), interrupt, one)?;
-    let section = Section { laid: &laid, arguments, orbits: &orbits, shown: &shown };
+    let section = SectionReport { laid: &laid, arguments, orbits: &orbits, shown: &shown };
     crowd::write(out, &section.written(), interrupt)?;
     section.ending(interrupt)
 }
@@ -261,14 +261,14 @@ fn shown_columns(laid: &Laid, wanted: Option<&[String]>) -> Result<Vec<Shown>, C
 }
 
 /// All orbits, ready to be written.
-struct Section<'a> {
+struct SectionReport<'a> {
     laid: &'a Laid,
     arguments: &'a Arguments,
     orbits: &'a [Crossings],
     shown: &'a [Shown],
 }
 
-impl Section<'_> {
+impl SectionReport<'_> {
     fn written(&self) -> String {
         let columns: Vec<String> = ["orbit".to_owned(), "n".to_owned()]
             .into_iter()

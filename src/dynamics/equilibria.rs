@@ -115,7 +115,7 @@ pub fn equilibria_watched(
             "the law of motion depends on time, and nothing stays at rest in it".to_owned(),
         ));
     }
-    let mut search = Search::new(space, start);
+    let mut search = EquilibriumSearch::new(space, start);
     let mut found: Vec<Equilibrium> = Vec::new();
     let mut cancelled = false;
     for beginning in 0..BEGINNINGS {
@@ -146,7 +146,7 @@ pub fn equilibria_watched(
     Ok(Equilibria { found, cancelled })
 }
 
-struct Search<'a> {
+struct EquilibriumSearch<'a> {
     space: &'a PhaseSpace,
     start: &'a State,
     field: VectorField,
@@ -160,15 +160,15 @@ struct Search<'a> {
     units: Vec<f64>,
 }
 
-impl<'a> Search<'a> {
-    fn new(space: &'a PhaseSpace, start: &'a State) -> Search<'a> {
+impl<'a> EquilibriumSearch<'a> {
+    fn new(space: &'a PhaseSpace, start: &'a State) -> EquilibriumSearch<'a> {
         let degrees = space.system().degrees();
         let canonical = space.form() == Form::Momentum;
         let cyclic = if canonical { space.cyclic().to_vec() } else { Vec::new() };
         let resting = (0..space.dimension()).filter(|i| !cyclic.contains(&(i % degrees))).collect();
         let mut field = space.vector_field();
         let units = units(space, start, &mut field);
-        Search { space, start, field, resting, cyclic, degrees, units }
+        EquilibriumSearch { space, start, field, resting, cyclic, degrees, units }
     }
 
     /// The variables at which a search begins: the start itself, then places around it.

@@ -84,7 +84,7 @@ const DIFFERENCE: f64 = 1e-5;
 
 /// A point of a family.
 #[derive(Clone)]
-struct Point {
+struct FamilyPoint {
     state: State,
     period: f64,
     parameter: f64,
@@ -94,7 +94,7 @@ struct Point {
     orbit: Orbit,
 }
 
-impl Point {
+impl FamilyPoint {
     /// What changes its sign at a period doubling: Π (μᵢ + 1) of the transverse multipliers.
     fn doubling(&self) -> f64 {
         let n = self.orbit.transverse.nrows();
@@ -205,9 +205,9 @@ impl Walk<'_> {
         }
     }
 
-    fn first(&self, orbit: &Orbit) -> Result<Point, DynamicsError> {
+    fn first(&self, orbit: &Orbit) -> Result<FamilyPoint, DynamicsError> {
         let parameter = self.parameter();
-        let mut point = Point {
+        let mut point = FamilyPoint {
             state: orbit.state.clone(),
             period: orbit.period,
             parameter,
@@ -264,7 +264,7 @@ impl Walk<'_> {
     /// The unit direction of the family at a point, along `before` if that is given.
     fn direction(
         &self,
-        point: &Point,
+        point: &FamilyPoint,
         before: Option<&DVector<f64>>,
     ) -> Result<DVector<f64>, DynamicsError> {
         let n = self.space.dimension();
@@ -302,7 +302,7 @@ impl Walk<'_> {
     }
 
     /// ∇H = −𝕁 f.
-    fn gradient(&self, point: &Point) -> Result<DVector<f64>, DynamicsError> {
+    fn gradient(&self, point: &FamilyPoint) -> Result<DVector<f64>, DynamicsError> {
         let mut field = self.space_at(point.parameter).vector_field();
         field.evaluate(point.state.time, self.space.variables(&point.state))?;
         let rate = field.rate();
@@ -316,7 +316,7 @@ impl Walk<'_> {
     }
 
     /// How fast the value grows along the tangent.
-    fn slope(&self, point: &Point) -> Result<f64, DynamicsError> {
+    fn slope(&self, point: &FamilyPoint) -> Result<f64, DynamicsError> {
         let n = self.space.dimension();
         Ok(match self.along {
             Along::Parameter(_) => point.tangent[n + 1],
@@ -326,7 +326,11 @@ impl Walk<'_> {
     }
 
     /// The point of the family a step onwards.
-    fn onwards(&self, from: &Point, step: f64) -> Result<Option<(Point, usize)>, DynamicsError> {
+    fn onwards(
+        &self,
+        from: &FamilyPoint,
+        step: f64,
+    ) -> Result<Option<(FamilyPoint, usize)>, DynamicsError> {
         let n = self.space.dimension();
         let moved = |state: &State, by: &DVector<f64>| {
             let mut there = state.clone();
@@ -370,17 +374,17 @@ impl Walk<'_> {
 
     fn point(
         &self,
-        from: &Point,
+        from: &FamilyPoint,
         state: State,
         period: f64,
         parameter: f64,
-    ) -> Result<Option<Point>, DynamicsError> {
+    ) -> Result<Option<FamilyPoint>, DynamicsError> {
         let space = self.space_at(parameter);
         let newton = self.newton(&space);
         let orbit = newton.at(&state, period)?;
         let tangent = from.tangent.clone();
         let value = self.value_of(&orbit, parameter);
-        let mut point = Point { state, period, parameter, tangent, value, orbit };
+        let mut point = FamilyPoint { state, period, parameter, tangent, value, orbit };
         point.tangent = self.direction(&point, Some(&from.tangent))?;
         Ok(Some(point))
     }
@@ -389,7 +393,7 @@ impl Walk<'_> {
     /// the values do.
     fn follow(
         &self,
-        begin: &Point,
+        begin: &FamilyPoint,
         members: &mut Vec<Member>,
     ) -> Result<Option<String>, DynamicsError> {
         let (low, high) = self.range();
@@ -424,8 +428,8 @@ impl Walk<'_> {
     /// Collects the members between two points, in their order.
     fn between(
         &self,
-        from: &Point,
-        to: &Point,
+        from: &FamilyPoint,
+        to: &FamilyPoint,
         step: f64,
         members: &mut Vec<Member>,
     ) -> Result<(), DynamicsError> {
@@ -435,19 +439,20 @@ impl Walk<'_> {
         let folds = (before < 0.0) != (after < 0.0);
         let mut specials: Vec<(
             Bifurcation,
-            Box<dyn Fn(&Point) -> Result<f64, DynamicsError> + '_>,
+            Box<dyn Fn(&FamilyPoint) -> Result<f64, DynamicsError> + '_>,
         )> = Vec::new();
         if folds {
-            specials.push((Bifurcation::Fold, Box::new(|point: &Point| self.slope(point))));
+            specials.push((Bifurcation::Fold, Box::new(|point: &FamilyPoint| self.slope(point))));
         }
         if (from.doubling() < 0.0) != (to.doubling() < 0.0) {
             specials.push((
                 Bifurcation::PeriodDoubling,
-                Box::new(|point: &Point| Ok(point.doubling())),
+                Box::new(|point: &FamilyPoint| Ok(point.doubling())),
             ));
         }
         if !folds && (from.unit() < 0.0) != (to.unit() < 0.0) {
-            specials.push((Bifurcation::Branching, Box::new(|point: &Point| Ok(point.unit()))));
+            specials
+                .push((Bifurcation::Branching, Box::new(|point: &FamilyPoint| Ok(point.unit()))));
         }
         for (kind, test) in specials {
             let (mut a, mut b) = (0.0, step);

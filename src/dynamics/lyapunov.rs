@@ -91,7 +91,7 @@ pub struct Lyapunov {
 }
 
 /// The growth of the vectors so far.
-struct Growth {
+struct TangentGrowth {
     /// The times at which it was measured, the first is the start.
     times: Vec<f64>,
     /// The logarithms by which each vector has grown up to these times.
@@ -129,7 +129,7 @@ pub fn lyapunov(
     let mut carrier = Carrier::new(space, method, settings, count + 1)?;
     carrier.start(start, &vectors)?;
 
-    let mut growth = Growth { times: vec![start.time], logarithms: vec![vec![0.0; count]] };
+    let mut growth = TangentGrowth { times: vec![start.time], logarithms: vec![vec![0.0; count]] };
     let mut megno = Megno::new(start.time);
     let mut failure = None;
     let round = (until - start.time) / LEAST_ROUNDS;
@@ -222,7 +222,7 @@ impl Megno {
     }
 }
 
-impl Growth {
+impl TangentGrowth {
     /// The mean rate of growth of a vector between two times, with a smooth weight.
     fn weighted(&self, vector: usize, begin: f64, end: f64) -> f64 {
         let weight = |time: f64| {
@@ -285,7 +285,7 @@ fn result(
     space: &PhaseSpace,
     carrier: &Carrier,
     what: Removed,
-    growth: &Growth,
+    growth: &TangentGrowth,
     megno: &Megno,
     failure: Option<DynamicsError>,
 ) -> Lyapunov {
@@ -323,7 +323,7 @@ fn result(
 /// The verdict and its reason.
 fn judged(
     carrier: &Carrier,
-    growth: &Growth,
+    growth: &TangentGrowth,
     (exponents, uncertainty): (&[f64], &[f64]),
     megno: f64,
 ) -> (Chaos, String) {
@@ -371,7 +371,7 @@ mod tests {
     fn a_weighted_mean_of_constant_growth_is_that_growth() {
         let times: Vec<f64> = (0..100).map(|i| f64::from(i) * 0.37).collect();
         let logarithms = times.iter().map(|t| vec![0.3 * t, -2.0 * t]).collect();
-        let growth = Growth { times, logarithms };
+        let growth = TangentGrowth { times, logarithms };
         let end = growth.end();
         assert!((growth.weighted(0, 0.0, end) - 0.3).abs() < 1e-14);
         assert!((growth.weighted(1, 0.0, end) + 2.0).abs() < 1e-14);

@@ -24,7 +24,7 @@ const AHEAD: usize = 1024;
 pub struct PoolError(String);
 
 /// A result, or what a panic left.
-type Outcome<T> = Result<T, Box<dyn Any + Send>>;
+type ThreadResult<T> = Result<T, Box<dyn Any + Send>>;
 
 /// What the threads and the consumer share.
 struct Bench<T> {
@@ -33,7 +33,7 @@ struct Bench<T> {
 }
 
 struct Done<T> {
-    results: BTreeMap<usize, Outcome<T>>,
+    results: BTreeMap<usize, ThreadResult<T>>,
     /// The first item that was not handed on.
     first: usize,
     /// The threads still at work.
@@ -58,7 +58,7 @@ impl<T> Bench<T> {
     }
 
     /// The result of the next item; `None` if nobody will compute it.
-    fn next(&self, item: usize) -> Option<Outcome<T>> {
+    fn next(&self, item: usize) -> Option<ThreadResult<T>> {
         let mut done = self.done();
         loop {
             if let Some(result) = done.results.remove(&item) {

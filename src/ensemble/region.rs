@@ -38,7 +38,7 @@ const OPEN: f64 = 2.0;
 const MARGIN: f64 = 0.04;
 
 /// Looks from one point of the plane to the next.
-struct Look<'a> {
+struct RegionScan<'a> {
     plane: &'a SectionPlane,
     system: &'a System,
     observer: Observer,
@@ -53,7 +53,7 @@ struct Grid {
 }
 
 impl Grid {
-    fn of(look: &mut Look<'_>, window: [[f64; 2]; 2], cells: usize) -> Grid {
+    fn of(look: &mut RegionScan<'_>, window: [[f64; 2]; 2], cells: usize) -> Grid {
         let mut grid = Grid { window, cells, allowed: vec![false; (cells + 1) * (cells + 1)] };
         for i in 0..=cells {
             for j in 0..=cells {
@@ -123,7 +123,7 @@ impl Grid {
     }
 }
 
-impl Look<'_> {
+impl RegionScan<'_> {
     fn at(&mut self, point: [f64; 2]) -> bool {
         self.plane.is_accessible(self.system, &mut self.observer, point)
     }
@@ -183,7 +183,7 @@ impl Region {
         cancel: &Cancel,
     ) -> Region {
         let observer = system.observer(plane.parameters());
-        let mut look = Look { plane, system, observer, cancel };
+        let mut look = RegionScan { plane, system, observer, cancel };
         let near = around.map(|[lo, hi]| f64::midpoint(lo, hi));
         let window = [0, 1].map(|axis| given[axis].unwrap_or_else(|| wide(around[axis], 1.0)));
         if !plane.is_bounded() {
@@ -221,7 +221,7 @@ fn wide([lo, hi]: [f64; 2], factor: f64) -> [f64; 2] {
 }
 
 /// The boundary of what is allowed: the lines that part the nodes of a grid, exact on its edges.
-fn boundary(look: &mut Look<'_>, grid: &Grid) -> Vec<[[f64; 2]; 2]> {
+fn boundary(look: &mut RegionScan<'_>, grid: &Grid) -> Vec<[[f64; 2]; 2]> {
     let at = |node: [usize; 2]| grid.allowed[grid.place(node)];
     let mut known: HashMap<[[usize; 2]; 2], [f64; 2]> = HashMap::new();
     let mut segments = Vec::new();

@@ -124,12 +124,13 @@ pub fn crossings(
     }
     let observer = motion.system().observer(&start.parameters);
     let values = vec![0.0; system.columns()];
-    let mut orbit = Orbit { motion, observer, values, holdings: 0, plan, start, rows: Vec::new() };
+    let mut orbit =
+        SectionOrbit { motion, observer, values, holdings: 0, plan, start, rows: Vec::new() };
     let (status, message) = orbit.follow(system.cancel());
     Crossings { rows: orbit.rows, status, message }
 }
 
-struct Orbit<'a> {
+struct SectionOrbit<'a> {
     motion: Propagator,
     observer: Observer,
     values: Vec<f64>,
@@ -139,7 +140,7 @@ struct Orbit<'a> {
     rows: Vec<Vec<f64>>,
 }
 
-impl Orbit<'_> {
+impl SectionOrbit<'_> {
     fn follow(&mut self, cancel: &Cancel) -> (OrbitStatus, Option<String>) {
         let stopped = || (OrbitStatus::Stopped, Some("stopped by a signal".to_owned()));
         let mut target = self.plan.until.unwrap_or(self.start.time + FIRST_LOOK);

@@ -4,7 +4,7 @@
 //! commands.
 
 use super::gauges::{Gauges, Present};
-use super::step_log::{Known, StepLog};
+use super::step_log::{LoggedState, StepLog};
 use crate::integrate::{
     self, Method, MethodError, Occurrence, OccurrenceKind, Reached, Settings, Stepping, Unstable,
 };
@@ -19,7 +19,7 @@ pub(super) struct ObservedMotion {
     residuals: Vec<[f64; 2]>,
     /// The motion's count of constraint changes when the observer was made.
     holdings: u64,
-    watch: Watch,
+    watch: StepSampler,
     /// The states between the steps so far.
     log: StepLog,
     /// −1 if the system is run backwards, so that the clock of its states is −t; otherwise 1.
@@ -27,7 +27,7 @@ pub(super) struct ObservedMotion {
 }
 
 /// Samples the motion after every step.
-struct Watch {
+struct StepSampler {
     terms: TermWatch,
     /// When the channels are to be sampled next.
     next: f64,
@@ -38,9 +38,9 @@ struct Watch {
     values: Vec<f64>,
 }
 
-impl Watch {
-    fn of(system: &System, parameters: &[f64]) -> Watch {
-        Watch {
+impl StepSampler {
+    fn of(system: &System, parameters: &[f64]) -> StepSampler {
+        StepSampler {
             terms: system.term_watch(parameters),
             next: f64::NEG_INFINITY,
             golden: 0.5,
@@ -87,7 +87,7 @@ impl ObservedMotion {
             values: vec![f64::NAN; system.channels().len()],
             residuals: Vec::new(),
             holdings: 0,
-            watch: Watch::of(system, parameters),
+            watch: StepSampler::of(system, parameters),
             log: StepLog::default(),
         })
     }
@@ -111,7 +111,7 @@ impl ObservedMotion {
         self.log.clear();
         self.inner.begin(state, parameters)?;
         self.observer = self.inner.system().observer(parameters);
-        self.watch = Watch::of(self.inner.system(), parameters);
+        self.watch = StepSampler::of(self.inner.system(), parameters);
         self.log.push(self.inner.state(), self.inner.steps());
         self.look()
     }
@@ -127,7 +127,7 @@ impl ObservedMotion {
         self.log.clear();
         self.inner.restore(state, parameters, start, released)?;
         self.observer = self.inner.system().observer(parameters);
-        self.watch = Watch::of(self.inner.system(), parameters);
+        self.watch = StepSampler::of(self.inner.system(), parameters);
         self.log.push(self.inner.state(), self.inner.steps());
         self.look()
     }
@@ -205,7 +205,7 @@ impl ObservedMotion {
         // the state of a series is as accurate within a step as at its end
         if sparse && self.inner.method().order.is_none() {
             let time = begin + self.watch.next_weyl() * (end - begin);
-            let Watch { terms, state, values, .. } = &mut self.watch;
+            let StepSampler { terms, state, values, .. } = &mut self.watch;
             if self.inner.inside(time, state).is_ok() && terms.look(state) {
                 if due && self.observer.observe(state, values).is_ok() {
                     gauges.look_on_the_way(self.sign * time, steps, values, terms);
@@ -213,7 +213,7 @@ impl ObservedMotion {
                 gauges.step(self.sign * time, steps, terms, false);
             }
         }
-        let (Watch { terms, values, .. }, state) = (&mut self.watch, self.inner.computed());
+        let (StepSampler { terms, values, .. }, state) = (&mut self.watch, self.inner.computed());
         if whole && terms.look(state) {
             if due
                 && self.inner.method().order.is_some()
@@ -289,7 +289,7 @@ impl ObservedMotion {
 
     /// What is needed to look at a time in the past of a motion that began at `start` of its clock.
     pub(super) fn known_at(&self, time: f64, start: f64) -> Option<KnownStep> {
-        let Known { state, steps, .. } = self.log.at(self.sign * time)?.clone();
+        let LoggedState { state, steps, .. } = self.log.at(self.sign * time)?.clone();
         let (step, released) = (self.inner.step_size().abs(), self.released());
         Some(KnownStep { state, steps, step, released, start })
     }

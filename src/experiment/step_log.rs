@@ -16,7 +16,7 @@ const STATES: usize = 65_536;
 
 /// A state at the end of a step.
 #[derive(Clone, Debug)]
-pub(super) struct Known {
+pub(super) struct LoggedState {
     pub(super) state: State,
     /// The steps taken, and the impulses applied up to it.
     pub(super) steps: u64,
@@ -26,7 +26,7 @@ pub(super) struct Known {
 /// The states so far, the oldest first.
 #[derive(Debug, Default)]
 pub(super) struct StepLog {
-    known: VecDeque<Known>,
+    known: VecDeque<LoggedState>,
     /// The number of impulses so far.
     impulses: u64,
 }
@@ -46,7 +46,7 @@ impl StepLog {
         if self.known.len() >= most {
             self.known.pop_front();
         }
-        self.known.push_back(Known { state: state.clone(), steps, impulses: self.impulses });
+        self.known.push_back(LoggedState { state: state.clone(), steps, impulses: self.impulses });
     }
 
     /// An impulse was applied.
@@ -65,13 +65,13 @@ impl StepLog {
     }
 
     /// The last state at or before a time. Nothing is forgotten.
-    pub(super) fn at(&self, time: f64) -> Option<&Known> {
+    pub(super) fn at(&self, time: f64) -> Option<&LoggedState> {
         let after = self.known.partition_point(|known| known.state.time <= time);
         self.known.get(after.checked_sub(1)?)
     }
 
     /// The last state at or before a time. Later ones are forgotten.
-    pub(super) fn back_to(&mut self, time: f64) -> Option<Known> {
+    pub(super) fn back_to(&mut self, time: f64) -> Option<LoggedState> {
         if self.first()? > time {
             return None;
         }

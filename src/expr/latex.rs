@@ -2,7 +2,7 @@
 
 use super::node::{Expr, FunctionId, Node};
 use super::pool::Pool;
-use super::print::{Level, Piece, Printer, Style};
+use super::print::{Level, PrintedPiece, Printer, Style};
 use crate::num::Number;
 
 impl Pool {
@@ -27,7 +27,7 @@ impl Style for Latex {
         "-"
     }
 
-    fn number(&self, n: Number) -> Piece {
+    fn number(&self, n: Number) -> PrintedPiece {
         let text = match n {
             Number::Rational(n, 1) => n.to_string(),
             Number::Rational(n, d) => format!("\\frac{{{n}}}{{{d}}}"),
@@ -36,7 +36,7 @@ impl Style for Latex {
                 None => format!("{x:?}"),
             },
         };
-        Piece { text, level: Level::Atom }
+        PrintedPiece { text, level: Level::Atom }
     }
 
     fn parenthesise(&self, inner: &str) -> String {
@@ -47,15 +47,15 @@ impl Style for Latex {
         factors.join(" ")
     }
 
-    fn fraction(&self, above: &Piece, below: &Piece) -> Piece {
+    fn fraction(&self, above: &PrintedPiece, below: &PrintedPiece) -> PrintedPiece {
         let text = format!("\\frac{{{}}}{{{}}}", above.text, below.text);
-        Piece { text, level: Level::Power }
+        PrintedPiece { text, level: Level::Power }
     }
 
-    fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> Piece {
+    fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> PrintedPiece {
         if exponent == Number::HALF {
             let text = format!("\\sqrt{{{}}}", printer.piece(base).text);
-            return Piece { text, level: Level::Atom };
+            return PrintedPiece { text, level: Level::Atom };
         }
         if let (Node::Call(function, arguments), Some(n)) =
             (printer.pool.node(base), exponent.as_integer())
@@ -70,11 +70,16 @@ impl Style for Latex {
         self.power(&printer.at_least(base, Level::Atom), &exponent)
     }
 
-    fn power(&self, base: &str, exponent: &Piece) -> Piece {
-        Piece { text: format!("{{{base}}}^{{{}}}", exponent.text), level: Level::Power }
+    fn power(&self, base: &str, exponent: &PrintedPiece) -> PrintedPiece {
+        PrintedPiece { text: format!("{{{base}}}^{{{}}}", exponent.text), level: Level::Power }
     }
 
-    fn call(&self, printer: &Printer<'_>, function: FunctionId, arguments: &[Expr]) -> Piece {
+    fn call(
+        &self,
+        printer: &Printer<'_>,
+        function: FunctionId,
+        arguments: &[Expr],
+    ) -> PrintedPiece {
         if let ([argument], false) =
             (arguments, matches!(function, FunctionId::Abs | FunctionId::Exp))
         {
@@ -84,11 +89,11 @@ impl Style for Latex {
         let text = match function {
             FunctionId::Abs => format!("\\left|{}\\right|", inner[0]),
             FunctionId::Exp => {
-                return Piece { text: format!("e^{{{}}}", inner[0]), level: Level::Power };
+                return PrintedPiece { text: format!("e^{{{}}}", inner[0]), level: Level::Power };
             }
             _ => format!("{}\\left({}\\right)", function.row().latex, inner.join(", ")),
         };
-        Piece { text, level: Level::Atom }
+        PrintedPiece { text, level: Level::Atom }
     }
 
     fn coefficient_in_front(&self, n: Number, has_denominator: bool) -> bool {
@@ -97,12 +102,12 @@ impl Style for Latex {
 }
 
 /// `\sin \theta`, `\sin\left(2 \theta\right)`.
-fn applied(printer: &Printer<'_>, name: &str, argument: Expr) -> Piece {
+fn applied(printer: &Printer<'_>, name: &str, argument: Expr) -> PrintedPiece {
     let inner = printer.piece(argument).text;
     let text = if printer.pool.as_symbol(argument).is_some() && name.starts_with('\\') {
         format!("{name} {inner}")
     } else {
         format!("{name}\\left({inner}\\right)")
     };
-    Piece { text, level: Level::Power }
+    PrintedPiece { text, level: Level::Power }
 }

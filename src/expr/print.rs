@@ -21,7 +21,7 @@ pub(super) enum Level {
 }
 
 /// A written piece.
-pub(super) struct Piece {
+pub(super) struct PrintedPiece {
     pub(super) text: String,
     pub(super) level: Level,
 }
@@ -32,30 +32,31 @@ pub(super) trait Style {
     fn pi(&self) -> &'static str;
     fn minus(&self) -> &'static str;
     /// A positive number as a factor.
-    fn number(&self, n: Number) -> Piece;
+    fn number(&self, n: Number) -> PrintedPiece;
     fn parenthesise(&self, inner: &str) -> String;
     /// Joins pieces into one product.
     fn join(&self, factors: &[String]) -> String;
     /// One piece over another; on one line unless the style overrides it.
-    fn fraction(&self, above: &Piece, below: &Piece) -> Piece {
-        let wrap = |piece: &Piece, level| {
+    fn fraction(&self, above: &PrintedPiece, below: &PrintedPiece) -> PrintedPiece {
+        let wrap = |piece: &PrintedPiece, level| {
             if piece.level < level { self.parenthesise(&piece.text) } else { piece.text.clone() }
         };
         let text = format!("{}/{}", wrap(above, Level::Product), wrap(below, Level::Power));
-        Piece { text, level: Level::Product }
+        PrintedPiece { text, level: Level::Product }
     }
     /// `base ^ exponent` for a positive numeric exponent other than one.
-    fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> Piece;
+    fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> PrintedPiece;
     /// `base` to any power; on one line unless the style overrides it.
-    fn power(&self, base: &str, exponent: &Piece) -> Piece {
+    fn power(&self, base: &str, exponent: &PrintedPiece) -> PrintedPiece {
         let text = if exponent.level == Level::Atom {
             format!("{base}^{}", exponent.text)
         } else {
             format!("{base}^{}", self.parenthesise(&exponent.text))
         };
-        Piece { text, level: Level::Power }
+        PrintedPiece { text, level: Level::Power }
     }
-    fn call(&self, printer: &Printer<'_>, function: FunctionId, arguments: &[Expr]) -> Piece;
+    fn call(&self, printer: &Printer<'_>, function: FunctionId, arguments: &[Expr])
+    -> PrintedPiece;
     /// Returns whether a fractional coefficient is written in front (`½ m`) and not in the
     /// fraction.
     fn coefficient_in_front(&self, n: Number, has_denominator: bool) -> bool;
@@ -76,13 +77,14 @@ pub(super) struct Printer<'p> {
 }
 
 impl Printer<'_> {
-    pub(super) fn piece(&self, e: Expr) -> Piece {
+    pub(super) fn piece(&self, e: Expr) -> PrintedPiece {
         match self.pool.node(e) {
             Node::Number(n) => self.signed_number(*n),
-            Node::Pi => Piece { text: self.style.pi().to_owned(), level: Level::Atom },
-            Node::Symbol(_) => {
-                Piece { text: self.style.symbol(self.pool, e).to_owned(), level: Level::Atom }
-            }
+            Node::Pi => PrintedPiece { text: self.style.pi().to_owned(), level: Level::Atom },
+            Node::Symbol(_) => PrintedPiece {
+                text: self.style.symbol(self.pool, e).to_owned(),
+                level: Level::Atom,
+            },
             Node::Sum(constant, terms) => self.sum(*constant, terms),
             Node::Product(c, factors) => self.product(*c, factors),
             Node::Power(base, exponent) => {
@@ -98,19 +100,19 @@ impl Printer<'_> {
         self.wrap(self.piece(e), level)
     }
 
-    fn wrap(&self, piece: Piece, level: Level) -> String {
+    fn wrap(&self, piece: PrintedPiece, level: Level) -> String {
         if piece.level < level { self.style.parenthesise(&piece.text) } else { piece.text }
     }
 
-    fn signed_number(&self, n: Number) -> Piece {
+    fn signed_number(&self, n: Number) -> PrintedPiece {
         if !n.is_negative() {
             return self.style.number(n);
         }
         let positive = self.wrap(self.style.number(-n), Level::Product);
-        Piece { text: format!("{}{positive}", self.style.minus()), level: Level::Sum }
+        PrintedPiece { text: format!("{}{positive}", self.style.minus()), level: Level::Sum }
     }
 
-    fn sum(&self, constant: Number, terms: &[(Number, Expr)]) -> Piece {
+    fn sum(&self, constant: Number, terms: &[(Number, Expr)]) -> PrintedPiece {
         let mut ordered = terms.to_vec();
         if self.style.textbook() {
             ordered.sort_by_cached_key(|&(_, t)| self.order_of_term(t));
@@ -139,7 +141,7 @@ impl Printer<'_> {
             }
             text.push_str(part);
         }
-        Piece { text, level: Level::Sum }
+        PrintedPiece { text, level: Level::Sum }
     }
 
     /// `c · e` for a positive `c`, as a summand.
@@ -152,11 +154,14 @@ impl Printer<'_> {
         self.wrap(piece, Level::Product)
     }
 
-    fn product(&self, c: Number, factors: &[(Expr, Number)]) -> Piece {
+    fn product(&self, c: Number, factors: &[(Expr, Number)]) -> PrintedPiece {
         if c.is_negative() {
             let positive = self.product(-c, factors);
             let text = self.wrap(positive, Level::Product);
-            return Piece { text: format!("{}{text}", self.style.minus()), level: Level::Sum };
+            return PrintedPiece {
+                text: format!("{}{text}", self.style.minus()),
+                level: Level::Sum,
+            };
         }
         let mut ordered = factors.to_vec();
         ordered.sort_by_key(|&(base, _)| self.order(base));
@@ -186,7 +191,7 @@ impl Printer<'_> {
             let mut pieces = vec![self.wrap(self.style.fraction(&over, &under), Level::Power)];
             let apart = if number_below { &above[..] } else { rest };
             pieces.extend(apart.iter().map(|&factor| self.wrap(self.factor(factor), Level::Power)));
-            return Piece { text: self.style.join(&pieces), level: Level::Product };
+            return PrintedPiece { text: self.style.join(&pieces), level: Level::Product };
         }
         let above = self.factors(coefficient, &above);
         if below.is_empty() && under.is_one() {
@@ -197,11 +202,11 @@ impl Printer<'_> {
     }
 
     /// `base ^ n` for a positive `n`.
-    fn factor(&self, (base, n): (Expr, Number)) -> Piece {
+    fn factor(&self, (base, n): (Expr, Number)) -> PrintedPiece {
         if n.is_one() { self.piece(base) } else { self.style.numeric_power(self, base, n) }
     }
 
-    fn factors(&self, c: Number, factors: &[(Expr, Number)]) -> Piece {
+    fn factors(&self, c: Number, factors: &[(Expr, Number)]) -> PrintedPiece {
         if factors.is_empty() {
             return self.style.number(c);
         }
@@ -213,7 +218,7 @@ impl Printer<'_> {
             return self.factor((base, n));
         }
         pieces.extend(factors.iter().map(|&factor| self.wrap(self.factor(factor), Level::Power)));
-        Piece { text: self.style.join(&pieces), level: Level::Product }
+        PrintedPiece { text: self.style.join(&pieces), level: Level::Product }
     }
 
     /// The highest rank among a term's symbols; variables and constants count as one rank.

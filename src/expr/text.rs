@@ -2,7 +2,7 @@
 
 use super::node::{Expr, FunctionId};
 use super::pool::Pool;
-use super::print::{Level, Piece, Printer, Style};
+use super::print::{Level, PrintedPiece, Printer, Style};
 use crate::num::Number;
 
 impl Pool {
@@ -37,11 +37,13 @@ impl Style for Text {
         "-"
     }
 
-    fn number(&self, n: Number) -> Piece {
+    fn number(&self, n: Number) -> PrintedPiece {
         match n {
-            Number::Rational(n, 1) => Piece { text: n.to_string(), level: Level::Atom },
-            Number::Rational(n, d) => Piece { text: format!("{n}/{d}"), level: Level::Product },
-            Number::Real(x) => Piece { text: format!("{x:?}"), level: Level::Atom },
+            Number::Rational(n, 1) => PrintedPiece { text: n.to_string(), level: Level::Atom },
+            Number::Rational(n, d) => {
+                PrintedPiece { text: format!("{n}/{d}"), level: Level::Product }
+            }
+            Number::Real(x) => PrintedPiece { text: format!("{x:?}"), level: Level::Atom },
         }
     }
 
@@ -53,19 +55,24 @@ impl Style for Text {
         factors.join("*")
     }
 
-    fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> Piece {
+    fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> PrintedPiece {
         if exponent == Number::HALF {
             let inner = printer.piece(base).text;
-            return Piece { text: format!("sqrt({inner})"), level: Level::Atom };
+            return PrintedPiece { text: format!("sqrt({inner})"), level: Level::Atom };
         }
         let exponent = self.number(exponent);
         self.power(&printer.at_least(base, Level::Atom), &exponent)
     }
 
-    fn call(&self, printer: &Printer<'_>, function: FunctionId, arguments: &[Expr]) -> Piece {
+    fn call(
+        &self,
+        printer: &Printer<'_>,
+        function: FunctionId,
+        arguments: &[Expr],
+    ) -> PrintedPiece {
         let arguments: Vec<String> = arguments.iter().map(|&a| printer.piece(a).text).collect();
         let text = format!("{}({})", function.row().name, arguments.join(", "));
-        Piece { text, level: Level::Atom }
+        PrintedPiece { text, level: Level::Atom }
     }
 
     fn coefficient_in_front(&self, n: Number, has_denominator: bool) -> bool {

@@ -4,7 +4,7 @@ use super::function::FUNCTIONS;
 use super::node::{Expr, FunctionId, Node};
 use super::notation::{FRACTIONS, raised_digit, superscript};
 use super::pool::Pool;
-use super::print::{Level, Piece, Printer, Style};
+use super::print::{Level, PrintedPiece, Printer, Style};
 use crate::num::Number;
 
 impl Pool {
@@ -34,17 +34,19 @@ impl Style for Unicode {
         "−"
     }
 
-    fn number(&self, n: Number) -> Piece {
+    fn number(&self, n: Number) -> PrintedPiece {
         if let Some(glyph) = glyph(n) {
-            return Piece { text: glyph.to_string(), level: Level::Atom };
+            return PrintedPiece { text: glyph.to_string(), level: Level::Atom };
         }
         match n {
-            Number::Rational(n, 1) => Piece { text: n.to_string(), level: Level::Atom },
+            Number::Rational(n, 1) => PrintedPiece { text: n.to_string(), level: Level::Atom },
             Number::Rational(_, d) if is_decimal(d) => {
-                Piece { text: n.value().to_string(), level: Level::Atom }
+                PrintedPiece { text: n.value().to_string(), level: Level::Atom }
             }
-            Number::Rational(n, d) => Piece { text: format!("{n}/{d}"), level: Level::Product },
-            Number::Real(x) => Piece { text: scientific(x), level: Level::Atom },
+            Number::Rational(n, d) => {
+                PrintedPiece { text: format!("{n}/{d}"), level: Level::Product }
+            }
+            Number::Real(x) => PrintedPiece { text: scientific(x), level: Level::Atom },
         }
     }
 
@@ -53,8 +55,8 @@ impl Style for Unicode {
     }
 
     /// One piece over another. A function without parentheses over a number has some around it: (sin θ)/7.
-    fn fraction(&self, above: &Piece, below: &Piece) -> Piece {
-        let wrap = |piece: &Piece, wrapped| {
+    fn fraction(&self, above: &PrintedPiece, below: &PrintedPiece) -> PrintedPiece {
+        let wrap = |piece: &PrintedPiece, wrapped| {
             if wrapped { self.parenthesise(&piece.text) } else { piece.text.clone() }
         };
         let bare = below.level >= Level::Power
@@ -62,17 +64,17 @@ impl Style for Unicode {
             && ends_bare(&above.text);
         let above = wrap(above, above.level < Level::Product || bare);
         let text = format!("{above}/{}", wrap(below, below.level < Level::Power));
-        Piece { text, level: Level::Product }
+        PrintedPiece { text, level: Level::Product }
     }
 
     fn join(&self, factors: &[String]) -> String {
         factors.join(" ")
     }
 
-    fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> Piece {
+    fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> PrintedPiece {
         if exponent == Number::HALF {
             let text = format!("√{}", printer.at_least(base, Level::Atom));
-            return Piece { text, level: Level::Power };
+            return PrintedPiece { text, level: Level::Power };
         }
         let Some(n) = exponent.as_integer() else {
             let exponent = self.number(exponent);
@@ -86,16 +88,21 @@ impl Style for Unicode {
             return applied(printer, &name, arguments[0]);
         }
         let text = format!("{}{}", printer.at_least(base, Level::Atom), superscript(n));
-        Piece { text, level: Level::Power }
+        PrintedPiece { text, level: Level::Power }
     }
 
-    fn call(&self, printer: &Printer<'_>, function: FunctionId, arguments: &[Expr]) -> Piece {
+    fn call(
+        &self,
+        printer: &Printer<'_>,
+        function: FunctionId,
+        arguments: &[Expr],
+    ) -> PrintedPiece {
         if function == FunctionId::Abs {
             let inner = printer.piece(arguments[0]).text;
             // nested bars could open or close
             let text =
                 if inner.contains('|') { format!("abs({inner})") } else { format!("|{inner}|") };
-            return Piece { text, level: Level::Atom };
+            return PrintedPiece { text, level: Level::Atom };
         }
         if function == FunctionId::Exp && !printer.pool.shows("e") {
             return self.power("e", &printer.piece(arguments[0]));
@@ -105,7 +112,7 @@ impl Style for Unicode {
         }
         let arguments: Vec<String> = arguments.iter().map(|&a| printer.piece(a).text).collect();
         let text = format!("{}({})", function.row().unicode, arguments.join(", "));
-        Piece { text, level: Level::Atom }
+        PrintedPiece { text, level: Level::Atom }
     }
 
     fn coefficient_in_front(&self, n: Number, has_denominator: bool) -> bool {
@@ -125,12 +132,12 @@ fn ends_bare(text: &str) -> bool {
 }
 
 /// `sin θ`, `sin(2 θ)`.
-fn applied(printer: &Printer<'_>, name: &str, argument: Expr) -> Piece {
+fn applied(printer: &Printer<'_>, name: &str, argument: Expr) -> PrintedPiece {
     let inner = printer.piece(argument);
     if inner.level == Level::Atom && !inner.text.contains(' ') {
-        Piece { text: format!("{name} {}", inner.text), level: Level::Power }
+        PrintedPiece { text: format!("{name} {}", inner.text), level: Level::Power }
     } else {
-        Piece { text: format!("{name}({})", inner.text), level: Level::Atom }
+        PrintedPiece { text: format!("{name}({})", inner.text), level: Level::Atom }
     }
 }
 

@@ -34,7 +34,7 @@ const MARGIN: f64 = 0.25;
 pub(super) struct Orbit;
 
 /// What was found, and of which motion.
-struct Found {
+struct ComputedOrbit {
     conditions: Conditions,
     /// The time of the motion when it was asked for.
     asked: f64,
@@ -152,7 +152,7 @@ impl Instrument for Orbit {
             let physics = Physics { model: &model, equations: &equations, system: &system.into() };
             let outcome = close(physics, (method, settings), &start, [x, y]);
             let outcome = outcome.map_err(|why| why.to_string());
-            Answer::new(Found { conditions: conditions.clone(), asked, outcome })
+            Answer::new(ComputedOrbit { conditions: conditions.clone(), asked, outcome })
         }))
     }
 
@@ -253,8 +253,8 @@ fn pairs(physics: Physics<'_>) -> Vec<(usize, usize)> {
     }
 }
 
-fn found(answer: Option<&Answer>) -> Option<&Found> {
-    answer?.of::<Found>()
+fn found(answer: Option<&Answer>) -> Option<&ComputedOrbit> {
+    answer?.of::<ComputedOrbit>()
 }
 
 fn described(answer: Option<&Answer>) -> Option<&Described> {

@@ -52,7 +52,7 @@ pub(super) struct Section;
 
 /// The orbits computed so far, and the conditions they were computed for.
 struct Portrait {
-    conditions: Conditions,
+    conditions: SectionConditions,
     /// The additions whose orbits are there, and those at first.
     seeds: Vec<Seed>,
     region: Region,
@@ -62,14 +62,14 @@ struct Portrait {
 }
 
 #[derive(Clone, PartialEq, Debug)]
-struct Conditions {
+struct SectionConditions {
     parameters: Vec<f64>,
     energy: f64,
     method: &'static str,
     settings: Settings,
 }
 
-impl Conditions {
+impl SectionConditions {
     fn of(present: &Present<'_>) -> Self {
         let kind = ChannelKind::Energy;
         let energy = present.physics.channel(kind).map_or(f64::NAN, |c| present.value(c));
@@ -215,7 +215,7 @@ impl Instrument for Section {
         else {
             return Need::Nothing;
         };
-        let conditions = Conditions::of(present);
+        let conditions = SectionConditions::of(present);
         let known = portrait(answer).filter(|known| {
             known.conditions.still_hold(&conditions, plane.is_bounded())
                 && plot.seeds.starts_with(&known.seeds)
@@ -294,7 +294,7 @@ struct Task {
     plane: SectionPlane,
     system: Arc<System>,
     method: &'static Method,
-    conditions: Conditions,
+    conditions: SectionConditions,
     plan: SectionPlan,
     columns: [usize; 2],
     transient: usize,
@@ -415,7 +415,7 @@ fn plane(plot: &Plot, present: &Present<'_>) -> Option<SectionPlane> {
         return None;
     }
     let section = view(plot, present.physics)?.section?;
-    let energy = Conditions::of(present).energy;
+    let energy = SectionConditions::of(present).energy;
     let at = (model.run.start, present.parameters, energy);
     let plane = SectionPlane::new((model, system), section, axes, at);
     plane.filter(|plane| energy.is_finite() || !plane.is_bounded())

@@ -36,7 +36,7 @@ const BEYOND: f64 = 1.3;
 pub(super) struct Spectrum;
 
 /// What was found, and of which motion.
-struct Found {
+struct ComputedSpectrum {
     conditions: Conditions,
     outcome: Result<(Lines, Option<MeanRate>), String>,
 }
@@ -160,7 +160,7 @@ impl Instrument for Spectrum {
                 let lines = lines.ok_or_else(|| "the motion has no finite values".to_owned())?;
                 Ok((lines, rate))
             });
-            Answer::new(Found { conditions: conditions.clone(), outcome })
+            Answer::new(ComputedSpectrum { conditions: conditions.clone(), outcome })
         }))
     }
 
@@ -208,8 +208,8 @@ fn straightened(values: &[f64], spacing: f64, rate: Option<MeanRate>) -> Vec<f64
     values.iter().enumerate().map(|(k, x)| x - rate * spacing * k as f64).collect()
 }
 
-fn found(answer: Option<&Answer>) -> Option<&Found> {
-    answer?.of::<Found>()
+fn found(answer: Option<&Answer>) -> Option<&ComputedSpectrum> {
+    answer?.of::<ComputedSpectrum>()
 }
 
 fn lines(answer: Option<&Answer>) -> Option<&Lines> {

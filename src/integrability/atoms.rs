@@ -45,7 +45,7 @@ pub(super) struct Atoms {
 
 /// What occurs in a law.
 #[derive(Default)]
-struct Found {
+struct LawAtoms {
     algebraic: Vec<Symbol>,
     /// Each term of an angle with the least common denominator of its coefficients.
     angles: Vec<(Expr, i64)>,
@@ -64,7 +64,7 @@ impl Atoms {
         let mut moving: Vec<Symbol> = law.variables.clone();
         moving.push(law.time);
         let roots = law.expressions();
-        let found = Found::of(pool, &roots, &moving);
+        let found = LawAtoms::of(pool, &roots, &moving);
         let momentum_symbols = law.momenta().to_vec();
         let mut atoms = Atoms {
             momenta: Vec::new(),
@@ -300,9 +300,9 @@ pub(super) fn parity(pool: &Pool, e: Expr, momenta: &[Symbol]) -> Option<bool> {
     known.remove(&e).flatten()
 }
 
-impl Found {
-    fn of(pool: &mut Pool, roots: &[Expr], moving: &[Symbol]) -> Found {
-        let mut found = Found::default();
+impl LawAtoms {
+    fn of(pool: &mut Pool, roots: &[Expr], moving: &[Symbol]) -> LawAtoms {
+        let mut found = LawAtoms::default();
         let mut stack: Vec<Expr> = roots.to_vec();
         let mut seen: rustc_hash::FxHashSet<Expr> = rustc_hash::FxHashSet::default();
         while let Some(e) = stack.pop() {

@@ -43,7 +43,7 @@ pub struct Unsupported(pub String);
 
 /// One node in terms of those before it.
 #[derive(Clone, Debug)]
-enum Step {
+enum Instruction {
     Number(Number),
     /// The same residue at every point of a seed: π, and a logarithm or arctangent of a constant.
     Constant,
@@ -73,7 +73,7 @@ struct Angle {
 /// Compiled expressions.
 #[derive(Clone, Debug)]
 pub(super) struct Evaluator {
-    steps: Vec<Step>,
+    steps: Vec<Instruction>,
     index: FxHashMap<Expr, usize>,
     /// For each circle, and each unit, whether it is the same at all points.
     circles: Vec<bool>,
@@ -276,11 +276,11 @@ impl Evaluator {
                 Ok(Angle { parts, quarters })
             };
             let step = match &pool.node(e).clone() {
-                Node::Number(n) => Step::Number(*n),
-                Node::Pi => Step::Constant,
-                Node::Symbol(s) => Step::Symbol(*s),
+                Node::Number(n) => Instruction::Number(*n),
+                Node::Pi => Instruction::Constant,
+                Node::Symbol(s) => Instruction::Symbol(*s),
                 Node::Sum(c, terms) => {
-                    Step::Sum(*c, terms.iter().map(|&(c, t)| (c, at(t))).collect())
+                    Instruction::Sum(*c, terms.iter().map(|&(c, t)| (c, at(t))).collect())
                 }
                 Node::Product(c, factors) => {
                     let factor = |&(base, n): &(Expr, Number)| {
@@ -288,7 +288,7 @@ impl Evaluator {
                         let Number::Rational(n, own) = n else { return None };
                         Some((at(base), d, n * (d as i64 / own)))
                     };
-                    Step::Product(*c, factors.iter().filter_map(factor).collect())
+                    Instruction::Product(*c, factors.iter().filter_map(factor).collect())
                 }
                 Node::Power(..) => {
                     let why =
@@ -296,16 +296,16 @@ impl Evaluator {
                     return Err(Unsupported(why));
                 }
                 Node::Call(function, u) => match function {
-                    FunctionId::Sin => Step::Sine(angle(u[0], pool)?, at(u[0])),
-                    FunctionId::Cos => Step::Cosine(angle(u[0], pool)?, at(u[0])),
-                    FunctionId::Exp => Step::Exp(units.parts(pool, u[0]), at(u[0])),
-                    FunctionId::Sinh => Step::Sinh(units.parts(pool, u[0]), at(u[0])),
-                    FunctionId::Cosh => Step::Cosh(units.parts(pool, u[0]), at(u[0])),
+                    FunctionId::Sin => Instruction::Sine(angle(u[0], pool)?, at(u[0])),
+                    FunctionId::Cos => Instruction::Cosine(angle(u[0], pool)?, at(u[0])),
+                    FunctionId::Exp => Instruction::Exp(units.parts(pool, u[0]), at(u[0])),
+                    FunctionId::Sinh => Instruction::Sinh(units.parts(pool, u[0]), at(u[0])),
+                    FunctionId::Cosh => Instruction::Cosh(units.parts(pool, u[0]), at(u[0])),
                     FunctionId::Ln | FunctionId::Atan if !pool.depends_on_any(e, moving) => {
-                        Step::Constant
+                        Instruction::Constant
                     }
-                    FunctionId::Ln => Step::Ln(at(u[0])),
-                    FunctionId::Atan => Step::Atan(at(u[0])),
+                    FunctionId::Ln => Instruction::Ln(at(u[0])),
+                    FunctionId::Atan => Instruction::Atan(at(u[0])),
                     other => {
                         let name = other.row().name;
                         return Err(Unsupported(format!("no search is made through `{name}`")));
@@ -373,11 +373,11 @@ impl Evaluator {
         };
         for (i, step) in self.steps.iter().enumerate() {
             values[i] = match step {
-                Step::Number(n) => field.number(*n)?,
-                Step::Constant => same.residue(&field),
-                Step::Ln(_) | Step::Atan(_) => random.residue(&field),
-                Step::Symbol(s) => at(*s)?,
-                Step::Sum(c, terms) => {
+                Instruction::Number(n) => field.number(*n)?,
+                Instruction::Constant => same.residue(&field),
+                Instruction::Ln(_) | Instruction::Atan(_) => random.residue(&field),
+                Instruction::Symbol(s) => at(*s)?,
+                Instruction::Sum(c, terms) => {
                     let mut sum = field.number(*c)?;
                     for &(c, term) in terms {
                         let term = values[term];
@@ -389,7 +389,7 @@ impl Evaluator {
                     }
                     sum
                 }
-                Step::Product(c, factors) => {
+                Instruction::Product(c, factors) => {
                     let mut product = field.number(*c)?;
                     for &(base, d, n) in factors {
                         let root = match roots.get(&(base, d)) {
@@ -408,23 +408,23 @@ impl Evaluator {
                     }
                     product
                 }
-                Step::Sine(angle, _) | Step::Cosine(angle, _) => {
+                Instruction::Sine(angle, _) | Instruction::Cosine(angle, _) => {
                     let (sine, cosine) = angle.open(&field, &circles);
                     let (value, companion) = match step {
-                        Step::Sine(..) => (sine, cosine),
+                        Instruction::Sine(..) => (sine, cosine),
                         _ => (cosine, sine),
                     };
                     companions[i] = companion;
                     value
                 }
-                Step::Exp(parts, _) => unit_power(parts)?,
-                Step::Sinh(parts, _) | Step::Cosh(parts, _) => {
+                Instruction::Exp(parts, _) => unit_power(parts)?,
+                Instruction::Sinh(parts, _) | Instruction::Cosh(parts, _) => {
                     let up = unit_power(parts)?;
                     let down = field.inverse(up)?;
                     let half = field.number(Number::HALF)?;
                     let sinh = field.mul(half, field.sub(up, down));
                     let cosh = field.mul(half, field.add(up, down));
-                    let odd = matches!(step, Step::Sinh(..));
+                    let odd = matches!(step, Instruction::Sinh(..));
                     companions[i] = if odd { cosh } else { sinh };
                     if odd { sinh } else { cosh }
                 }
@@ -440,7 +440,7 @@ impl Evaluator {
 
     /// The value of a symbol, zero if it occurs nowhere.
     pub(super) fn symbol_value(&self, point: &Point, symbol: Symbol) -> Residue {
-        let is = |step: &Step| matches!(step, Step::Symbol(s) if *s == symbol);
+        let is = |step: &Instruction| matches!(step, Instruction::Symbol(s) if *s == symbol);
         self.steps.iter().position(is).map_or(Residue::ZERO, |i| point.values[i])
     }
 
@@ -451,16 +451,16 @@ impl Evaluator {
         for (i, step) in self.steps.iter().enumerate() {
             let (value, companion) = (point.values[i], point.companions[i]);
             rates[i] = match step {
-                Step::Number(_) | Step::Constant => Residue::ZERO,
-                Step::Symbol(s) => seed(*s),
-                Step::Sum(_, terms) => {
+                Instruction::Number(_) | Instruction::Constant => Residue::ZERO,
+                Instruction::Symbol(s) => seed(*s),
+                Instruction::Sum(_, terms) => {
                     let mut sum = Residue::ZERO;
                     for &(c, term) in terms.iter().filter(|(_, t)| !rates[*t].is_zero()) {
                         sum = field.add(sum, field.mul(field.number(c)?, rates[term]));
                     }
                     sum
                 }
-                Step::Product(_, factors) => {
+                Instruction::Product(_, factors) => {
                     if factors.iter().all(|&(base, ..)| rates[base].is_zero()) {
                         Residue::ZERO
                     } else {
@@ -475,13 +475,15 @@ impl Evaluator {
                         field.mul(value, sum)
                     }
                 }
-                Step::Sine(_, u) => field.mul(companion, rates[*u]),
-                Step::Cosine(_, u) => field.neg(field.mul(companion, rates[*u])),
-                Step::Exp(_, u) => field.mul(value, rates[*u]),
-                Step::Sinh(_, u) | Step::Cosh(_, u) => field.mul(companion, rates[*u]),
-                Step::Ln(u) if rates[*u].is_zero() => Residue::ZERO,
-                Step::Ln(u) => field.mul(rates[*u], field.inverse(point.values[*u])?),
-                Step::Atan(u) => {
+                Instruction::Sine(_, u) => field.mul(companion, rates[*u]),
+                Instruction::Cosine(_, u) => field.neg(field.mul(companion, rates[*u])),
+                Instruction::Exp(_, u) => field.mul(value, rates[*u]),
+                Instruction::Sinh(_, u) | Instruction::Cosh(_, u) => {
+                    field.mul(companion, rates[*u])
+                }
+                Instruction::Ln(u) if rates[*u].is_zero() => Residue::ZERO,
+                Instruction::Ln(u) => field.mul(rates[*u], field.inverse(point.values[*u])?),
+                Instruction::Atan(u) => {
                     let u2 = field.mul(point.values[*u], point.values[*u]);
                     field.mul(rates[*u], field.inverse(field.add(field.one(), u2))?)
                 }

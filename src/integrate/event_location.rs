@@ -55,7 +55,7 @@ pub(super) struct EventLocator {
 }
 
 /// A piece of a step on which the functions are represented by their series.
-struct Piece {
+struct SeriesPiece {
     /// The beginning.
     from: DoubleDouble,
     /// The unit of time of the series.
@@ -166,7 +166,7 @@ impl EventLocator {
     /// The piece that begins at a time within a power-series step and on which the functions are
     /// represented by their own series. If it ends before the requested end, there may be a kink
     /// there. Also returns how far beyond the piece the functions are represented.
-    fn piece(&mut self, stepper: &dyn Stepper, from: f64, to: f64) -> Option<(Piece, f64)> {
+    fn piece(&mut self, stepper: &dyn Stepper, from: f64, to: f64) -> Option<(SeriesPiece, f64)> {
         let series = stepper.series()?;
         let (origin, unit) = (series.time(), series.scale());
         let from = self.probe.not_before(DoubleDouble::written(from));
@@ -183,14 +183,14 @@ impl EventLocator {
                 length = (change.x - 0.5 * DIGITS * spacing(to) / unit).max(0.0);
             }
         }
-        Some((Piece { from, unit, length }, valid * unit))
+        Some((SeriesPiece { from, unit, length }, valid * unit))
     }
 
     /// The first crossing that counts on a piece.
     fn roots(
         &mut self,
         stepper: &mut dyn Stepper,
-        piece: &Piece,
+        piece: &SeriesPiece,
         (from, to): (f64, f64),
     ) -> Result<Option<LocatedEvent>, MotionError> {
         self.fresh = false;
@@ -219,7 +219,7 @@ impl EventLocator {
         stepper: &mut dyn Stepper,
         event: usize,
         polynomial: &Polynomial,
-        piece: &Piece,
+        piece: &SeriesPiece,
         to: f64,
     ) -> Result<Vec<Crossing>, MotionError> {
         let course = polynomial.follow(self.sides[event]);
@@ -265,7 +265,7 @@ impl EventLocator {
         stepper: &mut dyn Stepper,
         event: usize,
         polynomial: &Polynomial,
-        piece: &Piece,
+        piece: &SeriesPiece,
         x: f64,
     ) -> Result<DoubleDouble, MotionError> {
         let slope = polynomial.slope(x);

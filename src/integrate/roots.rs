@@ -40,7 +40,7 @@ pub(super) fn sign_changes(coefficients: &[f64], end: f64) -> impl Iterator<Item
     let mut waiting = Vec::new();
     if n > 0 && others.is_finite() && bernstein[0].abs() <= others - bernstein[0].abs() {
         to_bernstein(&mut bernstein[..n]);
-        waiting.push(Piece { bernstein, from: 0.0, width: 1.0, depth: 0 });
+        waiting.push(PolynomialPiece { bernstein, from: 0.0, width: 1.0, depth: 0 });
     }
     let brackets = Brackets { n, waiting, sign: 0.0 };
     brackets.map(move |Bracket { from, to, rises }| {
@@ -65,7 +65,7 @@ struct Bracket {
 struct Brackets {
     n: usize,
     /// The parts still to be examined, the first one last.
-    waiting: Vec<Piece>,
+    waiting: Vec<PolynomialPiece>,
     /// The sign at the end of the examined parts; zero before it is known.
     sign: f64,
 }
@@ -100,16 +100,16 @@ impl Iterator for Brackets {
 }
 
 /// A polynomial on a part of the unit interval.
-struct Piece {
+struct PolynomialPiece {
     bernstein: [f64; CAPACITY],
     from: f64,
     width: f64,
     depth: u32,
 }
 
-impl Piece {
+impl PolynomialPiece {
     /// Returns both halves, by de Casteljau's algorithm.
-    fn halves(&self, n: usize) -> (Piece, Piece) {
+    fn halves(&self, n: usize) -> (PolynomialPiece, PolynomialPiece) {
         let mut right = self.bernstein;
         let mut left = [0.0; CAPACITY];
         for i in 0..n {
@@ -122,8 +122,8 @@ impl Piece {
         let (width, depth) = (0.5 * self.width, self.depth + 1);
         let middle = self.from + width;
         (
-            Piece { bernstein: left, from: self.from, width, depth },
-            Piece { bernstein: right, from: middle, width, depth },
+            PolynomialPiece { bernstein: left, from: self.from, width, depth },
+            PolynomialPiece { bernstein: right, from: middle, width, depth },
         )
     }
 }

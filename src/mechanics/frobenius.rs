@@ -21,7 +21,7 @@ use crate::expr::{Expr, Pool, Symbol, Zero};
 const MOST_COMPONENTS: usize = 3_000;
 
 /// A form of some degree: its components by their ascending variables.
-type Form = BTreeMap<Vec<usize>, Expr>;
+type ExteriorForm = BTreeMap<Vec<usize>, Expr>;
 
 impl Equations {
     /// Finds of each constraint whether it is holonomic.
@@ -182,7 +182,7 @@ impl Pfaffian<'_> {
 
     /// A function f ≠ const with df a combination of the forms whose product is given: one with df = g ω_k on where the
     /// fixed variables are constant, for a few factors g.
-    fn constant(&mut self, k: usize, volume: &Form, fixed: &[usize]) -> Option<Expr> {
+    fn constant(&mut self, k: usize, volume: &ExteriorForm, fixed: &[usize]) -> Option<Expr> {
         let mut form = self.forms[k].clone();
         for &i in fixed {
             form[i] = Expr::ZERO;
@@ -219,7 +219,7 @@ impl Pfaffian<'_> {
         })
     }
 
-    fn refutation(&mut self, product: &Form) -> Holonomy {
+    fn refutation(&mut self, product: &ExteriorForm) -> Holonomy {
         let mut components: Vec<(&Vec<usize>, Expr)> = Vec::new();
         for (place, &e) in product {
             let e = self.pool.simplify(e);
@@ -244,7 +244,7 @@ impl Pfaffian<'_> {
     }
 
     /// Whether all components vanish where the other constraints hold.
-    fn is_zero(&mut self, form: &Form) -> Zero {
+    fn is_zero(&mut self, form: &ExteriorForm) -> Zero {
         let mut all = Zero::Proved;
         for &e in form.values() {
             let here = self.here(e);
@@ -257,14 +257,14 @@ impl Pfaffian<'_> {
         all
     }
 
-    fn one(&self, k: usize) -> Form {
+    fn one(&self, k: usize) -> ExteriorForm {
         form_of(&self.forms[k])
     }
 
     /// dω_k.
-    fn derivative(&mut self, k: usize) -> Form {
+    fn derivative(&mut self, k: usize) -> ExteriorForm {
         let form = self.forms[k].clone();
-        let mut all = Form::new();
+        let mut all = ExteriorForm::new();
         for i in 0..form.len() {
             for j in i + 1..form.len() {
                 let a = self.pool.derivative(form[j], self.variables[i]);
@@ -279,8 +279,8 @@ impl Pfaffian<'_> {
     }
 
     /// ω_1 ∧ … ∧ ω_m of these forms.
-    fn product(&mut self, of: &[usize]) -> Option<Form> {
-        let mut all = Form::from([(Vec::new(), Expr::ONE)]);
+    fn product(&mut self, of: &[usize]) -> Option<ExteriorForm> {
+        let mut all = ExteriorForm::from([(Vec::new(), Expr::ONE)]);
         for &k in of {
             let one = self.one(k);
             all = self.wedge(&all, &one)?;
@@ -289,7 +289,7 @@ impl Pfaffian<'_> {
     }
 
     /// The exterior product of two forms; `None` if it has too many components.
-    fn wedge(&mut self, a: &Form, b: &Form) -> Option<Form> {
+    fn wedge(&mut self, a: &ExteriorForm, b: &ExteriorForm) -> Option<ExteriorForm> {
         let mut terms: BTreeMap<Vec<usize>, Vec<Expr>> = BTreeMap::new();
         for (left, &x) in a {
             for (right, &y) in b {
@@ -308,7 +308,7 @@ impl Pfaffian<'_> {
 }
 
 /// A form of degree one.
-fn form_of(components: &[Expr]) -> Form {
+fn form_of(components: &[Expr]) -> ExteriorForm {
     let all = components.iter().enumerate().filter(|(_, e)| **e != Expr::ZERO);
     all.map(|(i, &e)| (vec![i], e)).collect()
 }

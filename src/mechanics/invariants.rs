@@ -229,9 +229,9 @@ fn name_observable(
         }
     }
     let reason = match equations.knowledge_of(expression, released) {
-        Some(Known::Always) => proved(equations, model),
-        Some(Known::OnConstraints) => Reason::ProvedOnConstraints,
-        Some(Known::ByValues) => Reason::Numerically,
+        Some(ConservedBy::Always) => proved(equations, model),
+        Some(ConservedBy::OnConstraints) => Reason::ProvedOnConstraints,
+        Some(ConservedBy::ByValues) => Reason::Numerically,
         None if observable.conserved == Some(true) => Reason::Declared,
         None => return,
     };
@@ -250,7 +250,7 @@ fn is_absent(equations: &mut Equations, model: &Model, i: usize) -> bool {
 }
 
 /// How it is known that a quantity is conserved.
-enum Known {
+enum ConservedBy {
     /// Its rate is proved to vanish.
     Always,
     /// Its rate is proved to vanish where the constraints are satisfied.
@@ -262,19 +262,19 @@ enum Known {
 impl Equations {
     /// How it is known that an observable is conserved, or `None` if it is not. If constraints may
     /// be `released`, only what holds for any constraint forces counts.
-    fn knowledge_of(&mut self, observable: Expr, released: bool) -> Option<Known> {
+    fn knowledge_of(&mut self, observable: Expr, released: bool) -> Option<ConservedBy> {
         if self.may_jump(observable) {
             return None;
         }
         if let Some(rate) = self.rate_by_momenta(observable)
             && self.pool.is_zero(rate) == Zero::Proved
         {
-            return Some(Known::Always);
+            return Some(ConservedBy::Always);
         }
         if self.constraints.is_empty() {
             return match self.is_conserved(observable)? {
-                Zero::Proved => Some(Known::Always),
-                Zero::Numerically => Some(Known::ByValues),
+                Zero::Proved => Some(ConservedBy::Always),
+                Zero::Numerically => Some(ConservedBy::ByValues),
                 Zero::Unknown | Zero::No => None,
             };
         }
@@ -283,10 +283,10 @@ impl Equations {
         }
         let rate = self.rate_of(observable)?;
         match self.pool.is_zero(rate) {
-            Zero::Proved => Some(Known::OnConstraints),
-            Zero::Numerically => Some(Known::ByValues),
+            Zero::Proved => Some(ConservedBy::OnConstraints),
+            Zero::Numerically => Some(ConservedBy::ByValues),
             Zero::Unknown | Zero::No => {
-                self.vanishes_on_constraints(rate).then_some(Known::OnConstraints)
+                self.vanishes_on_constraints(rate).then_some(ConservedBy::OnConstraints)
             }
         }
     }

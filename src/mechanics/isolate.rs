@@ -29,17 +29,17 @@ pub(super) fn solve(
     unknowns: &[Symbol],
     accept: &mut dyn FnMut(&mut Pool, &Solution) -> bool,
 ) -> Option<Solution> {
-    let mut search = Search { wanted: unknowns.to_vec(), budget: BUDGET, accept };
+    let mut search = Isolation { wanted: unknowns.to_vec(), budget: BUDGET, accept };
     search.step(pool, equations.to_vec(), unknowns, Vec::new())
 }
 
-struct Search<'a> {
+struct Isolation<'a> {
     wanted: Vec<Symbol>,
     budget: usize,
     accept: &'a mut dyn FnMut(&mut Pool, &Solution) -> bool,
 }
 
-impl Search<'_> {
+impl Isolation<'_> {
     /// Goes on from what is left to solve and what is found, which may depend on what is left.
     fn step(
         &mut self,

@@ -9,7 +9,7 @@ use crate::expr::Symbol;
 /// Writes the report as a fragment for LaTeX.
 pub fn latex(report: &Report<'_>, further: &Further) -> String {
     let pool = &report.equations.pool;
-    let mut page = Page { report, lines: Vec::new() };
+    let mut page = LatexReport { report, lines: Vec::new() };
     page.lines(report.body.iter().flat_map(|body| &body.lines));
     page.lines([&report.law].into_iter().chain(&report.dissipation));
     page.lines(report.forces.iter().chain(&report.brackets));
@@ -75,12 +75,12 @@ pub fn latex(report: &Report<'_>, further: &Further) -> String {
 }
 
 /// The text so far.
-struct Page<'a> {
+struct LatexReport<'a> {
     report: &'a Report<'a>,
     lines: Vec<String>,
 }
 
-impl<'a> Page<'a> {
+impl<'a> LatexReport<'a> {
     fn add(&mut self, left: &str, right: &str) {
         self.lines.push(format!("{left} &= {right}"));
     }

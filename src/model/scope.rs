@@ -14,7 +14,7 @@ use crate::expr::{Expr, FUNCTIONS, Node, Pool, Resolve, Span, Symbol, SyntaxErro
 
 pub use allowed::Allowed;
 
-use allowed::Kind;
+use allowed::SymbolRole;
 use meaning::Meaning;
 use notation::Shown;
 
@@ -31,7 +31,7 @@ pub struct Scope {
     allowed: Allowed,
     place: String,
     names: BTreeMap<String, Meaning>,
-    kinds: HashMap<Symbol, Kind>,
+    kinds: HashMap<Symbol, SymbolRole>,
     offenders: HashMap<Expr, Option<Symbol>>,
     /// The names as the screen shows them.
     shown: Shown,
@@ -54,45 +54,45 @@ impl Scope {
         let mut names = BTreeMap::new();
         let mut kinds = HashMap::new();
         let common = model.symbols;
-        let mut constant = |name: &str, symbol, kind: Option<Kind>| {
+        let mut constant = |name: &str, symbol, kind: Option<SymbolRole>| {
             names.insert(name.to_owned(), Meaning::Symbol(symbol));
             kinds.extend(kind.map(|kind| (symbol, kind)));
         };
-        constant("t", common.time, Some(Kind::Time));
-        constant("energy", common.energy, Some(Kind::Energy));
-        constant("action", common.action, Some(Kind::Action));
+        constant("t", common.time, Some(SymbolRole::Time));
+        constant("energy", common.energy, Some(SymbolRole::Energy));
+        constant("action", common.action, Some(SymbolRole::Action));
         for p in &model.parameters {
             constant(&p.name, p.symbol, None);
         }
         for symbol in model.body.iter().flat_map(|body| body.names.all()) {
-            constant(&model.pool.symbol_info(symbol).name, symbol, Some(Kind::Inertia));
+            constant(&model.pool.symbol_info(symbol).name, symbol, Some(SymbolRole::Inertia));
         }
         for constraint in &model.constraints {
             let name = multiplier_name(&constraint.name);
-            constant(&name, constraint.multiplier, Some(Kind::Multiplier));
+            constant(&name, constraint.multiplier, Some(SymbolRole::Multiplier));
         }
         for symbol in model.attitude.iter().flat_map(|a| a.matrix.concat()) {
-            constant(&model.pool.symbol_info(symbol).name, symbol, Some(Kind::Attitude));
+            constant(&model.pool.symbol_info(symbol).name, symbol, Some(SymbolRole::Attitude));
         }
         if !model.is_poisson() {
             for c in &model.coordinates {
-                constant(&format!("p_{}", c.name), c.momentum, Some(Kind::Momentum));
+                constant(&format!("p_{}", c.name), c.momentum, Some(SymbolRole::Momentum));
             }
         }
         for c in &model.coordinates {
             let symbols = [c.position, c.velocity, c.acceleration];
             names.insert(c.name.clone(), Meaning::Position(symbols));
-            let rates = [Kind::Position, Kind::Velocity, Kind::Acceleration];
+            let rates = [SymbolRole::Position, SymbolRole::Velocity, SymbolRole::Acceleration];
             kinds.extend(symbols.into_iter().zip(rates));
         }
         for (name, symbol) in model.new_variables() {
             names.insert(name, Meaning::Symbol(symbol));
-            kinds.insert(symbol, Kind::New);
+            kinds.insert(symbol, SymbolRole::New);
         }
         for &(position, velocity) in model.comparison.iter().flat_map(|c| &c.symbols) {
             let name = model.pool.symbol_info(position).name.clone();
             names.insert(name, Meaning::Other([position, velocity]));
-            kinds.extend([(position, Kind::Other), (velocity, Kind::Other)]);
+            kinds.extend([(position, SymbolRole::Other), (velocity, SymbolRole::Other)]);
         }
         for (name, e) in &model.definitions {
             names.insert(name.clone(), Meaning::Defined(*e));
@@ -188,7 +188,7 @@ impl Scope {
     }
 
     /// Why a kind of symbol may not be used here, or `None` if it may.
-    fn refusal(&self, kind: Kind) -> Option<String> {
+    fn refusal(&self, kind: SymbolRole) -> Option<String> {
         self.allowed.refusal(kind, &self.place)
     }
 
@@ -227,8 +227,8 @@ impl Scope {
             let moves = primes == 0 || matches!(meaning, Meaning::Position(_) | Meaning::Other(_));
             let open = match meaning {
                 Meaning::Symbol(s) => self.kinds.get(s).is_none_or(|&k| self.refusal(k).is_none()),
-                Meaning::Position(_) => self.refusal(Kind::Position).is_none(),
-                Meaning::Other(_) => self.refusal(Kind::Other).is_none(),
+                Meaning::Position(_) => self.refusal(SymbolRole::Position).is_none(),
+                Meaning::Other(_) => self.refusal(SymbolRole::Other).is_none(),
                 Meaning::Defined(_) => true,
                 Meaning::Later => false,
             };
@@ -264,7 +264,7 @@ impl Scope {
     /// Suggests the multipliers that a name beginning like one could mean.
     fn multipliers(&self) -> String {
         let multiplies = |meaning: &Meaning| match meaning {
-            Meaning::Symbol(s) => self.kinds.get(s) == Some(&Kind::Multiplier),
+            Meaning::Symbol(s) => self.kinds.get(s) == Some(&SymbolRole::Multiplier),
             _ => false,
         };
         let known: Vec<&str> =
@@ -322,13 +322,13 @@ impl Scope {
             };
             let error = SyntaxError::new(span, message);
             return Err(match (self.allowed, self.kinds.get(&symbol)) {
-                (Allowed::Lagrangian, Some(Kind::Momentum)) => {
+                (Allowed::Lagrangian, Some(SymbolRole::Momentum)) => {
                     error.with_help("write it in velocities, or give the law in [hamiltonian]")
                 }
-                (Allowed::Hamiltonian, Some(Kind::Velocity)) => {
+                (Allowed::Hamiltonian, Some(SymbolRole::Velocity)) => {
                     error.with_help("write it in momenta, or give the law in [lagrangian]")
                 }
-                (_, Some(Kind::Multiplier)) => {
+                (_, Some(SymbolRole::Multiplier)) => {
                     error.with_help("what a constraint needs follows from the law of motion")
                 }
                 _ => error,
@@ -395,7 +395,7 @@ impl Resolve for Scope {
         let Ok((name, 0)) = self.plain_name(name, 0, Span::default()) else { return false };
         match self.names.get(&name) {
             Some(Meaning::Symbol(symbol)) => {
-                self.kinds.get(symbol).is_none_or(|k| *k == Kind::Inertia)
+                self.kinds.get(symbol).is_none_or(|k| *k == SymbolRole::Inertia)
             }
             _ => false,
         }

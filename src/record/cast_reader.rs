@@ -58,11 +58,11 @@ struct Head {
     idle_time_limit: Option<f64>,
     width: Option<u64>,
     height: Option<u64>,
-    term: Option<Term>,
+    term: Option<TerminalReplay>,
 }
 
 #[derive(Deserialize)]
-struct Term {
+struct TerminalReplay {
     cols: u64,
     rows: u64,
 }

@@ -37,7 +37,7 @@ pub struct ScriptRunner {
     pub(super) script: Script,
     /// The index of the next step.
     pub(super) next: usize,
-    under_way: UnderWay,
+    under_way: PartialStep,
     /// Whether a first picture is due, because time passes or something else needs it.
     begins: bool,
     begun: bool,
@@ -50,15 +50,15 @@ pub struct ScriptRunner {
 }
 
 /// The unfinished part of a step.
-enum UnderWay {
+enum PartialStep {
     Nothing,
     Keys(vec::IntoIter<KeyEvent>),
-    Sweep { courses: Vec<Course>, frame: u64, count: u64 },
+    Sweep { courses: Vec<ValueRamp>, frame: u64, count: u64 },
 }
 
 /// A value that moves from one number to another.
 #[derive(Clone, Copy)]
-struct Course {
+struct ValueRamp {
     target: ValueId,
     from: f64,
     to: f64,
@@ -107,7 +107,7 @@ impl ScriptRunner {
             lab,
             script,
             next: 0,
-            under_way: UnderWay::Nothing,
+            under_way: PartialStep::Nothing,
             begins: false,
             begun: false,
             pace: PACE,
@@ -169,17 +169,17 @@ impl ScriptRunner {
                 return Ok(RunnerEvent::Frame);
             }
             match &mut self.under_way {
-                UnderWay::Keys(keys) => match keys.next() {
+                PartialStep::Keys(keys) => match keys.next() {
                     Some(key) => self.press(key),
-                    None => self.under_way = UnderWay::Nothing,
+                    None => self.under_way = PartialStep::Nothing,
                 },
                 // no frame was left for it
-                UnderWay::Sweep { courses, .. } => {
+                PartialStep::Sweep { courses, .. } => {
                     let courses = mem::take(courses);
                     self.carry(&courses, 1.0);
                     self.end_sweep();
                 }
-                UnderWay::Nothing => {
+                PartialStep::Nothing => {
                     if let Some(beat) = self.step()? {
                         return Ok(beat);
                     }
@@ -215,12 +215,12 @@ impl ScriptRunner {
             }
             Step::Press(keys) => {
                 let written = keys_written(&keys);
-                self.under_way = UnderWay::Keys(keys.into_iter());
+                self.under_way = PartialStep::Keys(keys.into_iter());
                 done("press", written)
             }
             Step::Type(text) => {
                 let keys: Vec<KeyEvent> = text.chars().map(key::character).collect();
-                self.under_way = UnderWay::Keys(keys.into_iter());
+                self.under_way = PartialStep::Keys(keys.into_iter());
                 done("type", text)
             }
             Step::Wait(time) => {
@@ -236,14 +236,14 @@ impl ScriptRunner {
             Step::Sweep { ways, time } => {
                 let courses =
                     ways.iter().map(|way| self.course(way)).collect::<Result<Vec<_>, _>>()?;
-                let moves = ways.iter().zip(&courses).map(|(way, Course { from, to, .. })| {
+                let moves = ways.iter().zip(&courses).map(|(way, ValueRamp { from, to, .. })| {
                     format!("{} from {from} to {to}", way.name.text)
                 });
                 let moves = moves.collect::<Vec<_>>().join(", ");
                 self.lab.app.hold_on();
                 self.pass(time);
                 let count = self.lab.clock.left();
-                self.under_way = UnderWay::Sweep { courses, frame: 0, count };
+                self.under_way = PartialStep::Sweep { courses, frame: 0, count };
                 done("sweep", moves)
             }
             Step::Speed(written) => {
@@ -293,7 +293,7 @@ impl ScriptRunner {
     }
 
     /// The course of one value in a sweep.
-    fn course(&self, way: &SweepPath) -> Result<Course, Diagnostic> {
+    fn course(&self, way: &SweepPath) -> Result<ValueRamp, Diagnostic> {
         let target = self.target(&way.name)?;
         let of = |text: &Text| assertion::value(&self.lab.app, text);
         let present = || self.lab.app.lab.as_ref().and_then(|lab| lab.value(target));
@@ -301,19 +301,19 @@ impl ScriptRunner {
             Some(from) => of(from)?,
             None => present().unwrap_or(0.0),
         };
-        Ok(Course { target, from, to: of(&way.to)? })
+        Ok(ValueRamp { target, from, to: of(&way.to)? })
     }
 
     /// Sets the values at a fraction of their courses.
-    fn carry(&mut self, courses: &[Course], part: f64) {
-        for &Course { target, from, to } in courses {
+    fn carry(&mut self, courses: &[ValueRamp], part: f64) {
+        for &ValueRamp { target, from, to } in courses {
             self.lab.set(target, if part < 1.0 { from + (to - from) * part } else { to });
         }
     }
 
     /// Ends a sweep, after which undo reverts all of it at once.
     fn end_sweep(&mut self) {
-        self.under_way = UnderWay::Nothing;
+        self.under_way = PartialStep::Nothing;
         self.lab.app.drop_hold();
     }
 
@@ -353,7 +353,7 @@ impl ScriptRunner {
 
     /// Advances by one frame.
     pub(super) fn frame(&mut self) {
-        if let UnderWay::Sweep { courses, frame, count } = &mut self.under_way {
+        if let PartialStep::Sweep { courses, frame, count } = &mut self.under_way {
             *frame += 1;
             let (courses, part) = (courses.clone(), *frame as f64 / *count as f64);
             self.carry(&courses, part);

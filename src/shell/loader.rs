@@ -24,7 +24,7 @@ pub(super) struct Loader {
 }
 
 /// The requested name with the prepared experiment, or an error.
-type Outcome = Result<(String, Box<Prepared>), LoadError>;
+type LoadOutcome = Result<(String, Box<Prepared>), LoadError>;
 
 impl Loader {
     /// Creates a loader with the presets of this catalog.
@@ -48,7 +48,7 @@ impl Loader {
     }
 
     /// Returns the outcome of the latest request as soon as there is one.
-    pub(super) fn take(&mut self) -> Option<Outcome> {
+    pub(super) fn take(&mut self) -> Option<LoadOutcome> {
         let name = self.name.clone();
         let made = match self.side.take()?.1 {
             job::Outcome::Done(made) => made,

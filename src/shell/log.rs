@@ -75,7 +75,7 @@ impl Log {
         let file = File::options().create(true).append(true).open(path)?;
         let (lines, writer) = NonBlocking::new(file);
         let log = Self { writer, lost: lines.error_counter() };
-        let subscriber = tracing_subscriber::fmt().with_writer(lines).event_format(Line);
+        let subscriber = tracing_subscriber::fmt().with_writer(lines).event_format(LogLine);
         Ok((log, subscriber.finish()))
     }
 
@@ -102,9 +102,9 @@ fn usual() -> Option<PathBuf> {
 }
 
 /// Formats `2026-03-01T12:00:00.250417Z error …`; the further lines of a message are indented.
-struct Line;
+struct LogLine;
 
-impl<S, N> FormatEvent<S, N> for Line
+impl<S, N> FormatEvent<S, N> for LogLine
 where
     S: Subscriber + for<'a> LookupSpan<'a>,
     N: for<'a> FormatFields<'a> + 'static,

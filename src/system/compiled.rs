@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::consistent_initial::Known;
+use super::consistent_initial::KnownVelocity;
 use super::constrained::{ActiveSet, Constrained};
 use super::error::{MotionError, MotionErrorKind};
 use super::inertia::Inertia;
@@ -52,7 +52,7 @@ pub(super) struct Shared {
     pub(super) initial: Arc<Program>,
     constraints: Option<Constrained>,
     /// Which initial rates the file gives.
-    pub(super) known: Vec<Known>,
+    pub(super) known: Vec<KnownVelocity>,
     /// The energy as a function of (q, native rates).
     energy: Arc<Program>,
     /// Whether the time of its states is −t.
@@ -62,8 +62,8 @@ pub(super) struct Shared {
 }
 
 /// Returns what the file specifies about an initial rate.
-fn known(coordinate: &model::Coordinate) -> Known {
-    if coordinate.rate_given { Known::InitialOverride } else { Known::LeftOut }
+fn known(coordinate: &model::Coordinate) -> KnownVelocity {
+    if coordinate.rate_given { KnownVelocity::InitialOverride } else { KnownVelocity::LeftOut }
 }
 
 /// Why a model cannot be compiled.

@@ -287,13 +287,13 @@ impl Conditions {
     /// The space spanned by the rows of the `enforced` constraints, with its orientation, or `None` if
     /// the rows are dependent. Uses the given units of the coordinates, or else units that make the
     /// entries comparable.
-    pub(super) fn span(&self, enforced: &[bool], units: Option<&[f64]>) -> Option<Span> {
+    pub(super) fn span(&self, enforced: &[bool], units: Option<&[f64]>) -> Option<ConstraintSpan> {
         let units = units.map_or_else(|| self.units(enforced), <[f64]>::to_vec);
         let mut basis = Basis { rows: Vec::new(), volume: 1.0 };
         for k in (0..self.count).filter(|&k| enforced[k]) {
             basis.add(self.row(k, &units)).filter(|&left| left > SPANS)?;
         }
-        Some(Span { rows: basis.rows, volume: basis.volume, units })
+        Some(ConstraintSpan { rows: basis.rows, volume: basis.volume, units })
     }
 
     /// The row of a constraint in units of the coordinates, with rounding errors set to zero.
@@ -371,7 +371,7 @@ impl Basis {
 
 /// The space spanned by the rows of constraints, with its orientation.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) struct Span {
+pub(super) struct ConstraintSpan {
     /// Orthonormal rows, with the orientation of the constraints' own rows.
     rows: Vec<Vec<f64>>,
     /// The volume spanned by the constraints' own rows.
@@ -379,7 +379,7 @@ pub(super) struct Span {
     units: Vec<f64>,
 }
 
-impl Span {
+impl ConstraintSpan {
     /// The units of the coordinates the span was computed in.
     pub(super) fn units(&self) -> &[f64] {
         &self.units
@@ -392,7 +392,7 @@ impl Span {
 
     /// The cosine of the angle between two such spaces: 1 if they are equal, −1 if they are equal
     /// with the opposite orientation. It is the determinant of the rows' inner products.
-    pub(super) fn cosine(&self, other: &Span) -> f64 {
+    pub(super) fn cosine(&self, other: &ConstraintSpan) -> f64 {
         let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
         let mut matrix: Vec<Vec<f64>> =
             self.rows.iter().map(|a| other.rows.iter().map(|b| product(a, b)).collect()).collect();

@@ -21,7 +21,7 @@ const HALVINGS: u32 = 60;
 
 /// What is known of a velocity.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Known {
+pub(super) enum KnownVelocity {
     /// Its value, which the state contains.
     InitialOverride,
     /// Nothing; the constraints determine it.
@@ -50,12 +50,12 @@ pub(super) fn begin(
     momenta: &mut Evaluator<DoubleDouble>,
     time: DoubleDouble,
     state: &mut [DoubleDouble],
-    known: &[Known],
+    known: &[KnownVelocity],
 ) -> Result<(), InconsistentStart> {
     let n = known.len();
     let unknown: Vec<usize> =
-        (0..n).filter(|&i| !matches!(known[i], Known::InitialOverride)).collect();
-    let mut problem = Problem { conditions, momenta, time, known, unknown };
+        (0..n).filter(|&i| !matches!(known[i], KnownVelocity::InitialOverride)).collect();
+    let mut problem = InitialVelocityProblem { conditions, momenta, time, known, unknown };
     let (missing, _) = problem.missing(state)?;
     let (_, free) = problem.step(&missing);
     if !free.is_empty() {
@@ -102,20 +102,20 @@ pub(super) fn begin(
     Ok(())
 }
 
-struct Problem<'a> {
+struct InitialVelocityProblem<'a> {
     conditions: &'a Conditions,
     momenta: &'a mut Evaluator<DoubleDouble>,
     time: DoubleDouble,
-    known: &'a [Known],
+    known: &'a [KnownVelocity],
     unknown: Vec<usize>,
 }
 
-impl Problem<'_> {
+impl InitialVelocityProblem<'_> {
     /// The coordinates whose momenta are given, with these momenta.
     fn targets(&self) -> Vec<(usize, DoubleDouble)> {
-        let target = |(i, known): (usize, &Known)| match known {
-            Known::Momentum(p) => Some((i, *p)),
-            Known::InitialOverride | Known::LeftOut => None,
+        let target = |(i, known): (usize, &KnownVelocity)| match known {
+            KnownVelocity::Momentum(p) => Some((i, *p)),
+            KnownVelocity::InitialOverride | KnownVelocity::LeftOut => None,
         };
         self.known.iter().enumerate().filter_map(target).collect()
     }

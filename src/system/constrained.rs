@@ -4,8 +4,8 @@
 //! reactions, residuals. Never here: the constraint forces along the motion, which are outputs of
 //! the programs.
 
-use super::conditions::{Conditions, Programs, Span};
-use super::consistent_initial::{self, InconsistentStart, Known};
+use super::conditions::{Conditions, ConstraintSpan, Programs};
+use super::consistent_initial::{self, InconsistentStart, KnownVelocity};
 use super::error::{MotionError, MotionErrorKind};
 use super::inertia::Inertia;
 use super::kkt::ConstraintSystem;
@@ -120,7 +120,7 @@ const GAINED: f64 = 4.0;
 
 /// The space of the constraints' directions at a state, with its orientation.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Directions(Span);
+pub struct Directions(ConstraintSpan);
 
 impl Directions {
     /// The cosine of the angle between two spaces of directions. It changes smoothly along a
@@ -345,7 +345,7 @@ impl System {
     pub(super) fn begin_on_constraints(
         &self,
         mut state: State,
-        known: &[Known],
+        known: &[KnownVelocity],
         parameters: &[f64],
     ) -> Result<State, MotionError> {
         let Some(constrained) = self.constrained() else { return Ok(state) };
@@ -368,11 +368,11 @@ impl System {
         let mut numbers: Vec<DoubleDouble> = (0..self.moving()).map(|i| state.exact(i)).collect();
         let time = state.exact_time();
         // a coordinate that no constraint involves starts at rest, as it would without constraints
-        let known: Vec<Known> = known
+        let known: Vec<KnownVelocity> = known
             .iter()
             .zip(&constrained.touched)
             .map(|(&known, &touched)| match known {
-                Known::LeftOut if !touched => Known::InitialOverride,
+                KnownVelocity::LeftOut if !touched => KnownVelocity::InitialOverride,
                 other => other,
             })
             .collect();

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use super::compiled::System;
-use super::consistent_initial::Known;
+use super::consistent_initial::KnownVelocity;
 use super::error::MotionError;
 use super::legendre::Legendre;
 use super::value::Evaluator;
@@ -69,11 +69,11 @@ impl System {
                 (InitialOverride::Velocity(i, x), Form::Velocity)
                 | (InitialOverride::Momentum(i, x), Form::Momentum) => {
                     (state[n + i], targets[i]) = (DoubleDouble::written(x), None);
-                    known[i] = Known::InitialOverride;
+                    known[i] = KnownVelocity::InitialOverride;
                 }
                 (InitialOverride::Velocity(i, x) | InitialOverride::Momentum(i, x), _) => {
                     targets[i] = Some(DoubleDouble::written(x));
-                    known[i] = Known::Momentum(DoubleDouble::written(x));
+                    known[i] = KnownVelocity::Momentum(DoubleDouble::written(x));
                 }
             }
         }

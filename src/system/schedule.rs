@@ -145,7 +145,7 @@ pub(super) struct Schedule {
 
 impl Schedule {
     pub(super) fn of(program: &Program) -> Schedule {
-        let mut writer = Writer {
+        let mut writer = ScheduleWriter {
             program,
             schedule: Schedule::default(),
             pairs: HashMap::new(),
@@ -159,7 +159,7 @@ impl Schedule {
     }
 }
 
-struct Writer<'a> {
+struct ScheduleWriter<'a> {
     program: &'a Program,
     schedule: Schedule,
     /// The places of pairs, of registers stored in reverse, and of slopes.
@@ -176,7 +176,7 @@ fn place(list: &mut Vec<Register>, known: &mut HashMap<Register, u32>, register:
     })
 }
 
-impl Writer<'_> {
+impl ScheduleWriter<'_> {
     fn write(&mut self, register: Register) {
         let step = match self.program.ops[register as usize] {
             Op::Time => Step::Time(register),

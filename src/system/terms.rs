@@ -31,21 +31,21 @@ enum AtRest {
 
 /// The place of one quantity among the outputs of the programs.
 #[derive(Clone, Debug)]
-struct Place {
+struct OutputPlace {
     first: usize,
     terms: Vec<AtRest>,
 }
 
 /// The energy, then the conserved quantities, each by its terms, before compilation.
 pub(super) struct Quantities {
-    places: Vec<Option<Place>>,
+    places: Vec<Option<OutputPlace>>,
     outputs: Vec<Expr>,
 }
 
 /// The compiled programs of these terms.
 #[derive(Clone, Debug)]
 pub(super) struct Terms {
-    places: Arc<[Option<Place>]>,
+    places: Arc<[Option<OutputPlace>]>,
     /// The terms as functions of a state in the native form, action and work.
     native: Arc<Program>,
     /// The terms as functions of a state (q, p), if that form is not native and velocities follow
@@ -97,7 +97,7 @@ impl Quantities {
                 };
                 terms.push(rest);
             }
-            quantities.places.push(Some(Place { first, terms }));
+            quantities.places.push(Some(OutputPlace { first, terms }));
         }
         quantities
     }
@@ -126,7 +126,7 @@ impl Quantities {
 #[derive(Clone, Debug)]
 pub struct TermWatch {
     system: System,
-    places: Arc<[Option<Place>]>,
+    places: Arc<[Option<OutputPlace>]>,
     native: Evaluator<f64>,
     canonical: Option<Evaluator<f64>>,
     legendre: Legendre,

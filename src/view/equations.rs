@@ -16,7 +16,7 @@ const MOST: u64 = 4_000;
 /// Builds the page.
 pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
     let report = Report::of(&lab.loaded.model, &lab.loaded.equations);
-    let mut writer = Writer { report: &report, look, page: TextPage::default() };
+    let mut writer = EquationRows { report: &report, look, page: TextPage::default() };
     constants::verdict(lab, &mut writer.page);
     writer.law();
     writer.constraints();
@@ -32,7 +32,7 @@ pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
 /// The law of motion, the solved equations and the notes of the file, for a small pane.
 pub(super) fn law(lab: &Lab, look: &RenderStyle) -> TextPage {
     let report = Report::of(&lab.loaded.model, &lab.loaded.equations);
-    let mut writer = Writer { report: &report, look, page: TextPage::default() };
+    let mut writer = EquationRows { report: &report, look, page: TextPage::default() };
     writer.lines(&[report.law]);
     writer.page.gap();
     writer.solved();
@@ -43,13 +43,13 @@ pub(super) fn law(lab: &Lab, look: &RenderStyle) -> TextPage {
     writer.page
 }
 
-struct Writer<'a> {
+struct EquationRows<'a> {
     report: &'a Report<'a>,
     look: &'a RenderStyle,
     page: TextPage,
 }
 
-impl Writer<'_> {
+impl EquationRows<'_> {
     fn write(&self, e: Expr) -> String {
         let pool = &self.report.equations.pool;
         if pool.weight(e) > MOST {

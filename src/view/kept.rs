@@ -22,15 +22,15 @@ type Row = Vec<(String, Style)>;
 /// Everything that is kept.
 #[derive(Debug, Default)]
 pub(super) struct Kept {
-    look: Option<Look>,
-    trails: Vec<Held<TrailKey, Drawn>>,
+    look: Option<KeptStyle>,
+    trails: Vec<Held<TrailKey, DrawnTrail>>,
     levels: Vec<Held<LevelsKey, Raster>>,
     law: Option<(LawKey, Vec<Row>)>,
 }
 
 /// The parts of a render style that decide how something kept looks.
 #[derive(Debug, PartialEq)]
-struct Look {
+struct KeptStyle {
     palette: &'static str,
     trail: Vec<Shade>,
     glyphs: Glyphs,
@@ -67,7 +67,7 @@ pub(super) enum Track {
 
 /// A drawn trail, and the rows by which its continuation is known.
 #[derive(Debug)]
-struct Drawn {
+struct DrawnTrail {
     trail: KeptTrail,
     first: Vec<f64>,
     last: Vec<f64>,
@@ -91,7 +91,7 @@ struct LawKey {
 impl Kept {
     /// Begins a frame. Nothing is kept of another theme or other characters.
     pub(super) fn begin(&mut self, style: &RenderStyle) {
-        let look = Look {
+        let look = KeptStyle {
             palette: style.theme.palette().name,
             trail: style.theme.trail(0).to_vec(),
             glyphs: style.glyphs,
@@ -119,14 +119,14 @@ impl Kept {
     ) -> &KeptTrail {
         let found = self.trails.iter().position(|kept| kept.key == key);
         let index = found.unwrap_or_else(|| {
-            let value = Drawn::empty(&key, glyphs);
+            let value = DrawnTrail::empty(&key, glyphs);
             self.trails.push(Held { key, value, used: true });
             self.trails.len() - 1
         });
         let Held { key, value, used } = &mut self.trails[index];
         *used = true;
         let new = value.continuation(rows).unwrap_or_else(|| {
-            *value = Drawn::empty(key, glyphs);
+            *value = DrawnTrail::empty(key, glyphs);
             match key.track {
                 Track::Curve(_, _, from) => {
                     rows.rows().rev().take_while(|row| row.first() >= Some(&from)).count()
@@ -177,7 +177,7 @@ impl Kept {
     }
 }
 
-impl Drawn {
+impl DrawnTrail {
     fn empty(key: &TrailKey, glyphs: Glyphs) -> Self {
         let line = match key.track {
             Track::Curve(_, dash, _) => Some(dash),

@@ -44,7 +44,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
     }
     let (list, below) = split_rows(rest, rest.height.saturating_sub(about).max(1));
     let rows = usize::from(list.height);
-    let columns_of = Columns::of(canvas, menu, list.width);
+    let columns_of = MenuColumns::of(canvas, menu, list.width);
     let first = window(menu.selected, shown.len(), rows);
     for (place, (index, fit)) in shown.iter().enumerate().skip(first).take(rows) {
         let area = row(list, place - first);
@@ -112,7 +112,7 @@ fn keys_of(canvas: &Canvas<'_>, item: &Item) -> String {
 }
 
 /// The columns of the rows.
-struct Columns {
+struct MenuColumns {
     /// The width of a row.
     width: u16,
     /// The width of the labels; the note begins after it unless the label is longer.
@@ -121,7 +121,7 @@ struct Columns {
     keys: u16,
 }
 
-impl Columns {
+impl MenuColumns {
     fn of(canvas: &Canvas<'_>, menu: &Menu, width: u16) -> Self {
         let widest = |wide: &dyn Fn(&Item) -> usize| {
             let wide = menu.items.iter().map(wide);
@@ -141,7 +141,7 @@ impl Columns {
 }
 
 /// Draws a row: the label with the matching letters highlighted, the note or the reason it is disabled, and the keys.
-fn line(canvas: &mut Canvas<'_>, area: Rect, (item, fit): (&Item, &Fit), grid: &Columns) {
+fn line(canvas: &mut Canvas<'_>, area: Rect, (item, fit): (&Item, &Fit), grid: &MenuColumns) {
     let role = if item.refusal.is_some() { Role::Dim } else { Role::Text };
     let label = found_in(canvas, &item.label, (fit, role));
     let used = canvas.spans(columns(area, 2, grid.room(canvas, item)), &label);

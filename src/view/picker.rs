@@ -70,7 +70,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
 }
 
 /// A line of the list.
-enum Line<'a> {
+enum ListLine<'a> {
     Session(&'a Saved),
     Topic(&'a str),
     System(usize, &'a Entry, &'a Fit),
@@ -91,31 +91,31 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
         picker.search.as_ref(),
     );
     let (_, body) = split_rows(inner, 2);
-    let mut lines: Vec<Line<'_>> = Vec::new();
+    let mut lines: Vec<ListLine<'_>> = Vec::new();
     let mut topic = None;
     let mut here = 0;
-    lines.extend(picker.session().map(Line::Session));
+    lines.extend(picker.session().map(ListLine::Session));
     for (place, (index, fit)) in shown.iter().enumerate() {
         let entry = &picker.entries[*index];
         // Search results are ordered by quality of the match, not by topic.
         if picker.sought().is_none() && topic != Some(entry.topic()) {
             topic = Some(entry.topic());
-            lines.push(Line::Topic(entry.topic()));
+            lines.push(ListLine::Topic(entry.topic()));
         }
         if picker.is_selected(place) {
             here = lines.len();
         }
-        lines.push(Line::System(place, entry, fit));
+        lines.push(ListLine::System(place, entry, fit));
     }
     let rows = usize::from(body.height);
     let first = window(here, lines.len(), rows);
     for (index, line) in lines.iter().skip(first).take(rows).enumerate() {
         let area = row(body, index);
         match line {
-            Line::Topic(topic) => {
+            ListLine::Topic(topic) => {
                 canvas.left(columns(area, 1, area.width - 1), Role::Dim, &capitalised(topic));
             }
-            Line::Session(session) => {
+            ListLine::Session(session) => {
                 canvas.target(area, HitTarget::Session);
                 let selected = picker.selected_session().is_some();
                 let mark = if selected { canvas.look.glyphs.pick("›", ">") } else { " " };
@@ -127,7 +127,7 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
                     canvas.tint(columns(area, 1, area.width.saturating_sub(2)), Role::Selected);
                 }
             }
-            Line::System(place, entry, fit) => {
+            ListLine::System(place, entry, fit) => {
                 canvas.target(area, HitTarget::System(*place));
                 let selected = picker.is_selected(*place);
                 let mark = if selected { canvas.look.glyphs.pick("›", ">") } else { " " };

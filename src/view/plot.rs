@@ -15,4 +15,4 @@ pub use axes::{Axes, Axis};
 pub use camera::{Bounds, Camera, Extent};
 pub use depth::DepthBuffer;
 pub use raster::{Ages, KeptTrail, Marker, Pen, Raster};
-pub use scale::{Frame, Kind, Scale};
+pub use scale::{Frame, Scale, ScaleKind};

@@ -64,7 +64,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, prompt: &Prom
 }
 
 fn lines(canvas: &Canvas<'_>, lab: &Lab, prompt: &Prompt, width: usize) -> Vec<Vec<Span>> {
-    let mut page = Page { canvas, width, lines: Vec::new() };
+    let mut page = PromptRows { canvas, width, lines: Vec::new() };
     if let Some(status) = prompt.under_way.as_ref().and_then(|(_, job)| job.status()) {
         page.words(Role::Dim, &status);
         return page.lines;
@@ -166,13 +166,13 @@ fn rate_head(lab: &Lab) -> &'static str {
 }
 
 /// The rows being built.
-struct Page<'a, 'b> {
+struct PromptRows<'a, 'b> {
     canvas: &'a Canvas<'b>,
     width: usize,
     lines: Vec<Vec<Span>>,
 }
 
-impl Page<'_, '_> {
+impl PromptRows<'_, '_> {
     fn words(&mut self, role: Role, text: &str) {
         let text = self.canvas.text(text);
         let wrapped = words(&text, self.width).into_iter().filter(|line| !line.is_empty());

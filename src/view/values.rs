@@ -24,7 +24,7 @@ const NAME: u16 = 12;
 const UNIT: u16 = 11;
 
 /// The columns of a list: as wide as its longest name and unit.
-struct Columns {
+struct ListColumns {
     number: u16,
     unit: u16,
     bar: u16,
@@ -77,7 +77,7 @@ impl Values<'_> {
         lines
     }
 
-    fn columns(&self, canvas: &Canvas<'_>, count: usize) -> Columns {
+    fn columns(&self, canvas: &Canvas<'_>, count: usize) -> ListColumns {
         let glyphs = canvas.look.glyphs;
         let facts: Vec<ValueInfo> =
             (0..count).filter_map(|i| self.lab.value_info((self.kind)(i))).collect();
@@ -88,10 +88,10 @@ impl Values<'_> {
         let name = widest(&|f| glyphs.pick(&f.shown, &f.name).clone(), NAME);
         let unit = widest(&|f| f.unit.clone(), UNIT);
         let number = 3 + name;
-        Columns { number, unit: number + NUMBER + 1, bar: number + NUMBER + unit + 3 }
+        ListColumns { number, unit: number + NUMBER + 1, bar: number + NUMBER + unit + 3 }
     }
 
-    fn line(&self, canvas: &mut Canvas<'_>, area: Rect, (index, grid): (usize, &Columns)) {
+    fn line(&self, canvas: &mut Canvas<'_>, area: Rect, (index, grid): (usize, &ListColumns)) {
         let target = (self.kind)(index);
         let Some(facts) = self.lab.value_info(target) else { return };
         let value = self.lab.value(target);

@@ -20,7 +20,7 @@ pub struct Grid<'a> {
 }
 
 /// A side of a grid cell: the point it starts at, and whether it is vertical.
-type Side = (usize, usize, bool);
+type CellSide = (usize, usize, bool);
 
 impl Grid<'_> {
     /// Returns the curves on which the values are `level`. Closed ones end where they begin.
@@ -32,7 +32,7 @@ impl Grid<'_> {
     }
 
     /// The segments of the curve inside each grid cell, as pairs of crossed sides.
-    fn segments(&self, level: f64) -> Vec<(Side, Side)> {
+    fn segments(&self, level: f64) -> Vec<(CellSide, CellSide)> {
         let mut segments = Vec::new();
         for row in 1..self.y.0 {
             for column in 1..self.x.0 {
@@ -45,7 +45,7 @@ impl Grid<'_> {
                 let high = corners.map(|v| v >= level);
                 // Below, right, above, left: the sides between one corner and the next.
                 let sides = [(i, j, false), (i + 1, j, true), (i, j + 1, false), (i, j, true)];
-                let crossed: Vec<Side> =
+                let crossed: Vec<CellSide> =
                     (0..4).filter(|&k| high[k] != high[(k + 1) % 4]).map(|k| sides[k]).collect();
                 match crossed[..] {
                     [a, b] => segments.push((a, b)),
@@ -71,7 +71,7 @@ impl Grid<'_> {
     }
 
     /// The point where the level crosses a side, by linear interpolation.
-    fn crossing(&self, (i, j, vertical): Side, level: f64) -> [f64; 2] {
+    fn crossing(&self, (i, j, vertical): CellSide, level: f64) -> [f64; 2] {
         let a = self.value((i, j));
         let b = self.value(if vertical { (i, j + 1) } else { (i + 1, j) });
         // Halved to avoid overflow; the two ends differ, or the side would not be crossed.
@@ -86,8 +86,8 @@ impl Grid<'_> {
 }
 
 /// Joins segments into curves: open ones first, from one end to the other, then the closed ones.
-fn join(segments: &[(Side, Side)]) -> Vec<Vec<Side>> {
-    let mut at: HashMap<Side, Vec<usize>> = HashMap::new();
+fn join(segments: &[(CellSide, CellSide)]) -> Vec<Vec<CellSide>> {
+    let mut at: HashMap<CellSide, Vec<usize>> = HashMap::new();
     for (index, (a, b)) in segments.iter().enumerate() {
         at.entry(*a).or_default().push(index);
         at.entry(*b).or_default().push(index);

@@ -15,7 +15,7 @@ pub(super) fn write(
     further: &Further,
     compared: Option<&Comparison>,
 ) -> String {
-    let page = Page { report };
+    let page = JsonReport { report };
     let mut why = Vec::new();
     let solved = match &report.motion {
         Ok(motion) => Value::Object(page.map(motion)),
@@ -108,11 +108,11 @@ pub(super) fn write(
     format!("{object:#}\n")
 }
 
-struct Page<'a> {
+struct JsonReport<'a> {
     report: &'a Report<'a>,
 }
 
-impl Page<'_> {
+impl JsonReport<'_> {
     fn text(&self, e: Expr) -> Value {
         Value::String(self.report.equations.pool.text(e))
     }

@@ -12,7 +12,7 @@ use crate::mechanics::{
 use crate::model::Model;
 
 pub(super) fn write(report: &Report<'_>, further: &Further, script: Script) -> String {
-    let mut page = Page { report, script, text: String::new() };
+    let mut page = TextReport { report, script, text: String::new() };
     page.head(report.model);
     page.body();
     page.law();
@@ -33,13 +33,13 @@ pub(super) fn write(report: &Report<'_>, further: &Further, script: Script) -> S
 }
 
 /// The text so far.
-struct Page<'a> {
+struct TextReport<'a> {
     report: &'a Report<'a>,
     script: Script,
     text: String,
 }
 
-impl Page<'_> {
+impl TextReport<'_> {
     fn head(&mut self, model: &Model) {
         let info = &model.info;
         for line in [&info.title, &info.summary, &info.source] {

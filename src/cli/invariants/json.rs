@@ -3,13 +3,13 @@
 
 use serde_json::{Value, json};
 
-use super::Answer;
+use super::InvariantsReport;
 use super::Script;
 use crate::expr::Expr;
 use crate::integrability::Proof;
 
-pub(super) fn write(answer: &Answer<'_>) -> String {
-    let Answer { model, equations, invariants, relations, .. } = answer;
+pub(super) fn write(answer: &InvariantsReport<'_>) -> String {
+    let InvariantsReport { model, equations, invariants, relations, .. } = answer;
     let text = |e: Expr| Value::String(equations.pool.text(e));
     let names: Vec<String> = answer.names();
     let commutes = |i: usize| -> Value {

@@ -1,11 +1,11 @@
 //! Constants of the motion for reading and for typesetting.
 
-use super::Answer;
+use super::InvariantsReport;
 use super::Script;
 use crate::expr::Expr;
 use crate::integrability::{Proof, Searched};
 
-impl Answer<'_> {
+impl InvariantsReport<'_> {
     /// The names of all constants: those known, then I1, I2, … for those found.
     pub(super) fn names(&self) -> Vec<String> {
         let known = self.invariants.known.iter().map(|k| k.name.clone());
@@ -43,8 +43,8 @@ fn proof(proof: Proof) -> &'static str {
     }
 }
 
-pub(super) fn write(answer: &Answer<'_>, script: Script) -> String {
-    let Answer { model, equations, invariants, relations, .. } = answer;
+pub(super) fn write(answer: &InvariantsReport<'_>, script: Script) -> String {
+    let InvariantsReport { model, equations, invariants, relations, .. } = answer;
     let math = |e| script.math(&equations.pool, e);
     let names = answer.names();
     let mut text = format!("{}\n{}\n", model.info.title, script.words(&relations.verdict));
@@ -120,7 +120,7 @@ pub(super) fn write(answer: &Answer<'_>, script: Script) -> String {
     text
 }
 
-pub(super) fn latex(answer: &Answer<'_>) -> String {
+pub(super) fn latex(answer: &InvariantsReport<'_>) -> String {
     let pool = &answer.equations.pool;
     let known = answer.invariants.known.iter().map(|k| k.expression);
     let all: Vec<Expr> =

@@ -67,7 +67,7 @@ impl Scheme {
 }
 
 /// A part of a step, from `begin` to `end` in its time variable.
-struct Piece {
+struct SubStep {
     step: DoubleDouble,
     begin: f64,
     end: f64,
@@ -201,7 +201,7 @@ impl CollocationStep {
         toward: Option<&[DoubleDouble]>,
     ) -> Result<bool, MotionError> {
         let start = numbers_of(from);
-        let whole = Piece { step: DoubleDouble::from(step), begin: 0.0, end: 1.0 };
+        let whole = SubStep { step: DoubleDouble::from(step), begin: 0.0, end: 1.0 };
         if !self.take(rates, from.exact_time(), &start, &whole, toward)? {
             return Ok(false);
         }
@@ -238,12 +238,12 @@ impl CollocationStep {
         toward: Option<&[DoubleDouble]>,
     ) -> Result<bool, MotionError> {
         let time = from.exact_time();
-        let first = Piece { step, begin: 0.0, end: PART };
+        let first = SubStep { step, begin: 0.0, end: PART };
         if !self.take(rates, time, &numbers_of(from), &first, toward)? {
             return Ok(false);
         }
         let middle = self.end.clone();
-        let second = Piece { step, begin: PART, end: 1.0 };
+        let second = SubStep { step, begin: PART, end: 1.0 };
         let done = self.take(rates, time, &middle, &second, None)?;
         self.two.clone_from(&self.end);
         Ok(done)
@@ -256,10 +256,10 @@ impl CollocationStep {
         rates: &mut ExactRates,
         time: DoubleDouble,
         start: &[DoubleDouble],
-        piece: &Piece,
+        piece: &SubStep,
         toward: Option<&[DoubleDouble]>,
     ) -> Result<bool, MotionError> {
-        let Piece { step, begin, end } = *piece;
+        let SubStep { step, begin, end } = *piece;
         let width = end - begin;
         let power =
             |s: DoubleDouble, n: i32| (0..n).fold(DoubleDouble::ONE, |product, _| product * s);

@@ -32,7 +32,7 @@ pub enum Allowed {
 
 /// The role of a symbol in mechanics. Parameters and other constants are not listed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Kind {
+pub(super) enum SymbolRole {
     Time,
     Position,
     Velocity,
@@ -56,12 +56,12 @@ pub(super) enum Kind {
 impl Allowed {
     /// Why a place, which messages call `place`, may not use a kind of quantity, or `None` if it
     /// may.
-    pub(super) fn refusal(self, kind: Kind, place: &str) -> Option<String> {
+    pub(super) fn refusal(self, kind: SymbolRole, place: &str) -> Option<String> {
         use Allowed::{
             Bracket, Casimir, Configuration, Event, Hamiltonian, Lagrangian, Observable,
             Parameters, Pieces, Poisson, Transformation,
         };
-        use Kind::{Action, Energy, Inertia, Momentum, New, Other, Position, Time, Velocity};
+        use SymbolRole::{Action, Energy, Inertia, Momentum, New, Other, Position, Time, Velocity};
         Some(match (self, kind) {
             (Event, Other) => format!("{place} watches the right motion alone"),
             (Observable | Event, _)

@@ -15,7 +15,7 @@ pub(super) const MOST: usize = 4096;
 
 /// The contents of a folder.
 #[derive(Default)]
-pub(super) struct Found {
+pub(super) struct FolderContents {
     /// The presets.
     pub(super) files: Vec<PathBuf>,
     /// Whether the limits were exceeded.
@@ -24,13 +24,13 @@ pub(super) struct Found {
 }
 
 /// The presets in a folder and its subfolders.
-pub(super) fn presets(folder: &Path) -> Found {
-    let mut found = Found::default();
+pub(super) fn presets(folder: &Path) -> FolderContents {
+    let mut found = FolderContents::default();
     found.enter(folder, DEEPEST);
     found
 }
 
-impl Found {
+impl FolderContents {
     fn enter(&mut self, folder: &Path, deep: usize) {
         let Ok(listing) = std::fs::read_dir(folder) else { return };
         let mut paths = Vec::new();

@@ -8,7 +8,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
-use super::scale::{Frame, Kind, Scale};
+use super::scale::{Frame, Scale, ScaleKind};
 use super::ticks::Ticks;
 use crate::view::glyphs::Glyphs;
 use crate::view::number::power;
@@ -189,7 +189,8 @@ impl StrokeContext<'_> {
     }
 
     fn zero_lines(&mut self, frame: &Frame) {
-        let inside = |scale: &Scale| scale.kind != Kind::Log && scale.lo < 0.0 && scale.hi > 0.0;
+        let inside =
+            |scale: &Scale| scale.kind != ScaleKind::Log && scale.lo < 0.0 && scale.hi > 0.0;
         let style = self.theme[Role::Border];
         let Rect { x, y, .. } = frame.area;
         let row = frame.cell([frame.x.middle(), 0.0]).filter(|_| inside(&frame.y));

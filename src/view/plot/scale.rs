@@ -12,7 +12,7 @@ pub const CELL_ASPECT: f64 = 2.0;
 
 /// The kind of a scale.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ScaleKind {
     /// Linear.
     Linear,
     /// Linear, with ticks at fractions of π.
@@ -29,7 +29,7 @@ pub struct Scale {
     /// Value at the right or upper end, above `lo`.
     pub hi: f64,
     /// How the axis is divided.
-    pub kind: Kind,
+    pub kind: ScaleKind,
     /// Period after which values repeat; they are then wrapped about the middle of the range.
     pub period: Option<f64>,
 }
@@ -38,7 +38,7 @@ impl Scale {
     /// Creates a linear scale. An empty, reversed or non-finite range becomes a usable one.
     pub fn linear(lo: f64, hi: f64) -> Self {
         let (lo, hi) = usable(lo, hi);
-        Self { lo, hi, kind: Kind::Linear, period: None }
+        Self { lo, hi, kind: ScaleKind::Linear, period: None }
     }
 
     /// Creates a logarithmic scale; a range that is not positive becomes the decades just below its upper end.
@@ -50,7 +50,7 @@ impl Scale {
             (hi * 1e-3).max(f64::MIN_POSITIVE)
         };
         let lo = if math::log10(hi) - math::log10(lo) > 1e-9 { lo } else { hi * 0.5 };
-        Self { lo, hi, kind: Kind::Log, period: None }
+        Self { lo, hi, kind: ScaleKind::Log, period: None }
     }
 
     /// One turn of an angle in radians, −π to π, wrapped.
@@ -63,7 +63,7 @@ impl Scale {
     /// The same range with ticks at fractions of π.
     #[must_use]
     pub fn angle(self) -> Self {
-        Self { kind: Kind::Angle, ..self }
+        Self { kind: ScaleKind::Angle, ..self }
     }
 
     /// The same range for values that repeat after `period`; a period that is not positive is ignored.
@@ -95,7 +95,7 @@ impl Scale {
     #[must_use]
     pub fn with_range(&self, lo: f64, hi: f64) -> Self {
         let Self { lo, hi, .. } =
-            if self.kind == Kind::Log { Self::log(lo, hi) } else { Self::linear(lo, hi) };
+            if self.kind == ScaleKind::Log { Self::log(lo, hi) } else { Self::linear(lo, hi) };
         Self { lo, hi, ..*self }
     }
 
@@ -104,21 +104,21 @@ impl Scale {
         let value = self.wrap(value);
         match self.kind {
             // The values are halved, because the length of a huge range overflows.
-            Kind::Linear | Kind::Angle => {
+            ScaleKind::Linear | ScaleKind::Angle => {
                 (value / 2.0 - self.lo / 2.0) / (self.hi / 2.0 - self.lo / 2.0)
             }
-            Kind::Log if value > 0.0 => {
+            ScaleKind::Log if value > 0.0 => {
                 (math::ln(value) - math::ln(self.lo)) / (math::ln(self.hi) - math::ln(self.lo))
             }
-            Kind::Log => f64::NAN,
+            ScaleKind::Log => f64::NAN,
         }
     }
 
     /// The value at a position on the axis; the inverse of [`Self::fraction`].
     pub fn value(&self, fraction: f64) -> f64 {
         match self.kind {
-            Kind::Linear | Kind::Angle => self.lo * (1.0 - fraction) + self.hi * fraction,
-            Kind::Log => {
+            ScaleKind::Linear | ScaleKind::Angle => self.lo * (1.0 - fraction) + self.hi * fraction,
+            ScaleKind::Log => {
                 math::exp(math::ln(self.lo) * (1.0 - fraction) + math::ln(self.hi) * fraction)
             }
         }
@@ -127,12 +127,12 @@ impl Scale {
     /// The fraction of the axis that one period takes, if it is periodic.
     pub(super) fn turn_length(&self) -> Option<f64> {
         let length = self.period? / (self.hi - self.lo);
-        (self.kind != Kind::Log && length.is_finite() && length > 0.0).then_some(length)
+        (self.kind != ScaleKind::Log && length.is_finite() && length > 0.0).then_some(length)
     }
 
     fn wrap(&self, value: f64) -> f64 {
         match self.period {
-            Some(period) if self.kind != Kind::Log => {
+            Some(period) if self.kind != ScaleKind::Log => {
                 // The upper end is part of the window, so that a range of one period contains both its ends.
                 let turns = (value - self.middle()) / period;
                 let turns = if turns.abs() <= 0.5 { 0.0 } else { turns.round() };
@@ -183,7 +183,7 @@ impl Frame {
     /// Widens one range about its middle until a unit has the same length on both axes. Logarithmic axes have no common
     /// unit and remain unchanged.
     pub fn equal(x: Scale, y: Scale, area: Rect) -> Self {
-        if x.kind == Kind::Log || y.kind == Kind::Log {
+        if x.kind == ScaleKind::Log || y.kind == ScaleKind::Log {
             return Self::new(x, y, area);
         }
         let wide = f64::from(area.width.max(1));

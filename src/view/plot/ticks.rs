@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use super::scale::{Kind, Scale};
+use super::scale::{Scale, ScaleKind};
 use crate::num::math;
 use crate::view::glyphs::Glyphs;
 use crate::view::number::{raised, signed};
@@ -32,9 +32,9 @@ impl Ticks {
     /// Returns at most `most` ticks of a scale.
     pub fn of(scale: &Scale, most: usize, glyphs: Glyphs) -> Self {
         let special = match scale.kind {
-            Kind::Linear => None,
-            Kind::Angle => angles(scale, most, glyphs),
-            Kind::Log => decades(scale, most, glyphs),
+            ScaleKind::Linear => None,
+            ScaleKind::Angle => angles(scale, most, glyphs),
+            ScaleKind::Log => decades(scale, most, glyphs),
         };
         special.unwrap_or_else(|| evenly(scale.lo, scale.hi, most, glyphs))
     }
@@ -45,7 +45,7 @@ impl Ticks {
 pub fn nice_range(lo: f64, hi: f64) -> (f64, f64) {
     let Scale { lo: low, hi: high, .. } = Scale::linear(lo, hi);
     let half = high / 2.0 - low / 2.0;
-    let Some(step) = Step::at_least(half / 5.0) else { return (low, high) };
+    let Some(step) = TickStep::at_least(half / 5.0) else { return (low, high) };
     let step = step.value();
     let round = |value: f64, out: fn(f64) -> f64| {
         let rounded = out(value / step) * step;
@@ -61,12 +61,12 @@ pub fn nice_range(lo: f64, hi: f64) -> (f64, f64) {
 
 /// A step of 1, 2 or 5 times a power of ten.
 #[derive(Clone, Copy)]
-struct Step {
+struct TickStep {
     digit: i64,
     exponent: i32,
 }
 
-impl Step {
+impl TickStep {
     /// The least such step not below `length`.
     fn at_least(length: f64) -> Option<Self> {
         if !length.is_finite() || length <= 0.0 {
@@ -116,8 +116,8 @@ fn evenly(lo: f64, hi: f64, most: usize, glyphs: Glyphs) -> Ticks {
     if most == 0 {
         return Ticks::default();
     }
-    let span = |step: Step| ((lo / step.value()).ceil(), (hi / step.value()).floor());
-    let Some(mut step) = Step::at_least((hi / 2.0 - lo / 2.0) / most as f64 * 2.0) else {
+    let span = |step: TickStep| ((lo / step.value()).ceil(), (hi / step.value()).floor());
+    let Some(mut step) = TickStep::at_least((hi / 2.0 - lo / 2.0) / most as f64 * 2.0) else {
         return Ticks::default();
     };
     let (mut first, mut last) = span(step);
@@ -222,7 +222,7 @@ fn decades(scale: &Scale, most: usize, glyphs: Glyphs) -> Option<Ticks> {
     if last <= first {
         return None;
     }
-    let value = |digit: i64, exponent: i32| Step { digit, exponent }.value();
+    let value = |digit: i64, exponent: i32| TickStep { digit, exponent }.value();
     let plain = first >= -3 && last <= 4;
     let label = |digit: i64, exponent: i32| match (plain, glyphs.is_ascii()) {
         (true, _) => decimal(digit, exponent),

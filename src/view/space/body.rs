@@ -19,14 +19,14 @@ const SIDES: usize = 48;
 /// The length of the principal axes relative to the body.
 const AXES: f64 = 1.25;
 
-type Line = Vec<[f64; 3]>;
+type Polyline3 = Vec<[f64; 3]>;
 
 /// The body's lines about its centre of mass, in the axes of space.
 pub(super) struct Outline {
     /// Rims and edges.
-    pub(super) edges: Vec<Line>,
+    pub(super) edges: Vec<Polyline3>,
     /// The principal axes, from the centre of mass.
-    pub(super) axes: Vec<Line>,
+    pub(super) axes: Vec<Polyline3>,
     /// The surfaces, which hide what is behind them.
     pub(super) surfaces: Vec<Surface>,
     /// Pieces that are points.
@@ -82,7 +82,7 @@ impl Outline {
         };
         let Some(a) = (0..9).map(entry).collect::<Option<Vec<f64>>>() else { return self };
         let rotate = |b: [f64; 3]| [0, 1, 2].map(|k| (0..3).map(|i| a[3 * i + k] * b[i]).sum());
-        let all = |lines: Vec<Line>| {
+        let all = |lines: Vec<Polyline3>| {
             lines.into_iter().map(|line| line.into_iter().map(rotate).collect()).collect()
         };
         let points = self.points.into_iter().map(rotate).collect();
@@ -116,8 +116,9 @@ fn about(axis: [f64; 3], angle: f64, v: [f64; 3]) -> [f64; 3] {
 }
 
 /// The rims and edges of a solid in its own axes, about its centre of mass.
-fn lines(solid: &Solid, value: &impl Fn(Expr) -> f64) -> Vec<Line> {
-    let rim = |radius: f64, z: f64| -> Line { circle(radius).map(|[x, y]| [x, y, z]).collect() };
+fn lines(solid: &Solid, value: &impl Fn(Expr) -> f64) -> Vec<Polyline3> {
+    let rim =
+        |radius: f64, z: f64| -> Polyline3 { circle(radius).map(|[x, y]| [x, y, z]).collect() };
     let sides = |low: (f64, f64), high: (f64, f64)| {
         [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]]
             .map(|[x, y]| vec![[low.0 * x, low.0 * y, low.1], [high.0 * x, high.0 * y, high.1]])
@@ -169,7 +170,8 @@ fn lines(solid: &Solid, value: &impl Fn(Expr) -> f64) -> Vec<Line> {
 
 /// The surface of a solid in its own axes, about its centre of mass; what is thin has none.
 fn surfaces(solid: &Solid, value: &impl Fn(Expr) -> f64) -> Vec<Surface> {
-    let rim = |radius: f64, z: f64| -> Line { circle(radius).map(|[x, y]| [x, y, z]).collect() };
+    let rim =
+        |radius: f64, z: f64| -> Polyline3 { circle(radius).map(|[x, y]| [x, y, z]).collect() };
     match solid {
         Solid::Point | Solid::Ring(_) | Solid::Rod(_) => Vec::new(),
         Solid::Sphere(radius) | Solid::SphericalShell(radius) => {
@@ -190,7 +192,7 @@ fn surfaces(solid: &Solid, value: &impl Fn(Expr) -> f64) -> Vec<Surface> {
         Solid::Disc(radius) => vec![Surface::Face(rim(value(*radius), 0.0))],
         Solid::Cuboid(edges) => {
             let half = edges.map(|e| value(e) / 2.0);
-            let square = |z: f64| -> Line {
+            let square = |z: f64| -> Polyline3 {
                 [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)]
                     .map(|(x, y)| [x * half[0], y * half[1], z])
                     .to_vec()
