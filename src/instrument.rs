@@ -9,12 +9,15 @@ mod conditions;
 mod ensemble;
 mod equilibria;
 mod exponents;
+mod kind;
+mod opening;
 mod orbit;
 mod phase;
 mod picture;
 mod plot;
 mod potential;
 mod present;
+mod saved;
 mod section;
 mod seed;
 mod separation;
@@ -28,13 +31,12 @@ pub use equilibria::{
     FoundEquilibria, described, described_mode, equilibria_search, start_along, start_at, value_at,
 };
 pub use exponents::largest_exponent;
+pub use kind::{Answer, Axis, Instrument, Measure, Need, NoStart, Offer};
 pub use picture::{Across, Entry, Heading, Ink, Layer, Level, Picture, Sign, Stroke, Upwards};
-pub use plot::{Columns, Plot, Quantity, SavedPlot};
+pub use plot::{Columns, Plot};
 pub use potential::Along;
 pub use present::{Physics, Present, Returned};
+pub use saved::{Quantity, SavedPlot};
 pub use seed::{MOST_SEEDS, Seed};
 pub use sight::{CameraPose, Sight, Viewport};
-pub use table::{
-    Answer, Axis, INSTRUMENTS, Instrument, Measure, NOT_YET, Need, NoStart, Offer, listed, named,
-    offers,
-};
+pub use table::{INSTRUMENTS, NOT_YET, listed, named, offers};

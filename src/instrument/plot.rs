@@ -1,20 +1,16 @@
 //! The contents of a pane: a kind, the quantities chosen for it, and its camera or window.
 //!
-//! In: views of a file, choices, moves. Out: [`Plot`]s, and what a session saves of them. Never here: what a single
-//! kind shows.
+//! In: a kind, views of a file, choices, moves. Out: [`Plot`]s. Never here: what a single kind shows, which kinds there
+//! are, what a session saves.
 
-use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use serde::{Deserialize, Serialize};
-
-use super::table::is_view_of;
 use super::{
-    Answer, CameraPose, Entry, Heading, INSTRUMENTS, Instrument, MOST_SEEDS, Physics, Present,
-    Seed, Sight, Viewport, named,
+    Answer, CameraPose, Entry, Heading, Instrument, MOST_SEEDS, Physics, Present, Seed, Sight,
+    Viewport,
 };
-use crate::model::Model;
-use crate::system::{Channel, ChannelKind};
+use crate::model::{Model, View};
+use crate::system::ChannelKind;
 
 /// The channels of each axis, in the order of the axes.
 pub type Columns = Vec<Vec<usize>>;
@@ -34,46 +30,6 @@ pub struct Plot {
     pub seeds: Vec<Seed>,
 }
 
-/// A plot as saved in a session, with quantities by name.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SavedPlot {
-    /// The kind's name.
-    pub kind: String,
-    /// The index of the view of the file.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub view: Option<usize>,
-    /// The camera, if it has one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub eye: Option<CameraPose>,
-    /// The window on its axes, if it has axes.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[serde(rename = "lens")]
-    pub viewport: Option<Viewport>,
-    /// The orbits added to a section.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub seeds: Vec<Seed>,
-    /// The quantities chosen for each axis, by the axis's key.
-    #[serde(flatten)]
-    pub axes: BTreeMap<String, Chosen>,
-}
-
-/// The quantities chosen for an axis.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
-pub enum Chosen {
-    /// For an axis that takes one quantity.
-    One(Quantity),
-    /// For an axis that takes several.
-    Several(Vec<Quantity>),
-}
-
-/// A channel by its name, or by its index if it has none.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Quantity {
-    name: String,
-    place: usize,
-}
-
 impl Plot {
     /// Creates a plot with the initial camera or window.
     pub fn new(
@@ -89,27 +45,13 @@ impl Plot {
         Self { kind, columns, view, sight, seeds: Vec::new() }
     }
 
-    /// The plots that the lab opens with: the file's views, then those that every system has, to fill a large screen.
-    pub fn opening(physics: Physics<'_>) -> Vec<Self> {
-        let mut plots: Vec<Self> = Vec::new();
-        let views = 0..physics.model.views.len();
-        let of_file = views.filter_map(|view| Self::of_view(physics, view));
-        let of_every = INSTRUMENTS.into_iter().flat_map(|kind| {
-            let all = kind.opening(physics).into_iter();
-            all.map(move |columns| Self::new(kind, (columns, None), physics.model).opened(physics))
-        });
-        for plot in of_file.chain(of_every) {
-            if !plots.iter().any(|p| p.shows_the_same(&plot, physics.model)) {
-                plots.push(plot);
-            }
-        }
-        plots
-    }
-
-    /// The plot of a view of the file, or `None` if one of its quantities is not a channel.
-    pub fn of_view(physics: Physics<'_>, index: usize) -> Option<Self> {
+    /// The plot of a kind that shows a view of the file, or `None` if one of its quantities is not a channel.
+    pub(super) fn viewing(
+        kind: &'static dyn Instrument,
+        physics: Physics<'_>,
+        index: usize,
+    ) -> Option<Self> {
         let view = physics.model.views.get(index)?;
-        let kind = named(&view.kind)?;
         let channel = |c: &crate::model::Channel| physics.system.channel_of(c.expression);
         let chosen = kind.chosen();
         let columns: Columns = (chosen.iter().enumerate())
@@ -178,11 +120,12 @@ impl Plot {
     pub fn title<'a>(&self, physics: Physics<'a>) -> Option<&'a str> {
         let views = physics.model.views.iter().enumerate();
         let same = |index| {
-            let plot = Self::of_view(physics, index);
+            let plot = Self::viewing(self.kind, physics, index);
             plot.is_some_and(|plot| plot.shows_the_same(self, physics.model))
         };
-        let titled = views.filter(|(_, view)| !view.title.is_empty());
-        titled.filter(|(index, _)| same(*index)).map(|(_, view)| view.title.as_str()).next()
+        let of_kind = |view: &View| !view.title.is_empty() && view.kind == self.kind.name();
+        let mut titled = views.filter(|(_, view)| of_kind(view));
+        titled.find(|(index, _)| same(*index)).map(|(_, view)| view.title.as_str())
     }
 
     /// Whether both plots show the same quantities, whatever their camera or window.
@@ -303,73 +246,5 @@ impl Plot {
                 Sight::Axes(Viewport { equal: viewport.equal, ..Viewport::WHOLE })
             }
         };
-    }
-}
-
-impl SavedPlot {
-    /// Converts a plot for saving.
-    pub fn of(plot: &Plot, physics: Physics<'_>) -> Self {
-        let quantity = |&place: &usize| {
-            let channel = physics.system.channels().get(place);
-            Quantity { name: channel.map_or_else(String::new, |c| c.name.clone()), place }
-        };
-        let axes = plot.kind.chosen().iter().zip(&plot.columns).filter_map(|(axis, column)| {
-            let mut quantities = column.iter().map(quantity);
-            let chosen = if axis.several {
-                Chosen::Several(quantities.collect())
-            } else {
-                Chosen::One(quantities.next()?)
-            };
-            Some((axis.key.to_owned(), chosen))
-        });
-        Self {
-            kind: plot.kind.name().to_owned(),
-            view: plot.view,
-            eye: plot.eye(),
-            viewport: plot.viewport(),
-            seeds: plot.seeds.clone(),
-            axes: axes.collect(),
-        }
-    }
-
-    /// The plot in a system, or `None` if the system lacks something that it shows.
-    pub fn place(&self, physics: Physics<'_>) -> Option<Plot> {
-        let (model, channels) = (physics.model, physics.system.channels());
-        let kind = named(&self.kind)?;
-        let channel = |quantity: &Quantity| {
-            let named = |c: &Channel| c.name == quantity.name;
-            match quantity.name.as_str() {
-                "" => Some(quantity.place).filter(|&i| channels.get(i).is_some_and(named)),
-                _ => channels.iter().position(named),
-            }
-        };
-        let column = |key: &str| -> Option<Vec<usize>> {
-            let found: Vec<usize> = match self.axes.get(key)? {
-                Chosen::One(quantity) => channel(quantity).into_iter().collect(),
-                Chosen::Several(all) => all.iter().filter_map(channel).collect(),
-            };
-            (!found.is_empty()).then_some(found)
-        };
-        let columns = kind.chosen().iter().map(|axis| column(axis.key)).collect::<Option<_>>()?;
-        let sight = match (kind.is_scene(), self.eye, self.viewport) {
-            (true, Some(eye), _) => {
-                let framed = eye.frame.is_none_or(|frame| frame < model.frames.len());
-                let viewed = eye.view.is_none_or(|view| is_view_of(model, view, kind));
-                let fits = framed && viewed && !eye.shapes(model).is_empty();
-                fits.then_some(Sight::Camera(eye))?
-            }
-            (false, _, Some(viewport)) => Sight::Axes(viewport),
-            _ => return None,
-        };
-        let needs_view = kind.shows_a_view();
-        let viewed = self.view.is_some_and(|view| is_view_of(model, view, kind));
-        let view = self.view.filter(|_| needs_view);
-        let finite = |seed: &Seed| match seed {
-            Seed::Spread(window) => window.as_flattened().iter().all(|x| x.is_finite()),
-            Seed::Through(point) => point.iter().all(|x| x.is_finite()),
-        };
-        let seeds: Vec<Seed> =
-            self.seeds.iter().filter(|seed| finite(seed)).take(MOST_SEEDS).copied().collect();
-        (!needs_view || viewed).then_some(Plot { kind, columns, view, sight, seeds })
     }
 }

@@ -1,0 +1,225 @@
+//! What all kinds of plots and instruments have in common: the trait, its axes, choices, measures and answers.
+//!
+//! In: a model and the current state. Out: words, pictures as data, jobs. Never here: the list of kinds, or what a single
+//! one does.
+
+use std::any::Any;
+use std::fmt;
+use std::sync::Arc;
+
+use super::{Across, Columns, Heading, Physics, Picture, Plot, Present, Seed};
+use crate::job::Job;
+use crate::system::InitialOverride;
+
+/// A kind of plot: one row of [`INSTRUMENTS`](super::INSTRUMENTS). Common behaviour has defaults.
+pub trait Instrument: Sync {
+    /// Its name in files, sessions and assertions.
+    fn name(&self) -> &'static str;
+
+    /// The axes that a view of a file specifies.
+    fn written(&self) -> &'static [Axis] {
+        &[]
+    }
+
+    /// The axes that the user chooses, in order. A kind without them shows a view of the file.
+    fn chosen(&self) -> &'static [Axis] {
+        self.written()
+    }
+
+    /// Whether it shows shapes through a camera, so that a file may give it a frame and its own shapes.
+    fn is_scene(&self) -> bool {
+        false
+    }
+
+    /// Whether it shows a surface of section, which a file specifies beside its axes.
+    fn is_section(&self) -> bool {
+        false
+    }
+
+    /// Whether a person adds starts to it by a key: through a point, or over what is seen.
+    fn takes_seeds(&self) -> bool {
+        self.is_section()
+    }
+
+    /// Whether it shows a view of the file, besides what is chosen. A kind without choices does.
+    fn shows_a_view(&self) -> bool {
+        self.chosen().is_empty() && !self.is_scene()
+    }
+
+    /// Whether its axes share a unit that can be drawn at the same scale on both.
+    fn has_equal_axes(&self) -> bool {
+        false
+    }
+
+    /// The horizontal position that stays fixed when zooming, as a fraction of the width.
+    fn anchor(&self) -> f64 {
+        0.5
+    }
+
+    /// What the lab opens with besides the views of the file, as the columns of its axes.
+    fn opening(&self, _physics: Physics<'_>) -> Vec<Columns> {
+        Vec::new()
+    }
+
+    /// The choices offered to the user.
+    fn offers(&self, physics: Physics<'_>) -> Vec<Offer>;
+
+    /// Its name without a picture: in lists and in plain text.
+    fn words(&self, plot: &Plot, physics: Physics<'_>) -> String;
+
+    /// The text before those words in a list, if they are only names of quantities.
+    fn lead(&self) -> &'static str {
+        ""
+    }
+
+    /// The line above the picture; `answer` is the result of its job.
+    fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading>;
+
+    /// The horizontal range.
+    fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across;
+
+    /// The picture over a horizontal range, or `None` if there is nothing to draw.
+    fn picture(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        seen: [f64; 2],
+        answer: Option<&Answer>,
+    ) -> Option<Picture>;
+
+    /// The initial values that a point of the picture represents.
+    ///
+    /// # Errors
+    /// Returns an error if points of the picture are no initial values, or if this one is none.
+    fn start(
+        &self,
+        _plot: &Plot,
+        _present: &Present<'_>,
+        _at: [f64; 2],
+    ) -> Result<Vec<InitialOverride>, NoStart> {
+        Err(NoStart::Nothing)
+    }
+
+    /// The further orbits that are spread over what a viewport shows, if it is a section of orbits.
+    fn seed(&self, _plot: &Plot, _present: &Present<'_>, _answer: Option<&Answer>) -> Option<Seed> {
+        None
+    }
+
+    /// The background job that the picture needs, given the last result.
+    fn job(&self, _plot: &Plot, _present: &Present<'_>, _answer: Option<&Answer>) -> Need {
+        Need::Nothing
+    }
+
+    /// The numbers that a script can assert about it.
+    fn measures(&self) -> &'static [Measure] {
+        &[]
+    }
+}
+
+/// An axis of a kind: a key of files and sessions, and a step of the choice.
+#[derive(Clone, Copy, Debug)]
+pub struct Axis {
+    /// The key.
+    pub key: &'static str,
+    /// The heading of the list of choices.
+    pub heading: &'static str,
+    /// Whether it takes several quantities.
+    pub several: bool,
+    /// Whether it must be a coordinate, because everything else is fixed while it varies.
+    pub coordinate: bool,
+}
+
+impl Axis {
+    /// One quantity on the horizontal axis.
+    pub const ACROSS: Self =
+        Self { key: "x", heading: "Horizontal axis", several: false, coordinate: false };
+    /// One quantity on the vertical axis.
+    pub const UPWARDS: Self =
+        Self { key: "y", heading: "Vertical axis", several: false, coordinate: false };
+}
+
+/// A choice for the contents of a pane.
+#[derive(Clone, Debug)]
+pub struct Offer {
+    /// Its name.
+    pub label: String,
+    /// A description on one line.
+    pub about: String,
+    /// The columns chosen with it; the user is asked for the remaining ones.
+    pub columns: Columns,
+    /// The view of the file that it shows.
+    pub view: Option<usize>,
+}
+
+/// Why a point of a picture does not begin a motion.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NoStart {
+    /// No point of the picture does.
+    Nothing,
+    /// This one does not, for the reason given in a sentence.
+    Refused(String),
+}
+
+/// A number of a plot that a script can assert: `Assert KIND.WORD > 2`.
+pub struct Measure {
+    /// Its word.
+    pub word: &'static str,
+    /// A description on one line.
+    pub about: &'static str,
+    /// Its value, or `None` if it has none.
+    pub value: fn(&Plot, &Present<'_>, Option<&Answer>) -> Option<f64>,
+}
+
+/// The result of an instrument's job. Only the instrument's own file knows the type.
+#[derive(Clone)]
+pub struct Answer(Arc<dyn Any + Send + Sync>);
+
+/// The job that a picture needs.
+#[derive(Debug)]
+pub enum Need {
+    /// No job is needed; an earlier result is dropped.
+    Nothing,
+    /// The last result is still valid.
+    Held,
+    /// This job is needed. The last result stays until it has finished.
+    Job(Job<Answer>),
+    /// This job adds to the picture and may take long: where there is no background it is left out.
+    Addition(Job<Answer>),
+}
+
+impl Answer {
+    /// Wraps a result.
+    pub fn new(result: impl Any + Send + Sync) -> Self {
+        Self(Arc::new(result))
+    }
+
+    /// The result, if it is of this type.
+    pub fn of<T: Any>(&self) -> Option<&T> {
+        self.0.downcast_ref()
+    }
+}
+
+impl fmt::Debug for Answer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Answer")
+    }
+}
+
+/// Results are equal if they are the same allocation.
+impl PartialEq for Answer {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl fmt::Debug for dyn Instrument {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl PartialEq for dyn Instrument {
+    fn eq(&self, other: &Self) -> bool {
+        self.name() == other.name()
+    }
+}
