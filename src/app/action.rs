@@ -2,7 +2,7 @@
 //!
 //! In: nothing. Out: [`Action`]. Never here: the key bindings, or how an action is carried out.
 
-use super::{EditCommand, Page};
+use super::Page;
 
 /// Something the user asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -210,4 +210,29 @@ impl Axes {
     pub(super) fn chosen(self) -> [bool; 2] {
         [self != Self::Upwards, self != Self::Across]
     }
+}
+
+/// A command of the editor, besides typing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum EditCommand {
+    /// Save it.
+    Save,
+    /// Search for a text.
+    Find,
+    /// Search for it again.
+    FindNext,
+    /// Go to the next mistake (+1) or the previous one (−1).
+    Diagnostic(i8),
+    /// Cut the selection, or the line.
+    Cut,
+    /// Copy the selection, or the line.
+    Copy,
+    /// Paste what was cut or copied.
+    PutBack,
+    /// Undo the last change.
+    Undo,
+    /// Redo it.
+    Redo,
+    /// Read the file again.
+    Reread,
 }

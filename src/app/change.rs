@@ -5,28 +5,11 @@
 
 use super::history::Change;
 use super::{App, Effect, Lab, Pane, ValueId};
-use crate::experiment::{Command, Snapshot, with_override};
+use crate::experiment::{Command, with_override};
 use crate::instrument::Plot;
 use crate::integrate::Settings;
 use crate::num::significant;
 use crate::system::InitialOverride;
-
-/// Changes sent to the experiment and not yet confirmed by a snapshot, except single values.
-#[derive(Clone, Debug, Default)]
-pub(super) struct PendingChanges {
-    method: Option<&'static str>,
-    settings: Option<Settings>,
-    given: Option<Vec<InitialOverride>>,
-}
-
-impl PendingChanges {
-    /// Removes the changes that a snapshot confirms.
-    pub(super) fn see(&mut self, snapshot: &Snapshot) {
-        self.method.take_if(|value| *value == snapshot.method.name);
-        self.settings.take_if(|value| *value == snapshot.setup.settings);
-        self.given.take_if(|value| *value == snapshot.setup.overrides);
-    }
-}
 
 /// A side of a change: the state before it, or after it.
 #[derive(Clone, Copy)]

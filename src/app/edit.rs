@@ -14,31 +14,8 @@ use tui_input::Input;
 
 use super::buffer::{Asking, Found, SourceBuffer, State, Unsaved};
 use super::field::paste;
-use super::{App, Effect, Lab, Loaded, Notification, Overlay, Page};
-use crate::diagnostic::Diagnostic;
+use super::{App, Checked, EditCommand, Effect, Lab, Notification, Overlay, Page, SaveError};
 use crate::preset::{Origin, is_path};
-
-/// The result of checking a text.
-#[derive(Clone, Debug)]
-pub struct Checked {
-    /// The ticket of the check.
-    pub ticket: u64,
-    /// The system it describes, already running, or its mistakes.
-    pub outcome: Result<Loaded, Vec<Diagnostic>>,
-    /// How long the check took.
-    pub took: Duration,
-}
-
-/// Why a text could not be saved.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum SaveError {
-    /// The file has changed since it was read.
-    Changed,
-    /// A file of that name already exists.
-    Exists(PathBuf),
-    /// Any other reason, as a sentence.
-    Refused(String),
-}
 
 impl App {
     /// Returns the buffer being edited, while the editor is open.
@@ -425,29 +402,4 @@ impl App {
             }
         }
     }
-}
-
-/// A command of the editor, besides typing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum EditCommand {
-    /// Save it.
-    Save,
-    /// Search for a text.
-    Find,
-    /// Search for it again.
-    FindNext,
-    /// Go to the next mistake (+1) or the previous one (−1).
-    Diagnostic(i8),
-    /// Cut the selection, or the line.
-    Cut,
-    /// Copy the selection, or the line.
-    Copy,
-    /// Paste what was cut or copied.
-    PutBack,
-    /// Undo the last change.
-    Undo,
-    /// Redo it.
-    Redo,
-    /// Read the file again.
-    Reread,
 }

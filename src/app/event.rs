@@ -9,14 +9,11 @@ use std::time::Duration;
 
 use crossterm::event::{KeyEvent, MouseEventKind};
 
-use super::{Asker, Checked, Computation, HitTarget, SaveError};
-use crate::diagnostic::Document;
+use super::{Asker, Computation, Drawn, HitTarget, LoadError, Loaded};
+use crate::diagnostic::Diagnostic;
 use crate::experiment::{Command, Snapshot};
-use crate::instrument::{Answer, Physics};
+use crate::instrument::Answer;
 use crate::job::{Outcome, Share};
-use crate::mechanics::{Equations, Further, Report, latex};
-use crate::model::Model;
-use crate::system::System;
 
 /// An event from outside.
 #[derive(Clone, Debug)]
@@ -70,85 +67,6 @@ pub enum Event {
     FileThere(bool),
     /// The screen was drawn, with this result.
     Drawn(Drawn),
-}
-
-/// What drawing the screen has determined.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Drawn {
-    /// The number of rows of the text page beyond the screen when it is scrolled to its start.
-    pub beyond: u16,
-    /// The number of its rows that fit on the screen.
-    pub rows: u16,
-    /// The number of columns of an edited text that fit.
-    pub columns: u16,
-    /// The position of the terminal's cursor, column and row: in the text being typed, or at the line being read.
-    pub cursor: Option<(u16, u16)>,
-    /// The coordinates of the cursor of the focused plot.
-    pub reading: Option<[f64; 2]>,
-    /// The panes of the lab, if they were drawn.
-    pub panes: Option<DrawnPanes>,
-}
-
-/// What drawing the panes of the lab has determined.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct DrawnPanes {
-    /// Whether there is room for one pane only.
-    pub single: bool,
-    /// How much of the law of motion is in view.
-    pub law: LawInView,
-}
-
-/// How much of the law of motion is in view.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum LawInView {
-    /// All of it.
-    #[default]
-    Whole,
-    /// Its pane has room for all but this many rows.
-    Clipped(u16),
-    /// It has no pane until it is focused.
-    Aside,
-}
-
-/// A system ready to be shown.
-#[derive(Clone, Debug)]
-pub struct Loaded {
-    /// The requested name: a preset's name or a file's path.
-    pub name: String,
-    /// The epoch of its snapshots.
-    pub epoch: u64,
-    /// The parsed text of the file.
-    pub document: Arc<Document>,
-    /// The model that the file describes.
-    pub model: Arc<Model>,
-    /// The equations derived from it.
-    pub equations: Arc<Equations>,
-    /// The compiled system, with its channels.
-    pub system: Arc<System>,
-}
-
-impl Loaded {
-    /// Returns what follows from its law as a fragment for LaTeX, as `phaselab derive --format latex` writes it.
-    pub fn latex(&self) -> String {
-        let mut equations = (*self.equations).clone();
-        equations.find_closed_forms();
-        let further = Further::of(&self.model, &mut equations);
-        latex(&Report::of(&self.model, &equations), &further)
-    }
-
-    /// Returns the system as instruments see it.
-    pub fn physics(&self) -> Physics<'_> {
-        Physics { model: &self.model, equations: &self.equations, system: &self.system }
-    }
-}
-
-/// Why a system could not be loaded.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LoadError {
-    /// The requested name.
-    pub name: String,
-    /// What is wrong, as it would be printed, in one or more lines.
-    pub message: String,
 }
 
 /// An effect for the shell to perform.
@@ -222,4 +140,26 @@ pub enum Effect {
     Suspend,
     /// End the program.
     Quit,
+}
+
+/// The result of checking a text.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    /// The ticket of the check.
+    pub ticket: u64,
+    /// The system it describes, already running, or its mistakes.
+    pub outcome: Result<Loaded, Vec<Diagnostic>>,
+    /// How long the check took.
+    pub took: Duration,
+}
+
+/// Why a text could not be saved.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SaveError {
+    /// The file has changed since it was read.
+    Changed,
+    /// A file of that name already exists.
+    Exists(PathBuf),
+    /// Any other reason, as a sentence.
+    Refused(String),
 }

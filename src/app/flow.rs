@@ -7,8 +7,8 @@
 
 use std::sync::Arc;
 
+use super::computation::Asker;
 use super::menu::{Choice, Choosing, Item, Menu};
-use super::side::Asker;
 use super::{App, Effect, Notification, Overlay};
 use crate::experiment::{Command, Derived, Experiment, Setup, Status};
 use crate::expr::Expr;

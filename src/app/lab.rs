@@ -6,44 +6,15 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use serde::{Deserialize, Serialize};
-
-use super::change::PendingChanges;
+use super::answers::{Answers, EquilibriaSearch};
 use super::history::History;
-use super::side::{Answers, EquilibriaSearch};
-use super::{DrawnPanes, LawInView, Loaded, Search, ValueId};
+use super::pending::PendingChanges;
+use super::{DrawnPanes, LawInView, Loaded, Pane, Search, Selection, ValueId};
 use crate::experiment::{Checkpoint, Snapshot, Status};
 use crate::expr::Zero;
 use crate::instrument::{CameraPose, Plot, Present};
 use crate::mechanics::Valuation;
 use crate::model::Shape;
-
-/// A pane of the lab.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Pane {
-    /// A picture, by its index among the plots.
-    Plot(usize),
-    /// The parameters.
-    Parameters,
-    /// The initial values.
-    Initial,
-    /// The gauges.
-    Gauges,
-    /// The law of motion, which has the focus only where not all of it is in view.
-    Law,
-}
-
-/// The selected lines of the lists.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Selection {
-    /// Among the parameters.
-    pub parameter: usize,
-    /// Among the initial values.
-    pub initial: usize,
-    /// Among the gauges.
-    pub gauge: usize,
-}
 
 /// A loaded system and its view.
 #[derive(Clone, Debug)]

@@ -6,7 +6,7 @@
 use std::path::PathBuf;
 
 use super::buffer::Unsaved;
-use super::saved::NEW_SYSTEM;
+use super::session::NEW_SYSTEM;
 use super::{App, Effect, Lab, Loaded, Overlay, Page};
 use crate::experiment::Command;
 use crate::preset::{Origin, is_path, template};

@@ -3,18 +3,17 @@
 //! In: characters. Out: the question, its answer, or an error with its position. Never here: how either is
 //! computed.
 
-use std::sync::Arc;
 use std::time::Duration;
 
 use crossterm::event::KeyEvent;
 use tui_input::Input;
 
+use super::UnderWay;
 use super::field::edit;
-use super::{App, Asker, Effect, Overlay, UnderWay};
 use crate::analysis::Inquiry;
 use crate::expr::SyntaxError;
 use crate::instrument::Answer;
-use crate::job::{Job, Outcome};
+use crate::job::Outcome;
 
 /// A question being typed, and the answer to the last one.
 #[derive(Clone, Debug, Default)]
@@ -61,33 +60,5 @@ impl Prompt {
             Some(Err(mistake)) => (self.mistake, self.answered) = (Some(mistake.clone()), None),
             None => {}
         }
-    }
-}
-
-impl App {
-    pub(super) fn open_prompt(&mut self) -> Vec<Effect> {
-        if self.lab.is_some() {
-            self.overlay = Some(Overlay::Prompt(Prompt::default()));
-        }
-        Vec::new()
-    }
-
-    /// Submits the typed question; the prompt stays open for the answer and the next question.
-    pub(super) fn answer(&mut self, mut prompt: Prompt) -> Vec<Effect> {
-        let text = prompt.input.value().to_owned();
-        let mut effects = Vec::new();
-        if let Some(lab) = self.lab.as_ref().filter(|_| !text.trim().is_empty()) {
-            let (model, equations) =
-                (Arc::clone(&lab.loaded.model), Arc::clone(&lab.loaded.equations));
-            let asked = text.clone();
-            let job = Job::new("deriving", move |progress| {
-                Answer::new(Inquiry::with(&model, &equations, &asked, progress.token()))
-            });
-            let computation = self.computation(Asker::Prompt, job);
-            prompt.under_way = Some((text, UnderWay::new(&computation)));
-            effects.push(Effect::Compute(computation));
-        }
-        self.overlay = Some(Overlay::Prompt(prompt));
-        effects
     }
 }

@@ -7,8 +7,8 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use super::computation::{Asker, Computation};
 use super::findings::{Findings, UnderWay, followed, search};
-use super::side::{Asker, Computation};
 use super::{App, Effect, Lab, Page};
 use crate::experiment::{Command, FoundConstant};
 use crate::expr::Expr;

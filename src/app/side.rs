@@ -4,151 +4,16 @@
 //! longer wanted is dropped, because its ticket is unknown. Never here: threads, or what is computed.
 
 use std::sync::Arc;
-use std::time::Duration;
 
-use super::{App, Effect, Event, Lab, Overlay};
+use super::answers::{Answers, PlotJob};
+use super::{App, Asker, Computation, Effect, Event, Lab, Overlay, UnderWay};
 use crate::experiment::Command;
-use crate::instrument::{Answer, Columns, FoundEquilibria, Instrument, Need, Plot};
+use crate::instrument::{Answer, Need, Plot};
 use crate::job::{Job, Outcome, Progress, Share};
 use crate::mechanics::Equations;
 
-/// A job that takes longer than this is reported as under way.
-const PATIENCE: Duration = Duration::from_millis(300);
-
 /// A picture is computed in so many parts at most, where there is no background.
 const PARTS: usize = 1024;
-
-/// The requester of a job; each has at most one job at a time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Asker {
-    /// The plot of this index.
-    Plot(usize),
-    /// The prompt for brackets.
-    Prompt,
-    /// The lab, for the equilibria of its system.
-    Equilibria,
-    /// The lab, for the closed forms of its equations.
-    Equations,
-    /// The page of equations, for constants of the motion.
-    Search,
-    /// The lab, for the state that the flow of a constant leads to.
-    Flow,
-}
-
-/// A job to be run in the background.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Computation {
-    /// Its ticket.
-    pub ticket: u64,
-    /// Its requester.
-    pub asker: Asker,
-    /// The job.
-    pub job: Job<Answer>,
-}
-
-/// A job that has not ended.
-#[derive(Clone, Debug)]
-pub struct UnderWay {
-    pub(super) ticket: u64,
-    name: String,
-    since: Duration,
-    share: Share,
-}
-
-impl UnderWay {
-    /// A job that starts now.
-    pub(super) fn new(computation: &Computation) -> Self {
-        let name = computation.job.name.clone();
-        let (since, share) = (Duration::ZERO, Share::default());
-        Self { ticket: computation.ticket, name, since, share }
-    }
-
-    /// Advances the time.
-    pub(super) fn tick(&mut self, elapsed: Duration) {
-        self.since = self.since.saturating_add(elapsed);
-    }
-
-    /// Updates the progress of the job with this ticket.
-    pub(super) fn reach(&mut self, ticket: u64, share: Share) {
-        if ticket == self.ticket {
-            self.share = share;
-        }
-    }
-
-    /// Returns the name and progress of a job that has taken a while.
-    pub fn status(&self) -> Option<String> {
-        let share = self.share.total.map_or_else(String::new, |total| {
-            format!(" {} %", self.share.done * 100 / total.max(1))
-        });
-        (self.since >= PATIENCE).then(|| format!("{}{share} …", self.name))
-    }
-}
-
-/// The results and running jobs for the plots of a lab.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Answers {
-    entries: Vec<PlotJob>,
-    /// Whether something has changed since the needs were last determined.
-    pub(super) stale: bool,
-}
-
-/// The last result for a plot, and the job under way.
-#[derive(Clone, Debug)]
-struct PlotJob {
-    kind: &'static dyn Instrument,
-    columns: Columns,
-    view: Option<usize>,
-    answer: Option<Answer>,
-    under_way: Option<UnderWay>,
-}
-
-impl PlotJob {
-    /// Whether it belongs to a plot with these contents, whatever its view.
-    fn is_of(&self, plot: &Plot) -> bool {
-        self.kind == plot.kind && self.columns == plot.columns && self.view == plot.view
-    }
-}
-
-/// The search for the equilibria of a lab, and what it has found.
-#[derive(Clone, Debug, Default)]
-pub(super) struct EquilibriaSearch {
-    pub(super) under_way: Option<UnderWay>,
-    pub(super) found: Option<Arc<FoundEquilibria>>,
-}
-
-impl EquilibriaSearch {
-    pub(super) fn tick(&mut self, elapsed: Duration) {
-        self.under_way.iter_mut().for_each(|job| job.tick(elapsed));
-    }
-}
-
-impl Answers {
-    /// Advances the time.
-    pub(super) fn tick(&mut self, elapsed: Duration) {
-        self.all_under_way().for_each(|job| job.tick(elapsed));
-    }
-
-    fn all_under_way(&mut self) -> impl Iterator<Item = &mut UnderWay> {
-        self.entries.iter_mut().filter_map(|entry| entry.under_way.as_mut())
-    }
-
-    fn of(&self, plot: &Plot) -> Option<&PlotJob> {
-        self.entries.iter().find(|entry| entry.is_of(plot))
-    }
-
-    /// Takes in an outcome. Returns whether it was wanted.
-    fn take(&mut self, ticket: u64, outcome: &Outcome<Answer>) -> bool {
-        let waits =
-            |entry: &&mut PlotJob| entry.under_way.as_ref().is_some_and(|job| job.ticket == ticket);
-        let Some(entry) = self.entries.iter_mut().find(waits) else { return false };
-        entry.under_way = None;
-        self.stale = true;
-        if let Outcome::Done(answer) = outcome {
-            entry.answer = Some(answer.clone());
-        }
-        true
-    }
-}
 
 impl Lab {
     /// Returns the result computed for a plot.

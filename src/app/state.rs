@@ -2,18 +2,21 @@
 //!
 //! In: the parts of this room. Out: an [`App`] and its queries. Never here: how it changes (`update`).
 
-use serde::{Deserialize, Serialize};
 use tui_input::Input;
 
 use super::action::Action;
-use super::event::{Drawn, Effect, LoadError};
+use super::drawn::Drawn;
+use super::event::Effect;
 use super::field::Field;
 use super::hit_target::Grab;
 use super::keymap::{CHAINS, Place};
-use super::lab::{Lab, Pane};
+use super::lab::Lab;
+use super::loaded::LoadError;
 use super::menu::{Choice, Menu};
 use super::notification;
 use super::notification::Notification;
+use super::page::Page;
+use super::pane::Pane;
 use super::picker::Picker;
 use super::prompt::Prompt;
 use super::rate::RateMeter;
@@ -74,24 +77,6 @@ pub struct App {
     pub(super) mending: Option<String>,
     /// The session as it was when the user left the lab for the list of systems.
     pub(super) left: Option<Saved>,
-}
-
-/// A whole screen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Page {
-    /// The systems, and a preview of the selected one.
-    Picker,
-    /// The panes of the lab.
-    Lab,
-    /// The equations derived from L or H.
-    Equations,
-    /// The notes in the file.
-    Notes,
-    /// Every channel as a number.
-    Numbers,
-    /// Everything on the screen as lines of plain text, which do not change by themselves.
-    Plain,
 }
 
 /// Something that covers a page and takes its keys.

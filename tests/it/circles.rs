@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// The number of files of each room that are part of a dependency cycle. Lower the number when it decreases.
 const IN_CIRCLES: &[(&str, usize)] =
-    &[("app", 18), ("instrument", 2), ("integrate", 2), ("system", 10), ("view", 2)];
+    &[("instrument", 2), ("integrate", 2), ("system", 10), ("view", 2)];
 
 /// The code of every module by its path, such as `system::watch`, without comments, the text of strings, and tests.
 struct Source(BTreeMap<String, String>);

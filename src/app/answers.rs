@@ -1,0 +1,76 @@
+//! What jobs have found for the lab, and those that have not ended.
+//!
+//! In: outcomes. Out: the last answer for each plot, the equilibria found. Never here: which jobs are needed.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use super::computation::UnderWay;
+use crate::instrument::{Answer, Columns, FoundEquilibria, Instrument, Plot};
+use crate::job::Outcome;
+
+/// The results and running jobs for the plots of a lab.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Answers {
+    pub(super) entries: Vec<PlotJob>,
+    /// Whether something has changed since the needs were last determined.
+    pub(super) stale: bool,
+}
+
+/// The last result for a plot, and the job under way.
+#[derive(Clone, Debug)]
+pub(super) struct PlotJob {
+    pub(super) kind: &'static dyn Instrument,
+    pub(super) columns: Columns,
+    pub(super) view: Option<usize>,
+    pub(super) answer: Option<Answer>,
+    pub(super) under_way: Option<UnderWay>,
+}
+
+impl PlotJob {
+    /// Whether it belongs to a plot with these contents, whatever its view.
+    pub(super) fn is_of(&self, plot: &Plot) -> bool {
+        self.kind == plot.kind && self.columns == plot.columns && self.view == plot.view
+    }
+}
+
+/// The search for the equilibria of a lab, and what it has found.
+#[derive(Clone, Debug, Default)]
+pub(super) struct EquilibriaSearch {
+    pub(super) under_way: Option<UnderWay>,
+    pub(super) found: Option<Arc<FoundEquilibria>>,
+}
+
+impl EquilibriaSearch {
+    pub(super) fn tick(&mut self, elapsed: Duration) {
+        self.under_way.iter_mut().for_each(|job| job.tick(elapsed));
+    }
+}
+
+impl Answers {
+    /// Advances the time.
+    pub(super) fn tick(&mut self, elapsed: Duration) {
+        self.all_under_way().for_each(|job| job.tick(elapsed));
+    }
+
+    pub(super) fn all_under_way(&mut self) -> impl Iterator<Item = &mut UnderWay> {
+        self.entries.iter_mut().filter_map(|entry| entry.under_way.as_mut())
+    }
+
+    pub(super) fn of(&self, plot: &Plot) -> Option<&PlotJob> {
+        self.entries.iter().find(|entry| entry.is_of(plot))
+    }
+
+    /// Takes in an outcome. Returns whether it was wanted.
+    pub(super) fn take(&mut self, ticket: u64, outcome: &Outcome<Answer>) -> bool {
+        let waits =
+            |entry: &&mut PlotJob| entry.under_way.as_ref().is_some_and(|job| job.ticket == ticket);
+        let Some(entry) = self.entries.iter_mut().find(waits) else { return false };
+        entry.under_way = None;
+        self.stale = true;
+        if let Outcome::Done(answer) = outcome {
+            entry.answer = Some(answer.clone());
+        }
+        true
+    }
+}

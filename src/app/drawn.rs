@@ -1,0 +1,41 @@
+//! What drawing the screen has determined.
+//!
+//! In: nothing. Out: [`Drawn`], which `view` fills in. Never here: cells.
+
+/// What drawing the screen has determined.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Drawn {
+    /// The number of rows of the text page beyond the screen when it is scrolled to its start.
+    pub beyond: u16,
+    /// The number of its rows that fit on the screen.
+    pub rows: u16,
+    /// The number of columns of an edited text that fit.
+    pub columns: u16,
+    /// The position of the terminal's cursor, column and row: in the text being typed, or at the line being read.
+    pub cursor: Option<(u16, u16)>,
+    /// The coordinates of the cursor of the focused plot.
+    pub reading: Option<[f64; 2]>,
+    /// The panes of the lab, if they were drawn.
+    pub panes: Option<DrawnPanes>,
+}
+
+/// What drawing the panes of the lab has determined.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct DrawnPanes {
+    /// Whether there is room for one pane only.
+    pub single: bool,
+    /// How much of the law of motion is in view.
+    pub law: LawInView,
+}
+
+/// How much of the law of motion is in view.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LawInView {
+    /// All of it.
+    #[default]
+    Whole,
+    /// Its pane has room for all but this many rows.
+    Clipped(u16),
+    /// It has no pane until it is focused.
+    Aside,
+}

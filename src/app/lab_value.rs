@@ -1,0 +1,108 @@
+//! The adjustable values of the lab.
+//!
+//! In: a model and the newest snapshot. Out: the description of a value, and the value one step further.
+//! Never here: the list on the screen, or the command that sets a value.
+
+use super::value::{nice_step, significant, step};
+use super::{Lab, ValueId, ValueInfo};
+use crate::model::Scale;
+use crate::system::ChannelKind;
+
+impl Lab {
+    /// Returns the number of parameters, or of initial values.
+    pub fn count(&self, kind: fn(usize) -> ValueId) -> usize {
+        match kind(0) {
+            ValueId::Parameter(_) => self.loaded.model.parameters.len(),
+            ValueId::Initial(_) => self.loaded.model.moving(),
+        }
+    }
+
+    /// Returns the description of a value, or `None` if the value does not exist.
+    pub fn value_info(&self, target: ValueId) -> Option<ValueInfo> {
+        let model = &self.loaded.model;
+        match target {
+            ValueId::Parameter(index) => {
+                let p = model.parameters.get(index)?;
+                Some(ValueInfo {
+                    name: p.name.clone(),
+                    shown: p.shown.clone(),
+                    unit: p.unit.clone(),
+                    about: p.about.clone(),
+                    range: Some((p.min, p.max, p.scale)),
+                })
+            }
+            ValueId::Initial(index) => {
+                let count = model.coordinates.len();
+                let c = model.coordinates.get(index % count.max(1))?;
+                let (symbol, what) = match (index / count, model.is_lagrangian()) {
+                    (0, _) if model.is_poisson() => (c.position, "value"),
+                    (0, _) => (c.position, "coordinate"),
+                    (1, true) => (c.velocity, "velocity"),
+                    (1, false) => (c.momentum, "momentum"),
+                    _ => return None,
+                };
+                let info = model.pool.symbol_info(symbol);
+                let unit = match what {
+                    "velocity" if !c.unit.is_empty() => match model.time_unit() {
+                        "" => String::new(),
+                        time => format!("{}/{time}", c.unit),
+                    },
+                    "momentum" => {
+                        let kind = ChannelKind::Momentum(index % count.max(1));
+                        let channels = self.loaded.system.channels();
+                        let channel = channels.iter().find(|channel| channel.kind == kind);
+                        channel.map_or_else(String::new, |channel| channel.unit.clone())
+                    }
+                    _ => c.unit.clone(),
+                };
+                Some(ValueInfo {
+                    name: info.name.clone(),
+                    shown: info.unicode.clone(),
+                    unit,
+                    about: format!("initial {what}; a change starts the motion again"),
+                    range: None,
+                })
+            }
+        }
+    }
+
+    /// Returns the value: the one requested last, until the experiment confirms it.
+    pub fn value(&self, target: ValueId) -> Option<f64> {
+        if let Some((_, requested)) = self.pending.iter().find(|(t, _)| *t == target) {
+            return Some(*requested);
+        }
+        self.fact(target)
+    }
+
+    /// Returns the value that the experiment has.
+    pub(super) fn fact(&self, target: ValueId) -> Option<f64> {
+        let snapshot = self.snapshot.as_ref()?;
+        match target {
+            ValueId::Parameter(index) => snapshot.parameters.get(index).copied(),
+            ValueId::Initial(index) => snapshot.initial.get(index).copied(),
+        }
+    }
+
+    /// Returns the value one fine or coarse step up (+1) or down (−1), within its range.
+    pub fn stepped(&self, target: ValueId, sign: i8, coarse: bool) -> Option<f64> {
+        let value = self.value(target)?;
+        let range = self.value_info(target)?.range;
+        Some(step(value, range, f64::from(sign), if coarse { 10.0 } else { 1.0 }))
+    }
+}
+
+impl Lab {
+    /// Rounds a value to what stepping could reach: a whole number of fine steps within its range, whose ends are
+    /// exact.
+    pub(super) fn rounded(&self, target: ValueId, value: f64) -> f64 {
+        match self.value_info(target).and_then(|value_info| value_info.range) {
+            Some((min, max, _)) if value <= min || value >= max => value.clamp(min, max),
+            Some((min, max, Scale::Log)) if min > 0.0 => significant(value, 3).clamp(min, max),
+            Some((min, max, _)) => {
+                let fine = nice_step((max - min) / 200.0);
+                significant((value / fine).round() * fine, 12).clamp(min, max)
+            }
+            None => value,
+        }
+    }
+}

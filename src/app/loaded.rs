@@ -1,0 +1,52 @@
+//! A system ready to be shown, or the reason why there is none.
+//!
+//! In: what the shell has built. Out: [`Loaded`], and what is copied of it. Never here: how a system is built.
+
+use std::sync::Arc;
+
+use crate::diagnostic::Document;
+use crate::instrument::Physics;
+use crate::mechanics::{Equations, Further, Report, latex};
+use crate::model::Model;
+use crate::system::System;
+
+/// A system ready to be shown.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The requested name: a preset's name or a file's path.
+    pub name: String,
+    /// The epoch of its snapshots.
+    pub epoch: u64,
+    /// The parsed text of the file.
+    pub document: Arc<Document>,
+    /// The model that the file describes.
+    pub model: Arc<Model>,
+    /// The equations derived from it.
+    pub equations: Arc<Equations>,
+    /// The compiled system, with its channels.
+    pub system: Arc<System>,
+}
+
+impl Loaded {
+    /// Returns what follows from its law as a fragment for LaTeX, as `phaselab derive --format latex` writes it.
+    pub fn latex(&self) -> String {
+        let mut equations = (*self.equations).clone();
+        equations.find_closed_forms();
+        let further = Further::of(&self.model, &mut equations);
+        latex(&Report::of(&self.model, &equations), &further)
+    }
+
+    /// Returns the system as instruments see it.
+    pub fn physics(&self) -> Physics<'_> {
+        Physics { model: &self.model, equations: &self.equations, system: &self.system }
+    }
+}
+
+/// Why a system could not be loaded.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LoadError {
+    /// The requested name.
+    pub name: String,
+    /// What is wrong, as it would be printed, in one or more lines.
+    pub message: String,
+}

@@ -1,0 +1,160 @@
+//! Sessions: taken from the lab, offered, resumed.
+//!
+//! In: the application, and sessions as stored. Out: [`Saved`] sessions, and the restored application. Never here: the
+//! file in which a session is stored.
+//!
+//! A system rebuilt from a changed file is resumed in the same way: everything that has the same name in both is
+//! kept.
+
+use super::{App, Effect, Lab, Loaded, Overlay, Page, Saved, SheetState, SourceBuffer};
+use crate::experiment::{Checkpoint, Command};
+use crate::instrument::{Plot, SavedPlot};
+
+/// The name of a system that has no file yet.
+pub(super) const NEW_SYSTEM: &str = "system";
+
+impl Saved {
+    /// Returns the session of a lab on a page, or `None` before the first snapshot.
+    fn of(lab: &Lab, page: Page) -> Option<Self> {
+        let Loaded { name, model, system, .. } = &lab.loaded;
+        let checkpoint = match &lab.awaited {
+            Some(checkpoint) => checkpoint.clone(),
+            None => Checkpoint::of(model, system, lab.seen()?),
+        };
+        Some(Self {
+            version: Self::VERSION,
+            phaselab: env!("CARGO_PKG_VERSION").to_owned(),
+            open: name.clone(),
+            page,
+            focus: lab.focus,
+            zoomed: lab.zoomed,
+            selection: lab.selection,
+            edited: false,
+            plots: lab.plots.iter().map(|plot| SavedPlot::of(plot, lab.loaded.physics())).collect(),
+            time_unit: model.time_unit().to_owned(),
+            marks: lab.marks.clone(),
+            moment: checkpoint,
+        })
+    }
+}
+
+impl Lab {
+    /// Restores the view of a session, as far as the systems agree.
+    fn restore_view(&mut self, saved: &Saved) {
+        let physics = self.loaded.physics();
+        let plots: Vec<Plot> = saved.plots.iter().filter_map(|plot| plot.place(physics)).collect();
+        // If the quantities differ, the default pictures are better.
+        if plots.len() == saved.plots.len() {
+            self.plots = plots;
+        }
+        if self.panes().any(|pane| pane == saved.focus) {
+            (self.focus, self.zoomed) = (saved.focus, saved.zoomed);
+            self.untouched = false;
+        }
+        self.marks = saved.marks.iter().copied().filter(|mark| mark.is_finite()).collect();
+        self.selection = saved.selection;
+        self.select(|place| place);
+    }
+}
+
+impl App {
+    /// Returns the session to be stored, once a system is running in the lab.
+    pub fn saved(&self) -> Option<Saved> {
+        if self.page == Page::Picker {
+            return self.left.clone();
+        }
+        // A system without a file could not be found again; its text is kept among the unsaved ones.
+        let has_file = |lab: &&Lab| lab.loaded.name != NEW_SYSTEM || self.file().is_some();
+        let Some(lab) = self.lab.as_ref().filter(has_file) else { return self.left.clone() };
+        let runs = |buffer: &SourceBuffer| buffer.is_modified() && buffer.state != SheetState::Left;
+        let edited = self.own_buffer().is_some_and(runs);
+        Some(Saved { edited, ..Saved::of(lab, self.page)? })
+    }
+
+    /// Resumes a session as soon as its system is loaded.
+    pub fn resume(&mut self, saved: Saved) {
+        self.resuming = Some(saved);
+    }
+
+    /// Offers a session in the list of systems, as its first row.
+    pub fn offer_session(&mut self, saved: Saved) {
+        self.picker.offer(saved, true);
+    }
+
+    /// Opens the system of a session, and resumes it.
+    pub(super) fn continue_session(&mut self, session: Saved) -> Vec<Effect> {
+        let name = session.open.clone();
+        self.resume(session);
+        vec![self.ask(name, true)]
+    }
+
+    /// Starts a system that was just loaded, opened or only previewed: resumes the session left with it, or runs it
+    /// from its initial values.
+    pub(super) fn begin(&mut self, opened: bool) -> Vec<Effect> {
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        let saved = self.resuming.take();
+        let saved = saved.filter(|saved| opened && saved.open == lab.loaded.name);
+        let Some(saved) = saved else {
+            if opened {
+                self.remind();
+            }
+            return vec![Effect::Tell(Command::Play)];
+        };
+        lab.restore_view(&saved);
+        lab.awaited = Some(saved.moment);
+        self.page = saved.page;
+        self.remind();
+        // The motion belongs to the unsaved text, and waits until that is checked.
+        if saved.edited && self.wake() { Vec::new() } else { self.restore() }
+    }
+
+    /// Sends the awaited checkpoint to the experiment, if there is one.
+    pub(super) fn restore(&mut self) -> Vec<Effect> {
+        let awaited = self.lab.as_ref().and_then(|lab| lab.awaited.clone());
+        let command = |checkpoint| Effect::Tell(Command::TakeUp(Box::new(checkpoint)));
+        awaited.map(command).into_iter().collect()
+    }
+
+    /// Replaces the system in the lab by one rebuilt from a changed file; the motion and its view continue.
+    pub(super) fn rebuilt(&mut self, loaded: Loaded) -> Vec<Effect> {
+        let Some(old) = self.lab.take() else {
+            let alone = matches!(self.overlay, Some(Overlay::Workbench));
+            return if alone { self.mended(loaded) } else { self.loaded(loaded) };
+        };
+        let mut saved = Saved::of(&old, self.page);
+        if let (Some(saved), None, Some(seen)) = (&mut saved, &old.awaited, old.seen()) {
+            // The recorded trail continues too.
+            let checkpoint = std::mem::take(&mut saved.moment);
+            saved.moment = checkpoint.with_past(&old.loaded.system, seen);
+        }
+        let mut lab = Lab::new(loaded);
+        // A history refers to values, channels, views and frames by index.
+        let places = |lab: &Lab| {
+            let Loaded { model, system, .. } = &lab.loaded;
+            let names = model.parameters.iter().map(|p| p.name.clone());
+            let channels = system.channels().iter().map(|c| c.name.clone());
+            let names: Vec<String> = names.chain(channels).collect();
+            (names, model.views.len(), model.frames.len())
+        };
+        if places(&old) == places(&lab) {
+            lab.history = old.history;
+        }
+        // An open list or field refers to indices of the old system.
+        if matches!(self.overlay, Some(Overlay::Menu(_) | Overlay::Field(_))) {
+            self.overlay = None;
+        }
+        // The answer to a pending question would be about the old system.
+        if let Some(Overlay::Prompt(prompt)) = &mut self.overlay {
+            prompt.under_way = None;
+        }
+        self.meter.forget();
+        let Some(saved) = saved else {
+            self.lab = Some(lab);
+            return vec![Effect::Tell(Command::Play)];
+        };
+        lab.restore_view(&saved);
+        lab.awaited = Some(saved.moment);
+        self.lab = Some(lab);
+        self.restore()
+    }
+}
