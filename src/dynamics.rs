@@ -13,6 +13,7 @@ mod driven_orbit;
 mod equilibria;
 mod error;
 mod family;
+mod first_return;
 mod flow_map;
 mod gali;
 mod linear;

@@ -3,8 +3,9 @@
 //! In: a start, the period of the drive. Out: the orbit, or what was looked for. Never here: how an orbit is closed.
 
 use super::error::DynamicsError;
+use super::first_return::difference;
 use super::flow_map::flow_map;
-use super::orbit::{Fixed, Orbit, difference, periodic_orbit};
+use super::orbit::{Fixed, Orbit, periodic_orbit};
 use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings};
 use crate::system::State;

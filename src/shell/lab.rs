@@ -17,7 +17,7 @@ use super::log::Log;
 use super::regular;
 use super::request::Request;
 use super::session::{Left, Session};
-use super::store;
+use super::session_file;
 use super::store::Store;
 use super::terminal::TerminalError;
 use crate::diagnostic::Diagnostic;
@@ -33,13 +33,13 @@ pub fn run(request: &Request) -> Result<Ending, LabError> {
     TerminalError::check()?;
     let catalog = Catalog::load();
     let mut request = request.clone();
-    let saved = if request.resume { Some(store::read()?) } else { None };
+    let saved = if request.resume { Some(session_file::read()?) } else { None };
     if let Some(saved) = &saved {
         request.open = Some(saved.open.clone());
     }
     let (mut offered, mut no_offer) = (None, None);
     if request.open.is_none() {
-        match store::read() {
+        match session_file::read() {
             Ok(saved) if regular::find(&catalog, &saved.open).is_ok() => offered = Some(saved),
             Ok(saved) => no_offer = Some(format!("{} is no longer there", saved.open)),
             Err(why) => no_offer = Some(why.to_string()),

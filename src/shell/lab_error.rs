@@ -3,7 +3,7 @@
 //! In: the errors of what it needs. Out: one type with a sentence for each. Never here: exit codes.
 
 use super::log::LogError;
-use super::store::SessionError;
+use super::session_file::SessionError;
 use super::terminal::TerminalError;
 use crate::preset::NotFound;
 use crate::printable;

@@ -13,13 +13,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use etcetera::BaseStrategy;
-use etcetera::base_strategy::Xdg;
-use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
-
 use super::file_writer::{self, FileWriter};
 use super::regular;
+use super::session_file::{SessionError, contents, read_from, read_texts, session_path};
 use crate::app::{Saved, Unsaved};
 use crate::printable;
 
@@ -45,21 +41,6 @@ pub(super) struct Store {
     _lock: File,
 }
 
-/// The format of the file of texts.
-#[derive(Debug, PartialEq, Serialize, Deserialize)]
-struct UnsavedTexts {
-    version: u32,
-    phaselab: String,
-    texts: Vec<Unsaved>,
-}
-
-/// The version of that format.
-const TEXTS_VERSION: u32 = 1;
-
-/// The maximum size of a session or of texts, in bytes: more than 30 texts of the greatest length, each with its
-/// base text. Phaselab writes nothing longer.
-const LONGEST: usize = 64 << 20;
-
 /// The maximum number of programs that store texts at the same time.
 const PROGRAMS: u32 = 64;
 
@@ -82,51 +63,10 @@ pub(super) enum StoreError {
     Taken,
 }
 
-/// Why there is no session to resume.
-#[derive(Debug, thiserror::Error)]
-pub enum SessionError {
-    /// There is no home folder.
-    #[error("there is no session to resume: there is no home folder it could be in")]
-    NoHome,
-    /// There is no file, or it cannot be read.
-    #[error("there is no session to resume: cannot read {}: {}", .path.display(), printable::why(.reason))]
-    Unread {
-        /// The file.
-        path: PathBuf,
-        /// The reason given by the system.
-        reason: io::Error,
-    },
-    /// It was written by a newer version of the program.
-    #[error(
-        "{} is a session of form {found}, of a newer phaselab; this one reads form {} and older",
-        .path.display(), Saved::VERSION
-    )]
-    Newer {
-        /// The file.
-        path: PathBuf,
-        /// Its version.
-        found: i64,
-    },
-    /// It is not a session.
-    #[error("{} is no session:\n{reason}", .path.display())]
-    Malformed {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong, with the position.
-        reason: String,
-    },
-}
-
-/// Returns the session's file, `phaselab/session.toml` in the XDG state folder.
-fn place() -> Option<PathBuf> {
-    let folder = Xdg::new().ok()?.state_dir()?;
-    Some(folder.join("phaselab").join("session.toml"))
-}
-
 impl Store {
     /// Opens the store in its default place.
     pub(super) fn open() -> Result<Self, StoreError> {
-        Self::at(place().ok_or(StoreError::NoHome)?)
+        Self::at(session_path().ok_or(StoreError::NoHome)?)
     }
 
     fn at(path: PathBuf) -> Result<Self, StoreError> {
@@ -206,7 +146,7 @@ impl Store {
                 }
             }
             // Their file is removed only after the texts have been written to this one.
-            match form(&self.known).and_then(|text| file_writer::write(&texts, &text)) {
+            match contents(&self.known).and_then(|text| file_writer::write(&texts, &text)) {
                 Ok(()) => {
                     // If removing it fails, it is adopted once more, which does not matter.
                     let _ = fs::remove_file(&theirs);
@@ -262,7 +202,7 @@ impl Store {
         if texts.is_empty() {
             self.file_writer.remove(path);
         } else {
-            self.file_writer.write(path, move || form(&texts));
+            self.file_writer.write(path, move || contents(&texts));
         }
         true
     }
@@ -347,68 +287,6 @@ fn put_aside(path: &Path) -> Option<PathBuf> {
     let names = (1..=PROGRAMS).map(|n| path.with_file_name(format!("{stem}-damaged-{n}.toml")));
     let place = names.into_iter().find(|place| place.symlink_metadata().is_err())?;
     fs::rename(path, &place).ok().map(|()| place)
-}
-
-/// Serializes texts into the contents of their file.
-fn form(texts: &[Unsaved]) -> io::Result<String> {
-    let phaselab = env!("CARGO_PKG_VERSION").to_owned();
-    let form = UnsavedTexts { version: TEXTS_VERSION, phaselab, texts: texts.to_vec() };
-    toml::to_string_pretty(&form).map_err(io::Error::other)
-}
-
-/// Reads the last session.
-pub(super) fn read() -> Result<Saved, SessionError> {
-    read_from(&place().ok_or(SessionError::NoHome)?)
-}
-
-fn read_from(path: &Path) -> Result<Saved, SessionError> {
-    read_form(path, Saved::VERSION)
-}
-
-fn read_texts(path: &Path) -> Result<Vec<Unsaved>, SessionError> {
-    read_form(path, TEXTS_VERSION).map(|form: UnsavedTexts| form.texts)
-}
-
-fn read_form<T: DeserializeOwned>(path: &Path, version: u32) -> Result<T, SessionError> {
-    let unread = |reason| SessionError::Unread { path: path.to_owned(), reason };
-    let text = regular::read_text(path, LONGEST).map_err(unread)?;
-    // A power failure can leave zeros, or nothing.
-    if text.bytes().all(|byte| byte == 0 || byte.is_ascii_whitespace()) {
-        let empty = io::Error::new(io::ErrorKind::NotFound, "it is empty");
-        return Err(unread(empty));
-    }
-    // Another version may have other keys, so the version is checked first.
-    let number = text.parse::<toml::Table>().ok().and_then(|t| t.get("version")?.as_integer());
-    if let Some(found) = number.filter(|found| *found > i64::from(version)) {
-        return Err(SessionError::Newer { path: path.to_owned(), found });
-    }
-    toml::from_str(&text).map_err(|error| SessionError::Malformed {
-        path: path.to_owned(),
-        reason: error.to_string(),
-    })
-}
-
-impl SessionError {
-    /// Whether the file does not exist.
-    fn is_missing(&self) -> bool {
-        matches!(self, Self::Unread { reason, .. } if reason.kind() == io::ErrorKind::NotFound)
-    }
-
-    /// Returns the error in one line.
-    fn in_short(&self) -> String {
-        match self {
-            Self::NoHome => "there is no home folder".to_owned(),
-            Self::Unread { path, reason } => {
-                format!("cannot read {}: {}", path.display(), printable::why(reason))
-            }
-            Self::Newer { path, .. } => {
-                format!("{} is of a newer phaselab and stays as it is", path.display())
-            }
-            Self::Malformed { path, .. } => {
-                format!("{} cannot be understood and stays as it is", path.display())
-            }
-        }
-    }
 }
 
 #[cfg(test)]
