@@ -267,23 +267,24 @@ impl CompanionMotion {
 
     /// What is seen of it at the time of the main motion, which may have been taken back.
     pub(super) fn shown(&self, now: f64) -> Companion {
-        let trail = self.recorder.trail();
-        let (mut time, mut values) = (self.motion.state().time, self.values.as_slice());
-        if time > now
-            && let Some(row) = trail.rows().rev().find(|row| row[0] <= now)
-        {
-            (time, values) = (row[0], &row[1..]);
-        }
+        let whole = self.recorder.trail();
+        let time = self.motion.state().time;
+        let back = (time > now).then(|| whole.until(now));
+        let row = back.as_ref().and_then(|trail| trail.row(trail.len().checked_sub(1)?));
+        let (time, values) =
+            row.map_or((time, self.values.as_slice()), |row| (row[0], &row[1..]));
+        let values = values.into();
+        let trail = back.unwrap_or(whole);
         Companion {
             number: self.number,
             origin: self.origin.clone(),
             time,
-            values: values.into(),
+            values,
             parameters: self.parameters.as_slice().into(),
             method: self.motion.method().name,
             settings: self.motion.settings(),
             state: Arc::new(self.motion.state().clone()),
-            trail: trail.clone(),
+            trail,
             crossings: self.crossings.clone(),
             message: self.message.clone(),
         }

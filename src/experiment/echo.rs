@@ -61,6 +61,16 @@ impl Echo {
         (time - self.start) * (time - self.turned) <= 0.0
     }
 
+    /// Goes to where the run before was at a time. Returns whether it has been there.
+    pub(super) fn look_at(&mut self, time: f64, horizon: f64) -> bool {
+        let there = self.covers(time) && self.run.look_back(time, horizon, self.began);
+        if there {
+            self.at = time;
+            self.values.copy_from_slice(self.run.values());
+        }
+        there
+    }
+
     /// The motion that goes back has these values at a time. `horizon` bounds the steps of the run before as it did then.
     pub(super) fn compare(
         &mut self,
@@ -68,11 +78,9 @@ impl Echo {
         horizon: f64,
         (variables, periods): (&[usize], &[Option<f64>]),
     ) {
-        if !self.covers(time) || !self.run.look_back(time, horizon, self.began) {
+        if !self.look_at(time, horizon) {
             return;
         }
-        self.at = time;
-        self.values.copy_from_slice(self.run.values());
         let pick = |values: &[f64]| -> Vec<f64> { variables.iter().map(|&i| values[i]).collect() };
         let (then, now) = (pick(&self.values), pick(values));
         let distance = distance(&then, &now, periods);
@@ -100,7 +108,7 @@ impl Echo {
         Arc::clone(&self.separation)
     }
 
-    /// The run before as a motion beside the main one, where it was at the time of the main one.
+    /// The run before as a motion beside the main one, where it was at the time of the main one, and on its way until then.
     pub(super) fn shown(&self, number: usize, parameters: &[f64], surfaces: usize) -> Companion {
         Companion {
             number,
@@ -111,7 +119,7 @@ impl Echo {
             method: self.run.method().name,
             settings: self.run.settings(),
             state: Arc::new(self.run.dated_state()),
-            trail: self.trail.clone(),
+            trail: self.trail.until(self.at),
             crossings: CrossingLog::new(surfaces),
             message: None,
         }

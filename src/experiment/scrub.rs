@@ -9,8 +9,16 @@ use super::{Command, Experiment, Recorded};
 use crate::num::short;
 
 impl Experiment {
-    /// Pauses, and looks at a time in the past.
+    /// Pauses, and looks at a time in the past, of this motion and of the run before.
     pub(super) fn look_at(&mut self, time: f64) {
+        self.look_at_this(time);
+        let now = self.seen().time();
+        if let Some(echo) = &mut self.echo {
+            echo.look_at(now, HORIZON * self.setup.spacing);
+        }
+    }
+
+    fn look_at_this(&mut self, time: f64) {
         self.running = false;
         if !self.motion.has_begun() || time.is_nan() {
             return;
