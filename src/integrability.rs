@@ -18,6 +18,7 @@ mod lie;
 mod naming;
 mod noether;
 mod quadratic;
+mod reflection;
 mod scope;
 mod search;
 mod separation;

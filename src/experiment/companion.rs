@@ -271,8 +271,7 @@ impl CompanionMotion {
         let time = self.motion.state().time;
         let back = (time > now).then(|| whole.until(now));
         let row = back.as_ref().and_then(|trail| trail.row(trail.len().checked_sub(1)?));
-        let (time, values) =
-            row.map_or((time, self.values.as_slice()), |row| (row[0], &row[1..]));
+        let (time, values) = row.map_or((time, self.values.as_slice()), |row| (row[0], &row[1..]));
         let values = values.into();
         let trail = back.unwrap_or(whole);
         Companion {

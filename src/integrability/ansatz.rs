@@ -88,6 +88,20 @@ impl Ansatz {
         self.momenta[self.columns[column].0].iter().sum()
     }
 
+    /// The class of a column: by which of the law's reflections it changes its sign.
+    pub(super) fn class(&self, atoms: &Atoms, column: usize) -> u64 {
+        let (a, b) = self.columns[column];
+        let odd = |exponents: &[u32], signs: &[bool]| {
+            exponents.iter().zip(signs).filter(|(n, odd)| **odd && **n % 2 == 1).count() % 2 == 1
+        };
+        let reflections = atoms.reflections.iter().take(u64::BITS as usize).enumerate();
+        reflections.fold(0, |class, (i, reflection)| {
+            let momenta = odd(&self.momenta[a], &reflection.momenta);
+            let coefficients = odd(&self.coefficients[b], &reflection.coefficients);
+            class | u64::from(momenta != coefficients) << i
+        })
+    }
+
     /// The greatest total degree of some columns.
     pub(super) fn total(&self, columns: &[usize]) -> u32 {
         let degree = |&c: &usize| {

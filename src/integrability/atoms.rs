@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 
 use super::evaluator::terms;
 use super::law::Law;
+use super::reflection::{self, Reflection};
 use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
 use crate::num::Number;
 
@@ -37,6 +38,8 @@ pub(super) struct Atoms {
     pub(super) excluded: Vec<(usize, usize)>,
     /// Whether the generators satisfy no algebraic relation.
     pub(super) free: bool,
+    /// The reflections that leave the law as it is.
+    pub(super) reflections: Vec<Reflection>,
     momentum_symbols: Vec<Symbol>,
     /// The generator e^(c u) of each primitive argument u.
     exponentials: Vec<(Expr, Number)>,
@@ -71,6 +74,7 @@ impl Atoms {
             coefficients: Vec::new(),
             excluded: Vec::new(),
             free: true,
+            reflections: Vec::new(),
             momentum_symbols: momentum_symbols.clone(),
             exponentials: Vec::new(),
             half_angles: family.half_angles,
@@ -116,6 +120,8 @@ impl Atoms {
         for &e in &found.others {
             atoms.add(e, u32::MAX);
         }
+        let coefficients: Vec<Expr> = atoms.coefficients.iter().map(|g| g.expression).collect();
+        atoms.reflections = reflection::of(pool, law, &atoms.momenta, &coefficients);
         atoms
     }
 

@@ -7,6 +7,8 @@
 //! chance of at most (d/p)^`SPARE`, d the degree and p ≈ 2⁶² the prime (J. T. Schwartz, J. ACM 27 (1980) 701).
 //! Never here: rationals.
 
+use std::collections::BTreeMap;
+
 use rustc_hash::FxHashMap;
 
 use super::ansatz::{Ansatz, orders};
@@ -62,8 +64,34 @@ impl Ground<'_> {
         Err(Broken::NoPoint)
     }
 
-    /// The null space of D on some columns, as vectors over them.
+    /// The null space of D on some columns, as vectors over them: that of each class of columns by itself.
     pub(super) fn null_space(
+        &self,
+        atoms: &Atoms,
+        ansatz: &Ansatz,
+        columns: &[usize],
+        random: &mut Random,
+    ) -> Result<Vec<Vec<Residue>>, Broken> {
+        let mut classes: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
+        for (place, &column) in columns.iter().enumerate() {
+            classes.entry(ansatz.class(atoms, column)).or_default().push(place);
+        }
+        let mut basis = Vec::new();
+        for places in classes.values() {
+            let own: Vec<usize> = places.iter().map(|&place| columns[place]).collect();
+            for vector in self.null_space_of_class(atoms, ansatz, &own, random)? {
+                let mut whole = vec![Residue::ZERO; columns.len()];
+                for (&place, x) in places.iter().zip(vector) {
+                    whole[place] = x;
+                }
+                basis.push(whole);
+            }
+        }
+        Ok(basis)
+    }
+
+    /// The same of columns that reflections change alike.
+    fn null_space_of_class(
         &self,
         atoms: &Atoms,
         ansatz: &Ansatz,
