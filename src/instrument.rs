@@ -26,6 +26,7 @@ mod space;
 mod spectrum;
 mod table;
 mod time;
+mod transformation;
 
 pub use equilibria::{
     FoundEquilibria, described, described_mode, equilibria_search, start_along, start_at, value_at,

@@ -127,15 +127,27 @@ pub struct Axis {
     pub several: bool,
     /// Whether it must be a coordinate, because everything else is fixed while it varies.
     pub coordinate: bool,
+    /// Whether it must be a new variable of a transformation.
+    pub transformed: bool,
 }
 
 impl Axis {
     /// One quantity on the horizontal axis.
-    pub const ACROSS: Self =
-        Self { key: "x", heading: "Horizontal axis", several: false, coordinate: false };
+    pub const ACROSS: Self = Self {
+        key: "x",
+        heading: "Horizontal axis",
+        several: false,
+        coordinate: false,
+        transformed: false,
+    };
     /// One quantity on the vertical axis.
-    pub const UPWARDS: Self =
-        Self { key: "y", heading: "Vertical axis", several: false, coordinate: false };
+    pub const UPWARDS: Self = Self {
+        key: "y",
+        heading: "Vertical axis",
+        several: false,
+        coordinate: false,
+        transformed: false,
+    };
 }
 
 /// A choice for the contents of a pane.

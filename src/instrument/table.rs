@@ -7,12 +7,14 @@ use super::kind::{Instrument, Offer};
 use super::present::Physics;
 use super::{
     ensemble, exponents, orbit, phase, potential, section, separation, space, spectrum, time,
+    transformation,
 };
 
 /// All kinds, in the order in which the lab opens with them.
-pub static INSTRUMENTS: [&dyn Instrument; 10] = [
+pub static INSTRUMENTS: [&dyn Instrument; 11] = [
     &space::Space,
     &phase::Phase,
+    &transformation::Transformation,
     &section::Section,
     &potential::Potential,
     &time::Time,
@@ -24,7 +26,7 @@ pub static INSTRUMENTS: [&dyn Instrument; 10] = [
 ];
 
 /// Kinds that the file format names but this version does not support.
-pub const NOT_YET: [&str; 2] = ["transformation", "action"];
+pub const NOT_YET: [&str; 1] = ["action"];
 
 /// Finds a kind by its name.
 pub fn named(name: &str) -> Option<&'static dyn Instrument> {

@@ -313,17 +313,30 @@ pub struct GeneratorReport {
 fn transformations(model: &Model, equations: &mut Equations) -> Vec<TransformationReport> {
     let maps = written_maps(model, equations);
     let report = |(given, map): (Transformation, PhaseMap)| {
+        TransformationReport::of(model, equations, &given, map)
+    };
+    maps.into_iter().map(report).collect()
+}
+
+impl TransformationReport {
+    /// The report on the transformation of a name, if its law can be written down; the equations' pool grows.
+    pub fn named(model: &Model, equations: &mut Equations, name: &str) -> Option<Self> {
+        let maps = written_maps(model, equations);
+        let (given, map) = maps.into_iter().find(|(_, map)| map.name == name)?;
+        Some(Self::of(model, equations, &given, map))
+    }
+
+    fn of(model: &Model, equations: &mut Equations, given: &Transformation, map: PhaseMap) -> Self {
         let verdict = map.verdict(model, equations);
         let backwards = map.backwards(model, equations);
         let hamiltonian = map.new_hamiltonian(model, equations, &verdict, backwards.as_ref());
         let functions = if verdict.canonical {
-            map.generating_functions(model, equations, &given)
+            map.generating_functions(model, equations, given)
         } else {
             Vec::new()
         };
         TransformationReport { map, verdict, backwards, hamiltonian, functions }
-    };
-    maps.into_iter().map(report).collect()
+    }
 }
 
 fn generators(model: &Model, equations: &mut Equations) -> Vec<GeneratorReport> {

@@ -12,7 +12,8 @@ pub struct Channel {
     pub shown: String,
     /// The unit, empty if it is not known.
     pub unit: String,
-    /// Whether the channel is a periodic coordinate. Its period is given by [`System::period`].
+    /// Whether the channel is a periodic coordinate, or an angle written as `atan2(y, x)`. Its period is given by
+    /// [`System::period`].
     ///
     /// [`System::period`]: super::System::period
     pub periodic: bool,

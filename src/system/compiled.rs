@@ -271,8 +271,9 @@ impl System {
 
     /// The period of a channel at these parameters, if it is periodic.
     pub fn period(&self, channel: usize, parameters: &[f64]) -> Option<f64> {
-        if !self.channels().get(channel)?.periodic {
-            return None;
+        let of = self.channels().get(channel).filter(|channel| channel.periodic)?;
+        if !matches!(of.kind, super::ChannelKind::Position(_)) {
+            return Some(std::f64::consts::TAU);
         }
         let period =
             self.initial_program(&self.inputs(parameters)).output(2 * self.degrees() + channel);

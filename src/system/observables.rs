@@ -9,7 +9,7 @@ use super::kkt::ConstraintSystem;
 use super::lower::Lowering;
 use super::program::{Program, Register};
 use super::rhs::ProgramBuilder;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, FunctionId, Node, Symbol};
 use crate::mechanics::{Equations, Flow};
 use crate::model::{self, Follow, Mechanics, Model, Shape};
 
@@ -79,8 +79,10 @@ impl ObservableList {
         list.precise = list.channels.len();
         for view in &model.views {
             for c in view.axes.iter().flatten() {
-                list.add_hidden(&c.written, c.expression);
-                list.name(c);
+                list.add_hidden("", c.expression);
+                let symbol = model.pool.as_symbol(c.expression);
+                let shown = symbol.map(|s| model.pool.symbol_info(s).unicode.as_str());
+                list.name(c, shown.unwrap_or(&c.written));
             }
         }
         let own = model.views.iter().flat_map(|view| view.shapes.iter().flatten());
@@ -99,7 +101,23 @@ impl ObservableList {
             }
         }
         list.find_units(model, equations);
+        list.find_angles(equations);
         list
+    }
+
+    /// Marks what is an angle because it is written as `atan2(y, x)`: it jumps by a turn, as a periodic coordinate does.
+    fn find_angles(&mut self, equations: &Equations) {
+        let pool = &equations.pool;
+        let new = &equations.supplements.new_variables;
+        let written = |e: Expr| {
+            let symbol = pool.as_symbol(e)?;
+            new.iter().find(|(s, _)| *s == symbol).map(|(_, e)| *e)
+        };
+        for (channel, e) in self.channels.iter_mut().zip(&self.expressions) {
+            let e = e.map(|e| written(e).unwrap_or(e));
+            channel.periodic |=
+                e.is_some_and(|e| matches!(pool.node(e), Node::Call(FunctionId::Atan2, _)));
+        }
     }
 
     fn add_state(&mut self, model: &Model, equations: &mut Equations) {
@@ -183,11 +201,11 @@ impl ObservableList {
     }
 
     /// Names a channel after a view if it has no name yet.
-    fn name(&mut self, shown: &model::Channel) {
-        let channel = self.index.get(&shown.expression).map(|&i| &mut self.channels[i]);
+    fn name(&mut self, written: &model::Channel, shown: &str) {
+        let channel = self.index.get(&written.expression).map(|&i| &mut self.channels[i]);
         if let Some(channel) = channel.filter(|channel| channel.name.is_empty()) {
-            channel.name.clone_from(&shown.written);
-            channel.shown.clone_from(&shown.written);
+            channel.name.clone_from(&written.written);
+            shown.clone_into(&mut channel.shown);
         }
     }
 

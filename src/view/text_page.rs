@@ -8,8 +8,11 @@ use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns, row};
 use super::theme::Role;
-use super::wrap::{formula, words};
+use super::wrap::{formula_beside, words};
 use crate::app::Drawn;
+
+/// The indent of the further lines of a formula whose terms would not be whole beside its label.
+const HANGING: usize = 4;
 
 /// The greatest line length that is easy to read.
 const MEASURE: u16 = 110;
@@ -182,14 +185,16 @@ impl TextPage {
                 Block::Formula { label, body, remark } => {
                     let (label, body) = (canvas.text(label), canvas.text(body));
                     let margin = widest + 5;
-                    let broken = formula(&body, width.saturating_sub(margin), 2);
+                    let broken = formula_beside(&body, width, margin, [margin + 2, HANGING]);
                     let last = broken.len() - 1;
                     for (i, line) in broken.into_iter().enumerate() {
                         let gap = " ".repeat(widest.saturating_sub(label.width()));
-                        let head =
-                            if i == 0 { format!("  {gap}{label}") } else { " ".repeat(widest + 2) };
-                        let sign = if i == 0 { " = " } else { "   " };
-                        let used = margin + line.width();
+                        let (head, sign) = if i == 0 {
+                            (format!("  {gap}{label}"), " = ")
+                        } else {
+                            Default::default()
+                        };
+                        let used = if i == 0 { margin } else { 0 } + line.width();
                         let mut spans = vec![
                             (head, canvas.style(Role::Accent)),
                             (sign.to_owned(), canvas.style(Role::Dim)),

@@ -6,7 +6,7 @@ use unicode_width::UnicodeWidthStr;
 
 /// The lines of a paragraph, broken at spaces; a word longer than a line is broken anywhere.
 pub(super) fn words(text: &str, width: usize) -> Vec<String> {
-    fill(text.split_whitespace().map(|word| (word.to_owned(), true)), width, 0)
+    fill(text.split_whitespace().map(|word| (word.to_owned(), true)), width, 0, 0)
 }
 
 /// The lines of a paragraph, at most `rows` of them: the last contains all the rest, so that the caller can mark the cut.
@@ -54,10 +54,29 @@ pub(super) fn capitalised(text: &str) -> String {
 /// The lines of a formula, broken before `+`, `−` and `=`: outside all parentheses if that suffices, else inside them,
 /// else at spaces and before `*`. All lines but the first are indented.
 pub(super) fn formula(text: &str, width: usize, indent: usize) -> Vec<String> {
-    let room = width.saturating_sub(indent).max(1);
+    formula_after(text, width, 0, indent)
+}
+
+/// The lines of a formula whose first line begins after `first` columns, with an indent of the others that leaves its terms
+/// whole where one of these does.
+pub(super) fn formula_beside(
+    text: &str,
+    width: usize,
+    first: usize,
+    indents: [usize; 2],
+) -> Vec<String> {
+    let [wide, narrow] = indents;
+    let whole = terms(text, 0).iter().all(|term| term.width() + wide <= width);
+    formula_after(text, width, first, if whole { wide } else { narrow })
+}
+
+fn formula_after(text: &str, width: usize, first: usize, indent: usize) -> Vec<String> {
+    let room = |before: usize| width.saturating_sub(before).max(1);
     let mut pieces = Vec::new();
-    break_up(text, room, 0, &mut pieces);
-    fill(pieces.into_iter(), width, indent)
+    for (place, term) in terms(text, 0).iter().enumerate() {
+        break_up(term, room(if place == 0 { first.max(indent) } else { indent }), 0, &mut pieces);
+    }
+    fill(pieces.into_iter(), width, first, indent)
 }
 
 /// The depth of parentheses down to which a formula is broken before its operators.
@@ -113,8 +132,13 @@ fn factors(term: &str) -> Vec<String> {
     factors
 }
 
-/// Fills lines with pieces; the flag tells whether a space precedes the piece.
-fn fill(pieces: impl Iterator<Item = (String, bool)>, width: usize, indent: usize) -> Vec<String> {
+/// Fills lines with pieces, the first after `first` columns; the flag tells whether a space precedes the piece.
+fn fill(
+    pieces: impl Iterator<Item = (String, bool)>,
+    width: usize,
+    first: usize,
+    indent: usize,
+) -> Vec<String> {
     let width = width.max(1);
     let indent = indent.min(width / 2);
     let mut lines: Vec<String> = vec![String::new()];
@@ -122,13 +146,13 @@ fn fill(pieces: impl Iterator<Item = (String, bool)>, width: usize, indent: usiz
     for (piece, spaced) in pieces {
         let mut piece = piece;
         loop {
-            let margin = if lines.len() > 1 { indent } else { 0 };
+            let (before, margin) = if lines.len() > 1 { (0, indent) } else { (first, 0) };
             let Some(line) = lines.last_mut() else { break };
             let gap = usize::from(spaced && !fresh);
             if fresh && line.is_empty() {
                 line.push_str(&" ".repeat(margin));
             }
-            if line.width() + gap + piece.width() <= width {
+            if before + line.width() + gap + piece.width() <= width {
                 line.push_str(&" ".repeat(gap));
                 line.push_str(&piece);
                 fresh = false;
@@ -140,7 +164,7 @@ fn fill(pieces: impl Iterator<Item = (String, bool)>, width: usize, indent: usiz
                 continue;
             }
             // The piece is alone on its line and still too long, so it is cut between letters.
-            let room = width.saturating_sub(line.width()).max(1);
+            let room = width.saturating_sub(before + line.width()).max(1);
             let (head, rest) = split(&piece, room);
             line.push_str(&head);
             if rest.is_empty() {

@@ -16,9 +16,12 @@ use phaselab::preset;
 use crate::hand::{catalog, in_lab, loaded, pendulum, press, snapshot};
 use crate::screen::{rich, rows};
 
-/// The kinds that the pendulum has: all but sections, whose surface a file names; `section` tests those.
+/// The kinds that the pendulum has: all but sections, whose surface a file names (`section` tests those), and
+/// transformations, which a file defines (`transformation`).
 fn kinds() -> impl Iterator<Item = &'static dyn Instrument> {
-    INSTRUMENTS.into_iter().filter(|kind| !kind.is_section())
+    INSTRUMENTS
+        .into_iter()
+        .filter(|kind| !kind.is_section() && !kind.written().iter().any(|axis| axis.transformed))
 }
 
 /// The pendulum in the lab with a plot of each kind: those that it opens with, and those that are asked for.

@@ -44,6 +44,7 @@ mod tangent;
 mod taylor;
 mod terminal;
 mod thresholds;
+mod transformation;
 mod worker;
 
 use proptest::test_runner::Config;

@@ -38,6 +38,9 @@ impl Check<'_> {
                     if axis.is_some_and(|axis| axis.coordinate) {
                         self.along_a_coordinate(&channel, formula, view.kind);
                     }
+                    if axis.is_some_and(|axis| axis.transformed) {
+                        self.is_transformed(&channel, formula);
+                    }
                     channels.push(channel);
                 }
                 axes.push(channels);
@@ -89,6 +92,24 @@ impl Check<'_> {
         let from = self.formula(&mut scope, "a range", from);
         let to = self.formula(&mut scope, "a range", to);
         Some([from?, to?])
+    }
+
+    /// An axis of a transformation must be one of its new variables.
+    fn is_transformed(&mut self, channel: &Channel, written: &Formula) {
+        let symbol = self.model.pool.as_symbol(channel.expression);
+        let all: Vec<_> = self.model.transformations.iter().flat_map(|t| t.new.concat()).collect();
+        if symbol.is_some_and(|symbol| all.contains(&symbol)) {
+            return;
+        }
+        let names: Vec<&str> =
+            all.iter().map(|&s| self.model.pool.symbol_info(s).name.as_str()).collect();
+        let message = "a transformation is shown in its new variables, and this is none";
+        let help = if names.is_empty() {
+            "the file has no [[transformations]]".to_owned()
+        } else {
+            format!("write one of {}", names.join(", "))
+        };
+        self.mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
     }
 
     /// The horizontal axis of this kind must be a coordinate, because everything else is fixed while it varies.

@@ -293,7 +293,7 @@ x = "x"
 y = "p_x"
 x_range = ["-k", "k"]
 [[views]]
-kind = "transformation"
+kind = "action"
 x = "x"
 "#,
     );
@@ -308,10 +308,7 @@ x = "x"
     assert_eq!(written, ["x", "energy", "x''"]);
     assert_eq!(warnings.len(), 1);
     assert_eq!(warnings[0].severity, Severity::Warning);
-    assert_eq!(
-        warnings[0].message,
-        "views of kind `transformation` are not supported yet by this version"
-    );
+    assert_eq!(warnings[0].message, "views of kind `action` are not supported yet by this version");
 }
 
 #[test]

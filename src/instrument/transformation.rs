@@ -1,0 +1,380 @@
+//! `transformation`: the orbit in the new variables of a transformation (q, p) → (Q, P), with the grid of the old ones.
+//!
+//! It is the passive view: the point of the motion is the same, its coordinates are others. The lines on which one of the
+//! old variables is constant are drawn in the plane of the new ones; where the new variables jump, as an angle does, a line
+//! is not joined. The job finds the lines, whether the map is canonical, and K.
+//! Source: *The Principles of Dynamics*, §§ 3.2.2, 3.3.
+
+use std::sync::Arc;
+
+use super::{
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
+    Physics, Picture, Plot, Present, Sign, Stroke, Upwards,
+};
+use crate::expr::{Expr, Pool, Symbol};
+use crate::job::Job;
+use crate::mechanics::{TransformationReport, Valuation};
+use crate::model::Transformation as Law;
+use crate::num::significant;
+use crate::system::ChannelKind;
+
+/// The levels of the picture.
+const GRID: Level = 0;
+const TRAIL: Level = 2;
+const NOW: Level = 4;
+
+/// The lines of each old variable, and the points of a line.
+const LINES: usize = 7;
+const POINTS: usize = 129;
+
+/// The part of the range of the motion that is added on each side.
+const MARGIN: f64 = 0.15;
+
+/// One of so many points of the grid may be out of the picture at each end of an axis.
+const OUTER: usize = 40;
+
+/// A step along a line is a jump if it is so many times the one in the middle of all, and longer than this part of the line.
+const JUMP: f64 = 30.0;
+const PART: f64 = 0.25;
+
+/// The row.
+pub(super) struct Transformation;
+
+/// What was found of a transformation, and where.
+struct Mapped {
+    parameters: Vec<f64>,
+    /// The range of the two old variables.
+    window: Option<[[f64; 2]; 2]>,
+    grid: Vec<Vec<[f64; 2]>>,
+    /// The verdict, and K, in lines.
+    lines: Vec<String>,
+    canonical: bool,
+    residual: Option<f64>,
+}
+
+/// A transformation, and the two of its new variables that are shown.
+struct Shown<'a> {
+    law: &'a Law,
+    new: [Symbol; 2],
+}
+
+impl Instrument for Transformation {
+    fn name(&self) -> &'static str {
+        "transformation"
+    }
+
+    fn written(&self) -> &'static [Axis] {
+        const {
+            &[
+                Axis { transformed: true, ..Axis::ACROSS },
+                Axis { transformed: true, ..Axis::UPWARDS },
+            ]
+        }
+    }
+
+    fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
+        let channel = |symbol: Symbol| {
+            let name = &physics.model.pool.symbol_info(symbol).name;
+            physics.named().find(|(_, channel)| channel.name == *name)
+        };
+        let pairs = physics.model.transformations.iter().flat_map(|law| {
+            law.new.iter().filter_map(move |&[position, momentum]| {
+                let ((x, across), (y, upwards)) = (channel(position)?, channel(momentum)?);
+                Some(Offer {
+                    label: format!("{} against {}", upwards.shown, across.shown),
+                    about: format!("the transformation {}, with the grid of (q, p)", law.name),
+                    columns: vec![vec![x], vec![y]],
+                    view: None,
+                })
+            })
+        });
+        pairs.collect()
+    }
+
+    fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
+        match shown(plot, physics) {
+            Some(shown) => format!("{}, {}", shown.law.name, plot.against(physics)),
+            None => plot.against(physics),
+        }
+    }
+
+    fn lead(&self) -> &'static str {
+        "transformation "
+    }
+
+    fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
+        let name = shown(plot, present.physics).map(|shown| shown.law.name.clone());
+        let entries = vec![
+            Entry::Words(name.unwrap_or_default()),
+            Entry::Channel(plot.column(0)?),
+            Entry::Channel(plot.column(1)?),
+        ];
+        Some(plot.heading(present.physics, "Transformation", entries))
+    }
+
+    fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
+        let range = range(plot, present, answer, 0);
+        plot.column(0).map_or(Across::Nothing, |x| Across::Channel(x, range))
+    }
+
+    fn picture(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        _seen: [f64; 2],
+        answer: Option<&Answer>,
+    ) -> Option<Picture> {
+        let [x, y] = [plot.column(0)?, plot.column(1)?];
+        let mapped = mapped(answer);
+        let stroke = Stroke::from(Ink::Level);
+        let grid = mapped.into_iter().flat_map(|mapped| &mapped.grid);
+        let mut layers: Vec<(Level, Layer)> =
+            grid.map(|line| (GRID, Layer::Line(line.clone(), stroke))).collect();
+        layers.extend([
+            (TRAIL, Layer::Companions([x, y])),
+            (TRAIL, Layer::Trail([x, y])),
+            (NOW, Layer::Point([x, y].map(|k| present.value(k)), Sign::Disc, Ink::Accent)),
+        ]);
+        let lines = match mapped {
+            _ if shown(plot, present.physics).is_none() => {
+                vec!["these are not two new variables of one transformation".to_owned()]
+            }
+            Some(mapped) => mapped.lines.clone(),
+            None => Vec::new(),
+        };
+        layers.push((NOW, Layer::Legend(lines)));
+        let upwards = Upwards::Channel(y, range(plot, present, answer, 1));
+        Some(Picture::Axes { upwards, layers, occurrences: None })
+    }
+
+    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+        let Physics { model, equations, .. } = present.physics;
+        let Some(Shown { law, new }) = shown(plot, present.physics) else { return Need::Nothing };
+        let place = model.transformations.iter().position(|one| one.name == law.name);
+        let known = place.and_then(|place| equations.supplements.transformations.get(place));
+        let old = known.and_then(Option::as_ref).and_then(|forwards| {
+            let of = |symbol: Symbol| forwards.iter().find(|(s, _)| *s == symbol).map(|(_, e)| *e);
+            let images = [of(new[0])?, of(new[1])?];
+            let old = old_variables(&equations.pool, present.physics, images)?;
+            Some((images, old))
+        });
+        let wanted = old.and_then(|(_, old)| {
+            let [u, v] = old.map(|(_, channel)| present.bounds.get(channel).copied());
+            Some([u?, v?].map(|(lo, hi)| [lo, hi]))
+        });
+        if let Some(mapped) = mapped(answer)
+            && mapped.still_holds(present.parameters, wanted)
+        {
+            return Need::Held;
+        }
+        let window = wanted.map(|window| {
+            window.map(|[lo, hi]| {
+                let margin = MARGIN * if hi > lo { hi - lo } else { lo.abs().max(1.0) };
+                [lo - margin, hi + margin]
+            })
+        });
+        let (model, equations) = (Arc::clone(model), Arc::clone(equations));
+        let (parameters, at) = (present.parameters.to_vec(), present.valuation());
+        let name = law.name.clone();
+        Need::Job(Job::new("the transformation", move |progress| {
+            let mut equations = (*equations).clone();
+            equations.pool.set_cancel(progress.token().clone());
+            let grid = match (old, window) {
+                (Some((images, old)), Some(window)) => {
+                    grid(&equations.pool, &at, images, (old.map(|(s, _)| s), window))
+                }
+                _ => Vec::new(),
+            };
+            let report = TransformationReport::named(&model, &mut equations, &name);
+            let report = report.as_ref();
+            Answer::new(Mapped {
+                parameters: parameters.clone(),
+                window,
+                grid,
+                lines: report.map_or_else(Vec::new, |report| lines(&equations.pool, report)),
+                canonical: report.is_some_and(|report| report.verdict.canonical),
+                residual: report.and_then(|report| report.verdict.residual),
+            })
+        }))
+    }
+
+    fn measures(&self) -> &'static [Measure] {
+        &[
+            Measure {
+                word: "canonical",
+                about: "1 if it is canonical, 0 if it is not",
+                value: |_, _, answer| {
+                    mapped(answer).map(|mapped| f64::from(u8::from(mapped.canonical)))
+                },
+            },
+            Measure {
+                word: "residual",
+                about: "the largest entry of |M 𝕁 Mᵀ − 𝕁| at points near the start",
+                value: |_, _, answer| mapped(answer)?.residual,
+            },
+        ]
+    }
+}
+
+fn mapped(answer: Option<&Answer>) -> Option<&Mapped> {
+    answer?.of::<Mapped>()
+}
+
+/// The range of an axis: a turn, or the grid but for its ends, which may be far away, and the motion.
+fn range(
+    plot: &Plot,
+    present: &Present<'_>,
+    answer: Option<&Answer>,
+    axis: usize,
+) -> Option<[f64; 2]> {
+    let turns = present.physics.system.period(plot.column(axis)?, present.parameters).is_some();
+    let grid = &mapped(answer).filter(|_| !turns)?.grid;
+    let mut all: Vec<f64> = grid.iter().flatten().map(|point| point[axis]).collect();
+    all.sort_by(f64::total_cmp);
+    let cut = all.len() / OUTER;
+    let (least, greatest) = (*all.get(cut)?, *all.get(all.len().checked_sub(cut + 1)?)?);
+    let (lo, hi) = *present.bounds.get(plot.column(axis)?)?;
+    Some([least.min(lo), greatest.max(hi)])
+}
+
+impl Mapped {
+    /// Whether the parameters are the same, and the motion has not left the window of the grid.
+    fn still_holds(&self, parameters: &[f64], motion: Option<[[f64; 2]; 2]>) -> bool {
+        let within = match (self.window, motion) {
+            (Some(window), Some(motion)) => {
+                window.iter().zip(motion).all(|(w, m)| w[0] <= m[0] && m[1] <= w[1])
+            }
+            (None, None) => true,
+            _ => false,
+        };
+        self.parameters == parameters && within
+    }
+}
+
+/// The transformation whose new variables a plot shows.
+fn shown<'a>(plot: &Plot, physics: Physics<'a>) -> Option<Shown<'a>> {
+    let name = |axis| Some(physics.system.channels().get(plot.column(axis)?)?.name.as_str());
+    let (x, y) = (name(0)?, name(1)?);
+    let model: &'a crate::model::Model = physics.model;
+    model.transformations.iter().find_map(|law| {
+        let of = |name: &str| {
+            let mut all = law.new.iter().flatten();
+            all.find(|&&s| model.pool.symbol_info(s).name == name).copied()
+        };
+        Some(Shown { law, new: [of(x)?, of(y)?] })
+    })
+}
+
+/// The two old variables on which two new ones depend, with their channels; `None` if there are others, or the time.
+fn old_variables(
+    pool: &Pool,
+    physics: Physics<'_>,
+    images: [Expr; 2],
+) -> Option<[(Symbol, usize); 2]> {
+    let model = physics.model;
+    if pool.depends_on_any(images[0], &[model.symbols.time])
+        || pool.depends_on_any(images[1], &[model.symbols.time])
+    {
+        return None;
+    }
+    let coordinates = model.coordinates.iter().enumerate();
+    let all = coordinates.flat_map(|(i, c)| {
+        [(c.position, ChannelKind::Position(i)), (c.momentum, ChannelKind::Momentum(i))]
+    });
+    let on = all.filter(|(symbol, _)| images.iter().any(|&e| pool.depends(e, *symbol)));
+    let on: Vec<(Symbol, usize)> =
+        on.map(|(s, kind)| Some((s, physics.channel(kind)?))).collect::<Option<_>>()?;
+    on.try_into().ok()
+}
+
+/// The lines on which one of two old variables is constant, in the plane of two new ones.
+fn grid(
+    pool: &Pool,
+    at: &Valuation,
+    images: [Expr; 2],
+    (old, window): ([Symbol; 2], [[f64; 2]; 2]),
+) -> Vec<Vec<[f64; 2]>> {
+    let place = |axis: usize, k: usize, count: usize| {
+        let [lo, hi] = window[axis];
+        lo + (hi - lo) * k as f64 / (count - 1) as f64
+    };
+    let mut all = Vec::new();
+    for constant in [0, 1] {
+        for line in 0..LINES {
+            let mut point = at.clone();
+            point.set(old[constant], place(constant, line, LINES));
+            let image = |k: usize| {
+                point.set(old[1 - constant], place(1 - constant, k, POINTS));
+                images.map(|e| point.value(pool, e))
+            };
+            let line: Vec<[f64; 2]> = (0..POINTS).map(image).collect();
+            all.extend(parted(&line));
+        }
+    }
+    all
+}
+
+/// A line without what joins the two sides of a jump, and without places that have no value.
+fn parted(line: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+    let length = |pair: &[[f64; 2]]| [0, 1].map(|k| (pair[1][k] - pair[0][k]).abs());
+    let steps: Vec<[f64; 2]> = line.windows(2).map(length).collect();
+    let bound = [0, 1].map(|k| {
+        let mut sizes: Vec<f64> = steps.iter().map(|s| s[k]).filter(|s| s.is_finite()).collect();
+        sizes.sort_by(f64::total_cmp);
+        let values = line.iter().map(|point| point[k]).filter(|x| x.is_finite());
+        let (lo, hi) =
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), x| (lo.min(x), hi.max(x)));
+        let middle = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+        (JUMP * middle).max(PART * (hi - lo))
+    });
+    let mut parts = vec![Vec::new()];
+    for (i, &point) in line.iter().enumerate() {
+        let breaks = |k: usize| steps[i - 1][k].is_nan() || steps[i - 1][k] > bound[k];
+        let jumps = i > 0 && (breaks(0) || breaks(1));
+        if jumps {
+            parts.push(Vec::new());
+        }
+        if point.iter().all(|x| x.is_finite())
+            && let Some(part) = parts.last_mut()
+        {
+            part.push(point);
+        }
+    }
+    parts.retain(|part| part.len() > 1);
+    parts
+}
+
+/// What is said of a transformation.
+fn lines(pool: &Pool, report: &TransformationReport) -> Vec<String> {
+    let verdict = &report.verdict;
+    let off = verdict.residual.map_or_else(String::new, |x| significant(x, 1, 1e-3..1e3));
+    let mut lines = vec![match (verdict.canonical, verdict.proved) {
+        (true, true) => "canonical, proved".to_owned(),
+        (true, false) => format!("canonical to rounding: |M 𝕁 Mᵀ − 𝕁| = {off}"),
+        (false, _) => "not canonical".to_owned(),
+    }];
+    let failing = verdict.failing.iter().map(|bracket| {
+        let [a, b] = bracket.pair.map(|s| pool.symbol_info(s).unicode.clone());
+        format!("[{a}, {b}] = {}, not {}", pool.unicode(bracket.is), pool.unicode(bracket.expected))
+    });
+    lines.extend(failing);
+    lines.extend(verdict.valence.map(|c| format!("of valence {}", pool.unicode(c))));
+    lines.extend(report.hamiltonian.as_ref().ok().map(|k| format!("K = {}", pool.unicode(*k))));
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_is_not_joined_across_a_jump() {
+        let angle = |k: i32| [f64::from((k + 40) % 100), f64::from(k)];
+        let parts = parted(&(0..100).map(angle).collect::<Vec<_>>());
+        assert_eq!(parts.iter().map(Vec::len).collect::<Vec<_>>(), [60, 40]);
+        let whole = parted(&(0..100).map(|k| [f64::from(k * k), 1.0]).collect::<Vec<_>>());
+        assert_eq!(whole.len(), 1);
+        let holes = parted(&[[0.0, 0.0], [1.0, 0.0], [f64::NAN, 0.0], [3.0, 0.0], [4.0, 0.0]]);
+        assert_eq!(holes.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);
+    }
+}

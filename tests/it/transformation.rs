@@ -1,0 +1,121 @@
+//! The orbit in the new variables of a transformation: the grid of the old ones, and what is said of the map.
+
+use phaselab::app::App;
+use phaselab::instrument::{Ink, Layer, Picture, Plot};
+use phaselab::num::math;
+use phaselab::preset;
+
+use crate::hand::{lab, press};
+
+/// The plots of this kind in the lab of a preset, on which motion has been seen up to a time.
+fn plots(app: &App) -> Vec<Plot> {
+    let all = app.lab.as_ref().expect("a lab").plots.iter();
+    all.filter(|plot| plot.kind.name() == "transformation").cloned().collect()
+}
+
+/// The grid of a plot, and the lines in its corner.
+fn shown(app: &App, plot: &Plot) -> (Vec<Vec<[f64; 2]>>, Vec<String>) {
+    let lab = app.lab.as_ref().expect("a lab");
+    let present = lab.present().expect("a motion");
+    let picture = plot.kind.picture(plot, &present, [0.0, 1.0], lab.answer(plot));
+    let Some(Picture::Axes { layers, .. }) = picture else { panic!("it has axes") };
+    let (mut grid, mut words) = (Vec::new(), Vec::new());
+    for (_, layer) in layers {
+        match layer {
+            Layer::Line(line, stroke) if stroke.ink == Ink::Level => grid.push(line),
+            Layer::Legend(lines) => words = lines,
+            _ => {}
+        }
+    }
+    (grid, words)
+}
+
+fn measure(app: &App, plot: &Plot, word: &str) -> f64 {
+    let lab = app.lab.as_ref().expect("a lab");
+    let all = plot.kind.measures();
+    let measure = all.iter().find(|measure| measure.word == word).expect("it is measured");
+    (measure.value)(plot, &lab.present().expect("a motion"), lab.answer(plot)).expect("a value")
+}
+
+/// Q = atan2(m ω q, p), P = E/ω with m = 1, ω = 2: along a line of the grid q = √(2 P/(m ω)) sin Q or p = √(2 P m ω) cos Q
+/// is the same.
+#[test]
+fn the_oscillator_by_its_angle_has_the_grid_of_q_and_p() {
+    let mut app = lab("angle-of-the-oscillator", 3.0);
+    press(&mut app, "Wait");
+    let [by_angle, polar] = &plots(&app)[..] else { panic!("the file has two") };
+    let (grid, words) = shown(&app, by_angle);
+    assert_eq!(words, ["canonical, proved", "K = ω P"]);
+    assert_eq!(measure(&app, by_angle, "canonical"), 1.0);
+    assert!(measure(&app, by_angle, "residual") < 1e-12);
+    assert!(grid.len() >= 14, "seven lines of each, some of them parted: {}", grid.len());
+    let spread = |values: Vec<f64>| {
+        let (lo, hi) = values
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), &x| (lo.min(x), hi.max(x)));
+        hi - lo
+    };
+    let mut constant = [0, 0];
+    for line in &grid {
+        let old = |[angle, action]: [f64; 2]| {
+            [
+                math::powf(action, 0.5) * math::sin(angle),
+                2.0 * math::powf(action, 0.5) * math::cos(angle),
+            ]
+        };
+        let both = [0, 1].map(|k| spread(line.iter().map(|&point| old(point)[k]).collect()));
+        let k = usize::from(both[1] < both[0]);
+        assert!(both[k] < 1e-9, "{both:?}");
+        constant[k] += 1;
+        // the angle jumps by 2π at q = 0, p < 0, and is not joined there
+        assert!(line.windows(2).all(|pair| (pair[1][0] - pair[0][0]).abs() < 3.5), "{line:?}");
+    }
+    assert!(constant.iter().all(|&count| count >= 7), "{constant:?}");
+    // the same without its scale is not canonical
+    let (grid, words) = shown(&app, polar);
+    assert!(!grid.is_empty());
+    assert_eq!(words[..2], ["not canonical", "[θ, r] = 1/√(p_q² + q²), not 1"]);
+    assert_eq!(measure(&app, polar, "canonical"), 0.0);
+}
+
+/// An angle written as atan2 jumps by a turn: its trail leaves at one edge and enters at the other.
+#[test]
+fn what_is_written_as_atan2_is_an_angle() {
+    let app = lab("angle-of-the-oscillator", 1.0);
+    let system = &app.lab.as_ref().unwrap().loaded.system;
+    let period = |name: &str| {
+        let place = system.channels().iter().position(|c| c.name == name).expect(name);
+        system.period(place, &[1.0, 2.0, 0.1, 2.0, 0.5])
+    };
+    assert_eq!([period("Q"), period("theta")], [Some(std::f64::consts::TAU); 2]);
+    assert_eq!([period("P"), period("r"), period("q")], [None; 3]);
+}
+
+/// The pane takes part in what every pane has: it is offered, named, kept.
+#[test]
+fn a_transformation_is_offered_where_the_file_has_one() {
+    let app = lab("symplectic-euler", 1.0);
+    let physics = app.lab.as_ref().unwrap().loaded.physics();
+    let [plot] = &plots(&app)[..] else { panic!("the file has one") };
+    let offered = plot.kind.offers(physics);
+    assert!(offered.iter().any(|offer| offer.columns == plot.columns), "{offered:?}");
+    assert!(plot.words(physics).contains("P₁ against Q₁"), "{}", plot.words(physics));
+    assert!(shown(&app, plot).1[0].starts_with("canonical"));
+    let pendulum = lab("pendulum", 1.0);
+    assert!(plot.kind.offers(pendulum.lab.as_ref().unwrap().loaded.physics()).is_empty());
+}
+
+#[test]
+fn only_new_variables_are_its_axes() {
+    let text = "title = \"t\"\n[coordinates]\nq = { initial = 1.0 }\n[hamiltonian]\nH = \"p_q^2/2 + q^2/2\"\n\
+        [[transformations]]\nname = \"turn\"\nkind = \"explicit\"\nQ = { X = \"p_q\" }\nP = { Y = \"-q\" }\n\
+        [[views]]\nkind = \"transformation\"\nx = \"X\"\ny = \"p_q\"\n";
+    let report = |text: &str| match preset::read(text) {
+        Ok(_) => String::new(),
+        Err(mistakes) => format!("{mistakes:?}"),
+    };
+    let said = report(text);
+    assert!(said.contains("is shown in its new variables, and this is none"), "{said}");
+    assert!(said.contains("write one of X, Y"), "{said}");
+    assert_eq!(report(&text.replace("y = \"p_q\"", "y = \"Y\"")), "");
+}
