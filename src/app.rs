@@ -72,7 +72,7 @@ pub use menu::{Choice, Choosing, Item, Menu};
 pub use notification::Notification;
 pub use page::Page;
 pub use pane::{Pane, Selection};
-pub use picker::Picker;
+pub use picker::{Above, Picker};
 pub use prompt::Prompt;
 pub use rate::RateMeter;
 pub use reading::Reading;

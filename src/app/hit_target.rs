@@ -3,7 +3,7 @@
 //! In: nothing. Out: [`HitTarget`]s, which `view` finds, and [`Grab`], what the mouse drags. Never here: where
 //! anything is on the screen, or what a click does.
 
-use super::{Action, Page, Pane, ValueId};
+use super::{Above, Action, Page, Pane, ValueId};
 
 /// What is under the mouse. Positions are fractions of a picture's width from the left and of its height from
 /// below.
@@ -23,8 +23,8 @@ pub enum HitTarget {
     Systems,
     /// A system, counted among those shown.
     System(usize),
-    /// The row above them, which resumes a session.
-    Session,
+    /// A row above them.
+    Above(Above),
     /// The frame or the name of a pane.
     Pane(Pane),
     /// A value in a list.

@@ -6,7 +6,8 @@ use super::field::Field;
 use super::keymap::Place;
 use super::speed::{faster, slower};
 use super::{
-    Action, App, Asker, Direction, Effect, Notification, Overlay, Page, Pane, Prompt, Purpose,
+    Above, Action, App, Asker, Direction, Effect, Notification, Overlay, Page, Pane, Prompt,
+    Purpose,
 };
 use crate::experiment::{Command, Status};
 use crate::instrument::{Plot, Sight, Viewport};
@@ -402,6 +403,9 @@ impl App {
     pub(super) fn open_selected(&mut self) -> Vec<Effect> {
         if let Some(session) = self.picker.selected_session().cloned() {
             return self.continue_session(session);
+        }
+        if self.picker.selected_above() == Some(Above::NewSystem) {
+            return self.new_system();
         }
         let Some(name) = self.picker.take() else {
             return self.notify("No system fits this search.");

@@ -28,9 +28,18 @@ pub struct Picker {
     pub failure: Option<LoadError>,
     /// The session that can be resumed from the row above the systems.
     session: Option<Saved>,
-    /// Whether that row is selected.
-    on_session: bool,
+    /// The row above the systems that is selected.
+    above: Option<Above>,
     waiting: Option<Duration>,
+}
+
+/// A row above the systems.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Above {
+    /// It resumes a session.
+    Session,
+    /// It begins a system of one's own.
+    NewSystem,
 }
 
 impl Picker {
@@ -81,9 +90,20 @@ impl Picker {
         self.session.as_ref().filter(|_| self.sought().is_none())
     }
 
-    /// Returns that session while its row is selected.
+    /// Returns the rows above the systems; a search with words in it is among the systems only.
+    pub fn above(&self) -> impl Iterator<Item = Above> {
+        let session = self.session().map(|_| Above::Session);
+        session.into_iter().chain(self.sought().is_none().then_some(Above::NewSystem))
+    }
+
+    /// Returns the one of these rows that is selected.
+    pub fn selected_above(&self) -> Option<Above> {
+        self.above.filter(|selected| self.above().any(|row| row == *selected))
+    }
+
+    /// Returns the session while its row is selected.
     pub fn selected_session(&self) -> Option<&Saved> {
-        self.session().filter(|_| self.on_session)
+        self.session().filter(|_| self.above == Some(Above::Session))
     }
 
     /// Returns the title of the session's system: its own, or the name of its file.
@@ -100,27 +120,32 @@ impl Picker {
     pub(super) fn offer(&mut self, session: Saved, first: bool) {
         self.session = Some(session);
         if first {
-            self.point_at_session();
+            self.point_above(Above::Session);
         }
     }
 
-    /// Selects the row of the session, if there is one.
-    pub(super) fn point_at_session(&mut self) {
-        if self.session().is_some() && !self.on_session {
-            self.on_session = true;
+    /// Selects a row above the systems, if it is there.
+    pub(super) fn point_above(&mut self, row: Above) {
+        if self.above().any(|one| one == row) && self.above != Some(row) {
+            self.above = Some(row);
             self.touch();
         }
     }
 
     /// Whether the system of this index among those shown is selected.
     pub fn is_selected(&self, place: usize) -> bool {
-        self.selected == place && self.selected_session().is_none()
+        self.selected == place && self.selected_above().is_none()
     }
 
-    /// Returns the selected system; for a session, the one it is of, if that is in the catalog.
+    /// Returns the selected system; for a session, the one it is of, if that is in the catalog. A new one is none yet.
     pub fn current(&self) -> Option<&Entry> {
-        if let Some(session) = self.selected_session() {
-            return self.entries.iter().find(|entry| entry.name == session.open);
+        match self.selected_above() {
+            Some(Above::Session) => {
+                let session = self.session()?;
+                return self.entries.iter().find(|entry| entry.name == session.open);
+            }
+            Some(Above::NewSystem) => return None,
+            None => {}
         }
         self.shown().get(self.selected).map(|&index| &self.entries[index])
     }
@@ -129,17 +154,20 @@ impl Picker {
     pub fn select(&mut self, name: &str) {
         let place = self.shown().iter().position(|&index| self.entries[index].name == name);
         self.selected = place.unwrap_or(self.selected);
-        self.on_session = false;
+        self.above = None;
     }
 
     /// Moves the selection, stopping at the ends.
     pub fn step(&mut self, by: isize) {
-        let above = usize::from(self.session().is_some());
-        let last = (self.shown().len() + above).saturating_sub(1);
-        let row = if self.selected_session().is_some() { 0 } else { self.selected + above };
+        let above: Vec<Above> = self.above().collect();
+        let last = (self.shown().len() + above.len()).saturating_sub(1);
+        let selected = self.selected_above();
+        let row = above.iter().position(|row| Some(*row) == selected);
+        let row = row.unwrap_or(self.selected + above.len());
         let to = row.saturating_add_signed(by).min(last);
         if to != row {
-            (self.on_session, self.selected) = (to < above, to.saturating_sub(above));
+            self.above = above.get(to).copied();
+            self.selected = to.saturating_sub(above.len());
             self.touch();
         }
     }
@@ -147,7 +175,7 @@ impl Picker {
     /// Selects the system of this index among those shown.
     pub(super) fn point(&mut self, place: usize) {
         if !self.is_selected(place) && place < self.shown().len() {
-            (self.on_session, self.selected) = (false, place);
+            (self.above, self.selected) = (None, place);
             self.touch();
         }
     }
@@ -155,7 +183,7 @@ impl Picker {
     /// Changes the search, and selects the best match.
     pub fn search(&mut self, change: impl FnOnce(&mut Input)) {
         change(self.search.get_or_insert_default());
-        (self.on_session, self.selected) = (false, 0);
+        (self.above, self.selected) = (None, 0);
         self.touch();
     }
 

@@ -61,11 +61,11 @@ impl App {
                 }
                 self.picker.point(place);
             }
-            (None, HitTarget::Session) => {
-                if self.picker.selected_session().is_some() {
+            (None, HitTarget::Above(row)) => {
+                if self.picker.selected_above() == Some(row) {
                     return self.perform(Action::Open);
                 }
-                self.picker.point_at_session();
+                self.picker.point_above(row);
             }
             _ => {}
         }
@@ -153,7 +153,7 @@ impl App {
         match (&mut self.overlay, hit) {
             (Some(Overlay::Menu(menu)), HitTarget::Menu | HitTarget::Line(_)) => menu.step(-up),
             (_, HitTarget::Text) => return self.jump(-up * LINES),
-            (None, HitTarget::Systems | HitTarget::System(_) | HitTarget::Session) => {
+            (None, HitTarget::Systems | HitTarget::System(_) | HitTarget::Above(_)) => {
                 self.picker.step(-up);
             }
             (None, HitTarget::Pane(Pane::Law)) => {

@@ -235,6 +235,8 @@ pub struct Conserved {
 pub enum Reason {
     /// ∂L/∂q_i = 0 and no force acts on q_i. Carries the coordinate's display name.
     Cyclic(String),
+    /// ∂H/∂p_i = 0, so that q_i stays: the dual of a cyclic coordinate. Carries the momentum's display name.
+    AbsentMomentum(String),
     /// ∂L/∂t = 0 (or ∂H/∂t = 0, according to the letter) and nothing dissipates or drives.
     TimeTranslation(char),
     /// A common translation of these coordinates changes nothing. Carries their display names.
@@ -343,6 +345,7 @@ impl std::fmt::Display for Reason {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Reason::Cyclic(name) => write!(f, "cyclic {name}"),
+            Reason::AbsentMomentum(name) => write!(f, "∂H/∂{name} = 0"),
             Reason::TimeTranslation(law) => write!(f, "∂{law}/∂t = 0"),
             Reason::Translation(names) => write!(f, "translation of {names}"),
             Reason::Rotation(axis) => write!(f, "rotation about {axis}"),

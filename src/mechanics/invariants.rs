@@ -1,6 +1,6 @@
-//! Finds conserved quantities symbolically, without input from the user: cyclic momenta, the
-//! energy, the momenta of common translations and rotations (`symmetry`), and those of the file's
-//! observables whose rate of change vanishes.
+//! Finds conserved quantities symbolically, without input from the user: cyclic momenta, coordinates
+//! whose momenta are absent from H, the energy, the momenta of common translations and rotations
+//! (`symmetry`), and those of the file's observables whose rate of change vanishes.
 //! Source: *The Principles of Dynamics*, §§ 1.4.2, 3.2.3.
 
 use std::collections::HashMap;
@@ -38,6 +38,9 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
             reason,
         });
     }
+    if !jumps {
+        find_constant_coordinates(equations, model);
+    }
     let energy = Conserved {
         name: "energy".to_owned(),
         expression: equations.energy,
@@ -74,6 +77,21 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
             let reason = Box::new(equations.conserved[i].reason.clone());
             equations.conserved[i].reason = Reason::BetweenImpulses(reason);
         }
+    }
+}
+
+/// Adds the coordinates whose momenta do not appear in H. Nothing but H moves a coordinate: forces, constraints and
+/// impulses act on momenta.
+fn find_constant_coordinates(equations: &mut Equations, model: &Model) {
+    let Flow::Hamilton { velocities, .. } = &equations.flow else { return };
+    for (velocity, coordinate) in velocities.clone().into_iter().zip(&model.coordinates) {
+        if equations.pool.is_zero(velocity) != Zero::Proved {
+            continue;
+        }
+        let momentum = equations.pool.symbol_info(coordinate.momentum).unicode.clone();
+        let expression = equations.pool.variable(coordinate.position);
+        let (name, reason) = (coordinate.name.clone(), Reason::AbsentMomentum(momentum));
+        equations.conserved.push(Conserved { name, expression, reason });
     }
 }
 

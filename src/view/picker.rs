@@ -15,7 +15,7 @@ use super::quantity::Quantities;
 use super::theme::Role;
 use super::values::window;
 use super::wrap::{capitalised, words};
-use crate::app::{App, Fit, HitTarget, Picker, Saved};
+use crate::app::{Above, App, Fit, HitTarget, Picker, Saved};
 use crate::preset::{Entry, Origin};
 
 /// The least and greatest width of the list if it has something beside it.
@@ -42,23 +42,23 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     list(canvas, left, &app.picker);
     let Some(entry) = app.picker.current() else {
         let inner = canvas.pane(right, &[], false);
-        if let Some(session) = app.picker.selected_session() {
-            let text = columns(inner, 1, inner.width.saturating_sub(2));
-            let sentence = format!("Enter takes up {} where you left it.", session.open);
-            for (index, line) in
-                words(&canvas.text(&sentence), text.width.into()).iter().enumerate()
-            {
-                if index < text.height.into() {
-                    canvas.left(row(text, index), Role::Dim, line);
-                }
+        let sentence = match app.picker.selected_above() {
+            Some(Above::Session) => {
+                let open = app.picker.session().map_or("it", |session| session.open.as_str());
+                format!("Enter takes up {open} where you left it.")
             }
-            return;
+            Some(Above::NewSystem) => "Enter opens the editor with a small system to begin from: change its \
+                 Lagrangian, and the motion runs beside it as soon as there is no mistake. Nothing is written until you \
+                 save it."
+                .to_owned(),
+            None => "No system fits this search.".to_owned(),
+        };
+        let text = columns(inner, 1, inner.width.saturating_sub(2));
+        for (index, line) in words(&canvas.text(&sentence), text.width.into()).iter().enumerate() {
+            if index < text.height.into() {
+                canvas.left(row(text, index), Role::Dim, line);
+            }
         }
-        canvas.left(
-            columns(row(inner, 0), 1, inner.width),
-            Role::Dim,
-            "No system fits this search.",
-        );
         return;
     };
     let title = [canvas.span(Role::Title, &entry.info.title)];
@@ -71,7 +71,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
 
 /// A line of the list.
 enum ListLine<'a> {
-    Session(&'a Saved),
+    Above(Above),
     Topic(&'a str),
     System(usize, &'a Entry, &'a Fit),
 }
@@ -94,7 +94,12 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
     let mut lines: Vec<ListLine<'_>> = Vec::new();
     let mut topic = None;
     let mut here = 0;
-    lines.extend(picker.session().map(ListLine::Session));
+    for above in picker.above() {
+        if picker.selected_above() == Some(above) {
+            here = lines.len();
+        }
+        lines.push(ListLine::Above(above));
+    }
     for (place, (index, fit)) in shown.iter().enumerate() {
         let entry = &picker.entries[*index];
         // Search results are ordered by quality of the match, not by topic.
@@ -115,13 +120,18 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
             ListLine::Topic(topic) => {
                 canvas.left(columns(area, 1, area.width - 1), Role::Dim, &capitalised(topic));
             }
-            ListLine::Session(session) => {
-                canvas.target(area, HitTarget::Session);
-                let selected = picker.selected_session().is_some();
+            ListLine::Above(above) => {
+                canvas.target(area, HitTarget::Above(*above));
+                let selected = picker.selected_above() == Some(*above);
                 let mark = if selected { canvas.look.glyphs.pick("›", ">") } else { " " };
                 canvas.left(columns(area, 1, 1), Role::Accent, mark);
                 let field = columns(area, 3, area.width.saturating_sub(4));
-                let label = continuation(canvas, picker, session, field.width.into());
+                let label = match (above, picker.session()) {
+                    (Above::Session, Some(session)) => {
+                        continuation(canvas, picker, session, field.width.into())
+                    }
+                    _ => canvas.text("New system …"),
+                };
                 canvas.left(field, Role::Text, &label);
                 if selected {
                     canvas.tint(columns(area, 1, area.width.saturating_sub(2)), Role::Selected);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{App, Effect, Event, Page, Pane, Saved};
+use phaselab::app::{Above, App, Effect, Event, Page, Pane, Saved};
 use phaselab::experiment::Command;
 
 use crate::hand::{catalog, in_lab, lowered, pendulum, press, snapshot};
@@ -140,6 +140,21 @@ fn the_first_row_of_the_list_goes_on_with_the_session() {
     assert_eq!((lab.focus, lab.zoomed, &lab.plots), (other.focus, true, &other.plots));
 }
 
+/// The row above the systems begins one of one's own; a search is among the systems only.
+#[test]
+fn the_row_of_a_new_system_opens_the_editor() {
+    let (mut app, _) = App::new(catalog(), None);
+    assert!(app.picker.is_selected(0));
+    press(&mut app, "Up");
+    assert_eq!(app.picker.selected_above(), Some(Above::NewSystem));
+    assert!(app.picker.current().is_none() && !app.picker.is_selected(0));
+    press(&mut app, "Enter");
+    assert!(app.open_buffer().is_some_and(|buffer| buffer.editor.text().contains("[lagrangian]")));
+    let (mut app, _) = App::new(catalog(), None);
+    press(&mut app, "Up / p e n d");
+    assert!(app.picker.above().next().is_none() && app.picker.is_selected(0));
+}
+
 /// Negatives: no row without a session, none among the results of a search, and a system of the list begins anew.
 #[test]
 fn only_the_row_of_the_session_goes_on_with_it() {
@@ -149,8 +164,10 @@ fn only_the_row_of_the_session_goes_on_with_it() {
     let mut app = offered(saved.clone());
     assert!(app.picker.selected_session().is_some() && !app.picker.is_selected(0));
     press(&mut app, "Down");
+    assert_eq!(app.picker.selected_above(), Some(Above::NewSystem));
+    press(&mut app, "Down");
     assert!(app.picker.selected_session().is_none() && app.picker.is_selected(0));
-    press(&mut app, "Up");
+    press(&mut app, "Up Up");
     assert!(app.picker.selected_session().is_some());
     press(&mut app, "/ p e n d");
     assert!(app.picker.session().is_none() && app.picker.is_selected(0));

@@ -42,6 +42,33 @@ fn l(law: &str) -> String {
     format!("[lagrangian]\nL = \"{law}\"")
 }
 
+/// The dual of a cyclic coordinate: where p_y is absent from H, y is constant, whatever acts on its momentum.
+#[test]
+fn a_coordinate_whose_momentum_is_absent_from_h_is_constant() {
+    let starts = "x = { initial = 1.0, momentum = 0.3 }\ny = { initial = 0.2, momentum = 0.9 }";
+    let listed = |hamiltonian: &str| -> Vec<(String, String)> {
+        let rest = format!("[hamiltonian]\n{hamiltonian}");
+        let (_, equations) = derived(&file(starts, &rest, "x"));
+        equations.conserved.iter().map(|c| (c.name.clone(), c.reason.to_string())).collect()
+    };
+    let known = |all: &[(String, String)], name: &str| {
+        all.iter().find(|(of, _)| of == name).map(|(_, reason)| reason.clone())
+    };
+    for law in [
+        "H = \"1/2*p_x^2 + x*y\"",
+        "H = \"1/2*p_x^2 + 1/2*y^2*x^2\"",
+        "H = \"1/2*p_x^2*y + x^4\"\nforces = { y = \"1\" }",
+    ] {
+        let all = listed(law);
+        assert_eq!(known(&all, "y").as_deref(), Some("∂H/∂p_y = 0"), "{law} {all:?}");
+        assert_eq!(known(&all, "x"), None, "{law} {all:?}");
+    }
+    for law in ["H = \"1/2*p_x^2 + p_y*exp(-(x - 50)^2)\"", "H = \"1/2*(p_x^2 + p_y^2)\""] {
+        let all = listed(law);
+        assert_eq!(known(&all, "y"), None, "{law} {all:?}");
+    }
+}
+
 /// A force that acts nowhere near the start, is small beside others, or is in units in which everything
 /// is small.
 #[test]
