@@ -47,6 +47,7 @@ mod rows;
 mod run;
 mod script;
 mod section;
+mod spectrum;
 mod starts;
 mod stderr;
 mod study;

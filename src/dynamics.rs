@@ -40,6 +40,8 @@ pub use gali::{Gali, gali};
 pub use lyapunov::{Chaos, Lyapunov, lyapunov};
 pub use orbit::{Fixed, Orbit, periodic_orbit};
 pub use phase_space::{PhaseSpace, VectorField};
-pub use spectrum::{MeanRate, SpectralLine, Spectrum, mean_rate, spectrum};
+pub use spectrum::{
+    MeanRate, SpectralLine, Spectrum, independent_frequencies, mean_rate, spectrum, straightened,
+};
 pub use stationary_path::{PathKind, StationaryPath, morse_index, stationary_path};
 pub use transverse::Removed;

@@ -37,6 +37,7 @@ use super::play;
 use super::record;
 use super::run;
 use super::section;
+use super::spectrum;
 use super::stderr;
 use super::sweep;
 use super::symmetries;
@@ -95,6 +96,7 @@ enum Command {
     Flow(Box<flow::Arguments>),
     Lyapunov(Box<lyapunov::Arguments>),
     Orbit(Box<orbit::Arguments>),
+    Spectrum(Box<spectrum::Arguments>),
     Equilibria(Box<equilibria::Arguments>),
     Section(Box<section::Arguments>),
     Sweep(Box<sweep::Arguments>),
@@ -178,6 +180,7 @@ fn execute(command: Command, interrupt: &Interrupt) -> Result<(), CommandError> 
         Command::Flow(arguments) => flow::perform(&arguments, interrupt),
         Command::Lyapunov(arguments) => lyapunov::perform(&arguments, interrupt),
         Command::Orbit(arguments) => orbit::perform(&arguments, interrupt),
+        Command::Spectrum(arguments) => spectrum::perform(&arguments, interrupt),
         Command::Equilibria(arguments) => equilibria::perform(&arguments, interrupt),
         Command::Section(arguments) => section::perform(&arguments, interrupt),
         Command::Sweep(arguments) => sweep::perform(&arguments, interrupt),

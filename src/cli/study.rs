@@ -21,13 +21,13 @@ use crate::dynamics::{DynamicsError, PhaseSpace};
 use crate::integrate::{Method, Settings};
 use crate::model::Model;
 use crate::num::DoubleDouble;
-use crate::system::{InitialOverride, State};
+use crate::system::{InitialOverride, State, System};
 
 /// The arguments of each of these commands.
 #[derive(Debug, clap::Args)]
 pub(super) struct StudyArguments {
     #[command(flatten)]
-    motion: MotionOptions,
+    pub(super) motion: MotionOptions,
     /// How it is written.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -99,13 +99,7 @@ impl Study {
     pub(super) fn head(&self, settings: Settings) -> Map<String, Value> {
         let system = self.space.system();
         let parameters = self.space.parameters();
-        let header = run::header(&self.model, system, parameters, self.method, settings);
-        let mut head = Map::new();
-        head.insert("phaselab".to_owned(), header.phaselab.into());
-        head.insert("title".to_owned(), header.title.into());
-        head.insert("parameters".to_owned(), header.parameters.into());
-        head.insert("method".to_owned(), header.method.into());
-        head
+        head(&self.model, system, parameters, (self.method, settings))
     }
 
     /// The start with other coordinates.
@@ -127,6 +121,22 @@ impl Study {
         let names = self.space.names().iter().cloned();
         Value::Object(names.zip(variables.iter().map(|&x| x.into())).collect())
     }
+}
+
+/// The fields that every object begins with.
+pub(super) fn head(
+    model: &Model,
+    system: &System,
+    parameters: &[f64],
+    (method, settings): (&'static Method, Settings),
+) -> Map<String, Value> {
+    let header = run::header(model, system, parameters, method, settings);
+    let mut head = Map::new();
+    head.insert("phaselab".to_owned(), header.phaselab.into());
+    head.insert("title".to_owned(), header.title.into());
+    head.insert("parameters".to_owned(), header.parameters.into());
+    head.insert("method".to_owned(), header.method.into());
+    head
 }
 
 /// How a computation fails.

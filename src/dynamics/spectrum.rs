@@ -13,7 +13,10 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::{DMatrix, DVector};
 
 use super::linear::least_squares;
+use crate::mechanics::Equations;
+use crate::model::Model;
 use crate::num::math;
+use crate::system::System;
 
 /// A line below this part of the strongest is rounding.
 const FAINTEST: f64 = 1e-12;
@@ -46,6 +49,33 @@ pub struct SpectralLine {
     pub phase: f64,
     /// The integers k with ω = k·(the fundamental frequencies), if it is such a combination.
     pub combination: Option<Vec<i32>>,
+}
+
+impl SpectralLine {
+    /// The combination in words: `ω₁ − 2ω₂`.
+    pub fn name(&self) -> Option<String> {
+        self.combination.as_ref().map(|k| named(k))
+    }
+}
+
+fn named(k: &[i32]) -> String {
+    let mut text = String::new();
+    for (i, &times) in k.iter().enumerate().filter(|(_, times)| **times != 0) {
+        let sign = match (text.is_empty(), times < 0) {
+            (true, false) => "",
+            (true, true) => "−",
+            (false, false) => " + ",
+            (false, true) => " − ",
+        };
+        let count = if times.abs() == 1 { String::new() } else { times.abs().to_string() };
+        let index: String = (i + 1).to_string().chars().map(subscript).collect();
+        text.push_str(&format!("{sign}{count}ω{index}"));
+    }
+    text
+}
+
+fn subscript(digit: char) -> char {
+    digit.to_digit(10).and_then(|d| char::from_u32(0x2080 + d)).unwrap_or(digit)
 }
 
 /// The lines of a signal.
@@ -115,6 +145,23 @@ pub fn spectrum(
     let squares: f64 = left.iter().map(|x| x * x).sum();
     let left = (squares / left.len() as f64).sqrt();
     Some(Spectrum { mean: fit.mean, lines, fundamentals, curve, left })
+}
+
+/// An angle that goes round less its mean advance, so that what is left has lines.
+pub fn straightened(values: &[f64], spacing: f64, rate: Option<MeanRate>) -> Vec<f64> {
+    let turned = |rate: &MeanRate| rate.rate.abs() * spacing * values.len() as f64;
+    let rate = rate.filter(|rate| turned(rate) > std::f64::consts::TAU);
+    let rate = rate.map_or(0.0, |rate| rate.rate);
+    values.iter().enumerate().map(|(k, x)| x - rate * spacing * k as f64).collect()
+}
+
+/// The most frequencies of a quasi-periodic motion that are no combinations of each other: one for each degree of freedom, and
+/// one of a drive.
+pub fn independent_frequencies(model: &Model, equations: &Equations, system: &System) -> usize {
+    let timed = |e| equations.pool.depends(e, model.symbols.time);
+    let is_driven =
+        timed(equations.energy) || timed(equations.energy_rate) || !model.impulses.is_empty();
+    system.degrees().max(1) + usize::from(is_driven)
 }
 
 /// The mean rate of an angle that is given without jumps, at intervals of `spacing`; `None` if there are too few.

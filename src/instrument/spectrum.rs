@@ -9,7 +9,9 @@ use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, Present, Upwards,
 };
-use crate::dynamics::{MeanRate, Spectrum as Lines, mean_rate, spectrum};
+use crate::dynamics::{
+    MeanRate, Spectrum as Lines, independent_frequencies, mean_rate, spectrum, straightened,
+};
 use crate::ensemble::Flow;
 use crate::integrate::method_named;
 use crate::job::{Job, Progress};
@@ -121,11 +123,7 @@ impl Instrument for Spectrum {
             return Need::Nothing;
         }
         let (begin, speed, system) = (model.run.start, model.run.speed, system.clone());
-        // a force that depends on time has a frequency of its own
-        let timed = |e| equations.pool.depends(e, model.symbols.time);
-        let is_driven =
-            timed(equations.energy) || timed(equations.energy_rate) || !model.impulses.is_empty();
-        let fundamentals = system.degrees().max(1) + usize::from(is_driven);
+        let fundamentals = independent_frequencies(model, equations, &system);
         let is_angle = matches!(system.channels()[channel].kind, ChannelKind::Position(_))
             && system.period(channel, present.parameters).is_some();
         Need::Job(Job::new("spectrum", move |progress: &Progress| {
@@ -200,14 +198,6 @@ impl Instrument for Spectrum {
     }
 }
 
-/// An angle that goes round less its mean advance, so that what is left has lines.
-fn straightened(values: &[f64], spacing: f64, rate: Option<MeanRate>) -> Vec<f64> {
-    let turned = |rate: &MeanRate| rate.rate.abs() * spacing * values.len() as f64;
-    let rate = rate.filter(|rate| turned(rate) > std::f64::consts::TAU);
-    let rate = rate.map_or(0.0, |rate| rate.rate);
-    values.iter().enumerate().map(|(k, x)| x - rate * spacing * k as f64).collect()
-}
-
 fn found(answer: Option<&Answer>) -> Option<&ComputedSpectrum> {
     answer?.of::<ComputedSpectrum>()
 }
@@ -238,7 +228,7 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
         .iter()
         .take(TOLD)
         .map(|line| {
-            let name = line.combination.as_ref().map_or_else(|| "?".to_owned(), |k| named(k));
+            let name = line.name().unwrap_or_else(|| "?".to_owned());
             let (frequency, error) = (short(line.frequency), significant(line.error, 1, 1.0..10.0));
             format!("{name} = {frequency} ± {error}{unit}, amplitude {}", brief(line.amplitude))
         })
@@ -252,25 +242,4 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
         format!("mean rate {} ± {error}{unit}", short(rate.rate))
     }));
     all
-}
-
-/// A combination in words: `ω₁ − 2ω₂`.
-fn named(k: &[i32]) -> String {
-    let mut text = String::new();
-    for (i, &times) in k.iter().enumerate().filter(|(_, times)| **times != 0) {
-        let sign = match (text.is_empty(), times < 0) {
-            (true, false) => "",
-            (true, true) => "−",
-            (false, false) => " + ",
-            (false, true) => " − ",
-        };
-        let count = if times.abs() == 1 { String::new() } else { times.abs().to_string() };
-        let index: String = (i + 1).to_string().chars().map(subscript).collect();
-        text.push_str(&format!("{sign}{count}ω{index}"));
-    }
-    text
-}
-
-fn subscript(digit: char) -> char {
-    digit.to_digit(10).and_then(|d| char::from_u32(0x2080 + d)).unwrap_or(digit)
 }

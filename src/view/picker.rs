@@ -41,7 +41,9 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     let (left, right) = split_columns(area, (area.width * 2 / 5).clamp(LIST.0, LIST.1));
     list(canvas, left, &app.picker);
     let Some(entry) = app.picker.current() else {
-        let inner = canvas.pane(right, &[], false);
+        let own = app.picker.selected_above() == Some(Above::NewSystem);
+        let title = own.then(|| canvas.span(Role::Title, "New system"));
+        let inner = canvas.pane(right, title.as_slice(), false);
         let sentence = match app.picker.selected_above() {
             Some(Above::Session) => {
                 let open = app.picker.session().map_or("it", |session| session.open.as_str());

@@ -1,4 +1,4 @@
-//! `flow`, `lyapunov`, `orbit` and `equilibria` as commands.
+//! `flow`, `lyapunov`, `orbit`, `spectrum` and `equilibria` as commands.
 
 use super::{phaselab, with_file};
 
@@ -56,6 +56,50 @@ fn an_orbit_and_its_family_are_written() {
     }
     let done = phaselab(&["orbit", "damped-pendulum", "--energy", "1"]);
     assert_eq!(done.code, 2);
+}
+
+/// ω = √(g/l) agm(1, cos ½θ₀) and its odd multiples; of a pendulum that turns over the mean rate 2π/T.
+#[test]
+fn a_spectrum_has_lines_that_are_named() {
+    let words = ["spectrum", "pendulum", "--init", "theta=2", "--until", "60", "--format", "json"];
+    let found = phaselab(&[&words[..], &["--lines", "4"]].concat()).json();
+    let (mut a, mut b) = (1.0_f64, 1.0_f64.cos());
+    for _ in 0..8 {
+        (a, b) = (0.5 * (a + b), (a * b).sqrt());
+    }
+    let exact = 9.81_f64.sqrt() * a;
+    assert_eq!((&found["of"], &found["count"]), (&"theta".into(), &2048.into()));
+    let lines = found["lines"].as_array().unwrap();
+    assert_eq!(lines.len(), 4);
+    for (line, times) in lines.iter().zip([1, 3, 5, 7]) {
+        assert_eq!(line["combination"], serde_json::json!([times]));
+        let off = line["frequency"].as_f64().unwrap() - f64::from(times) * exact;
+        assert!(off.abs() < 1e-8, "{line} {off:e}");
+    }
+    assert!(found["mean_rate"]["rate"].as_f64().unwrap().abs() < 1e-6);
+    // an expression; its mean is that of θ², and its lines are even multiples
+    let square = phaselab(&[&words[..], &["--of", "theta^2"]].concat()).json();
+    assert_eq!(square["of"], "theta^2");
+    assert!(square["mean"].as_f64().unwrap() > 1.0 && square["mean_rate"].is_null());
+    let off = square["lines"][0]["frequency"].as_f64().unwrap() - 2.0 * exact;
+    assert!(off.abs() < 1e-8, "{off:e}");
+    // a coordinate, a momentum and the energy by their names
+    for (of, lines) in [("theta", 3), ("p_theta", 3), ("energy", 0)] {
+        let words = ["spectrum", "pendulum", "--of", of, "--lines", "3", "--format", "json"];
+        let found = phaselab(&words).json();
+        assert_eq!(found["lines"].as_array().unwrap().len(), lines, "{of}");
+    }
+    let text = phaselab(&["spectrum", "pendulum"]).success();
+    assert!(text.contains("ω₁") && text.contains("3ω₁") && text.contains("amplitude"), "{text}");
+    // negatives
+    assert_eq!(phaselab(&["spectrum", "pendulum", "--until", "-1"]).code, 2);
+    assert_eq!(phaselab(&["spectrum", "pendulum", "--of", "nonsense"]).code, 2);
+    let text = "title = \"t\"\n[coordinates]\nr = { initial = 1.0, momentum = 0.0 }\n\
+                [hamiltonian]\nH = \"1/2*p_r^2 - 1/r\"\n";
+    let ended = with_file(text, &["spectrum", "./system.toml", "--until", "3"]);
+    assert_eq!((ended.code, ended.stdout.as_str()), (1, ""));
+    // it falls into the centre at π/√8
+    assert!(ended.stderr.contains("the motion ends before t = 1.11"), "{}", ended.stderr);
 }
 
 #[test]

@@ -47,6 +47,33 @@ fn known_lines_are_found_to_rounding_and_named() {
     }
 }
 
+/// Ten lines as close as those of the perihelia of the planets, in arcseconds a year over 40 million years: Laskar's
+/// frequencies g₁ … g₈ and two combinations (A. Morbidelli, *Modern Celestial Mechanics*, table 7.1), with amplitudes of two
+/// powers of ten.
+#[test]
+fn ten_lines_of_perihelia_are_found_to_rounding() {
+    let per_year = std::f64::consts::PI / (180.0 * 3600.0);
+    let arcseconds =
+        [5.596, 7.456, 17.365, 17.916, 4.257_49, 28.220_69, 3.088_39, 0.671, 52.183_89, -19.705_71];
+    let amplitudes = [0.018, 0.016, 0.011, 0.009, 0.044, 0.012, 0.037, 0.006, 0.004, 0.003];
+    let spacing = 8000.0;
+    let signal: Vec<f64> = (0..5000)
+        .map(|k| {
+            let t = spacing * f64::from(k);
+            let lines = arcseconds.iter().zip(amplitudes).enumerate();
+            lines.map(|(i, (w, a))| a * (w * per_year * t + i as f64).cos()).sum()
+        })
+        .collect();
+    let found = spectrum(&signal, spacing, (10, 1), &mut |_| true).unwrap();
+    assert_eq!(found.lines.len(), 10, "{:#?}", found.lines);
+    for wanted in arcseconds {
+        let of = |line: &phaselab::dynamics::SpectralLine| line.frequency / per_year;
+        let nearest = found.lines.iter().map(|line| (of(line) - wanted.abs()).abs());
+        let off = nearest.fold(f64::INFINITY, f64::min);
+        assert!(off < 1e-12, "{wanted}″ a year: {off:e}");
+    }
+}
+
 #[test]
 fn what_is_no_combination_is_not_named_one() {
     let found = lines(&known, 0.25, 2);

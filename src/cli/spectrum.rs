@@ -1,0 +1,172 @@
+//! `phaselab spectrum`: the frequencies of a motion.
+
+use serde_json::{Map, Value, json};
+
+use super::assignment::number;
+use super::failure::CommandError;
+use super::interrupt::Interrupt;
+use super::motion_options::Laid;
+use super::study::{self, StudyArguments, shown, table};
+use crate::dynamics::{
+    MeanRate, SpectralLine, Spectrum, independent_frequencies, mean_rate, spectrum, straightened,
+};
+use crate::ensemble::Flow;
+use crate::num::significant;
+use crate::system::ChannelKind;
+
+/// The numbers taken where none are asked for, and how long the motion is followed then, in seconds of the lab's clock at
+/// the file's own speed.
+const COUNT: u32 = 2048;
+const SECONDS: f64 = 90.0;
+
+/// The column of an expression, which may already be one of the file.
+const COLUMN: &str = "quantity";
+
+/// Find the frequencies of a motion.
+///
+/// The lines of a quantity, the strongest first: found one after the other under a window, polished together,
+/// and named as combinations k·ω of as few fundamental frequencies as the system has. The quantity is taken at
+/// equal intervals from the start on; of an angle that goes round, its mean advance is taken away, and its mean rate
+/// (over 2π, the rotation number per unit of time) is given by a weighted average that converges fast.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab spectrum pendulum
+  phaselab spectrum henon-heiles --of x --until 2000 --count 4096
+  phaselab spectrum toda-three --of q1 --lines 6 --format json")]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// The quantity: a coordinate, an observable, any expression; the first coordinate where it is left out.
+    #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
+    of: Option<String>,
+    /// When to end; where it is left out, after 90 seconds of the lab at the file's own speed.
+    #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
+    until: Option<f64>,
+    /// How many numbers are taken on the way, at equal intervals.
+    #[arg(long, value_name = "N", default_value_t = COUNT,
+          value_parser = clap::value_parser!(u32).range(64..=65_536))]
+    count: u32,
+    /// How many lines are looked for.
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=64))]
+    lines: u32,
+}
+
+/// What is found, and of what.
+struct Found {
+    of: String,
+    from: f64,
+    until: f64,
+    count: usize,
+    spectrum: Spectrum,
+    rate: Option<MeanRate>,
+}
+
+pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+    let motion = &arguments.study.motion;
+    let reading = motion.read()?;
+    let (kind, column) = match arguments.of.as_deref().map(str::trim) {
+        None => (ChannelKind::Position(0), None),
+        Some(of) => match reading.model.coordinates.iter().position(|c| c.name == of) {
+            Some(i) => (ChannelKind::Position(i), None),
+            None => (ChannelKind::Extra(0), Some(format!("{COLUMN}={of}"))),
+        },
+    };
+    let laid = motion.compile(reading, column.as_slice(), "--of", interrupt)?;
+    let Laid { model, equations, system, start, method, settings } = &laid;
+    let channel = system.channels().iter().position(|channel| channel.kind == kind);
+    let channel =
+        channel.ok_or_else(|| CommandError::CouldNot("there is no such quantity".to_owned()))?;
+    let speed = Some(model.run.speed).filter(|s| s.is_finite() && *s > 0.0).unwrap_or(1.0);
+    let until = arguments.until.unwrap_or(start.time + SECONDS * speed);
+    if until <= start.time {
+        let why = format!("--until: it has to be after the start, t = {:?}", start.time);
+        return Err(CommandError::WrongUse(why));
+    }
+    interrupt.ends_by_itself(|| ());
+    let state = start.state(system).map_err(|fault| CommandError::CouldNot(fault.to_string()))?;
+    let flow = Flow {
+        system: system.clone(),
+        method: (*method, *settings),
+        parameters: start.parameters.clone(),
+        start: start.time,
+    };
+    let count = arguments.count as usize;
+    let spacing = (until - start.time) / count as f64;
+    let times: Vec<f64> = (0..count).map(|k| start.time + k as f64 * spacing).collect();
+    let seen = flow.carry(&state, &times, &[channel]).seen;
+    if seen.len() < count {
+        let time = significant(times[seen.len()], 6, 1e-4..1e6);
+        let why = format!("the motion ends before t = {time}: choose an earlier --until");
+        return Err(CommandError::CouldNot(why));
+    }
+    let values: Vec<f64> = seen.iter().map(|row| row[0]).collect();
+    let is_angle = system.period(channel, &start.parameters).is_some()
+        && matches!(system.channels()[channel].kind, ChannelKind::Position(_));
+    let rate = mean_rate(&values, spacing).filter(|_| is_angle);
+    let straight = straightened(&values, spacing, rate);
+    let fundamentals = independent_frequencies(model, equations, system);
+    let most = (arguments.lines as usize, fundamentals);
+    let spectrum = spectrum(&straight, spacing, most, &mut |_| true)
+        .ok_or_else(|| CommandError::CouldNot("the quantity has no finite values".to_owned()))?;
+    let of = arguments.of.clone().unwrap_or_else(|| system.channels()[channel].name.clone());
+    let found = Found { of, from: start.time, until, count, spectrum, rate };
+    let mut head = study::head(model, system, &start.parameters, (*method, *settings));
+    head.append(&mut object(&found));
+    study::write(&arguments.study, (head, text(&found)), None, interrupt)
+}
+
+fn object(found: &Found) -> Map<String, Value> {
+    let Found { of, from, until, count, spectrum, rate } = found;
+    let line = |line: &SpectralLine| {
+        json!({
+            "frequency": line.frequency,
+            "error": line.error,
+            "amplitude": line.amplitude,
+            "phase": line.phase,
+            "combination": line.combination,
+        })
+    };
+    let mut object = Map::new();
+    let mut insert = |name: &str, value: Value| object.insert(name.to_owned(), value);
+    insert("of", json!(of));
+    insert("from", json!(from));
+    insert("until", json!(until));
+    insert("count", json!(count));
+    insert("mean", json!(spectrum.mean));
+    insert("lines", spectrum.lines.iter().map(line).collect());
+    insert("fundamentals", json!(spectrum.fundamentals));
+    insert("left", json!(spectrum.left));
+    insert("mean_rate", rate.map_or(Value::Null, |r| json!({ "rate": r.rate, "error": r.error })));
+    object
+}
+
+fn text(found: &Found) -> String {
+    let Found { of, from, until, count, spectrum, rate } = found;
+    let mut text = format!("{of} from t = {from:?} to {until:?}, {count} values\n\n");
+    let head = ["", "ω", "", "amplitude", "phase"];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    for line in &spectrum.lines {
+        rows.push(vec![
+            line.name().unwrap_or_else(|| "?".to_owned()),
+            significant(line.frequency, 12, 1e-4..1e6),
+            format!("± {:.0e}", line.error),
+            shown(line.amplitude),
+            shown(line.phase),
+        ]);
+    }
+    if spectrum.lines.is_empty() {
+        text.push_str("no line stands out\n");
+    } else {
+        text.push_str(&table(&rows));
+    }
+    text.push_str(&format!(
+        "\nmean {}, what the lines leave {:.1e}\n",
+        shown(spectrum.mean),
+        spectrum.left
+    ));
+    if let Some(MeanRate { rate, error }) = rate {
+        text.push_str(&format!("mean rate {} ± {error:.0e}\n", significant(*rate, 12, 1e-4..1e6)));
+    }
+    text
+}
