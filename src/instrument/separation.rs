@@ -166,7 +166,7 @@ fn return_heading(present: &Present<'_>, returned: Returned) -> Heading {
 fn way_back(present: &Present<'_>, returned: Returned, mut layers: Vec<(Level, Layer)>) -> Picture {
     let all = returned.gone[1];
     let mut name = match returned.distance {
-        Some(0.0) => "ln d   the way back is the same, to the last bit".to_owned(),
+        Some(0.0) => "ln d   identical, to the last bit".to_owned(),
         _ => "ln d from the run before".to_owned(),
     };
     let mut range = range(present, 1);

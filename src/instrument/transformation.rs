@@ -45,7 +45,13 @@ struct Mapped {
     parameters: Vec<f64>,
     /// The range of the two old variables.
     window: Option<[[f64; 2]; 2]>,
-    grid: Vec<Vec<[f64; 2]>>,
+    grid: Arc<Vec<Vec<[f64; 2]>>>,
+    verdict: Option<Judged>,
+}
+
+/// What is known of a map.
+#[derive(Clone)]
+struct Judged {
     /// The verdict, and K, in lines.
     lines: Vec<String>,
     canonical: bool,
@@ -127,7 +133,7 @@ impl Instrument for Transformation {
         let [x, y] = [plot.column(0)?, plot.column(1)?];
         let mapped = mapped(answer);
         let stroke = Stroke::from(Ink::Level);
-        let grid = mapped.into_iter().flat_map(|mapped| &mapped.grid);
+        let grid = mapped.into_iter().flat_map(|mapped| mapped.grid.iter());
         let mut layers: Vec<(Level, Layer)> =
             grid.map(|line| (GRID, Layer::Line(line.clone(), stroke))).collect();
         layers.extend([
@@ -139,8 +145,7 @@ impl Instrument for Transformation {
             _ if shown(plot, present.physics).is_none() => {
                 vec!["these are not two new variables of one transformation".to_owned()]
             }
-            Some(mapped) => mapped.lines.clone(),
-            None => Vec::new(),
+            _ => judged(answer).map_or_else(Vec::new, |judged| judged.lines.clone()),
         };
         layers.push((NOW, Layer::Legend(lines)));
         let upwards = Upwards::Channel(y, range(plot, present, answer, 1));
@@ -162,10 +167,23 @@ impl Instrument for Transformation {
             let [u, v] = old.map(|(_, channel)| present.bounds.get(channel).copied());
             Some([u?, v?].map(|(lo, hi)| [lo, hi]))
         });
-        if let Some(mapped) = mapped(answer)
-            && mapped.still_holds(present.parameters, wanted)
-        {
-            return Need::Held;
+        let known = mapped(answer).filter(|known| known.parameters == present.parameters);
+        let verdict = known.and_then(|known| known.verdict.clone());
+        let (parameters, name) = (present.parameters.to_vec(), law.name.clone());
+        if let Some(known) = known.filter(|known| known.covers(wanted)) {
+            if verdict.is_some() {
+                return Need::Held;
+            }
+            let (window, grid) = (known.window, Arc::clone(&known.grid));
+            let (model, equations) = (Arc::clone(model), Arc::clone(equations));
+            return Need::Job(Job::new("verdict", move |progress| {
+                let mut equations = (*equations).clone();
+                equations.pool.set_cancel(progress.token().clone());
+                let report = TransformationReport::named(&model, &mut equations, &name);
+                let verdict = Some(Judged::of(&equations.pool, report.as_ref()));
+                let (parameters, grid) = (parameters.clone(), Arc::clone(&grid));
+                Answer::new(Mapped { parameters, window, grid, verdict })
+            }));
         }
         let window = wanted.map(|window| {
             window.map(|[lo, hi]| {
@@ -173,28 +191,16 @@ impl Instrument for Transformation {
                 [lo - margin, hi + margin]
             })
         });
-        let (model, equations) = (Arc::clone(model), Arc::clone(equations));
-        let (parameters, at) = (present.parameters.to_vec(), present.valuation());
-        let name = law.name.clone();
-        Need::Job(Job::new("the transformation", move |progress| {
-            let mut equations = (*equations).clone();
-            equations.pool.set_cancel(progress.token().clone());
+        let (equations, at) = (Arc::clone(equations), present.valuation());
+        Need::Job(Job::new("grid", move |_| {
             let grid = match (old, window) {
                 (Some((images, old)), Some(window)) => {
                     grid(&equations.pool, &at, images, (old.map(|(s, _)| s), window))
                 }
                 _ => Vec::new(),
             };
-            let report = TransformationReport::named(&model, &mut equations, &name);
-            let report = report.as_ref();
-            Answer::new(Mapped {
-                parameters: parameters.clone(),
-                window,
-                grid,
-                lines: report.map_or_else(Vec::new, |report| lines(&equations.pool, report)),
-                canonical: report.is_some_and(|report| report.verdict.canonical),
-                residual: report.and_then(|report| report.verdict.residual),
-            })
+            let (parameters, verdict) = (parameters.clone(), verdict.clone());
+            Answer::new(Mapped { parameters, window, grid: Arc::new(grid), verdict })
         }))
     }
 
@@ -204,13 +210,13 @@ impl Instrument for Transformation {
                 word: "canonical",
                 about: "1 if it is canonical, 0 if it is not",
                 value: |_, _, answer| {
-                    mapped(answer).map(|mapped| f64::from(u8::from(mapped.canonical)))
+                    judged(answer).map(|judged| f64::from(u8::from(judged.canonical)))
                 },
             },
             Measure {
                 word: "residual",
                 about: "the largest entry of |M 𝕁 Mᵀ − 𝕁| at points near the start",
-                value: |_, _, answer| mapped(answer)?.residual,
+                value: |_, _, answer| judged(answer)?.residual,
             },
         ]
     }
@@ -218,6 +224,10 @@ impl Instrument for Transformation {
 
 fn mapped(answer: Option<&Answer>) -> Option<&Mapped> {
     answer?.of::<Mapped>()
+}
+
+fn judged(answer: Option<&Answer>) -> Option<&Judged> {
+    mapped(answer)?.verdict.as_ref()
 }
 
 /// The range of an axis: a turn, or the grid but for its ends, which may be far away, and the motion.
@@ -238,16 +248,26 @@ fn range(
 }
 
 impl Mapped {
-    /// Whether the parameters are the same, and the motion has not left the window of the grid.
-    fn still_holds(&self, parameters: &[f64], motion: Option<[[f64; 2]; 2]>) -> bool {
-        let within = match (self.window, motion) {
+    /// Whether the motion has not left the window of the grid.
+    fn covers(&self, motion: Option<[[f64; 2]; 2]>) -> bool {
+        match (self.window, motion) {
             (Some(window), Some(motion)) => {
                 window.iter().zip(motion).all(|(w, m)| w[0] <= m[0] && m[1] <= w[1])
             }
             (None, None) => true,
             _ => false,
-        };
-        self.parameters == parameters && within
+        }
+    }
+}
+
+impl Judged {
+    /// Nothing is said of a map that cannot be written down.
+    fn of(pool: &Pool, report: Option<&TransformationReport>) -> Self {
+        Self {
+            lines: report.map_or_else(Vec::new, |report| lines(pool, report)),
+            canonical: report.is_some_and(|report| report.verdict.canonical),
+            residual: report.and_then(|report| report.verdict.residual),
+        }
     }
 }
 

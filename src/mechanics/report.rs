@@ -313,29 +313,29 @@ pub struct GeneratorReport {
 fn transformations(model: &Model, equations: &mut Equations) -> Vec<TransformationReport> {
     let maps = written_maps(model, equations);
     let report = |(given, map): (Transformation, PhaseMap)| {
-        TransformationReport::of(model, equations, &given, map)
+        let mut report = TransformationReport::of(model, equations, map);
+        if report.verdict.canonical {
+            report.functions = report.map.generating_functions(model, equations, &given);
+        }
+        report
     };
     maps.into_iter().map(report).collect()
 }
 
 impl TransformationReport {
-    /// The report on the transformation of a name, if its law can be written down; the equations' pool grows.
+    /// The report on the transformation of a name but for its generating functions, if its law can be written down; the
+    /// equations' pool grows.
     pub fn named(model: &Model, equations: &mut Equations, name: &str) -> Option<Self> {
         let maps = written_maps(model, equations);
-        let (given, map) = maps.into_iter().find(|(_, map)| map.name == name)?;
-        Some(Self::of(model, equations, &given, map))
+        let (_, map) = maps.into_iter().find(|(_, map)| map.name == name)?;
+        Some(Self::of(model, equations, map))
     }
 
-    fn of(model: &Model, equations: &mut Equations, given: &Transformation, map: PhaseMap) -> Self {
+    fn of(model: &Model, equations: &mut Equations, map: PhaseMap) -> Self {
         let verdict = map.verdict(model, equations);
         let backwards = map.backwards(model, equations);
         let hamiltonian = map.new_hamiltonian(model, equations, &verdict, backwards.as_ref());
-        let functions = if verdict.canonical {
-            map.generating_functions(model, equations, given)
-        } else {
-            Vec::new()
-        };
-        TransformationReport { map, verdict, backwards, hamiltonian, functions }
+        TransformationReport { map, verdict, backwards, hamiltonian, functions: Vec::new() }
     }
 }
 

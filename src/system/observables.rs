@@ -115,8 +115,12 @@ impl ObservableList {
         };
         for (channel, e) in self.channels.iter_mut().zip(&self.expressions) {
             let e = e.map(|e| written(e).unwrap_or(e));
-            channel.periodic |=
-                e.is_some_and(|e| matches!(pool.node(e), Node::Call(FunctionId::Atan2, _)));
+            if e.is_some_and(|e| matches!(pool.node(e), Node::Call(FunctionId::Atan2, _))) {
+                channel.periodic = true;
+                if channel.unit.is_empty() && !channel.name.is_empty() {
+                    "rad".clone_into(&mut channel.unit);
+                }
+            }
         }
     }
 
