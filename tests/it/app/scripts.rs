@@ -152,7 +152,8 @@ fn scripts_in_the_lab() {
 fn scripts_in_the_picker() {
     let scripts = [
         ("", "picker pendulum", ""),
-        ("Home", "picker planet", ""),
+        ("Home", "picker nothing", ""),
+        ("Home Down", "picker planet", ""),
         ("Enter", "lab parameter 0", "Reset, Play"),
         ("/", "picker planet /", ""),
         ("h e n o n", "picker henon-heiles /henon", ""),
@@ -179,7 +180,7 @@ fn scripts_in_the_picker() {
 #[test]
 fn a_preview_waits_until_the_selection_rests() {
     let mut app = at_picker();
-    press(&mut app, "Home Down");
+    press(&mut app, "Home Down Down");
     let name = app.picker.current().unwrap().name.clone();
     assert_eq!(app.update(Event::Tick(Duration::from_millis(50))), []);
     press(&mut app, "Up");
