@@ -30,5 +30,5 @@ pub use lesson_check::{LessonReport, check_lesson};
 pub use lesson_keys::Pressed;
 pub use plain::plain;
 pub use recording::{Entry, Event, Marker, Recording, play};
-pub use script::Script;
+pub use script::{Script, called};
 pub use script_runner::ScriptRunner;

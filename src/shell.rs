@@ -27,6 +27,7 @@ mod file_writer;
 mod files;
 mod frame_loop;
 mod governor;
+mod guided;
 mod lab;
 mod lab_error;
 mod lesson;

@@ -77,6 +77,8 @@ pub enum Action {
     Edit,
     /// Begin a system of one's own in the editor.
     NewSystem,
+    /// List the lessons and demos.
+    Guides,
     /// Apply an editor command to the text being edited.
     EditCommand(EditCommand),
     /// Save a still image of the screen.

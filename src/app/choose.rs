@@ -130,6 +130,7 @@ impl App {
                 self.theme = self.themes.get(index).map(|(name, _)| *name);
                 Vec::new()
             }
+            (_, Choice::Guide(index)) => self.take_guide(index),
             (_, Choice::Flow(index)) => self.open_field(Purpose::Flow(index)),
             (_, Choice::Equilibrium(index)) => self.begin_at_equilibrium(index, None),
             (_, Choice::Mode(index, mode)) => self.begin_at_equilibrium(index, Some(mode)),

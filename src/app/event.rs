@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use crossterm::event::{KeyEvent, MouseEventKind};
 
-use super::{Asker, Computation, Drawn, HitTarget, LoadError, Loaded};
+use super::{Asker, Computation, Drawn, Guide, HitTarget, LoadError, Loaded};
 use crate::diagnostic::Diagnostic;
 use crate::experiment::{Command, Snapshot};
 use crate::instrument::Answer;
@@ -62,6 +62,13 @@ pub enum Event {
         ticket: u64,
         /// The completed share.
         share: Share,
+    },
+    /// A lesson or demo was left.
+    GuideLeft {
+        /// All lessons and demos, with how far each lesson was taken.
+        guides: Vec<Guide>,
+        /// Why it could not be taken, or what is wrong with it.
+        wrong: Option<String>,
     },
     /// Whether the watched file of the system exists; sent when that changes.
     FileThere(bool),
@@ -136,6 +143,8 @@ pub enum Effect {
     Data,
     /// Start or stop recording the screen.
     Record(bool),
+    /// Take a lesson, or perform a demo, on the screen of the lab; [`Event::GuideLeft`] follows.
+    TakeGuide(Guide),
     /// Suspend the process, as Ctrl-Z does.
     Suspend,
     /// End the program.

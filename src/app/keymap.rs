@@ -214,6 +214,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Anywhere, &[c('q')], Action::Quit, "quit", "leave, or close what lies on top; the session is saved"),
     row(Place::Anywhere, &[c(':')], Action::Palette, "", "search all actions by name"),
     row(Place::Anywhere, &[c('T')], Action::ChooseTheme, "", "choose the theme: the colours of the screen"),
+    row(Place::Anywhere, &[plain(KeyCode::F(2))], Action::Guides, "", "lessons and demos: taken or watched here; q leads back"),
     row(Place::Anywhere, &[ESC], Action::Back, "", "back: close or shrink; twice in the lab: the list of systems"),
 
     row(Place::Picker, &[UP], Action::Move(Direction::Up), "", "the system above"),

@@ -40,6 +40,8 @@ pub enum Choosing {
     Impulse,
     /// A theme.
     Theme,
+    /// A lesson or a demo.
+    Guide,
     /// A constant of the motion whose flow is applied.
     Flow,
     /// Where a motion begins: at an equilibrium, or along a mode.
@@ -98,6 +100,8 @@ pub enum Choice {
     Pane(Pane),
     /// The theme of this index among all.
     Theme(usize),
+    /// The lesson or demo of this index among all.
+    Guide(usize),
     /// The equilibrium of this index among those found.
     Equilibrium(usize),
     /// The mode of the second index of that equilibrium.

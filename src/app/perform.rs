@@ -71,6 +71,7 @@ impl App {
             }
             Action::EditCommand(work) => self.work(work),
             Action::NewSystem => self.new_system(),
+            Action::Guides => self.open_guides(),
             Action::Edit if matches!(self.overlay, Some(Overlay::Message(_))) => self.mend_file(),
             other => self.in_lab(other),
         }
@@ -404,8 +405,10 @@ impl App {
         if let Some(session) = self.picker.selected_session().cloned() {
             return self.continue_session(session);
         }
-        if self.picker.selected_above() == Some(Above::NewSystem) {
-            return self.new_system();
+        match self.picker.selected_above() {
+            Some(Above::Guides) => return self.open_guides(),
+            Some(Above::NewSystem) => return self.new_system(),
+            Some(Above::Session) | None => {}
         }
         let Some(name) = self.picker.take() else {
             return self.notify("No system fits this search.");

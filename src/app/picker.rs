@@ -9,7 +9,7 @@ use std::time::Duration;
 use tui_input::Input;
 
 use super::fuzzy::{Fit, Query, Texts};
-use super::{LoadError, Saved};
+use super::{Guide, LoadError, Saved};
 use crate::preset::Entry;
 
 /// How long a selection must stay unchanged before its system is loaded.
@@ -24,6 +24,10 @@ pub struct Picker {
     pub search: Option<Input>,
     /// The index of the selected system among those shown.
     pub selected: usize,
+    /// The lessons and demos, lessons first.
+    pub guides: Vec<Guide>,
+    /// The name of the lesson or demo that was taken last.
+    pub(super) last_guide: Option<String>,
     /// Why the preview of the selected system cannot be shown.
     pub failure: Option<LoadError>,
     /// The session that can be resumed from the row above the systems.
@@ -38,6 +42,8 @@ pub struct Picker {
 pub enum Above {
     /// It resumes a session.
     Session,
+    /// It lists lessons and demos.
+    Guides,
     /// It begins a system of one's own.
     NewSystem,
 }
@@ -93,7 +99,9 @@ impl Picker {
     /// Returns the rows above the systems; a search with words in it is among the systems only.
     pub fn above(&self) -> impl Iterator<Item = Above> {
         let session = self.session().map(|_| Above::Session);
-        session.into_iter().chain(self.sought().is_none().then_some(Above::NewSystem))
+        let listed = self.sought().is_none();
+        let guides = (listed && !self.guides.is_empty()).then_some(Above::Guides);
+        session.into_iter().chain(guides).chain(listed.then_some(Above::NewSystem))
     }
 
     /// Returns the one of these rows that is selected.
@@ -144,7 +152,7 @@ impl Picker {
                 let session = self.session()?;
                 return self.entries.iter().find(|entry| entry.name == session.open);
             }
-            Some(Above::NewSystem) => return None,
+            Some(Above::Guides | Above::NewSystem) => return None,
             None => {}
         }
         self.shown().get(self.selected).map(|&index| &self.entries[index])

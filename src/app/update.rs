@@ -78,6 +78,7 @@ impl App {
                 self.progressed(ticket, share);
                 Vec::new()
             }
+            Event::GuideLeft { guides, wrong } => self.guide_left(guides, wrong),
             Event::FileThere(there) => {
                 self.found_on_disk(there);
                 Vec::new()

@@ -8,7 +8,7 @@ use super::failure::CommandError;
 use super::{open, record};
 use crate::diagnostic::Document;
 use crate::preset::is_path;
-use crate::record::Script;
+use crate::record::{Script, called};
 
 /// The tour, which is played if no demo is named.
 const TOUR: &str = include_str!("tour.demo");
@@ -34,7 +34,7 @@ pub(super) fn scripted(source: &Document) -> Result<(Script, Document, String), 
     let document = open::find(&system.text)?;
     // the mistakes of the system are reported for the system's own file
     open::read(&document)?;
-    let name = record::called(&system.text).to_owned();
+    let name = called(&system.text).to_owned();
     Ok((script, document, name))
 }
 

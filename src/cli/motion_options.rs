@@ -88,6 +88,7 @@ impl MotionOptions {
     pub(super) fn read(&self) -> Result<Reading, CommandError> {
         let document = open::find(&self.name)?;
         let mut model = open::read(&document)?;
+        model.leave_views_out();
         let parameters = assignment::parameters(&model, &self.set)?;
         model.parameters.iter_mut().zip(&parameters).for_each(|(p, &value)| p.value = value);
         let overrides = assignment::initial(&model, &parameters, &self.init)?;

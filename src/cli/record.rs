@@ -15,7 +15,7 @@ use crate::preset::{demo, demos};
 use crate::printable;
 use crate::record::cast_writer::{self, Version};
 use crate::record::script::read_size;
-use crate::record::{Recording, Script, play, screenshot, transcript};
+use crate::record::{Recording, Script, called, play, screenshot, transcript};
 
 /// Record a demo: a script of keys, waits and captions becomes a cast, the same on every machine.
 ///
@@ -150,12 +150,6 @@ pub(super) fn recorded(
     open::read(system)?;
     let size = size.unwrap_or((80, 24));
     play(script, system, called(name), size).map_err(|mistakes| located(source, &mistakes))
-}
-
-/// The name of a system on the screen: a file without its folders, which are private.
-pub(super) fn called(name: &str) -> &str {
-    let file = name.rsplit(['/', std::path::MAIN_SEPARATOR]).next().unwrap_or(name);
-    file.strip_suffix(".toml").unwrap_or(file)
 }
 
 /// Reports the claims that are false.

@@ -111,6 +111,7 @@ pub(super) fn perform(
 ) -> Result<(), CommandError> {
     let document = open::find(&arguments.name)?;
     let mut model = open::read(&document)?;
+    model.leave_views_out();
     let mut parameters = assignment::parameters(&model, &arguments.set)?;
     let ramps = ramp::of(&model, &arguments.ramp, &arguments.set)?;
     let start = assignment::start(&model, &parameters, &arguments.init)?;

@@ -52,6 +52,9 @@ pub(super) struct EventLocator {
     simple: Option<f64>,
     /// The number of minimal intervals in a row.
     shortest: u32,
+    /// The last end of an interval, with the decimal number it is written as: the next one mostly
+    /// begins there.
+    end: (f64, DoubleDouble),
 }
 
 /// A piece of a step on which the functions are represented by their series.
@@ -78,7 +81,16 @@ impl EventLocator {
             fresh: false,
             simple: None,
             shortest: 0,
+            end: (f64::NAN, DoubleDouble::ZERO),
         }
+    }
+
+    /// The decimal number that a time is written as.
+    fn written(&mut self, time: f64) -> DoubleDouble {
+        if self.end.0 != time {
+            self.end = (time, DoubleDouble::written(time));
+        }
+        self.end.1
     }
 
     pub(super) fn set_parameters(&mut self, parameters: &[f64]) {
@@ -169,15 +181,16 @@ impl EventLocator {
     fn piece(&mut self, stepper: &dyn Stepper, from: f64, to: f64) -> Option<(SeriesPiece, f64)> {
         let series = stepper.series()?;
         let (origin, unit) = (series.time(), series.scale());
-        let from = self.probe.not_before(DoubleDouble::written(from));
+        let from = self.written(from);
+        let from = self.probe.not_before(from);
         let x = ((from - origin) / unit).high.max(0.0);
-        let whole = ((DoubleDouble::written(to) - from) / unit).high;
+        let whole = ((self.written(to) - from) / unit).high;
         if unit <= 0.0 || whole <= 0.0 {
             return None;
         }
         let event_functions = self.probe.event_functions();
-        let valid = event_functions.expand(series, x, CUT_OFF)?;
-        let mut length = valid.min(whole);
+        let valid = event_functions.expand(series, x, (CUT_OFF, whole))?;
+        let mut length = valid;
         for switch in event_functions.expanded_switches() {
             if let Some(change) = sign_changes(switch, length).next() {
                 length = (change.x - 0.5 * DIGITS * spacing(to) / unit).max(0.0);
@@ -250,9 +263,9 @@ impl EventLocator {
         if !counted && polynomial.ends_at_zero(side) {
             // it crosses at the very end of the piece, which may be the time of an output row or an
             // impulse
-            crossings.push(Crossing::at(DoubleDouble::written(to), -side));
+            crossings.push(Crossing::at(self.written(to), -side));
         }
-        let end = DoubleDouble::written(to);
+        let end = self.written(to);
         for crossing in crossings.iter_mut().filter(|c| c.exact.high > to) {
             crossing.exact = end;
         }

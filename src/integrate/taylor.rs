@@ -12,6 +12,7 @@
 mod branches;
 mod collocation_step;
 mod kinks;
+mod steep;
 mod step_size;
 mod sticking;
 
@@ -60,6 +61,8 @@ struct Taylor {
     state: State,
     begin: f64,
     tolerance: f64,
+    /// Whether the lowest orders are in double-double.
+    exact: bool,
     /// Whether the unit of time in use was determined for this motion.
     scaled: bool,
     /// The size of the last step, from which the next series takes its unit of time. The current
@@ -92,8 +95,14 @@ const ROUND: u32 = 64;
 const LEAST: f64 = 1e-15;
 
 /// A step shorter than this part of those before it ends at a point where a series has no radius of
-/// convergence.
+/// convergence; …
 const VANISHING: f64 = 1e-11;
+
+/// … and this is that part where all is in `f64`, whose digits do not tell nearer points apart.
+const VANISHING_IN_F64: f64 = 1e-8;
+
+/// So does a step this short relative to the time, which will soon no longer advance it.
+const SOON_STALLED: f64 = 1e-15;
 
 /// A point this close, relative to the steps before it, counts as reached.
 const TOUCHING: f64 = 1e-15;
@@ -152,6 +161,7 @@ impl Taylor {
             system,
             series,
             tolerance,
+            exact: exact > 0,
             step_size: StepSize::new(tolerance, order),
             state,
             begin: 0.0,
@@ -333,27 +343,48 @@ impl Taylor {
         self.rates.evaluate(state.exact_time(), &numbers)
     }
 
-    /// Advances along the series and shortens the step until no root has left its branch there.
+    /// Advances along the series and shortens the step until no root has left its branch there, and
+    /// no steep power is missed.
     /// Returns the part of the time that is left.
     fn advance(&mut self, after: DoubleDouble) -> Result<f64, MotionError> {
         let (mut part, scale) = (1.0, self.series.scale());
-        if self.series.guards() == 0 {
+        let steep = self.series.is_steep() && !self.series.sides().contains(&Side::Between);
+        if self.series.guards() == 0 && !steep {
             self.series.state_after(after, &mut self.state);
             return Ok(part);
         }
         let from = self.state.clone();
         for _ in 0..HALVINGS {
-            self.series.state_after(after * part, &mut self.state);
-            let outcome = self.evaluate_rates();
             let x = after.high * part / scale;
-            if outcome.is_ok() && !branches::strayed(&self.series, x, &self.rates) {
-                return Ok(part);
+            if !(steep && self.misses_a_steep_power(after * part)?) {
+                self.series.state_after(after * part, &mut self.state);
+                if self.series.guards() == 0 {
+                    return Ok(part);
+                }
+                let outcome = self.evaluate_rates();
+                if outcome.is_ok() && !branches::strayed(&self.series, x, &self.rates) {
+                    return Ok(part);
+                }
             }
             part *= 0.5;
         }
         self.state = from;
         let kind = MotionErrorKind::StepUnderflow(after.high * part);
         Err(self.system.fault(kind, self.state.time, &self.state.values))
+    }
+
+    /// Whether the rates near the end of a step, where kinks are, are not those of the series.
+    fn misses_a_steep_power(&mut self, after: DoubleDouble) -> Result<bool, MotionError> {
+        let near = after * steep::NEAR_THE_END;
+        self.series.state_after(near, &mut self.state);
+        match self.evaluate_rates() {
+            Err(fault) if fault.kind == MotionErrorKind::Cancelled => Err(fault),
+            Err(_) => Ok(true),
+            Ok(()) => {
+                let x = near.high / self.series.scale();
+                Ok(steep::missed(&self.series, x, &self.rates, self.tolerance))
+            }
+        }
     }
 
     /// Sets numbers that have reached zero to exactly zero.
@@ -518,7 +549,8 @@ impl Stepper for Taylor {
         let mut last = step >= left.high.abs();
         let mut after = if last { left } else { DoubleDouble::from(step.copysign(left.high)) };
         let scale = self.series.scale();
-        let vanishing = step < VANISHING * self.stride;
+        let part = if self.exact { VANISHING } else { VANISHING_IN_F64 };
+        let vanishing = step < part * self.stride || step < SOON_STALLED * time.high.abs();
         // what makes the steps vanish lies a little farther than they reach
         let end = if vanishing { BEYOND * step / scale.abs() } else { after.high / scale };
         let end = end.min((left.high / scale).abs());

@@ -207,6 +207,12 @@ impl Default for RunSettings {
 }
 
 impl Model {
+    /// Leaves out the pictures and their surfaces of section, whose crossings would be located for nobody.
+    pub fn leave_views_out(&mut self) {
+        self.views.clear();
+        self.sections.clear();
+    }
+
     /// Creates an empty model that has only `t`, `energy` and `action`; `preset` fills it.
     pub fn new(title: &str) -> Model {
         let mut pool = Pool::new();

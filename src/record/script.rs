@@ -28,6 +28,12 @@ pub use line::Text;
 /// The longest demo in seconds; a script that waits for a day would fill the memory.
 pub const LONGEST: u64 = 3600;
 
+/// The name of a system on the screen: a file without its folders, which are private.
+pub fn called(name: &str) -> &str {
+    let file = name.rsplit(['/', std::path::MAIN_SEPARATOR]).next().unwrap_or(name);
+    file.strip_suffix(".toml").unwrap_or(file)
+}
+
 /// A parsed script, understood as far as is possible without its system.
 #[derive(Clone, Debug)]
 pub struct Script {

@@ -137,5 +137,5 @@ pub fn take_lesson(
     let mut screen = LessonScreen::new(lesson, request.look(&variable));
     let pace = Pace { mouse: false, ..request.pace(&variable) };
     let ending = perform(&mut screen, pace)?;
-    Ok((ending, screen.outcome()))
+    Ok((ending, screen.outcome().1))
 }

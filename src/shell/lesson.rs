@@ -3,6 +3,7 @@
 //! In: a [`Lesson`], events, time. Out: its picture, and what is wrong with its script. Never here: what a lesson says, or
 //! the file of its progress.
 
+use std::borrow::BorrowMut;
 use std::time::Duration;
 
 use crossterm::event::{Event, KeyCode, KeyEventKind, KeyModifiers};
@@ -17,27 +18,27 @@ use crate::view::{Detail, RenderStyle};
 /// The maximum time that one frame advances, as for demos.
 const LONGEST: Duration = Duration::from_secs(1);
 
-/// A lesson on the terminal.
-pub(super) struct LessonScreen<'a> {
-    lesson: &'a mut Lesson,
+/// A lesson on the terminal, its own or borrowed.
+pub(super) struct LessonScreen<L> {
+    lesson: L,
     look: RenderStyle,
     detail: Detail,
     mistake: Option<Diagnostic>,
 }
 
-impl<'a> LessonScreen<'a> {
+impl<L: BorrowMut<Lesson>> LessonScreen<L> {
     /// Creates the screen of a lesson.
-    pub(super) fn new(lesson: &'a mut Lesson, look: RenderStyle) -> Self {
+    pub(super) fn new(lesson: L, look: RenderStyle) -> Self {
         Self { lesson, look, detail: Detail::default(), mistake: None }
     }
 
-    /// Returns what is wrong with the script, if anything is.
-    pub(super) fn outcome(self) -> Result<(), Diagnostic> {
-        self.mistake.map_or(Ok(()), Err)
+    /// Returns the lesson, and what is wrong with its script, if anything is.
+    pub(super) fn outcome(self) -> (L, Result<(), Diagnostic>) {
+        (self.lesson, self.mistake.map_or(Ok(()), Err))
     }
 }
 
-impl Screen for LessonScreen<'_> {
+impl<L: BorrowMut<Lesson>> Screen for LessonScreen<L> {
     fn input(&mut self, event: Event) -> ScreenRequest {
         let Event::Key(key) = event else { return ScreenRequest::Nothing };
         if key.kind == KeyEventKind::Release {
@@ -48,7 +49,7 @@ impl Screen for LessonScreen<'_> {
             (KeyCode::Char('l'), true) => return ScreenRequest::Repaint,
             _ => {}
         }
-        match self.lesson.press(key) {
+        match self.lesson.borrow_mut().press(key) {
             Pressed::Leave => ScreenRequest::Quit,
             Pressed::Taken => ScreenRequest::Nothing,
         }
@@ -58,7 +59,7 @@ impl Screen for LessonScreen<'_> {
         if self.mistake.is_some() {
             return false;
         }
-        match self.lesson.advance(elapsed.min(LONGEST).as_micros() as u64) {
+        match self.lesson.borrow_mut().advance(elapsed.min(LONGEST).as_micros() as u64) {
             Ok(changed) => changed,
             Err(mistake) => {
                 self.mistake = Some(mistake);
@@ -68,12 +69,12 @@ impl Screen for LessonScreen<'_> {
     }
 
     fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position> {
-        self.lesson.draw(&self.look.reduced(self.detail), area, buffer);
+        self.lesson.borrow_mut().draw(&self.look.reduced(self.detail), area, buffer);
         None
     }
 
     fn is_typing(&self) -> bool {
-        self.lesson.is_typing()
+        self.lesson.borrow().is_typing()
     }
 
     fn is_done(&self) -> bool {

@@ -3,6 +3,7 @@
 //! In: inputs and frames from the frame loop. Out: a drawn screen; commands to the worker, loads to the loader,
 //! requests to the frame loop. Never here: what a key does, or how anything looks.
 
+mod guiding;
 mod outputs;
 mod saving;
 
@@ -24,6 +25,7 @@ use super::checker::Checker;
 use super::clipboard;
 use super::files::{self, FileChange, Watch};
 use super::frame_loop::{Pace, Screen, ScreenRequest};
+use super::guided::Guided;
 use super::loader::Loader;
 use super::recorder::Recorder;
 use super::request::Request;
@@ -65,6 +67,8 @@ pub(super) struct Session {
     warning: Option<String>,
     /// The last fault logged.
     fault: Option<String>,
+    /// The lesson or demo that has the screen.
+    guided: Option<Guided>,
     /// The recording under way, if there is one.
     recorder: Option<Recorder>,
     /// What draws the screen, and keeps what does not change.
@@ -140,6 +144,7 @@ impl Session {
             sides: HashMap::new(),
             warning: None,
             fault: None,
+            guided: None,
             recorder: None,
             painter: Painter::default(),
             still: Duration::ZERO,
@@ -148,6 +153,7 @@ impl Session {
             clipboard: None,
             left: None,
         };
+        session.find_guides();
         session.perform(effects);
         Ok(session)
     }
@@ -218,6 +224,7 @@ impl Session {
                 Effect::Copy { what, text, ending } => self.copy(what, text, ending),
                 Effect::Record(true) => self.record(),
                 Effect::Record(false) => self.end_recording(),
+                Effect::TakeGuide(guide) => self.take_guide(&guide),
                 Effect::Suspend => request = ScreenRequest::Suspend,
                 Effect::Quit if self.may_end() => return ScreenRequest::Quit,
                 Effect::Quit => {}
@@ -349,6 +356,10 @@ fn with_shift(mouse: MouseEvent) -> MouseEventKind {
 
 impl Screen for Session {
     fn input(&mut self, event: TerminalEvent) -> ScreenRequest {
+        if let Some(guided) = &mut self.guided {
+            let request = guided.input(event);
+            return self.asked_by_guide(request);
+        }
         let event = match event {
             TerminalEvent::Key(key) => Event::Key(key),
             TerminalEvent::Paste(text) => Event::Paste(text),
@@ -381,12 +392,16 @@ impl Screen for Session {
             || self.writer.is_busy()
             || self.sides.values().any(Side::is_busy);
         let editing = matches!(app.overlay, Some(Overlay::Workbench));
-        let rests = self.still >= SETTLED && paused && !awaited && !editing;
+        let rests =
+            self.still >= SETTLED && paused && !awaited && !editing && self.guided.is_none();
         rests.then_some(if self.watch.is_some() { WATCHING } else { RESTING })
     }
 
     /// The passing of time changes nothing visible by itself, except that a notification disappears.
     fn advance(&mut self, elapsed: Duration) -> bool {
+        if let Some(guided) = &mut self.guided {
+            return guided.advance(elapsed);
+        }
         self.report_faults();
         self.save_periodically(elapsed);
         let noticed = self.app.notice.is_some();
@@ -424,6 +439,9 @@ impl Screen for Session {
     }
 
     fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position> {
+        if let Some(guided) = &mut self.guided {
+            return guided.draw(area, buffer);
+        }
         let reduced = (self.detail != Detail::default()).then(|| self.look.reduced(self.detail));
         let look = reduced.as_ref().unwrap_or(&self.look);
         let drawn = self.painter.draw(&self.app, look, area, buffer);
@@ -438,6 +456,9 @@ impl Screen for Session {
     }
 
     fn is_typing(&self) -> bool {
+        if let Some(guided) = &self.guided {
+            return guided.is_typing();
+        }
         self.app.is_typing()
     }
 
@@ -449,6 +470,7 @@ impl Screen for Session {
         if self.left.is_some() {
             return;
         }
+        self.leave_guide();
         // A working thread would use up the time that is left.
         self.loader.stop();
         self.checker.stop();
@@ -472,6 +494,9 @@ impl Screen for Session {
 
     fn reduce(&mut self, detail: Detail) {
         info!("the line to the terminal is slow or fast again: {detail:?}");
+        if let Some(guided) = &mut self.guided {
+            guided.reduce(detail);
+        }
         self.detail = detail;
     }
 }

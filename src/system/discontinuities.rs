@@ -179,9 +179,9 @@ impl EventFunctions {
     }
 
     /// Expands the functions along a step whose series is known, about a time `x` after the series'
-    /// origin, in its unit. Returns how far beyond it the expansions represent the functions up to
-    /// a part `cut_off` of their size, or `None` if there are none.
-    pub fn expand(&mut self, series: &Series, x: f64, cut_off: f64) -> Option<f64> {
+    /// origin, in its unit. Returns how far beyond it, up to `whole`, the expansions represent the
+    /// functions up to a part `cut_off` of their size, or `None` if there are none.
+    pub fn expand(&mut self, series: &Series, x: f64, (cut_off, whole): (f64, f64)) -> Option<f64> {
         let order = series.order();
         let (system, parameters) = (&self.system, &self.parameters);
         let expansion = self.expansion.take().filter(|known| known.order() == order);
@@ -196,12 +196,12 @@ impl EventFunctions {
         if !expansion.about(series, x) {
             return None;
         }
-        Some(expansion.reach(cut_off)).filter(|reach| !reach.is_nan())
+        Some(expansion.reach(cut_off, whole)).filter(|reach| !reach.is_nan())
     }
 
     /// The coefficients of an event's function from the last [expansion](EventFunctions::expand).
     pub fn expanded(&self, event: usize) -> Vec<f64> {
-        self.expansion.iter().flat_map(|known| known.function(event)).collect()
+        self.expansion.as_ref().map_or_else(Vec::new, |known| known.function(event).to_vec())
     }
 
     /// The coefficients of the switches of the expanded functions.

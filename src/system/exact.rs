@@ -45,6 +45,11 @@ impl ExactRates {
         })
     }
 
+    /// The number of coordinates and rates, or of variables.
+    pub fn moving(&self) -> usize {
+        self.system.moving()
+    }
+
     /// Whether any rate depends explicitly on time.
     pub fn depends_on_time(&self) -> bool {
         self.program.depends_on_time()

@@ -56,6 +56,8 @@ pub(super) struct Expansion {
     /// The number of outputs that are functions of events; the others are arguments.
     functions: usize,
     outputs: usize,
+    /// Whether the functions read each input.
+    read: Vec<bool>,
     /// A series of the motion shifted to another time.
     moved: Vec<f64>,
 }
@@ -70,6 +72,7 @@ impl Expansion {
         Expansion {
             system: system.clone(),
             outputs: program.outputs(),
+            read: program.inputs_read(),
             jet: Jet::new(program, order),
             functions,
             moved: vec![0.0; order + 1],
@@ -120,6 +123,9 @@ impl Expansion {
 
     /// Expands Σ cₖ (x + y)ᵏ in powers of y, by repeated division.
     fn take_in_one(&mut self, place: usize, coefficients: &[f64], x: f64) {
+        if !self.read[place] {
+            return;
+        }
         let order = self.order();
         self.moved.copy_from_slice(&coefficients[..=order]);
         if x != 0.0 {
@@ -135,14 +141,13 @@ impl Expansion {
     }
 
     fn grow(&mut self, time: f64, unit: f64) -> bool {
-        let order = self.order();
-        (0..=order).all(|k| self.jet.advance(k, time, unit).is_ok())
-            && (0..self.outputs).all(|i| (0..=order).all(|k| self.jet.output(i, k).is_finite()))
+        self.jet.advance_to(self.order(), time, unit).is_ok()
+            && (0..self.outputs).all(|i| self.jet.output_series(i).iter().all(|c| c.is_finite()))
     }
 
     /// The coefficients of an event's function.
-    pub(super) fn function(&self, event: usize) -> impl Iterator<Item = f64> + '_ {
-        (0..=self.order()).map(move |k| self.jet.output(event, k))
+    pub(super) fn function(&self, event: usize) -> &[f64] {
+        self.jet.output_series(event)
     }
 
     /// The series of the switches: beyond a zero of one, other branches of the functions apply.
@@ -150,18 +155,24 @@ impl Expansion {
         (0..self.jet.switches()).map(|i| self.jet.switch(i))
     }
 
-    /// How far the series represent their functions up to a part `cut_off` of them, in their unit;
-    /// infinite for polynomials.
-    pub(super) fn reach(&self, cut_off: f64) -> f64 {
-        let mut series = vec![0.0; self.order() + 1];
-        let mut reach = f64::INFINITY;
-        for i in 0..self.outputs {
-            series.iter_mut().enumerate().for_each(|(k, c)| *c = self.jet.output(i, k));
-            let own = if i < self.functions { validity(&series, cut_off) } else { moving(&series) };
-            // a NaN must not be lost
-            reach = if own < reach || own.is_nan() { own } else { reach };
+    /// How far the series represent their functions up to a part `cut_off` of them, in their unit,
+    /// looked at no farther than `whole`.
+    pub(super) fn reach(&self, cut_off: f64, whole: f64) -> f64 {
+        // mostly they do so all the way, which takes no root to see
+        let (functions, arguments) = (0..self.functions, self.functions..self.outputs);
+        let series = |i: usize| self.jet.output_series(i);
+        if functions.clone().all(|i| is_valid(series(i), cut_off, whole))
+            && arguments.clone().all(|i| stays(series(i), whole))
+            && self.switches().all(|c| is_valid(c, cut_off, whole))
+        {
+            return whole;
         }
-        self.switches().map(|c| validity(c, cut_off)).fold(reach, f64::min)
+        let functions = functions.map(|i| validity(series(i), cut_off));
+        let arguments = arguments.map(|i| moving(series(i)));
+        let switches = self.switches().map(|c| validity(c, cut_off));
+        // a NaN must not be lost
+        let least = |reach: f64, own: f64| if own < reach || own.is_nan() { own } else { reach };
+        functions.chain(arguments).chain(switches).fold(whole, least)
     }
 }
 
@@ -171,6 +182,18 @@ pub(super) fn side(c: &[f64]) -> Side {
         Some(x) if *x < 0.0 => Side::Negative,
         _ => Side::Positive,
     }
+}
+
+/// Whether a truncated series represents its function up to a time, in its own unit: [`validity`]
+/// without its roots.
+fn is_valid(c: &[f64], cut_off: f64, time: f64) -> bool {
+    (c.len() - LAST..c.len()).filter(|&k| c[k] != 0.0).all(|k| {
+        let mut term = c[k].abs();
+        (0..k).rev().any(|j| {
+            term *= time;
+            cut_off * c[j].abs() >= term
+        })
+    })
 }
 
 /// How far a truncated series represents its function, in its own unit.
@@ -189,12 +212,24 @@ fn validity(c: &[f64], cut_off: f64) -> f64 {
     length
 }
 
+/// How far the argument of an exponential may change.
+fn bound(c: &[f64]) -> f64 {
+    0.5 * FARTHEST_ARGUMENT.max(PART_OF_ARGUMENT * c[0].abs())
+}
+
 /// How far the argument of an exponential stays in one range of its values.
 fn moving(c: &[f64]) -> f64 {
-    let bound = FARTHEST_ARGUMENT.max(PART_OF_ARGUMENT * c[0].abs());
+    let bound = bound(c);
     let terms = c.iter().enumerate().skip(1).filter(|(_, x)| **x != 0.0);
-    let reach = terms.map(|(k, x)| math::powf(0.5 * bound / x.abs(), 1.0 / k as f64));
+    let reach = terms.map(|(k, x)| math::powf(bound / x.abs(), 1.0 / k as f64));
     reach.fold(f64::INFINITY, f64::min)
+}
+
+/// Whether it stays there up to a time: [`moving`] without its roots.
+fn stays(c: &[f64], time: f64) -> bool {
+    let bound = bound(c);
+    let powers = std::iter::successors(Some(time), |power| Some(power * time));
+    c[1..].iter().zip(powers).all(|(x, power)| x.abs() * power <= bound)
 }
 
 #[cfg(test)]
@@ -224,6 +259,22 @@ mod tests {
         let mut line = [0.0; ORDER + 1];
         (line[0], line[1]) = (-5.0, 1.0);
         assert_eq!(validity(&line, CUT_OFF), f64::INFINITY);
+    }
+
+    #[test]
+    fn a_look_without_roots_agrees_with_the_length_itself() {
+        let sine: [f64; ORDER + 1] = std::array::from_fn(|k| {
+            [0.0, 1.0, 0.0, -1.0][k % 4] * math::powi(3.0, k as i32) / factorial(k)
+        });
+        let pole: [f64; ORDER + 1] = std::array::from_fn(|k| math::powi(-7.0, k as i32));
+        for c in [sine, pole] {
+            let length = validity(&c, CUT_OFF);
+            assert!(
+                is_valid(&c, CUT_OFF, 0.999 * length) && !is_valid(&c, CUT_OFF, 1.001 * length)
+            );
+            let length = moving(&c);
+            assert!(stays(&c, 0.999 * length) && !stays(&c, 1.001 * length));
+        }
     }
 
     #[test]

@@ -120,12 +120,13 @@ impl<R: Real> SeriesBuilder<R> {
     #[inline(always)]
     fn extend_with<const FUSED: bool>(&mut self, k: usize, clock: Clock) -> Result<(), Singular> {
         let stride = self.order + 1;
-        for i in 0..self.inputs {
-            self.jet.set_input(i, k, self.state[i * stride + k]);
+        let state = &mut self.state[..];
+        for (i, series) in state.chunks_exact(stride).take(self.inputs).enumerate() {
+            self.jet.set_input(i, k, series[k]);
         }
         self.jet.advance_with::<FUSED>(k, R::of(clock.time), clock.scale)?;
-        for i in 0..self.len() {
-            self.state[i * stride + k + 1] = self.jet.output(i, k).scaled(clock.scale).over(k + 1);
+        for (i, series) in state.chunks_exact_mut(stride).enumerate() {
+            series[k + 1] = self.jet.output(i, k).scaled(clock.scale).over(k + 1);
         }
         Ok(())
     }

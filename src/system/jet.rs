@@ -52,8 +52,8 @@ struct Tables<R> {
     /// All registers at order 0, and at the present order.
     values: Vec<R>,
     now: Vec<R>,
-    /// The factors of the program's sums.
-    factors: Vec<R>,
+    /// The terms of the program's sums.
+    terms: Vec<(Register, R)>,
     blocks: Vec<Factored<R>>,
     right: Vec<R>,
     sides: Vec<Side>,
@@ -91,7 +91,11 @@ impl<R: Real> Jet<R> {
             products: vec![R::ZERO; schedule.pairs.len()],
             values: vec![R::ZERO; registers],
             now: vec![R::ZERO; registers],
-            factors: program.terms.iter().map(|term| R::of(term.coefficient)).collect(),
+            terms: program
+                .terms
+                .iter()
+                .map(|term| (term.register, R::of(term.coefficient)))
+                .collect(),
             blocks,
             right: vec![R::ZERO; widest],
             sides: vec![Side::Positive; program.switches.len()],
@@ -165,6 +169,17 @@ impl<R: Real> Jet<R> {
         tables.finish::<FUSED>(program, schedule, k, rate);
         tables.mirror(schedule, k);
         Ok(())
+    }
+
+    /// Evaluates all orders up to one, at a time that advances in units of `scale`. The inputs'
+    /// coefficients must have been set.
+    pub(super) fn advance_to(&mut self, last: usize, time: R, scale: f64) -> Result<(), Singular> {
+        vectorized(AdvanceTo { jet: self, last, time, scale })
+    }
+
+    /// The series of an output.
+    pub(super) fn output_series(&self, i: usize) -> &[R] {
+        self.series(self.program.outputs[i])
     }
 
     /// A coefficient of an output.
@@ -245,6 +260,23 @@ impl<R: Real> Kernel for Advance<'_, R> {
     }
 }
 
+/// All orders of a jet whose inputs are known.
+struct AdvanceTo<'a, R> {
+    jet: &'a mut Jet<R>,
+    last: usize,
+    time: R,
+    scale: f64,
+}
+
+impl<R: Real> Kernel for AdvanceTo<'_, R> {
+    type Output = Result<(), Singular>;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> Result<(), Singular> {
+        (0..=self.last).try_for_each(|k| self.jet.advance_with::<FUSED>(k, self.time, self.scale))
+    }
+}
+
 impl<R: Real> Tables<R> {
     /// Computes all inner products of order `k`.
     #[inline(always)]
@@ -307,19 +339,47 @@ impl<R: Real> Tables<R> {
         k: usize,
         rate: R,
     ) {
+        let (stride, forward) = (self.stride, &self.forward[..]);
+        let now = &mut self.now[..];
         for &r in &program.inputs {
-            self.now[r as usize] = self.forward[r as usize * self.stride + k];
+            now[r as usize] = forward[r as usize * stride + k];
         }
-        for &step in &schedule.steps {
-            let (values, now, products) = (&self.values, &self.now, &self.products);
-            let at = |r: Register| r as usize;
+        let mut steps = schedule.steps.iter();
+        while let Some(step) = self.finish_plainly::<FUSED>(schedule, &mut steps, k, rate) {
+            match step {
+                Step::Solve { register, block, product } => {
+                    self.solve(program, (register, block as usize, product as usize), k);
+                }
+                Step::Alone(register) => {
+                    self.now[register as usize] = self.alone(program, register, k);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Finishes the operations that are a formula each, up to the first that is not, which is
+    /// returned.
+    #[inline(always)]
+    fn finish_plainly<const FUSED: bool>(
+        &mut self,
+        schedule: &Schedule,
+        steps: &mut std::slice::Iter<'_, Step>,
+        k: usize,
+        rate: R,
+    ) -> Option<Step> {
+        // as slices, whose places need not be looked up again after each number that is stored
+        let (stride, forward) = (self.stride, &mut self.forward[..]);
+        let (values, now) = (&self.values[..], &mut self.now[..]);
+        let (products, terms) = (&self.products[..], &self.terms[..]);
+        let at = |r: Register| r as usize;
+        for &step in steps {
             let (register, x) = match step {
                 Step::Time(register) => (register, rate),
                 Step::Linear { register, first, count } => {
-                    let range = first as usize..(first + count) as usize;
-                    let terms = program.terms[range.clone()].iter().zip(&self.factors[range]);
-                    let sum = terms.fold(R::ZERO, |sum, (term, &factor)| {
-                        sum + now[at(term.register)].times::<FUSED>(factor)
+                    let terms = &terms[first as usize..(first + count) as usize];
+                    let sum = terms.iter().fold(R::ZERO, |sum, &(term, factor)| {
+                        sum + now[at(term)].times::<FUSED>(factor)
                     });
                     (register, sum)
                 }
@@ -335,66 +395,25 @@ impl<R: Real> Tables<R> {
                     let ends = values[at(of)].times::<FUSED>(now[at(of)]);
                     (register, products[at(product)] + (ends + ends))
                 }
-                Step::Relation { register, relation } => (
-                    register,
-                    self.relation::<FUSED>(schedule, &schedule.relations[at(relation)], k),
-                ),
-                Step::Solve { register, block, product } => {
-                    self.solve(program, (register, block as usize, at(product)), k);
-                    continue;
+                Step::Relation { register, relation } => {
+                    let relation = &schedule.relations[at(relation)];
+                    let vanishes = |a: Register| {
+                        values[at(a)].value() == 0.0
+                            && vanishes(&forward[at(a) * stride..][..stride], k)
+                    };
+                    let x = if relation.vanishing.is_some_and(vanishes) {
+                        R::ZERO
+                    } else {
+                        related::<R, FUSED>(schedule, relation, (values, now, products), k)
+                    };
+                    (register, x)
                 }
-                Step::Alone(register) => (register, self.alone(program, register, k)),
+                Step::Solve { .. } | Step::Alone(_) => return Some(step),
             };
-            self.now[register as usize] = x;
-            self.forward[register as usize * self.stride + k] = x;
+            now[at(register)] = x;
+            forward[at(register) * stride + k] = x;
         }
-    }
-
-    /// The coefficient of order `k` that follows from a relation.
-    #[inline(always)]
-    fn relation<const FUSED: bool>(&self, schedule: &Schedule, relation: &Relation, k: usize) -> R {
-        let (values, now) = (&self.values, &self.now);
-        let at = |r: Register| r as usize;
-        let times = |factor: Factor, x: R| match factor {
-            Factor::Plus => x,
-            Factor::Minus => -x,
-            Factor::Times(factor) => x.times::<FUSED>(R::of(factor)),
-        };
-        let mut sum = match relation.direct {
-            Direct::None => R::ZERO,
-            Direct::Coefficient(a) => now[at(a)],
-            Direct::Slope(factor, a) => times(factor, now[at(a)] * k as f64),
-        };
-        let range = relation.first as usize..(relation.first + relation.count) as usize;
-        for summand in &schedule.summands[range] {
-            let product = summand.product.map_or(R::ZERO, |i| self.products[i as usize]);
-            let whole = match summand.ends {
-                Ends::None => product,
-                Ends::Last(a, b) => product + now[at(a)].times::<FUSED>(values[at(b)]),
-                Ends::LastSlope(a, b) => {
-                    product + now[at(a)].times::<FUSED>(values[at(b)]) * k as f64
-                }
-                Ends::Both(a, b) => {
-                    product
-                        + (values[at(a)].times::<FUSED>(now[at(b)])
-                            + now[at(a)].times::<FUSED>(values[at(b)]))
-                }
-            };
-            sum = sum + times(summand.factor, whole);
-        }
-        if let Some(a) = relation.vanishing
-            && values[at(a)].value() == 0.0
-            && vanishes(&self.forward[at(a) * self.stride..][..self.stride], k)
-        {
-            return R::ZERO;
-        }
-        match relation.denominator {
-            Denominator::One => sum,
-            Denominator::Order => sum.over(k),
-            Denominator::Value(a) => sum / values[at(a)],
-            Denominator::OrderTimes(a) => (sum / values[at(a)]).over(k),
-            Denominator::Twice(a) => sum / (values[at(a)] * 2.0),
-        }
+        None
     }
 
     /// `M_0 a_k = f_k − Σ_{j≥1} M_j a_{k−j}`.
@@ -466,12 +485,13 @@ impl<R: Real> Tables<R> {
     #[inline(always)]
     fn mirror(&mut self, schedule: &Schedule, k: usize) {
         let (stride, registers) = (self.stride, self.values.len());
+        let (forward, reversed) = (&mut self.forward[..], &mut self.reversed[..]);
         for (slot, &r) in schedule.reversed.iter().enumerate() {
-            self.reversed[slot * stride + stride - 1 - k] = self.forward[r as usize * stride + k];
+            reversed[slot * stride + stride - 1 - k] = forward[r as usize * stride + k];
         }
         for (slot, &r) in schedule.slopes.iter().enumerate() {
-            let slope = self.forward[r as usize * stride + k] * k as f64;
-            self.forward[(registers + slot) * stride + k] = slope;
+            let slope = forward[r as usize * stride + k] * k as f64;
+            forward[(registers + slot) * stride + k] = slope;
         }
     }
 
@@ -480,5 +500,49 @@ impl<R: Real> Tables<R> {
         let n = block.size();
         let entry = |i, j| self.values[block.matrix[i * n + j] as usize];
         if self.blocks[at].factor(entry) { Ok(()) } else { Err(Singular { block: at as u32 }) }
+    }
+}
+
+/// The coefficient of order `k` that follows from a relation, from all registers at order 0, those
+/// at order k that are known, and the inner products.
+#[inline(always)]
+fn related<R: Real, const FUSED: bool>(
+    schedule: &Schedule,
+    relation: &Relation,
+    (values, now, products): (&[R], &[R], &[R]),
+    k: usize,
+) -> R {
+    let at = |r: Register| r as usize;
+    let times = |factor: Factor, x: R| match factor {
+        Factor::Plus => x,
+        Factor::Minus => -x,
+        Factor::Times(factor) => x.times::<FUSED>(R::of(factor)),
+    };
+    let mut sum = match relation.direct {
+        Direct::None => R::ZERO,
+        Direct::Coefficient(a) => now[at(a)],
+        Direct::Slope(factor, a) => times(factor, now[at(a)] * k as f64),
+    };
+    let range = relation.first as usize..(relation.first + relation.count) as usize;
+    for summand in &schedule.summands[range] {
+        let product = summand.product.map_or(R::ZERO, |i| products[i as usize]);
+        let whole = match summand.ends {
+            Ends::None => product,
+            Ends::Last(a, b) => product + now[at(a)].times::<FUSED>(values[at(b)]),
+            Ends::LastSlope(a, b) => product + now[at(a)].times::<FUSED>(values[at(b)]) * k as f64,
+            Ends::Both(a, b) => {
+                product
+                    + (values[at(a)].times::<FUSED>(now[at(b)])
+                        + now[at(a)].times::<FUSED>(values[at(b)]))
+            }
+        };
+        sum = sum + times(summand.factor, whole);
+    }
+    match relation.denominator {
+        Denominator::One => sum,
+        Denominator::Order => sum.over(k),
+        Denominator::Value(a) => sum / values[at(a)],
+        Denominator::OrderTimes(a) => (sum / values[at(a)]).over(k),
+        Denominator::Twice(a) => sum / (values[at(a)] * 2.0),
     }
 }

@@ -195,9 +195,11 @@ impl<'a> Lowering<'a> {
             return Err(symbol);
         }
         self.program.outputs = outputs;
+        let live = self.program.live();
         for (r, op) in self.program.ops.iter().enumerate() {
             match (op, self.program.fixed[r]) {
                 (Op::Written | Op::Input(_), _) => {}
+                _ if !live[r] => {}
                 (_, true) => self.program.prologue.push(r as u32),
                 (_, false) => self.program.body.push(r as u32),
             }

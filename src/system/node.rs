@@ -8,6 +8,10 @@ use super::program::{Op, PARAMETRIC_POWER_BITS, Register};
 use crate::expr::{Branches, Expr, FunctionId, Node, Pool, Rule};
 use crate::num::{DoubleDouble, Number};
 
+/// A product of this degree may, at a zero of its factors and multiplied by others, have its first term
+/// beyond the order of a series, which is twelve at least.
+const STEEP: i64 = 8;
+
 impl Lowering<'_> {
     pub(super) fn lower_node(&mut self, e: Expr) -> Register {
         match self.pool.node(e).clone() {
@@ -37,6 +41,11 @@ impl Lowering<'_> {
         if let Some(opened) = self.open_squares(coefficient, factors) {
             return self.lower(opened);
         }
+        let degree = |&(base, exponent): &(Expr, Number)| {
+            exponent.as_integer().filter(|&n| n > 0 && !self.is_fixed(self.known[&base]))
+        };
+        let degree = factors.iter().filter_map(degree).fold(0_i64, i64::saturating_add);
+        self.program.steep |= degree >= STEEP;
         // [fixed numerator, fixed denominator, varying numerator, varying denominator]
         let mut parts: [Option<Register>; 4] = [None; 4];
         for &(base, exponent) in factors {
@@ -140,6 +149,7 @@ impl Lowering<'_> {
     fn lower_power(&mut self, base: Register, exponent: Register) -> Register {
         if self.is_fixed(exponent) {
             let register = self.push(Op::ParametricPower(base, exponent));
+            self.program.steep = true;
             self.make_room(register, 2 * PARAMETRIC_POWER_BITS);
             return register;
         }

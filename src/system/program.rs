@@ -105,6 +105,8 @@ pub struct Program {
     pub(super) switches: Vec<Register>,
     /// The functions whose branch must be checked.
     pub(super) guards: Vec<Guard>,
+    /// Whether there is a power so high that a series may end before its first term.
+    pub(super) steep: bool,
     pub(super) inputs: Vec<Register>,
     pub(super) outputs: Vec<Register>,
 }
@@ -172,29 +174,59 @@ impl Program {
     pub(super) fn depends_on_time(&self) -> bool {
         let mut timed = vec![false; self.ops.len()];
         for r in 0..self.ops.len() {
-            let on = |list: &[Register]| list.iter().any(|&r| timed[r as usize]);
-            timed[r] = match self.ops[r] {
-                Op::Time => true,
-                Op::Constant(_) | Op::Parameter(_) | Op::Input(_) => false,
-                Op::Linear { first, count, .. } => self.terms
-                    [first as usize..(first + count) as usize]
-                    .iter()
-                    .any(|term| timed[term.register as usize]),
-                Op::Scale(a, b)
-                | Op::Multiply(a, b)
-                | Op::Divide(a, b)
-                | Op::ParametricPower(a, b) => on(&[a, b]),
-                Op::Square(a) | Op::Root(a) | Op::Power(a, _) => on(&[a]),
-                Op::Call(_, arguments) => on(&arguments),
-                Op::Select { switch, positive, negative, .. } => on(&[switch, positive, negative]),
-                Op::Solve(block) => {
-                    let block = &self.blocks[block as usize];
-                    on(&block.matrix) || on(&block.right)
-                }
-                Op::Written => timed[r - 1],
-            };
+            let mut own = self.ops[r] == Op::Time;
+            self.each_operand(r as Register, &mut |operand| own |= timed[operand as usize]);
+            timed[r] = own;
         }
         self.outputs.iter().any(|&r| timed[r as usize])
+    }
+
+    /// Whether an output or a switch depends on each operation; the others need not be evaluated.
+    pub(super) fn live(&self) -> Vec<bool> {
+        let mut live = vec![false; self.ops.len()];
+        self.outputs.iter().chain(&self.switches).for_each(|&r| live[r as usize] = true);
+        for r in (0..self.ops.len()).rev() {
+            if live[r] {
+                self.each_operand(r as Register, &mut |operand| live[operand as usize] = true);
+            }
+        }
+        live
+    }
+
+    /// Whether each input is read by an operation or is an output itself.
+    pub(super) fn inputs_read(&self) -> Vec<bool> {
+        let mut read = vec![false; self.ops.len()];
+        for &r in self.body.iter().chain(&self.prologue) {
+            self.each_operand(r, &mut |operand| read[operand as usize] = true);
+        }
+        self.outputs.iter().chain(&self.switches).for_each(|&r| read[r as usize] = true);
+        self.inputs.iter().map(|&r| read[r as usize]).collect()
+    }
+
+    /// Calls `visit` on each register that an operation reads.
+    fn each_operand(&self, register: Register, visit: &mut dyn FnMut(Register)) {
+        let mut all = |list: &[Register]| list.iter().for_each(|&r| visit(r));
+        match self.ops[register as usize] {
+            Op::Time | Op::Constant(_) | Op::Parameter(_) | Op::Input(_) => {}
+            Op::Linear { first, count, .. } => {
+                let terms = &self.terms[first as usize..(first + count) as usize];
+                for term in terms {
+                    all(&[term.register]);
+                }
+            }
+            Op::Scale(a, b) | Op::Multiply(a, b) | Op::Divide(a, b) | Op::ParametricPower(a, b) => {
+                all(&[a, b]);
+            }
+            Op::Square(a) | Op::Root(a) | Op::Power(a, _) => all(&[a]),
+            Op::Call(_, arguments) => all(&arguments),
+            Op::Select { switch, positive, negative, .. } => all(&[switch, positive, negative]),
+            Op::Solve(block) => {
+                let block = &self.blocks[block as usize];
+                all(&block.matrix);
+                all(&block.right);
+            }
+            Op::Written => all(&[register - 1]),
+        }
     }
 
     /// Whether it has no operations.

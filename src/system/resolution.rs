@@ -82,7 +82,7 @@ impl Resolution {
         if !built || !self.expansion.about(&self.series, 0.0) {
             return Attempt::NotFinite;
         }
-        let length = self.expansion.reach(CUT_OFF);
+        let length = self.expansion.reach(CUT_OFF, f64::INFINITY);
         if length.is_nan() {
             return Attempt::NotFinite;
         }

@@ -48,7 +48,7 @@ impl System {
             high: SeriesBuilder::new(high, inputs, len),
             wide: None,
             parameters: Vec::new(),
-            underflow_may_count: underflow::may_count(program, &[]),
+            underflow_may_count: underflow::may_count(program, &[], |_| 0.0),
             origin: vec![DoubleDouble::ZERO; len],
             time: DoubleDouble::ZERO,
             scale: 1.0,
@@ -67,7 +67,8 @@ impl Series {
         self.wide = None;
         self.parameters = parameters.to_vec();
         let program = &self.system.motion().native;
-        self.underflow_may_count = underflow::may_count(program, parameters);
+        let value = |r: Register| self.high.jet.series(r)[0];
+        self.underflow_may_count = underflow::may_count(program, parameters, value);
     }
 
     /// The highest order.
@@ -222,6 +223,11 @@ impl Series {
     pub fn switch_after(&self, i: usize, x: DoubleDouble) -> DoubleDouble {
         let exact = self.low.as_ref().map_or(&[][..], |low| &low.jet.switch(i)[..low.order]);
         polynomial(exact, &self.switch(i)[exact.len()..], x)
+    }
+
+    /// Whether the law has powers so high that the series may end before their first term.
+    pub fn is_steep(&self) -> bool {
+        self.system.motion().native.steep
     }
 
     /// The number of functions whose branch a motion may leave.

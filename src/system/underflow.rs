@@ -13,22 +13,35 @@ const LEAST: f64 = 1.8e-276;
 /// Numbers of a program up to this size, or its inverse, cannot make what is below [`LEAST`] count.
 const ORDINARY: f64 = 1e100;
 
-/// Whether underflow may count in a program with these parameters.
-pub(super) fn may_count(program: &Program, parameters: &[DoubleDouble]) -> bool {
-    let extreme = |x: &DoubleDouble| {
-        let size = x.high.abs();
-        size > ORDINARY || (size != 0.0 && size < 1.0 / ORDINARY)
-    };
+/// Whether underflow may count in a program with these parameters, from which the values of what
+/// depends on them alone follow: powers of ordinary parameters may be as large or small as numbers
+/// get.
+pub(super) fn may_count(
+    program: &Program,
+    parameters: &[DoubleDouble],
+    value: impl Fn(Register) -> f64,
+) -> bool {
+    let extreme = |size: f64| size > ORDINARY || (size != 0.0 && size < 1.0 / ORDINARY);
     let coefficients = program.terms.iter().map(|term| &term.coefficient);
-    program.constants.iter().chain(coefficients).chain(parameters).any(extreme)
+    let numbers = program.constants.iter().chain(coefficients).chain(parameters);
+    numbers.map(|x| x.high.abs()).any(extreme)
+        || program.prologue.iter().any(|&r| extreme(value(r).abs()))
+        || occurred_in(&program.prologue, program, &value)
 }
 
 /// Whether an operation on numbers other than zero has a value below [`LEAST`].
 pub(super) fn occurred(program: &Program, value: impl Fn(Register) -> f64) -> bool {
+    occurred_in(&program.prologue, program, &value) || occurred_in(&program.body, program, &value)
+}
+
+fn occurred_in(
+    operations: &[Register],
+    program: &Program,
+    value: &impl Fn(Register) -> f64,
+) -> bool {
     let is_small = |r: Register| value(r).abs() < LEAST;
     let is_zero = |r: &Register| value(*r) == 0.0;
-    let mut all = program.prologue.iter().chain(&program.body);
-    all.any(|&r| match program.ops[r as usize] {
+    operations.iter().any(|&r| match program.ops[r as usize] {
         Op::Scale(a, b) | Op::Multiply(a, b) => is_small(r) && ![a, b].iter().any(is_zero),
         Op::Divide(a, _) | Op::Square(a) | Op::Power(a, _) | Op::ParametricPower(a, _) => {
             is_small(r) && !is_zero(&a)

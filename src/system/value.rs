@@ -33,7 +33,7 @@ impl<R: Real> Evaluator<R> {
         let registers = vec![R::ZERO; program.ops.len()];
         let right = vec![R::ZERO; widest];
         let parameters = Vec::new();
-        let underflow_may_count = underflow::may_count(&program, &parameters);
+        let underflow_may_count = underflow::may_count(&program, &parameters, |_| 0.0);
         Evaluator { program, registers, blocks, right, parameters, underflow_may_count, wide: None }
     }
 
@@ -41,7 +41,6 @@ impl<R: Real> Evaluator<R> {
     pub fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
         self.parameters.clear();
         self.parameters.extend_from_slice(parameters);
-        self.underflow_may_count = underflow::may_count(&self.program, parameters);
         self.wide = None;
         for &r in &self.program.prologue {
             match self.program.ops[r as usize] {
@@ -49,6 +48,8 @@ impl<R: Real> Evaluator<R> {
                 op => run(&self.program, &mut self.registers, r, op),
             }
         }
+        let value = |r: Register| self.registers[r as usize].value();
+        self.underflow_may_count = underflow::may_count(&self.program, parameters, value);
     }
 
     /// Evaluates at a time and inputs.

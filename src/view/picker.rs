@@ -41,14 +41,19 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     let (left, right) = split_columns(area, (area.width * 2 / 5).clamp(LIST.0, LIST.1));
     list(canvas, left, &app.picker);
     let Some(entry) = app.picker.current() else {
-        let own = app.picker.selected_above() == Some(Above::NewSystem);
-        let title = own.then(|| canvas.span(Role::Title, "New system"));
+        let title = match app.picker.selected_above() {
+            Some(Above::Guides) => Some("Lessons and demos"),
+            Some(Above::NewSystem) => Some("New system"),
+            Some(Above::Session) | None => None,
+        };
+        let title = title.map(|title| canvas.span(Role::Title, title));
         let inner = canvas.pane(right, title.as_slice(), false);
         let sentence = match app.picker.selected_above() {
             Some(Above::Session) => {
                 let open = app.picker.session().map_or("it", |session| session.open.as_str());
                 format!("Enter takes up {open} where you left it.")
             }
+            Some(Above::Guides) => guided(app),
             Some(Above::NewSystem) => "Enter opens the editor with a small system to begin from: change its \
                  Lagrangian, and the motion runs beside it as soon as there is no mistake. Nothing is written until you \
                  save it."
@@ -132,6 +137,7 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
                     (Above::Session, Some(session)) => {
                         continuation(canvas, picker, session, field.width.into())
                     }
+                    (Above::Guides, _) => canvas.text("Lessons and demos …"),
                     _ => canvas.text("New system …"),
                 };
                 canvas.left(field, Role::Text, &label);
@@ -154,6 +160,22 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
             }
         }
     }
+}
+
+/// Says what lessons and demos are, and how many of them there are.
+fn guided(app: &App) -> String {
+    let (finished, lessons) = app.lessons_finished();
+    let demos = app.picker.guides.len() - lessons;
+    let progress = match finished {
+        0 => "The first is a tour of three minutes.".to_owned(),
+        1 => "One is finished.".to_owned(),
+        all if all == lessons => "All are finished.".to_owned(),
+        some => format!("{some} are finished."),
+    };
+    format!(
+        "Enter lists {lessons} lessons and {demos} demos. In a lesson you say what you expect before it happens; a demo \
+         is watched. {progress}"
+    )
 }
 
 /// Returns the label of the row of a session: its system, and its time where there is room for it.

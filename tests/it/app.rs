@@ -4,6 +4,7 @@ mod companions;
 mod editor;
 mod equilibria;
 mod flow;
+mod guides;
 mod invariants;
 mod keys;
 mod mend;

@@ -207,3 +207,90 @@ fn a_velocity_beside_a_momentum_gives_one_start() {
         assert!(row.starts_with("0.0,0.0,0.0,1.0,-0.25,"), "{told}");
     }
 }
+
+/// The value of an expression at the end of a motion by the default method, after a tolerance if one is given.
+fn reached(text: &str, tolerance: Option<f64>, time: f64, name: &str) -> f64 {
+    let mut experiment = build(&format!("title = 'a test'\n{text}"), |setup| {
+        setup.settings.tolerance = tolerance;
+    });
+    run(&mut experiment, time);
+    value(&experiment, name)
+}
+
+/// Contacts of fractional power, where a velocity is exactly 0 before and friction acts on it after: its work is next to
+/// nothing at first, and must not be asked for more digits than it has.
+#[test]
+fn friction_on_what_a_contact_sets_in_motion() {
+    for power in ["1.5", "2.5", "3.5"] {
+        let text = format!(
+            "[coordinates]\nu = {{ initial = 0.152 }}\nv = {{ initial = -0.656, velocity = 0.478 }}\n[lagrangian]\n\
+             L = \"1/2*(u'^2 + v'^2) - 0.562*max(0, u + 0.67*v)^{power}\"\ndissipation = \"0.04*u'^2\"\n"
+        );
+        let by_series = reached(&text, None, 2.0, "u");
+        let mut other = by("dop853", None, &text);
+        run(&mut other, 2.0);
+        let off = (by_series - value(&other, "u")).abs();
+        assert!(by_series < 0.1519 && off < 1e-8, "{power}: {by_series}, {off:e}");
+    }
+}
+
+/// A contact far from the origin in plain `f64`, whose digits do not tell the nearest points apart; and one that is met so
+/// fast that steps on the way to it hardly move the clock.
+#[test]
+fn contacts_are_met_where_digits_are_few() {
+    let slow = "[coordinates]\nu = { initial = 0.645, velocity = -1.392 }\n[lagrangian]\nL = \"1/2*(2 + sin(u))*u'^2 - \
+                (12.08*u^2 + 6.64*max(0, u + 0.049)^2.5 + 19.248*abs(u + 0.615) + 2.588*u^4)\"\n";
+    let exactly = reached(slow, None, 1.25, "u");
+    for tolerance in [1e-12, 1e-15] {
+        let off = (reached(slow, Some(tolerance), 1.25, "u") - exactly).abs();
+        assert!(off < 1e3 * tolerance, "{tolerance:e}: {off:e}");
+    }
+    // thrown back by a wall at a speed of some millions, and met again by nothing else: E = ½ v² + far terms
+    let fast = "[coordinates]\nx = { initial = 1.0, velocity = 1.0 }\n[lagrangian]\nL = \"1/2*x'^2 - (3*exp(5*(x + \
+                4.507)) + 1.079*max(0, x)^2.5 + 0.49*x^2)\"\n";
+    let (x, v) = (reached(fast, None, 3.257, "x"), reached(fast, None, 3.257, "x'"));
+    let energy = |x: f64, v: f64| {
+        0.5 * v * v + 3.0 * (5.0 * (x + 4.507)).exp() + 1.079 * x.max(0.0).powf(2.5) + 0.49 * x * x
+    };
+    let (first, last) = (energy(1.0, 1.0), energy(x, v));
+    assert!((last / first - 1.0).abs() < 1e-12, "{first:e} {last:e}");
+}
+
+/// About 0 the series of u⁴⁰ has no term below the fortieth. With E = ½: t = u + u⁴¹/(41 a⁴⁰) up to the square of that.
+#[test]
+fn a_steep_power_is_not_beyond_the_order() {
+    let text = "[coordinates]\nu = { initial = 0.0, velocity = 1.0 }\n[lagrangian]\nL = \"1/2*u'^2 - (u/1.469)^40\"\n";
+    let small = 1.469_f64.powi(-40);
+    let off = reached(text, None, 1.0, "u") - (1.0 - small / 41.0);
+    assert!(off.abs() < 1e-13, "{off:e}");
+    let off = reached(text, None, 1.0, "u'") - (1.0 - small);
+    assert!(off.abs() < 1e-12, "{off:e}");
+    // the product of two such factors, and an exponent that is a parameter
+    let energy =
+        |text: &str| reached(text, None, 3.0, "energy") - reached(text, None, 0.0, "energy");
+    let product = "[coordinates]\nu = { initial = 0.0, velocity = 1.0 }\nv = { initial = 0.0, velocity = 0.9 }\n\
+                   [lagrangian]\nL = \"1/2*(u'^2 + v'^2) - (u/1.3)^20*(v/1.2)^20\"\n";
+    let parametric = "[coordinates]\nu = { initial = 0.0, velocity = 1.0 }\n[parameters]\nn = 36\n[lagrangian]\n\
+                      L = \"1/2*u'^2 - (u^2)^(n/2)\"\n";
+    for text in [product, parametric] {
+        let off = energy(text);
+        assert!(off.abs() < 1e-11, "{off:e} {text}");
+    }
+}
+
+/// Parameters of ordinary size with powers beyond the range of numbers: (x/u)⁴⁰ with u = 10⁻⁸, where 1/u⁴⁰ divides by what
+/// has lost its digits. The gauge saw a drift of 2·10⁻⁶ that was none.
+#[test]
+fn a_power_of_a_parameter_leaves_the_range_and_no_gauge_drifts() {
+    let text = "[coordinates]\nx = { initial = 1e-8, velocity = 8.82e-7 }\n[parameters]\nu = 1e-8\nT = 0.01\nE = 2.5e-10\n\
+                [lagrangian]\nL = \"E*(1/2*(x'*T/u)^2 - 0.911*sin(3*x/u) - (x/u/2.307)^40)\"\n";
+    let mut experiment = file(text);
+    run(&mut experiment, 0.2);
+    let gauge = &experiment.snapshot().gauges[0];
+    assert!(gauge.name == "energy" && gauge.max_drift < 1e-13, "{:e}", gauge.max_drift);
+    // the same with numbers of ordinary size
+    let natural = "[coordinates]\nx = { initial = 1, velocity = 0.882 }\n[lagrangian]\n\
+                   L = \"1/2*x'^2 - 0.911*sin(3*x) - (x/2.307)^40\"\n";
+    let off = value(&experiment, "x") * 1e8 - reached(natural, None, 20.0, "x");
+    assert!(off.abs() < 1e-10, "{off:e}");
+}

@@ -47,7 +47,6 @@ impl<'i> Adiabatic<'i> {
             model.impulses.clear();
             model.events.clear();
             model.observables.clear();
-            model.views.clear();
             model.space.clear();
             model.expect = crate::model::Expect::default();
             let (ramps, parameters) = (ramps.to_vec(), parameters.to_vec());

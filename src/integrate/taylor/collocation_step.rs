@@ -11,7 +11,7 @@
 //! the rates have no limit. Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations
 //! II, IV.5.
 
-use crate::num::{DoubleDouble, Real};
+use crate::num::{DoubleDouble, Real, math};
 use crate::system::{ExactRates, MotionError, MotionErrorKind, State};
 
 /// The part of the wanted step that is tried first, and the factor after each failure.
@@ -32,8 +32,15 @@ const AGREEMENT: f64 = 1e-18;
 const ROUNDS: u32 = 60;
 const SETTLED: f64 = 1e-26;
 
+/// A movement that no longer shrinks is rounding where it is below this: a force that depends on the
+/// small difference of large numbers has fewer digits than its velocity.
+const ROUNDING: f64 = 1e-20;
+
 /// The part of a step at which it is divided in two, in its time variable.
 const PART: f64 = 0.125;
+
+/// The greatest power of the time with which an integral is taken to grow.
+const MOST_GROWTH: f64 = 8.0;
 
 /// The time variables, by their power k: those of square, cube and fourth roots, and of both of the
 /// first two.
@@ -83,12 +90,14 @@ pub(super) struct CollocationStep {
     stages: [Vec<DoubleDouble>; 3],
     numbers: Vec<DoubleDouble>,
     end: Vec<DoubleDouble>,
+    /// The numbers where the last step was divided in two, and at its end.
+    middle: Vec<DoubleDouble>,
     two: Vec<DoubleDouble>,
 }
 
 impl std::fmt::Debug for CollocationStep {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("Bridge")
+        f.write_str("CollocationStep")
     }
 }
 
@@ -102,6 +111,7 @@ impl CollocationStep {
             stages: [blank(), blank(), blank()],
             numbers: blank(),
             end: blank(),
+            middle: blank(),
             two: blank(),
         }
     }
@@ -211,9 +221,23 @@ impl CollocationStep {
         }
         Ok((0..whole.len()).all(|i| {
             let change = (self.two[i] - start[i]).high / step * wanted;
-            let size = start[i].high.abs().max(self.two[i].high.abs()).max(change.abs());
+            let mut size = start[i].high.abs().max(self.two[i].high.abs()).max(change.abs());
+            if i >= self.moving {
+                size = size.max(self.integral_after(&start, i, wanted / step));
+            }
             (self.two[i] - whole[i]).high.abs() <= AGREEMENT * size
         }))
+    }
+
+    /// How far an integral will have grown so many steps on, by the power of the time with which it
+    /// grew in the step: the work of friction on what begins to move is next to nothing at first, and
+    /// its error acts on nothing.
+    fn integral_after(&self, start: &[DoubleDouble], i: usize, steps: f64) -> f64 {
+        let whole = (self.two[i] - start[i]).high.abs();
+        let part = (self.middle[i] - start[i]).high.abs();
+        let time = f64::from(self.power) * math::ln(PART);
+        let power = math::ln(part / whole) / time;
+        if power > 1.0 { whole * math::powf(steps, power.min(MOST_GROWTH)) } else { 0.0 }
     }
 
     /// Whether the rates at the beginning of a step change no velocity by more than the fastest in
@@ -245,6 +269,7 @@ impl CollocationStep {
         let middle = self.end.clone();
         let second = SubStep { step, begin: PART, end: 1.0 };
         let done = self.take(rates, time, &middle, &second, None)?;
+        self.middle = middle;
         self.two.clone_from(&self.end);
         Ok(done)
     }
@@ -280,7 +305,7 @@ impl CollocationStep {
             }
         }
         let from = self.scheme.from;
-        let mut settled = false;
+        let (mut settled, mut before) = (false, f64::INFINITY);
         for round in 0..ROUNDS {
             let mut moved = 0.0_f64;
             for s in 0..3 {
@@ -307,10 +332,11 @@ impl CollocationStep {
             if moved == f64::INFINITY && round > 2 {
                 return Ok(false);
             }
-            if moved <= SETTLED {
+            if moved <= SETTLED || (moved <= ROUNDING && moved >= before) {
                 settled = true;
                 break;
             }
+            before = moved;
         }
         for (i, &x) in start.iter().enumerate() {
             let part = |s: usize| self.scheme.weight[s] * lengths[s] * self.stages[s][i];

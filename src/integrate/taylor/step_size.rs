@@ -178,12 +178,13 @@ fn integrals(series: &Series) -> impl Iterator<Item = &[f64]> {
 /// The most coefficients that a series has, and room for a whole chunk behind them.
 const ROOM: usize = 64;
 
-/// The reciprocals of 1, 2, …, those of the differences of two orders.
+/// The reciprocals of the differences of two orders, so that those of k − j for j = 0, 1, …, k − 1
+/// lie side by side: 1/n is the one at `ROOM - n`.
 const RECIPROCALS: [f64; ROOM] = {
     let mut table = [0.0; ROOM];
     let mut n = 1;
     while n < ROOM {
-        table[n] = 1.0 / n as f64;
+        table[ROOM - n] = 1.0 / n as f64;
         n += 1;
     }
     table
@@ -195,8 +196,7 @@ const LANES: usize = 4;
 /// The number of lowest orders that are looked at first.
 const FIRST: usize = 3;
 
-/// The logarithm of a tolerance, divided among the orders: `ln ε / m` for the one that is m below
-/// the highest.
+/// The logarithm of a tolerance, divided among the orders: `ln ε / (p − j)` for the j-th of p.
 #[derive(Clone, Debug)]
 struct Shares {
     table: [f64; ROOM],
@@ -208,8 +208,8 @@ impl Shares {
     fn new(tolerance: f64, order: usize) -> Shares {
         let log = math::ln(tolerance);
         let mut table = [f64::NEG_INFINITY; ROOM];
-        for m in 1..=order {
-            table[m] = log * RECIPROCALS[m];
+        for (share, reciprocal) in table.iter_mut().zip(&RECIPROCALS[ROOM - order..]) {
+            *share = log * reciprocal;
         }
         Shares { table, log_part: math::ln(PART_OF_RADIUS), log_indulgence: math::ln(INDULGENCE) }
     }
@@ -228,24 +228,30 @@ fn of_one<const FUSED: bool>(
     mut shortest: f64,
 ) -> Option<f64> {
     let p = coefficients.len() - 1;
-    let logs = Logarithms(coefficients).run::<FUSED>()?;
+    let mut logs = [f64::NEG_INFINITY; ROOM];
+    if !(Logarithms { of: coefficients, logs: &mut logs }).run::<FUSED>() {
+        return None;
+    }
     for k in ((p + 1).saturating_sub(LAST + BEFORE).max(3)..=p).rev() {
         let own = logs[k];
         if own == f64::NEG_INFINITY {
             continue;
         }
         let indulgence = if k + LAST <= p { shares.log_indulgence } else { 0.0 };
-        let root = |j: usize| (logs[j] - own) * RECIPROCALS[k - j];
-        let by_tolerance = |j: usize| root(j) + shares.table[p - j];
+        let (logs, reciprocals) = (&logs[..k], &RECIPROCALS[ROOM - k..]);
+        let table = &shares.table[..k];
+        let root = |j: usize| (logs[j] - own) * reciprocals[j];
         let step = shortest - indulgence;
         let radius = step - shares.log_part;
-        if (0..FIRST.min(k)).any(|j| by_tolerance(j) >= step)
+        if (0..FIRST.min(k)).any(|j| root(j) + table[j] >= step)
             && (2..(2 + FIRST).min(k - 1)).any(|j| root(j) >= radius)
         {
             continue;
         }
-        let mut log = (0..k).map(by_tolerance).fold(f64::NEG_INFINITY, larger);
-        let radius = (2..k - 1).map(root).fold(f64::NEG_INFINITY, larger);
+        let mut log = largest(logs, own, reciprocals, table);
+        let inner = 2..k - 1;
+        let radius =
+            largest(&logs[inner.clone()], own, &reciprocals[inner.clone()], &NOTHING[inner]);
         if radius > f64::NEG_INFINITY {
             log = log.min(radius + shares.log_part);
         }
@@ -254,32 +260,54 @@ fn of_one<const FUSED: bool>(
     Some(shortest)
 }
 
+/// Nothing to be added to any order.
+const NOTHING: [f64; ROOM] = [0.0; ROOM];
+
+/// The largest `(ln |c_j| − own)·r_j + s_j`. All have the same length.
+#[inline(always)]
+fn largest(logs: &[f64], own: f64, reciprocals: &[f64], shares: &[f64]) -> f64 {
+    let (logs, last_logs) = logs.as_chunks::<LANES>();
+    let (reciprocals, last_reciprocals) = reciprocals.as_chunks::<LANES>();
+    let (shares, last_shares) = shares.as_chunks::<LANES>();
+    let mut most = [f64::NEG_INFINITY; LANES];
+    for ((log, reciprocal), share) in logs.iter().zip(reciprocals).zip(shares) {
+        for lane in 0..LANES {
+            most[lane] = larger(most[lane], (log[lane] - own) * reciprocal[lane] + share[lane]);
+        }
+    }
+    let last = last_logs.iter().zip(last_reciprocals).zip(last_shares);
+    let last = last.map(|((log, reciprocal), share)| (log - own) * reciprocal + share);
+    last.chain(most).fold(f64::NEG_INFINITY, larger)
+}
+
 /// The larger of two numbers, the first if the second is NaN.
 fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
-/// The natural logarithms of the absolute values, to four digits or so; `None` if one is not
+/// The natural logarithms of the absolute values, to four digits or so. Returns whether all are
 /// finite.
-struct Logarithms<'a>(&'a [f64]);
+struct Logarithms<'a> {
+    of: &'a [f64],
+    logs: &'a mut [f64; ROOM],
+}
 
 impl Kernel for Logarithms<'_> {
-    type Output = Option<[f64; ROOM]>;
+    type Output = bool;
 
     #[inline(always)]
-    fn run<const FUSED: bool>(self) -> Option<[f64; ROOM]> {
-        let mut logs = [f64::NEG_INFINITY; ROOM];
+    fn run<const FUSED: bool>(self) -> bool {
         let mut finite = [true; LANES];
-        let (chunks, rest) = self.0.as_chunks::<LANES>();
+        let (chunks, rest) = self.of.as_chunks::<LANES>();
         let mut last = [0.0; LANES];
         last[..rest.len()].copy_from_slice(rest);
-        let places = logs.as_chunks_mut::<LANES>().0.iter_mut();
+        let places = self.logs.as_chunks_mut::<LANES>().0.iter_mut();
         for (log, c) in places.zip(chunks.iter().chain([&last])) {
             let x = c.map(f64::abs);
             *log = rough_logarithms(x);
             finite = array::from_fn(|lane| finite[lane] && x[lane] < f64::INFINITY);
         }
-        finite.iter().all(|&lane| lane).then_some(logs)
+        finite == [true; LANES]
     }
 }
 

@@ -462,9 +462,16 @@ fn twin_failure(
     if off.is_nan() || off > 2.0 * allowed {
         return wrong(format!("off by {off:.1e} in natural units"));
     }
-    // if drifts are rounding errors, verdicts may depend on the digits
-    let differs =
-        |(a, b): &(&Gauge, &Gauge)| a.word != b.word && a.max_drift.max(b.max_drift) > 1e-10;
+    // if drifts are rounding errors, verdicts may depend on the digits; the steps of an adaptive method that conserves
+    // nothing depend on them too, and whether their errors show a trend may lie on the border
+    let on_the_border = |a: &Gauge, b: &Gauge| {
+        let words = ["bounded", "secular"];
+        let alike = a.max_drift.max(b.max_drift) < 2.0 * a.max_drift.min(b.max_drift);
+        case.tolerance.is_some() && alike && words.contains(&a.word) && words.contains(&b.word)
+    };
+    let differs = |(a, b): &(&Gauge, &Gauge)| {
+        a.word != b.word && a.max_drift.max(b.max_drift) > 1e-10 && !on_the_border(a, b)
+    };
     let pairs = told.gauges.iter().zip(&vakonomic.gauges);
     let (a, b) = pairs.into_iter().find(differs)?;
     wrong(format!("`{}` is {} and in natural units {}", a.name, a.word, b.word))

@@ -526,3 +526,41 @@ fn what_is_wrong_with_a_demo_is_reported_on_the_restored_terminal() {
     check("my.demo", "Wait 1s", 65, "does not say which system");
     check("duffing", "", 2, "`duffing` has no demo of its own: name a script");
 }
+
+/// A lesson has the screen until it is left, and goes on where it was; a demo leads back as well.
+#[test]
+fn a_lesson_and_a_demo_are_taken_inside_the_lab() {
+    let mut lab = pendulum();
+    lab.press("\x1bOQ");
+    lab.shows("Lessons and demos");
+    lab.press("kepler");
+    lab.shows("Why does Kepler");
+    lab.press("\r");
+    lab.shows("A planet moves around a sun");
+    lab.press("\r");
+    lab.shows("Before each thing happens");
+    lab.press("q");
+    lab.shows("lesson, begun");
+    lab.press("\r");
+    lab.shows("Before each thing happens");
+    lab.press("q");
+    lab.shows("lesson, begun");
+    // the list begins anew, with all of them
+    closes(&mut lab);
+    lab.press("\x1bOQ");
+    lab.press("double well");
+    lab.shows("demo");
+    lab.press("\r");
+    lab.until("the demo has the screen", |lab| !lab.text().contains("Lessons and demos"));
+    lab.press("q");
+    lab.shows("Lessons and demos");
+    closes(&mut lab);
+    quits(lab);
+}
+
+/// Closes the list of lessons and demos.
+#[track_caller]
+fn closes(lab: &mut Session) {
+    lab.press("\x1b");
+    lab.until("the list is closed", |lab| !lab.text().contains("Lessons and demos"));
+}

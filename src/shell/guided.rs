@@ -1,0 +1,167 @@
+//! Lessons and demos inside the lab: they have its screen until they are left, and the lab is as it was.
+//!
+//! In: a [`Guide`], events, time. Out: its picture, and what is wrong with its script. Never here: what a script says.
+
+use std::time::Duration;
+
+use crossterm::event::Event;
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect};
+use ratatui::style::Modifier;
+use tracing::warn;
+
+use super::demo::Demo;
+use super::frame_loop::{Screen, ScreenRequest};
+use super::lesson::LessonScreen;
+use super::progress::{LessonMark, LessonProgress};
+use crate::app::{Guide, GuideKind, Taken};
+use crate::diagnostic::{Diagnostic, Document};
+use crate::preset::{self, Entry};
+use crate::record::{Lesson, Script, ScriptRunner, called};
+use crate::view::{Detail, RenderStyle};
+
+/// The lesson with which everyone begins.
+const FIRST: &str = "tour";
+
+/// The lessons and demos that are shipped, with how far each lesson was taken.
+pub(super) fn guides(systems: &[Entry]) -> Vec<Guide> {
+    let progress = LessonProgress::file().and_then(|path| LessonProgress::read(&path));
+    let progress = progress.unwrap_or_else(|why| {
+        warn!("{why}");
+        LessonProgress::default()
+    });
+    let mut lessons = preset::lessons();
+    lessons.sort_by_key(|name| *name != FIRST);
+    let lessons = lessons.into_iter().filter_map(|name| {
+        let taken = match progress.lessons.get(name).copied().unwrap_or_default() {
+            LessonMark { finished: true, .. } => Taken::Whole,
+            LessonMark { step: 0, .. } => Taken::NotYet,
+            LessonMark { .. } => Taken::Partly,
+        };
+        guide(GuideKind::Lesson(taken), name, &preset::lesson(name)?, systems)
+    });
+    let demos = preset::demos()
+        .into_iter()
+        .filter_map(|name| guide(GuideKind::Demo, name, &preset::demo(name)?, systems));
+    lessons.chain(demos).collect()
+}
+
+fn guide(kind: GuideKind, name: &str, source: &Document, systems: &[Entry]) -> Option<Guide> {
+    let head = Script::read(source).ok()?.head;
+    let open = head.open.map(|open| open.text)?;
+    let system = systems.iter().find(|entry| entry.name == open);
+    let system = system.map_or(open, |entry| entry.info.title.clone());
+    let title = head.title.unwrap_or_else(|| system.clone());
+    Some(Guide { kind, name: name.to_owned(), title, system })
+}
+
+/// A lesson or demo that has the screen.
+pub(super) struct Guided {
+    name: String,
+    screen: GuideScreen,
+    /// Whether the lab's motion was running before.
+    pub(super) was_running: bool,
+}
+
+enum GuideScreen {
+    Lesson(Box<LessonScreen<Lesson>>),
+    Demo(Box<Demo>),
+}
+
+impl Guided {
+    /// Opens a lesson, where it was left, or a demo.
+    ///
+    /// # Errors
+    /// Returns what is wrong with its script or its system.
+    pub(super) fn open(guide: &Guide, look: RenderStyle) -> Result<Self, String> {
+        let name = guide.name.clone();
+        let source = match guide.kind {
+            GuideKind::Lesson(_) => preset::lesson(&name),
+            GuideKind::Demo => preset::demo(&name),
+        };
+        let source = source.ok_or_else(|| format!("{name} is no longer there"))?;
+        let told = |mistakes: &[Diagnostic]| source.report(mistakes, false);
+        let script = Script::read(&source).map_err(|mistakes| told(&mistakes))?;
+        let open = script.head.open.as_ref().map_or_else(|| name.clone(), |open| open.text.clone());
+        let system = preset::find(&open).map_err(|why| why.to_string())?;
+        let screen = match guide.kind {
+            GuideKind::Lesson(_) => {
+                let lesson = Lesson::watched(script, &system, called(&open));
+                let mut lesson = lesson.map_err(|mistakes| told(&mistakes))?;
+                let progress = LessonProgress::file().and_then(|path| LessonProgress::read(&path));
+                let mark = progress.ok().and_then(|all| all.lessons.get(&name).copied());
+                lesson.resume(mark.unwrap_or_default().step).map_err(|mistake| told(&[mistake]))?;
+                GuideScreen::Lesson(Box::new(LessonScreen::new(lesson, look)))
+            }
+            GuideKind::Demo => {
+                let runner = ScriptRunner::watched(script, &system, called(&open));
+                let runner = runner.map_err(|mistake| told(&[mistake]))?;
+                GuideScreen::Demo(Box::new(Demo::new(runner, look)))
+            }
+        };
+        Ok(Self { name, screen, was_running: false })
+    }
+
+    /// Whether a demo has come to its end; its last picture then stays until a key is pressed.
+    fn is_over(&self) -> bool {
+        matches!(&self.screen, GuideScreen::Demo(demo) if demo.is_done())
+    }
+
+    /// Leaves it, and keeps the progress of a lesson. Returns what is wrong with its script, or why progress is not kept.
+    pub(super) fn leave(self) -> Option<String> {
+        match self.screen {
+            GuideScreen::Demo(demo) => demo.outcome().err().map(|mistake| mistake.message),
+            GuideScreen::Lesson(screen) => {
+                let (lesson, outcome) = screen.outcome();
+                let finished = lesson.is_finished();
+                let mark = LessonMark { finished, step: if finished { 0 } else { lesson.place() } };
+                let kept = LessonProgress::file()
+                    .and_then(|path| LessonProgress::note(&path, &self.name, mark));
+                let wrong = outcome.err().map(|mistake| mistake.message);
+                wrong.or_else(|| kept.err().map(|why| why.to_string()))
+            }
+        }
+    }
+
+    fn screen(&mut self) -> &mut dyn Screen {
+        match &mut self.screen {
+            GuideScreen::Lesson(lesson) => &mut **lesson,
+            GuideScreen::Demo(demo) => &mut **demo,
+        }
+    }
+}
+
+impl Screen for Guided {
+    fn input(&mut self, event: Event) -> ScreenRequest {
+        if self.is_over() && matches!(event, Event::Key(_)) {
+            return ScreenRequest::Quit;
+        }
+        self.screen().input(event)
+    }
+
+    fn advance(&mut self, elapsed: Duration) -> bool {
+        self.screen().advance(elapsed)
+    }
+
+    fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position> {
+        let cursor = self.screen().draw(area, buffer);
+        if self.is_over() && area.height > 2 {
+            let line = " The demo is over: any key leads back. ";
+            let row = area.bottom() - 1;
+            let reversed = ratatui::style::Style::new().add_modifier(Modifier::REVERSED);
+            buffer.set_stringn(area.x, row, line, area.width.into(), reversed);
+        }
+        cursor
+    }
+
+    fn is_typing(&self) -> bool {
+        match &self.screen {
+            GuideScreen::Lesson(lesson) => lesson.is_typing(),
+            GuideScreen::Demo(demo) => demo.is_typing(),
+        }
+    }
+
+    fn reduce(&mut self, detail: Detail) {
+        self.screen().reduce(detail);
+    }
+}
