@@ -51,6 +51,8 @@ pub enum Action {
     MarkTime,
     /// Look at the mark before.
     GoToMark,
+    /// Look at the mark after.
+    GoToNextMark,
     /// Slow the simulation down.
     Slower,
     /// Speed the simulation up.

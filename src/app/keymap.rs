@@ -244,6 +244,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c(')')], Action::LookLater, "", "look at a later time, up to the present; what acts on the motion takes it up at the time that is seen"),
     row(Place::Experiment, &[c(';')], Action::MarkTime, "", "set a mark at the time that is seen, or take the mark there away"),
     row(Place::Experiment, &[c('\'')], Action::GoToMark, "", "look at the mark before, and from the first mark at the last"),
+    row(Place::Experiment, &[c('"')], Action::GoToNextMark, "", "look at the mark after, and from the last mark at the first"),
     row(Place::Experiment, &[c('[')], Action::Slower, "slower", "slow down"),
     row(Place::Experiment, &[c(']')], Action::Faster, "faster", "speed up; past ×1000 as fast as it can"),
     row(Place::Experiment, &[c('r')], Action::Reset, "reset", "back to the initial values; parameters stay as they are"),

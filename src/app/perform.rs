@@ -96,7 +96,8 @@ impl App {
             Action::LookEarlier => self.look_along(-1.0),
             Action::LookLater => self.look_along(1.0),
             Action::MarkTime => self.mark_time(),
-            Action::GoToMark => self.go_to_mark(),
+            Action::GoToMark => self.go_to_mark(true),
+            Action::GoToNextMark => self.go_to_mark(false),
             Action::StepBack => vec![Effect::Tell(Command::StepBack(1))],
             Action::Slower | Action::Faster => {
                 let shown = lab.snapshot.as_ref().map_or(1.0, |s| s.speed);

@@ -78,8 +78,9 @@ impl App {
         Vec::new()
     }
 
-    /// Looks at the mark before the time that is seen, and from the first one at the last.
-    pub(super) fn go_to_mark(&mut self) -> Vec<Effect> {
+    /// Looks at the mark before the time that is seen, and from the first one at the last; or at the one after, and from
+    /// the last one at the first.
+    pub(super) fn go_to_mark(&mut self, back: bool) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };
         let Some(seen) = lab.seen() else { return Vec::new() };
         if lab.marks.is_empty() {
@@ -88,9 +89,13 @@ impl App {
         let Recorded { from, to, .. } = seen.recorded;
         let (low, high) = (from.min(to), from.max(to));
         let known = || lab.marks.iter().copied().filter(|mark| *mark >= low && *mark <= high);
-        let before = seen.time - SAME * (high - low);
-        let Some(mark) = known().rev().find(|mark| *mark < before).or_else(|| known().next_back())
-        else {
+        let same = SAME * (high - low);
+        let mark = if back {
+            known().rev().find(|mark| *mark < seen.time - same).or_else(|| known().next_back())
+        } else {
+            known().find(|mark| *mark > seen.time + same).or_else(|| known().next())
+        };
+        let Some(mark) = mark else {
             let times: Vec<String> = lab.marks.iter().map(|mark| short(*mark)).collect();
             return self.notify(format!(
                 "The motion is known from t = {} to {}; the marks are at {}.",

@@ -66,9 +66,14 @@ impl Modes<'_> {
         if !grows(1.0) {
             return None;
         }
-        let mut parts = (1..=PARTS).map(|k| f64::from(k) / f64::from(PARTS));
-        let first = parts.find(|&part| grows(part)).unwrap_or(1.0);
-        Some(step.abs() * (first - 1.0 / f64::from(PARTS)))
+        // no mode grows by anything in a step that is short enough
+        let mut whole = 1.0;
+        while whole > f64::MIN_POSITIVE && grows(whole / f64::from(PARTS)) {
+            whole /= f64::from(PARTS);
+        }
+        let part = |k: u32| whole * f64::from(k) / f64::from(PARTS);
+        let first = (1..=PARTS).find(|&k| grows(part(k))).unwrap_or(PARTS);
+        Some(step.abs() * part(first - 1))
     }
 }
 
@@ -125,6 +130,9 @@ mod tests {
         // accurate to one part in two hundred
         let limit = EULER.limit(&[[-4.0, 0.0]], 1.0).unwrap_or(0.0);
         assert!((limit - 0.5).abs() <= 0.0051 && limit >= 0.4949, "{limit}");
+        // a step that is far too long
+        let limit = EULER.limit(&[[-4e9, 0.0]], 1.0).unwrap_or(0.0);
+        assert!((limit / 5e-10 - 1.0).abs() <= 0.02, "{limit}");
     }
 
     #[test]

@@ -156,10 +156,14 @@ fn is_multiple(pool: &Pool, a: Expr, b: Expr) -> bool {
     let Some(ratio) = terms.first().zip(others.first()).map(|(a, b)| a.0 * b.0.recip()) else {
         return a == b;
     };
+    // numbers that are no rationals of 64 bits were rounded on their way into each sum
+    let same = |m: Number, n: Number| {
+        m == n || (m.value() - n.value()).abs() <= 8.0 * f64::EPSILON * m.value().abs()
+    };
     let pairs = || terms.iter().zip(others);
     terms.len() == others.len()
-        && *c == ratio * *d
-        && pairs().all(|(&(m, a), &(n, b))| a == b && m == ratio * n)
+        && same(*c, ratio * *d)
+        && pairs().all(|(&(m, a), &(n, b))| a == b && same(m, ratio * n))
 }
 
 /// Whether a product has the factors of an expression, so that it vanishes where that does.

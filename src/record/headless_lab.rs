@@ -228,3 +228,40 @@ impl HeadlessLab {
         self.look_at_motion();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An oscillator in a lab with few steps a frame, after some frames.
+    fn after(frames: u32, stiffness: &str, patience: Option<u32>) -> Option<String> {
+        let text = format!(
+            "title = \"A spring\"\n[coordinates]\nx = {{ initial = 1.0 }}\n[lagrangian]\n\
+             L = \"1/2*x'^2 - 1/2*{stiffness}*x^2\"\n"
+        );
+        let budget = Budget { paced: 50, flat_out: 50, patience };
+        let mut lab = HeadlessLab::open(&Document::new("spring.toml", text), "spring", 30, budget);
+        lab.app.page = crate::app::Page::Lab;
+        lab.tell(Command::Play);
+        for _ in 0..frames {
+            lab.tick();
+        }
+        lab.overdue()
+    }
+
+    #[test]
+    fn a_motion_that_needs_more_steps_than_it_may_take_is_overdue_after_some_frames() {
+        assert_eq!(after(40, "1", Some(3)), None);
+        assert_eq!(after(2, "1e16", Some(3)), None);
+        let why = after(3, "1e16", Some(3)).expect("it is overdue");
+        assert!(why.contains("3 frames took 50 steps each and led only to t = "), "{why}");
+        // somebody who watches may leave
+        assert_eq!(after(40, "1e16", None), None);
+    }
+
+    #[test]
+    fn a_recording_has_a_budget_and_a_demo_that_is_watched_has_none() {
+        assert!(Budget::RECORDED.is_unattended() && !Budget::WATCHED.is_unattended());
+        assert_eq!(Budget::RECORDED.patience, Some(20));
+    }
+}

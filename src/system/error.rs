@@ -55,6 +55,8 @@ pub enum MotionErrorKind {
     SeveralStarts(Vec<String>),
     /// A number of the state or of its rate of change, given by its name, is not finite.
     NotFinite(String),
+    /// The same in a step of fixed size, which may be too long.
+    NotFiniteInStep(String),
     /// No velocities were found for the given momenta (or the reverse).
     NoVelocities,
     /// A step led to velocities on another branch for the same momenta.
@@ -128,7 +130,7 @@ impl fmt::Display for MotionError {
                 "what is given belongs to several starts ({}): give one of these instead",
                 starts.join("; ")
             )?,
-            MotionErrorKind::NotFinite(name) => {
+            MotionErrorKind::NotFinite(name) | MotionErrorKind::NotFiniteInStep(name) => {
                 write!(f, "{name} is no longer finite at t = {time}")?;
             }
             MotionErrorKind::NoVelocities => {
@@ -203,6 +205,10 @@ impl fmt::Display for MotionError {
             }
             MotionErrorKind::Contradiction => ": give fewer of them",
             MotionErrorKind::NotFinite(_) => ": a collision, a pole, or a value outside a function",
+            MotionErrorKind::NotFiniteInStep(_) => {
+                ": try a smaller step, unless a collision, a pole or the end of a function's domain \
+                 lies there"
+            }
             MotionErrorKind::NoVelocities => ": the momenta may lie outside their range",
             MotionErrorKind::BranchLeft => {
                 ": a step led beyond the place where the momenta p = ∂L/∂q̇ turn back"

@@ -7,6 +7,7 @@ mod flow;
 mod guides;
 mod invariants;
 mod keys;
+mod marks;
 mod mend;
 pub(crate) mod real;
 mod saved;

@@ -76,6 +76,7 @@ fn particle(potential: Tree, start: [f64; 2], length: f64) -> Case {
         dissipation: Vec::new(),
         forces: Vec::new(),
         constraint: None,
+        release: None,
         structure: case::ROTATIONS,
         claims: false,
         by_momentum: Vec::new(),

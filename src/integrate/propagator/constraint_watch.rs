@@ -172,7 +172,12 @@ impl Propagator {
                 kind: MotionErrorKind::Passable(Box::new(fault.kind), passage),
                 ..fault
             },
-            None => fault,
+            None => match fault.kind {
+                MotionErrorKind::NotFinite(name) if self.method.stepping == Stepping::Fixed => {
+                    MotionError { kind: MotionErrorKind::NotFiniteInStep(name), ..fault }
+                }
+                _ => fault,
+            },
         }
     }
 

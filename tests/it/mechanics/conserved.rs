@@ -148,6 +148,11 @@ fn a_sign_beside_its_argument_is_no_step() {
         let (_, equations) = derived(&file(LINE, &law, "x"));
         assert_eq!(equations.conserved.len(), 1, "{kink}");
     }
+    // numbers that are rounded where the product is multiplied out
+    let rounded = l(
+        "5e-10*(x'^2 + y'^2) - 1.1000000000000001e-8*(x/1e14 + 3.62e-15*y)*sign(x/1e14 + 3.62e-15*y)",
+    );
+    assert_eq!(derived(&file(PLANE, &rounded, "x")).1.conserved.len(), 1);
     let both = l("1/2*(x'^2 + y'^2) - 2*x*y*sign(3*x*y)");
     assert_eq!(derived(&file(PLANE, &both, "x")).1.conserved.len(), 1);
     for step in ["x*sign(2*x - 1)", "sign(2*x)/x", "(x - 1)*sign(x + 1)"] {

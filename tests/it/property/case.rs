@@ -43,6 +43,8 @@ pub(crate) struct Case {
     pub(crate) dissipation: Vec<Tree>,
     pub(crate) forces: Vec<(usize, Tree)>,
     pub(crate) constraint: Option<Constraint>,
+    /// The time at which the constraint is released.
+    pub(crate) release: Option<f64>,
     /// For a Poisson system: {a, b} = −(A x)_c, and cyclic, with a symmetric A.
     pub(crate) structure: [[f64; 3]; 3],
     /// Whether the file claims that its energy is conserved.
@@ -232,6 +234,13 @@ impl Case {
             let expression = expression.write(&names);
             let _ =
                 writeln!(text, "\n[[constraints]]\nname = \"held\"\nexpression = \"{expression}\"");
+        }
+        if let Some(at) = self.release.filter(|_| self.constraint.is_some()) {
+            let _ = writeln!(
+                text,
+                "\n[[events]]\nname = \"let go\"\nwhen = \"t - {:?}\"\naction = \"release:held\"",
+                at * time
+            );
         }
         if let Some((at, i, change)) = self.impulse {
             let change = change * energy * time / units[i];

@@ -65,6 +65,15 @@ pub(crate) fn follow(
         }
         state = after_impulse(case, time, &state, i, by).ok_or(Lost::NotFinite)?;
     }
+    let free = Case { constraint: None, release: None, ..case.clone() };
+    if let Some(at) = case.release.filter(|at| *at <= case.length && case.constraint.is_some()) {
+        let stopped = walker.to(&mut time, &mut state, at, &mut way)?;
+        if stopped {
+            return Ok(Arrival { time, state, stopped, way });
+        }
+        let budget = walker.budget;
+        walker = Walker { case: &free, tolerance, branches: Branches::default(), budget };
+    }
     let stopped = walker.to(&mut time, &mut state, case.length, &mut way)?;
     Ok(Arrival { time, state, stopped, way })
 }

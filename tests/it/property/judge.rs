@@ -253,7 +253,9 @@ fn know(case: &Case, budget: Budget) -> Result<Known, Lost> {
         return Err(Lost::Sticks);
     }
     if case.constraint.is_none() {
-        let push = |(i, x): (usize, &f64)| x + 1e-9 * scale * if i % 2 == 0 { 1.0 } else { -1.0 };
+        // a motion may go far beyond the size of its start
+        let size = case.start.iter().fold(1e-3_f64, |most, x| most.max(x.abs()));
+        let push = |(i, x): (usize, &f64)| x + 1e-9 * size * if i % 2 == 0 { 1.0 } else { -1.0 };
         let start: Vec<f64> = case.start.iter().enumerate().map(push).collect();
         let pushed = follow(case, &start, 1e-12, budget.evaluations)?;
         if arrival.stopped != pushed.stopped {
@@ -292,6 +294,12 @@ fn judge(case: &Case, as_run: &Case, budget: Budget, cancel: &Cancel) -> Outcome
         {
             return failed(Kind::DoesNotStart, format!("`check` is silent; {message}"));
         }
+    }
+    if let (End::Fault(_), true) = (&told.end, told.time == 0.0 && !told.check.is_empty())
+        && !energy(case, 0.0, &case.start).0.is_finite()
+    {
+        // a pole, as `check` says
+        return Outcome::Stopped;
     }
     let known = match known {
         Ok(known) => known,

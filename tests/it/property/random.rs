@@ -29,6 +29,7 @@ pub(crate) fn case(seed: u64, index: u64) -> Case {
         dissipation: Vec::new(),
         forces: Vec::new(),
         constraint: None,
+        release: None,
         structure: ROTATIONS,
         claims: false,
         by_momentum: Vec::new(),
@@ -80,6 +81,9 @@ pub(crate) fn case(seed: u64, index: u64) -> Case {
     method(&mut case, &mut dice);
     case.claims = case.keeps_energy() && dice.chance(0.2);
     units(&mut case, &mut dice);
+    if case.constraint.is_some() && dice.chance(0.3) {
+        case.release = Some(case.length * dice.between(0.1, 0.9));
+    }
     case
 }
 

@@ -20,6 +20,7 @@ fn simpler(case: &Case) -> Vec<Case> {
     add(&|c| c.structure = ROTATIONS);
     add(&|c| c.impulse = None);
     add(&|c| c.stop = None);
+    add(&|c| c.release = None);
     add(&|c| c.constraint = None);
     add(&|c| c.forces.clear());
     add(&|c| c.dissipation.clear());
