@@ -248,6 +248,9 @@ impl Propagator {
         } else {
             self.state = self.to_native(state)?;
         }
+        if let (Some(projector), Form::Velocity) = (&mut self.projector, self.state.form) {
+            projector.take_levels(&self.state);
+        }
         self.near.copy_from(&self.state);
         self.clear = state.time;
         self.waiting = None;

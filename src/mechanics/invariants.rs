@@ -166,15 +166,17 @@ fn is_multiple(pool: &Pool, a: Expr, b: Expr) -> bool {
         && pairs().all(|(&(m, a), &(n, b))| a == b && same(m, ratio * n))
 }
 
-/// Whether a product has the factors of an expression, so that it vanishes where that does.
-fn has_factors_of(pool: &Pool, factors: &[(Expr, Number)], of: Expr) -> bool {
+/// Whether a product has the factors of an expression, so that it vanishes where that does; what does not depend on the
+/// `moving` symbols never does.
+fn has_factors_of(pool: &Pool, factors: &[(Expr, Number)], of: Expr, moving: &[Symbol]) -> bool {
     let among = |wanted: Expr, power: Number| {
         let enough = |n: Number| n.value() >= power.value();
         factors.iter().any(|&(e, n)| enough(n) && is_multiple(pool, e, wanted))
     };
     match pool.node(of) {
         Node::Product(_, parts) => {
-            parts.iter().all(|&(e, n)| n.value() > 0.0 && among(e, n)) || among(of, Number::ONE)
+            let mut varying = parts.iter().filter(|(e, _)| pool.depends_on_any(*e, moving));
+            varying.all(|&(e, n)| n.value() > 0.0 && among(e, n)) || among(of, Number::ONE)
         }
         _ => among(of, Number::ONE),
     }
@@ -423,7 +425,7 @@ impl Equations {
             let node = pool.node(e);
             node.parts().into_iter().filter_map(steps).any(|argument| match node {
                 // u sign(c u) = ±|u|
-                Node::Product(_, factors) => !has_factors_of(pool, factors, argument),
+                Node::Product(_, factors) => !has_factors_of(pool, factors, argument, &moving),
                 _ => true,
             })
         };

@@ -1,7 +1,9 @@
 //! Constraints as numbers: how far a state is from satisfying them, and which of them are
 //! independent.
 //!
-//! In: a state (q, q̇). Out: residuals of f(q, t) and A q̇ + A₀, each with the size of its terms.
+//! In: a state (q, q̇). Out: residuals of f(q, t) and A q̇ + A₀, each with the size of its terms. A
+//! constraint on the velocities that is holonomic has an f too, whose level is that of the state where
+//! the motion began: df = g ω, so that (f − level)/g is its residual.
 //! Never here: corrections of a state; see `projection`.
 
 use std::sync::Arc;
@@ -10,8 +12,9 @@ use super::program::Program;
 use super::rhs::ProgramBuilder;
 use super::solve::Factored;
 use super::value::Evaluator;
-use crate::expr::{Expr, Symbol};
-use crate::num::DoubleDouble;
+use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
+use crate::mechanics::Holonomy;
+use crate::num::{DoubleDouble, Number};
 
 /// A row counts as dependent if its component orthogonal to the rows before it is smaller than
 /// this, relative to the row.
@@ -31,26 +34,81 @@ const ROUNDING_OF_INPUTS: f64 = 4.0 * f64::EPSILON;
 /// The programs of the constraints, as functions of (q, t).
 #[derive(Clone, Debug)]
 pub(super) struct Programs {
-    /// A, A₀ and f of each constraint.
+    /// A, A₀, f and g of each constraint.
     values: Arc<Program>,
     /// For each of these values the size of its terms, then its sensitivity to its inputs, Σ |s
     /// ∂/∂s|.
     sizes: Arc<Program>,
+    /// The constraints on the velocities that have an f.
+    integrated: Vec<bool>,
 }
 
 impl Programs {
     pub(super) fn of(builder: &mut ProgramBuilder<'_>) -> Result<Programs, Symbol> {
         let mut values = Vec::new();
-        for row in &builder.equations.constraints {
+        let mut integrated = Vec::new();
+        for (k, row) in builder.equations.constraints.iter().enumerate() {
             values.extend_from_slice(&row.row);
             values.push(row.rate);
-            values.push(row.position.unwrap_or(Expr::ZERO));
+            let known = integral(builder, k);
+            integrated.push(known.is_some());
+            let (f, g) = known.unwrap_or((row.position.unwrap_or(Expr::ZERO), Expr::ONE));
+            values.extend([f, g]);
         }
         let pool = &mut builder.pool;
         let sizes = values.iter().flat_map(|&e| [pool.magnitude(e), pool.size_of_inputs(e)]);
         let sizes: Vec<Expr> = sizes.collect();
-        Ok(Programs { values: program(builder, &values)?, sizes: program(builder, &sizes)? })
+        let (values, sizes) = (program(builder, &values)?, program(builder, &sizes)?);
+        Ok(Programs { values, sizes, integrated })
     }
+}
+
+/// f and g of a constraint on the velocities that is holonomic by itself, whatever the parameters.
+fn integral(builder: &mut ProgramBuilder<'_>, k: usize) -> Option<(Expr, Expr)> {
+    let equations = builder.equations;
+    let Holonomy::Holonomic { constant: Some(f), together: false, at_these_parameters: false } =
+        *equations.supplements.holonomy.get(k)?
+    else {
+        return None;
+    };
+    let pool = &mut builder.pool;
+    let mut moving: Vec<Symbol> = equations.coordinates.iter().map(|c| c.position).collect();
+    moving.push(equations.symbols.time);
+    if !is_entire(pool, f, &moving) {
+        return None;
+    }
+    let (mut along, mut square) = (Vec::new(), Vec::new());
+    for (c, &a) in equations.coordinates.iter().zip(&equations.constraints[k].row) {
+        let slope = pool.derivative(f, c.position);
+        along.push(pool.mul(slope, a));
+        square.push(pool.powi(a, 2));
+    }
+    let (along, square) = (pool.sum(&along), pool.sum(&square));
+    let g = pool.div(along, square);
+    Some((f, pool.simplify(g)))
+}
+
+/// Whether an expression is smooth everywhere and has one value: an angle of a point jumps, and a
+/// quotient has a pole, where the constraint on the velocities has neither.
+fn is_entire(pool: &Pool, f: Expr, moving: &[Symbol]) -> bool {
+    let varies = |e: Expr| pool.depends_on_any(e, moving);
+    pool.reachable(&[f]).into_iter().filter(|&e| varies(e)).all(|e| match pool.node(e) {
+        Node::Product(_, factors) => {
+            let whole = |n: Number| n.as_integer().is_some_and(|n| n >= 0);
+            factors.iter().all(|&(base, n)| !varies(base) || whole(n))
+        }
+        Node::Call(function, _) => matches!(
+            function,
+            FunctionId::Sin
+                | FunctionId::Cos
+                | FunctionId::Exp
+                | FunctionId::Sinh
+                | FunctionId::Cosh
+                | FunctionId::Tanh
+        ),
+        Node::Power(..) => false,
+        Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Sum(..) => true,
+    })
 }
 
 fn program(builder: &mut ProgramBuilder<'_>, outputs: &[Expr]) -> Result<Arc<Program>, Symbol> {
@@ -98,6 +156,9 @@ pub(super) struct Conditions {
     rounded: Vec<f64>,
     degrees: usize,
     count: usize,
+    integrated: Vec<bool>,
+    /// The level of each f that was integrated, once a motion has begun.
+    levels: Vec<Option<DoubleDouble>>,
 }
 
 impl Conditions {
@@ -109,6 +170,16 @@ impl Conditions {
             rounded: vec![0.0; degrees],
             degrees,
             count,
+            integrated: programs.integrated.clone(),
+            levels: vec![None; count],
+        }
+    }
+
+    /// Takes the levels of what the constraints on the velocities keep constant from where the
+    /// constraints were looked at last.
+    pub(super) fn take_levels(&mut self) {
+        for k in (0..self.count).filter(|&k| self.integrated[k]) {
+            self.levels[k] = Some(self.output(k, self.degrees + 1));
         }
     }
 
@@ -137,18 +208,18 @@ impl Conditions {
     }
 
     fn output(&self, constraint: usize, place: usize) -> DoubleDouble {
-        self.values.output(constraint * (self.degrees + 2) + place)
+        self.values.output(constraint * (self.degrees + 3) + place)
     }
 
     /// The size of the terms of the value at this place.
     fn size(&self, constraint: usize, place: usize) -> f64 {
-        self.sizes.output(2 * (constraint * (self.degrees + 2) + place))
+        self.sizes.output(2 * (constraint * (self.degrees + 3) + place))
     }
 
     /// The sensitivity to its inputs of the value at this place; zero where it cannot be computed,
     /// as at the branch point of a root.
     fn inputs(&self, constraint: usize, place: usize) -> f64 {
-        let inputs = self.sizes.output(2 * (constraint * (self.degrees + 2) + place) + 1);
+        let inputs = self.sizes.output(2 * (constraint * (self.degrees + 3) + place) + 1);
         if inputs.is_finite() { inputs } else { 0.0 }
     }
 
@@ -162,13 +233,27 @@ impl Conditions {
         self.output(constraint, self.degrees)
     }
 
-    /// f of a holonomic constraint; zero for others.
+    /// f of a holonomic constraint, or what f has moved from its level over g; zero for others.
     pub(super) fn position(&self, constraint: usize) -> Residual {
         let place = self.degrees + 1;
-        Residual {
+        let f = Residual {
             value: self.output(constraint, place),
             size: self.size(constraint, place),
             inputs: self.inputs(constraint, place),
+        };
+        if !self.integrated[constraint] {
+            return f;
+        }
+        let g = self.output(constraint, place + 1);
+        let known = self.levels[constraint].filter(|_| g.high != 0.0 && g.is_finite());
+        let Some(level) = known else {
+            return Residual { value: DoubleDouble::ZERO, size: 1.0, inputs: 0.0 };
+        };
+        let scale = g.high.abs();
+        Residual {
+            value: (f.value - level) / g,
+            size: (f.size + level.high.abs()) / scale,
+            inputs: f.inputs / scale,
         }
     }
 

@@ -145,6 +145,15 @@ impl ConstraintProjector {
         self.projection.set_parameters(&self.system.inputs(parameters));
     }
 
+    /// Takes what the constraints on the velocities keep constant from a state where a motion begins
+    /// or goes on.
+    pub fn take_levels(&mut self, state: &State) {
+        self.load(state);
+        let conditions = self.projection.conditions();
+        conditions.look(state.exact_time(), &self.numbers);
+        conditions.take_levels();
+    }
+
     fn load(&mut self, state: &State) {
         for (i, x) in self.numbers.iter_mut().enumerate() {
             *x = state.exact(i);

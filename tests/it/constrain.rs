@@ -9,6 +9,7 @@ use phaselab::model::Model;
 use phaselab::system::{InitialOverride, MotionError, MotionErrorKind, System};
 
 use crate::build::{constrain, lagrangian, read};
+use crate::experiment::build;
 
 /// Checks solved expressions against hand-written ones.
 fn check(mut model: Model, accelerations: &[&str], multipliers: &[&str]) -> Equations {
@@ -401,4 +402,53 @@ fn a_momentum_of_zero_is_a_momentum() {
     for (found, right) in state[3..].iter().zip([-0.03, 0.3, -0.021]) {
         assert!((found - right).abs() < 1e-17, "{state:?}");
     }
+}
+
+/// A constraint on the velocities that follows from f(q) = const is kept as that: the velocities alone are kept by the
+/// projection, and f would drift with the errors of a method.
+#[test]
+fn what_a_holonomic_constraint_on_the_velocities_keeps_constant_is_kept() {
+    let wire = "title = 'wire'\n[coordinates]\nx = { initial = 0.3, velocity = 0.9 }\ny = { initial = 0.5, velocity = 0.54 }\n\
+                [lagrangian]\nL = \"1/2*(x'^2 + y'^2) - y - 0.3*x\"\n\
+                [[constraints]]\nname = 'wire'\nexpression = \"exp(x)*(y' - 2*x*x')\"\n";
+    for (method, step) in [("rk4", Some(0.05)), ("dop853", None), ("taylor", None)] {
+        let mut experiment = build(wire, |setup| {
+            method.clone_into(&mut setup.method);
+            setup.settings.step = step;
+        });
+        run(&mut experiment, 20.0);
+        let off = value(&experiment, "y") - value(&experiment, "x").powi(2) - 0.41;
+        assert!(off.abs() < 1e-15, "{method}: {off:e}");
+    }
+    // the motion is that of the bead on the wire y = x² + 0.41
+    let given = wire.replace("exp(x)*(y' - 2*x*x')", "y - x^2 - 0.41");
+    let mut of_velocities = build(wire, |_| ());
+    let mut of_positions = build(&given, |_| ());
+    run(&mut of_velocities, 20.0);
+    run(&mut of_positions, 20.0);
+    let off = value(&of_velocities, "x") - value(&of_positions, "x");
+    assert!(off.abs() < 1e-13, "{off:e}");
+}
+
+/// Negatives: an angle of a point jumps by a turn where the constraint on its rate has nothing to jump, and is not kept; a blade
+/// has no f at all.
+#[test]
+fn an_angle_that_jumps_stops_no_motion() {
+    let turning = "title = 'turning'\n[coordinates]\nx = { initial = 1, velocity = 0 }\ny = { initial = 0, velocity = 1 }\n\
+                   a = { initial = 0.2, velocity = 1 }\n[lagrangian]\n\
+                   L = \"1/2*(x'^2 + y'^2 + a'^2) - (x^2 + y^2)\"\n\
+                   [[constraints]]\nname = 'turns'\nexpression = \"a' - (x*y' - y*x')/(x^2 + y^2)\"\n";
+    let mut experiment = build(turning, |_| ());
+    run(&mut experiment, 12.0);
+    let (x, y) = (value(&experiment, "x"), value(&experiment, "y"));
+    let turns = (value(&experiment, "a") - 0.2 - y.atan2(x)) / std::f64::consts::TAU;
+    assert!(turns > 0.5 && (turns - turns.round()).abs() < 1e-12, "{turns}");
+    let blade = "title = 'blade'\n[coordinates]\nx = { initial = 0, velocity = 1 }\ny = { initial = 0 }\n\
+                 a = { initial = 0, velocity = 0.7 }\n[lagrangian]\nL = \"1/2*(x'^2 + y'^2 + a'^2) - 0.3*x\"\n\
+                 [[constraints]]\nname = 'blade'\nexpression = \"x'*sin(a) - y'*cos(a)\"\n";
+    let mut experiment = build(blade, |_| ());
+    run(&mut experiment, 5.0);
+    let across = value(&experiment, "x'") * value(&experiment, "a").sin()
+        - value(&experiment, "y'") * value(&experiment, "a").cos();
+    assert!(across.abs() < 1e-15, "{across:e}");
 }

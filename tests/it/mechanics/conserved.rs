@@ -148,6 +148,9 @@ fn a_sign_beside_its_argument_is_no_step() {
         let (_, equations) = derived(&file(LINE, &law, "x"));
         assert_eq!(equations.conserved.len(), 1, "{kink}");
     }
+    // a unit by which both are divided
+    let units = "[parameters]\nu = 3.0\n".to_owned() + &l("1/2*x'^2 - x/u*sign(x/u)");
+    assert_eq!(derived(&file(LINE, &units, "x")).1.conserved.len(), 1);
     // numbers that are rounded where the product is multiplied out
     let rounded = l(
         "5e-10*(x'^2 + y'^2) - 1.1000000000000001e-8*(x/1e14 + 3.62e-15*y)*sign(x/1e14 + 3.62e-15*y)",
@@ -160,6 +163,9 @@ fn a_sign_beside_its_argument_is_no_step() {
         let (_, equations) = derived(&file(LINE, &law, "x"));
         assert!(equations.conserved.is_empty(), "{step}");
     }
+    // negative: a quotient also changes its sign where what it is divided by does
+    let quotient = l("1/2*(x'^2 + y'^2) - x*sign(x/y)");
+    assert!(derived(&file(PLANE, &quotient, "x")).1.conserved.is_empty());
     let one = l("1/2*(x'^2 + y'^2) - x*sign(x*y)");
     assert!(derived(&file(PLANE, &one, "x")).1.conserved.is_empty());
 }

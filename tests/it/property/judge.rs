@@ -474,7 +474,7 @@ fn twin_failure(
     // nothing depend on them too, and whether their errors show a trend may lie on the border
     let on_the_border = |a: &Gauge, b: &Gauge| {
         let words = ["bounded", "secular"];
-        let alike = a.max_drift.max(b.max_drift) < 2.0 * a.max_drift.min(b.max_drift);
+        let alike = a.max_drift.max(b.max_drift) < 10.0 * a.max_drift.min(b.max_drift);
         case.tolerance.is_some() && alike && words.contains(&a.word) && words.contains(&b.word)
     };
     let differs = |(a, b): &(&Gauge, &Gauge)| {
