@@ -27,6 +27,10 @@ const DIGITS: f64 = 16.0;
 /// resolution of time.
 const MOST_SHORTEST: u32 = 64;
 
+/// The most pieces of one step in a row on which the functions are sampled and none crosses zero: a
+/// step with more is far beyond what its method can follow.
+const MOST_PIECES: u32 = 1 << 16;
+
 /// After an impulse the sign of a function may change again very soon, after this part of the time.
 const SOONEST: f64 = 2e-15;
 
@@ -52,6 +56,8 @@ pub(super) struct EventLocator {
     simple: Option<f64>,
     /// The number of minimal intervals in a row.
     shortest: u32,
+    /// The beginning of the last step that was sampled, and in how many pieces so far.
+    pieces: (f64, u32),
     /// The last end of an interval, with the decimal number it is written as: the next one mostly
     /// begins there.
     end: (f64, DoubleDouble),
@@ -81,6 +87,7 @@ impl EventLocator {
             fresh: false,
             simple: None,
             shortest: 0,
+            pieces: (f64::NAN, 0),
             end: (f64::NAN, DoubleDouble::ZERO),
         }
     }
@@ -160,8 +167,13 @@ impl EventLocator {
             return Ok((None, to));
         }
         let Some((piece, beyond)) = self.piece(stepper, from, to) else {
+            self.count_piece(stepper.interval().0, from)?;
             let end = self.simple_until(stepper, from, to)?;
-            return Ok((self.sampled(stepper, from, end)?, end));
+            let found = self.sampled(stepper, from, end)?;
+            if found.is_some() {
+                self.pieces.1 = 0;
+            }
+            return Ok((found, end));
         };
         let shortest = DIGITS * spacing(from);
         let end = (piece.from + DoubleDouble::from(piece.unit) * piece.length).high.min(to);
@@ -314,6 +326,17 @@ impl EventLocator {
         let end = from + length.max(DIGITS * spacing(from));
         self.simple = Some(end);
         Ok(end.min(to))
+    }
+
+    /// Counts a piece of the step that begins at a time, and returns an error if there are too many.
+    fn count_piece(&mut self, step: f64, from: f64) -> Result<(), MotionError> {
+        let count = if self.pieces.0 == step { self.pieces.1 + 1 } else { 1 };
+        self.pieces = (step, count);
+        if count > MOST_PIECES {
+            let kind = MotionErrorKind::Swings;
+            return Err(MotionError { time: from, kind, place: Vec::new() });
+        }
+        Ok(())
     }
 
     /// Records how far the functions are represented after a time, and returns an error if that is

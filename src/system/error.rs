@@ -57,6 +57,8 @@ pub enum MotionErrorKind {
     NotFinite(String),
     /// The same in a step of fixed size, which may be too long.
     NotFiniteInStep(String),
+    /// The functions of the events swing too often within one step to be followed.
+    Swings,
     /// No velocities were found for the given momenta (or the reverse).
     NoVelocities,
     /// A step led to velocities on another branch for the same momenta.
@@ -177,6 +179,10 @@ impl fmt::Display for MotionError {
                     "the motion comes to a kink that it cannot be followed through at t = {time}"
                 )?;
             }
+            MotionErrorKind::Swings => write!(
+                f,
+                "what the events wait for swings too often within one step at t = {time}"
+            )?,
             MotionErrorKind::Cancelled => write!(f, "stopped on the way at t = {time}")?,
         }
         for (name, value) in &self.place {
@@ -213,7 +219,7 @@ impl fmt::Display for MotionError {
             MotionErrorKind::BranchLeft => {
                 ": a step led beyond the place where the momenta p = ∂L/∂q̇ turn back"
             }
-            MotionErrorKind::NoConvergence(_) => ": try a smaller step",
+            MotionErrorKind::NoConvergence(_) | MotionErrorKind::Swings => ": try a smaller step",
             MotionErrorKind::StepUnderflow(_) => ": a collision or another singularity lies ahead",
             MotionErrorKind::ClockStands(_) => ", and the next step, impulse or event comes sooner",
             MotionErrorKind::NoInterval(..) => ": its interval must be above zero",

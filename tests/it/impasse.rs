@@ -294,3 +294,17 @@ fn a_power_of_a_parameter_leaves_the_range_and_no_gauge_drifts() {
     let off = value(&experiment, "x") * 1e8 - reached(natural, None, 20.0, "x");
     assert!(off.abs() < 1e-10, "{off:e}");
 }
+
+/// A step far beyond what the method can follow: the function of the event swings thousands of times within it.
+#[test]
+fn an_event_that_swings_beyond_a_step_is_told() {
+    let text = "[coordinates]\nx = { initial = 1.0, velocity = 0.0 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n\
+                [[events]]\nname = \"hit\"\nwhen = \"2 + sin(1e8*x)\"\naction = \"stop\"\n";
+    let message = fault(by("rk4", Some(0.1), text), 1.0);
+    assert!(message.contains("swings too often within one step"), "{message}");
+    assert!(message.contains("try a smaller step"), "{message}");
+    // negative: a thousand swings are followed
+    let mut slower = by("rk4", Some(0.1), &text.replace("1e8", "1e4"));
+    run(&mut slower, 1.0);
+    assert!((value(&slower, "x") - 1.0_f64.cos()).abs() < 1e-5);
+}
