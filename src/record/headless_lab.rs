@@ -243,6 +243,7 @@ mod tests {
         let mut lab = HeadlessLab::open(&Document::new("spring.toml", text), "spring", 30, budget);
         lab.app.page = crate::app::Page::Lab;
         lab.tell(Command::Play);
+        lab.clock.pass(10_000_000);
         for _ in 0..frames {
             lab.tick();
         }

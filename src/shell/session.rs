@@ -14,7 +14,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crossterm::event::{
-    Event as TerminalEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
+    Event as TerminalEvent, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent,
+    MouseEventKind,
 };
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
@@ -339,6 +340,12 @@ impl Session {
     }
 }
 
+/// Whether this is Ctrl-c.
+fn is_interrupt(event: &TerminalEvent) -> bool {
+    matches!(event, TerminalEvent::Key(KeyEvent { code: KeyCode::Char('c'), modifiers, .. })
+        if modifiers.contains(KeyModifiers::CONTROL))
+}
+
 /// Shift makes the right button of the left one: many terminals keep one of the two for themselves.
 fn with_shift(mouse: MouseEvent) -> MouseEventKind {
     match mouse.kind {
@@ -356,7 +363,10 @@ fn with_shift(mouse: MouseEvent) -> MouseEventKind {
 
 impl Screen for Session {
     fn input(&mut self, event: TerminalEvent) -> ScreenRequest {
-        if let Some(guided) = &mut self.guided {
+        if is_interrupt(&event) {
+            // It ends the program, whatever has the screen.
+            self.leave_guide();
+        } else if let Some(guided) = &mut self.guided {
             let request = guided.input(event);
             return self.asked_by_guide(request);
         }

@@ -555,7 +555,16 @@ fn a_lesson_and_a_demo_are_taken_inside_the_lab() {
     lab.press("q");
     lab.shows("Lessons and demos");
     closes(&mut lab);
-    quits(lab);
+    // Ctrl-c ends the program from within a lesson too, which is kept where it was
+    lab.press("\x1bOQ");
+    lab.shows("Lessons and demos");
+    lab.press("kepler");
+    lab.shows("lesson, begun");
+    lab.press("\r");
+    lab.shows("Before each thing happens");
+    lab.press("\x03");
+    assert_eq!(lab.ends().0, 0);
+    lab.assert_restored();
 }
 
 /// Closes the list of lessons and demos.
