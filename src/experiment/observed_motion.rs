@@ -31,6 +31,8 @@ struct StepSampler {
     terms: TermWatch,
     /// When the channels are to be sampled next.
     next: f64,
+    /// The count of steps at whose end was looked last.
+    looked: Option<u64>,
     /// A number in (0, 1) that never repeats, so that the sampling times do not resonate with any period.
     golden: f64,
     /// An intermediate state and its channels.
@@ -43,6 +45,7 @@ impl StepSampler {
         StepSampler {
             terms: system.term_watch(parameters),
             next: f64::NEG_INFINITY,
+            looked: None,
             golden: 0.5,
             state: State::new(0.0, system.form(), Vec::new()),
             values: vec![f64::NAN; system.channels().len()],
@@ -175,11 +178,12 @@ impl ObservedMotion {
         loop {
             let (before, mut one) = (self.inner.steps(), (*budget).min(1));
             let reached = self.inner.reach(time, limit, &mut one)?;
-            if self.inner.steps() != before {
+            let new = self.inner.steps() != before;
+            if new {
                 *budget -= 1;
                 self.log_step();
-                self.look_at_step(gauges, spacing);
             }
+            self.look_at_step(gauges, spacing, new);
             match &reached {
                 Reached::Underway if *budget > 0 => continue,
                 Reached::Happened(occurrence) => self.record(occurrence)?,
@@ -192,18 +196,23 @@ impl ObservedMotion {
 
     /// Lets the gauges sample the last step: at its end, and also within it if rows may be farther apart than steps
     /// and the method is as accurate there as at the ends. A state that cannot be observed is skipped; its fault
-    /// appears again when it is requested.
-    fn look_at_step(&mut self, gauges: &mut Gauges, spacing: f64) {
+    /// appears again when it is requested. Where events are looked for in several pieces of a step, its end is free of
+    /// them only after the last.
+    fn look_at_step(&mut self, gauges: &mut Gauges, spacing: f64, new: bool) {
         let (begin, end) = self.inner.undisturbed();
-        let whole = end == self.inner.computed().time;
         let steps = self.inner.steps();
+        let whole = end == self.inner.computed().time && self.watch.looked != Some(steps);
+        if !new && !whole {
+            return;
+        }
+        self.watch.looked = whole.then_some(steps).or(self.watch.looked);
         let sparse = (end - begin).abs() < spacing;
         let due = sparse && end >= self.watch.next;
         if due {
             self.watch.next = end + spacing * (0.5 + self.watch.next_weyl());
         }
         // the state of a series is as accurate within a step as at its end
-        if sparse && self.inner.method().order.is_none() {
+        if new && sparse && self.inner.method().order.is_none() {
             let time = begin + self.watch.next_weyl() * (end - begin);
             let StepSampler { terms, state, values, .. } = &mut self.watch;
             if self.inner.inside(time, state).is_ok() && terms.look(state) {

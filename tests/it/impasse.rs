@@ -308,3 +308,22 @@ fn an_event_that_swings_beyond_a_step_is_told() {
     run(&mut slower, 1.0);
     assert!((value(&slower, "x") - 1.0_f64.cos()).abs() < 1e-5);
 }
+
+/// Where an event is looked for in several pieces of each step, the gauges look at the ends of the steps all the same: after one
+/// whole period nothing seems to have moved, and the first look must not be there.
+#[test]
+fn gauges_look_at_steps_in_which_an_event_is_sought_piece_by_piece() {
+    let text = "[coordinates]\nx = { initial = 1.0, velocity = 0.0 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2 - 1/4*x^4\"\n\
+                [[events]]\nname = \"far\"\nwhen = \"x + 3\"\naction = \"stop\"\n";
+    let drift = |tolerance: f64| {
+        let mut experiment = build(&format!("title = 'a test'\n{text}"), |setup| {
+            setup.settings.tolerance = Some(tolerance);
+        });
+        run(&mut experiment, 40.0);
+        experiment.snapshot().gauges[0].max_drift
+    };
+    for tolerance in [1e-6, 1e-8, 1e-10, 1e-12] {
+        let drift = drift(tolerance);
+        assert!(drift < 100.0 * tolerance, "{tolerance:e}: {drift:e}");
+    }
+}
