@@ -168,8 +168,7 @@ fn title(name: &str) -> String {
 }
 
 fn list(format: Format) -> Result<(), CommandError> {
-    let progress = LessonProgress::file().and_then(|path| LessonProgress::read(&path));
-    let progress = progress.unwrap_or_else(|why| {
+    let progress = LessonProgress::known().unwrap_or_else(|why| {
         stderr::tell(&why.to_string());
         LessonProgress::default()
     });
@@ -233,14 +232,13 @@ fn take(
         Ok(done) => done,
         Err(refusal) => return (shared.ended)(Err(refusal)),
     };
-    let finished = lesson.is_finished();
-    let mark = LessonMark { finished, step: if finished { 0 } else { lesson.place() } };
+    let mark = LessonMark::of(&lesson);
     if let Some(file) = &file {
         LessonProgress::note(file, name, mark)
             .map_err(|why| CommandError::CouldNotWrite(why.to_string()))?;
     }
     outcome.map_err(|mistake| located(vec![mistake]))?;
-    if ending == Ending::Quit && !finished && file.is_some() {
+    if ending == Ending::Quit && !mark.finished && file.is_some() {
         stderr::tell(&format!("`phaselab lessons {}` goes on here", printable::line(name)));
     }
     (shared.ended)(Ok(ending))

@@ -31,8 +31,8 @@ struct StepSampler {
     terms: TermWatch,
     /// When the channels are to be sampled next.
     next: f64,
-    /// The count of steps at whose end was looked last.
-    looked: Option<u64>,
+    /// Whether the end of the last step is still to be sampled.
+    pending: bool,
     /// A number in (0, 1) that never repeats, so that the sampling times do not resonate with any period.
     golden: f64,
     /// An intermediate state and its channels.
@@ -45,7 +45,7 @@ impl StepSampler {
         StepSampler {
             terms: system.term_watch(parameters),
             next: f64::NEG_INFINITY,
-            looked: None,
+            pending: false,
             golden: 0.5,
             state: State::new(0.0, system.form(), Vec::new()),
             values: vec![f64::NAN; system.channels().len()],
@@ -201,11 +201,12 @@ impl ObservedMotion {
     fn look_at_step(&mut self, gauges: &mut Gauges, spacing: f64, new: bool) {
         let (begin, end) = self.inner.undisturbed();
         let steps = self.inner.steps();
-        let whole = end == self.inner.computed().time && self.watch.looked != Some(steps);
+        self.watch.pending |= new;
+        let whole = self.watch.pending && end == self.inner.computed().time;
         if !new && !whole {
             return;
         }
-        self.watch.looked = whole.then_some(steps).or(self.watch.looked);
+        self.watch.pending &= !whole;
         let sparse = (end - begin).abs() < spacing;
         let due = sparse && end >= self.watch.next;
         if due {
@@ -312,6 +313,7 @@ impl ObservedMotion {
         let KnownStep { state, steps, step, released, start } = known;
         self.inner.restore_with_step(state, *step, (*start, released))?;
         self.inner.set_steps(*steps);
+        self.watch.pending = false;
         self.take_observer();
         Ok(())
     }

@@ -7,7 +7,7 @@ use std::time::Duration;
 use crossterm::event::Event;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
-use ratatui::style::Modifier;
+use ratatui::style::{Modifier, Style};
 use tracing::warn;
 
 use super::demo::Demo;
@@ -25,8 +25,7 @@ const FIRST: &str = "tour";
 
 /// The lessons and demos that are shipped, with how far each lesson was taken.
 pub(super) fn guides(systems: &[Entry]) -> Vec<Guide> {
-    let progress = LessonProgress::file().and_then(|path| LessonProgress::read(&path));
-    let progress = progress.unwrap_or_else(|why| {
+    let progress = LessonProgress::known().unwrap_or_else(|why| {
         warn!("{why}");
         LessonProgress::default()
     });
@@ -80,22 +79,24 @@ impl Guided {
             GuideKind::Demo => preset::demo(&name),
         };
         let source = source.ok_or_else(|| format!("{name} is no longer there"))?;
-        let told = |mistakes: &[Diagnostic]| source.report(mistakes, false);
-        let script = Script::read(&source).map_err(|mistakes| told(&mistakes))?;
+        let report = |mistakes: &[Diagnostic]| source.report(mistakes, false);
+        let script = Script::read(&source).map_err(|mistakes| report(&mistakes))?;
         let open = script.head.open.as_ref().map_or_else(|| name.clone(), |open| open.text.clone());
         let system = preset::find(&open).map_err(|why| why.to_string())?;
         let screen = match guide.kind {
             GuideKind::Lesson(_) => {
                 let lesson = Lesson::watched(script, &system, called(&open));
-                let mut lesson = lesson.map_err(|mistakes| told(&mistakes))?;
-                let progress = LessonProgress::file().and_then(|path| LessonProgress::read(&path));
-                let mark = progress.ok().and_then(|all| all.lessons.get(&name).copied());
-                lesson.resume(mark.unwrap_or_default().step).map_err(|mistake| told(&[mistake]))?;
+                let mut lesson = lesson.map_err(|mistakes| report(&mistakes))?;
+                let progress = LessonProgress::known().ok();
+                let mark = progress.and_then(|all| all.lessons.get(&name).copied());
+                lesson
+                    .resume(mark.unwrap_or_default().step)
+                    .map_err(|mistake| report(&[mistake]))?;
                 GuideScreen::Lesson(Box::new(LessonScreen::new(lesson, look)))
             }
             GuideKind::Demo => {
                 let runner = ScriptRunner::watched(script, &system, called(&open));
-                let runner = runner.map_err(|mistake| told(&[mistake]))?;
+                let runner = runner.map_err(|mistake| report(&[mistake]))?;
                 GuideScreen::Demo(Box::new(Demo::new(runner, look)))
             }
         };
@@ -113,8 +114,7 @@ impl Guided {
             GuideScreen::Demo(demo) => demo.outcome().err().map(|mistake| mistake.message),
             GuideScreen::Lesson(screen) => {
                 let (lesson, outcome) = screen.outcome();
-                let finished = lesson.is_finished();
-                let mark = LessonMark { finished, step: if finished { 0 } else { lesson.place() } };
+                let mark = LessonMark::of(&lesson);
                 let kept = LessonProgress::file()
                     .and_then(|path| LessonProgress::note(&path, &self.name, mark));
                 let wrong = outcome.err().map(|mistake| mistake.message);
@@ -148,7 +148,7 @@ impl Screen for Guided {
         if self.is_over() && area.height > 2 {
             let line = " The demo is over: any key leads back. ";
             let row = area.bottom() - 1;
-            let reversed = ratatui::style::Style::new().add_modifier(Modifier::REVERSED);
+            let reversed = Style::new().add_modifier(Modifier::REVERSED);
             buffer.set_stringn(area.x, row, line, area.width.into(), reversed);
         }
         cursor

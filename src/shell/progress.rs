@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use super::atomic_file::{self, Durability};
 use super::regular;
 use crate::printable;
+use crate::record::Lesson;
 
 /// How far one lesson was taken.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -70,7 +71,23 @@ pub enum ProgressError {
     },
 }
 
+impl LessonMark {
+    /// Returns how far a lesson is.
+    pub fn of(lesson: &Lesson) -> Self {
+        let finished = lesson.is_finished();
+        Self { finished, step: if finished { 0 } else { lesson.place() } }
+    }
+}
+
 impl LessonProgress {
+    /// Reads the progress from its file.
+    ///
+    /// # Errors
+    /// Returns an error if there is no home folder, or if the file cannot be read or understood.
+    pub fn known() -> Result<Self, ProgressError> {
+        Self::read(&Self::file()?)
+    }
+
     /// The file, `phaselab/lessons.toml` in the XDG state folder.
     ///
     /// # Errors

@@ -7,6 +7,7 @@
 //!
 //! Rules: À. Jorba, M. Zou, Experimental Mathematics 14 (2005) 99, section 2.
 
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use super::parametric_power::{self, vanishes};
@@ -149,7 +150,7 @@ impl<R: Real> Jet<R> {
     /// Evaluates all registers at order `k`, at a time that advances in units of `scale`. The lower
     /// orders must have been evaluated, and the inputs' coefficients of order `k` set.
     pub fn advance(&mut self, k: usize, time: R, scale: f64) -> Result<(), Singular> {
-        vectorized(Advance { jet: self, k, time, scale })
+        vectorized(Advance { jet: self, orders: k..=k, time, scale })
     }
 
     /// The same inside a [`Kernel`].
@@ -174,7 +175,7 @@ impl<R: Real> Jet<R> {
     /// Evaluates all orders up to one, at a time that advances in units of `scale`. The inputs'
     /// coefficients must have been set.
     pub(super) fn advance_to(&mut self, last: usize, time: R, scale: f64) -> Result<(), Singular> {
-        vectorized(AdvanceTo { jet: self, last, time, scale })
+        vectorized(Advance { jet: self, orders: 0..=last, time, scale })
     }
 
     /// The series of an output.
@@ -243,10 +244,10 @@ impl<R: Real> Jet<R> {
     }
 }
 
-/// One order of a jet.
+/// Some orders of a jet whose inputs are known up to them.
 struct Advance<'a, R> {
     jet: &'a mut Jet<R>,
-    k: usize,
+    orders: RangeInclusive<usize>,
     time: R,
     scale: f64,
 }
@@ -256,24 +257,8 @@ impl<R: Real> Kernel for Advance<'_, R> {
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> Result<(), Singular> {
-        self.jet.advance_with::<FUSED>(self.k, self.time, self.scale)
-    }
-}
-
-/// All orders of a jet whose inputs are known.
-struct AdvanceTo<'a, R> {
-    jet: &'a mut Jet<R>,
-    last: usize,
-    time: R,
-    scale: f64,
-}
-
-impl<R: Real> Kernel for AdvanceTo<'_, R> {
-    type Output = Result<(), Singular>;
-
-    #[inline(always)]
-    fn run<const FUSED: bool>(self) -> Result<(), Singular> {
-        (0..=self.last).try_for_each(|k| self.jet.advance_with::<FUSED>(k, self.time, self.scale))
+        let Advance { jet, mut orders, time, scale } = self;
+        orders.try_for_each(|k| jet.advance_with::<FUSED>(k, time, scale))
     }
 }
 
