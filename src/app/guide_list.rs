@@ -34,8 +34,8 @@ impl App {
         let open =
             |guide: &Guide| matches!(guide.kind, GuideKind::Lesson(taken) if taken != Taken::Whole);
         let guides = &self.picker.guides;
-        let last =
-            guides.iter().position(|guide| Some(&guide.name) == self.picker.last_guide.as_ref());
+        // A lesson and a demo may have the same name.
+        let last = self.picker.last_guide.filter(|&last| last < guides.len());
         // A lesson that was finished leads to the next one.
         let from = last.unwrap_or(0);
         let next = guides.iter().skip(from).position(open).map(|place| place + from);
@@ -59,7 +59,7 @@ impl App {
     /// Takes the guide of an index.
     pub(super) fn take_guide(&mut self, index: usize) -> Vec<Effect> {
         let Some(guide) = self.picker.guides.get(index) else { return Vec::new() };
-        self.picker.last_guide = Some(guide.name.clone());
+        self.picker.last_guide = Some(index);
         vec![Effect::TakeGuide(guide.clone())]
     }
 }

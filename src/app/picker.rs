@@ -26,8 +26,8 @@ pub struct Picker {
     pub selected: usize,
     /// The lessons and demos, lessons first.
     pub guides: Vec<Guide>,
-    /// The name of the lesson or demo that was taken last.
-    pub(super) last_guide: Option<String>,
+    /// The index of the lesson or demo that was taken last.
+    pub(super) last_guide: Option<usize>,
     /// Why the preview of the selected system cannot be shown.
     pub failure: Option<LoadError>,
     /// The session that can be resumed from the row above the systems.

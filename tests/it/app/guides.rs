@@ -14,7 +14,7 @@ fn guides(first: Taken) -> Vec<Guide> {
     vec![
         guide(GuideKind::Lesson(first), "tour", "A tour"),
         guide(GuideKind::Lesson(Taken::NotYet), "kepler", "Why does Kepler's ellipse close?"),
-        guide(GuideKind::Demo, "pendulum", "The pendulum"),
+        guide(GuideKind::Demo, "tour", "The pendulum"),
     ]
 }
 
