@@ -20,6 +20,9 @@ use crate::preset::{self, Entry};
 use crate::record::{Lesson, Script, ScriptRunner, called};
 use crate::view::{Detail, RenderStyle};
 
+/// What is said when a demo is over.
+const LEADS_BACK: &str = " over: any key leads back ";
+
 /// The lesson with which everyone begins.
 const FIRST: &str = "tour";
 
@@ -140,16 +143,19 @@ impl Screen for Guided {
     }
 
     fn advance(&mut self, elapsed: Duration) -> bool {
-        self.screen().advance(elapsed)
+        let over = self.is_over();
+        let changed = self.screen().advance(elapsed);
+        changed || self.is_over() != over
     }
 
     fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position> {
         let cursor = self.screen().draw(area, buffer);
         if self.is_over() && area.height > 2 {
-            let line = " The demo is over: any key leads back. ";
-            let row = area.bottom() - 1;
+            // At the right of the last row, beside the caption.
+            let width = area.width.min(LEADS_BACK.len() as u16);
+            let place = (area.right() - width, area.bottom() - 1);
             let reversed = Style::new().add_modifier(Modifier::REVERSED);
-            buffer.set_stringn(area.x, row, line, area.width.into(), reversed);
+            buffer.set_stringn(place.0, place.1, LEADS_BACK, width.into(), reversed);
         }
         cursor
     }
@@ -163,5 +169,40 @@ impl Screen for Guided {
 
     fn reduce(&mut self, detail: Detail) {
         self.screen().reduce(detail);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::view::colour::ColourDepth;
+    use crate::view::glyphs::Glyphs;
+    use crate::view::theme::Theme;
+
+    /// A demo that has ended stands still, so that the picture with the way back must be asked for.
+    #[test]
+    fn a_demo_that_ends_asks_for_a_picture_that_says_so() {
+        let name = "sleeping-top".to_owned();
+        let guide =
+            Guide { kind: GuideKind::Demo, title: name.clone(), system: name.clone(), name };
+        let look = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
+        let mut guided = Guided::open(&guide, look).unwrap();
+        let area = Rect::new(0, 0, 80, 24);
+        let last_row = |guided: &mut Guided| {
+            let mut buffer = Buffer::empty(area);
+            guided.draw(area, &mut buffer);
+            (0..area.width).map(|x| buffer[(x, area.bottom() - 1)].symbol()).collect::<String>()
+        };
+        assert!(!last_row(&mut guided).contains(LEADS_BACK));
+        let mut changed = false;
+        for _ in 0..600 {
+            if guided.is_over() {
+                break;
+            }
+            changed = guided.advance(Duration::from_millis(100));
+        }
+        assert!(guided.is_over() && changed);
+        assert!(last_row(&mut guided).ends_with(LEADS_BACK));
+        assert!(!guided.advance(Duration::from_millis(100)));
     }
 }
