@@ -12,6 +12,7 @@ mod change;
 mod choose;
 mod companions;
 mod computation;
+mod diagram;
 mod drawn;
 mod edit;
 mod editor;

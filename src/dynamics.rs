@@ -26,6 +26,7 @@ mod quadrature;
 mod spectrum;
 mod stationary_path;
 mod transverse;
+mod variation;
 
 pub use action::{Lagrangian, Path};
 pub use carrier::Carrier;
@@ -45,3 +46,4 @@ pub use spectrum::{
 };
 pub use stationary_path::{PathKind, StationaryPath, morse_index, stationary_path};
 pub use transverse::Removed;
+pub use variation::{VARIATIONS, VariedAction, varied_action};

@@ -5,11 +5,14 @@
 //! system and its current state. Out: [`Plot`]s, [`Picture`]s, [`Job`](crate::job::Job)s. Never here: cells and
 //! colours (`view` draws any picture), keys, threads.
 
+mod action;
 mod conditions;
+mod diagram;
 mod ensemble;
 mod equilibria;
 mod exponents;
 mod kind;
+mod legendre;
 mod opening;
 mod orbit;
 mod phase;
@@ -40,4 +43,4 @@ pub use present::{Physics, Present, Returned};
 pub use saved::{Quantity, SavedPlot};
 pub use seed::{MOST_SEEDS, Seed};
 pub use sight::{CameraPose, Sight, Viewport};
-pub use table::{INSTRUMENTS, NOT_YET, listed, named, offers};
+pub use table::{INSTRUMENTS, listed, named, offers};

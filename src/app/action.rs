@@ -125,6 +125,8 @@ pub enum Action {
     PeriodicOrbit,
     /// Find the frequencies of the motion.
     Spectrum,
+    /// Shows what becomes of the motion over the range of the selected parameter.
+    Diagram,
     /// Keep the present run beside what follows.
     Pin,
     /// Remove all motions beside the main one.

@@ -23,6 +23,7 @@ pub(super) struct PlotJob {
     pub(super) kind: &'static dyn Instrument,
     pub(super) columns: Columns,
     pub(super) view: Option<usize>,
+    pub(super) over: Option<usize>,
     pub(super) answer: Option<Answer>,
     pub(super) under_way: Option<UnderWay>,
 }
@@ -30,7 +31,8 @@ pub(super) struct PlotJob {
 impl PlotJob {
     /// Whether it belongs to a plot with these contents, whatever its view.
     pub(super) fn is_of(&self, plot: &Plot) -> bool {
-        self.kind == plot.kind && self.columns == plot.columns && self.view == plot.view
+        (self.kind, &self.columns) == (plot.kind, &plot.columns)
+            && (self.view, self.over) == (plot.view, plot.over)
     }
 }
 

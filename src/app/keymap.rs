@@ -330,6 +330,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Values, &[SHIFT_LEFT, c('H'), c('-')], change(-1, true), "", "less, by a coarse step"),
     row(Place::Values, &[SHIFT_RIGHT, c('L'), c('+'), c('=')], change(1, true), "", "more, by a coarse step"),
     row(Place::Values, &[ENTER], Action::TypeValue, "type", "type the value; pi, sqrt(2), 2*l are understood"),
+    row(Place::Values, &[c('v')], Action::Diagram, "", "what becomes of the motion over the range of this parameter: where it crosses the surface of section (a bifurcation diagram), or its Lyapunov exponent"),
     row(Place::Values, &[BACKSPACE, DELETE], Action::Restore, "", "the value of the file"),
 
     row(Place::Gauges, &[UP, c('k')], Action::Move(Direction::Up), "", "the gauge above"),

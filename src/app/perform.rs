@@ -168,6 +168,7 @@ impl App {
             Action::Ensemble => self.show_picture("ensemble"),
             Action::PeriodicOrbit => self.find_orbit(),
             Action::Spectrum => self.show_picture("spectrum"),
+            Action::Diagram => self.show_diagram(),
             Action::Pin => vec![Effect::Tell(Command::Pin)],
             Action::ClearCompanions => self.clear_companions(),
             Action::AddOrbits => self.add_orbits(),

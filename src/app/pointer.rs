@@ -125,8 +125,8 @@ impl App {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let effects = match (grabbed, hit) {
             (Some(Grab::Picture { moved: false, .. }), HitTarget::Plot { index, place, at }) => {
-                match lab.beginning_at(index, at) {
-                    Ok(given) => lab.start(&given),
+                match lab.begun_at(index, at) {
+                    Ok(effects) => effects,
                     Err(NoStart::Refused(why)) => {
                         lab.history.end_group();
                         return self.notify(why);
@@ -205,8 +205,8 @@ impl App {
         let Some((index, plot)) = lab.focused_plot() else { return Vec::new() };
         let has_cursor = plot.viewport().is_some_and(|viewport| viewport.cursor.is_some());
         let Some(at) = self.drawn.reading.filter(|_| has_cursor) else { return self.open_axes() };
-        match lab.beginning_at(index, at) {
-            Ok(given) => lab.start(&given),
+        match lab.begun_at(index, at) {
+            Ok(effects) => effects,
             Err(NoStart::Refused(why)) => self.notify(why),
             Err(NoStart::Nothing) => self.notify(
                 "A point of this plot is no start: that takes a coordinate and a rate, or a section.",
@@ -265,6 +265,19 @@ impl App {
 }
 
 impl Lab {
+    /// Begins the motion at a point of a plot, or sets the parameter to the value that the point stands for.
+    fn begun_at(&mut self, index: usize, at: [f64; 2]) -> Result<Vec<Effect>, NoStart> {
+        let parameter = self.plots.get(index).zip(self.present());
+        let parameter = parameter.and_then(|(plot, now)| plot.kind.parameter_at(plot, &now, at));
+        if let Some((parameter, value)) = parameter {
+            let target = ValueId::Parameter(parameter);
+            let value = self.rounded(target, value);
+            return Ok(self.change(target, value));
+        }
+        let given = self.beginning_at(index, at)?;
+        Ok(self.start(&given))
+    }
+
     /// Returns the initial values that a point of a plot represents, or why it represents none.
     pub(super) fn beginning_at(
         &self,

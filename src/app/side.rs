@@ -55,8 +55,9 @@ impl Lab {
                     Some(under_way)
                 }
             };
-            let (kind, columns, view) = (plot.kind, plot.columns.clone(), plot.view);
-            entries.push(PlotJob { kind, columns, view, answer, under_way });
+            let &Plot { kind, view, over, .. } = plot;
+            let columns = plot.columns.clone();
+            entries.push(PlotJob { kind, columns, view, over, answer, under_way });
         }
         self.answers.entries = entries;
         wanted

@@ -113,7 +113,7 @@ impl Lagrangian {
     }
 
     /// L at a time from the beginning of a path.
-    fn value(&mut self, time: f64, state: &[f64]) -> f64 {
+    pub(super) fn value(&mut self, time: f64, state: &[f64]) -> f64 {
         match self.values.evaluate(self.start + time, state) {
             Ok(()) => self.values.output(0),
             Err(_) => f64::NAN,

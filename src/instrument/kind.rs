@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use super::{Across, Columns, Heading, Physics, Picture, Plot, Present, Seed};
 use crate::job::Job;
+use crate::model::View;
 use crate::system::InitialOverride;
 
 /// A kind of plot: one row of [`INSTRUMENTS`](super::INSTRUMENTS). Common behaviour has defaults.
@@ -36,6 +37,11 @@ pub trait Instrument: Sync {
         false
     }
 
+    /// Whether it runs over the range of a parameter, which a file names in `over`.
+    fn is_over_a_parameter(&self) -> bool {
+        false
+    }
+
     /// Whether a person adds starts to it by a key: through a point, or over what is seen.
     fn takes_seeds(&self) -> bool {
         self.is_section()
@@ -44,6 +50,14 @@ pub trait Instrument: Sync {
     /// Whether it shows a view of the file, besides what is chosen. A kind without choices does.
     fn shows_a_view(&self) -> bool {
         self.chosen().is_empty() && !self.is_scene()
+    }
+
+    /// Whether it can show this view of the file, or be without one.
+    fn shows(&self, view: Option<&View>) -> bool {
+        match view {
+            Some(view) => view.kind == self.name(),
+            None => !self.shows_a_view(),
+        }
     }
 
     /// Whether its axes share a unit that can be drawn at the same scale on both.
@@ -98,6 +112,16 @@ pub trait Instrument: Sync {
         _at: [f64; 2],
     ) -> Result<Vec<InitialOverride>, NoStart> {
         Err(NoStart::Nothing)
+    }
+
+    /// The parameter, and its value, that a point of the picture stands for.
+    fn parameter_at(
+        &self,
+        _plot: &Plot,
+        _present: &Present<'_>,
+        _at: [f64; 2],
+    ) -> Option<(usize, f64)> {
+        None
     }
 
     /// The further orbits that are spread over what a viewport shows, if it is a section of orbits.

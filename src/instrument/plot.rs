@@ -24,6 +24,8 @@ pub struct Plot {
     pub columns: Columns,
     /// The view of the file that it shows, if nothing is chosen.
     pub view: Option<usize>,
+    /// The parameter over whose range it runs.
+    pub over: Option<usize>,
     /// The camera or the window.
     pub sight: Sight,
     /// The orbits added to a section.
@@ -42,7 +44,8 @@ impl Plot {
         } else {
             (view, Sight::Axes(Viewport::WHOLE))
         };
-        Self { kind, columns, view, sight, seeds: Vec::new() }
+        let over = view.and_then(|view| model.views.get(view)?.over);
+        Self { kind, columns, view, over, sight, seeds: Vec::new() }
     }
 
     /// The plot of a kind that shows a view of the file, or `None` if one of its quantities is not a channel.
@@ -137,6 +140,7 @@ impl Plot {
         self.kind == other.kind
             && self.columns == other.columns
             && self.view == other.view
+            && self.over == other.over
             && seen(self) == seen(other)
     }
 

@@ -19,6 +19,9 @@ pub struct SavedPlot {
     /// The index of the view of the file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub view: Option<usize>,
+    /// The parameter over whose range it runs, by its name.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub over: Option<String>,
     /// The camera, if it has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub eye: Option<CameraPose>,
@@ -70,6 +73,7 @@ impl SavedPlot {
         Self {
             kind: plot.kind.name().to_owned(),
             view: plot.view,
+            over: plot.over.map(|over| physics.model.parameters[over].name.clone()),
             eye: plot.eye(),
             viewport: plot.viewport(),
             seeds: plot.seeds.clone(),
@@ -106,16 +110,20 @@ impl SavedPlot {
             (false, _, Some(viewport)) => Sight::Axes(viewport),
             _ => return None,
         };
-        let needs_view = kind.shows_a_view();
-        let viewed = self.view.is_some_and(|view| is_view_of(model, view, kind));
-        let view = self.view.filter(|_| needs_view);
+        let view = self.view.filter(|_| kind.shows_a_view());
+        let shown = view.map(|view| model.views.get(view).ok_or(())).transpose().ok()?;
+        let over = self.over.as_ref().map(|name| model.parameter(name).ok_or(()));
+        let over = over.transpose().ok()?;
+        if !kind.shows(shown) {
+            return None;
+        }
         let finite = |seed: &Seed| match seed {
             Seed::Spread(window) => window.as_flattened().iter().all(|x| x.is_finite()),
             Seed::Through(point) => point.iter().all(|x| x.is_finite()),
         };
         let seeds: Vec<Seed> =
             self.seeds.iter().filter(|seed| finite(seed)).take(MOST_SEEDS).copied().collect();
-        (!needs_view || viewed).then_some(Plot { kind, columns, view, sight, seeds })
+        Some(Plot { kind, columns, view, over, sight, seeds })
     }
 }
 

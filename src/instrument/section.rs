@@ -397,14 +397,20 @@ fn view<'a>(plot: &Plot, physics: Physics<'a>) -> Option<&'a View> {
 
 /// The surface in words: `x = 0, rising`.
 fn surface(physics: Physics<'_>, view: &View) -> String {
-    let on = view.axes.get(2).and_then(|axis| axis.first()).map_or("?", |on| &on.written);
     let section = view.section.and_then(|index| physics.model.sections.get(index));
     let direction = match section.map_or(Direction::Either, |section| section.direction) {
         Direction::Rising => ", rising",
         Direction::Falling => ", falling",
         Direction::Either => "",
     };
-    format!("{on} = 0{direction}")
+    format!("{}{direction}", zero(physics, view))
+}
+
+/// The equation of the surface of a view, in mathematical notation: `sin(ω t) = 0`.
+pub(super) fn zero(physics: Physics<'_>, view: &View) -> String {
+    // the last of the axes, as it was read
+    let on = view.axes.last().and_then(|axis| axis.first());
+    format!("{} = 0", on.map_or_else(String::new, |on| physics.model.pool.unicode(on.expression)))
 }
 
 /// The plane of a plot, if its points are starts and its quantities are columns of an orbit.

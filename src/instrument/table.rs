@@ -6,12 +6,12 @@
 use super::kind::{Instrument, Offer};
 use super::present::Physics;
 use super::{
-    ensemble, exponents, orbit, phase, potential, section, separation, space, spectrum, time,
-    transformation,
+    action, diagram, ensemble, exponents, legendre, orbit, phase, potential, section, separation,
+    space, spectrum, time, transformation,
 };
 
 /// All kinds, in the order in which the lab opens with them.
-pub static INSTRUMENTS: [&dyn Instrument; 11] = [
+pub static INSTRUMENTS: [&dyn Instrument; 14] = [
     &space::Space,
     &phase::Phase,
     &transformation::Transformation,
@@ -23,10 +23,10 @@ pub static INSTRUMENTS: [&dyn Instrument; 11] = [
     &ensemble::Ensemble,
     &orbit::Orbit,
     &spectrum::Spectrum,
+    &action::Action,
+    &legendre::Legendre,
+    &diagram::Diagram,
 ];
-
-/// Kinds that the file format names but this version does not support.
-pub const NOT_YET: [&str; 1] = ["action"];
 
 /// Finds a kind by its name.
 pub fn named(name: &str) -> Option<&'static dyn Instrument> {

@@ -27,6 +27,8 @@ pub struct View {
     pub shapes: Option<Vec<Shape>>,
     /// The surface of section, by its index among the model's.
     pub section: Option<usize>,
+    /// The parameter over whose range it runs, by its index.
+    pub over: Option<usize>,
     /// The range of each axis, if the file gives it: expressions of the parameters.
     pub ranges: [Option<[Expr; 2]>; 2],
 }

@@ -482,23 +482,46 @@ const VIEW: Section = Section {
     head: "[[views]]",
     about: "A `potential` is `y` over the coordinate `x`, all else held.",
     keys: &[
-        key("kind", Text, "`phase`, `space`, `time`, `potential` or `section`")
-            .needed("write kind = \"phase\", \"space\", \"time\", \"potential\" or \"section\""),
+        key(
+            "kind",
+            Text,
+            "`phase`, `space`, `time`, `potential`, `section`, `diagram`, `transformation`, `ensemble`, `orbit`, `spectrum`, `action` or `legendre`",
+        )
+        .needed("write kind = \"phase\", \"space\", \"time\", \"potential\" or \"section\""),
         key("title", Text, "what it is called"),
-        key("x", Formula, "the horizontal axis").only(&["phase", "potential", "section"]),
+        key("x", Formula, "the horizontal axis").only(&[
+            "phase",
+            "potential",
+            "section",
+            "transformation",
+            "ensemble",
+            "orbit",
+            "action",
+            "legendre",
+        ]),
         key("y", Formulas, "the vertical axis; several in a time series").only(&[
             "phase",
             "time",
             "potential",
             "section",
+            "diagram",
+            "transformation",
+            "ensemble",
+            "orbit",
+            "spectrum",
         ]),
+        key("over", Text, "the parameter over whose range it runs")
+            .needed("write over = \"...\", a parameter")
+            .only(&["diagram"]),
         key("on", Formula, "vanishes on the surface of section")
             .needed("write on = \"...\", which vanishes on the surface")
-            .only(&["section"]),
+            .only(&["section", "diagram"]),
         key("direction", Text, "of the crossings: `rising`, `falling` or `either`; `rising`")
-            .only(&["section"]),
-        key("x_range", Formulas, "the two ends of the horizontal axis").only(&["section"]),
-        key("y_range", Formulas, "the two ends of the vertical axis").only(&["section"]),
+            .only(&["section", "diagram"]),
+        key("x_range", Formulas, "the two ends of the horizontal axis")
+            .only(&["section", "diagram"]),
+        key("y_range", Formulas, "the two ends of the vertical axis")
+            .only(&["section", "diagram"]),
         key("frame", Text, "the frame it is seen from").only(&["space"]),
         key("shapes", List(&SHAPE), "what is drawn in place of the shapes of [space]")
             .only(&["space"]),

@@ -186,7 +186,7 @@ mod tests {
         let guide =
             Guide { kind: GuideKind::Demo, title: name.clone(), system: name.clone(), name };
         let look = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
-        let mut guided = Guided::open(&guide, look).unwrap();
+        let mut guided = Guided::open(&guide, look).expect("a shipped demo");
         let area = Rect::new(0, 0, 80, 24);
         let last_row = |guided: &mut Guided| {
             let mut buffer = Buffer::empty(area);

@@ -1,5 +1,6 @@
 //! What the derivatives of a motion tell, against closed forms and published numbers.
 
+mod action;
 mod equilibria;
 mod family;
 mod flow;

@@ -7,7 +7,7 @@ use std::time::Duration;
 use crossterm::event::KeyEvent;
 use phaselab::app::{App, Effect, Event, Loaded, key};
 use phaselab::diagnostic::Document;
-use phaselab::experiment::{Gauge, MethodFact, Snapshot, Status, Trail, Verdict};
+use phaselab::experiment::{Gauge, MethodFact, Prepared, Snapshot, Status, Trail, Verdict};
 use phaselab::mechanics::derive;
 use phaselab::preset::Catalog;
 use phaselab::system::{ChannelKind, InitialOverride, System};
@@ -168,4 +168,17 @@ pub(crate) fn press(app: &mut App, keys: &str) -> Vec<Effect> {
 /// Parses a key.
 pub(crate) fn key(word: &str) -> KeyEvent {
     key::named(word).unwrap_or_else(|_| panic!("no key is called {word}"))
+}
+
+/// The application with a system of its own in the lab, at its start, where nothing is computed on the side but what is
+/// waited for.
+pub(crate) fn begun(text: &str) -> App {
+    let ready = Prepared::of(&Document::new("test", text)).unwrap_or_else(|why| panic!("{why}"));
+    let Prepared { document, model, equations, system, mut experiment } = ready;
+    experiment.set_epoch(1);
+    let (mut app, _) = App::new(catalog(), Some("test"));
+    let name = "test".to_owned();
+    app.update(Event::Loaded(Ok(Loaded { name, epoch: 1, document, model, equations, system })));
+    app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
+    app
 }

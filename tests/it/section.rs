@@ -32,7 +32,7 @@ y = "p_y"
 until = 100.0
 "#;
 
-fn prepared(text: &str) -> Prepared {
+pub(crate) fn prepared(text: &str) -> Prepared {
     Prepared::of(&Document::new("test", text)).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -235,13 +235,13 @@ fn opened(ready: Prepared, time: f64) -> (App, usize) {
     (app, index)
 }
 
-fn measure(app: &App, plot: &Plot, word: &str) -> f64 {
+pub(crate) fn measure(app: &App, plot: &Plot, word: &str) -> f64 {
     let lab = app.lab.as_ref().unwrap();
     let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
     (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot)).unwrap()
 }
 
-fn layers(app: &App, plot: &Plot) -> Vec<Layer> {
+pub(crate) fn layers(app: &App, plot: &Plot) -> Vec<Layer> {
     let lab = app.lab.as_ref().unwrap();
     let present: Present<'_> = lab.present().unwrap();
     match plot.kind.picture(plot, &present, [f64::NAN; 2], lab.answer(plot)) {

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use toml::Spanned;
 
 use super::Check;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, nearest};
 use crate::ensemble::section_name;
 use crate::expr::Expr;
 use crate::instrument::Instrument;
@@ -27,7 +27,7 @@ impl Check<'_> {
         for view in written {
             let mut axes = Vec::new();
             for (place, formulas) in view.axes.iter().enumerate() {
-                let axis = view.kind.and_then(|kind| kind.written().get(place));
+                let axis = view.kind.written().get(place);
                 let mut channels = Vec::new();
                 for formula in formulas {
                     let Some(expression) = self.formula(&mut scope, "a view", formula) else {
@@ -45,8 +45,7 @@ impl Check<'_> {
                 }
                 axes.push(channels);
             }
-            let Some(kind) = view.kind else { continue };
-            let (kind, title) = (kind.name().to_owned(), view.title.clone());
+            let (kind, title) = (view.kind.name().to_owned(), view.title.clone());
             let frame = view.frame.as_ref().and_then(|name| self.frame_of_view(name));
             let shapes = view.shapes.as_ref().map(|written| self.shapes(written, nodes));
             let ranges = view.section.as_ref().map_or([None, None], |section| {
@@ -60,8 +59,25 @@ impl Check<'_> {
                     Some(section)
                 }
             };
-            self.model.views.push(View { kind, title, axes, frame, shapes, section, ranges });
+            let over = view.over.as_ref().and_then(|name| self.parameter_of_view(name));
+            self.model.views.push(View { kind, title, axes, frame, shapes, section, over, ranges });
         }
+    }
+
+    /// The index of a parameter by its name.
+    fn parameter_of_view(&mut self, name: &Spanned<String>) -> Option<usize> {
+        let found = self.model.parameter(name.get_ref());
+        if found.is_none() {
+            let known: Vec<&str> = self.model.parameters.iter().map(|p| p.name.as_str()).collect();
+            let help = match nearest(name.get_ref(), known.iter().copied()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None if known.is_empty() => "the file has no [parameters]".to_owned(),
+                None => format!("the parameters are {}", known.join(", ")),
+            };
+            let message = format!("there is no parameter `{}`", name.get_ref());
+            self.mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
+        }
+        found
     }
 
     /// Reads a surface of section: the expression, and its index among the model's surfaces.
@@ -117,13 +133,15 @@ impl Check<'_> {
         &mut self,
         x: &Channel,
         written: &Formula,
-        kind: Option<&'static dyn Instrument>,
+        kind: &'static dyn Instrument,
     ) {
-        let kind = kind.map_or("view", |kind| kind.name());
         let symbol = self.model.pool.as_symbol(x.expression);
         if !self.model.coordinates.iter().any(|c| Some(c.position) == symbol) {
             let names: Vec<&str> = self.model.coordinates.iter().map(|c| c.name.as_str()).collect();
-            let message = format!("a {kind} runs along a coordinate, and this is none");
+            let message = format!(
+                "`x` of a view of kind `{}` is a coordinate, and this is none",
+                kind.name()
+            );
             let help = format!("write one of {}", names.join(", "));
             self.mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
         }

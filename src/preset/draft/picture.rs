@@ -8,15 +8,13 @@ use super::vector::{Formulas, optional_point, point};
 use super::{Formula, value};
 use crate::diagnostic::nearest;
 use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
-use crate::instrument::{Axis, INSTRUMENTS, Instrument, NOT_YET, listed, named};
+use crate::instrument::{Axis, INSTRUMENTS, Instrument, listed, named};
 
 /// A view as written.
 pub(in crate::preset) struct DraftView {
     /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
-    /// The kind, or `None` if the format has it but this version does not; such a view is read and
-    /// dropped.
-    pub(in crate::preset) kind: Option<&'static dyn Instrument>,
+    pub(in crate::preset) kind: &'static dyn Instrument,
     pub(in crate::preset) title: String,
     /// The expressions for each axis of the kind.
     pub(in crate::preset) axes: Vec<Vec<Formula>>,
@@ -26,6 +24,8 @@ pub(in crate::preset) struct DraftView {
     pub(in crate::preset) shapes: Option<Vec<DraftShape>>,
     /// The surface of a section.
     pub(in crate::preset) section: Option<DraftSection>,
+    /// The parameter over whose range it runs.
+    pub(in crate::preset) over: Option<Spanned<String>>,
 }
 
 /// The surface of a section as written.
@@ -123,7 +123,10 @@ fn view(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftView> {
     let help = format!("write kind = {}", listed("\"", "or"));
     let Some((_, found)) = table.require("kind", &help) else {
         let axes = INSTRUMENTS.into_iter().flat_map(Instrument::written);
-        for key in axes.map(|axis| axis.key).chain(["title", "frame", "shapes"]).chain(SECTION_KEYS)
+        for key in axes
+            .map(|axis| axis.key)
+            .chain(["title", "frame", "shapes", "over"])
+            .chain(SECTION_KEYS)
         {
             table.take(key);
         }
@@ -135,15 +138,6 @@ fn view(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftView> {
     table.called = format!("this view of kind {}", written.get_ref());
     let title = table.line("title", mistakes);
     let place = table.place.clone();
-    let Kind::Drawn(kind) = kind else {
-        let mut axis = |key| {
-            let found = table.take(key);
-            found.and_then(|(_, v)| value::formula(v, &format!("`{key}`"), mistakes))
-        };
-        let axes = ["x", "y"].map(|key| axis(key).into_iter().collect()).to_vec();
-        let (frame, shapes, section) = (None, None, None);
-        return Some(DraftView { place, kind: None, title, axes, frame, shapes, section });
-    };
     let axes = kind.written().iter().map(|axis| several(&mut table, axis, mistakes)).collect();
     let (mut frame, mut shapes) = (None, None);
     if kind.is_scene() {
@@ -151,8 +145,15 @@ fn view(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftView> {
         shapes = table.has("shapes").then(|| shapes_of(&mut table, mistakes));
     }
     let section = kind.is_section().then(|| section(&mut table, mistakes));
+    let mut over = None;
+    if kind.is_over_a_parameter() {
+        over = table.text("over", mistakes);
+        if over.is_none() {
+            table.require("over", "write over = \"...\", a parameter");
+        }
+    }
     table.finish(mistakes);
-    Some(DraftView { place, kind: Some(kind), title, axes, frame, shapes, section })
+    Some(DraftView { place, kind, title, axes, frame, shapes, section, over })
 }
 
 /// The keys of a section besides its axes.
@@ -206,32 +207,21 @@ fn several(table: &mut Table<'_>, axis: &Axis, mistakes: &mut Diagnostics) -> Ve
 }
 
 /// The kind that a name denotes.
-enum Kind {
-    Drawn(&'static dyn Instrument),
-    /// The format has it, but this version does not.
-    LeftOut,
-}
-
-/// The kind that a name denotes.
-fn view_kind(written: &Spanned<String>, mistakes: &mut Diagnostics) -> Option<Kind> {
+fn view_kind(
+    written: &Spanned<String>,
+    mistakes: &mut Diagnostics,
+) -> Option<&'static dyn Instrument> {
     let name = written.get_ref().as_str();
-    if let Some(kind) = named(name) {
-        return Some(Kind::Drawn(kind));
+    let kind = named(name);
+    if kind.is_none() {
+        let help = match nearest(name, INSTRUMENTS.iter().map(|kind| kind.name())) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("the kinds are {}", listed("", "and")),
+        };
+        let message = format!("there is no view of kind `{name}`");
+        mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
     }
-    if NOT_YET.contains(&name) {
-        let message = format!("views of kind `{name}` are not supported yet by this version");
-        mistakes
-            .push(Diagnostic::warning(written.span(), message).with_help("the view is left out"));
-        return Some(Kind::LeftOut);
-    }
-    let known = INSTRUMENTS.iter().map(|kind| kind.name()).chain(NOT_YET);
-    let help = match nearest(name, known) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => format!("the kinds are {}", listed("", "and")),
-    };
-    let message = format!("there is no view of kind `{name}`");
-    mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
-    None
+    kind
 }
 
 /// Reads `[space]`: its shapes, and the point that the camera follows, with the reach of the picture.

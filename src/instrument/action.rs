@@ -1,0 +1,242 @@
+//! `action`: Hamilton's principle on the running motion: the action of the paths beside it that have the same ends.
+//!
+//! The job follows the motion from its initial values up to now, and adds ε sin(kπs)/k to one coordinate, s from 0 to 1
+//! on the way ([`varied_action`](crate::dynamics::varied_action)). Every curve S(ε) is level at ε = 0; the first turns
+//! over once the motion has passed a kinetic focus, and its action is no longer least.
+
+use super::conditions::Conditions;
+use super::{
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
+    Physics, Picture, Plot, Present, Sign, Upwards,
+};
+use crate::dynamics::{
+    Lagrangian, PhaseSpace, VARIATIONS, VariedAction, conjugate_points, varied_action,
+};
+use crate::ensemble::Flow;
+use crate::integrate::{Method, method_named};
+use crate::job::{Job, Progress};
+use crate::num::significant;
+use crate::system::ChannelKind;
+
+/// The levels of the picture.
+const AXIS: Level = 0;
+const CURVES: Level = 1;
+const MOTION: Level = 2;
+
+/// The end of the path moves on by so many seconds of the wall clock at the file's own speed, at most so often.
+const GRID: f64 = 0.25;
+const MOST: f64 = 240.0;
+
+/// The row.
+pub(super) struct Action;
+
+/// What was found, and of which motion.
+struct ComputedAction {
+    conditions: Conditions,
+    coordinate: usize,
+    duration: f64,
+    outcome: Result<Beside, String>,
+}
+
+/// The action beside a motion.
+struct Beside {
+    varied: VariedAction,
+    /// The times from its beginning at which it passes a kinetic focus; none are looked for where forces act that have
+    /// no potential, so that the motion does not make the action stationary.
+    foci: Option<Vec<f64>>,
+}
+
+impl Instrument for Action {
+    fn name(&self) -> &'static str {
+        "action"
+    }
+
+    fn written(&self) -> &'static [Axis] {
+        const { &[Axis { heading: "Coordinate to vary", coordinate: true, ..Axis::ACROSS }] }
+    }
+
+    fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
+        let offer = |(index, channel): (usize, usize)| Offer {
+            label: format!("action, {} varied", physics.model.coordinates[index].shown),
+            about: "Hamilton's principle: the action of paths beside the motion, with its ends"
+                .to_owned(),
+            columns: vec![vec![channel]],
+            view: None,
+        };
+        physics.positions().map(offer).collect()
+    }
+
+    fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
+        format!("action, {} varied", plot.column(0).map_or("?", |channel| physics.shown(channel)))
+    }
+
+    fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
+        let name = present.physics.shown(plot.column(0)?);
+        let words = format!("{name} + ε sin(kπs)/k, s = 0 … 1 on the way, k = 1 … {VARIATIONS}");
+        Some(plot.heading(present.physics, "Action", vec![Entry::Words(words)]))
+    }
+
+    fn across(&self, _plot: &Plot, _present: &Present<'_>, answer: Option<&Answer>) -> Across {
+        let reach = varied(answer).and_then(|varied| varied.curves.first()?.last().copied());
+        let reach = reach.map_or(1.0, |at| at[0]);
+        Across::Named("ε".to_owned(), [-reach, reach])
+    }
+
+    fn picture(
+        &self,
+        _plot: &Plot,
+        present: &Present<'_>,
+        [from, to]: [f64; 2],
+        answer: Option<&Answer>,
+    ) -> Option<Picture> {
+        let legend = (MOTION, Layer::Legend(sentences(answer, present.physics.model.run.start)));
+        let named = |range, layers| {
+            let upwards = Upwards::Named("S(ε) − S(0)".to_owned(), range);
+            Some(Picture::Axes { upwards, layers, occurrences: None })
+        };
+        let Some(varied) = varied(answer) else { return named([0.0, 1.0], vec![legend]) };
+        let values = varied.curves.iter().flatten().map(|at| at[1]);
+        let (least, greatest) =
+            values.fold((0.0_f64, 0.0_f64), |(lo, hi), value| (lo.min(value), hi.max(value)));
+        let mut layers = vec![(AXIS, Layer::Line(vec![[from, 0.0], [to, 0.0]], Ink::Level.into()))];
+        let curves = varied.curves.iter().enumerate().rev();
+        layers.extend(
+            curves.map(|(k, points)| (CURVES, Layer::Line(points.clone(), Ink::Curve(k).into()))),
+        );
+        layers.push((MOTION, Layer::Point([0.0; 2], Sign::Disc, Ink::Accent)));
+        layers.push(legend);
+        named([least, greatest], layers)
+    }
+
+    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+        let Physics { model, equations, system } = present.physics;
+        let (Some(channel), Some(method)) = (plot.column(0), method_named(present.method)) else {
+            return Need::Nothing;
+        };
+        let ChannelKind::Position(coordinate) = system.channels()[channel].kind else {
+            return Need::Nothing;
+        };
+        let conditions = Conditions::of(present, &plot.seeds);
+        let duration = duration(present);
+        let holds = |known: &ComputedAction| {
+            (known.coordinate, known.duration) == (coordinate, duration)
+                && known.conditions == conditions
+        };
+        if computed(answer).is_some_and(holds) {
+            return Need::Held;
+        }
+        let (model, equations, system) = (model.clone(), equations.clone(), system.clone());
+        Need::Job(Job::new("action", move |progress: &Progress| {
+            let system = system.with_cancel(progress.token().clone());
+            let parameters = &conditions.parameters;
+            let outcome = PhaseSpace::of(&model, &equations, &system, parameters)
+                .map_err(|why| why.to_string())
+                .and_then(|space| {
+                    let mut equations = (*equations).clone();
+                    let lagrangian = Lagrangian::of(&model, &mut equations, parameters);
+                    let lagrangian = lagrangian.map_err(|why| why.to_string())?;
+                    let begin = model.run.start;
+                    beside(&space, lagrangian, (method, &conditions, begin), coordinate, duration)
+                });
+            let conditions = conditions.clone();
+            Answer::new(ComputedAction { conditions, coordinate, duration, outcome })
+        }))
+    }
+
+    fn measures(&self) -> &'static [Measure] {
+        &[
+            Measure {
+                word: "value",
+                about: "∫ L dt of the motion up to now",
+                value: |_, _, answer| Some(varied(answer)?.action),
+            },
+            Measure {
+                word: "foci",
+                about: "how many kinetic foci it has passed",
+                value: |_, _, answer| Some(found(answer)?.foci.as_ref()?.len() as f64),
+            },
+            Measure {
+                word: "rise",
+                about: "how much greater the action is at the greatest ε, for k = 1",
+                value: |_, _, answer| Some(varied(answer)?.curves.first()?.last()?[1]),
+            },
+        ]
+    }
+}
+
+/// The action beside a motion up to a duration.
+fn beside(
+    space: &PhaseSpace,
+    mut lagrangian: Lagrangian,
+    (method, conditions, begin): (&'static Method, &Conditions, f64),
+    coordinate: usize,
+    duration: f64,
+) -> Result<Beside, String> {
+    let system = space.system();
+    let start = conditions.state(system, begin).map_err(|fault| fault.to_string())?;
+    let (parameters, method) = (conditions.parameters.clone(), (method, conditions.settings));
+    let flow = Flow { system: system.clone(), method, parameters, start: begin };
+    let channel = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
+    let n = system.degrees();
+    let kinds = (0..n).map(ChannelKind::Position).chain((0..n).map(ChannelKind::Velocity));
+    let channels: Option<Vec<usize>> = kinds.map(channel).collect();
+    let channels = channels.ok_or("the motion has no velocities")?;
+    let mut motion = |times: &[f64]| {
+        let times: Vec<f64> = times.iter().map(|time| begin + time).collect();
+        let carried = flow.carry(&start, &times, &channels);
+        carried.end.map(|_| carried.seen)
+    };
+    let varied = varied_action(&mut lagrangian, &mut motion, coordinate, duration);
+    let varied = varied.map_err(|why| why.to_string())?;
+    let foci = if space.is_hamiltonian() {
+        let state = space.state(&start).map_err(|fault| fault.to_string())?;
+        let foci = conjugate_points(space, method, &state, duration);
+        Some(foci.map_err(|why| why.to_string())?)
+    } else {
+        None
+    };
+    Ok(Beside { varied, foci })
+}
+
+/// How long the path is: up to now, on a grid.
+fn duration(present: &Present<'_>) -> f64 {
+    let run = &present.physics.model.run;
+    let grid = if run.speed.is_normal() { GRID * run.speed.abs() } else { GRID };
+    grid * ((present.time - run.start) / grid).floor().clamp(1.0, MOST)
+}
+
+fn computed(answer: Option<&Answer>) -> Option<&ComputedAction> {
+    answer?.of::<ComputedAction>()
+}
+
+fn found(answer: Option<&Answer>) -> Option<&Beside> {
+    computed(answer)?.outcome.as_ref().ok()
+}
+
+fn varied(answer: Option<&Answer>) -> Option<&VariedAction> {
+    found(answer).map(|found| &found.varied)
+}
+
+/// What is said of the motion's action, or why it has none.
+fn sentences(answer: Option<&Answer>, begin: f64) -> Vec<String> {
+    let Some(computed) = computed(answer) else { return vec!["being computed".to_owned()] };
+    let found = match &computed.outcome {
+        Err(why) => return vec![why.clone()],
+        Ok(found) => found,
+    };
+    let short = |x: f64| significant(x, 5, 1e-3..1e5).replace('-', "−");
+    let at = |focus: &f64| format!("t = {}", short(begin + focus));
+    let rest = match found.foci.as_deref() {
+        None => vec!["not stationary: forces act that have no potential".to_owned()],
+        Some([]) => vec!["least of all paths nearby".to_owned()],
+        Some([focus]) => {
+            vec!["not least".to_owned(), format!("kinetic focus at {}", at(focus))]
+        }
+        Some(foci @ [first, ..]) => {
+            let count = foci.len();
+            vec!["not least".to_owned(), format!("{count} kinetic foci from {}", at(first))]
+        }
+    };
+    let action = format!("S = {} up to {}", short(found.varied.action), at(&computed.duration));
+    [vec![action], rest].concat()
+}

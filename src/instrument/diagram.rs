@@ -1,0 +1,426 @@
+//! `diagram`: what becomes of the motion over a range of one parameter: where it crosses a surface of section (a
+//! bifurcation diagram), or, where no surface is given, its largest Lyapunov exponent.
+//!
+//! The job follows one motion from the initial values for each value of the parameter, the values spread evenly over
+//! what is seen, ever more closely, so that the picture fills as one looks and a zoom refines it. The running motion is a
+//! vertical line; a point of the picture stands for a value of the parameter.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use super::section::zero;
+use super::{
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
+    Physics, Picture, Plot, Present, Upwards,
+};
+use crate::dynamics::{PhaseSpace, lyapunov};
+use crate::ensemble::{SectionPlan, Start, crossings, in_order};
+use crate::expr::Expr;
+use crate::integrate::{Method, Settings, Stepping, method_named};
+use crate::job::{Job, Progress};
+use crate::mechanics::{Equations, Valuation};
+use crate::model::{Model, View};
+use crate::system::{Form, InitialOverride, System};
+
+/// The levels of the picture.
+const NOW: Level = 0;
+const POINTS: Level = 1;
+
+/// The values of the parameter, and how many of them make one part of the work, after which the picture is drawn anew.
+const MOST: usize = 512;
+const PART: usize = 16;
+
+/// The parts that are waited for where there is no background.
+const AT_ONCE: usize = 2;
+
+/// The crossings at each value, and those before them that are left out where friction draws all motions to an attractor.
+const COUNT: usize = 80;
+const TRANSIENT: usize = 160;
+
+/// A motion ends after so many steps without a crossing.
+const IDLE: u64 = 4000;
+
+/// An exponent is followed over so many seconds of the wall clock at the file's own speed.
+const SECONDS: f64 = 120.0;
+
+/// The tolerance of the method: a dot is a thousandth of the picture.
+const TOLERANCE: f64 = 1e-10;
+
+/// Crossings closer than this part of the range of all count as one.
+const SAME: f64 = 1e-3;
+
+/// The row.
+pub(super) struct Diagram;
+
+/// What was computed, and under which conditions.
+struct ComputedDiagram {
+    conditions: DiagramConditions,
+    /// The numbers at each value of the parameter.
+    columns: Vec<(f64, Vec<f64>)>,
+    /// All of them as points.
+    points: Arc<Vec<[f64; 2]>>,
+    /// Why a motion could not be followed.
+    refused: Option<String>,
+}
+
+/// What the numbers depend on; the parameter that is varied counts as zero.
+#[derive(Clone, PartialEq)]
+struct DiagramConditions {
+    over: usize,
+    section: Option<usize>,
+    window: [f64; 2],
+    parameters: Vec<f64>,
+    overrides: Vec<InitialOverride>,
+    method: &'static str,
+    settings: Settings,
+}
+
+impl Instrument for Diagram {
+    fn name(&self) -> &'static str {
+        "diagram"
+    }
+
+    fn written(&self) -> &'static [Axis] {
+        &[Axis::UPWARDS]
+    }
+
+    fn chosen(&self) -> &'static [Axis] {
+        &[]
+    }
+
+    fn is_section(&self) -> bool {
+        true
+    }
+
+    fn is_over_a_parameter(&self) -> bool {
+        true
+    }
+
+    fn takes_seeds(&self) -> bool {
+        false
+    }
+
+    fn shows(&self, view: Option<&View>) -> bool {
+        view.is_none_or(|view| view.section.is_some())
+    }
+
+    fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
+        let views = physics.model.views.iter().enumerate();
+        let offer = |(index, view): (usize, &View)| Offer {
+            label: format!("diagram over {}", view.over.map_or("?", |over| name(physics, over))),
+            about: "where the motion crosses a surface, over the range of a parameter".to_owned(),
+            columns: Vec::new(),
+            view: Some(index),
+        };
+        views.filter(|(_, view)| view.kind == self.name()).map(offer).collect()
+    }
+
+    fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
+        let over = plot.over.map_or("?", |over| name(physics, over));
+        format!("{} over {over}", quantity(plot, physics))
+    }
+
+    fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
+        let over = plot.over?;
+        let value = *present.parameters.get(over)?;
+        let entry = Entry::Number(name(present.physics, over).to_owned(), value);
+        Some(plot.heading(present.physics, "Diagram", vec![entry]))
+    }
+
+    fn across(&self, plot: &Plot, present: &Present<'_>, _answer: Option<&Answer>) -> Across {
+        let Some(over) = plot.over else { return Across::Nothing };
+        let unit = &present.physics.model.parameters[over].unit;
+        let name = name(present.physics, over);
+        let named = if unit.is_empty() { name.to_owned() } else { format!("{name} [{unit}]") };
+        Across::Named(named, range(plot, present, over))
+    }
+
+    fn picture(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        _seen: [f64; 2],
+        answer: Option<&Answer>,
+    ) -> Option<Picture> {
+        let (over, found) = (plot.over?, computed(answer));
+        let points = found.map(|found| Arc::clone(&found.points)).unwrap_or_default();
+        let [low, high] = heights(plot, present, &points);
+        let now = present.parameters[over];
+        let reach = high - low;
+        let line = vec![[now, low - reach], [now, high + reach]];
+        let mut layers = vec![(NOW, Layer::Line(line, Ink::Level.into()))];
+        if view(plot, present.physics).is_some() {
+            layers.push((POINTS, Layer::Points(points, Ink::Curve(0))));
+        } else {
+            let mut curve = points.to_vec();
+            curve.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            layers.push((POINTS, Layer::Line(curve, Ink::Curve(0).into())));
+        }
+        if let Some(why) = found.and_then(|found| found.refused.as_ref()) {
+            layers.push((POINTS, Layer::Legend(vec![why.clone()])));
+        }
+        let upwards = Upwards::Named(quantity(plot, present.physics), [low, high]);
+        Some(Picture::Axes { upwards, layers, occurrences: None })
+    }
+
+    fn parameter_at(
+        &self,
+        plot: &Plot,
+        _present: &Present<'_>,
+        at: [f64; 2],
+    ) -> Option<(usize, f64)> {
+        plot.over.map(|over| (over, at[0]))
+    }
+
+    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+        let (Some(conditions), Some(method)) =
+            (DiagramConditions::of(plot, present), method_named(present.method))
+        else {
+            return Need::Nothing;
+        };
+        let known = computed(answer).filter(|known| known.conditions == conditions);
+        let columns = known.map_or_else(Vec::new, |known| known.columns.clone());
+        if columns.len() >= MOST || known.is_some_and(|known| known.refused.is_some()) {
+            return Need::Held;
+        }
+        let Physics { model, equations, system } = present.physics;
+        let task = Task {
+            model: Arc::clone(model),
+            equations: Arc::clone(equations),
+            system: Arc::clone(system),
+            method,
+            conditions,
+            channel: view(plot, present.physics)
+                .and_then(|view| system.channel_of(view.axes.first()?.first()?.expression)),
+            columns,
+        };
+        let first = task.columns.len() < AT_ONCE * PART;
+        let job = Job::new("diagram", move |progress| Answer::new(task.next_part(progress)));
+        if first { Need::Job(job) } else { Need::Addition(job) }
+    }
+
+    fn measures(&self) -> &'static [Measure] {
+        &[
+            Measure {
+                word: "columns",
+                about: "how many values of the parameter are there",
+                value: |_, _, answer| Some(computed(answer)?.columns.len() as f64),
+            },
+            Measure {
+                word: "branches",
+                about: "how many different crossings there are at the value next to that of the running motion",
+                value: |plot, present, answer| {
+                    let found = computed(answer)?;
+                    let now = *present.parameters.get(plot.over?)?;
+                    let [low, high] = heights(plot, present, &found.points);
+                    branches(&found.columns, now, SAME * (high - low))
+                },
+            },
+            Measure {
+                word: "value",
+                about: "the last number at that value: a crossing, or the exponent",
+                value: |plot, present, answer| {
+                    let now = *present.parameters.get(plot.over?)?;
+                    nearest(&computed(answer)?.columns, now)?.1.last().copied()
+                },
+            },
+        ]
+    }
+}
+
+impl DiagramConditions {
+    fn of(plot: &Plot, present: &Present<'_>) -> Option<Self> {
+        let over = plot.over?;
+        let system = present.physics.system;
+        let mut parameters = present.parameters.to_vec();
+        // initial values of the file may follow the parameter; those that were set do not
+        let of_file = system.initial_values(&parameters);
+        let n = system.degrees();
+        let given = |(i, (&x, &own)): (usize, (&f64, &f64))| {
+            let given = match system.form() {
+                _ if i < n => InitialOverride::Position(i, x),
+                Form::Velocity => InitialOverride::Velocity(i - n, x),
+                Form::Momentum | Form::Variables => InitialOverride::Momentum(i - n, x),
+            };
+            (x != own).then_some(given)
+        };
+        let overrides = present.initial.iter().zip(&of_file).enumerate().filter_map(given);
+        let overrides = overrides.collect();
+        *parameters.get_mut(over)? = 0.0;
+        let mut settings = present.settings;
+        if method_named(present.method)?.stepping == Stepping::Adaptive {
+            settings.tolerance = Some(settings.tolerance.unwrap_or(0.0).max(TOLERANCE));
+        }
+        Some(Self {
+            over,
+            section: view(plot, present.physics).and_then(|view| view.section),
+            window: seen(plot, present, over),
+            parameters,
+            overrides,
+            method: present.method,
+            settings,
+        })
+    }
+}
+
+/// What a job computes: the numbers at the next values of the parameter.
+struct Task {
+    model: Arc<Model>,
+    equations: Arc<Equations>,
+    system: Arc<System>,
+    method: &'static Method,
+    conditions: DiagramConditions,
+    /// The quantity at the crossings.
+    channel: Option<usize>,
+    columns: Vec<(f64, Vec<f64>)>,
+}
+
+impl Task {
+    fn next_part(&self, progress: &Progress) -> ComputedDiagram {
+        let conditions = self.conditions.clone();
+        let system = self.system.with_cancel(progress.token().clone());
+        let mut columns = self.columns.clone();
+        let first = columns.len();
+        let [from, to] = conditions.window;
+        let at = |i: usize| from + (to - from) * evenly(first + i);
+        progress.expect(PART as u64);
+        let mut refused = None;
+        let one = |i: usize| self.numbers(&system, at(i));
+        let take = |i: usize, found: Result<Vec<f64>, String>| {
+            progress.reach(i as u64 + 1);
+            match found {
+                Ok(numbers) => columns.push((at(i), numbers)),
+                Err(why) => {
+                    // a value at which there is no motion leaves a gap; one that never has one is told
+                    columns.push((at(i), Vec::new()));
+                    refused.get_or_insert(why);
+                }
+            }
+            ControlFlow::Continue(())
+        };
+        let threads = in_order(0, PART, progress.token(), one, take);
+        if let Err(why) = threads {
+            refused = Some(why.to_string());
+        }
+        let nothing = columns.iter().all(|(_, numbers)| numbers.is_empty());
+        let refused = refused.filter(|_| nothing);
+        let points = columns.iter().flat_map(|(x, all)| all.iter().map(|y| [*x, *y])).collect();
+        ComputedDiagram { conditions, columns, points: Arc::new(points), refused }
+    }
+
+    /// The crossings of the motion at a value of the parameter, or its largest exponent.
+    fn numbers(&self, system: &System, value: f64) -> Result<Vec<f64>, String> {
+        let Self { model, equations, method, conditions, .. } = self;
+        let mut parameters = conditions.parameters.clone();
+        parameters[conditions.over] = value;
+        let time = model.run.start;
+        let start = Start { time, parameters, overrides: conditions.overrides.clone() };
+        let settings = conditions.settings;
+        let (Some(section), Some(channel)) = (conditions.section, self.channel) else {
+            let space = PhaseSpace::of(model, equations, system, &start.parameters);
+            let space = space.map_err(|why| why.to_string())?;
+            let state = start.state(system).and_then(|state| space.state(&state));
+            let state = state.map_err(|why| why.to_string())?;
+            let until = time + SECONDS * model.run.speed;
+            let found = lyapunov(&space, (method, settings), &state, until, &mut |_| ());
+            let found = found.map_err(|why| why.to_string())?;
+            return Ok(found.exponents.first().copied().into_iter().collect());
+        };
+        let dissipates = model.mechanics.dissipation() != Expr::ZERO;
+        let transient = if dissipates { TRANSIENT } else { 0 };
+        let plan = SectionPlan {
+            event: model.sections[section].name.clone(),
+            count: Some((transient + COUNT) as u64),
+            until: None,
+            idle: IDLE,
+        };
+        let found = crossings(system, method, settings, &start, &plan);
+        let rows = found.rows.iter().skip(transient);
+        let numbers: Vec<f64> = rows.filter_map(|row| row.get(1 + channel).copied()).collect();
+        match found.message {
+            Some(why) if numbers.is_empty() => Err(why),
+            _ => Ok(numbers),
+        }
+    }
+}
+
+/// The i-th of numbers that fill the interval from 0 to 1 ever more closely: the binary digits of i, mirrored at the
+/// point (J. G. van der Corput, 1935).
+fn evenly(i: usize) -> f64 {
+    (i as u64).reverse_bits() as f64 / u64::MAX as f64
+}
+
+fn computed(answer: Option<&Answer>) -> Option<&ComputedDiagram> {
+    answer?.of::<ComputedDiagram>()
+}
+
+/// The view of the file that has the surface.
+fn view<'a>(plot: &Plot, physics: Physics<'a>) -> Option<&'a View> {
+    physics.model.views.get(plot.view?).filter(|view| view.section.is_some())
+}
+
+fn name(physics: Physics<'_>, parameter: usize) -> &str {
+    physics.model.parameters.get(parameter).map_or("?", |parameter| &parameter.shown)
+}
+
+/// What is drawn upwards.
+fn quantity(plot: &Plot, physics: Physics<'_>) -> String {
+    let Some(view) = view(plot, physics) else { return "largest exponent λ".to_owned() };
+    let axis = |axis: usize| view.axes.get(axis).and_then(|axis| axis.first());
+    let Some(written) = axis(0) else { return "?".to_owned() };
+    let channel = physics.system.channel_of(written.expression);
+    let shown = channel.map_or(written.written.as_str(), |channel| physics.shown(channel));
+    format!("{shown} where {}", zero(physics, view))
+}
+
+/// The ends of an axis that the file gives.
+fn given(plot: &Plot, present: &Present<'_>, axis: usize) -> Option<[f64; 2]> {
+    let model = present.physics.model;
+    let ends = view(plot, present.physics).filter(|view| view.over.is_some())?.ranges[axis]?;
+    let known = Valuation::of_parameters(model, present.parameters);
+    let [from, to] = ends.map(|end| known.value(&model.pool, end));
+    (from.is_finite() && to.is_finite() && from < to).then_some([from, to])
+}
+
+/// The range of the parameter: the view's, or its own.
+fn range(plot: &Plot, present: &Present<'_>, over: usize) -> [f64; 2] {
+    let own = &present.physics.model.parameters[over];
+    given(plot, present, 0).unwrap_or([own.min, own.max])
+}
+
+/// The part of it that is seen.
+fn seen(plot: &Plot, present: &Present<'_>, over: usize) -> [f64; 2] {
+    let [from, to] = range(plot, present, over);
+    let own = &present.physics.model.parameters[over];
+    let Some(viewport) = plot.viewport() else { return [from, to] };
+    let half = (to - from) / viewport.zoom[0] / 2.0;
+    let middle = f64::midpoint(from, to) + viewport.pan[0] * 2.0 * half;
+    // beyond its own range a parameter may mean nothing
+    let bounded = [(middle - half).max(from.min(own.min)), (middle + half).min(to.max(own.max))];
+    if bounded[0] < bounded[1] { bounded } else { [from, to] }
+}
+
+/// The range upwards: the file's, or that of the points.
+fn heights(plot: &Plot, present: &Present<'_>, points: &[[f64; 2]]) -> [f64; 2] {
+    let own = points
+        .iter()
+        .filter(|at| at[1].is_finite())
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| {
+            [low.min(at[1]), high.max(at[1])]
+        });
+    let found = if own[0] < own[1] { own } else { [0.0, 1.0] };
+    given(plot, present, 1).unwrap_or(found)
+}
+
+/// The numbers at the value of the parameter next to this one.
+fn nearest(columns: &[(f64, Vec<f64>)], now: f64) -> Option<&(f64, Vec<f64>)> {
+    columns.iter().min_by(|a, b| (a.0 - now).abs().total_cmp(&(b.0 - now).abs()))
+}
+
+/// How many of them differ by more than a bound.
+fn branches(columns: &[(f64, Vec<f64>)], now: f64, bound: f64) -> Option<f64> {
+    let mut numbers = nearest(columns, now)?.1.clone();
+    numbers.sort_by(f64::total_cmp);
+    let jumps = numbers.windows(2).filter(|pair| pair[1] - pair[0] > bound).count();
+    (!numbers.is_empty()).then_some(jumps as f64 + 1.0)
+}

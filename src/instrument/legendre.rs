@@ -1,0 +1,219 @@
+//! `legendre`: the Legendre transform as a picture: L as a function of one velocity, with everything else at its current
+//! value, and its tangent where the motion is. The slope of the tangent is the momentum p, and where it meets the vertical
+//! axis stands L − p q̇, which is −H for one degree of freedom. Of a Hamiltonian system it is H over the momentum, with
+//! the slope q̇ (*The Principles of Dynamics*, § 2.1).
+
+use super::{
+    Across, Answer, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Offer,
+    Physics, Picture, Plot, Present, Sign, Stroke, Upwards,
+};
+use crate::expr::{Expr, Symbol};
+use crate::model::Mechanics;
+use crate::system::ChannelKind;
+
+/// The levels of the picture.
+const AXIS: Level = 0;
+const TANGENT: Level = 1;
+const CURVE: Level = 2;
+const NOW: Level = 3;
+
+/// Points of the curve.
+const POINTS: usize = 241;
+
+/// The range, as a multiple of what the motion has reached.
+const BEYOND: f64 = 1.4;
+
+/// A second difference below this part of the greatest value counts as zero.
+const FLAT: f64 = 1e-12;
+
+/// The row.
+pub(super) struct Legendre;
+
+/// One function of one number.
+#[derive(Clone, Copy)]
+struct Transformed {
+    /// L of a velocity, or H of a momentum.
+    function: Expr,
+    letters: [&'static str; 2],
+    number: Symbol,
+    /// The channels of that number, and of the slope.
+    channel: usize,
+    slope: usize,
+    /// Whether there is one degree of freedom.
+    alone: bool,
+}
+
+impl Transformed {
+    fn of(plot: &Plot, physics: Physics<'_>) -> Option<Self> {
+        let Physics { model, system, .. } = physics;
+        let ChannelKind::Position(i) = system.channels().get(plot.column(0)?)?.kind else {
+            return None;
+        };
+        let coordinate = model.coordinates.get(i)?;
+        let (velocity, momentum) = (ChannelKind::Velocity(i), ChannelKind::Momentum(i));
+        let (function, letters, number, [channel, slope]) = match &model.mechanics {
+            Mechanics::Lagrangian { lagrangian, .. } => {
+                (*lagrangian, ["L", "H"], coordinate.velocity, [velocity, momentum])
+            }
+            Mechanics::Hamiltonian { hamiltonian, .. } => {
+                (*hamiltonian, ["H", "L"], coordinate.momentum, [momentum, velocity])
+            }
+            Mechanics::Poisson { .. } => return None,
+        };
+        let (channel, slope) = (physics.channel(channel)?, physics.channel(slope)?);
+        let alone = model.coordinates.len() == 1;
+        Some(Self { function, letters, number, channel, slope, alone })
+    }
+
+    /// The numbers of the motion now: the abscissa, the function there, and the slope.
+    fn now(&self, present: &Present<'_>) -> [f64; 3] {
+        let x = present.value(self.channel);
+        [x, self.at(present, &[x])[0], present.value(self.slope)]
+    }
+
+    /// The function at numbers, with everything else at its current value.
+    fn at(&self, present: &Present<'_>, numbers: &[f64]) -> Vec<f64> {
+        let (model, now) = (present.physics.model, present.valuation());
+        let value = |&x: &f64| {
+            let at = |symbol| if symbol == self.number { x } else { now.at(symbol) };
+            model.pool.evaluate(self.function, &at)
+        };
+        numbers.iter().map(value).collect()
+    }
+
+    fn range(&self, present: &Present<'_>) -> [f64; 2] {
+        let (low, high) = present.bounds.get(self.channel).copied().unwrap_or((0.0, 0.0));
+        let reached = [low, high, present.value(self.channel)].map(f64::abs);
+        let reached = reached.into_iter().filter(|x| x.is_finite()).fold(0.0, f64::max);
+        let reach = if reached > 0.0 { BEYOND * reached } else { 1.0 };
+        [-reach, reach]
+    }
+}
+
+impl Instrument for Legendre {
+    fn name(&self) -> &'static str {
+        "legendre"
+    }
+
+    fn written(&self) -> &'static [Axis] {
+        const { &[Axis { heading: "Coordinate", coordinate: true, ..Axis::ACROSS }] }
+    }
+
+    fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
+        let offer = |(_, channel): (usize, usize)| {
+            let columns: Columns = vec![vec![channel]];
+            let plot = Plot::new(&Legendre, (columns.clone(), None), physics.model);
+            let found = Transformed::of(&plot, physics)?;
+            let (function, number) = (found.letters[0], physics.shown(found.channel));
+            Some(Offer {
+                label: format!("Legendre transform, {function} over {number}"),
+                about: "the momentum as a slope, the Hamiltonian as an intercept".to_owned(),
+                columns,
+                view: None,
+            })
+        };
+        physics.positions().filter_map(offer).collect()
+    }
+
+    fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
+        let of = plot.column(0).map_or("?", |channel| physics.shown(channel));
+        format!("Legendre transform in {of}")
+    }
+
+    fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
+        let found = Transformed::of(plot, present.physics)?;
+        let entries = vec![Entry::Channel(found.channel), Entry::Channel(found.slope)];
+        Some(plot.heading(present.physics, "Legendre transform", entries))
+    }
+
+    fn across(&self, plot: &Plot, present: &Present<'_>, _answer: Option<&Answer>) -> Across {
+        Transformed::of(plot, present.physics).map_or(Across::Nothing, |found| {
+            Across::Channel(found.channel, Some(found.range(present)))
+        })
+    }
+
+    fn picture(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        [from, to]: [f64; 2],
+        _answer: Option<&Answer>,
+    ) -> Option<Picture> {
+        let found = Transformed::of(plot, present.physics)?;
+        let [x, y, slope] = found.now(present);
+        let step = (to - from) / (POINTS - 1) as f64;
+        let numbers: Vec<f64> = (0..POINTS).map(|i| from + step * i as f64).collect();
+        let values = found.at(present, &numbers);
+        let intercept = y - slope * x;
+        let tangent = |at: f64| [at, intercept + slope * at];
+        let seen = values.iter().chain([&y, &intercept]).filter(|value| value.is_finite());
+        let (low, high) = seen.fold((0.0_f64, 0.0_f64), |(lo, hi), &v| (lo.min(v), hi.max(v)));
+        let faint = Stroke { ink: Ink::Level, covering: Some(0.5) };
+        let [letter, other] = found.letters;
+        let [number, of_slope] = [found.channel, found.slope].map(|c| present.physics.shown(c));
+        let named = if found.alone {
+            format!("intercept −{other}")
+        } else {
+            format!("intercept {letter} − {of_slope} {number}")
+        };
+        let mut lines = vec![format!("slope {of_slope}, {named}")];
+        lines.extend(shape(&values).map(|shape| match shape {
+            Shape::Straight => format!("straight: {of_slope} does not determine {number}"),
+            Shape::Bent => format!("not convex: several {number} may have one {of_slope}"),
+        }));
+        let curve = numbers.iter().zip(&values).map(|(&x, &y)| [x, y]).collect();
+        let layers = vec![
+            (AXIS, Layer::Line(vec![[0.0, intercept], [0.0, 0.0]], faint)),
+            (TANGENT, Layer::Line(vec![tangent(from), tangent(to)], Ink::Warn.into())),
+            (CURVE, Layer::Line(curve, Ink::Accent.into())),
+            (NOW, Layer::Point([0.0, intercept], Sign::Ring, Ink::Warn)),
+            (NOW, Layer::Point([x, y], Sign::Disc, Ink::Accent)),
+            (NOW, Layer::Legend(lines)),
+        ];
+        let upwards = Upwards::Named(letter.to_owned(), [low, high]);
+        Some(Picture::Axes { upwards, layers, occurrences: None })
+    }
+
+    fn measures(&self) -> &'static [Measure] {
+        &[
+            Measure {
+                word: "slope",
+                about: "the slope of the tangent, by the momentum (or velocity) of the motion",
+                value: |plot, present, _| {
+                    Some(Transformed::of(plot, present.physics)?.now(present)[2])
+                },
+            },
+            Measure {
+                word: "intercept",
+                about: "where the tangent meets the vertical axis",
+                value: |plot, present, _| {
+                    let [x, y, slope] = Transformed::of(plot, present.physics)?.now(present);
+                    Some(y - slope * x)
+                },
+            },
+        ]
+    }
+}
+
+/// How a curve is bent whose slope does not determine the abscissa.
+enum Shape {
+    Straight,
+    Bent,
+}
+
+/// Whether a curve is straight, or bent in both directions; `None` if it is bent in one.
+fn shape(values: &[f64]) -> Option<Shape> {
+    let size = values.iter().fold(0.0_f64, |size, y| size.max(y.abs()));
+    let bends = values.windows(3).map(|three| three[0] - 2.0 * three[1] + three[2]);
+    let (mut up, mut down, mut known) = (false, false, false);
+    for bend in bends.filter(|bend| bend.is_finite()) {
+        up |= bend > FLAT * size;
+        down |= bend < -FLAT * size;
+        known = true;
+    }
+    match (up, down) {
+        (true, true) => Some(Shape::Bent),
+        (false, false) if known => Some(Shape::Straight),
+        _ => None,
+    }
+}

@@ -1,0 +1,166 @@
+//! Diagrams over a parameter: crossings against closed forms and known period doublings, exponents, keys, sessions.
+
+use std::sync::Arc;
+
+use phaselab::app::{App, Drawn, Effect, Event, Saved};
+use phaselab::experiment::Command;
+use phaselab::instrument::{Layer, Picture, Plot};
+
+use crate::hand::{begun, catalog, press};
+use crate::section::{layers, measure};
+
+/// A driven oscillator with friction, x″ + x′/2 + 2 x = A cos t.
+const DRIVEN: &str = r#"
+title = "driven"
+[coordinates]
+x = { initial = 0.4 }
+[parameters]
+A = { value = 1.5, min = 0.0, max = 4.0 }
+k = { value = 2.0, min = 0.5, max = 4.0 }
+[lagrangian]
+L = "1/2*x'^2 - 1/2*k*x^2"
+dissipation = "1/4*x'^2"
+forces = { x = "A*cos(t)" }
+[[views]]
+kind = "diagram"
+over = "A"
+on = "sin(t)"
+y = "x"
+x_range = ["1", "3"]
+"#;
+
+fn diagram(app: &App) -> Plot {
+    let plots = &app.lab.as_ref().unwrap().plots;
+    plots.iter().find(|plot| plot.kind.name() == "diagram").expect("a diagram").clone()
+}
+
+fn points(app: &App) -> Arc<Vec<[f64; 2]>> {
+    let found = layers(app, &diagram(app)).into_iter().find_map(|layer| match layer {
+        Layer::Points(points, _) => Some(points),
+        _ => None,
+    });
+    found.expect("points")
+}
+
+#[test]
+fn the_answer_of_a_linear_oscillator_grows_with_its_drive() {
+    let app = begun(DRIVEN);
+    assert_eq!(measure(&app, &diagram(&app), "columns"), 32.0);
+    assert_eq!(measure(&app, &diagram(&app), "branches"), 1.0);
+    let points = points(&app);
+    assert_eq!(points.len(), 32 * 80);
+    // x = Re A/(k − 1 + i/2) at t = 2πn: A (k − 1)/((k − 1)² + 1/4) with k = 2
+    let answer = |a: f64| a * 0.8;
+    assert!(points.iter().all(|at| (at[1] - answer(at[0])).abs() < 1e-8), "{points:?}");
+    let ends = points.iter().fold([9.0_f64, 0.0], |[lo, hi], at| [lo.min(at[0]), hi.max(at[0])]);
+    assert!(ends[0] == 1.0 && ends[1] > 2.9 && ends[1] <= 3.0, "{ends:?}");
+    assert!((measure(&app, &diagram(&app), "value") - 1.2).abs() < 0.05);
+}
+
+/// The pendulum of Baker and Gollub at a value of its drive: how many crossings are different.
+fn branches(drive: &str) -> f64 {
+    let text = catalog().find("driven-damped-pendulum").unwrap().text.clone();
+    let text = text.replace(
+        r#"x_range = ["0.9", "1.5"]"#,
+        &format!("x_range = [\"{drive}\", \"{drive} + 1e-9\"]"),
+    );
+    let app = begun(&text.replace("A = { value = 1.5", &format!("A = {{ value = {drive}")));
+    measure(&app, &diagram(&app), "branches")
+}
+
+#[test]
+fn periods_double_where_they_are_known_to() {
+    // G. L. Baker, J. P. Gollub, Chaotic Dynamics, ch. 3: q = 2, ω_D = 2/3
+    assert_eq!(branches("0.9"), 1.0);
+    assert_eq!(branches("1.07"), 2.0);
+    assert!(branches("1.5") > 40.0, "chaos");
+}
+
+#[test]
+fn a_zoom_computes_what_is_seen() {
+    let mut app = begun(DRIVEN);
+    press(&mut app, "v + + + + + +");
+    let seen = points(&app);
+    assert!(seen.iter().all(|at| (1.7..2.3).contains(&at[0])), "{seen:?}");
+    assert_eq!(measure(&app, &diagram(&app), "columns"), 32.0);
+}
+
+#[test]
+fn a_key_shows_the_exponent_where_there_is_no_section() {
+    let saddle = "title = 'a test'\n[coordinates]\nx = { initial = 0.0 }\n\
+                  [parameters]\nk = { value = 1.0, min = 0.25, max = 4.0 }\n\
+                  [lagrangian]\nL = \"1/2*x'^2 + 1/2*k*x^2\"\n[run]\nspeed = 0.1\n";
+    let mut app = begun(saddle);
+    press(&mut app, "v");
+    let plot = diagram(&app);
+    let lab = app.lab.as_ref().unwrap();
+    assert_eq!(lab.focused_plot().map(|(_, shown)| shown), Some(&plot));
+    let present = lab.present().unwrap();
+    let Some(Picture::Axes { layers, .. }) =
+        plot.kind.picture(&plot, &present, [0.25, 4.0], lab.answer(&plot))
+    else {
+        panic!("no picture")
+    };
+    let mut lines = layers.iter().filter_map(|(_, layer)| match layer {
+        Layer::Line(points, _) if points.len() == 32 => Some(points),
+        _ => None,
+    });
+    for [k, exponent] in lines.next_back().expect("a curve") {
+        // the vector turns into the direction that grows by e^{√k t} within a few units of time
+        assert!((exponent - k.sqrt()).abs() < 0.15, "{k} {exponent}");
+    }
+    // the values at rest are no parameters
+    press(&mut app, "Tab Tab v");
+    let told = app.notice.take().map(|notice| notice.text).unwrap_or_default();
+    assert!(told.contains("over a parameter"), "{told}");
+}
+
+#[test]
+fn a_point_of_it_is_a_value_of_the_parameter() {
+    let mut app = begun(DRIVEN);
+    press(&mut app, "v");
+    press(&mut app, "c");
+    app.update(Event::Drawn(Drawn { reading: Some([2.25, 0.5]), ..Drawn::default() }));
+    let effects = press(&mut app, "Enter");
+    let [Effect::Tell(Command::Parameter { index: 0, value })] = effects[..] else {
+        panic!("{effects:?}")
+    };
+    // as a slider would be left there
+    assert!((value - 2.25).abs() < 0.02, "{value}");
+    // which changes nothing of the diagram
+    let before = points(&app);
+    assert!(Arc::ptr_eq(&before, &points(&app)));
+}
+
+#[test]
+fn sessions_have_it_with_its_parameter() {
+    let mut app = begun(DRIVEN);
+    // over the other parameter, on the same surface
+    press(&mut app, "Down v");
+    let plot = diagram(&app);
+    assert_eq!((plot.over, plot.view), (Some(1), Some(0)));
+    let text = toml::to_string(&app.saved().unwrap()).unwrap();
+    let read: Saved = toml::from_str(&text).unwrap();
+    let saved = read.plots.iter().find(|plot| plot.kind == "diagram").unwrap();
+    assert_eq!(saved.over.as_deref(), Some("k"));
+    let physics = app.lab.as_ref().unwrap().loaded.physics();
+    assert_eq!(saved.place(physics), Some(plot));
+    let mut strange = saved.clone();
+    strange.over = Some("nothing".to_owned());
+    assert_eq!(strange.place(physics), None);
+    strange = saved.clone();
+    strange.view = Some(7);
+    assert_eq!(strange.place(physics), None);
+}
+
+#[test]
+fn a_parameter_without_motions_says_why() {
+    let wall = DRIVEN.replace("1/2*k*x^2", "1/2*k*sqrt(x - 1)");
+    let app = begun(&wall);
+    let told = layers(&app, &diagram(&app)).into_iter().find_map(|layer| match layer {
+        Layer::Legend(lines) => Some(lines.concat()),
+        _ => None,
+    });
+    assert!(told.is_some_and(|why| !why.is_empty()));
+    assert!(points(&app).is_empty());
+}

@@ -1,0 +1,143 @@
+//! The action of paths beside a motion, against closed forms and the integral of each path by itself.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use phaselab::app::{App, Event};
+use phaselab::dynamics::{DynamicsError, Lagrangian, VARIATIONS, VariedAction, varied_action};
+use phaselab::instrument::{Plot, named};
+
+use crate::hand::{catalog, lowered, snapshot};
+use crate::screen::{rich, rows};
+
+const OSCILLATOR: &str = "title = 'a test'\n[coordinates]\nx = { initial = 1.0 }\n\
+                          [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n[[views]]\nkind = \"action\"\nx = \"x\"\n";
+
+/// The action beside a path x(t), x'(t) of a law with one coordinate.
+fn beside(
+    law: &str,
+    path: impl Fn(f64) -> [f64; 2],
+    duration: f64,
+) -> (Lagrangian, Result<VariedAction, DynamicsError>) {
+    let text = OSCILLATOR.replace("1/2*x'^2 - 1/2*x^2", law);
+    let loaded = lowered(&text);
+    let mut equations = (*loaded.equations).clone();
+    let mut lagrangian = Lagrangian::of(&loaded.model, &mut equations, &[]).unwrap();
+    let mut motion = |times: &[f64]| Some(times.iter().map(|&time| path(time).to_vec()).collect());
+    let found = varied_action(&mut lagrangian, &mut motion, 0, duration);
+    (lagrangian, found)
+}
+
+#[test]
+fn the_curves_of_an_oscillator_are_those_of_its_second_variation() {
+    for duration in [0.5, 2.0, 3.5, 7.0, 20.0] {
+        let (_, found) = beside("1/2*x'^2 - 1/2*x^2", |t| [t.cos(), -t.sin()], duration);
+        let found = found.unwrap();
+        assert!((found.action + (2.0 * duration).sin() / 4.0).abs() < 1e-12 * duration);
+        assert_eq!(found.curves.len(), VARIATIONS);
+        for (k, curve) in (1..).zip(&found.curves) {
+            let k = f64::from(k);
+            // ½ ∫ (δ′² − δ²) dt of δ = ε sin(kπt/T)/k
+            let second = duration / 4.0 * ((k * PI / duration).powi(2) - 1.0) / (k * k);
+            assert_eq!(curve.len(), 25);
+            for [epsilon, rise] in curve {
+                let exact = second * epsilon * epsilon;
+                assert!((rise - exact).abs() < 1e-12 * (1.0 + duration), "{duration} {k} {rise}");
+            }
+        }
+        // beyond half a period the first curve opens downwards, beyond a whole one the second
+        let down = |k: usize| found.curves[k].last().unwrap()[1] < 0.0;
+        assert_eq!([down(0), down(1)], [duration > PI, duration > 2.0 * PI], "{duration}");
+    }
+}
+
+#[test]
+fn the_curves_of_a_pendulum_are_the_actions_of_the_varied_paths() {
+    let duration = 3.0;
+    let path = |t: f64| [1.5 * t.sin(), 1.5 * t.cos()];
+    let (mut lagrangian, found) = beside("1/2*x'^2 + cos(x)", path, duration);
+    let found = found.unwrap();
+    let own = lagrangian.action(&mut |t: f64| path(t).to_vec(), duration).unwrap();
+    assert!((found.action - own).abs() < 1e-13);
+    for (k, curve) in (1..).zip(&found.curves) {
+        let rate = f64::from(k) * PI / duration;
+        for &[epsilon, rise] in curve {
+            let size = epsilon / f64::from(k);
+            let mut varied = |t: f64| {
+                let [x, v] = path(t);
+                vec![x + size * (rate * t).sin(), v + size * rate * (rate * t).cos()]
+            };
+            let action = lagrangian.action(&mut varied, duration).unwrap();
+            assert!((rise - (action - own)).abs() < 1e-12, "{k} {epsilon} {rise}");
+        }
+    }
+    // this path is no motion, so that the action is not stationary
+    let slope = found.curves[0][13][1] - found.curves[0][11][1];
+    assert!(slope.abs() > 0.01, "{slope}");
+}
+
+#[test]
+fn what_has_no_action_is_told() {
+    let (_, found) = beside("1/2*x'^2 - 1/x", |t| [t - 1.0, 1.0], 2.0);
+    assert!(found.unwrap_err().to_string().contains("does not settle"));
+    let (_, found) = beside("1/2*x'^2 - sqrt(x)", |t| [t - 1.0, 1.0], 2.0);
+    assert!(found.unwrap_err().to_string().contains("not finite"));
+    let loaded = lowered(OSCILLATOR);
+    let mut equations = (*loaded.equations).clone();
+    let mut lagrangian = Lagrangian::of(&loaded.model, &mut equations, &[]).unwrap();
+    let found = varied_action(&mut lagrangian, &mut |_: &[f64]| None, 0, 1.0);
+    assert!(found.unwrap_err().to_string().contains("cannot be followed"));
+}
+
+/// The picture of a file's view at a time, and its measures by their words.
+fn picture(text: &str, time: f64) -> (String, impl Fn(&str) -> Option<f64>) {
+    let loaded = lowered(text);
+    let seen = snapshot(&loaded, time);
+    let (mut app, _) = App::new(catalog(), Some("test"));
+    app.update(Event::Loaded(Ok(loaded)));
+    app.update(Event::Snapshot(Arc::new(seen)));
+    let area = ratatui::layout::Rect::new(0, 0, 120, 40);
+    let mut buffer = ratatui::buffer::Buffer::empty(area);
+    phaselab::view::draw(&app, &rich(), area, &mut buffer);
+    let measure = move |word: &str| {
+        let lab = app.lab.as_ref().unwrap();
+        let plots = &mut lab.plots.iter();
+        let plot: &Plot = plots.find(|plot| Some(plot.kind) == named("action")).unwrap();
+        let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
+        (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot))
+    };
+    (rows(&buffer).join("\n"), measure)
+}
+
+#[test]
+fn the_lab_says_when_the_action_is_no_longer_least() {
+    let (shown, measure) = picture(OSCILLATOR, 3.1);
+    assert!(shown.contains("least of all paths nearby"), "{shown}");
+    assert_eq!(measure("foci"), Some(0.0));
+    assert!((measure("value").unwrap() + (2.0 * 3.0_f64).sin() / 4.0).abs() < 1e-12);
+    assert!(measure("rise").unwrap() > 0.0);
+    let (shown, measure) = picture(OSCILLATOR, 3.3);
+    assert!(shown.contains("kinetic focus at t = 3.1416"), "{shown}");
+    assert_eq!(measure("foci"), Some(1.0));
+    assert!(measure("rise").unwrap() < 0.0);
+    let (shown, measure) = picture(OSCILLATOR, 9.5);
+    assert!(shown.contains("3 kinetic foci from t = 3.1416"), "{shown}");
+    assert_eq!(measure("foci"), Some(3.0));
+    // at rest on the top of a hill nothing ever meets again
+    let hill = OSCILLATOR.replace("- 1/2*x^2", "+ 1/2*x^2").replace("1.0 }", "0.0 }");
+    let (shown, measure) = picture(&hill, 9.5);
+    assert!(shown.contains("least of all paths nearby") && measure("foci") == Some(0.0));
+}
+
+#[test]
+fn the_lab_says_where_the_action_means_nothing() {
+    let friction = OSCILLATOR.replace("[[views]]", "dissipation = \"1/10*x'^2\"\n[[views]]");
+    let (shown, measure) = picture(&friction, 3.1);
+    assert!(shown.contains("not stationary"), "{shown}");
+    assert_eq!(measure("foci"), None);
+    let wall = OSCILLATOR.to_owned()
+        + "[[impulses]]\nname = \"stroke\"\nchange = { p_x = \"-2*x'\" }\n\
+           [[events]]\nname = \"wall\"\nwhen = \"x\"\naction = \"impulse:stroke\"\n";
+    let (shown, measure) = picture(&wall, 3.1);
+    assert!(shown.contains("events act on the motion") && measure("value").is_none(), "{shown}");
+}

@@ -1,0 +1,102 @@
+//! The picture of the Legendre transform: slope and intercept against closed forms, and what has none.
+
+use phaselab::app::App;
+use phaselab::instrument::{Layer, Picture, Plot, named, offers};
+
+use crate::hand::begun;
+use crate::section::measure;
+
+/// A law with the view of its transform, v = 0.6 at the start.
+fn law(table: &str, law: &str, rate: &str) -> String {
+    format!(
+        "title = 'a test'\n[coordinates]\nx = {{ initial = 0.5, {rate} = 0.6 }}\n\
+         [{table}]\n{law}\n[[views]]\nkind = \"legendre\"\nx = \"x\"\n"
+    )
+}
+
+fn plot(app: &App) -> Plot {
+    let plots = &app.lab.as_ref().unwrap().plots;
+    plots.iter().find(|plot| plot.kind.name() == "legendre").expect("a picture").clone()
+}
+
+/// The layers over a range.
+fn drawn(app: &App) -> Vec<Layer> {
+    let (lab, plot) = (app.lab.as_ref().unwrap(), plot(app));
+    let picture = plot.kind.picture(&plot, &lab.present().unwrap(), [-0.9, 0.9], None);
+    let Some(Picture::Axes { layers, .. }) = picture else { panic!("no axes") };
+    layers.into_iter().map(|(_, layer)| layer).collect()
+}
+
+fn told(app: &App) -> String {
+    let legend = drawn(app).into_iter().find_map(|layer| match layer {
+        Layer::Legend(lines) => Some(lines.join("\n")),
+        _ => None,
+    });
+    legend.expect("words")
+}
+
+fn near(found: f64, wanted: f64) {
+    assert!((found - wanted).abs() < 1e-13, "{found} {wanted}");
+}
+
+#[test]
+fn the_slope_is_the_momentum_and_the_intercept_minus_the_hamiltonian() {
+    let app = begun(&law("lagrangian", "L = \"-sqrt(1 - x'^2) + x\"", "velocity"));
+    // γ = 1/0.8: p = γ v, H = γ − x
+    near(measure(&app, &plot(&app), "slope"), 0.75);
+    near(measure(&app, &plot(&app), "intercept"), -(1.25 - 0.5));
+    assert_eq!(told(&app), "slope p_x, intercept −H");
+    // the tangent touches the curve from below, and meets the axis at the intercept
+    let lines = drawn(&app).into_iter().filter_map(|layer| match layer {
+        Layer::Line(points, _) => Some(points),
+        _ => None,
+    });
+    let lines: Vec<Vec<[f64; 2]>> = lines.collect();
+    let [axis, tangent, curve] = &lines[..] else { panic!("{}", lines.len()) };
+    near(axis[0][1], -0.75);
+    let at = |x: f64| tangent[0][1] + 0.75 * (x - tangent[0][0]);
+    near(at(0.0), -0.75);
+    let above: Vec<f64> = curve.iter().map(|[x, y]| y - at(*x)).collect();
+    assert!(above.iter().all(|gap| *gap > -1e-13), "{above:?}");
+    assert_eq!(above.iter().filter(|gap| gap.abs() < 1e-13).count(), 1);
+}
+
+#[test]
+fn a_hamiltonian_is_transformed_back() {
+    let app = begun(&law("hamiltonian", "H = \"p_x^2/4 + x^2\"", "momentum"));
+    // x' = p/2, L = x'² − x²
+    near(measure(&app, &plot(&app), "slope"), 0.3);
+    near(measure(&app, &plot(&app), "intercept"), -(0.09 - 0.25));
+    assert_eq!(told(&app), "slope ẋ, intercept −L");
+}
+
+#[test]
+fn a_slope_that_several_velocities_have_is_told() {
+    let app = begun(&law("lagrangian", "L = \"x'^4/4 - x'^2/2\"", "velocity"));
+    assert!(told(&app).contains("not convex: several ẋ may have one p_x"), "{}", told(&app));
+    let app = begun(&law("hamiltonian", "H = \"x*p_x\"", "momentum"));
+    assert!(told(&app).contains("straight: ẋ does not determine p_x"), "{}", told(&app));
+}
+
+#[test]
+fn of_several_velocities_one_is_transformed() {
+    let text = law("lagrangian", "L = \"1/2*(x'^2 + y'^2) + x'*y' - y\"", "velocity")
+        .replace("[lagrangian]", "y = { initial = 2.0, velocity = -0.1 }\n[lagrangian]")
+        .replace("x'^2 + y'^2", "2*x'^2 + y'^2");
+    let app = begun(&text);
+    // p_x = 2 x' + y', L − p_x x'
+    near(measure(&app, &plot(&app), "slope"), 1.1);
+    let lagrangian = 0.5 * (0.72 + 0.01) - 0.06 - 2.0;
+    near(measure(&app, &plot(&app), "intercept"), lagrangian - 1.1 * 0.6);
+    assert_eq!(told(&app), "slope p_x, intercept L − p_x ẋ");
+}
+
+#[test]
+fn variables_of_brackets_have_no_transform() {
+    let kind = named("legendre").unwrap();
+    let text = "title = 'a test'\n[variables]\nx = { initial = 1.0 }\ny = { initial = 0.0 }\n\
+                [poisson]\nH = \"x^2 + y^2\"\nbrackets = [[\"x\", \"y\", \"1\"]]\n";
+    let lowered = crate::hand::lowered(text);
+    assert!(lowered.model.is_poisson());
+    assert!(offers(lowered.physics()).iter().all(|(of, _)| *of != kind));
+}
