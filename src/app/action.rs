@@ -127,6 +127,8 @@ pub enum Action {
     Spectrum,
     /// Shows what becomes of the motion over the range of the selected parameter.
     Diagram,
+    /// Lets a transformation move the point in place of the coordinates, or the coordinates again.
+    Active,
     /// Keep the present run beside what follows.
     Pin,
     /// Remove all motions beside the main one.

@@ -192,6 +192,14 @@ impl App {
                 _ => self
                     .notify("Only where one quantity stands against another can units be equal."),
             },
+            Action::Active => match lab.focused_plot() {
+                Some((_, plot)) if plot.kind.written().iter().any(|axis| axis.transformed) => {
+                    self.with_viewport(|viewport| viewport.active = !viewport.active)
+                }
+                _ => self.notify(
+                    "Only a transformation moves the coordinates or the point; v chooses one.",
+                ),
+            },
             Action::Cursor => self.with_viewport(|viewport| {
                 viewport.cursor = if viewport.cursor.is_some() { None } else { Some([0.5, 0.5]) };
             }),

@@ -74,7 +74,11 @@ impl FromStr for Values {
 }
 
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
-    let study = Study::open(&arguments.study, interrupt)?;
+    let study = Study::open_with_impulses(&arguments.study, interrupt)?;
+    if study.space.has_jumps() && study.space.is_autonomous() {
+        let why = "events act on the motion, and its orbits are not closed over them";
+        return Err(CommandError::CouldNot(why.to_owned()));
+    }
     let fixed = fixed(arguments, &study)?;
     let along = arguments.along.as_ref().map(|values| along(values, &study)).transpose()?;
     interrupt.ends_by_itself(|| ());
@@ -211,6 +215,7 @@ fn object(study: &Study, orbit: &Orbit) -> Map<String, Value> {
     insert("multipliers", json!(multipliers(orbit)));
     insert("trivial", json!(trivial(orbit.trivial)));
     insert("trace", json!(orbit.transverse.trace()));
+    insert("residue", json!(orbit.residue()));
     insert("stable", json!(orbit.stable));
     object
 }
@@ -238,6 +243,9 @@ fn text(study: &Study, orbit: &Orbit) -> String {
     if orbit.trivial.count() > 0 {
         let names = trivial(orbit.trivial).join(" and of the ");
         text.push_str(&format!("and 1 of the {names}\n"));
+    }
+    if let Some(residue) = orbit.residue() {
+        text.push_str(&format!("residue     {}\n", shown(residue)));
     }
     text
 }

@@ -43,6 +43,8 @@ struct Jumping {
     since: f64,
     /// The size of the last step.
     step: f64,
+    /// Whether more may happen at the time that was reached.
+    pending: bool,
     /// The product of the determinants of all impulses.
     determinant: f64,
 }
@@ -72,6 +74,7 @@ impl Carrier {
                 last: None,
                 since: 0.0,
                 step: 0.0,
+                pending: false,
                 determinant: 1.0,
             });
         }
@@ -110,6 +113,7 @@ impl Carrier {
         jumping.motion.begin(&full, self.space.parameters())?;
         jumping.begun = true;
         jumping.span = (full.time, full.time);
+        jumping.pending = false;
         jumping.since = full.time;
         Ok(())
     }
@@ -127,7 +131,9 @@ impl Carrier {
         self.steps += 1;
         let Some(jumping) = &mut self.jumping else { return self.stepper.step(limit) };
         let begin = jumping.span.1;
-        match jumping.motion.reach(limit, limit, &mut 1)? {
+        let reached = jumping.motion.reach(limit, limit, &mut 1)?;
+        jumping.pending = reached != Reached::There;
+        match reached {
             Reached::There | Reached::Underway => jumping.step = jumping.motion.step_size(),
             Reached::Happened(found) => match found.kind {
                 OccurrenceKind::Mark | OccurrenceKind::Crossing(_) => {}
@@ -173,6 +179,15 @@ impl Carrier {
     /// The time at the end of the last step.
     pub fn time(&self) -> f64 {
         self.jumping.as_ref().map_or_else(|| self.stepper.time(), |jumping| jumping.span.1)
+    }
+
+    /// Whether it has not come to a time yet, or not all has happened that happens there.
+    pub fn is_before(&self, until: f64, forwards: bool) -> bool {
+        let time = self.time();
+        if time == until {
+            return self.jumping.as_ref().is_some_and(|jumping| jumping.pending);
+        }
+        (time < until) == forwards
     }
 
     /// The times at which the last step began and ended.

@@ -1,10 +1,12 @@
-//! The period of a law that depends on time: of its drive, where time enters by sines and cosines of a t + b alone.
+//! The period of a law that depends on time: of its drive, where time enters by sines and cosines of a t + b alone, and of
+//! impulses at equal intervals.
 //!
 //! In: the equations, the parameters. Out: the common period, if there is one. Never here: orbits.
 
 use crate::expr::{Expr, FunctionId, Node};
 use crate::mechanics::{Equations, Flow, Valuation};
 use crate::model::Model;
+use crate::system::System;
 
 /// The most turns of the slowest part of a drive in its common period.
 const TURNS: u32 = 64;
@@ -16,6 +18,7 @@ const WHOLE: f64 = 1e-9;
 pub(super) fn drive_period(
     model: &Model,
     equations: &Equations,
+    system: &System,
     parameters: &[f64],
 ) -> Option<f64> {
     let mut pool = equations.pool.clone();
@@ -30,6 +33,12 @@ pub(super) fn drive_period(
     let values = Valuation::of_parameters(model, parameters);
     let mut seen = std::collections::HashSet::new();
     let mut rates: Vec<f64> = Vec::new();
+    for schedule in system.schedule(parameters) {
+        if !schedule.times.is_empty() {
+            return None;
+        }
+        rates.extend(schedule.interval.map(|interval| std::f64::consts::TAU / interval.high));
+    }
     while let Some(e) = open.pop() {
         if !pool.depends(e, time) || !seen.insert(e) {
             continue;

@@ -16,6 +16,9 @@ const MULTIPLES: u32 = 6;
 /// A return this near, relative to the farthest, is tried first.
 const NEAR: f64 = 0.1;
 
+/// An orbit that comes back this near, relative to its size, before its period has ended closes there.
+const SAME: f64 = 1e-9;
+
 /// The periodic orbit near a start whose period is that of the drive or a small multiple of it: where the motion returns
 /// near its start after one of them, that one comes first.
 ///
@@ -44,11 +47,37 @@ pub fn driven_orbit(
         let period = f64::from(*count) * drive;
         match periodic_orbit(space, method, start, Some(period), Fixed::Period(period)) {
             Err(DynamicsError::Unsuited(_)) => {}
-            other => return other,
+            Ok(orbit) => return shortest(space, method, orbit, (*count, drive)),
+            Err(fault) => return Err(fault),
         }
     }
     Err(DynamicsError::Unsuited(format!(
         "no periodic orbit was found near the start with the period of the drive, {drive:.6}, or 2 to {MULTIPLES} times it: \
          begin nearer to one, where the motion has settled, or give the period of the orbit"
     )))
+}
+
+/// The same orbit over the fewest periods of the drive after which it closes, a part of those that are known.
+fn shortest(
+    space: &PhaseSpace,
+    method: (&'static Method, Settings),
+    orbit: Orbit,
+    (count, drive): (u32, f64),
+) -> Result<Orbit, DynamicsError> {
+    let size = space.variables(&orbit.state).iter().fold(1.0_f64, |size, x| size.max(x.abs()));
+    for part in (1..count).filter(|&part| count.is_multiple_of(part)) {
+        let period = f64::from(part) * drive;
+        let end = orbit.state.time + period;
+        let map = flow_map(space, method, &orbit.state, end, &mut |_| {})?;
+        if difference(space, &map.state, &orbit.state).norm() <= SAME * size {
+            return periodic_orbit(
+                space,
+                method,
+                &orbit.state,
+                Some(period),
+                Fixed::Period(period),
+            );
+        }
+    }
+    Ok(orbit)
 }

@@ -68,7 +68,7 @@ pub fn flow_map(
     let mut field = (!space.is_hamiltonian()).then(|| space.vector_field());
     let forwards = until >= start.time;
     let (mut logarithm, mut failure, mut time) = (0.0, None, start.time);
-    while (carrier.time() < until) == forwards && carrier.time() != until {
+    while carrier.is_before(until, forwards) {
         if let Err(fault) = carrier.step(until) {
             failure = Some(fault);
             break;

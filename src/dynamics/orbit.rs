@@ -74,6 +74,16 @@ pub struct Orbit {
     pub settings: Settings,
 }
 
+impl Orbit {
+    /// Greene's residue (2 − tr M)/4, where two multipliers are left and areas across the orbit are preserved: between 0 and 1 the orbit is elliptic, below 0
+    /// hyperbolic, above 1 hyperbolic with reflection (J. M. Greene, J. Math. Phys. 20 (1979) 1183).
+    pub fn residue(&self) -> Option<f64> {
+        let across = &self.transverse;
+        let preserves = across.nrows() == 2 && (across.determinant() - 1.0).abs() <= ON_CIRCLE;
+        preserves.then(|| (2.0 - across.trace()) / 4.0)
+    }
+}
+
 /// Finds the periodic orbit near a state of the space. Without a period it begins at the first
 /// return near the start.
 ///

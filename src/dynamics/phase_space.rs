@@ -72,7 +72,8 @@ impl PhaseSpace {
             Mechanics::Hamiltonian { forces, .. } => none(forces),
             Mechanics::Poisson { .. } => false,
         };
-        let autonomous = !system.without_tangents().exact_rates().depends_on_time();
+        let timeless = !system.without_tangents().exact_rates().depends_on_time();
+        let autonomous = timeless && !acts_by_the_clock(system);
         let mut periods: Vec<Option<f64>> =
             (0..degrees).map(|i| system.period(i, parameters)).collect();
         periods.resize(names.len(), None);
@@ -81,9 +82,11 @@ impl PhaseSpace {
             parameters: parameters.to_vec(),
             names,
             hamiltonian: hamiltonian && !jumps,
-            autonomous: autonomous && !acts_by_the_clock(system),
+            autonomous,
             jumps,
-            drive: (!autonomous).then(|| drive_period(model, equations, parameters)).flatten(),
+            drive: (!autonomous)
+                .then(|| drive_period(model, equations, system, parameters))
+                .flatten(),
             conservative: autonomous && !jumps && equations.energy_rate == Expr::ZERO,
             periods,
             cyclic: equations.cyclic.clone(),
@@ -107,7 +110,8 @@ impl PhaseSpace {
         PhaseSpace { parameters: parameters.to_vec(), drive, ..self.clone() }
     }
 
-    /// The period of the drive, where the law depends on time by sines and cosines of a t + b that have a common one.
+    /// The period of the drive, where the law depends on time by sines and cosines of a t + b, or impulses act at equal
+    /// intervals, that have a common one.
     pub fn drive(&self) -> Option<f64> {
         self.drive
     }

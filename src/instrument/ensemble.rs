@@ -17,6 +17,7 @@ use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
     Offer, Physics, Picture, Plot, Present, Seed, Sign, Upwards,
 };
+use crate::expr::Expr;
 use crate::integrate::method_named;
 use crate::job::Job;
 use crate::num::{math, significant};
@@ -122,12 +123,23 @@ impl Instrument for Ensemble {
         initial_values(plot, present.physics, [0.0; 2])?;
         let viewport = plot.viewport()?;
         let window = [range(plot, present, answer, 0)?, range(plot, present, answer, 1)?];
-        Some(Seed::Spread([0, 1].map(|axis| {
+        let seen = [0, 1].map(|axis| {
             let [from, to] = window[axis];
             let half = (to - from) / viewport.zoom[axis] / 2.0;
             let middle = f64::midpoint(from, to) + viewport.pan[axis] * 2.0 * half;
             [middle - half, middle + half]
-        })))
+        });
+        // once more while all of the box is seen: over the energy shell in its place
+        let conserved = present.physics.equations.energy_rate == Expr::ZERO;
+        let contains = |held: &[f64; 2], by: &[f64; 2]| by[0] <= held[0] && held[1] <= by[1];
+        Some(match plot.seeds.last() {
+            Some(Seed::Spread(last))
+                if conserved && last.iter().zip(&seen).all(|(held, by)| contains(held, by)) =>
+            {
+                Seed::Shell
+            }
+            _ => Seed::Spread(seen),
+        })
     }
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
@@ -234,6 +246,9 @@ fn sentence(present: &Present<'_>, answer: Option<&Answer>) -> String {
     }
     let short = |x: f64| significant(x, 4, 1e-3..1e5).replace('-', "−");
     let Some(frame) = shown(present, answer) else { return String::new() };
+    if let Some(energy) = cloud.origin.energy() {
+        return format!("energy {}", short(energy));
+    }
     let Some(action) = frame.action else {
         return match &cloud.curve {
             None => String::new(),

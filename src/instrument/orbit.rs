@@ -189,7 +189,7 @@ impl Instrument for Orbit {
             Measure {
                 word: "residue",
                 about: "Greene's residue (2 − trace)/4, for two degrees of freedom or one with a drive",
-                value: |_, _, answer| residue(&described(answer)?.orbit),
+                value: |_, _, answer| described(answer)?.orbit.residue(),
             },
             Measure {
                 word: "stable",
@@ -261,13 +261,6 @@ fn described(answer: Option<&Answer>) -> Option<&Described> {
     found(answer)?.outcome.as_ref().ok()
 }
 
-/// Greene's residue, where two multipliers are left (J. M. Greene, J. Math. Phys. 20 (1979) 1183).
-fn residue(orbit: &Closed) -> Option<f64> {
-    let area_preserving = matches!(orbit.trivial, Removed::FlowAndEnergy | Removed::Nothing);
-    (orbit.multipliers.len() == 2 && area_preserving)
-        .then(|| (2.0 - orbit.transverse.trace()) / 4.0)
-}
-
 /// What is said of the orbit, or why there is none.
 fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     let found = match found(answer).map(|found| &found.outcome) {
@@ -307,7 +300,7 @@ fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
         (false, true) => "stable".to_owned(),
         (false, false) => "unstable".to_owned(),
     };
-    let residue = residue(orbit).map(|residue| format!(", residue {}", brief(residue)));
+    let residue = orbit.residue().map(|residue| format!(", residue {}", brief(residue)));
     lines.push(how + &residue.unwrap_or_default());
     lines
 }

@@ -247,7 +247,8 @@ impl Plot {
         self.sight = match self.sight {
             Sight::Camera(eye) => Sight::Camera(eye.at_first(model)),
             Sight::Axes(viewport) => {
-                Sight::Axes(Viewport { equal: viewport.equal, ..Viewport::WHOLE })
+                let Viewport { equal, active, .. } = viewport;
+                Sight::Axes(Viewport { equal, active, ..Viewport::WHOLE })
             }
         };
     }

@@ -120,6 +120,7 @@ impl SavedPlot {
         let finite = |seed: &Seed| match seed {
             Seed::Spread(window) => window.as_flattened().iter().all(|x| x.is_finite()),
             Seed::Through(point) => point.iter().all(|x| x.is_finite()),
+            Seed::Shell => true,
         };
         let seeds: Vec<Seed> =
             self.seeds.iter().filter(|seed| finite(seed)).take(MOST_SEEDS).copied().collect();

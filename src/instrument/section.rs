@@ -328,7 +328,9 @@ impl Task {
             }
             (Some(Seed::Through(point)), _) => (vec![point], COUNT_CHOSEN),
             (None, Some(begun)) => begun.pending.clone(),
-            (None, None) => (self.starts(&system, &region, region.window, 0), COUNT),
+            (Some(Seed::Shell), _) | (None, None) => {
+                (self.starts(&system, &region, region.window, 0), COUNT)
+            }
         };
         let pending = (points.split_off(points.len().min(PART)), count);
         let plan = SectionPlan { count: Some(count), ..self.plan.clone() };

@@ -1,10 +1,10 @@
-//! Orbits that a person adds to a section.
+//! Orbits that a person adds to a section, and where a cloud begins.
 //!
 //! In: windows and points of a plane. Out: [`Seed`]s, which sessions keep. Never here: the orbits.
 
 use serde::{Deserialize, Serialize};
 
-/// Orbits added to a section.
+/// Orbits added to a section, or the place of a cloud.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Seed {
@@ -12,6 +12,8 @@ pub enum Seed {
     Spread([[f64; 2]; 2]),
     /// The orbit through a point.
     Through([f64; 2]),
+    /// Starts spread over the states of the motion's energy.
+    Shell,
 }
 
 /// The most additions to a section.

@@ -45,19 +45,28 @@ pub struct Viewport {
     /// Whether a unit has the same length on both axes.
     #[serde(default)]
     pub equal: bool,
+    /// Whether a transformation moves the point in place of the coordinates.
+    #[serde(default)]
+    pub active: bool,
     /// The cursor, in fractions of the width from the left and of the height from below.
     pub cursor: Option<[f64; 2]>,
 }
 
 impl Viewport {
     /// The whole motion.
-    pub const WHOLE: Self =
-        Self { zoom: [1.0; 2], pan: [0.0; 2], log: false, equal: false, cursor: None };
+    pub const WHOLE: Self = Self {
+        zoom: [1.0; 2],
+        pan: [0.0; 2],
+        log: false,
+        equal: false,
+        active: false,
+        cursor: None,
+    };
 
     /// The same window with the smooth settings at their defaults.
     pub(super) fn at_rest(self) -> Self {
         let cursor = self.cursor.map(|_| [0.0; 2]);
-        Self { log: self.log, equal: self.equal, cursor, ..Self::WHOLE }
+        Self { log: self.log, equal: self.equal, active: self.active, cursor, ..Self::WHOLE }
     }
 
     /// Moves one step in a direction: the cursor if there is one, otherwise the window.

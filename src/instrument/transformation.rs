@@ -1,8 +1,9 @@
 //! `transformation`: the orbit in the new variables of a transformation (q, p) → (Q, P), with the grid of the old ones.
 //!
-//! It is the passive view: the point of the motion is the same, its coordinates are others. The lines on which one of the
+//! In the passive view the point of the motion is the same, and its coordinates are others. The lines on which one of the
 //! old variables is constant are drawn in the plane of the new ones; where the new variables jump, as an angle does, a line
-//! is not joined. The job finds the lines, whether the map is canonical, and K.
+//! is not joined. In the active view the coordinates stay, and the map moves the point: (q, p) and its image (Q, P) in one
+//! plane. The job finds the lines, whether the map is canonical, and K.
 //! Source: *The Principles of Dynamics*, §§ 3.2.2, 3.3.
 
 use std::sync::Arc;
@@ -115,10 +116,15 @@ impl Instrument for Transformation {
             Entry::Channel(plot.column(0)?),
             Entry::Channel(plot.column(1)?),
         ];
-        Some(plot.heading(present.physics, "Transformation", entries))
+        let moved = moved(plot, present.physics).is_some();
+        let kind = if moved { "Transformation, active" } else { "Transformation" };
+        Some(plot.heading(present.physics, kind, entries))
     }
 
     fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
+        if let Some([q, _]) = moved(plot, present.physics) {
+            return Across::Channel(q, both(plot, present, q, 0));
+        }
         let range = range(plot, present, answer, 0);
         plot.column(0).map_or(Across::Nothing, |x| Across::Channel(x, range))
     }
@@ -132,6 +138,9 @@ impl Instrument for Transformation {
     ) -> Option<Picture> {
         let [x, y] = [plot.column(0)?, plot.column(1)?];
         let mapped = mapped(answer);
+        if let Some(old) = moved(plot, present.physics) {
+            return Some(active(plot, present, (old, [x, y]), answer));
+        }
         let stroke = Stroke::from(Ink::Level);
         let grid = mapped.into_iter().flat_map(|mapped| mapped.grid.iter());
         let mut layers: Vec<(Level, Layer)> =
@@ -220,6 +229,50 @@ impl Instrument for Transformation {
             },
         ]
     }
+}
+
+/// The channels of the old variables of the pair that is shown, where the point is moved and not its coordinates.
+fn moved(plot: &Plot, physics: Physics<'_>) -> Option<[usize; 2]> {
+    let shown = shown(plot, physics).filter(|_| plot.viewport().is_some_and(|v| v.active))?;
+    let pair = shown.law.new.iter().position(|new| *new == shown.new)?;
+    Some([
+        physics.channel(ChannelKind::Position(pair))?,
+        physics.channel(ChannelKind::Momentum(pair))?,
+    ])
+}
+
+/// What the motion and its image have reached along an axis.
+fn both(plot: &Plot, present: &Present<'_>, old: usize, axis: usize) -> Option<[f64; 2]> {
+    let of = |channel: usize| present.bounds.get(channel).copied();
+    let (own, image) = (of(old)?, of(plot.column(axis)?)?);
+    let (lo, hi) = (own.0.min(image.0), own.1.max(image.1));
+    let margin = MARGIN * if hi > lo { hi - lo } else { lo.abs().max(1.0) };
+    Some([lo - margin, hi + margin])
+}
+
+/// The point (q, p) of the motion and its image, in one plane, with the past of both.
+fn active(
+    plot: &Plot,
+    present: &Present<'_>,
+    (old, new): ([usize; 2], [usize; 2]),
+    answer: Option<&Answer>,
+) -> Picture {
+    let at = |channels: [usize; 2]| channels.map(|channel| present.value(channel));
+    let (point, image) = (at(old), at(new));
+    let faint = Stroke { ink: Ink::Level, covering: Some(0.5) };
+    let [[q, p], [new_q, new_p]] = [old, new].map(|pair| pair.map(|c| present.physics.shown(c)));
+    let verdict = judged(answer).map_or_else(Vec::new, |judged| judged.lines.clone());
+    let lines = [vec![format!("● ({q}, {p}), ○ its image ({new_q}, {new_p})")], verdict].concat();
+    let layers = vec![
+        (TRAIL, Layer::Trail(new)),
+        (TRAIL, Layer::Trail(old)),
+        (GRID, Layer::Line(vec![point, image], faint)),
+        (NOW, Layer::Point(image, Sign::Ring, Ink::Warn)),
+        (NOW, Layer::Point(point, Sign::Disc, Ink::Accent)),
+        (NOW, Layer::Legend(lines)),
+    ];
+    let upwards = Upwards::Channel(old[1], both(plot, present, old[1], 1));
+    Picture::Axes { upwards, layers, occurrences: None }
 }
 
 fn mapped(answer: Option<&Answer>) -> Option<&Mapped> {

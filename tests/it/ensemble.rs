@@ -296,3 +296,47 @@ fn a_key_begins_the_cloud_over_what_is_seen_and_a_session_has_it() {
     press(&mut app, "N");
     assert_eq!(app.lab.as_ref().unwrap().plots[0].seeds, []);
 }
+
+/// Two oscillators, of which the energy shell is a sphere: the points of the cloud are all over it, and on it.
+#[test]
+fn once_more_it_is_spread_over_the_energy_shell() {
+    let text = "title = 'shell'\n[coordinates]\nx = { initial = 1.0 }\ny = { initial = 0.5, momentum = 1.0 }\n\
+                [hamiltonian]\nH = \"1/2*(p_x^2 + p_y^2 + x^2 + y^2)\"\n\
+                [[views]]\nkind = \"ensemble\"\nx = \"x\"\ny = \"y\"\n";
+    // x against y is no plane of a start: x against p_x is
+    let (mut app, _, _) = opened(prepared(&text.replace("y = \"y\"", "y = \"p_x\"")));
+    press(&mut app, "Tab Tab Tab");
+    for (keys, seed) in [("n", "Spread"), ("n", "Shell"), ("n", "Spread")] {
+        let effects = press(&mut app, keys);
+        finish(&mut app, effects);
+        let seeds = app.lab.as_ref().unwrap().plots[0].seeds.clone();
+        assert!(seeds.len() == 1 && format!("{seeds:?}").contains(seed), "{seeds:?}");
+        if seed != "Shell" {
+            continue;
+        }
+        // E = ½ (1 + ¼ + 1): x² + p_x² is anything up to 2E, and no more
+        let points = cloud(&app);
+        assert!(points.len() > 1000, "{}", points.len());
+        let squares: Vec<f64> = points.iter().map(|[x, p]| x * x + p * p).collect();
+        assert!(squares.iter().all(|square| *square < 2.25 + 1e-9));
+        for part in 0..5 {
+            let part = 0.45 * f64::from(part)..0.45 * f64::from(part + 1);
+            let count = squares.iter().filter(|square| part.contains(square)).count();
+            assert!(count > 50, "{part:?}: {count}");
+        }
+        assert_eq!(measure(&app, "action"), None);
+        let session = toml::to_string(&app.saved().unwrap()).unwrap();
+        let read: Saved = toml::from_str(&session).unwrap();
+        let physics = app.lab.as_ref().unwrap().loaded.physics();
+        assert_eq!(read.plots[0].place(physics).unwrap().seeds, seeds);
+    }
+    // where the energy is not constant there is no shell
+    let (mut app, _, _) = opened(oscillator("-cos(q)", "0.1*q'^2"));
+    press(&mut app, "Tab Tab Tab");
+    for _ in 0..2 {
+        let effects = press(&mut app, "n");
+        finish(&mut app, effects);
+        let seeds = &app.lab.as_ref().unwrap().plots[0].seeds;
+        assert!(matches!(seeds[..], [Seed::Spread(_)]), "{seeds:?}");
+    }
+}

@@ -1,6 +1,6 @@
 //! The orbit in the new variables of a transformation: the grid of the old ones, and what is said of the map.
 
-use phaselab::app::App;
+use phaselab::app::{App, Pane};
 use phaselab::instrument::{Ink, Layer, Picture, Plot};
 use phaselab::num::math;
 use phaselab::preset;
@@ -79,6 +79,46 @@ fn the_oscillator_by_its_angle_has_the_grid_of_q_and_p() {
 }
 
 /// An angle written as atan2 jumps by a turn: its trail leaves at one edge and enters at the other.
+/// One step of symplectic Euler, Q = q + h P/m, P = p − h ∂V/∂q, taken as a map of the plane into itself.
+#[test]
+fn in_the_active_view_the_point_is_moved_and_the_coordinates_stay() {
+    let mut app = lab("symplectic-euler", 1.0);
+    press(&mut app, "Wait");
+    let place = |app: &App| {
+        let plots = &app.lab.as_ref().expect("a lab").plots;
+        plots.iter().position(|plot| plot.kind.name() == "transformation").expect("a map")
+    };
+    let before = shown(&app, &plots(&app)[0]).0;
+    assert!(before.len() >= 14, "the grid of the passive view");
+    app.lab.as_mut().expect("a lab").focus = Pane::Plot(place(&app));
+    press(&mut app, "Q");
+    let plot = plots(&app)[0].clone();
+    let (arrow, words) = shown(&app, &plot);
+    let lab = app.lab.as_ref().expect("a lab");
+    let present = lab.present().expect("a motion");
+    let value = |name: &str| {
+        let channels = present.physics.system.channels();
+        present.value(channels.iter().position(|channel| channel.name == name).expect(name))
+    };
+    let new = |axis| present.value(plot.column(axis).expect("a channel"));
+    let (x, p) = (value("q"), value("p_q"));
+    assert_eq!(arrow, [vec![[x, p], [new(0), new(1)]]]);
+    assert!((new(0) - x).abs() > 1e-3 && (new(1) - p).abs() > 1e-3, "it is moved");
+    assert!(words[0].starts_with("● (q, p_q), ○ its image ("), "{words:?}");
+    assert_eq!(words[1], "canonical, proved");
+    let heading = plot.kind.heading(&plot, &present).expect("a heading");
+    assert!(heading.given || heading.title == "Transformation, active");
+    // the key takes it back, and says where there is nothing to be moved
+    press(&mut app, "Q");
+    assert_eq!(shown(&app, &plots(&app)[0]).0, before);
+    let phase = app.lab.as_ref().expect("a lab").plots.iter();
+    let phase = phase.clone().position(|plot| plot.kind.name() == "phase").expect("a phase plane");
+    app.lab.as_mut().expect("a lab").focus = Pane::Plot(phase);
+    press(&mut app, "Q");
+    let told = app.notice.take().map(|notice| notice.text).unwrap_or_default();
+    assert!(told.contains("Only a transformation"), "{told}");
+}
+
 #[test]
 fn what_is_written_as_atan2_is_an_angle() {
     let app = lab("angle-of-the-oscillator", 1.0);

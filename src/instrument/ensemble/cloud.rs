@@ -116,7 +116,7 @@ impl Task {
         let times: Vec<f64> = (0..frames).map(|k| first + k as f64 * spacing).collect();
         let points = match known {
             Some(known) => known.points.clone(),
-            None => self.origin.inside(COUNT).map(|at| self.state(at)).collect(),
+            None => self.origin.states(COUNT, &self.plot, self.physics(), parameters),
         };
         let mut carried: Vec<Carried> = Vec::with_capacity(points.len());
         progress.expect(points.len() as u64);
@@ -133,6 +133,7 @@ impl Task {
         let start = |s: f64| self.state(self.origin.boundary(s));
         let mut curve = match known {
             Some(known) => known.curve.clone(),
+            None if !self.origin.has_boundary() => None,
             None => self.channels().and_then(|all| ClosedCurve::new(&start, all, self.scales())),
         };
         let mut failure = threads.err().map(|why| why.to_string());
@@ -162,7 +163,11 @@ impl Task {
             end: times.last().copied().unwrap_or(self.now),
             frames: old.chain(new).collect(),
             points: carried.into_iter().map(|one| one.end).collect(),
-            first: known.map_or_else(|| self.first(&start), |known| known.first),
+            first: match known {
+                Some(known) => known.first,
+                None if !self.origin.has_boundary() => None,
+                None => self.first(&start),
+            },
             rate: known.map_or_else(|| self.rate(&points), |known| known.rate),
             curve,
             extent,

@@ -1,4 +1,4 @@
-//! Where a cloud begins: a disc or a box in the plane of two quantities, around the motion.
+//! Where a cloud begins: a disc or a box in the plane of two quantities, around the motion, or the shell of its energy.
 //!
 //! In: the plot, the present, a window that was chosen. Out: an [`Origin`]: points within it and on its boundary, and the states
 //! they stand for. Never here: how they are carried.
@@ -6,13 +6,18 @@
 use super::super::equilibria::given;
 use super::super::phase::initial_values;
 use super::super::{Physics, Plot, Present, Seed};
-use crate::ensemble::{Start, spread};
+use crate::ensemble::{EnergyShell, Root, Start, spread};
+use crate::expr::Expr;
 use crate::num::math;
-use crate::system::{InitialOverride, State};
+use crate::system::{ChannelKind, Form, InitialOverride, State, System};
 
 /// The size of a cloud: of its values, in a coordinate that is an angle, and where neither has a scale.
 const OF_VALUE: f64 = 0.3;
 const OF_TURN: f64 = 0.08;
+
+/// The range of a shell beyond what the motion has reached, and how many places are tried for each that is on it.
+const AROUND: f64 = 1.5;
+const TRIES: usize = 64;
 
 /// Where a cloud began.
 #[derive(Clone)]
@@ -22,7 +27,19 @@ pub(super) struct Origin {
     base: Vec<InitialOverride>,
     pub(super) centre: [f64; 2],
     radii: [f64; 2],
-    boxed: bool,
+    shape: Shape,
+}
+
+/// What a cloud fills.
+#[derive(Clone)]
+enum Shape {
+    Disc,
+    Box,
+    /// The states of an energy, within a range of each coordinate and rate.
+    Shell {
+        energy: f64,
+        ranges: Vec<[f64; 2]>,
+    },
 }
 
 impl Origin {
@@ -37,7 +54,11 @@ impl Origin {
             base,
             centre: own,
             radii: [1.0; 2],
-            boxed: matches!(seed, Some(Seed::Spread(_))),
+            shape: match seed {
+                Some(Seed::Spread(_)) => Shape::Box,
+                Some(Seed::Shell) => shell(present)?,
+                _ => Shape::Disc,
+            },
         };
         Some(match seed {
             Some(Seed::Spread(window)) => Self {
@@ -48,6 +69,7 @@ impl Origin {
             Some(Seed::Through(at)) => {
                 Self { radii: radii(&origin, plot, present, channels), centre: at, ..origin }
             }
+            Some(Seed::Shell) => origin,
             None => Self { radii: radii(&origin, plot, present, channels), ..origin },
         })
     }
@@ -68,9 +90,66 @@ impl Origin {
         start.state(physics.system).ok()
     }
 
+    /// Whether it has a closed curve around it.
+    pub(super) fn has_boundary(&self) -> bool {
+        !matches!(self.shape, Shape::Shell { .. })
+    }
+
+    /// The energy of all its states, if they have one.
+    pub(super) fn energy(&self) -> Option<f64> {
+        match self.shape {
+            Shape::Shell { energy, .. } => Some(energy),
+            Shape::Disc | Shape::Box => None,
+        }
+    }
+
+    /// So many states within it; `None` for one that is no state.
+    pub(super) fn states(
+        &self,
+        count: usize,
+        plot: &Plot,
+        physics: Physics<'_>,
+        parameters: &[f64],
+    ) -> Vec<Option<State>> {
+        match &self.shape {
+            Shape::Shell { energy, ranges } => {
+                self.on_shell((*energy, ranges), count, physics.system, parameters)
+            }
+            Shape::Disc | Shape::Box => {
+                let points = self.inside(count);
+                points.map(|at| self.state(at, plot, physics, parameters)).collect()
+            }
+        }
+    }
+
+    /// States of an energy: all numbers but the last rate are spread evenly, and that completes them, by either root.
+    fn on_shell(
+        &self,
+        (energy, ranges): (f64, &[[f64; 2]]),
+        count: usize,
+        system: &System,
+        parameters: &[f64],
+    ) -> Vec<Option<State>> {
+        let Some((&by, others)) = self.base.split_last() else { return Vec::new() };
+        let mut observer = system.observer(parameters);
+        let (time, parameters) = (self.time, parameters.to_vec());
+        let mut start = Start { time, parameters, overrides: self.base.clone() };
+        let state = |index: usize| {
+            for ((&given, range), share) in others.iter().zip(ranges).zip(shares(index)) {
+                start.replace(with_value(given, range[0] + share * (range[1] - range[0])));
+            }
+            let root = if index.is_multiple_of(2) { Root::Positive } else { Root::Negative };
+            let shell = EnergyShell { energy, by, root };
+            shell.complete_by(system, &mut observer, &mut start).ok()?;
+            start.state(system).ok()
+        };
+        // most places may be beyond what the energy allows
+        (0..TRIES * count).filter_map(state).take(count).map(Some).collect()
+    }
+
     /// The point of the closed curve at s, counter-clockwise.
     pub(super) fn boundary(&self, s: f64) -> [f64; 2] {
-        let at = if self.boxed {
+        let at = if matches!(self.shape, Shape::Box) {
             let (side, along) = ((4.0 * s).floor(), 2.0 * (4.0 * s).fract() - 1.0);
             match side as u8 {
                 0 => [along, -1.0],
@@ -86,14 +165,58 @@ impl Origin {
     }
 
     /// Points within it, evenly.
-    pub(super) fn inside(&self, count: usize) -> impl Iterator<Item = [f64; 2]> + '_ {
-        let within = |at: &[f64; 2]| self.boxed || at[0] * at[0] + at[1] * at[1] <= 1.0;
+    fn inside(&self, count: usize) -> impl Iterator<Item = [f64; 2]> + '_ {
+        let boxed = matches!(self.shape, Shape::Box);
+        let within = move |at: &[f64; 2]| boxed || at[0] * at[0] + at[1] * at[1] <= 1.0;
         let all = (0..).map(|index| spread(index, [[-1.0, 1.0]; 2])).filter(within);
         all.take(count).map(|at| self.placed(at))
     }
 
     fn placed(&self, at: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k| self.centre[k] + self.radii[k] * at[k])
+    }
+}
+
+/// The shell of the motion's energy, around what it has reached; `None` where its energy is not constant.
+fn shell(present: &Present<'_>) -> Option<Shape> {
+    let physics = present.physics;
+    if physics.equations.energy_rate != Expr::ZERO || physics.system.form() == Form::Variables {
+        return None;
+    }
+    let energy = present.value(physics.channel(ChannelKind::Energy)?);
+    let n = physics.system.degrees();
+    let rate = |i: usize| match physics.system.form() {
+        Form::Velocity => ChannelKind::Velocity(i),
+        Form::Momentum | Form::Variables => ChannelKind::Momentum(i),
+    };
+    let kinds = (0..n).map(ChannelKind::Position).chain((0..n).map(rate));
+    let range = |kind: ChannelKind| {
+        let channel = physics.channel(kind)?;
+        if let Some(period) = physics.system.period(channel, present.parameters) {
+            return Some([-period / 2.0, period / 2.0]);
+        }
+        let (lo, hi) = *present.bounds.get(channel)?;
+        let (middle, half) = (f64::midpoint(lo, hi), 0.5 * (hi - lo));
+        let reach = AROUND * half.max(lo.abs()).max(hi.abs());
+        let reach = if reach > 0.0 { reach } else { 1.0 };
+        Some([middle - reach, middle + reach])
+    };
+    Some(Shape::Shell { energy, ranges: kinds.map(range).collect::<Option<_>>()? })
+}
+
+/// Numbers from 0 to 1, those of each place spread evenly with the index: multiples of the powers of 1/φ, where φ is the
+/// root of φ^{d+1} = φ + 1 for d = 7 (M. Roberts, 2018).
+fn shares(index: usize) -> impl Iterator<Item = f64> {
+    const ROOT: f64 = 1.096_981_557_798_559_8;
+    let steps = std::iter::successors(Some(1.0 / ROOT), |step| Some(step / ROOT));
+    steps.map(move |step| (0.5 + step * (index + 1) as f64).fract())
+}
+
+fn with_value(given: InitialOverride, value: f64) -> InitialOverride {
+    match given {
+        InitialOverride::Position(i, _) => InitialOverride::Position(i, value),
+        InitialOverride::Velocity(i, _) => InitialOverride::Velocity(i, value),
+        InitialOverride::Momentum(i, _) => InitialOverride::Momentum(i, value),
     }
 }
 

@@ -2,7 +2,9 @@
 
 use nalgebra::DMatrix;
 use phaselab::app::Loaded;
-use phaselab::dynamics::{DynamicsError, FlowMap, PhaseSpace, flow_map, lyapunov};
+use phaselab::dynamics::{
+    DynamicsError, Fixed, FlowMap, PhaseSpace, driven_orbit, flow_map, lyapunov, periodic_orbit,
+};
 use phaselab::integrate::{Propagator, Reached};
 use phaselab::system::MotionErrorKind;
 
@@ -269,4 +271,77 @@ fn what_is_not_computed_is_refused() {
     let (model, equations) = (&loaded.model, &loaded.equations);
     let refused = PhaseSpace::of(model, equations, &loaded.system, &[]).unwrap_err();
     assert!(matches!(refused, DynamicsError::Unsuited(_)));
+}
+
+/// The strength of the kick of the shipped rotor, at which the golden torus breaks (J. M. Greene, J. Math. Phys. 20 (1979)
+/// 1183).
+const CRITICAL: f64 = 0.971635406;
+
+/// A state at the time of an impulse is the one after it, as in a run.
+#[test]
+fn an_impulse_at_the_end_has_acted() {
+    let rotor = case(&loaded("kicked-rotor", 1), &[0.5, 2.6]);
+    for kicks in [1, 2, 5] {
+        let found = map(&rotor, f64::from(kicks));
+        assert_eq!(rotor.space.variables(&found.state), end_of(&rotor, f64::from(kicks), 0, 0.0));
+    }
+    let (angle, slope) = (0.5 + 2.6, CRITICAL * (0.5_f64 + 2.6).cos());
+    let found = map(&rotor, 1.0);
+    let variables = rotor.space.variables(&found.state);
+    assert!((variables[0] - angle).abs() < 1e-14);
+    assert!((variables[1] - (2.6 + CRITICAL * angle.sin())).abs() < 1e-14);
+    let exact = DMatrix::from_row_slice(2, 2, &[1.0, 1.0, slope, 1.0 + slope]);
+    assert!((found.matrix - exact).amax() < 1e-14);
+}
+
+/// The convergents of the golden mean, their momenta on the line θ = π, and their residues.
+#[test]
+fn the_residues_of_the_golden_torus_are_greenes() {
+    let known = [
+        (3.0, 5.0, 3.67, 0.24201467),
+        (5.0, 8.0, 3.76, 0.25552013),
+        (8.0, 13.0, 3.7307, 0.24660815),
+        (13.0, 21.0, 3.7404, 0.25229897),
+        (21.0, 34.0, 3.73722, 0.24872040),
+    ];
+    for (turns, kicks, momentum, residue) in known {
+        let near = case(&loaded("kicked-rotor", 1), &[3.15, momentum]);
+        let fixed = Fixed::Period(kicks);
+        let orbit = periodic_orbit(&near.space, taylor(), &near.start, Some(kicks), fixed);
+        let orbit = orbit.unwrap();
+        assert!((orbit.period - kicks).abs() < 1e-12 && orbit.stable);
+        let found = (2.0 - orbit.monodromy.trace()) / 4.0;
+        assert!((found - residue).abs() < 2e-8, "{turns}/{kicks}: {found}");
+        let turned = map(&Case { space: near.space.clone(), start: orbit.state.clone() }, kicks);
+        let angle = near.space.variables(&turned.state)[0] - near.space.variables(&orbit.state)[0];
+        assert!((angle - std::f64::consts::TAU * turns).abs() < 1e-9, "{angle}");
+    }
+}
+
+/// Impulses at equal intervals are a drive: without a period the orbit is looked for over theirs.
+#[test]
+fn an_orbit_is_closed_over_the_period_of_the_kicks() {
+    let near = case(&loaded("kicked-rotor", 1), &[3.0, 6.2]);
+    assert_eq!(near.space.drive(), Some(1.0));
+    let orbit = driven_orbit(&near.space, taylor(), &near.start, 1.0).unwrap();
+    assert_eq!(orbit.period, 1.0);
+    let variables = near.space.variables(&orbit.state);
+    // one turn from kick to kick, kicked where the kick vanishes
+    let off = [variables[0] - std::f64::consts::PI, variables[1] - std::f64::consts::TAU];
+    assert!(off.iter().all(|off| off.abs() < 1e-12), "{off:?}");
+    assert!((orbit.monodromy.trace() - (2.0 - CRITICAL)).abs() < 1e-12);
+    // single times are none, and two intervals have the period of both
+    let text = |impulses: &str| {
+        format!(
+            "title = 'a test'\n[coordinates]\nx = {{ initial = 1.0 }}\n[lagrangian]\n\
+             L = \"1/2*x'^2 - 1/2*x^2\"\n{impulses}"
+        )
+    };
+    let kick = |when: &str, n: u32| {
+        format!("[[impulses]]\nname = \"k{n}\"\n{when}\nchange = {{ p_x = \"0.1\" }}\n")
+    };
+    let once = file(&text(&kick("at = [1.0]", 1)));
+    assert_eq!(once.space.drive(), None);
+    let both = [kick("every = \"0.5\"", 1), kick("every = \"0.75\"", 2)].concat();
+    assert!((file(&text(&both)).space.drive().unwrap() - 1.5).abs() < 1e-14);
 }
