@@ -30,9 +30,9 @@ impl Lab {
         plot.over = Some(over);
         let known = self.plots.iter().position(|shown| shown.kind == kind);
         let index = known.unwrap_or(self.plots.len());
-        match self.plots.get_mut(index) {
+        match self.plots.get(index) {
             Some(shown) if shown.over == Some(over) => {}
-            Some(shown) => *shown = plot,
+            Some(_) => self.redraw(index, |shown, _| *shown = plot),
             None => self.plots.push(plot),
         }
         self.focus = Pane::Plot(index);
