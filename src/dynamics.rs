@@ -22,6 +22,7 @@ mod lyapunov;
 mod orbit;
 mod orbit_units;
 mod phase_space;
+mod principle;
 mod quadrature;
 mod spectrum;
 mod stationary_path;
@@ -41,6 +42,7 @@ pub use gali::{Gali, gali};
 pub use lyapunov::{Chaos, Lyapunov, lyapunov};
 pub use orbit::{Fixed, Orbit, periodic_orbit};
 pub use phase_space::{PhaseSpace, VectorField};
+pub use principle::{Hamiltonian, abbreviated_action, action_at_energy};
 pub use spectrum::{
     MeanRate, SpectralLine, Spectrum, independent_frequencies, mean_rate, spectrum, straightened,
 };

@@ -14,7 +14,8 @@ use super::motion_options::{Laid, MotionOptions};
 use super::output::Output;
 use super::{stderr, study};
 use crate::dynamics::{
-    DynamicsError, Lagrangian, PathKind, PhaseSpace, conjugate_points, morse_index, stationary_path,
+    DynamicsError, Hamiltonian, Lagrangian, PathKind, PhaseSpace, abbreviated_action,
+    action_at_energy, conjugate_points, morse_index, stationary_path,
 };
 use crate::expr::Expr;
 use crate::mechanics::{Equations, Valuation, body_constants};
@@ -27,7 +28,9 @@ use crate::system::InitialOverride;
 /// With --to the motion that takes the time --in from one configuration to the other: its action
 /// ∫ L dt, its Morse index (how many ways of varying it lessen the action), and the conjugate
 /// points, beyond which it is not least. With --along the action of a path that you write, t
-/// counted from its beginning; --vary adds ε times a variation to either.
+/// counted from its beginning; --vary adds ε times a variation to either. Beside Hamilton's action
+/// stands the abbreviated one, ∫ Σ p dq, of varied paths at the energy of the path (Maupertuis,
+/// Jacobi); where momenta are varied, too, the action is that in phase space, ∫ (Σ p dq − H dt).
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -52,7 +55,7 @@ pub(super) struct Arguments {
     /// A path: a coordinate as a function of t, 0 … T, and parameters.
     #[arg(long, value_name = "X=EXPR", allow_hyphen_values = true)]
     along: Vec<Assignment>,
-    /// A variation, which is added ε times.
+    /// A variation, which is added ε times: of a coordinate, or of a momentum `p_x`.
     #[arg(long, value_name = "X=EXPR", allow_hyphen_values = true)]
     vary: Vec<Assignment>,
     /// The values of ε.
@@ -96,11 +99,22 @@ const HOLDS: f64 = 1e-9;
 /// A path with what is known of it.
 struct JudgedPath {
     action: f64,
+    /// ∫ Σ p dq.
+    abbreviated: f64,
     /// `None` if it does not make the action stationary.
     nature: Option<(usize, PathKind)>,
     conjugate: Option<Vec<f64>>,
     rows: Vec<Vec<f64>>,
-    varied: Vec<(f64, f64)>,
+    varied: Vec<VariedPath>,
+}
+
+/// A varied path.
+struct VariedPath {
+    epsilon: f64,
+    /// Hamilton's action, or that in phase space.
+    action: f64,
+    /// The abbreviated action at the energy of the path that is varied, or why there is none.
+    abbreviated: Result<f64, String>,
 }
 
 /// Functions of the time, one for each coordinate, with their first two derivatives.
@@ -131,7 +145,17 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     };
     let along = read(&mut equations, &arguments.along, "--along")?;
     let near = read(&mut equations, &arguments.near, "--near")?;
-    let vary = read(&mut equations, &arguments.vary, "--vary")?;
+    let (momenta, vary): (Vec<Assignment>, Vec<Assignment>) =
+        arguments.vary.iter().cloned().partition(|one| is_momentum(model, one.name()));
+    let vary = read(&mut equations, &vary, "--vary")?;
+    let momenta = of_coordinates(&momenta);
+    let kick = read(&mut equations, &momenta, "--vary")?;
+    let failed = study::failed;
+    let mut of_path = Lagrangian::of(model, &mut equations, &parameters).map_err(failed)?;
+    let mut hamiltonian = match &kick {
+        Some(_) => Some(Hamiltonian::of(model, &mut equations, &parameters).map_err(failed)?),
+        None => None,
+    };
     interrupt.ends_by_itself(|| ());
     let time = model.symbols.time;
     let at = |equations: &Equations, written: &Written, t: f64, order: usize| -> Vec<f64> {
@@ -171,7 +195,6 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
             (None, None) => Vec::new(),
         }
     };
-    let failed = study::failed;
     let action = match &solved {
         Some(path) => path.action,
         None => lagrangian.action(&mut |t: f64| base(t), duration).map_err(failed)?,
@@ -202,15 +225,40 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     } else {
         Some(Vec::new())
     };
+    let abbreviated = abbreviated_action(&mut lagrangian, &mut |t: f64| base(t), duration);
+    let abbreviated = abbreviated.map_err(failed)?;
+    let beginning = base(0.0);
+    let energy = lagrangian.energy(0.0, &beginning);
+    let n = model.coordinates.len();
     let mut varied = Vec::new();
-    for &epsilon in vary.iter().flat_map(|_| &arguments.epsilons.0) {
+    for &epsilon in vary.iter().chain(&kick).take(1).flat_map(|_| &arguments.epsilons.0) {
         let mut path = |t: f64| -> Vec<f64> {
-            let by = vary.as_ref().map_or_else(Vec::new, |vary| pair(&equations, vary, t));
+            let by =
+                vary.as_ref().map_or_else(|| vec![0.0; 2 * n], |vary| pair(&equations, vary, t));
             base(t).iter().zip(by).map(|(x, d)| x + epsilon * d).collect()
         };
-        varied.push((epsilon, lagrangian.action(&mut path, duration).map_err(failed)?));
+        let (action, abbreviated) = match (&kick, &mut hamiltonian) {
+            (Some(kick), Some(hamiltonian)) => {
+                let mut in_phase_space = |t: f64| -> Vec<f64> {
+                    let own = of_path.momenta(t, &base(t)).into_iter();
+                    let by = at(&equations, kick, t, 0);
+                    let momenta = own.zip(by).map(|(p, d)| p + epsilon * d);
+                    path(t).into_iter().chain(momenta).collect()
+                };
+                let action =
+                    hamiltonian.phase_action(&mut lagrangian, &mut in_phase_space, duration);
+                let why = "its momenta are not those of its velocities".to_owned();
+                (action.map_err(failed)?, Err(why))
+            }
+            _ => {
+                let action = lagrangian.action(&mut path, duration).map_err(failed)?;
+                let at_energy = action_at_energy(&mut lagrangian, &mut path, duration, energy);
+                (action, at_energy.map_err(|why| why.to_string()))
+            }
+        };
+        varied.push(VariedPath { epsilon, action, abbreviated });
     }
-    let found = JudgedPath { action, nature, conjugate, rows, varied };
+    let found = JudgedPath { action, abbreviated, nature, conjugate, rows, varied };
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
     crowd::write(out, &found.written(arguments.format, &laid), interrupt)
 }
@@ -270,6 +318,21 @@ impl Written {
         let third = slope(pool, &second);
         Ok(Some(Written { values: [first, second, third] }))
     }
+}
+
+/// Whether a name is that of a momentum.
+fn is_momentum(model: &Model, name: &str) -> bool {
+    name.strip_prefix("p_")
+        .is_some_and(|of| model.coordinate(name).is_none() && model.coordinate(of).is_some())
+}
+
+/// The same with the names of the coordinates that momenta belong to.
+fn of_coordinates(momenta: &[Assignment]) -> Vec<Assignment> {
+    let renamed = |one: &Assignment| {
+        let of = one.name().strip_prefix("p_").unwrap_or(one.name());
+        Assignment::of(of, one.text())
+    };
+    momenta.iter().map(renamed).collect()
 }
 
 /// Both ends of the path.
@@ -380,9 +443,13 @@ impl JudgedPath {
         let (index, kind) = (self.nature.map(|n| n.0), self.nature.map(|n| word(n.1)));
         if format == TableFormat::Json {
             let mut members = crowd::members(&laid.header());
-            let varied = self.varied.iter().map(|(e, s)| json!({ "epsilon": e, "action": s }));
+            let varied = self.varied.iter().map(|varied| {
+                let abbreviated = varied.abbreviated.as_ref().ok();
+                json!({ "epsilon": varied.epsilon, "action": varied.action, "abbreviated": abbreviated })
+            });
             let fields = [
                 ("action", json!(self.action)),
+                ("abbreviated", json!(self.abbreviated)),
                 ("stationary", json!(self.nature.is_some())),
                 ("kind", json!(kind)),
                 ("index", json!(index)),
@@ -400,6 +467,7 @@ impl JudgedPath {
         let lead = if csv { "# " } else { "" };
         let shown = |x: f64| if csv { printable::number(x) } else { crate::num::short(x) };
         let mut text = format!("{lead}action {}\n", shown(self.action));
+        text.push_str(&format!("{lead}abbreviated action ∫ p dq {}\n", shown(self.abbreviated)));
         match (kind, index) {
             (Some(kind), Some(index)) => {
                 text.push_str(&format!("{lead}stationary: {kind}, index {index}\n"));
@@ -410,9 +478,16 @@ impl JudgedPath {
             let times: Vec<String> = times.iter().map(|&t| shown(t)).collect();
             text.push_str(&format!("{lead}conjugate points at t = {}\n", times.join(", ")));
         }
-        for &(epsilon, action) in &self.varied {
-            let (epsilon, action) = (shown(epsilon), shown(action));
-            text.push_str(&format!("{lead}varied by ε = {epsilon}: action {action}\n"));
+        for VariedPath { epsilon, action, abbreviated } in &self.varied {
+            let (epsilon, action) = (shown(*epsilon), shown(*action));
+            let beside = abbreviated.as_ref().ok().map(|w| format!(", abbreviated {}", shown(*w)));
+            let beside = beside.unwrap_or_default();
+            text.push_str(&format!("{lead}varied by ε = {epsilon}: action {action}{beside}\n"));
+        }
+        // what all lack has one reason
+        let whys = self.varied.iter().map(|varied| varied.abbreviated.as_ref().err());
+        if let Some(why) = whys.flatten().next() {
+            text.push_str(&format!("{lead}abbreviated action: {why}\n"));
         }
         let every = if csv { 1 } else { 20 };
         let table: Vec<Vec<Cell>> = self

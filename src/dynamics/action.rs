@@ -21,6 +21,8 @@ pub struct Lagrangian {
     values: Evaluator<f64>,
     first: Evaluator<f64>,
     second: Evaluator<f64>,
+    /// Whether it depends on the time.
+    pub(super) timed: bool,
     start: f64,
 }
 
@@ -45,7 +47,7 @@ pub(super) struct Expansion {
     pub(super) inertia: f64,
 }
 
-fn unsuited(why: &str) -> DynamicsError {
+pub(super) fn unsuited(why: &str) -> DynamicsError {
     DynamicsError::Unsuited(why.to_owned())
 }
 
@@ -82,6 +84,7 @@ impl Lagrangian {
         let symbols: Vec<Symbol> = named.iter().map(|(s, _)| *s).collect();
         let values: Vec<DoubleDouble> =
             named.iter().map(|(_, x)| DoubleDouble::written(*x)).collect();
+        let timed = equations.pool.depends(lagrangian, model.symbols.time);
         let pool = &mut equations.pool;
         let slopes: Vec<Expr> = inputs.iter().map(|&s| pool.derivative(lagrangian, s)).collect();
         let mut curvatures = Vec::new();
@@ -103,6 +106,7 @@ impl Lagrangian {
             values: program(&[lagrangian])?,
             first: program(&slopes)?,
             second: program(&curvatures)?,
+            timed,
             start: model.run.start,
         })
     }
@@ -142,6 +146,19 @@ impl Lagrangian {
     /// # Errors
     /// Returns an error if L is not finite on the path, or the integral does not settle.
     pub fn action(&mut self, path: &mut dyn Path, duration: f64) -> Result<f64, DynamicsError> {
+        self.integral(path, duration, None, &mut Lagrangian::value)
+    }
+
+    /// The integral of a function of (t, state) along a path, by the same rule, up to a part of its terms: to rounding,
+    /// if none is given.
+    pub(super) fn integral(
+        &mut self,
+        path: &mut dyn Path,
+        duration: f64,
+        settled: Option<f64>,
+        integrand: &mut dyn FnMut(&mut Lagrangian, f64, &[f64]) -> f64,
+    ) -> Result<f64, DynamicsError> {
+        let settled = settled.unwrap_or(4e-15);
         let rule = gauss(12);
         let mut before = f64::NAN;
         let mut parts = 2;
@@ -152,7 +169,7 @@ impl Lagrangian {
                 for &(x, weight) in &rule {
                     let time = width * (f64::from(part) + x);
                     let state = path.at(time);
-                    let term = width * weight * self.value(time, &state);
+                    let term = width * weight * integrand(self, time, &state);
                     size += term.abs();
                     // compensated, so that many parts lose no digits
                     let corrected = term - lost;
@@ -164,7 +181,7 @@ impl Lagrangian {
             if !sum.is_finite() {
                 return Err(unsuited("L is not finite on this path"));
             }
-            if (sum - before).abs() <= 4e-15 * size {
+            if (sum - before).abs() <= settled * size {
                 return Ok(sum);
             }
             before = sum;

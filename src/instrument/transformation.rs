@@ -261,8 +261,11 @@ fn active(
     let (point, image) = (at(old), at(new));
     let faint = Stroke { ink: Ink::Level, covering: Some(0.5) };
     let [[q, p], [new_q, new_p]] = [old, new].map(|pair| pair.map(|c| present.physics.shown(c)));
-    let verdict = judged(answer).map_or_else(Vec::new, |judged| judged.lines.clone());
-    let lines = [vec![format!("● ({q}, {p}), ○ its image ({new_q}, {new_p})")], verdict].concat();
+    // few lines, so that they hide neither point
+    let verdict =
+        judged(answer).map_or(&[][..], |judged| &judged.lines[..judged.lines.len().min(1)]);
+    let lines =
+        [vec![format!("● ({q}, {p}), ○ its image ({new_q}, {new_p})")], verdict.to_vec()].concat();
     let layers = vec![
         (TRAIL, Layer::Trail(new)),
         (TRAIL, Layer::Trail(old)),

@@ -1,5 +1,7 @@
 //! `path`: stationary paths and their action, by closed forms and published numbers.
 
+use std::f64::consts::PI;
+
 use serde_json::Value;
 
 use super::with_file;
@@ -149,8 +151,75 @@ fn what_cannot_be_asked_of_a_path() {
     refused(&["--in", "1", "--along", "x=t"], "`y` is missing");
     refused(&["--in", "1", "--along", "x=y", "--along", "y=t"], "function of t");
     refused(&["--in", "1", "--along", "z=t"], "no coordinate `z`");
+    let along = ["--in", "1", "--along", "x=t", "--along", "y=t"];
+    refused(&[&along[..], &["--vary", "p_z=t"]].concat(), "no coordinate `p_z`");
     refused(&["--in", "1", "--to", "x=1", "--to", "y=1", "--epsilons", "1:2"], "from:to:count");
     let text =
         with_file(PENDULUM, &["path", "system.toml", "--in", "1", "--to", "theta=1"]).success();
-    assert!(text.starts_with("action 1.331\nstationary: minimum, index 0\n"), "{text}");
+    let lead = "action 1.331\nabbreviated action ∫ p dq 1.023\nstationary: minimum, index 0\n";
+    assert!(text.starts_with(lead), "{text}");
+}
+
+/// Among the ways from one place to another a motion of an energy makes ∫ p dq stationary (Maupertuis); a free particle's
+/// is v times the length.
+#[test]
+fn the_abbreviated_action_of_a_free_particle_is_the_length_of_its_way() {
+    let free = PLANE.replace(" - 1/2*(x^2 + y^2)", "");
+    let words = ["--in", "2", "--along", "x=t", "--along", "y=0", "--vary", "y=sin(pi*t/2)"];
+    let found = path(&free, &[&words[..], &["--epsilons", "-0.5:0.5:3"]].concat());
+    close(found["abbreviated"].as_f64().unwrap(), 2.0, 1e-14);
+    // ∫ √(1 + ε² (π/2)² cos²(πt/2)) dt by the trapezoidal rule, which is exact for periodic functions
+    let slope = |t: f64| 0.25 * PI * (0.5 * PI * t).cos();
+    let nodes = (0..4000).map(|i| 2.0 * f64::from(i) / 4000.0);
+    let length: f64 = nodes.map(|t| (1.0 + slope(t) * slope(t)).sqrt()).sum::<f64>() / 2000.0;
+    let varied = |i: usize, key: &str| found["varied"][i][key].as_f64().unwrap();
+    close(varied(0, "abbreviated"), length, 1e-9);
+    close(varied(1, "abbreviated"), 2.0, 1e-12);
+    close(varied(2, "abbreviated"), length, 1e-9);
+    // Hamilton's action is that of the same time instead: ½ ∫ (1 + y′²) dt
+    close(varied(0, "action"), 1.0 + 0.25 * 0.25 * PI * PI * 0.5, 1e-12);
+}
+
+/// The same of a motion under forces: it is stationary, at its own energy, and at no other path.
+#[test]
+fn a_motion_makes_the_abbreviated_action_stationary() {
+    let slope = |x: &str, y: &str| {
+        let (x, y) = (format!("x={x}"), format!("y={y}"));
+        let words = ["--in", "1.2", "--along", &x, "--along", &y, "--vary", "y=sin(pi*t/1.2)"];
+        let found = path(PLANE, &[&words[..], &["--epsilons", "-1e-3:1e-3:3"]].concat());
+        let varied = |i: usize| found["varied"][i]["abbreviated"].as_f64().unwrap();
+        (varied(2) - varied(0)) / 2e-3
+    };
+    // an ellipse of the oscillator in the plane, and one that is gone too fast in one direction
+    assert!(slope("cos(t)", "0.5*sin(t)").abs() < 1e-6);
+    assert!(slope("cos(t)", "0.5*sin(2*t)").abs() > 1e-2);
+    // a way through where the energy does not reach has none
+    let far = ["--in", "1.2", "--along", "x=cos(t)", "--along", "y=0.5*sin(t)"];
+    let vary = ["--vary", "y=sin(pi*t/1.2)", "--epsilons", "3:4:2"];
+    let found = path(PLANE, &[&far[..], &vary[..]].concat());
+    assert!(found["varied"][0]["abbreviated"].is_null() && found["varied"][0]["action"].is_f64());
+    let text = with_file(PLANE, &[&["path", "system.toml"], &far[..], &vary[..]].concat());
+    assert!(text.success().contains("the way leaves the region that its energy allows"));
+}
+
+/// In phase space q and p are varied independently: along p the action of an oscillator is greatest.
+#[test]
+fn the_action_in_phase_space_is_stationary_for_both() {
+    let words = ["--in", "2", "--along", "x=sin(t)", "--epsilons", "-0.5:0.5:3"];
+    let varied = |vary: &[&str]| {
+        let found = path(OSCILLATOR, &[&words[..], vary].concat());
+        let of = |i: usize| found["varied"][i]["action"].as_f64().unwrap();
+        let own = found["action"].as_f64().unwrap();
+        close(of(1), own, 1e-13);
+        assert!(found["varied"][0]["abbreviated"].is_null());
+        [of(0) - own, of(2) - own]
+    };
+    // −½ ε² ∫ π² dt, whatever the motion
+    for rise in varied(&["--vary", "p_x=1"]) {
+        close(rise, -0.25, 1e-13);
+    }
+    // with δ = sin(πt/2): ε² ∫ (π δ′ − ½ π² − ½ δ²) dt, π = cos(πt/2), ∫ cos² = ∫ sin² = 1
+    for rise in varied(&["--vary", "p_x=cos(pi*t/2)", "--vary", "x=sin(pi*t/2)"]) {
+        close(rise, 0.25 * (0.5 * PI - 0.5 - 0.5), 1e-13);
+    }
 }
