@@ -27,7 +27,7 @@ const NOW: Level = 0;
 const POINTS: Level = 1;
 
 /// The values of the parameter, and how many of them make one part of the work, after which the picture is drawn anew.
-const MOST: usize = 512;
+const MOST: usize = 256;
 const PART: usize = 16;
 
 /// The parts that are waited for where there is no background.
@@ -335,8 +335,12 @@ impl Task {
             idle: IDLE,
         };
         let found = crossings(system, method, settings, &start, &plan);
+        let period = system.period(channel, &start.parameters);
+        // an angle is the same after a turn
+        let within = |x: f64| period.map_or(x, |period| x - period * (x / period).round());
         let rows = found.rows.iter().skip(transient);
-        let numbers: Vec<f64> = rows.filter_map(|row| row.get(1 + channel).copied()).collect();
+        let numbers: Vec<f64> =
+            rows.filter_map(|row| row.get(1 + channel).map(|&x| within(x))).collect();
         match found.message {
             Some(why) if numbers.is_empty() => Err(why),
             _ => Ok(numbers),

@@ -164,3 +164,22 @@ fn a_parameter_without_motions_says_why() {
     assert!(told.is_some_and(|why| !why.is_empty()));
     assert!(points(&app).is_empty());
 }
+
+#[test]
+fn an_angle_is_shown_within_a_turn() {
+    let text = catalog().find("kicked-rotor").unwrap().text.clone();
+    let text = text
+        + "\n[[views]]\nkind = \"diagram\"\nover = \"K\"\non = \"sin(2*pi*t/T - pi)\"\n\
+                       y = \"theta\"\nx_range = [\"0.1\", \"6\"]\n";
+    // views stand before [space] and [run]
+    let (tables, view) = text.split_at(text.rfind("\n[[views]]").unwrap());
+    let place = tables.find("[[views]]").unwrap();
+    let app = begun(&[&tables[..place], view, "\n", &tables[place..]].concat());
+    let points = points(&app);
+    assert_eq!(points.len(), 32 * 80);
+    assert!(points.iter().all(|at| at[1].abs() <= std::f64::consts::PI), "within a turn");
+    // for a strong kick all of it is reached
+    let strong = points.iter().filter(|at| at[0] > 5.0).map(|at| at[1]);
+    let (low, high) = strong.fold((9.0_f64, -9.0_f64), |(lo, hi), y| (lo.min(y), hi.max(y)));
+    assert!(low < -3.0 && high > 3.0, "{low} {high}");
+}

@@ -305,7 +305,7 @@ fn the_residues_of_the_golden_torus_are_greenes() {
         (21.0, 34.0, 3.73722, 0.24872040),
     ];
     for (turns, kicks, momentum, residue) in known {
-        let near = case(&loaded("kicked-rotor", 1), &[3.15, momentum]);
+        let near = case(&loaded("kicked-rotor", 1), &[std::f64::consts::PI, momentum]);
         let fixed = Fixed::Period(kicks);
         let orbit = periodic_orbit(&near.space, taylor(), &near.start, Some(kicks), fixed);
         let orbit = orbit.unwrap();
