@@ -183,6 +183,12 @@ impl ObservedMotion {
                 *budget -= 1;
                 self.log_step();
             }
+            // an impulse ends the step where it acts, and the state there is that after it
+            if let Reached::Happened(occurrence) = &reached
+                && !matches!(occurrence.kind, OccurrenceKind::Mark | OccurrenceKind::Crossing(_))
+            {
+                self.watch.pending = false;
+            }
             self.look_at_step(gauges, spacing, new);
             match &reached {
                 Reached::Underway if *budget > 0 => continue,

@@ -13,7 +13,7 @@ use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, Present, Upwards,
 };
-use crate::dynamics::{PhaseSpace, lyapunov};
+use crate::dynamics::{Chaos, PhaseSpace, lyapunov};
 use crate::ensemble::{SectionPlan, Start, crossings, in_order};
 use crate::expr::Expr;
 use crate::integrate::{Method, Settings, Stepping, method_named};
@@ -324,7 +324,10 @@ impl Task {
             let until = time + SECONDS * model.run.speed;
             let found = lyapunov(&space, (method, settings), &state, until, &mut |_| ());
             let found = found.map_err(|why| why.to_string())?;
-            return Ok(found.exponents.first().copied().into_iter().collect());
+            // what a regular motion has of it falls off with the time it was followed
+            let regular = found.verdict == Chaos::Regular;
+            let seen = |&exponent: &f64| if regular { exponent.min(0.0) } else { exponent };
+            return Ok(found.exponents.first().map(seen).into_iter().collect());
         };
         let dissipates = model.mechanics.dissipation() != Expr::ZERO;
         let transient = if dissipates { TRANSIENT } else { 0 };

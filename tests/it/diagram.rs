@@ -109,6 +109,11 @@ fn a_key_shows_the_exponent_where_there_is_no_section() {
         // the vector turns into the direction that grows by e^{√k t} within a few units of time
         assert!((exponent - k.sqrt()).abs() < 0.15, "{k} {exponent}");
     }
+    // a regular motion has none, however short it was followed
+    let swing = saddle.replace("+ 1/2*k*x^2", "- 1/2*k*x^2").replace("0.0 }", "1.0 }");
+    let mut regular = begun(&swing.replace("speed = 0.1", "speed = 1.0"));
+    press(&mut regular, "v");
+    assert_eq!(measure(&regular, &diagram(&regular), "value"), 0.0);
     // the values at rest are no parameters
     press(&mut app, "Tab Tab v");
     let told = app.notice.take().map(|notice| notice.text).unwrap_or_default();

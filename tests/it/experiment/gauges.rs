@@ -4,7 +4,7 @@ use phaselab::experiment::{Gauge, Growth, Verdict};
 use phaselab::integrate::Settings;
 use phaselab::preset::Catalog;
 
-use super::{build, gauge, run, shipped};
+use super::{PLENTY, build, gauge, run, shipped};
 
 #[test]
 fn every_preset_has_a_gauge_for_all_that_is_conserved() {
@@ -177,4 +177,28 @@ fn an_impulse_moves_the_reference_and_not_the_initial_value() {
     assert_eq!((energy.initial, energy.reference_time), (first.value, first.reference_time));
     assert!((energy.reference - energy.initial).abs() > 1e-3, "{energy:?}");
     assert!(energy.max_drift < 1e-14, "{energy:?}");
+}
+
+/// An impulse may change what is conserved between impulses; what is lost has left its value by itself.
+#[test]
+fn no_shipped_motion_loses_what_it_conserves() {
+    for entry in Catalog::with_folder(None).entries() {
+        let mut experiment = shipped(&entry.name);
+        let (start, speed) = (experiment.time(), experiment.speed());
+        // three seconds, frame by frame
+        for k in 1..=90 {
+            experiment.advance(start + f64::from(k) * speed / 30.0, PLENTY);
+        }
+        for gauge in experiment.snapshot().gauges.iter() {
+            assert!(gauge.verdict != Verdict::Lost, "{}: {}", entry.name, gauge.name);
+        }
+    }
+    // inelastic impacts: exact between them, and a ledger of what they take
+    let mut experiment = shipped("bouncing-ball");
+    run(&mut experiment, 4.0);
+    let seen = experiment.snapshot();
+    for name in ["energy", "energy ledger"] {
+        let verdict = gauge(&seen, name).verdict;
+        assert!(matches!(verdict, Verdict::Exact(_)), "{name}: {verdict:?}");
+    }
 }
