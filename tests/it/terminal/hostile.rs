@@ -251,7 +251,8 @@ fn what_is_no_longer_loaded_or_checked_leaves_no_thread() {
     fs::write(&place, heavy()).expect("written");
     let mut lab = Setup::new(PROGRAM, &[]).argument(&place).size(120, 40).start();
     lab.shows("Esc stops it");
-    assert!(threads(&lab).iter().any(|name| name.trim() == "loader"));
+    // a thread has its name a moment after it was begun
+    lab.until("it is being loaded", |lab| threads(lab).iter().any(|name| name.trim() == "loader"));
     std::thread::sleep(Duration::from_millis(500));
     lab.press("\x1b");
     lab.shows("no longer being loaded");
