@@ -99,8 +99,8 @@ const HOLDS: f64 = 1e-9;
 /// A path with what is known of it.
 struct JudgedPath {
     action: f64,
-    /// ∫ Σ p dq.
-    abbreviated: f64,
+    /// ∫ Σ p dq, where it has a value.
+    abbreviated: Option<f64>,
     /// `None` if it does not make the action stationary.
     nature: Option<(usize, PathKind)>,
     conjugate: Option<Vec<f64>>,
@@ -149,10 +149,10 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         arguments.vary.iter().cloned().partition(|one| is_momentum(model, one.name()));
     let vary = read(&mut equations, &vary, "--vary")?;
     let momenta = of_coordinates(&momenta);
-    let kick = read(&mut equations, &momenta, "--vary")?;
+    let vary_momenta = read(&mut equations, &momenta, "--vary")?;
     let failed = study::failed;
     let mut of_path = Lagrangian::of(model, &mut equations, &parameters).map_err(failed)?;
-    let mut hamiltonian = match &kick {
+    let mut hamiltonian = match &vary_momenta {
         Some(_) => Some(Hamiltonian::of(model, &mut equations, &parameters).map_err(failed)?),
         None => None,
     };
@@ -226,22 +226,21 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         Some(Vec::new())
     };
     let abbreviated = abbreviated_action(&mut lagrangian, &mut |t: f64| base(t), duration);
-    let abbreviated = abbreviated.map_err(failed)?;
-    let beginning = base(0.0);
-    let energy = lagrangian.energy(0.0, &beginning);
+    let abbreviated = abbreviated.ok();
+    let energy = lagrangian.energy(0.0, &base(0.0));
     let n = model.coordinates.len();
     let mut varied = Vec::new();
-    for &epsilon in vary.iter().chain(&kick).take(1).flat_map(|_| &arguments.epsilons.0) {
+    for &epsilon in vary.iter().chain(&vary_momenta).take(1).flat_map(|_| &arguments.epsilons.0) {
         let mut path = |t: f64| -> Vec<f64> {
             let by =
                 vary.as_ref().map_or_else(|| vec![0.0; 2 * n], |vary| pair(&equations, vary, t));
             base(t).iter().zip(by).map(|(x, d)| x + epsilon * d).collect()
         };
-        let (action, abbreviated) = match (&kick, &mut hamiltonian) {
-            (Some(kick), Some(hamiltonian)) => {
+        let (action, abbreviated) = match (&vary_momenta, &mut hamiltonian) {
+            (Some(of_momenta), Some(hamiltonian)) => {
                 let mut in_phase_space = |t: f64| -> Vec<f64> {
                     let own = of_path.momenta(t, &base(t)).into_iter();
-                    let by = at(&equations, kick, t, 0);
+                    let by = at(&equations, of_momenta, t, 0);
                     let momenta = own.zip(by).map(|(p, d)| p + epsilon * d);
                     path(t).into_iter().chain(momenta).collect()
                 };
@@ -467,7 +466,9 @@ impl JudgedPath {
         let lead = if csv { "# " } else { "" };
         let shown = |x: f64| if csv { printable::number(x) } else { crate::num::short(x) };
         let mut text = format!("{lead}action {}\n", shown(self.action));
-        text.push_str(&format!("{lead}abbreviated action ∫ p dq {}\n", shown(self.abbreviated)));
+        if let Some(abbreviated) = self.abbreviated.map(shown) {
+            text.push_str(&format!("{lead}abbreviated action ∫ p dq {abbreviated}\n"));
+        }
         match (kind, index) {
             (Some(kind), Some(index)) => {
                 text.push_str(&format!("{lead}stationary: {kind}, index {index}\n"));

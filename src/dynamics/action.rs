@@ -2,14 +2,12 @@
 //!
 //! In: a system with its Lagrangian, a path. Out: numbers. Never here: which paths.
 
-use std::sync::Arc;
-
 use nalgebra::{DMatrix, DVector};
 
 use super::error::DynamicsError;
 use super::lobatto::Lobatto;
 use super::quadrature::gauss;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{Equations, body_constants};
 use crate::model::Model;
 use crate::num::DoubleDouble;
@@ -36,6 +34,24 @@ impl<F: FnMut(f64) -> Vec<f64>> Path for F {
     fn at(&mut self, time: f64) -> Vec<f64> {
         self(time)
     }
+}
+
+/// Functions of the time and these inputs at fixed parameters.
+pub(super) fn compiled(
+    pool: &mut Pool,
+    (model, parameters): (&Model, &[f64]),
+    inputs: &[Symbol],
+    outputs: &[Expr],
+) -> Result<Evaluator<f64>, DynamicsError> {
+    let given = model.parameters.iter().zip(parameters).map(|(p, &value)| (p.symbol, value));
+    let named = given.chain(body_constants(model, parameters));
+    let (symbols, values): (Vec<Symbol>, Vec<DoubleDouble>) =
+        named.map(|(symbol, value)| (symbol, DoubleDouble::written(value))).unzip();
+    let program = Program::compile(pool, &symbols, model.symbols.time, inputs, outputs)
+        .map_err(|_| unsuited("the law has no value where it is used"))?;
+    let mut evaluator = Evaluator::new(program);
+    evaluator.set_parameters(&values);
+    Ok(evaluator)
 }
 
 /// The action of a path on nodes with its derivatives by the inner nodes.
@@ -73,17 +89,10 @@ impl Lagrangian {
             .lagrangian()
             .clone()
             .map_err(|why| unsuited(&format!("there is no Lagrangian: {why}")))?;
-        let body = body_constants(model, parameters);
         let n = model.coordinates.len();
         let positions = model.coordinates.iter().map(|c| c.position);
         let inputs: Vec<Symbol> =
             positions.chain(model.coordinates.iter().map(|c| c.velocity)).collect();
-        let mut named: Vec<(Symbol, f64)> =
-            model.parameters.iter().zip(parameters).map(|(p, &value)| (p.symbol, value)).collect();
-        named.extend(body);
-        let symbols: Vec<Symbol> = named.iter().map(|(s, _)| *s).collect();
-        let values: Vec<DoubleDouble> =
-            named.iter().map(|(_, x)| DoubleDouble::written(*x)).collect();
         let timed = equations.pool.depends(lagrangian, model.symbols.time);
         let pool = &mut equations.pool;
         let slopes: Vec<Expr> = inputs.iter().map(|&s| pool.derivative(lagrangian, s)).collect();
@@ -93,14 +102,7 @@ impl Lagrangian {
                 curvatures.push(pool.derivative(slope, s));
             }
         }
-        let mut program = |outputs: &[Expr]| -> Result<Evaluator<f64>, DynamicsError> {
-            let program: Arc<Program> =
-                Program::compile(pool, &symbols, model.symbols.time, &inputs, outputs)
-                    .map_err(|_| unsuited("L has no value where it is used"))?;
-            let mut evaluator = Evaluator::new(program);
-            evaluator.set_parameters(&values);
-            Ok(evaluator)
-        };
+        let mut program = |outputs: &[Expr]| compiled(pool, (model, parameters), &inputs, outputs);
         Ok(Lagrangian {
             degrees: n,
             values: program(&[lagrangian])?,

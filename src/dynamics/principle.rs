@@ -4,15 +4,12 @@
 //! In: a Lagrangian or a Hamiltonian, a path. Out: numbers. Never here: which paths.
 //! Source: *The Principles of Dynamics*, §§ 1.4.1, 3.5; L. D. Landau and E. M. Lifshitz, Mechanics, §§ 43, 44.
 
-use std::sync::Arc;
-
-use super::action::{Lagrangian, Path, unsuited};
+use super::action::{Lagrangian, Path, compiled, unsuited};
 use super::error::DynamicsError;
 use crate::expr::Symbol;
-use crate::mechanics::{Equations, body_constants};
+use crate::mechanics::Equations;
 use crate::model::Model;
-use crate::num::DoubleDouble;
-use crate::system::{Evaluator, Program};
+use crate::system::Evaluator;
 
 /// The kinetic energy is a quadratic form of the velocities if it is one to this part of its terms.
 const QUADRATIC: f64 = 1e-9;
@@ -97,18 +94,8 @@ impl Hamiltonian {
         let positions = model.coordinates.iter().map(|c| c.position);
         let inputs: Vec<Symbol> =
             positions.chain(model.coordinates.iter().map(|c| c.momentum)).collect();
-        let mut named: Vec<(Symbol, f64)> =
-            model.parameters.iter().zip(parameters).map(|(p, &value)| (p.symbol, value)).collect();
-        named.extend(body_constants(model, parameters));
-        let symbols: Vec<Symbol> = named.iter().map(|(s, _)| *s).collect();
-        let values: Vec<DoubleDouble> =
-            named.iter().map(|(_, x)| DoubleDouble::written(*x)).collect();
-        let pool = &mut equations.pool;
-        let program: Arc<Program> =
-            Program::compile(pool, &symbols, model.symbols.time, &inputs, &[hamiltonian])
-                .map_err(|_| unsuited("H has no value where it is used"))?;
-        let mut value = Evaluator::new(program);
-        value.set_parameters(&values);
+        let at = (model, parameters);
+        let value = compiled(&mut equations.pool, at, &inputs, &[hamiltonian])?;
         Ok(Hamiltonian { degrees: model.coordinates.len(), value, start: model.run.start })
     }
 

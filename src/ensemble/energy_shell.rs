@@ -108,7 +108,7 @@ impl EnergyShell {
             None => self.bracketed(&mut energies, &name)?,
         };
         let rate = self.corrected(&mut energies, rate)?;
-        start.replace(with_value(self.by, rate));
+        start.replace(self.by.with_value(rate));
         Ok(())
     }
 
@@ -236,7 +236,7 @@ struct Energies<'a> {
 impl Energies<'_> {
     fn at(&mut self, rate: f64) -> Result<f64, MotionError> {
         let mut start = self.start.clone();
-        start.replace(with_value(self.by, rate));
+        start.replace(self.by.with_value(rate));
         let state = start.state(self.system)?;
         self.observer.observe_columns(&state, &mut self.values)?;
         Ok(self.values[self.energy_column()])
@@ -278,13 +278,5 @@ impl Energies<'_> {
 
     fn three(&mut self, low: f64, middle: f64, high: f64) -> Result<[f64; 3], MotionError> {
         Ok([self.at(low)?, self.at(middle)?, self.at(high)?])
-    }
-}
-
-fn with_value(by: InitialOverride, value: f64) -> InitialOverride {
-    match by {
-        InitialOverride::Position(i, _) => InitialOverride::Position(i, value),
-        InitialOverride::Velocity(i, _) => InitialOverride::Velocity(i, value),
-        InitialOverride::Momentum(i, _) => InitialOverride::Momentum(i, value),
     }
 }

@@ -145,6 +145,7 @@ impl ObservedMotion {
     ) -> Result<(), MotionError> {
         self.log.clear();
         self.inner.restore_with_step(state, step, (state.time, released))?;
+        self.watch.pending = false;
         self.take_observer();
         self.log.push(self.inner.state(), self.inner.steps());
         self.look()
@@ -159,6 +160,7 @@ impl ObservedMotion {
     pub(super) fn go_on(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         self.log.clear();
         self.inner.go_on(state, parameters)?;
+        self.watch.pending = false;
         self.log.push(self.inner.state(), self.inner.steps());
         self.observer.set_parameters(parameters);
         self.watch.terms.set_parameters(parameters);
@@ -264,6 +266,7 @@ impl ObservedMotion {
         let Some(known) = self.log.back_to(time) else { return Ok(Some(first)) };
         let released = self.released();
         self.inner.go_back(&known.state, start, &released)?;
+        self.watch.pending = false;
         self.inner.set_steps(known.steps);
         self.take_observer();
         // what was seen of each step counts only once

@@ -4,7 +4,7 @@ use crate::diagnostic::nearest;
 use crate::integrate::{METHODS, Method, MethodError, Settings};
 use crate::model::Model;
 use crate::printable;
-use crate::system::{Form, InitialOverride, System};
+use crate::system::{InitialOverride, System};
 
 /// The setup of an experiment.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -57,16 +57,16 @@ pub fn with_override(
     value: f64,
 ) -> Vec<InitialOverride> {
     let n = system.degrees();
-    let overrides = match (index < n, system.form()) {
-        (true, _) => InitialOverride::Position(index, value),
-        (false, Form::Velocity) => InitialOverride::Velocity(index - n, value),
-        (false, Form::Momentum | Form::Variables) => InitialOverride::Momentum(index - n, value),
-    };
     let same = |g: &&InitialOverride| match g {
         InitialOverride::Position(i, _) => *i == index,
         InitialOverride::Velocity(i, _) | InitialOverride::Momentum(i, _) => i + n == index,
     };
-    before.iter().filter(|g| !same(g)).copied().chain([overrides]).collect()
+    before
+        .iter()
+        .filter(|g| !same(g))
+        .copied()
+        .chain([system.initial_override(index, value)])
+        .collect()
 }
 
 /// Why a method cannot be used.

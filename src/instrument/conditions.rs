@@ -4,7 +4,7 @@
 
 use super::{Present, Seed};
 use crate::integrate::Settings;
-use crate::system::{Form, InitialOverride, MotionError, State, System};
+use crate::system::{InitialOverride, MotionError, State, System};
 
 /// The values of the system, the method, and what a person added to the plot.
 #[derive(Clone, PartialEq)]
@@ -29,13 +29,9 @@ impl Conditions {
 
     /// The state of the initial values.
     pub(super) fn state(&self, system: &System, time: f64) -> Result<State, MotionError> {
-        let n = system.degrees();
-        let given = |(i, &x): (usize, &f64)| match system.form() {
-            _ if i < n => InitialOverride::Position(i, x),
-            Form::Velocity => InitialOverride::Velocity(i - n, x),
-            Form::Momentum | Form::Variables => InitialOverride::Momentum(i - n, x),
-        };
-        let given: Vec<InitialOverride> = self.initial.iter().enumerate().map(given).collect();
+        let given = self.initial.iter().enumerate();
+        let given: Vec<InitialOverride> =
+            given.map(|(i, &x)| system.initial_override(i, x)).collect();
         system.initial(time, &self.parameters, &given)
     }
 }

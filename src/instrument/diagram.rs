@@ -20,7 +20,7 @@ use crate::integrate::{Method, Settings, Stepping, method_named};
 use crate::job::{Job, Progress};
 use crate::mechanics::{Equations, Valuation};
 use crate::model::{Model, View};
-use crate::system::{Form, InitialOverride, System};
+use crate::system::{InitialOverride, System};
 
 /// The levels of the picture.
 const NOW: Level = 0;
@@ -59,6 +59,8 @@ struct ComputedDiagram {
     columns: Vec<(f64, Vec<f64>)>,
     /// All of them as points.
     points: Arc<Vec<[f64; 2]>>,
+    /// The range of the numbers.
+    extent: [f64; 2],
     /// Why a motion could not be followed.
     refused: Option<String>,
 }
@@ -144,7 +146,7 @@ impl Instrument for Diagram {
     ) -> Option<Picture> {
         let (over, found) = (plot.over?, computed(answer));
         let points = found.map(|found| Arc::clone(&found.points)).unwrap_or_default();
-        let [low, high] = heights(plot, present, &points);
+        let [low, high] = heights(plot, present, found);
         let now = present.parameters[over];
         let reach = high - low;
         let line = vec![[now, low - reach], [now, high + reach]];
@@ -212,7 +214,7 @@ impl Instrument for Diagram {
                 value: |plot, present, answer| {
                     let found = computed(answer)?;
                     let now = *present.parameters.get(plot.over?)?;
-                    let [low, high] = heights(plot, present, &found.points);
+                    let [low, high] = heights(plot, present, Some(found));
                     branches(&found.columns, now, SAME * (high - low))
                 },
             },
@@ -235,14 +237,8 @@ impl DiagramConditions {
         let mut parameters = present.parameters.to_vec();
         // initial values of the file may follow the parameter; those that were set do not
         let of_file = system.initial_values(&parameters);
-        let n = system.degrees();
         let given = |(i, (&x, &own)): (usize, (&f64, &f64))| {
-            let given = match system.form() {
-                _ if i < n => InitialOverride::Position(i, x),
-                Form::Velocity => InitialOverride::Velocity(i - n, x),
-                Form::Momentum | Form::Variables => InitialOverride::Momentum(i - n, x),
-            };
-            (x != own).then_some(given)
+            (x != own).then(|| system.initial_override(i, x))
         };
         let overrides = present.initial.iter().zip(&of_file).enumerate().filter_map(given);
         let overrides = overrides.collect();
@@ -291,7 +287,7 @@ impl Task {
             match found {
                 Ok(numbers) => columns.push((at(i), numbers)),
                 Err(why) => {
-                    // a value at which there is no motion leaves a gap; one that never has one is told
+                    // a value without a motion leaves a gap; the reason is shown where none has one
                     columns.push((at(i), Vec::new()));
                     refused.get_or_insert(why);
                 }
@@ -304,8 +300,12 @@ impl Task {
         }
         let nothing = columns.iter().all(|(_, numbers)| numbers.is_empty());
         let refused = refused.filter(|_| nothing);
-        let points = columns.iter().flat_map(|(x, all)| all.iter().map(|y| [*x, *y])).collect();
-        ComputedDiagram { conditions, columns, points: Arc::new(points), refused }
+        let points: Vec<[f64; 2]> =
+            columns.iter().flat_map(|(x, all)| all.iter().map(|y| [*x, *y])).collect();
+        let finite = points.iter().map(|at| at[1]).filter(|y| y.is_finite());
+        let extent = finite
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)]);
+        ComputedDiagram { conditions, columns, points: Arc::new(points), extent, refused }
     }
 
     /// The crossings of the motion at a value of the parameter, or its largest exponent.
@@ -400,23 +400,16 @@ fn seen(plot: &Plot, present: &Present<'_>, over: usize) -> [f64; 2] {
     let [from, to] = range(plot, present, over);
     let own = &present.physics.model.parameters[over];
     let Some(viewport) = plot.viewport() else { return [from, to] };
-    let half = (to - from) / viewport.zoom[0] / 2.0;
-    let middle = f64::midpoint(from, to) + viewport.pan[0] * 2.0 * half;
+    let [low, high] = viewport.part(0, [from, to]);
     // beyond its own range a parameter may mean nothing
-    let bounded = [(middle - half).max(from.min(own.min)), (middle + half).min(to.max(own.max))];
+    let bounded = [low.max(from.min(own.min)), high.min(to.max(own.max))];
     if bounded[0] < bounded[1] { bounded } else { [from, to] }
 }
 
-/// The range upwards: the file's, or that of the points.
-fn heights(plot: &Plot, present: &Present<'_>, points: &[[f64; 2]]) -> [f64; 2] {
-    let own = points
-        .iter()
-        .filter(|at| at[1].is_finite())
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| {
-            [low.min(at[1]), high.max(at[1])]
-        });
-    let found = if own[0] < own[1] { own } else { [0.0, 1.0] };
-    given(plot, present, 1).unwrap_or(found)
+/// The range upwards: the file's, or that of the numbers.
+fn heights(plot: &Plot, present: &Present<'_>, found: Option<&ComputedDiagram>) -> [f64; 2] {
+    let own = found.map(|found| found.extent).filter(|[low, high]| low < high);
+    given(plot, present, 1).or(own).unwrap_or([0.0, 1.0])
 }
 
 /// The numbers at the value of the parameter next to this one.

@@ -123,12 +123,7 @@ impl Instrument for Ensemble {
         initial_values(plot, present.physics, [0.0; 2])?;
         let viewport = plot.viewport()?;
         let window = [range(plot, present, answer, 0)?, range(plot, present, answer, 1)?];
-        let seen = [0, 1].map(|axis| {
-            let [from, to] = window[axis];
-            let half = (to - from) / viewport.zoom[axis] / 2.0;
-            let middle = f64::midpoint(from, to) + viewport.pan[axis] * 2.0 * half;
-            [middle - half, middle + half]
-        });
+        let seen = [0, 1].map(|axis| viewport.part(axis, window[axis]));
         // once more while all of the box is seen: over the energy shell in its place
         let conserved = present.physics.equations.energy_rate == Expr::ZERO;
         let contains = |held: &[f64; 2], by: &[f64; 2]| by[0] <= held[0] && held[1] <= by[1];

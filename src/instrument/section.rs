@@ -191,13 +191,7 @@ impl Instrument for Section {
         plane(plot, present)?;
         let viewport = plot.viewport()?;
         let window = [range(plot, present, answer, 0)?, range(plot, present, answer, 1)?];
-        let part = |axis: usize| {
-            let [from, to] = window[axis];
-            let half = (to - from) / viewport.zoom[axis] / 2.0;
-            let middle = f64::midpoint(from, to) + viewport.pan[axis] * 2.0 * half;
-            [middle - half, middle + half]
-        };
-        Some(Seed::Spread([part(0), part(1)]))
+        Some(Seed::Spread([0, 1].map(|axis| viewport.part(axis, window[axis]))))
     }
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {

@@ -63,6 +63,13 @@ impl Viewport {
         cursor: None,
     };
 
+    /// The part of a range of an axis that is seen.
+    pub(super) fn part(&self, axis: usize, [from, to]: [f64; 2]) -> [f64; 2] {
+        let half = (to - from) / self.zoom[axis] / 2.0;
+        let middle = f64::midpoint(from, to) + self.pan[axis] * 2.0 * half;
+        [middle - half, middle + half]
+    }
+
     /// The same window with the smooth settings at their defaults.
     pub(super) fn at_rest(self) -> Self {
         let cursor = self.cursor.map(|_| [0.0; 2]);

@@ -21,6 +21,16 @@ impl System {
         (0..self.moving()).map(|i| values.output(i).high).collect()
     }
 
+    /// The initial value of an index in the order of [`System::initial_values`].
+    pub fn initial_override(&self, index: usize, value: f64) -> InitialOverride {
+        let n = self.degrees();
+        match self.form() {
+            _ if index < n => InitialOverride::Position(index, value),
+            Form::Velocity => InitialOverride::Velocity(index - n, value),
+            Form::Momentum | Form::Variables => InitialOverride::Momentum(index - n, value),
+        }
+    }
+
     pub(super) fn initial_program(&self, parameters: &[DoubleDouble]) -> Evaluator<DoubleDouble> {
         let mut values = Evaluator::new(Arc::clone(&self.shared.initial));
         values.set_parameters(parameters);

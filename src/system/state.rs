@@ -81,3 +81,15 @@ pub enum InitialOverride {
     /// The momentum of this coordinate; a Lagrangian system is solved for its velocity.
     Momentum(usize, f64),
 }
+
+impl InitialOverride {
+    /// The same initial value with another number.
+    #[must_use]
+    pub fn with_value(self, value: f64) -> InitialOverride {
+        match self {
+            InitialOverride::Position(i, _) => InitialOverride::Position(i, value),
+            InitialOverride::Velocity(i, _) => InitialOverride::Velocity(i, value),
+            InitialOverride::Momentum(i, _) => InitialOverride::Momentum(i, value),
+        }
+    }
+}

@@ -136,7 +136,7 @@ impl Origin {
         let mut start = Start { time, parameters, overrides: self.base.clone() };
         let state = |index: usize| {
             for ((&given, range), share) in others.iter().zip(ranges).zip(shares(index)) {
-                start.replace(with_value(given, range[0] + share * (range[1] - range[0])));
+                start.replace(given.with_value(range[0] + share * (range[1] - range[0])));
             }
             let root = if index.is_multiple_of(2) { Root::Positive } else { Root::Negative };
             let shell = EnergyShell { energy, by, root };
@@ -210,14 +210,6 @@ fn shares(index: usize) -> impl Iterator<Item = f64> {
     const ROOT: f64 = 1.096_981_557_798_559_8;
     let steps = std::iter::successors(Some(1.0 / ROOT), |step| Some(step / ROOT));
     steps.map(move |step| (0.5 + step * (index + 1) as f64).fract())
-}
-
-fn with_value(given: InitialOverride, value: f64) -> InitialOverride {
-    match given {
-        InitialOverride::Position(i, _) => InitialOverride::Position(i, value),
-        InitialOverride::Velocity(i, _) => InitialOverride::Velocity(i, value),
-        InitialOverride::Momentum(i, _) => InitialOverride::Momentum(i, value),
-    }
 }
 
 /// The size of a cloud in both directions: by the coordinate, and by how much as much energy changes the other.
