@@ -264,8 +264,7 @@ fn active(
     // few lines, so that they hide neither point
     let verdict =
         judged(answer).map_or(&[][..], |judged| &judged.lines[..judged.lines.len().min(1)]);
-    let lines =
-        [vec![format!("● ({q}, {p}), ○ its image ({new_q}, {new_p})")], verdict.to_vec()].concat();
+    let lines = [vec![format!("({q}, {p}) → ({new_q}, {new_p})")], verdict.to_vec()].concat();
     let layers = vec![
         (TRAIL, Layer::Trail(new)),
         (TRAIL, Layer::Trail(old)),

@@ -104,7 +104,7 @@ fn in_the_active_view_the_point_is_moved_and_the_coordinates_stay() {
     let (x, p) = (value("q"), value("p_q"));
     assert_eq!(arrow, [vec![[x, p], [new(0), new(1)]]]);
     assert!((new(0) - x).abs() > 1e-3 && (new(1) - p).abs() > 1e-3, "it is moved");
-    assert!(words[0].starts_with("● (q, p_q), ○ its image ("), "{words:?}");
+    assert_eq!(words[0], "(q, p_q) → (Q₁, P₁)");
     assert_eq!(words[1], "canonical, proved");
     let heading = plot.kind.heading(&plot, &present).expect("a heading");
     assert!(heading.given || heading.title == "Transformation, active");
