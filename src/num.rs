@@ -18,7 +18,7 @@ mod prime_field;
 mod real;
 
 pub use compensated::accumulate;
-pub use convolution::Row;
+pub use convolution::LANES;
 pub use double_double::DoubleDouble;
 pub use extended_range::ExtendedRange;
 pub use format::{short, significant};

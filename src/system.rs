@@ -66,5 +66,5 @@ pub use saltation::Saltation;
 pub use series::Series;
 pub use split_step::SplitStep;
 pub use state::{Form, InitialOverride, State};
-pub use terms::TermWatch;
+pub use terms::{TermSums, TermWatch};
 pub use value::Evaluator;

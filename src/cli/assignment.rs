@@ -176,6 +176,9 @@ fn initial_value(
     parameters: &[f64],
     assignment: &Assignment,
 ) -> Result<f64, CommandError> {
+    if let Some(value) = numeral(&assignment.value) {
+        return Ok(value);
+    }
     let mut pool = model.pool.clone();
     let mut scope = Scope::new(model, Allowed::Parameters, "an initial value");
     let e = scope
@@ -184,6 +187,13 @@ fn initial_value(
     let body = body_constants(model, parameters);
     let value = Valuation::of_parameters(model, parameters).with(body).value(&pool, e);
     if value.is_finite() { Ok(value) } else { Err(wrong(assignment, "it is not finite")) }
+}
+
+/// The value of a text that is a number and nothing else, as nearly all of a table of starts are.
+fn numeral(text: &str) -> Option<f64> {
+    let written = |c: char| c.is_ascii_digit() || matches!(c, '.' | 'e' | 'E' | '-');
+    let value = text.parse().ok().filter(|value: &f64| value.is_finite())?;
+    text.chars().all(written).then_some(value)
 }
 
 /// The initial value that a name refers to.

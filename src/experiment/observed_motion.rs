@@ -224,7 +224,7 @@ impl ObservedMotion {
         if new && sparse && self.inner.method().order.is_none() {
             let time = begin + self.watch.next_weyl() * (end - begin);
             let StepSampler { terms, state, values, .. } = &mut self.watch;
-            if self.inner.inside(time, state).is_ok() && terms.look(state) {
+            if self.inner.anywhere_inside(time, state).is_ok() && terms.look(state) {
                 if due && self.observer.observe(state, values).is_ok() {
                     gauges.look_on_the_way(self.sign * time, steps, values, terms);
                 }

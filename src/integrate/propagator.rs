@@ -529,6 +529,14 @@ impl Propagator {
         self.stepper.at(time, out)
     }
 
+    /// The same at any time there, which is not meant as a decimal number.
+    ///
+    /// # Errors
+    /// Returns an error if the state cannot be evaluated.
+    pub fn anywhere_inside(&mut self, time: f64, out: &mut State) -> Result<(), MotionError> {
+        self.stepper.at_exactly(DoubleDouble::from(time), out)
+    }
+
     /// Advances the current state to the end of the last step.
     ///
     /// # Errors

@@ -1,83 +1,127 @@
 //! Inner products of many pairs of series at once: the bulk of the work of a Taylor step.
 //!
-//! The k-th coefficient of a product of two series is `Σ a_j b_{k−j}`. With the second series stored
-//! in reverse it is a plain inner product of two stretches of memory, and all pairs that are needed
-//! at one order have the same length.
+//! The k-th coefficient of a product of two series is `Σ a_j b_{k−j}`. All pairs that are needed at
+//! one order have the same length, so [`LANES`] of them are computed side by side: a series of
+//! lanes has the coefficients of one order of that many series next to each other.
+//!
+//! ```text
+//!              lane 0   1   2   3                lane 0   1   2   3
+//!   order 1        a1  c1  e1  g1     ·     k−1     b   d   f   h
+//!   order 2        a2  c2  e2  g2     ·     k−2     b   d   f   h      the sum of each column
+//!   …                                       …
+//! ```
 
 use super::double_double::DoubleDouble;
 use super::instruction_set::Kernel;
 
-/// The places where the two stretches of a pair begin.
+/// The number of pairs computed side by side.
+pub const LANES: usize = 4;
+
+/// Numbers side by side.
 #[derive(Clone, Copy, Debug)]
-pub struct Row {
-    /// In the series stored forwards.
-    pub forward: u32,
-    /// In the series stored in reverse.
-    pub reversed: u32,
-}
+struct Vector([f64; LANES]);
 
-/// Inner products in `f64` of the pairs of `rows`, `n` terms each, the second stretch of each
-/// starting `shift` further on.
-pub(super) struct Single<'a> {
-    pub(super) forward: &'a [f64],
-    pub(super) reversed: &'a [f64],
-    pub(super) rows: &'a [Row],
-    pub(super) shift: usize,
-    pub(super) n: usize,
-    pub(super) out: &'a mut [f64],
-}
-
-impl Kernel for Single<'_> {
-    type Output = ();
+impl Vector {
+    const ZERO: Vector = Vector([0.0; LANES]);
 
     #[inline(always)]
-    fn run<const FUSED: bool>(self) {
-        for (out, row) in self.out.iter_mut().zip(self.rows) {
-            let a = &self.forward[row.forward as usize..][..self.n];
-            let b = &self.reversed[row.reversed as usize + self.shift..][..self.n];
-            let (a_chunks, a_rest) = a.as_chunks::<4>();
-            let (b_chunks, b_rest) = b.as_chunks::<4>();
-            let mut sums = [0.0; 4];
-            for (x, y) in a_chunks.iter().zip(b_chunks) {
-                for lane in 0..4 {
-                    sums[lane] += x[lane] * y[lane];
-                }
-            }
-            let rest = a_rest.iter().zip(b_rest).fold(0.0, |sum, (x, y)| sum + x * y);
-            *out = ((sums[0] + sums[2]) + (sums[1] + sums[3])) + rest;
-        }
+    fn plus(self, other: Vector) -> Vector {
+        Vector(std::array::from_fn(|lane| self.0[lane] + other.0[lane]))
+    }
+
+    #[inline(always)]
+    fn minus(self, other: Vector) -> Vector {
+        Vector(std::array::from_fn(|lane| self.0[lane] - other.0[lane]))
+    }
+
+    #[inline(always)]
+    fn times(self, other: Vector) -> Vector {
+        Vector(std::array::from_fn(|lane| self.0[lane] * other.0[lane]))
+    }
+
+    /// The rounding errors of a sum: [`DoubleDouble::sum`].
+    #[inline(always)]
+    fn error_of_sum(self, other: Vector, sum: Vector) -> Vector {
+        let part = sum.minus(self);
+        self.minus(sum.minus(part)).plus(other.minus(part))
+    }
+
+    /// The rounding errors of a product: [`DoubleDouble::product_by`].
+    #[inline(always)]
+    fn error_of_product<const FUSED: bool>(self, other: Vector) -> Vector {
+        Vector(std::array::from_fn(|lane| {
+            DoubleDouble::product_by::<FUSED>(self.0[lane], other.0[lane]).low
+        }))
     }
 }
 
-/// The same in double-double. The errors of products and sums are added up beside the sum (T.
-/// Ogita, S. M. Rump, S. Oishi, SIAM J. Sci. Comput. 26 (2005) 1955, algorithm 5.3), which leaves an
-/// error of n² 2⁻¹⁰⁴ of the sum of the absolute terms.
-pub(super) struct Double<'a> {
-    pub(super) forward: &'a [DoubleDouble],
-    pub(super) reversed: &'a [DoubleDouble],
-    pub(super) rows: &'a [Row],
-    pub(super) shift: usize,
-    pub(super) n: usize,
-    pub(super) out: &'a mut [DoubleDouble],
+/// Inner products of [`LANES`] pairs of series, the second of each read from its end.
+pub(super) struct InnerProducts<'a, T> {
+    pub(super) left: &'a [T],
+    pub(super) right: &'a [T],
 }
 
-impl Kernel for Double<'_> {
-    type Output = ();
+impl Kernel for InnerProducts<'_, [f64; LANES]> {
+    type Output = [f64; LANES];
+
+    /// Four sums are kept apart, so that none waits for the one before.
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> [f64; LANES] {
+        const APART: usize = 4;
+        let (left, left_rest) = self.left.as_chunks::<APART>();
+        let (right_rest, right) = self.right.as_rchunks::<APART>();
+        let mut sums = [Vector::ZERO; APART];
+        for (a, b) in left.iter().zip(right.iter().rev()) {
+            for i in 0..APART {
+                sums[i] = sums[i].plus(Vector(a[i]).times(Vector(b[APART - 1 - i])));
+            }
+        }
+        let mut rest = Vector::ZERO;
+        for (&a, &b) in left_rest.iter().zip(right_rest.iter().rev()) {
+            rest = rest.plus(Vector(a).times(Vector(b)));
+        }
+        sums[0].plus(sums[2]).plus(sums[1].plus(sums[3])).plus(rest).0
+    }
+}
+
+/// [`DoubleDouble`]s side by side.
+#[derive(Clone, Copy, Debug)]
+pub struct DoubleLanes {
+    high: [f64; LANES],
+    low: [f64; LANES],
+}
+
+impl DoubleLanes {
+    /// Zeros.
+    pub(super) const ZERO: DoubleLanes = DoubleLanes { high: [0.0; LANES], low: [0.0; LANES] };
 
     #[inline(always)]
-    fn run<const FUSED: bool>(self) {
-        for (out, row) in self.out.iter_mut().zip(self.rows) {
-            let a = &self.forward[row.forward as usize..][..self.n];
-            let b = &self.reversed[row.reversed as usize + self.shift..][..self.n];
-            let (mut sum, mut errors) = (0.0, 0.0);
-            for (x, y) in a.iter().zip(b) {
-                let product = DoubleDouble::product_by::<FUSED>(x.high, y.high);
-                let next = DoubleDouble::sum(sum, product.high);
-                sum = next.high;
-                errors += next.low + (product.low + (x.high * y.low + x.low * y.high));
-            }
-            *out = DoubleDouble::sum(sum, errors);
+    pub(super) fn of(x: [DoubleDouble; LANES]) -> DoubleLanes {
+        DoubleLanes { high: x.map(|x| x.high), low: x.map(|x| x.low) }
+    }
+}
+
+/// The errors of products and sums are added up beside the sum (T. Ogita, S. M. Rump, S. Oishi, SIAM
+/// J. Sci. Comput. 26 (2005) 1955, algorithm 5.3), which leaves an error of n² 2⁻¹⁰⁴ of the sum of
+/// the absolute terms.
+impl Kernel for InnerProducts<'_, DoubleLanes> {
+    type Output = [DoubleDouble; LANES];
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> [DoubleDouble; LANES] {
+        let (mut sum, mut errors) = (Vector::ZERO, Vector::ZERO);
+        for (a, b) in self.left.iter().zip(self.right.iter().rev()) {
+            let (a_high, a_low) = (Vector(a.high), Vector(a.low));
+            let (b_high, b_low) = (Vector(b.high), Vector(b.low));
+            let product = a_high.times(b_high);
+            let next = sum.plus(product);
+            let lost = sum.error_of_sum(product, next);
+            let low = a_high.times(b_low).plus(a_low.times(b_high));
+            let low = a_high.error_of_product::<FUSED>(b_high).plus(low);
+            errors = errors.plus(lost.plus(low));
+            sum = next;
         }
+        std::array::from_fn(|lane| DoubleDouble::sum(sum.0[lane], errors.0[lane]))
     }
 }
 
@@ -94,41 +138,47 @@ mod tests {
         bits.map(|x| (x >> 11) as f64 / (1_u64 << 52) as f64 - 1.0).take(n).collect()
     }
 
-    fn rows() -> Vec<Row> {
-        (0..5).map(|i| Row { forward: 7 * i, reversed: 3 * i }).collect()
+    fn side_by_side<T: Copy>(x: &[T]) -> Vec<[T; LANES]> {
+        x.as_chunks::<LANES>().0.to_vec()
     }
 
     #[test]
     fn sums_have_the_same_bits_with_and_without_wide_instructions() {
-        let (a, b) = (noise(80, 1), noise(80, 2));
         for n in 0..40 {
-            let mut out = [[0.0; 5]; 2];
-            let [wide, plain] = &mut out;
-            let (forward, reversed, rows) = (&a[..], &b[..], &rows()[..]);
-            vectorized(Single { forward, reversed, rows, shift: 1, n, out: wide });
-            run_plainly(Single { forward, reversed, rows, shift: 1, n, out: plain });
+            let (left, right) = (side_by_side(&noise(4 * n, 1)), side_by_side(&noise(4 * n, 2)));
+            let kernel = || InnerProducts { left: &left, right: &right };
+            let (wide, plain) = (vectorized(kernel()), run_plainly(kernel()));
             assert_eq!(wide.map(f64::to_bits), plain.map(f64::to_bits), "{n} terms");
-            let direct: f64 = (0..n).map(|j| a[7 + j] * b[4 + j]).sum();
-            assert!((wide[1] - direct).abs() < 1e-14, "{} {direct}", wide[1]);
+            for lane in 0..LANES {
+                let direct: f64 = (0..n).map(|j| left[j][lane] * right[n - 1 - j][lane]).sum();
+                assert!((wide[lane] - direct).abs() < 1e-14, "{} {direct}", wide[lane]);
+            }
         }
     }
 
     #[test]
     fn double_sums_have_the_same_bits_and_twice_the_digits() {
-        let double = |high: Vec<f64>, low: Vec<f64>| -> Vec<DoubleDouble> {
-            high.iter().zip(low).map(|(&x, y)| DoubleDouble::sum(x, y * 1e-17)).collect()
+        let double = |n: usize, seed: u64| -> Vec<[DoubleDouble; LANES]> {
+            let pairs = noise(4 * n, seed).into_iter().zip(noise(4 * n, seed + 1));
+            let numbers: Vec<_> = pairs.map(|(x, y)| DoubleDouble::sum(x, y * 1e-17)).collect();
+            side_by_side(&numbers)
         };
-        let (a, b) = (double(noise(80, 3), noise(80, 4)), double(noise(80, 5), noise(80, 6)));
         for n in 0..40 {
-            let mut out = [[DoubleDouble::ZERO; 5]; 2];
-            let [wide, plain] = &mut out;
-            let (forward, reversed, rows) = (&a[..], &b[..], &rows()[..]);
-            vectorized(Double { forward, reversed, rows, shift: 1, n, out: wide });
-            run_plainly(Double { forward, reversed, rows, shift: 1, n, out: plain });
+            let (left, right) = (double(n, 3), double(n, 5));
+            let lanes =
+                |x: &[[DoubleDouble; LANES]]| x.iter().map(|&x| DoubleLanes::of(x)).collect();
+            let (a, b): (Vec<_>, Vec<_>) = (lanes(&left), lanes(&right));
+            let kernel = || InnerProducts { left: &a, right: &b };
+            let (wide, plain) = (vectorized(kernel()), run_plainly(kernel()));
             let bits = |x: DoubleDouble| (x.high.to_bits(), x.low.to_bits());
             assert_eq!(wide.map(bits), plain.map(bits), "{n} terms");
-            let direct = (0..n).fold(DoubleDouble::ZERO, |sum, j| sum + a[7 + j] * b[4 + j]);
-            assert!((wide[1] - direct).high.abs() < 1e-29, "{:?} {direct:?}", wide[1]);
+            for lane in 0..LANES {
+                let direct = (0..n).fold(DoubleDouble::ZERO, |sum, j| {
+                    sum + left[j][lane] * right[n - 1 - j][lane]
+                });
+                let off = wide[lane] - direct;
+                assert!(off.high.abs() < 1e-29, "{:?} {direct:?}", wide[lane]);
+            }
         }
     }
 }

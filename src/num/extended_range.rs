@@ -6,6 +6,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use super::convolution::LANES;
 use super::double_double::DoubleDouble;
 use super::math;
 use super::real::Real;
@@ -176,6 +177,8 @@ impl Div<f64> for ExtendedRange {
 impl Real for ExtendedRange {
     const ZERO: ExtendedRange = ExtendedRange { mantissa: DoubleDouble::ZERO, exponent: 0 };
     const ONE: ExtendedRange = ExtendedRange { mantissa: DoubleDouble::ONE, exponent: 0 };
+    type Lanes = [ExtendedRange; LANES];
+    const ZEROS: [ExtendedRange; LANES] = [ExtendedRange::ZERO; LANES];
     const UNBOUNDED: bool = true;
 
     fn of(x: DoubleDouble) -> ExtendedRange {
@@ -196,6 +199,20 @@ impl Real for ExtendedRange {
         let odd = self.exponent.rem_euclid(2);
         let mantissa = Real::sqrt(self.mantissa * if odd == 1 { 2.0 } else { 1.0 });
         ExtendedRange::new(mantissa, (self.exponent - odd) / 2)
+    }
+
+    fn side_by_side(numbers: [ExtendedRange; LANES]) -> [ExtendedRange; LANES] {
+        numbers
+    }
+
+    fn inner_products<const FUSED: bool>(
+        left: &[[ExtendedRange; LANES]],
+        right: &[[ExtendedRange; LANES]],
+    ) -> [ExtendedRange; LANES] {
+        std::array::from_fn(|lane| {
+            let pairs = left.iter().zip(right.iter().rev());
+            pairs.fold(ExtendedRange::ZERO, |sum, (a, b)| sum + a[lane] * b[lane])
+        })
     }
 
     fn exp(self) -> ExtendedRange {

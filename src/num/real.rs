@@ -4,7 +4,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::convolution::{Row, Single};
+use super::convolution::{InnerProducts, LANES};
 use super::double_double::DoubleDouble;
 use super::instruction_set::Kernel;
 use crate::num::math;
@@ -28,6 +28,10 @@ pub trait Real:
     const ZERO: Self;
     /// One.
     const ONE: Self;
+    /// [`LANES`] numbers side by side.
+    type Lanes: Copy + Send + Sync + std::fmt::Debug;
+    /// Zeros side by side.
+    const ZEROS: Self::Lanes;
     /// Whether its range is practically unlimited.
     const UNBOUNDED: bool = false;
 
@@ -53,22 +57,13 @@ pub trait Real:
     fn times<const FUSED: bool>(self, other: Self) -> Self {
         self * other
     }
-    /// `out_i = Σ_{j<n} a_j b_j`, where a begins in `forward` and b in `reversed` at the places of
-    /// the i-th row, that of b moved on by `shift`. To be inlined into a [`Kernel`].
-    #[inline(always)]
+    /// Puts numbers side by side.
+    fn side_by_side(numbers: [Self; LANES]) -> Self::Lanes;
+    /// `Σ_{j<n} a_j b_{n−1−j}` in each lane, for series of length n. To be inlined into a [`Kernel`].
     fn inner_products<const FUSED: bool>(
-        forward: &[Self],
-        reversed: &[Self],
-        rows: &[Row],
-        (shift, n): (usize, usize),
-        out: &mut [Self],
-    ) {
-        for (out, row) in out.iter_mut().zip(rows) {
-            let a = &forward[row.forward as usize..][..n];
-            let b = &reversed[row.reversed as usize + shift..][..n];
-            *out = a.iter().zip(b).fold(Self::ZERO, |sum, (&x, &y)| sum + x * y);
-        }
-    }
+        left: &[Self::Lanes],
+        right: &[Self::Lanes],
+    ) -> [Self; LANES];
 
     /// The square root.
     #[must_use]
@@ -106,16 +101,19 @@ pub trait Real:
 impl Real for f64 {
     const ZERO: f64 = 0.0;
     const ONE: f64 = 1.0;
+    type Lanes = [f64; LANES];
+    const ZEROS: [f64; LANES] = [0.0; LANES];
 
     #[inline(always)]
+    fn side_by_side(numbers: [f64; LANES]) -> [f64; LANES] {
+        numbers
+    }
+    #[inline(always)]
     fn inner_products<const FUSED: bool>(
-        forward: &[f64],
-        reversed: &[f64],
-        rows: &[Row],
-        (shift, n): (usize, usize),
-        out: &mut [f64],
-    ) {
-        Single { forward, reversed, rows, shift, n, out }.run::<FUSED>();
+        left: &[[f64; LANES]],
+        right: &[[f64; LANES]],
+    ) -> [f64; LANES] {
+        InnerProducts { left, right }.run::<FUSED>()
     }
 
     fn of(x: DoubleDouble) -> f64 {

@@ -33,7 +33,7 @@ impl From<Singular> for Halt {
 
 /// The series in one precision, built order by order.
 #[derive(Clone, Debug)]
-pub(super) struct SeriesBuilder<R> {
+pub(super) struct SeriesBuilder<R: Real> {
     pub(super) jet: Jet<R>,
     /// The highest order of the state's series.
     pub(super) order: usize,
@@ -119,15 +119,10 @@ impl<R: Real> SeriesBuilder<R> {
 
     #[inline(always)]
     fn extend_with<const FUSED: bool>(&mut self, k: usize, clock: Clock) -> Result<(), Singular> {
-        let stride = self.order + 1;
-        let state = &mut self.state[..];
-        for (i, series) in state.chunks_exact(stride).take(self.inputs).enumerate() {
-            self.jet.set_input(i, k, series[k]);
-        }
+        self.jet.take_in(&self.state, self.inputs, k);
         self.jet.advance_with::<FUSED>(k, R::of(clock.time), clock.scale)?;
-        for (i, series) in state.chunks_exact_mut(stride).enumerate() {
-            series[k + 1] = self.jet.output(i, k).scaled(clock.scale).over(k + 1);
-        }
+        let made = |x: R| x.scaled(clock.scale).over(k + 1);
+        self.jet.give_out(&mut self.state, k, made);
         Ok(())
     }
 
@@ -214,7 +209,7 @@ impl<R: Real> SeriesBuilder<R> {
 }
 
 /// One order of a series.
-struct Extend<'a, R> {
+struct Extend<'a, R: Real> {
     builder: &'a mut SeriesBuilder<R>,
     k: usize,
     clock: Clock,
@@ -230,7 +225,7 @@ impl<R: Real> Kernel for Extend<'_, R> {
 }
 
 /// All orders of a series without weights.
-struct Grow<'a, R> {
+struct Grow<'a, R: Real> {
     builder: &'a mut SeriesBuilder<R>,
     first: usize,
     clock: Clock,

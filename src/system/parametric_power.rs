@@ -86,6 +86,6 @@ fn power<R: Real>(a: &[R], exponent: DoubleDouble, y: &[R], k: usize) -> R {
 }
 
 /// Whether a series is identically zero as far as it is known.
-pub(super) fn vanishes<R: Real>(a: &[R], k: usize) -> bool {
+fn vanishes<R: Real>(a: &[R], k: usize) -> bool {
     a[..=k].iter().all(|c| c.value() == 0.0)
 }

@@ -10,9 +10,8 @@
 //!      one batch of equal length        ──▶      sums, divisions, solutions of linear equations
 //! ```
 //!
-//! The first phase needs nothing of order k, so no number is loaded right after it was stored. The
-//! right operand of a convolution is also stored in reverse, so that its terms lie side by side, and
-//! where the slope of the left one enters, so are its terms j a_j.
+//! The first phase needs nothing of order k, so no number is loaded right after it was stored. Where
+//! the slope of the left operand of a convolution enters, its terms are j a_j.
 
 use std::collections::HashMap;
 
@@ -20,12 +19,12 @@ use super::program::{Op, Program, Register};
 use crate::expr::{BilinearEquation, Divisor, Operand, Rule};
 use crate::num::DoubleDouble;
 
-/// An inner product of the first phase: the places of a series in the table of those stored
-/// forwards, which begins with the registers, and in that of those stored in reverse.
+/// An inner product of the first phase.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(super) struct Pair {
-    pub(super) forward: u32,
-    pub(super) reversed: u32,
+    /// A register, or a slope, which are counted behind all registers.
+    pub(super) left: u32,
+    pub(super) right: Register,
 }
 
 /// The factor of a convolution.
@@ -137,9 +136,7 @@ pub(super) struct Schedule {
     pub(super) steps: Vec<Step>,
     pub(super) relations: Vec<Relation>,
     pub(super) summands: Vec<Summand>,
-    /// The registers that are also stored in reverse.
-    pub(super) reversed: Vec<Register>,
-    /// The registers of which the slope is also stored, behind all registers.
+    /// The registers whose slope enters an inner product.
     pub(super) slopes: Vec<Register>,
 }
 
@@ -149,7 +146,6 @@ impl Schedule {
             program,
             schedule: Schedule::default(),
             pairs: HashMap::new(),
-            reversed: HashMap::new(),
             slopes: HashMap::new(),
         };
         for &register in &program.body {
@@ -162,9 +158,8 @@ impl Schedule {
 struct ScheduleWriter<'a> {
     program: &'a Program,
     schedule: Schedule,
-    /// The places of pairs, of registers stored in reverse, and of slopes.
+    /// The places of pairs and of slopes.
     pairs: HashMap<Pair, u32>,
-    reversed: HashMap<Register, u32>,
     slopes: HashMap<Register, u32>,
 }
 
@@ -312,13 +307,12 @@ impl ScheduleWriter<'_> {
             return None;
         }
         let schedule = &mut self.schedule;
-        let forward = if of_slope {
+        let left = if of_slope {
             self.program.ops.len() as u32 + place(&mut schedule.slopes, &mut self.slopes, left)
         } else {
             left
         };
-        let reversed = place(&mut schedule.reversed, &mut self.reversed, right);
-        let pair = Pair { forward, reversed };
+        let pair = Pair { left, right };
         Some(*self.pairs.entry(pair).or_insert_with(|| {
             schedule.pairs.push(pair);
             schedule.pairs.len() as u32 - 1
@@ -333,8 +327,7 @@ impl ScheduleWriter<'_> {
         for row in block.matrix.chunks(block.size()) {
             for (unknown, &entry) in (register..).zip(row) {
                 if !program.fixed[entry as usize] {
-                    let reversed = place(&mut schedule.reversed, &mut self.reversed, unknown);
-                    schedule.pairs.push(Pair { forward: entry, reversed });
+                    schedule.pairs.push(Pair { left: entry, right: unknown });
                 }
             }
         }

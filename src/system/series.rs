@@ -40,7 +40,7 @@ impl System {
     pub fn series(&self, order: usize, exact: usize) -> Series {
         let program = &self.motion().native;
         let (inputs, len) = (self.driven_len(), self.state_len());
-        let high = Jet::new(Arc::clone(program), order);
+        let high = Jet::without_outputs(Arc::clone(program), order);
         let low = (exact > 0).then(|| SeriesBuilder::new(Jet::like(&high, exact), inputs, len));
         Series {
             system: self.clone(),
@@ -67,7 +67,7 @@ impl Series {
         self.wide = None;
         self.parameters = parameters.to_vec();
         let program = &self.system.motion().native;
-        let value = |r: Register| self.high.jet.series(r)[0];
+        let value = |r: Register| self.high.jet.value(r);
         self.underflow_may_count = underflow::may_count(program, parameters, value);
     }
 
@@ -152,13 +152,14 @@ impl Series {
     }
 
     fn is_finite(&self) -> bool {
-        let finite = |c: &[f64]| c.iter().all(|x| x.is_finite());
+        // all of them, several at once
+        let finite = |c: &[f64]| c.iter().fold(true, |finite, x| finite & x.is_finite());
         (0..self.len()).all(|i| finite(self.coefficients(i)))
             && (0..self.switches()).all(|i| finite(self.switch(i)))
     }
 
     fn underflows(&self) -> bool {
-        let value = |r: Register| self.high.jet.series(r)[0];
+        let value = |r: Register| self.high.jet.value(r);
         self.underflow_may_count && underflow::occurred(&self.system.motion().native, value)
     }
 

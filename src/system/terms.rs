@@ -132,8 +132,8 @@ pub struct TermWatch {
     legendre: Legendre,
     inputs: Vec<f64>,
     exact: Vec<DoubleDouble>,
-    /// Whether the last state had the canonical form.
-    at_canonical: bool,
+    /// The terms at the last state, some followed by their values at rest.
+    outputs: Vec<f64>,
     /// If several velocities belong to a momentum: the last state evaluated, in the system's native
     /// form.
     near: Option<State>,
@@ -150,7 +150,7 @@ impl TermWatch {
             legendre: system.legendre(&system.inputs(parameters)),
             inputs: vec![0.0; inputs],
             exact: vec![DoubleDouble::ZERO; inputs],
-            at_canonical: false,
+            outputs: Vec::new(),
             near: None,
             work: 0.0,
             system,
@@ -172,8 +172,8 @@ impl TermWatch {
     /// Evaluates a state. Returns `false` if that is not possible.
     pub fn look(&mut self, state: &State) -> bool {
         let native = state.form == self.system.form();
-        self.at_canonical = !native && self.canonical.is_some();
-        if native || self.at_canonical {
+        let at_canonical = !native && self.canonical.is_some();
+        if native || at_canonical {
             self.take_in(state);
             self.near = (native && self.system.has_branches()).then(|| state.clone());
         } else {
@@ -187,10 +187,14 @@ impl TermWatch {
                 Err(_) => return false,
             }
         }
-        match (&mut self.canonical, self.at_canonical) {
-            (Some(canonical), true) => canonical.evaluate(state.time, &self.inputs).is_ok(),
-            _ => self.native.evaluate(state.time, &self.inputs).is_ok(),
-        }
+        let terms = match &mut self.canonical {
+            Some(canonical) if at_canonical => canonical,
+            _ => &mut self.native,
+        };
+        let looked = terms.evaluate(state.time, &self.inputs).is_ok();
+        self.outputs.clear();
+        self.outputs.extend(terms.outputs());
+        looked
     }
 
     fn take_in(&mut self, state: &State) {
@@ -199,13 +203,6 @@ impl TermWatch {
             *rounded = x.high;
         }
         self.work = self.inputs[self.inputs.len() - 1];
-    }
-
-    fn output(&self, i: usize) -> f64 {
-        match &self.canonical {
-            Some(canonical) if self.at_canonical => canonical.output(i),
-            _ => self.native.output(i),
-        }
     }
 
     /// The work done on the motion, if the state carries it.
@@ -222,29 +219,16 @@ impl TermWatch {
     /// The terms of a quantity, each with its value at rest.
     fn terms(&self, quantity: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
         let place = self.places.get(quantity).and_then(Option::as_ref);
-        let mut next = place.map_or(0, |place| place.first);
-        place.into_iter().flat_map(|place| &place.terms).map(move |rest| {
-            let term = self.output(next);
-            next += 1;
-            match rest {
+        let (first, terms) = place.map_or((0, &[][..]), |place| (place.first, &place.terms));
+        let mut outputs = self.outputs.get(first..).unwrap_or_default().iter();
+        terms.iter().map_while(move |rest| {
+            let term = *outputs.next()?;
+            Some(match rest {
                 AtRest::Same => (term, term),
                 AtRest::Nothing => (term, 0.0),
-                AtRest::Other => {
-                    next += 1;
-                    (term, self.output(next - 1))
-                }
-            }
+                AtRest::Other => (term, *outputs.next()?),
+            })
         })
-    }
-
-    /// The value of a quantity.
-    pub fn value(&self, quantity: usize) -> f64 {
-        self.terms(quantity).map(|(term, _)| term).sum()
-    }
-
-    /// The size of the terms of a quantity, to which its rounding errors are at least proportional.
-    pub fn size(&self, quantity: usize) -> f64 {
-        self.terms(quantity).map(|(term, _)| term.abs()).sum()
     }
 
     /// The value of each term of a quantity at rest.
@@ -252,16 +236,31 @@ impl TermWatch {
         self.terms(quantity).map(|(_, rest)| rest).collect()
     }
 
-    /// The size of the varying part of a quantity: the sum of the amounts by which its terms exceed
-    /// their values at rest, and by which the latter differ from `were`. A term that has no value
-    /// at rest counts entirely.
-    pub fn moving(&self, quantity: usize, were: &[f64]) -> f64 {
-        let terms = self.terms(quantity).zip(were);
-        terms
-            .map(|((term, rest), were)| {
+    /// The sums over the terms of a quantity whose values at rest were these.
+    pub fn sums(&self, quantity: usize, were: &[f64]) -> TermSums {
+        let mut sums = TermSums { value: -0.0, size: -0.0, moving: -0.0 };
+        let mut were = were.iter();
+        for (term, rest) in self.terms(quantity) {
+            sums.value += term;
+            sums.size += term.abs();
+            if let Some(were) = were.next() {
                 let moved = (term - rest).abs() + (rest - were).abs();
-                if moved.is_finite() { moved } else { term.abs() }
-            })
-            .sum()
+                sums.moving += if moved.is_finite() { moved } else { term.abs() };
+            }
+        }
+        sums
     }
+}
+
+/// Sums over the terms of a quantity.
+#[derive(Clone, Copy, Debug)]
+pub struct TermSums {
+    /// Its value.
+    pub value: f64,
+    /// The size of the terms, to which its rounding errors are at least proportional.
+    pub size: f64,
+    /// The size of its varying part: the sum of the amounts by which the terms exceed their values
+    /// at rest, and by which the latter have changed. A term that has no value at rest counts
+    /// entirely.
+    pub moving: f64,
 }

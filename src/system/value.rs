@@ -125,6 +125,11 @@ impl<R: Real> Evaluator<R> {
         self.registers[self.program.outputs[i] as usize]
     }
 
+    /// The values of all outputs.
+    pub fn outputs(&self) -> impl Iterator<Item = R> + '_ {
+        self.program.outputs.iter().map(|&r| self.registers[r as usize])
+    }
+
     /// The value of a switch.
     pub fn switch(&self, i: usize) -> R {
         self.registers[self.program.switches[i] as usize]

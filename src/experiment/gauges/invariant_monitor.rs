@@ -5,7 +5,7 @@
 use crate::analysis::{History, LEFT, LOST, Stretch, Verdict};
 use crate::experiment::{Gauge, Reference};
 use crate::expr::Expr;
-use crate::system::TermWatch;
+use crate::system::{TermSums, TermWatch};
 
 /// The name of the gauge that is constant by the law of the energy's change.
 pub(super) const LEDGER: &str = "energy ledger";
@@ -93,7 +93,8 @@ impl InvariantMonitor {
     pub(super) fn refer(&mut self, time: f64, values: &[f64], terms: &TermWatch) {
         self.initial = values[self.channel];
         self.reference = self.initial;
-        self.rough_reference = self.rough(terms).unwrap_or(f64::NAN);
+        self.rough_reference =
+            self.summed(terms).map_or(f64::NAN, |sums| self.rough(sums.value, terms));
         self.at_rest = self.quantity.map_or_else(Vec::new, |quantity| terms.at_rest(quantity));
         self.rounding = 0.0;
         self.moving = Mean { time, ..Mean::default() };
@@ -131,24 +132,26 @@ impl InvariantMonitor {
         }
     }
 
-    /// Its value as the sum of its terms in `f64`.
-    fn rough(&self, terms: &TermWatch) -> Option<f64> {
+    /// The sums over its terms, if it has terms.
+    fn summed(&self, terms: &TermWatch) -> Option<TermSums> {
         let quantity = self.quantity.filter(|&quantity| terms.has(quantity))?;
-        let work = if self.jumps { 0.0 } else { terms.work() };
-        Some(terms.value(quantity) - work)
+        Some(terms.sums(quantity, &self.at_rest))
     }
 
-    /// The size of its moving part. Also updates the rounding error, since the terms may have grown.
-    fn moving(&mut self, terms: &TermWatch) -> f64 {
-        let Some(quantity) = self.quantity else { return 0.0 };
-        self.measure(terms.size(quantity));
-        terms.moving(quantity, &self.at_rest)
+    /// Its value, given the sum of its terms.
+    fn rough(&self, sum: f64, terms: &TermWatch) -> f64 {
+        if self.jumps { sum } else { sum - terms.work() }
     }
 
     /// Records an accurate value and returns its distance; `floor` is the rounding error of a value of size 1.
     pub(super) fn look(&mut self, time: f64, values: &[f64], terms: &TermWatch, floor: f64) -> f64 {
         let distance = values[self.channel] - self.reference;
-        let moving = self.moving(terms);
+        let mut moving = 0.0;
+        if let Some(sums) = self.summed(terms) {
+            // the terms may have grown
+            self.measure(sums.size);
+            moving = sums.moving;
+        }
         self.note(time, distance, moving, floor);
         distance
     }
@@ -161,9 +164,9 @@ impl InvariantMonitor {
 
     /// Records the value at the end of a step or within it. A distance that rounding explains is ignored.
     pub(super) fn step(&mut self, time: f64, terms: &TermWatch, floor: f64, dense: bool) {
-        let Some(value) = self.rough(terms) else { return };
-        let distance = value - self.rough_reference;
-        let moving = self.moving(terms);
+        let Some(TermSums { value, size, moving }) = self.summed(terms) else { return };
+        let distance = self.rough(value, terms) - self.rough_reference;
+        self.measure(size);
         // the moving part of a lost motion is no measure of it
         if self.worst <= LOST {
             self.moving.note(time, moving);

@@ -2,7 +2,7 @@
 //! reduction for exp, sin and cos; one correction of the `f64` value for their inverses.
 
 use super::DoubleDouble;
-use crate::num::convolution::{Double, Row};
+use crate::num::convolution::{DoubleLanes, InnerProducts, LANES};
 use crate::num::instruction_set::Kernel;
 use crate::num::math;
 use crate::num::real::Real;
@@ -127,6 +127,8 @@ fn even_series(first: &[DoubleDouble], tail: &[f64], x: DoubleDouble) -> DoubleD
 impl Real for DoubleDouble {
     const ZERO: DoubleDouble = DoubleDouble::ZERO;
     const ONE: DoubleDouble = DoubleDouble::ONE;
+    type Lanes = DoubleLanes;
+    const ZEROS: DoubleLanes = DoubleLanes::ZERO;
 
     #[inline]
     fn over(self, n: usize) -> DoubleDouble {
@@ -142,14 +144,15 @@ impl Real for DoubleDouble {
         DoubleDouble::ordered_sum(p.high, p.low + (self.high * other.low + self.low * other.high))
     }
     #[inline(always)]
+    fn side_by_side(numbers: [DoubleDouble; LANES]) -> DoubleLanes {
+        DoubleLanes::of(numbers)
+    }
+    #[inline(always)]
     fn inner_products<const FUSED: bool>(
-        forward: &[DoubleDouble],
-        reversed: &[DoubleDouble],
-        rows: &[Row],
-        (shift, n): (usize, usize),
-        out: &mut [DoubleDouble],
-    ) {
-        Double { forward, reversed, rows, shift, n, out }.run::<FUSED>();
+        left: &[DoubleLanes],
+        right: &[DoubleLanes],
+    ) -> [DoubleDouble; LANES] {
+        InnerProducts { left, right }.run::<FUSED>()
     }
 
     fn of(x: DoubleDouble) -> DoubleDouble {

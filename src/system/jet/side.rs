@@ -1,0 +1,13 @@
+//! On which side of a kink a series is built.
+
+/// The branch that functions with a kink take while a series is built.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Side {
+    /// The branch where the switch is positive.
+    Positive,
+    /// The branch where the switch is negative.
+    Negative,
+    /// Between the branches: their mean, plus half their difference times a weight in [−1, 1] that
+    /// keeps the switch at zero.
+    Between,
+}

@@ -1,0 +1,358 @@
+//! The numbers of a jet, and how one order of them is computed.
+//!
+//! In: the orders below, the inputs at this one. Out: all registers at this order. Never here: what a jet
+//! is asked for.
+
+use std::sync::Arc;
+
+use super::series_index::SeriesIndex;
+use super::side::Side;
+use crate::num::{LANES, Real};
+use crate::system::parametric_power;
+use crate::system::program::{Block, Op, Program, Register, Singular};
+use crate::system::schedule::{Denominator, Direct, Ends, Factor, Pair, Relation, Schedule, Step};
+use crate::system::solve::Factored;
+use crate::system::value::value_of;
+
+/// What a jet computes with.
+#[derive(Clone, Debug)]
+pub(super) struct Tables<R: Real> {
+    /// The number of orders.
+    pub(super) stride: usize,
+    /// The number of registers and slopes.
+    pub(super) width: usize,
+    /// The coefficients of all registers and slopes, order by order.
+    pub(super) rows: Vec<R>,
+    /// Those of the registers that are read as whole series, one register after another.
+    pub(super) series: Vec<R>,
+    pub(super) index: Arc<SeriesIndex>,
+    /// The pairs of the schedule, [`LANES`] of them side by side, and the coefficients of their
+    /// operands. The last ones may be filled up.
+    pairs: Vec<[Pair; LANES]>,
+    left: Vec<R::Lanes>,
+    right: Vec<R::Lanes>,
+    /// Their inner products at the present order.
+    products: Vec<R>,
+    /// The terms of the program's sums.
+    terms: Vec<(Register, R)>,
+    blocks: Vec<Factored<R>>,
+    /// The right-hand side of a system of linear equations, then its solution.
+    vector: Vec<R>,
+    pub(super) sides: Vec<Side>,
+    /// The weights of the sides [`Side::Between`], one series for each switch.
+    pub(super) weights: Vec<R>,
+}
+
+impl<R: Real> Tables<R> {
+    /// Zeros, and the constants of the program.
+    pub(super) fn new(
+        program: &Program,
+        schedule: &Schedule,
+        index: Arc<SeriesIndex>,
+        order: usize,
+    ) -> Tables<R> {
+        let (stride, width) = (order + 1, program.ops.len() + schedule.slopes.len());
+        let blocks: Vec<_> = program.blocks.iter().map(|b| Factored::new(b.size())).collect();
+        let widest = program.blocks.iter().map(Block::size).max().unwrap_or(0);
+        let pairs: Vec<[Pair; LANES]> = schedule
+            .pairs
+            .chunks(LANES)
+            .map(|chunk| std::array::from_fn(|lane| chunk[lane.min(chunk.len() - 1)]))
+            .collect();
+        Tables {
+            stride,
+            width,
+            rows: vec![R::ZERO; width * stride],
+            series: vec![R::ZERO; index.registers.len() * stride],
+            index,
+            left: vec![R::ZEROS; pairs.len() * stride],
+            right: vec![R::ZEROS; pairs.len() * stride],
+            products: vec![R::ZERO; pairs.len() * LANES],
+            pairs,
+            terms: program
+                .terms
+                .iter()
+                .map(|term| (term.register, R::of(term.coefficient)))
+                .collect(),
+            blocks,
+            vector: vec![R::ZERO; widest],
+            sides: vec![Side::Positive; program.switches.len()],
+            weights: vec![R::ZERO; program.switches.len() * stride],
+        }
+    }
+
+    /// Computes all inner products of order `k`.
+    #[inline(always)]
+    pub(super) fn multiply<const FUSED: bool>(&mut self, k: usize) {
+        // counted along, since to divide a table into chunks takes a division
+        let (left, right) = (&self.left[..], &self.right[..]);
+        let mut first = 1;
+        for products in self.products.as_chunks_mut::<LANES>().0 {
+            let last = first + k - 1;
+            *products = R::inner_products::<FUSED>(&left[first..last], &right[first..last]);
+            first += self.stride;
+        }
+    }
+
+    /// Evaluates order 0.
+    pub(super) fn begin(&mut self, program: &Program, time: R) -> Result<(), Singular> {
+        for &r in &program.body {
+            match program.ops[r as usize] {
+                Op::Time => self.rows[r as usize] = time,
+                Op::Solve(block) => {
+                    self.factor(program, block as usize)?;
+                    let block_of = &program.blocks[block as usize];
+                    for (x, &right) in self.vector.iter_mut().zip(&block_of.right) {
+                        *x = self.rows[right as usize];
+                    }
+                    let solution = &mut self.vector[..block_of.size()];
+                    self.blocks[block as usize].solve(solution);
+                    self.rows[r as usize..][..block_of.size()].copy_from_slice(solution);
+                }
+                op => self.evaluate(program, r, op),
+            }
+        }
+        Ok(())
+    }
+
+    /// Sets the value of an operation.
+    pub(super) fn evaluate(&mut self, program: &Program, r: Register, op: Op) {
+        if let Op::Select { .. } | Op::ParametricPower(..) = op {
+            let value = self.alone(program, r, 0);
+            self.rows[r as usize] = value;
+        } else if let Some((value, companion)) = value_of(program, op, |r| self.rows[r as usize]) {
+            self.rows[r as usize] = value;
+            if let Some(companion) = companion {
+                self.rows[r as usize + 1] = companion;
+            }
+        }
+    }
+
+    /// Finishes order `k`, once its inner products are known.
+    #[inline(always)]
+    pub(super) fn finish<const FUSED: bool>(
+        &mut self,
+        program: &Program,
+        schedule: &Schedule,
+        k: usize,
+        rate: R,
+    ) {
+        let mut steps = schedule.steps.iter();
+        while let Some(step) = self.finish_plainly::<FUSED>(schedule, &mut steps, k, rate) {
+            match step {
+                Step::Solve { register, block, product } => {
+                    self.solve(program, (register, block as usize, product as usize), k);
+                }
+                Step::Alone(register) => {
+                    let coefficient = self.alone(program, register, k);
+                    self.rows[k * self.width + register as usize] = coefficient;
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Finishes the operations that are a formula each, up to the first that is not, which is
+    /// returned.
+    #[inline(always)]
+    fn finish_plainly<const FUSED: bool>(
+        &mut self,
+        schedule: &Schedule,
+        steps: &mut std::slice::Iter<'_, Step>,
+        k: usize,
+        rate: R,
+    ) -> Option<Step> {
+        // as slices, whose places need not be looked up again after each number that is stored
+        let width = self.width;
+        let (below, now) = self.rows.split_at_mut(k * width);
+        let (values, now) = (&below[..width], &mut now[..width]);
+        let (products, terms) = (&self.products[..], &self.terms[..]);
+        let at = |r: Register| r as usize;
+        for step in steps {
+            let (register, x) = match *step {
+                Step::Time(register) => (register, rate),
+                Step::Linear { register, first, count } => {
+                    let terms = &terms[first as usize..(first + count) as usize];
+                    let sum = terms.iter().fold(R::ZERO, |sum, &(term, factor)| {
+                        sum + now[at(term)].times::<FUSED>(factor)
+                    });
+                    (register, sum)
+                }
+                Step::Scale { register, fixed, varying } => {
+                    (register, values[at(fixed)].times::<FUSED>(now[at(varying)]))
+                }
+                Step::Product { register, left, right, product } => {
+                    let ends = values[at(left)].times::<FUSED>(now[at(right)])
+                        + now[at(left)].times::<FUSED>(values[at(right)]);
+                    (register, products[at(product)] + ends)
+                }
+                Step::Square { register, of, product } => {
+                    let ends = values[at(of)].times::<FUSED>(now[at(of)]);
+                    (register, products[at(product)] + (ends + ends))
+                }
+                Step::Relation { register, relation } => {
+                    let relation = &schedule.relations[at(relation)];
+                    let vanishes = |a: Register| {
+                        now[at(a)].value() == 0.0
+                            && below.chunks_exact(width).all(|row| row[at(a)].value() == 0.0)
+                    };
+                    let x = if relation.vanishing.is_some_and(vanishes) {
+                        R::ZERO
+                    } else {
+                        related::<R, FUSED>(schedule, relation, (values, now, products), k)
+                    };
+                    (register, x)
+                }
+                Step::Solve { .. } | Step::Alone(_) => return Some(*step),
+            };
+            now[at(register)] = x;
+        }
+        None
+    }
+
+    /// `M_0 a_k = f_k − Σ_{j≥1} M_j a_{k−j}`.
+    fn solve(&mut self, program: &Program, at: (Register, usize, usize), k: usize) {
+        let (register, block, mut product) = at;
+        let Block { matrix, right, .. } = &program.blocks[block];
+        let (n, first) = (right.len(), register as usize);
+        let (below, now) = self.rows.split_at_mut(k * self.width);
+        for (i, &right) in right.iter().enumerate() {
+            let mut sum = now[right as usize];
+            for (j, &entry) in matrix[i * n..][..n].iter().enumerate() {
+                if !program.fixed[entry as usize] {
+                    let last = now[entry as usize] * below[first + j];
+                    sum = sum - (self.products[product] + last);
+                    product += 1;
+                }
+            }
+            self.vector[i] = sum;
+        }
+        let solution = &mut self.vector[..n];
+        self.blocks[block].solve(solution);
+        now[first..first + n].copy_from_slice(solution);
+    }
+
+    /// The coefficient of order `k` of an operation that has no place in the batch.
+    fn alone(&mut self, program: &Program, register: Register, k: usize) -> R {
+        let (stride, width) = (self.stride, self.width);
+        let row = |k: usize| &self.rows[k * width..][..width];
+        match program.ops[register as usize] {
+            Op::ParametricPower(a, exponent) => {
+                let exponent = self.rows[exponent as usize].double();
+                let [a_starts, own_starts] = [a, register].map(|r| self.index.start(r, stride));
+                self.series[a_starts + k] = row(k)[a as usize];
+                let (below, own) = self.series.split_at_mut(own_starts);
+                let base = &below[a_starts..][..stride];
+                own[k] = parametric_power::coefficient(base, exponent, own, k, stride);
+                own[k]
+            }
+            Op::Select { switch, mode, positive, negative } => {
+                let (positive, negative) = (positive as usize, negative as usize);
+                let first = row(0)[switch as usize].value();
+                let side = match mode {
+                    Some(mode) => self.sides[mode as usize],
+                    None if first > 0.0 => Side::Positive,
+                    None if first < 0.0 => Side::Negative,
+                    None => Side::Between,
+                };
+                match side {
+                    Side::Positive => row(k)[positive],
+                    Side::Negative => row(k)[negative],
+                    Side::Between => {
+                        let weights = match mode {
+                            Some(mode) => &self.weights[mode as usize * stride..][..stride],
+                            None => &[],
+                        };
+                        let half = (0..=k).zip(weights).fold(R::ZERO, |sum, (j, &w)| {
+                            sum + w * (row(k - j)[positive] - row(k - j)[negative])
+                        });
+                        (row(k)[positive] + row(k)[negative] + half) * 0.5
+                    }
+                }
+            }
+            _ => row(k)[register as usize],
+        }
+    }
+
+    /// Stores order `k` once more where inner products read it.
+    #[inline(always)]
+    pub(super) fn hand_on(&mut self, schedule: &Schedule, k: usize) {
+        let now = &mut self.rows[k * self.width..][..self.width];
+        let (registers, slopes) = now.split_at_mut(self.width - schedule.slopes.len());
+        for (slope, &r) in slopes.iter_mut().zip(&schedule.slopes) {
+            *slope = registers[r as usize] * k as f64;
+        }
+        let now = &now[..];
+        let (left, right) = (&mut self.left[..], &mut self.right[..]);
+        let mut place = k;
+        for pairs in &self.pairs {
+            left[place] = R::side_by_side(pairs.map(|pair| now[pair.left as usize]));
+            right[place] = R::side_by_side(pairs.map(|pair| now[pair.right as usize]));
+            place += self.stride;
+        }
+    }
+
+    /// Stores order `k` once more where whole series are read.
+    #[inline(always)]
+    pub(super) fn keep(&mut self, k: usize) {
+        let now = &self.rows[k * self.width..][..self.width];
+        let mut place = k;
+        for (&register, &factor) in self.index.registers.iter().zip(&self.index.factors) {
+            if !factor {
+                self.series[place] = now[register as usize];
+            }
+            place += self.stride;
+        }
+    }
+
+    pub(super) fn factor(&mut self, program: &Program, at: usize) -> Result<(), Singular> {
+        let block = &program.blocks[at];
+        let n = block.size();
+        let entry = |i, j| self.rows[block.matrix[i * n + j] as usize];
+        if self.blocks[at].factor(entry) { Ok(()) } else { Err(Singular { block: at as u32 }) }
+    }
+}
+
+/// The coefficient of order `k` that follows from a relation, from all registers at order 0, those
+/// at order k that are known, and the inner products.
+#[inline(always)]
+fn related<R: Real, const FUSED: bool>(
+    schedule: &Schedule,
+    relation: &Relation,
+    (values, now, products): (&[R], &[R], &[R]),
+    k: usize,
+) -> R {
+    let at = |r: Register| r as usize;
+    let times = |factor: Factor, x: R| match factor {
+        Factor::Plus => x,
+        Factor::Minus => -x,
+        Factor::Times(factor) => x.times::<FUSED>(R::of(factor)),
+    };
+    let mut sum = match relation.direct {
+        Direct::None => R::ZERO,
+        Direct::Coefficient(a) => now[at(a)],
+        Direct::Slope(factor, a) => times(factor, now[at(a)] * k as f64),
+    };
+    let range = relation.first as usize..(relation.first + relation.count) as usize;
+    for summand in &schedule.summands[range] {
+        let product = summand.product.map_or(R::ZERO, |i| products[i as usize]);
+        let whole = match summand.ends {
+            Ends::None => product,
+            Ends::Last(a, b) => product + now[at(a)].times::<FUSED>(values[at(b)]),
+            Ends::LastSlope(a, b) => product + now[at(a)].times::<FUSED>(values[at(b)]) * k as f64,
+            Ends::Both(a, b) => {
+                product
+                    + (values[at(a)].times::<FUSED>(now[at(b)])
+                        + now[at(a)].times::<FUSED>(values[at(b)]))
+            }
+        };
+        sum = sum + times(summand.factor, whole);
+    }
+    match relation.denominator {
+        Denominator::One => sum,
+        Denominator::Order => sum.over(k),
+        Denominator::Value(a) => sum / values[at(a)],
+        Denominator::OrderTimes(a) => (sum / values[at(a)]).over(k),
+        Denominator::Twice(a) => sum / (values[at(a)] * 2.0),
+    }
+}
