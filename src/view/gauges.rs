@@ -39,6 +39,30 @@ const HEADED: u16 = 34;
 const FLOOR: f64 = 1e-17;
 const LEAST_RATIO: f64 = 100.0;
 
+/// Where the columns of a single row begin: a name, a value, a drift and a verdict. A name says more than a drift, which the
+/// page of numbers has too and which gives way to names that are long.
+#[derive(Clone, Copy)]
+struct SingleRow {
+    value: u16,
+    drift: Option<u16>,
+    verdict: u16,
+}
+
+impl SingleRow {
+    fn of(canvas: &Canvas<'_>, width: u16, gauges: &[Gauge]) -> SingleRow {
+        let glyphs = canvas.look.glyphs;
+        let name = |gauge: &Gauge| glyphs.pick(&*gauge.shown, &*gauge.name).width();
+        let longest = gauges.iter().map(name).max().unwrap_or(0);
+        let verdict = width.saturating_sub(VERDICT);
+        let drift = verdict.saturating_sub(SHORT_DRIFT + 1);
+        let value = drift.saturating_sub(SHORT_VALUE + 1);
+        if longest < usize::from(value) {
+            return SingleRow { value, drift: Some(drift), verdict };
+        }
+        SingleRow { value: verdict.saturating_sub(SHORT_VALUE + 1), drift: None, verdict }
+    }
+}
+
 /// Draws the gauges around the selected one: two rows for each if there is room, else one.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], selected: Option<usize>) {
     if gauges.is_empty() {
@@ -55,8 +79,10 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], select
     }
     let height = if usize::from(area.height) >= 2 * gauges.len() { 2 } else { 1 };
     let headed = usize::from(area.height) > height * gauges.len() && area.width >= HEADED;
+    let single = SingleRow::of(canvas, area.width.saturating_sub(3), gauges);
     if headed {
-        heads(canvas, columns(area, 2, area.width.saturating_sub(3)), height);
+        let single = (height == 1).then_some(single);
+        heads(canvas, columns(area, 2, area.width.saturating_sub(3)), single);
     }
     let (_, area) = split_rows(area, u16::from(headed));
     let shown = usize::from(area.height) / height;
@@ -74,7 +100,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], select
             name_and_reason(canvas, at, gauge, here);
             numbers_and_history(canvas, row(columns(area, 2, at.width), place * 2 + 1), gauge);
         } else {
-            in_one_row(canvas, at, gauge, here);
+            in_one_row(canvas, at, single, gauge, here);
         }
     }
 }
@@ -101,18 +127,18 @@ fn reason_below(
 /// The most gauges that must stay visible above the reason.
 const MOST_ABOVE: usize = 3;
 
-/// Writes the headings of the columns.
-fn heads(canvas: &mut Canvas<'_>, area: Rect, height: usize) {
+/// Writes the headings of the columns, those of a single row for each gauge or of two rows.
+fn heads(canvas: &mut Canvas<'_>, area: Rect, single: Option<SingleRow>) {
     let verdict = area.width.saturating_sub(VERDICT);
     canvas.right(columns(area, verdict, VERDICT), Role::Dim, "verdict");
-    if height == 2 {
+    if let Some(row) = single {
+        if let Some(drift) = row.drift {
+            canvas.right(columns(area, drift, SHORT_DRIFT), Role::Dim, "drift");
+        }
+        canvas.right(columns(area, row.value, SHORT_VALUE), Role::Dim, "value");
+    } else {
         canvas.right(columns(area, 0, VALUE + 2), Role::Dim, "value");
         canvas.right(columns(area, VALUE + 3, DRIFT), Role::Dim, "drift");
-    } else {
-        let drift = verdict.saturating_sub(SHORT_DRIFT + 1);
-        canvas.right(columns(area, drift, SHORT_DRIFT), Role::Dim, "drift");
-        let value = drift.saturating_sub(SHORT_VALUE + 1);
-        canvas.right(columns(area, value, SHORT_VALUE), Role::Dim, "value");
     }
 }
 
@@ -217,14 +243,13 @@ fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
 }
 
 /// Draws name, value, drift and verdict in a single row.
-fn in_one_row(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, here: bool) {
-    let at = area.width.saturating_sub(VERDICT);
-    verdict(canvas, columns(area, at, VERDICT), gauge, word(&gauge.verdict));
-    let at = at.saturating_sub(SHORT_DRIFT + 1);
-    drift(canvas, columns(area, at, SHORT_DRIFT), gauge);
-    let at = at.saturating_sub(SHORT_VALUE + 1);
-    value(canvas, columns(area, at, SHORT_VALUE), gauge, 4);
-    name(canvas, columns(area, 0, at.saturating_sub(1)), gauge, here);
+fn in_one_row(canvas: &mut Canvas<'_>, area: Rect, row: SingleRow, gauge: &Gauge, here: bool) {
+    verdict(canvas, columns(area, row.verdict, VERDICT), gauge, word(&gauge.verdict));
+    if let Some(at) = row.drift {
+        drift(canvas, columns(area, at, SHORT_DRIFT), gauge);
+    }
+    value(canvas, columns(area, row.value, SHORT_VALUE), gauge, 4);
+    name(canvas, columns(area, 0, row.value.saturating_sub(1)), gauge, here);
 }
 
 /// Draws the words for the verdict at the right, after a sign if impulses have changed the value. Returns the number of

@@ -32,7 +32,7 @@ fn cyclic_momenta_say_why() {
     run(&mut top, 10.0);
     let snapshot = top.snapshot();
     let names: Vec<&str> = snapshot.gauges.iter().map(|gauge| gauge.name.as_str()).collect();
-    assert_eq!(names, ["energy", "p_phi", "p_psi", "nutation energy", "spin about the axis"]);
+    assert_eq!(names, ["energy", "p_phi", "p_psi", "nutation energy", "axial spin"]);
     assert_eq!(gauge(&snapshot, "p_phi").reason, "cyclic φ");
     assert_eq!(gauge(&snapshot, "energy").reason, "∂L/∂t = 0");
     for gauge in snapshot.gauges.iter() {

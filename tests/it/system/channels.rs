@@ -57,7 +57,7 @@ fn columns_stand_in_the_order_of_the_format() {
             "p_psi",
             "energy",
             "nutation energy",
-            "spin about the axis"
+            "axial spin"
         ]
     );
     let theta = &system.channels()[0];
