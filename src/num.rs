@@ -8,6 +8,7 @@
 mod compensated;
 mod convolution;
 mod double_double;
+mod eigenvalues;
 mod extended_range;
 mod format;
 mod horner;
@@ -20,6 +21,7 @@ mod real;
 pub use compensated::accumulate;
 pub use convolution::LANES;
 pub use double_double::DoubleDouble;
+pub use eigenvalues::eigenvalues;
 pub use extended_range::ExtendedRange;
 pub use format::{short, significant};
 pub use horner::{Polynomial, polynomial};

@@ -1,7 +1,9 @@
 //! Linear algebra of small matrices: eigenvalues, least squares.
 
-use nalgebra::linalg::{Schur, SymmetricEigen, balancing};
+use nalgebra::linalg::SymmetricEigen;
 use nalgebra::{Complex, DMatrix, DVector};
+
+use crate::num;
 
 /// The maximal number of iterations of a decomposition.
 const SWEEPS: usize = 10_000;
@@ -9,14 +11,7 @@ const SWEEPS: usize = 10_000;
 /// The eigenvalues of a matrix as real and imaginary parts, by falling modulus, of a pair the
 /// positive imaginary part first; empty if they cannot be found.
 pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<[f64; 2]> {
-    if matrix.is_empty() || matrix.iter().any(|x| !x.is_finite()) {
-        return Vec::new();
-    }
-    let mut balanced = matrix.clone();
-    balancing::balance_parlett_reinsch(&mut balanced);
-    let Some(schur) = Schur::try_new(balanced, f64::EPSILON, SWEEPS) else { return Vec::new() };
-    let mut values: Vec<[f64; 2]> =
-        schur.complex_eigenvalues().iter().map(|z| [z.re, z.im]).collect();
+    let mut values = num::eigenvalues(matrix.clone());
     let modulus = |z: &[f64; 2]| z[0] * z[0] + z[1] * z[1];
     values.sort_by(|a, b| {
         let (x, y) = (modulus(a), modulus(b));

@@ -11,9 +11,8 @@
 //! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2.
 
 use nalgebra::DMatrix;
-use nalgebra::linalg::{Schur, balancing};
 
-use crate::num::math;
+use crate::num::{self, math};
 
 /// A mode that grows by less than this part in a step counts as constant.
 const GROWS: f64 = 1e-3;
@@ -27,9 +26,6 @@ const DIFFERENCE: f64 = 1e-6;
 
 /// The longest stable step is found to one part in this many.
 const PARTS: u32 = 200;
-
-/// The maximal number of iterations of the search for eigenvalues.
-const SWEEPS: usize = 1000;
 
 /// A fixed step beyond the stability limit.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -103,14 +99,7 @@ pub(super) fn eigenvalues(
         }
         moved[j] = x;
     }
-    if matrix.iter().any(|x: &f64| !x.is_finite()) {
-        return Vec::new();
-    }
-    // removes the effect of different units
-    balancing::balance_parlett_reinsch(&mut matrix);
-    let found = Schur::try_new(matrix, f64::EPSILON, SWEEPS);
-    let values = found.map(|schur| schur.complex_eigenvalues());
-    values.iter().flat_map(|values| values.iter().map(|z| [z.re, z.im])).collect()
+    num::eigenvalues(matrix)
 }
 
 #[cfg(test)]

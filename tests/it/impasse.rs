@@ -95,6 +95,22 @@ fn said(text: &str, arguments: &[&str]) -> String {
     with_file(&text, &[&["run", "system.toml"], arguments].concat()).text()
 }
 
+#[test]
+fn a_motion_that_leaves_the_range_of_numbers_ends() {
+    // the methods that are tried from there look for the modes of rates whose squares overflow
+    let text = r#"
+        [coordinates]
+        q1 = { initial = -0.181, velocity = -1.166 }
+        q2 = { initial = 0.831, velocity = -1.171 }
+        [lagrangian]
+        L = """0.4705*q1'^2 + cosh(q2') - 0.085*q1'*q2' + 0.596/sqrt(q1^2 + q2^2 + 0.01)
+               - 0.587*q1^2*q2 - 0.212*q2*cos(2.426*t)"""
+        dissipation = "0.065*q2'^2"
+    "#;
+    let said = said(text, &["--at", "30"]);
+    assert!(said.contains("is no longer finite at t = 21.9"), "{said}");
+}
+
 /// A method that stops names one that can continue.
 #[test]
 fn a_fault_names_the_method_that_passes() {

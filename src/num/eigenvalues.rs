@@ -1,0 +1,101 @@
+//! The eigenvalues of small matrices.
+
+use nalgebra::DMatrix;
+use nalgebra::linalg::{Schur, balancing};
+
+use super::math;
+
+/// The maximal number of iterations of the decomposition, and of balancing by sums.
+const SWEEPS: usize = 10_000;
+const BALANCINGS: usize = 100;
+
+/// So many entries may be summed.
+const ROOM: f64 = 1024.0;
+
+/// The squares of entries in this range neither overflow nor vanish.
+const SQUARED: std::ops::Range<f64> = 1e-140..1e140;
+
+/// The eigenvalues of a matrix as real and imaginary parts; empty if they cannot be found.
+///
+/// The matrix is balanced first (B. N. Parlett, C. Reinsch, Numer. Math. 13 (1969) 293), which removes
+/// the effect of different units.
+pub fn eigenvalues(mut matrix: DMatrix<f64>) -> Vec<[f64; 2]> {
+    if matrix.is_empty() || matrix.iter().any(|x| !x.is_finite()) {
+        return Vec::new();
+    }
+    // squares the entries, and does not end where a square overflows
+    let ordinary = |x: &f64| *x == 0.0 || SQUARED.contains(&x.abs());
+    let unit = if matrix.iter().all(ordinary) { 1.0 } else { brought_near_one(&mut matrix) };
+    balancing::balance_parlett_reinsch(&mut matrix);
+    let found = Schur::try_new(matrix, f64::EPSILON, SWEEPS);
+    let values = found.map(|schur| schur.complex_eigenvalues());
+    values.iter().flat_map(|values| values.iter().map(|z| [z.re * unit, z.im * unit])).collect()
+}
+
+/// Balances by the sums of absolute values, and divides by a power of two near the largest entry, which
+/// is returned.
+fn brought_near_one(matrix: &mut DMatrix<f64>) -> f64 {
+    let power_of_two = |exponent: f64| math::powi(2.0, exponent.clamp(-1000.0, 1000.0) as i32);
+    // so that no sum overflows
+    *matrix /= ROOM;
+    for _ in 0..BALANCINGS {
+        let mut settled = true;
+        for i in 0..matrix.nrows() {
+            let own = matrix[(i, i)].abs();
+            let column = matrix.column(i).iter().map(|x| x.abs()).sum::<f64>() - own;
+            let row = matrix.row(i).iter().map(|x| x.abs()).sum::<f64>() - own;
+            if !(column > 0.0 && row > 0.0) {
+                continue;
+            }
+            let exponent = ((math::log2(row) - math::log2(column)) / 2.0).round();
+            if exponent != 0.0 {
+                settled = false;
+                matrix.column_mut(i).scale_mut(power_of_two(exponent));
+                matrix.row_mut(i).scale_mut(power_of_two(-exponent));
+            }
+        }
+        if settled {
+            break;
+        }
+    }
+    let largest = matrix.amax();
+    let unit = if largest > 0.0 { power_of_two(math::log2(largest).floor()) } else { 1.0 };
+    *matrix /= unit;
+    unit * ROOM
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn eigenvalues_are_found_however_large_or_small_the_entries() {
+        for unit in [1.0, 1e160, 1e300, 1e-160, 1e-300] {
+            let matrix = DMatrix::from_row_slice(2, 2, &[0.0, unit, -4.0 * unit, 0.0]);
+            let values = eigenvalues(matrix);
+            assert_eq!(values.len(), 2, "{unit:e}");
+            for [re, im] in values {
+                assert!(re.abs() <= 1e-14 * unit, "{unit:e}: {re:e}");
+                assert!((im.abs() / unit - 2.0).abs() < 1e-14, "{unit:e}: {im:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn entries_far_apart_are_balanced() {
+        // x′ = 1e200 v, v′ = −1e−200 x turns once in a unit
+        let values = eigenvalues(DMatrix::from_row_slice(2, 2, &[0.0, 1e200, -1e-200, 0.0]));
+        assert!(
+            values.iter().all(|[re, im]| *re == 0.0 && (im.abs() - 1.0).abs() < 1e-12),
+            "{values:?}"
+        );
+    }
+
+    #[test]
+    fn what_is_not_finite_has_none() {
+        for bad in [f64::NAN, f64::INFINITY] {
+            assert!(eigenvalues(DMatrix::from_element(2, 2, bad)).is_empty());
+        }
+        assert_eq!(eigenvalues(DMatrix::zeros(1, 1)), [[0.0, 0.0]]);
+    }
+}
