@@ -2,8 +2,9 @@
 //!
 //! In and out: numbers. A program is evaluated in a [`Real`]: `f64`, [`DoubleDouble`] for twice its
 //! digits, [`ExtendedRange`] for values outside the range of both. A [`Number`] is a constant in an
-//! expression. A [`PrimeField`] has the residues in which ranks are computed. [`math`] has the elementary functions, with the same bits on every machine. Never
-//! here: expressions, units, files.
+//! expression. A [`PrimeField`] has the residues in which ranks are computed. [`math`] has the
+//! elementary functions, with the same bits on every machine. [`eigenvalues`] are those of a small
+//! matrix of `f64`. Never here: expressions, units, files.
 
 mod compensated;
 mod convolution;

@@ -191,9 +191,12 @@ fn initial_value(
 
 /// The value of a text that is a number and nothing else, as nearly all of a table of starts are.
 fn numeral(text: &str) -> Option<f64> {
-    let written = |c: char| c.is_ascii_digit() || matches!(c, '.' | 'e' | 'E' | '-');
+    if text.starts_with('+') {
+        return None;
+    }
     let value = text.parse().ok().filter(|value: &f64| value.is_finite())?;
-    text.chars().all(written).then_some(value)
+    // the negative of zero is zero, as in an expression
+    Some(value + 0.0)
 }
 
 /// The initial value that a name refers to.

@@ -79,9 +79,8 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], select
     }
     let height = if usize::from(area.height) >= 2 * gauges.len() { 2 } else { 1 };
     let headed = usize::from(area.height) > height * gauges.len() && area.width >= HEADED;
-    let single = SingleRow::of(canvas, area.width.saturating_sub(3), gauges);
+    let single = (height == 1).then(|| SingleRow::of(canvas, area.width.saturating_sub(3), gauges));
     if headed {
-        let single = (height == 1).then_some(single);
         heads(canvas, columns(area, 2, area.width.saturating_sub(3)), single);
     }
     let (_, area) = split_rows(area, u16::from(headed));
@@ -96,11 +95,11 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], select
         let at = row(area, place * height);
         canvas.left(columns(at, 0, 1), Role::Focus, mark);
         let at = columns(at, 2, area.width.saturating_sub(3));
-        if height == 2 {
+        if let Some(single) = single {
+            in_one_row(canvas, at, single, gauge, here);
+        } else {
             name_and_reason(canvas, at, gauge, here);
             numbers_and_history(canvas, row(columns(area, 2, at.width), place * 2 + 1), gauge);
-        } else {
-            in_one_row(canvas, at, single, gauge, here);
         }
     }
 }

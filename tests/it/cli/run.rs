@@ -35,6 +35,22 @@ fn csv_says_what_was_run_and_names_its_columns() {
     assert_eq!(head[4], "0.0,0.0,1.0,2.0,-1.0");
 }
 
+/// A number alone is not read as an expression, but is the same number.
+#[test]
+fn an_initial_value_is_the_same_as_a_number_and_in_parentheses() {
+    let start = |value: &str| {
+        let given = format!("theta={value}");
+        run(&["--init", &given, "--at", "0"]).success()
+    };
+    let values =
+        ["-0", ".5", "1.", "1E3", "-1e-5", "1e-400", "0.21938145353255928", "9007199254740993"];
+    for value in values {
+        assert_eq!(start(value), start(&format!("({value})")), "{value}");
+    }
+    let refused = run(&["--init", "theta=+1", "--at", "0"]);
+    assert!(refused.text().contains("a plus sign needs something before it"));
+}
+
 #[test]
 fn columns_are_in_their_order_and_extra_ones_last() {
     let file = r#"
