@@ -54,6 +54,7 @@ mod session;
 mod side;
 mod speed;
 mod state;
+mod symmetries;
 mod timeline;
 mod update;
 mod value;

@@ -132,6 +132,8 @@ impl App {
             }
             (_, Choice::Guide(index)) => self.take_guide(index),
             (_, Choice::Flow(index)) => self.open_field(Purpose::Flow(index)),
+            (_, Choice::Symmetries) => self.find_symmetries(),
+            (_, Choice::Symmetry(index)) => self.open_field(Purpose::SymmetryFlow(index)),
             (_, Choice::Equilibrium(index)) => self.begin_at_equilibrium(index, None),
             (_, Choice::Mode(index, mode)) => self.begin_at_equilibrium(index, Some(mode)),
             (_, Choice::Action(action)) => self.perform(action),
@@ -180,6 +182,7 @@ impl App {
                 effects
             }
             Purpose::Flow(index) => self.follow_flow(index, value),
+            Purpose::SymmetryFlow(index) => self.follow_symmetry(index, value),
             Purpose::Step => lab.step_by(value),
             Purpose::Tolerance => lab.tolerate(value),
         }

@@ -23,8 +23,10 @@ pub enum Asker {
     Equations,
     /// The page of equations, for constants of the motion.
     Search,
-    /// The lab, for the state that the flow of a constant leads to.
+    /// The lab, for the state that a flow leads to.
     Flow,
+    /// The lab, for the symmetries of its equations.
+    Symmetries,
 }
 
 /// A job to be run in the background.

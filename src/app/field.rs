@@ -27,6 +27,8 @@ pub enum Purpose {
     Tolerance,
     /// How far the state is carried along the flow of the constant of this index.
     Flow(usize),
+    /// How far it is carried along the flow of the symmetry of this index.
+    SymmetryFlow(usize),
 }
 
 /// A field being typed in.
@@ -77,7 +79,9 @@ impl Field {
     pub fn read(&self, model: &Model, parameters: &[f64]) -> Result<f64, String> {
         let value = number(model, parameters, self.input.value())?;
         let sentence = match self.purpose {
-            Purpose::Value(_) | Purpose::Flow(_) => return Ok(value),
+            Purpose::Value(_) | Purpose::Flow(_) | Purpose::SymmetryFlow(_) => {
+                return Ok(value);
+            }
             Purpose::Step => "The step must be more than zero.",
             Purpose::Tolerance => "The tolerance must be more than zero and less than one.",
         };

@@ -1,18 +1,19 @@
-//! The flow of a constant of the motion, applied to the state: dq/dε = ∂I/∂p, dp/dε = −∂I/∂q. It carries an orbit to
-//! another orbit of the same system, with the same energy.
+//! Flows applied to the state, which carry an orbit to another orbit of the same system: that of a constant of the
+//! motion, dq/dε = ∂I/∂p, dp/dε = −∂I/∂q, at the same energy, and that of a symmetry of the equations of motion.
 //!
-//! In: the constant, how far. Out: a job that follows the flow, then a command that begins the motion at its end. Never
-//! here: how a flow is derived.
+//! In: what generates the flow, how far. Out: a job that follows the flow, then a command that begins the motion at its
+//! end. Never here: how a flow is derived.
 //! Source: *The Principles of Dynamics*, §§ 3.3.2, 3.4.
 
 use std::sync::Arc;
 
 use super::computation::Asker;
 use super::menu::{Choice, Choosing, Item, Menu};
-use super::{App, Effect, Notification, Overlay};
+use super::{App, Effect, Loaded, Notification, Overlay};
 use crate::experiment::{Command, Derived, Experiment, Setup, Status};
-use crate::expr::Expr;
+use crate::expr::{Expr, Pool};
 use crate::instrument::Answer;
+use crate::integrability::symmetry_flow;
 use crate::job::{Job, Outcome, Progress};
 use crate::mechanics::{Equations, GeneratorFlow, flow_of};
 use crate::model::Model;
@@ -27,28 +28,102 @@ const SLICES: u32 = 2_000;
 /// What a flow leads to: the initial values of the new orbit, or why there are none.
 type FlowOutcome = Result<Vec<InitialOverride>, String>;
 
+/// What generates a flow.
+#[derive(Clone, Debug)]
+pub(super) enum FlowGenerator {
+    /// A constant of the motion.
+    Constant(Expr),
+    /// A change of time, and of each coordinate.
+    Symmetry(Expr, Vec<Expr>),
+}
+
+impl FlowGenerator {
+    /// A channel of the system as a variable of the flow, if it is one.
+    fn variable(&self, degrees: usize, kind: ChannelKind, value: f64) -> Option<InitialOverride> {
+        match (self, kind) {
+            (_, ChannelKind::Position(i)) => Some(InitialOverride::Position(i, value)),
+            (Self::Constant(_), ChannelKind::Momentum(i)) => {
+                Some(InitialOverride::Momentum(i, value))
+            }
+            (Self::Symmetry(..), ChannelKind::Velocity(i)) => {
+                Some(InitialOverride::Position(degrees + i, value))
+            }
+            _ => None,
+        }
+    }
+
+    /// A channel of the flow as an initial value of the system, if it is one.
+    fn initial_value(
+        &self,
+        degrees: usize,
+        kind: ChannelKind,
+        value: f64,
+    ) -> Option<InitialOverride> {
+        match (self, kind) {
+            (Self::Symmetry(..), ChannelKind::Position(k)) if k >= degrees => {
+                Some(InitialOverride::Velocity(k - degrees, value))
+            }
+            (_, ChannelKind::Position(i)) => Some(InitialOverride::Position(i, value)),
+            (Self::Constant(_), ChannelKind::Momentum(i)) => {
+                Some(InitialOverride::Momentum(i, value))
+            }
+            _ => None,
+        }
+    }
+
+    /// What leads forwards where this leads backwards.
+    fn reversed(&self, pool: &mut Pool) -> FlowGenerator {
+        match self {
+            FlowGenerator::Constant(e) => FlowGenerator::Constant(pool.neg(*e)),
+            FlowGenerator::Symmetry(time, changes) => FlowGenerator::Symmetry(
+                pool.neg(*time),
+                changes.iter().map(|&e| pool.neg(e)).collect(),
+            ),
+        }
+    }
+}
+
 /// What is carried.
 struct FlowStart {
     model: Model,
     equations: Equations,
-    generator: Expr,
+    generator: FlowGenerator,
     epsilon: f64,
+    /// The time that the generator is for.
     time: f64,
     parameters: Vec<f64>,
-    state: Vec<InitialOverride>,
+    /// The channels of the system.
+    state: Vec<(ChannelKind, f64)>,
 }
 
 impl FlowStart {
-    fn carried(&self, progress: &Progress) -> FlowOutcome {
+    /// The law of the flow.
+    fn law(&self, progress: &Progress) -> Result<(Model, Equations), String> {
         let mut equations = self.equations.clone();
         equations.pool.set_cancel(progress.token().clone());
         let mut source = self.model.clone();
         source.pool = equations.pool.clone();
-        // backwards along I is forwards along −I
-        let generator =
-            if self.epsilon < 0.0 { equations.pool.neg(self.generator) } else { self.generator };
-        let moved = flow_of(&source, &mut equations, ("I", generator), &[], self.time);
-        let GeneratorFlow { mut model, equations, .. } = moved.map_err(|why| why.to_string())?;
+        let generator = if self.epsilon < 0.0 {
+            self.generator.reversed(&mut equations.pool)
+        } else {
+            self.generator.clone()
+        };
+        match generator {
+            FlowGenerator::Constant(e) => {
+                flow_of(&source, &mut equations, ("I", e), &[], self.time)
+                    .map(|GeneratorFlow { model, equations, .. }| (model, equations))
+                    .map_err(|why| why.to_string())
+            }
+            FlowGenerator::Symmetry(time, changes) => {
+                symmetry_flow(&source, &mut equations, (time, &changes), self.time)
+                    .map_err(|why| why.to_string())
+            }
+        }
+    }
+
+    fn carried(&self, progress: &Progress) -> FlowOutcome {
+        let degrees = self.model.coordinates.len();
+        let (mut model, equations) = self.law(progress)?;
         "auto".clone_into(&mut model.run.method);
         model.run.method_place = None;
         model.run.step = None;
@@ -57,7 +132,11 @@ impl FlowStart {
         let system = system.map_err(|why| why.to_string())?;
         let setup = Setup {
             parameters: self.parameters.clone(),
-            overrides: self.state.clone(),
+            overrides: self
+                .state
+                .iter()
+                .filter_map(|&(kind, value)| self.generator.variable(degrees, kind, value))
+                .collect(),
             ..Setup::of(&model)
         };
         let (model, equations) = (Arc::new(model), Arc::new(equations));
@@ -78,36 +157,39 @@ impl FlowStart {
             return Err(format!("the flow was followed to {} only", snapshot.time));
         }
         let channels = system.channels().iter().zip(snapshot.values.iter());
-        Ok(channels.filter_map(|(c, &value)| initial(c.kind, value)).collect())
-    }
-}
-
-/// A coordinate or momentum as an initial value.
-fn initial(kind: ChannelKind, value: f64) -> Option<InitialOverride> {
-    match kind {
-        ChannelKind::Position(i) => Some(InitialOverride::Position(i, value)),
-        ChannelKind::Momentum(i) => Some(InitialOverride::Momentum(i, value)),
-        _ => None,
+        let reached =
+            channels.filter_map(|(c, &value)| self.generator.initial_value(degrees, c.kind, value));
+        Ok(reached.collect())
     }
 }
 
 impl App {
-    /// Lists the constants of the motion that have a flow.
+    /// Lists the constants of the motion that have a flow, and the way to the symmetries.
     pub(super) fn open_flows(&mut self) -> Vec<Effect> {
         if let Some(why) = self.lack(super::Action::ApplyFlow) {
             return self.notify(format!("There is nothing to apply: {why}."));
         }
         let Some(lab) = &self.lab else { return Vec::new() };
-        let Some(Ok(findings)) = lab.findings() else { return Vec::new() };
-        let line = |(index, (name, e)): (usize, (String, Expr))| Item {
-            label: name,
-            about: findings.equations.pool.unicode(e),
+        let line = |label: &str, about: String, choice: Choice| Item {
+            label: label.to_owned(),
+            about,
             keys: String::new(),
             refusal: None,
-            choice: Choice::Flow(index),
+            choice,
         };
-        let items = lab.flows().into_iter().enumerate().map(line).collect();
-        let title = "Carry the state along the flow of a constant of the motion";
+        let mut items = Vec::new();
+        if let Some(Ok(findings)) = lab.findings() {
+            let pool = &findings.equations.pool;
+            let flows = lab.flows().into_iter().enumerate();
+            items.extend(
+                flows.map(|(index, (name, e))| line(&name, pool.unicode(e), Choice::Flow(index))),
+            );
+        }
+        if lab.may_have_symmetries() {
+            let about = "changes of time and coordinates that take motions to motions".to_owned();
+            items.push(line("symmetries …", about, Choice::Symmetries));
+        }
+        let title = "Carry the state along the flow of a constant of the motion, or of a symmetry";
         self.overlay = Some(Overlay::Menu(Menu::new(title, Choosing::Flow, items)));
         Vec::new()
     }
@@ -115,19 +197,42 @@ impl App {
     /// Follows the flow of a constant from the current state.
     pub(super) fn follow_flow(&mut self, index: usize, epsilon: f64) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };
-        let (Some(snapshot), Some(Ok(findings))) = (lab.seen(), lab.findings()) else {
-            return Vec::new();
-        };
+        let Some(Ok(findings)) = lab.findings() else { return Vec::new() };
         let Some((_, generator)) = lab.flows().into_iter().nth(index) else { return Vec::new() };
-        let channels = lab.loaded.system.channels().iter().zip(snapshot.values.iter());
+        let equations = findings.equations.clone();
+        self.follow(FlowGenerator::Constant(generator), equations, epsilon)
+    }
+
+    /// Follows a flow from the current state; its generator stands in these equations.
+    pub(super) fn follow(
+        &mut self,
+        generator: FlowGenerator,
+        equations: Equations,
+        epsilon: f64,
+    ) -> Vec<Effect> {
+        let Some(lab) = &self.lab else { return Vec::new() };
+        let Some(snapshot) = lab.seen() else { return Vec::new() };
+        let Loaded { model, equations: law, system, .. } = &lab.loaded;
+        // the new motion begins with the clock of the file: where that matters, so does what is carried
+        let values = if system.exact_rates().depends_on_time() {
+            match Experiment::new(model, law, system, (*snapshot.setup).clone()) {
+                Ok(experiment) => experiment.snapshot().values,
+                Err(why) => return self.notify(format!("The flow cannot be followed: {why}.")),
+            }
+        } else {
+            Arc::clone(&snapshot.values)
+        };
+        let channels = system.channels().iter().zip(values.iter());
+        let model = (**model).clone();
+        let time = model.run.start;
         let start = FlowStart {
-            model: (*lab.loaded.model).clone(),
-            equations: findings.equations.clone(),
+            model,
+            equations,
             generator,
             epsilon,
-            time: snapshot.time,
+            time,
             parameters: snapshot.parameters.to_vec(),
-            state: channels.filter_map(|(c, &value)| initial(c.kind, value)).collect(),
+            state: channels.map(|(c, &value)| (c.kind, value)).collect(),
         };
         let job =
             Job::new("following the flow", move |progress| Answer::new(start.carried(progress)));

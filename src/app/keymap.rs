@@ -258,7 +258,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('{'), c('i')], Action::Ask, "ask", "ask for a bracket [f, g], or whether something is an invariant"),
     row(Place::Experiment, &[c('I')], Action::SearchFurther, "", "search for constants of the motion, and further each time: to a higher degree, for longer"),
     row(Place::Experiment, &[c('B')], Action::Brackets, "", "the table of brackets of the constants of the motion, or away with it"),
-    row(Place::Experiment, &[c('J')], Action::ApplyFlow, "", "carry the state along the flow of a constant of the motion, to another orbit"),
+    row(Place::Experiment, &[c('J')], Action::ApplyFlow, "", "carry the state along the flow of a constant of the motion or a symmetry, to another orbit"),
     row(Place::Experiment, &[c('/')], Action::Palette, "", "search all actions by name, as : does"),
     row(Place::Experiment, &[c('P')], Action::Pin, "", "pin this run: it goes on beside what follows, with its values and its method"),
     row(Place::Experiment, &[c('d')], Action::AddNeighbour, "", "add a neighbour, a motion from close beside, and show how they part: ln d against time"),

@@ -9,6 +9,7 @@ use std::time::Duration;
 use super::answers::{Answers, EquilibriaSearch};
 use super::history::History;
 use super::pending::PendingChanges;
+use super::symmetries::SymmetrySearch;
 use super::{DrawnPanes, LawInView, Loaded, Pane, Search, Selection, ValueId};
 use crate::experiment::{Checkpoint, Snapshot, Status};
 use crate::expr::Zero;
@@ -46,8 +47,9 @@ pub struct Lab {
     pub(super) closed_forms_asked: Option<u64>,
     /// The search for constants of the motion.
     pub search: Search,
-    /// The flow of a constant that is being followed.
+    /// The flow that is being followed.
     pub(super) flow: Option<u64>,
+    pub(super) symmetries: SymmetrySearch,
     /// Values requested and not yet confirmed by a snapshot.
     pub(super) pending: Vec<(ValueId, f64)>,
     /// Other changes requested and not yet confirmed.
@@ -120,6 +122,7 @@ impl Lab {
             closed_forms_asked: None,
             search: Search::default(),
             flow: None,
+            symmetries: SymmetrySearch::default(),
             pending: Vec::new(),
             asked: PendingChanges::default(),
             speed_wish: None,

@@ -42,7 +42,7 @@ pub enum Choosing {
     Theme,
     /// A lesson or a demo.
     Guide,
-    /// A constant of the motion whose flow is applied.
+    /// A constant of the motion or a symmetry whose flow is applied.
     Flow,
     /// Where a motion begins: at an equilibrium, or along a mode.
     Equilibrium,
@@ -88,6 +88,10 @@ pub enum Choice {
     Impulse(usize),
     /// The constant of the motion of this index among those that have a flow.
     Flow(usize),
+    /// The symmetries of the equations of motion, which have flows, too.
+    Symmetries,
+    /// The symmetry of this index among those found.
+    Symmetry(usize),
     /// The offer of this index, among all offers for a plot.
     Offer(usize),
     /// A channel.

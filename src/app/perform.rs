@@ -452,7 +452,7 @@ impl App {
         }
         let now = match purpose {
             Purpose::Value(target) => lab.value(target),
-            Purpose::Flow(_) => Some(FLOW),
+            Purpose::Flow(_) | Purpose::SymmetryFlow(_) => Some(FLOW),
             Purpose::Step => method.map(|m| m.step),
             Purpose::Tolerance => method.and_then(|m| m.tolerance),
         };

@@ -154,6 +154,9 @@ impl App {
         if let Some(effects) = self.take_equilibria(ticket, &outcome) {
             return effects;
         }
+        if let Some(effects) = self.take_symmetries(ticket, &outcome) {
+            return effects;
+        }
         let lab = self.lab.as_mut();
         let waited = match &mut self.overlay {
             Some(Overlay::Prompt(prompt)) if prompt.awaits(ticket) => {

@@ -4,6 +4,9 @@
 
 use crate::num::{PrimeField, Residue, Unreduced};
 
+/// The rows that are taken off another at a time.
+const TOGETHER: usize = 4;
+
 /// The rows met so far, in echelon form: each has a leading one where those before it and after it have zero or
 /// come later.
 #[derive(Clone, Debug)]
@@ -35,20 +38,25 @@ impl Echelon {
         let field = self.field;
         // entries are reduced when their column is reached, and not after every row that is taken off them
         let mut sums: Vec<Unreduced> = row.into_iter().map(|x| field.unreduced(x)).collect();
+        // rows that are to be taken off, with their factors: four at a time are taken off what is to the right
+        let mut waiting: Vec<(Residue, usize)> = Vec::with_capacity(TOGETHER);
         for column in 0..self.width {
+            for &(factor, known) in &waiting {
+                field.add_product(&mut sums[column], factor, self.rows[known][column]);
+            }
             let entry = field.reduced(sums[column]);
             if entry.is_zero() {
                 continue;
             }
             if let Some(known) = self.leading[column] {
-                let factor = field.neg(entry);
-                let known = &self.rows[known];
-                for (sum, &y) in sums[column + 1..].iter_mut().zip(&known[column + 1..]) {
-                    field.add_product(sum, factor, y);
+                waiting.push((field.neg(entry), known));
+                if waiting.len() == TOGETHER {
+                    self.take_off(&mut waiting, &mut sums, column + 1);
                 }
                 continue;
             }
             let Some(scale) = field.inverse(entry) else { continue };
+            self.take_off(&mut waiting, &mut sums, column + 1);
             let mut row = vec![Residue::ZERO; self.width];
             for (x, &sum) in row[column..].iter_mut().zip(&sums[column..]) {
                 *x = field.mul(field.reduced(sum), scale);
@@ -58,6 +66,23 @@ impl Echelon {
             return true;
         }
         false
+    }
+
+    /// Adds the waiting rows times their factors to the sums from a column on.
+    fn take_off(&self, waiting: &mut Vec<(Residue, usize)>, sums: &mut [Unreduced], column: usize) {
+        let of = |k: usize| match waiting.get(k) {
+            Some(&(factor, row)) => (factor, &self.rows[row][column..]),
+            // nothing, beside whatever row
+            None => (Residue::ZERO, self.rows.first().map_or(&[][..], |row| &row[column..])),
+        };
+        if !waiting.is_empty() {
+            let [(a, w), (b, x), (c, y), (d, z)] = [0, 1, 2, 3].map(of);
+            let rows = w.iter().zip(x).zip(y.iter().zip(z));
+            for (sum, ((&w, &x), (&y, &z))) in sums[column..].iter_mut().zip(rows) {
+                self.field.add_products(sum, [a, b, c, d], [w, x, y, z]);
+            }
+        }
+        waiting.clear();
     }
 
     /// A basis of the null space: one vector for each column without a leading one.

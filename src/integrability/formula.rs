@@ -59,6 +59,23 @@ pub(super) fn cleared(pool: &mut Pool, coefficients: &[Expr]) -> Vec<Expr> {
     all.collect()
 }
 
+/// The greatest number of which the coefficients of all terms are whole multiples.
+pub(super) fn content(pool: &Pool, all: &[Expr]) -> Number {
+    let mut numbers = Vec::new();
+    for &e in all {
+        match pool.node(e) {
+            Node::Number(n) => numbers.push(*n),
+            Node::Product(c, _) => numbers.push(*c),
+            Node::Sum(constant, terms) => {
+                numbers.extend([*constant].into_iter().chain(terms.iter().map(|(c, _)| *c)));
+            }
+            _ => numbers.push(Number::ONE),
+        }
+    }
+    let nonzero = numbers.into_iter().filter(|n| !n.is_zero());
+    nonzero.reduce(Number::common_divisor).map_or(Number::ONE, Number::abs)
+}
+
 /// The least integers in the same ratio as some rationals, the first of them positive.
 fn least_integers(all: &[Number]) -> Vec<Number> {
     let fraction = |n: &Number| match n {

@@ -14,7 +14,7 @@ use rustc_hash::FxHashMap;
 use super::ansatz::orders;
 use super::echelon::{Echelon, reduced};
 use super::evaluator::{Evaluator, Random, Unsupported};
-use super::formula::cleared;
+use super::formula::{cleared, content};
 use super::law;
 use super::naming::name_of;
 use super::noether::{DEGREE, MOST, SPARE, Symmetries, words};
@@ -162,7 +162,7 @@ pub fn point_symmetries(
 }
 
 /// q̈ as a function of (q, q̇, t).
-fn accelerations(equations: &mut Equations) -> Result<Vec<Expr>, Unsupported> {
+pub(super) fn accelerations(equations: &mut Equations) -> Result<Vec<Expr>, Unsupported> {
     let unknown = |why: String| Unsupported(format!("the accelerations are not known: {why}"));
     match equations.flow.clone() {
         Flow::Lagrange { .. } => equations.solved().clone().map_err(|why| unknown(why.0)),
@@ -477,7 +477,9 @@ impl Problem {
         for (k, c) in places.into_iter().zip(coefficients) {
             blocks[k / m].push(pool.mul(c, self.monomials[k % m]));
         }
-        let mut sums = blocks.iter().map(|terms| pool.sum(terms));
+        let sums: Vec<Expr> = blocks.iter().map(|terms| pool.sum(terms)).collect();
+        let common = content(pool, &sums).recip();
+        let mut sums = sums.into_iter().map(|e| pool.linear(Number::ZERO, &[(common, e)]));
         let xi = sums.next()?;
         Some((xi, sums.collect()))
     }

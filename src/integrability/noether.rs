@@ -14,7 +14,7 @@ use rustc_hash::FxHashMap;
 use super::ansatz::orders;
 use super::echelon::{Echelon, reduced};
 use super::evaluator::{Evaluator, Random, Unsupported};
-use super::formula::cleared;
+use super::formula::{cleared, content};
 use super::law;
 use super::naming::name_of;
 use super::transformations::{generators_of, products};
@@ -323,6 +323,10 @@ impl Problem {
             blocks[k / m].push(pool.mul(c, self.monomials[k % m]));
         }
         let sums: Vec<Expr> = blocks.iter().map(|terms| pool.sum(terms)).collect();
+        // f may need a denominator that the changes do not have
+        let common = content(pool, &sums[..=n]).recip();
+        let sums: Vec<Expr> =
+            sums.into_iter().map(|e| pool.linear(Number::ZERO, &[(common, e)])).collect();
         let (xi, eta, f) = (sums[0], sums[1..=n].to_vec(), sums[n + 1]);
         let velocities: Vec<Expr> = self.velocities.iter().map(|&v| pool.variable(v)).collect();
         let mut seeds = vec![(self.time, Expr::ONE)];

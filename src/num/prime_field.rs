@@ -101,6 +101,15 @@ impl PrimeField {
         sum.0 = if next >= bound { next - bound } else { next };
     }
 
+    /// Adds four products to a sum. Each is below p² < p · 2⁶², so that one subtraction still keeps the bound.
+    #[inline]
+    pub fn add_products(&self, sum: &mut Unreduced, a: [Residue; 4], b: [Residue; 4]) {
+        let product = |k: usize| u128::from(a[k].0) * u128::from(b[k].0);
+        let next = sum.0 + (product(0) + product(1) + product(2) + product(3));
+        let bound = u128::from(self.p) << 64;
+        sum.0 = if next >= bound { next - bound } else { next };
+    }
+
     /// The residue of a sum of products.
     #[inline]
     pub fn reduced(&self, sum: Unreduced) -> Residue {
@@ -257,6 +266,11 @@ mod tests {
             for _ in 0..100 {
                 field.add_product(&mut sum, largest, largest);
                 slow = field.add(slow, field.mul(largest, largest));
+                assert_eq!(field.reduced(sum), slow);
+                field.add_products(&mut sum, [largest; 4], [largest; 4]);
+                for _ in 0..4 {
+                    slow = field.add(slow, field.mul(largest, largest));
+                }
                 assert_eq!(field.reduced(sum), slow);
             }
         }

@@ -105,7 +105,10 @@ pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
     if findings.hamiltonian && constants > 0 {
         let brackets = constants > 1 && !lab.search.brackets;
         let hint = if brackets { "B shows the brackets of the constants; " } else { "" };
-        page.words(Role::Dim, format!("{hint}J carries the state along the flow of one."));
+        page.words(
+            Role::Dim,
+            format!("{hint}J carries the state along the flow of one, or of a symmetry."),
+        );
     }
     if lab.search.brackets {
         let parameters = !lab.loaded.model.parameters.is_empty();

@@ -323,7 +323,9 @@ fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &Field) {
     };
     let glyphs = canvas.look.glyphs;
     let name = match (field.purpose, &facts) {
-        (Purpose::Flow(_), _) => "how far, ε; less than zero leads back".to_owned(),
+        (Purpose::Flow(_) | Purpose::SymmetryFlow(_), _) => {
+            "how far, ε; less than zero leads back".to_owned()
+        }
         (Purpose::Step, _) => "step".to_owned(),
         (Purpose::Tolerance, _) => "tolerance".to_owned(),
         (_, Some(facts)) => glyphs.pick(&facts.shown, &facts.name).clone(),

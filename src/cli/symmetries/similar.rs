@@ -75,8 +75,9 @@ impl Others {
                 let (count, searched) = (points.found.len(), &points.searched);
                 let complete =
                     if points.complete { ", and there are no others (proved)" } else { "" };
+                let what = if count == 1 { "point symmetry" } else { "point symmetries" };
                 text.push_str(&format!(
-                    "\n{count} point symmetries of the equations of motion, {own} of them \
+                    "\n{count} {what} of the equations of motion, {own} of them \
                      Noether's{complete} among\n  {searched}\n"
                 ));
             }
@@ -87,13 +88,20 @@ impl Others {
                 known.scaled.iter().map(|&s| script.symbol(&equations.pool, s)).collect();
             let mut pool = equations.pool.clone();
             let (period, virial) = exponents(&mut pool, known);
-            let [period, virial] = [period, virial].map(|e| script.math(&pool, e));
+            let time = match period {
+                Expr::ZERO => "as long".to_owned(),
+                Expr::ONE => "l times as long".to_owned(),
+                power => format!("l^({}) times as long", script.math(&pool, power)),
+            };
+            let virial = match virial {
+                Expr::ONE => String::new(),
+                factor => format!("({}) ", script.math(&pool, factor)),
+            };
             text.push_str(&format!(
-                "\nSimilarity\n  T is of degree 2 and V of degree {} in {} (proved)\n  a motion {} times as large \
-                 takes l^({period}) times as long\n  virial theorem: <T> = ({virial}) <V> where {} stays bounded\n",
+                "\nSimilarity\n  T is of degree 2 and V of degree {} in {} (proved)\n  a motion l times as large \
+                 takes {time}\n  virial theorem: <T> = {virial}<V> where {} stays bounded\n",
                 math(known.degree),
                 names.join(", "),
-                "l",
                 math(known.virial),
             ));
         }

@@ -1,6 +1,6 @@
 //! The flow of a constant of the motion applied in the lab: the state is carried to another orbit of the same energy.
 
-use phaselab::app::Overlay;
+use phaselab::app::{Item, Overlay};
 
 use super::real::Real;
 use crate::hand::lowered;
@@ -96,9 +96,108 @@ fn the_runge_lenz_vector_leads_to_another_ellipse_of_the_same_energy() {
     assert!(farthest > 1e-2, "{farthest}");
 }
 
+/// The symmetry whose changes are these; its flow is applied.
+fn apply_symmetry(real: &mut Real, changes: &str, epsilon: &str) {
+    real.press("J");
+    let line = |real: &Real, what: &dyn Fn(&Item) -> bool| {
+        let Some(Overlay::Menu(menu)) = &real.app.overlay else { panic!("no list") };
+        let line = menu.items.iter().position(what);
+        line.unwrap_or_else(|| panic!("{changes} is not among {:?}", menu.items))
+    };
+    let symmetries = line(real, &|item| item.label == "symmetries …");
+    real.press(&"Down ".repeat(symmetries));
+    real.press("Enter");
+    let symmetry = line(real, &|item| item.about == changes);
+    real.press(&"Down ".repeat(symmetry));
+    real.press("Enter");
+    for c in epsilon.chars() {
+        real.press(&c.to_string());
+    }
+    real.press("Enter");
+}
+
+/// Kepler's third law. Of t by 3t and q by 2q the flow to ε enlarges orbits by e^{2ε} and divides velocities by e^{ε};
+/// the time of revolution grows by e^{3ε}, which is seen where the new orbit closes.
 #[test]
-fn where_constants_have_no_flow_the_key_says_why() {
+fn the_scaling_of_kepler_carries_an_ellipse_to_one_of_another_size() {
+    let lagrangian = lowered(
+        "title = \"Kepler\"\n[coordinates]\nx = { initial = 1.0, velocity = 0.1 }\n\
+         y = { initial = 0.0, velocity = 1.2 }\n[lagrangian]\n\
+         L = \"1/2*(x'^2 + y'^2) + 1/sqrt(x^2 + y^2)\"\n",
+    );
+    let hamiltonian = lowered(
+        "title = \"Kepler\"\n[coordinates]\nx = { initial = 1.0, momentum = 0.1 }\n\
+         y = { initial = 0.0, momentum = 1.2 }\n[hamiltonian]\n\
+         H = \"1/2*(p_x^2 + p_y^2) - 1/sqrt(x^2 + y^2)\"\n",
+    );
+    for loaded in [lagrangian, hamiltonian] {
+        let mut real = Real::with(loaded);
+        real.run(90);
+        let names = ["x", "y", "x'", "y'", "energy"];
+        let before = names.map(|name| value(&real, name));
+        apply_symmetry(&mut real, "t by 3 t, x by 2 x, y by 2 y", "0.1");
+        let after = names.map(|name| value(&real, name));
+        let (size, speed) = (0.2_f64.exp(), (-0.1_f64).exp());
+        let factors = [size, size, speed, speed, speed * speed];
+        for (k, name) in names.iter().enumerate() {
+            let expected = before[k] * factors[k];
+            assert!((after[k] - expected).abs() < 1e-12, "{name}: {}, not {expected}", after[k]);
+        }
+        // T = 2π a^{3/2} with a = −1/2E of the old orbit
+        let revolution = std::f64::consts::TAU * (-0.5 / before[4]).powf(1.5) * 0.3_f64.exp();
+        real.experiment.advance(revolution, u64::MAX);
+        real.look();
+        for (k, name) in names.iter().enumerate() {
+            assert!((value(&real, name) - after[k]).abs() < 1e-11, "{name} after a revolution");
+        }
+        // less than zero leads back
+        apply_symmetry(&mut real, "t by 3 t, x by 2 x, y by 2 y", "-0.1");
+        for (name, value_before) in names.iter().zip(before) {
+            assert!((value(&real, name) - value_before).abs() < 1e-11, "{name}");
+        }
+    }
+}
+
+/// Where the law contains the time, the motion as a whole is carried: from x(0) = 1 of x¨ = −x + cos 2t, along
+/// x by cos t and along x by sin t, to solutions with the same clock.
+#[test]
+fn with_a_drive_the_carried_motion_keeps_the_clock() {
+    let loaded = lowered(
+        "title = \"Driven\"\n[coordinates]\nx = { initial = 1.0, velocity = 0.5 }\n\
+         [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2 + x*cos(2*t)\"\n",
+    );
+    for (changes, [c, s]) in [("x by cos t", [1.0, 0.0]), ("x by sin t", [0.0, 1.0])] {
+        let mut real = Real::with(loaded.clone());
+        real.run(100);
+        apply_symmetry(&mut real, changes, "0.3");
+        real.experiment.advance(2.0, u64::MAX);
+        real.look();
+        // x = −cos(2t)/3 + (4/3 + 0.3 c) cos t + (1/2 + 0.3 s) sin t
+        let (sin, cos) = 2.0_f64.sin_cos();
+        let expected = -4.0_f64.cos() / 3.0 + (4.0 / 3.0 + 0.3 * c) * cos + (0.5 + 0.3 * s) * sin;
+        assert!((value(&real, "x") - expected).abs() < 1e-12, "{changes}");
+    }
+}
+
+/// The shift of time needs no energy that is constant: with friction the state is that of ε before.
+#[test]
+fn the_shift_of_time_leads_back_along_a_motion_with_friction() {
     let mut real = Real::of("damped-pendulum");
+    real.run(60);
+    let time = real.experiment.time();
+    apply_symmetry(&mut real, "t by 1", "0.25");
+    let mut own = Real::of("damped-pendulum");
+    own.experiment.advance(time - 0.25, u64::MAX);
+    own.look();
+    for name in ["theta", "theta'"] {
+        assert!((value(&real, name) - value(&own, name)).abs() < 1e-12, "{name}");
+    }
+}
+
+/// Constraints have neither: no flow of a constant, and symmetries are not searched.
+#[test]
+fn where_nothing_has_a_flow_the_key_says_why() {
+    let mut real = Real::of("rolling-coin");
     real.press("J");
     assert!(real.app.notice.as_ref().is_some_and(|n| n.text.contains("nothing to apply")));
     real.press("2 J");

@@ -1,0 +1,163 @@
+//! Symmetries of the equations of motion in the lab: the search as a job, the list of what it found, and the flow of one
+//! applied to the state.
+//!
+//! In: keys, the outcome of the job. Out: effects, a list. Never here: the search, or how a flow is followed.
+
+use std::sync::Arc;
+
+use super::flow::FlowGenerator;
+use super::{
+    App, Asker, Choice, Choosing, Effect, Item, Lab, Menu, Notification, Overlay, UnderWay,
+};
+use crate::expr::Expr;
+use crate::instrument::Answer;
+use crate::integrability::{PointSymmetry, point_symmetries, symmetries};
+use crate::job::{Job, Outcome, Progress};
+use crate::mechanics::Equations;
+use crate::model::Model;
+
+/// The symmetries of a lab's system.
+#[derive(Clone, Debug, Default)]
+pub(super) struct SymmetrySearch {
+    /// The symmetries that were found, with the values of the parameters.
+    found: Option<Arc<FoundSymmetries>>,
+    under_way: Option<UnderWay>,
+}
+
+/// What a search found.
+#[derive(Clone, Debug)]
+struct FoundSymmetries {
+    /// The equations, in which the changes stand.
+    equations: Equations,
+    parameters: Vec<f64>,
+    found: Vec<PointSymmetry>,
+}
+
+impl FoundSymmetries {
+    /// Makes the search: Noether's first, so that they are known for what they are.
+    fn search(
+        mut model: Model,
+        mut equations: Equations,
+        parameters: Vec<f64>,
+        progress: &Progress,
+    ) -> Result<FoundSymmetries, String> {
+        model.parameters.iter_mut().zip(&parameters).for_each(|(p, &value)| p.value = value);
+        equations.pool.set_cancel(progress.token().clone());
+        if equations.has_pending_forms() {
+            equations.find_closed_forms();
+        }
+        let is_over = || progress.is_cancelled();
+        let noether = symmetries(&model, &mut equations, &is_over).ok();
+        let found = point_symmetries(&model, &mut equations, noether.as_ref(), &is_over);
+        let found = found.map_err(|why| why.to_string())?.found;
+        Ok(FoundSymmetries { equations, parameters, found })
+    }
+}
+
+impl Lab {
+    /// Whether symmetries of its equations can be searched: accelerations that no constraint acts on.
+    pub(super) fn may_have_symmetries(&self) -> bool {
+        let model = &self.loaded.model;
+        model.constraints.is_empty() && !model.is_poisson()
+    }
+
+    /// The symmetries that were found at the parameters' present values.
+    fn found_symmetries(&self) -> Option<&Arc<FoundSymmetries>> {
+        let now = self.seen()?;
+        self.symmetries.found.as_ref().filter(|found| found.parameters[..] == now.parameters[..])
+    }
+}
+
+impl App {
+    /// Lists the symmetries, or looks for them first.
+    pub(super) fn find_symmetries(&mut self) -> Vec<Effect> {
+        let Some(lab) = &self.lab else { return Vec::new() };
+        if lab.found_symmetries().is_some() {
+            return self.list_symmetries();
+        }
+        let Some(snapshot) = lab.seen() else { return Vec::new() };
+        let parameters = snapshot.parameters.to_vec();
+        let (model, equations) = (Arc::clone(&lab.loaded.model), Arc::clone(&lab.loaded.equations));
+        let job = Job::new("symmetries", move |progress| {
+            let (model, equations) = ((*model).clone(), (*equations).clone());
+            let found = FoundSymmetries::search(model, equations, parameters.clone(), progress);
+            Answer::new(found.map(Arc::new))
+        });
+        let computation = self.computation(Asker::Symmetries, job);
+        if let Some(lab) = &mut self.lab {
+            lab.symmetries.under_way = Some(UnderWay::new(&computation));
+        }
+        self.notice =
+            Some(Notification::info("Looking for symmetries of the equations of motion."));
+        vec![Effect::Compute(computation)]
+    }
+
+    /// Takes in what the search has found. Returns `None` if the ticket is not the search's.
+    pub(super) fn take_symmetries(
+        &mut self,
+        ticket: u64,
+        outcome: &Outcome<Answer>,
+    ) -> Option<Vec<Effect>> {
+        let search = &mut self.lab.as_mut()?.symmetries;
+        search.under_way.take_if(|job| job.ticket == ticket)?;
+        self.notice = None;
+        let found = match outcome {
+            Outcome::Cancelled => return Some(Vec::new()),
+            Outcome::Failed(sentence) => return Some(self.notify(sentence.clone())),
+            Outcome::Done(answer) => answer.of::<Result<Arc<FoundSymmetries>, String>>()?,
+        };
+        Some(match found {
+            Err(why) => self.notify(format!("No symmetries are looked for here: {why}.")),
+            Ok(found) if found.found.is_empty() => {
+                self.notify("The equations of motion have no symmetry among those searched.")
+            }
+            Ok(found) => {
+                search.found = Some(Arc::clone(found));
+                // what is being typed or read is not covered
+                if self.overlay.is_none() { self.list_symmetries() } else { Vec::new() }
+            }
+        })
+    }
+
+    /// Opens the list of what was found.
+    fn list_symmetries(&mut self) -> Vec<Effect> {
+        let Some(found) = self.lab.as_ref().and_then(Lab::found_symmetries) else {
+            return Vec::new();
+        };
+        let item = |(index, symmetry): (usize, &PointSymmetry)| Item {
+            label: symmetry.name.clone(),
+            about: changes(&found.equations, symmetry),
+            keys: String::new(),
+            refusal: None,
+            choice: Choice::Symmetry(index),
+        };
+        let items = found.found.iter().enumerate().map(item).collect();
+        let title = "Carry the state along the flow of a symmetry";
+        self.overlay = Some(Overlay::Menu(Menu::new(title, Choosing::Flow, items)));
+        Vec::new()
+    }
+
+    /// Follows the flow of a symmetry from the current state.
+    pub(super) fn follow_symmetry(&mut self, index: usize, epsilon: f64) -> Vec<Effect> {
+        let Some(found) = self.lab.as_ref().and_then(Lab::found_symmetries) else {
+            return Vec::new();
+        };
+        let Some(symmetry) = found.found.get(index) else { return Vec::new() };
+        let generator = FlowGenerator::Symmetry(symmetry.time, symmetry.coordinates.clone());
+        let equations = found.equations.clone();
+        self.follow(generator, equations, epsilon)
+    }
+}
+
+/// What a symmetry changes: `t → t + ε t, x → x + ε 2x/3`.
+fn changes(equations: &Equations, symmetry: &PointSymmetry) -> String {
+    let pool = &equations.pool;
+    let time = (equations.symbols.time, symmetry.time);
+    let coordinates = equations.coordinates.iter().map(|c| c.position);
+    let all = [time].into_iter().chain(coordinates.zip(symmetry.coordinates.iter().copied()));
+    let moved = all.filter(|(_, e)| *e != Expr::ZERO).map(|(symbol, e)| {
+        let name = &pool.symbol_info(symbol).unicode;
+        format!("{name} by {}", pool.unicode(e))
+    });
+    moved.collect::<Vec<_>>().join(", ")
+}
