@@ -63,7 +63,7 @@ mod workbench;
 pub use action::{Action, Axes, Direction, EditCommand};
 pub use buffer::{Asking, BufferDiagnostic, SourceBuffer, State as SheetState, Unsaved};
 pub use computation::{Asker, Computation, UnderWay};
-pub use drawn::{Drawn, DrawnPanes, LawInView};
+pub use drawn::{Drawn, DrawnPanes, LawInView, PlotsInView};
 pub use editor::{Caret, Editor};
 pub use event::{Checked, Effect, Event, SaveError};
 pub use field::{Field, Purpose};

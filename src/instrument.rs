@@ -13,6 +13,7 @@ mod equilibria;
 mod exponents;
 mod kind;
 mod legendre;
+mod map;
 mod opening;
 mod orbit;
 mod phase;
@@ -30,17 +31,20 @@ mod spectrum;
 mod table;
 mod time;
 mod transformation;
+mod varied;
 
 pub use equilibria::{
     FoundEquilibria, described, described_mode, equilibria_search, start_along, start_at, value_at,
 };
 pub use exponents::largest_exponent;
 pub use kind::{Answer, Axis, Instrument, Measure, Need, NoStart, Offer};
-pub use picture::{Across, Entry, Heading, Ink, Layer, Level, Picture, Sign, Stroke, Upwards};
+pub use picture::{
+    Across, Entry, Field, Heading, Ink, Layer, Level, Picture, Sign, Stroke, Upwards,
+};
 pub use plot::{Columns, Plot};
 pub use potential::Along;
 pub use present::{Physics, Present, Returned};
-pub use saved::{Quantity, SavedPlot};
+pub use saved::{Quantity, SavedPlot, SavedVariations};
 pub use seed::{MOST_SEEDS, Seed};
 pub use sight::{CameraPose, Sight, Viewport};
 pub use table::{INSTRUMENTS, listed, named, offers};

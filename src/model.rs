@@ -26,7 +26,7 @@ pub use coordinate::Coordinate;
 pub use description::{CommonSymbols, Info, Mechanics, Model, RunSettings};
 pub use occurrence::{Action, Direction, Event, Impulse};
 pub use parameter::{Parameter, Scale};
-pub use picture::{Channel, Follow, Point, Shape, View};
+pub use picture::{Channel, Follow, Point, Shape, Variation, View};
 pub use ramp::{Ramp, RampRefused, Ramped, replace_by_ramps};
 pub use scope::{Allowed, Scope};
 pub use transformation::{

@@ -16,6 +16,7 @@ mod constants;
 mod cursor;
 mod detail;
 mod equations;
+mod field;
 pub mod frame;
 mod gauges;
 pub mod glyphs;

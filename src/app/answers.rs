@@ -8,6 +8,7 @@ use std::time::Duration;
 use super::computation::UnderWay;
 use crate::instrument::{Answer, Columns, FoundEquilibria, Instrument, Plot};
 use crate::job::Outcome;
+use crate::model::Variation;
 
 /// The results and running jobs for the plots of a lab.
 #[derive(Clone, Debug, Default)]
@@ -23,7 +24,7 @@ pub(super) struct PlotJob {
     pub(super) kind: &'static dyn Instrument,
     pub(super) columns: Columns,
     pub(super) view: Option<usize>,
-    pub(super) over: Option<usize>,
+    pub(super) over: Vec<Variation>,
     pub(super) answer: Option<Answer>,
     pub(super) under_way: Option<UnderWay>,
 }
@@ -32,7 +33,7 @@ impl PlotJob {
     /// Whether it belongs to a plot with these contents, whatever its view.
     pub(super) fn is_of(&self, plot: &Plot) -> bool {
         (self.kind, &self.columns) == (plot.kind, &plot.columns)
-            && (self.view, self.over) == (plot.view, plot.over)
+            && (self.view, &self.over) == (plot.view, &plot.over)
     }
 }
 

@@ -65,7 +65,10 @@ impl App {
         let Some((kind, offer)) = offers(physics).into_iter().nth(index) else {
             return Vec::new();
         };
-        let begun = Plot::new(kind, (offer.columns, offer.view), physics.model).opened(physics);
+        let mut begun = Plot::new(kind, (offer.columns, offer.view), physics.model).opened(physics);
+        if begun.over.is_empty() {
+            begun.over = offer.over;
+        }
         self.choose_on(plot, begun, offer.label)
     }
 

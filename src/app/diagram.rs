@@ -4,6 +4,7 @@
 
 use super::{App, Effect, Lab, Pane, ValueId};
 use crate::instrument::{Plot, named};
+use crate::model::Variation;
 
 impl App {
     /// Shows what becomes of the motion over the range of the selected parameter.
@@ -24,14 +25,14 @@ impl Lab {
         let Some(kind) = named("diagram") else { return };
         let physics = self.loaded.physics();
         let views = &physics.model.views;
-        let of_file = views.iter().position(|view| view.over == Some(over));
+        let of_file = views.iter().position(|view| view.over == [Variation::Parameter(over)]);
         let view = of_file.or_else(|| views.iter().position(|view| view.section.is_some()));
         let mut plot = Plot::new(kind, (Vec::new(), view), physics.model).opened(physics);
-        plot.over = Some(over);
+        plot.over = vec![Variation::Parameter(over)];
         let known = self.plots.iter().position(|shown| shown.kind == kind);
         let index = known.unwrap_or(self.plots.len());
         match self.plots.get(index) {
-            Some(shown) if shown.over == Some(over) => {}
+            Some(shown) if shown.over == plot.over => {}
             Some(_) => self.redraw(index, |shown, _| *shown = plot),
             None => self.plots.push(plot),
         }

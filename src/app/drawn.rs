@@ -26,6 +26,26 @@ pub struct DrawnPanes {
     pub single: bool,
     /// How much of the law of motion is in view.
     pub law: LawInView,
+    /// The pictures in view.
+    pub plots: PlotsInView,
+}
+
+/// The pictures in view; all of them before anything was drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PlotsInView(Option<u64>);
+
+impl PlotsInView {
+    /// Those of these indices.
+    pub fn of(indices: impl IntoIterator<Item = usize>) -> Self {
+        let bits = indices.into_iter().filter_map(|index| 1_u64.checked_shl(index as u32));
+        Self(Some(bits.fold(0, |all, bit| all | bit)))
+    }
+
+    /// Whether the picture of an index is among them.
+    pub fn has(self, index: usize) -> bool {
+        let bit = 1_u64.checked_shl(index as u32);
+        self.0.is_none_or(|all| bit.is_none_or(|bit| all & bit != 0))
+    }
 }
 
 /// How much of the law of motion is in view.

@@ -39,7 +39,7 @@ pub struct Lab {
     /// Whether no key has been pressed yet: the focus is where the program put it.
     pub untouched: bool,
     /// What drawing the panes has determined.
-    drawn: DrawnPanes,
+    pub(super) drawn: DrawnPanes,
     rods: Rods,
     /// The results computed in the background for the pictures, and the jobs under way.
     pub(super) answers: Answers,
@@ -220,6 +220,8 @@ impl Lab {
 
     /// Takes in what drawing the panes has determined. Where there is room for one only, the motion comes first.
     pub(super) fn take_drawn(&mut self, drawn: DrawnPanes) {
+        // what comes into view may be refined
+        self.answers.stale |= drawn.plots != self.drawn.plots;
         self.drawn = drawn;
         if let LawInView::Clipped(beyond) = drawn.law {
             self.law_scroll = self.law_scroll.min(beyond);

@@ -44,7 +44,7 @@ impl Lab {
             let answer = entry.and_then(|entry| entry.answer.clone());
             let under_way = match plot.kind.job(plot, &present, answer.as_ref()) {
                 Need::Nothing => continue,
-                Need::Addition(_) if !aside => None,
+                Need::Addition(_) if !aside || !self.drawn.plots.has(place) => None,
                 Need::Held => None,
                 Need::Job(job) | Need::Addition(job) => {
                     *tickets += 1;
@@ -55,8 +55,8 @@ impl Lab {
                     Some(under_way)
                 }
             };
-            let &Plot { kind, view, over, .. } = plot;
-            let columns = plot.columns.clone();
+            let &Plot { kind, view, .. } = plot;
+            let (columns, over) = (plot.columns.clone(), plot.over.clone());
             entries.push(PlotJob { kind, columns, view, over, answer, under_way });
         }
         self.answers.entries = entries;

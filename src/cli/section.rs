@@ -131,7 +131,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         return Err(CommandError::WrongUse(message));
     }
     let count = arguments.count.or(arguments.until.is_none().then_some(COUNT));
-    let plan = SectionPlan { event, count, until: arguments.until, idle: IDLE };
+    let plan =
+        SectionPlan { event, count, until: arguments.until, idle: IDLE, all_channels: false };
     let shown = shown_columns(&laid, wanted.as_deref())?;
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
 

@@ -49,7 +49,7 @@ impl Flow {
     }
 
     /// Carries a state forwards through these times, which do not decrease and are not before it, and reads these channels
-    /// at each: of the first `columns` of the system.
+    /// at each.
     pub fn carry(&self, from: &State, times: &[f64], channels: &[usize]) -> Carried {
         let mut carried = Carried::default();
         // where it ends early is what is there
@@ -72,7 +72,11 @@ impl Flow {
         };
         motion.restore(from, &self.parameters, self.start, &[])?;
         let mut observer = motion.system().observer(&self.parameters);
-        let mut values = vec![0.0; self.system.columns()];
+        // those after the columns are computed only where one of them is read
+        let columns = self.system.columns();
+        let leading = channels.iter().all(|&channel| channel < columns);
+        let count = if leading { columns } else { self.system.channels().len() };
+        let mut values = vec![0.0; count];
         let last = times.last().copied().unwrap_or(from.time);
         for &time in times {
             loop {
@@ -85,7 +89,11 @@ impl Flow {
                     return Ok(None);
                 }
             }
-            observer.observe_columns(motion.state(), &mut values)?;
+            if leading {
+                observer.observe_columns(motion.state(), &mut values)?;
+            } else {
+                observer.observe(motion.state(), &mut values)?;
+            }
             seen.push(channels.iter().map(|&c| values[c]).collect());
         }
         Ok(Some(motion.state().clone()))

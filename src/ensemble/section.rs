@@ -24,6 +24,8 @@ pub struct SectionPlan {
     pub until: Option<f64>,
     /// An orbit without an end in time ends after so many steps without a crossing.
     pub idle: u64,
+    /// Whether a crossing has all channels of the system, and not only its columns.
+    pub all_channels: bool,
 }
 
 /// How an orbit ended.
@@ -54,7 +56,7 @@ impl OrbitStatus {
 /// The crossings of one orbit.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Crossings {
-    /// For each crossing the time, then the value of every column of the system.
+    /// For each crossing the time, then the value of every column, or every channel, of the system.
     pub rows: Vec<Vec<f64>>,
     /// How the orbit ended.
     pub status: OrbitStatus,
@@ -123,7 +125,8 @@ pub fn crossings(
         return Crossings::refused(&motion.explained(why));
     }
     let observer = motion.system().observer(&start.parameters);
-    let values = vec![0.0; system.columns()];
+    let count = if plan.all_channels { system.channels().len() } else { system.columns() };
+    let values = vec![0.0; count];
     let mut orbit =
         SectionOrbit { motion, observer, values, holdings: 0, plan, start, rows: Vec::new() };
     let (status, message) = orbit.follow(system.cancel());
@@ -194,7 +197,11 @@ impl SectionOrbit<'_> {
             self.holdings = self.motion.holdings();
             self.observer = self.motion.system().observer(&self.start.parameters);
         }
-        self.observer.observe_columns(self.motion.state(), &mut self.values)?;
+        if self.plan.all_channels {
+            self.observer.observe(self.motion.state(), &mut self.values)?;
+        } else {
+            self.observer.observe_columns(self.motion.state(), &mut self.values)?;
+        }
         self.rows.push([&[time], &self.values[..]].concat());
         Ok(())
     }

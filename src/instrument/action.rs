@@ -62,6 +62,7 @@ impl Instrument for Action {
                 .to_owned(),
             columns: vec![vec![channel]],
             view: None,
+            over: Vec::new(),
         };
         physics.positions().map(offer).collect()
     }

@@ -9,18 +9,18 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::section::zero;
+use super::varied::{self, VariedConditions};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, Present, Upwards,
 };
-use crate::dynamics::{Chaos, PhaseSpace, lyapunov};
-use crate::ensemble::{SectionPlan, Start, crossings, in_order};
+use crate::ensemble::{SectionPlan, crossings, in_order};
 use crate::expr::Expr;
-use crate::integrate::{Method, Settings, Stepping, method_named};
+use crate::integrate::{Method, method_named};
 use crate::job::{Job, Progress};
-use crate::mechanics::{Equations, Valuation};
-use crate::model::{Model, View};
-use crate::system::{InitialOverride, System};
+use crate::mechanics::Equations;
+use crate::model::{Model, Variation, View};
+use crate::system::System;
 
 /// The levels of the picture.
 const NOW: Level = 0;
@@ -43,9 +43,6 @@ const IDLE: u64 = 4000;
 /// An exponent is followed over so many seconds of the wall clock at the file's own speed.
 const SECONDS: f64 = 120.0;
 
-/// The tolerance of the method: a dot is a thousandth of the picture.
-const TOLERANCE: f64 = 1e-10;
-
 /// Crossings closer than this part of the range of all count as one.
 const SAME: f64 = 1e-3;
 
@@ -54,7 +51,7 @@ pub(super) struct Diagram;
 
 /// What was computed, and under which conditions.
 struct ComputedDiagram {
-    conditions: DiagramConditions,
+    conditions: VariedConditions,
     /// The numbers at each value of the parameter.
     columns: Vec<(f64, Vec<f64>)>,
     /// All of them as points.
@@ -63,18 +60,6 @@ struct ComputedDiagram {
     extent: [f64; 2],
     /// Why a motion could not be followed.
     refused: Option<String>,
-}
-
-/// What the numbers depend on; the parameter that is varied counts as zero.
-#[derive(Clone, PartialEq)]
-struct DiagramConditions {
-    over: usize,
-    section: Option<usize>,
-    window: [f64; 2],
-    parameters: Vec<f64>,
-    overrides: Vec<InitialOverride>,
-    method: &'static str,
-    settings: Settings,
 }
 
 impl Instrument for Diagram {
@@ -109,32 +94,30 @@ impl Instrument for Diagram {
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
         let views = physics.model.views.iter().enumerate();
         let offer = |(index, view): (usize, &View)| Offer {
-            label: format!("diagram over {}", view.over.map_or("?", |over| name(physics, over))),
+            label: format!("diagram over {}", name(physics, &view.over)),
             about: "where the motion crosses a surface, over the range of a parameter".to_owned(),
             columns: Vec::new(),
             view: Some(index),
+            over: Vec::new(),
         };
         views.filter(|(_, view)| view.kind == self.name()).map(offer).collect()
     }
 
     fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
-        let over = plot.over.map_or("?", |over| name(physics, over));
-        format!("{} over {over}", quantity(plot, physics))
+        format!("{} over {}", quantity(plot, physics), name(physics, &plot.over))
     }
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
-        let over = plot.over?;
-        let value = *present.parameters.get(over)?;
-        let entry = Entry::Number(name(present.physics, over).to_owned(), value);
+        let value = varied::now(present, *plot.over.first()?)?;
+        let entry = Entry::Number(name(present.physics, &plot.over).to_owned(), value);
         Some(plot.heading(present.physics, "Diagram", vec![entry]))
     }
 
     fn across(&self, plot: &Plot, present: &Present<'_>, _answer: Option<&Answer>) -> Across {
-        let Some(over) = plot.over else { return Across::Nothing };
-        let unit = &present.physics.model.parameters[over].unit;
-        let name = name(present.physics, over);
-        let named = if unit.is_empty() { name.to_owned() } else { format!("{name} [{unit}]") };
-        Across::Named(named, range(plot, present, over))
+        let over = plot.over.first();
+        over.zip(varied::range(plot, present, 0)).map_or(Across::Nothing, |(&over, range)| {
+            Across::Named(varied::with_unit(present.physics, over), range)
+        })
     }
 
     fn picture(
@@ -144,10 +127,10 @@ impl Instrument for Diagram {
         _seen: [f64; 2],
         answer: Option<&Answer>,
     ) -> Option<Picture> {
-        let (over, found) = (plot.over?, computed(answer));
+        let found = computed(answer);
         let points = found.map(|found| Arc::clone(&found.points)).unwrap_or_default();
         let [low, high] = heights(plot, present, found);
-        let now = present.parameters[over];
+        let now = varied::now(present, *plot.over.first()?)?;
         let reach = high - low;
         let line = vec![[now, low - reach], [now, high + reach]];
         let mut layers = vec![(NOW, Layer::Line(line, Ink::Level.into()))];
@@ -165,18 +148,13 @@ impl Instrument for Diagram {
         Some(Picture::Axes { upwards, layers, occurrences: None })
     }
 
-    fn parameter_at(
-        &self,
-        plot: &Plot,
-        _present: &Present<'_>,
-        at: [f64; 2],
-    ) -> Option<(usize, f64)> {
-        plot.over.map(|over| (over, at[0]))
+    fn variations_at(&self, plot: &Plot, at: [f64; 2]) -> Vec<(Variation, f64)> {
+        plot.over.iter().map(|&over| (over, at[0])).collect()
     }
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
         let (Some(conditions), Some(method)) =
-            (DiagramConditions::of(plot, present), method_named(present.method))
+            (VariedConditions::of(plot, present), method_named(present.method))
         else {
             return Need::Nothing;
         };
@@ -192,6 +170,7 @@ impl Instrument for Diagram {
             system: Arc::clone(system),
             method,
             conditions,
+            section: view(plot, present.physics).and_then(|view| view.section),
             channel: view(plot, present.physics)
                 .and_then(|view| system.channel_of(view.axes.first()?.first()?.expression)),
             columns,
@@ -213,7 +192,7 @@ impl Instrument for Diagram {
                 about: "how many different crossings there are at the value next to that of the running motion",
                 value: |plot, present, answer| {
                     let found = computed(answer)?;
-                    let now = *present.parameters.get(plot.over?)?;
+                    let now = varied::now(present, *plot.over.first()?)?;
                     let [low, high] = heights(plot, present, Some(found));
                     branches(&found.columns, now, SAME * (high - low))
                 },
@@ -222,40 +201,11 @@ impl Instrument for Diagram {
                 word: "value",
                 about: "the last number at that value: a crossing, or the exponent",
                 value: |plot, present, answer| {
-                    let now = *present.parameters.get(plot.over?)?;
+                    let now = varied::now(present, *plot.over.first()?)?;
                     nearest(&computed(answer)?.columns, now)?.1.last().copied()
                 },
             },
         ]
-    }
-}
-
-impl DiagramConditions {
-    fn of(plot: &Plot, present: &Present<'_>) -> Option<Self> {
-        let over = plot.over?;
-        let system = present.physics.system;
-        let mut parameters = present.parameters.to_vec();
-        // initial values of the file may follow the parameter; those that were set do not
-        let of_file = system.initial_values(&parameters);
-        let given = |(i, (&x, &own)): (usize, (&f64, &f64))| {
-            (x != own).then(|| system.initial_override(i, x))
-        };
-        let overrides = present.initial.iter().zip(&of_file).enumerate().filter_map(given);
-        let overrides = overrides.collect();
-        *parameters.get_mut(over)? = 0.0;
-        let mut settings = present.settings;
-        if method_named(present.method)?.stepping == Stepping::Adaptive {
-            settings.tolerance = Some(settings.tolerance.unwrap_or(0.0).max(TOLERANCE));
-        }
-        Some(Self {
-            over,
-            section: view(plot, present.physics).and_then(|view| view.section),
-            window: seen(plot, present, over),
-            parameters,
-            overrides,
-            method: present.method,
-            settings,
-        })
     }
 }
 
@@ -265,7 +215,8 @@ struct Task {
     equations: Arc<Equations>,
     system: Arc<System>,
     method: &'static Method,
-    conditions: DiagramConditions,
+    conditions: VariedConditions,
+    section: Option<usize>,
     /// The quantity at the crossings.
     channel: Option<usize>,
     columns: Vec<(f64, Vec<f64>)>,
@@ -277,7 +228,7 @@ impl Task {
         let system = self.system.with_cancel(progress.token().clone());
         let mut columns = self.columns.clone();
         let first = columns.len();
-        let [from, to] = conditions.window;
+        let [from, to] = conditions.window.first().copied().unwrap_or_default();
         let at = |i: usize| from + (to - from) * evenly(first + i);
         progress.expect(PART as u64);
         let mut refused = None;
@@ -311,23 +262,13 @@ impl Task {
     /// The crossings of the motion at a value of the parameter, or its largest exponent.
     fn numbers(&self, system: &System, value: f64) -> Result<Vec<f64>, String> {
         let Self { model, equations, method, conditions, .. } = self;
-        let mut parameters = conditions.parameters.clone();
-        parameters[conditions.over] = value;
-        let time = model.run.start;
-        let start = Start { time, parameters, overrides: conditions.overrides.clone() };
+        let physics = Physics { model, equations, system: &self.system };
+        let start = conditions.start(physics, &[value]);
         let settings = conditions.settings;
-        let (Some(section), Some(channel)) = (conditions.section, self.channel) else {
-            let space = PhaseSpace::of(model, equations, system, &start.parameters);
-            let space = space.map_err(|why| why.to_string())?;
-            let state = start.state(system).and_then(|state| space.state(&state));
-            let state = state.map_err(|why| why.to_string())?;
-            let until = time + SECONDS * model.run.speed;
-            let found = lyapunov(&space, (method, settings), &state, until, &mut |_| ());
-            let found = found.map_err(|why| why.to_string())?;
-            // what a regular motion has of it falls off with the time it was followed
-            let regular = found.verdict == Chaos::Regular;
-            let seen = |&exponent: &f64| if regular { exponent.min(0.0) } else { exponent };
-            return Ok(found.exponents.first().map(seen).into_iter().collect());
+        let (Some(section), Some(channel)) = (self.section, self.channel) else {
+            let length = SECONDS * model.run.speed;
+            let exponent = varied::exponent(physics, system, &start, (method, settings), length)?;
+            return Ok(exponent.into_iter().collect());
         };
         let dissipates = model.mechanics.dissipation() != Expr::ZERO;
         let transient = if dissipates { TRANSIENT } else { 0 };
@@ -336,6 +277,7 @@ impl Task {
             count: Some((transient + COUNT) as u64),
             until: None,
             idle: IDLE,
+            all_channels: true,
         };
         let found = crossings(system, method, settings, &start, &plan);
         let period = system.period(channel, &start.parameters);
@@ -366,8 +308,9 @@ fn view<'a>(plot: &Plot, physics: Physics<'a>) -> Option<&'a View> {
     physics.model.views.get(plot.view?).filter(|view| view.section.is_some())
 }
 
-fn name(physics: Physics<'_>, parameter: usize) -> &str {
-    physics.model.parameters.get(parameter).map_or("?", |parameter| &parameter.shown)
+/// The name of what it runs over.
+fn name<'a>(physics: Physics<'a>, over: &[Variation]) -> &'a str {
+    over.first().map_or("?", |&over| varied::named(physics, over).0)
 }
 
 /// What is drawn upwards.
@@ -380,36 +323,10 @@ fn quantity(plot: &Plot, physics: Physics<'_>) -> String {
     format!("{shown} where {}", zero(physics, view))
 }
 
-/// The ends of an axis that the file gives.
-fn given(plot: &Plot, present: &Present<'_>, axis: usize) -> Option<[f64; 2]> {
-    let model = present.physics.model;
-    let ends = view(plot, present.physics).filter(|view| view.over.is_some())?.ranges[axis]?;
-    let known = Valuation::of_parameters(model, present.parameters);
-    let [from, to] = ends.map(|end| known.value(&model.pool, end));
-    (from.is_finite() && to.is_finite() && from < to).then_some([from, to])
-}
-
-/// The range of the parameter: the view's, or its own.
-fn range(plot: &Plot, present: &Present<'_>, over: usize) -> [f64; 2] {
-    let own = &present.physics.model.parameters[over];
-    given(plot, present, 0).unwrap_or([own.min, own.max])
-}
-
-/// The part of it that is seen.
-fn seen(plot: &Plot, present: &Present<'_>, over: usize) -> [f64; 2] {
-    let [from, to] = range(plot, present, over);
-    let own = &present.physics.model.parameters[over];
-    let Some(viewport) = plot.viewport() else { return [from, to] };
-    let [low, high] = viewport.part(0, [from, to]);
-    // beyond its own range a parameter may mean nothing
-    let bounded = [low.max(from.min(own.min)), high.min(to.max(own.max))];
-    if bounded[0] < bounded[1] { bounded } else { [from, to] }
-}
-
 /// The range upwards: the file's, or that of the numbers.
 fn heights(plot: &Plot, present: &Present<'_>, found: Option<&ComputedDiagram>) -> [f64; 2] {
     let own = found.map(|found| found.extent).filter(|[low, high]| low < high);
-    given(plot, present, 1).or(own).unwrap_or([0.0, 1.0])
+    varied::given(plot, present, 1).or(own).unwrap_or([0.0, 1.0])
 }
 
 /// The numbers at the value of the parameter next to this one.

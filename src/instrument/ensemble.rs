@@ -69,6 +69,7 @@ impl Instrument for Ensemble {
                 .to_owned(),
             columns: vec![vec![x], vec![y]],
             view: None,
+            over: Vec::new(),
         };
         pairs.into_iter().map(offer).collect()
     }

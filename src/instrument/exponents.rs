@@ -49,6 +49,7 @@ impl Instrument for Exponents {
             about: "the largest Lyapunov exponent against time, regular or chaotic".to_owned(),
             columns: Columns::new(),
             view: None,
+            over: Vec::new(),
         }]
     }
 

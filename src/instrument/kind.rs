@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::{Across, Columns, Heading, Physics, Picture, Plot, Present, Seed};
 use crate::job::Job;
-use crate::model::View;
+use crate::model::{Variation, View};
 use crate::system::InitialOverride;
 
 /// A kind of plot: one row of [`INSTRUMENTS`](super::INSTRUMENTS). Common behaviour has defaults.
@@ -39,6 +39,11 @@ pub trait Instrument: Sync {
 
     /// Whether it runs over the range of a parameter, which a file names in `over`.
     fn is_over_a_parameter(&self) -> bool {
+        false
+    }
+
+    /// Whether it follows motions for a time, at whose end, or up to whose first crossing of a surface, a number is taken.
+    fn follows_motions(&self) -> bool {
         false
     }
 
@@ -114,14 +119,9 @@ pub trait Instrument: Sync {
         Err(NoStart::Nothing)
     }
 
-    /// The parameter, and its value, that a point of the picture stands for.
-    fn parameter_at(
-        &self,
-        _plot: &Plot,
-        _present: &Present<'_>,
-        _at: [f64; 2],
-    ) -> Option<(usize, f64)> {
-        None
+    /// The parameters and initial values that a point of the picture stands for.
+    fn variations_at(&self, _plot: &Plot, _at: [f64; 2]) -> Vec<(Variation, f64)> {
+        Vec::new()
     }
 
     /// The further orbits that are spread over what a viewport shows, if it is a section of orbits.
@@ -153,6 +153,8 @@ pub struct Axis {
     pub coordinate: bool,
     /// Whether it must be a new variable of a transformation.
     pub transformed: bool,
+    /// Whether it must be a parameter or an initial value, which differs between the motions of the picture.
+    pub varied: bool,
 }
 
 impl Axis {
@@ -163,6 +165,7 @@ impl Axis {
         several: false,
         coordinate: false,
         transformed: false,
+        varied: false,
     };
     /// One quantity on the vertical axis.
     pub const UPWARDS: Self = Self {
@@ -171,6 +174,7 @@ impl Axis {
         several: false,
         coordinate: false,
         transformed: false,
+        varied: false,
     };
 }
 
@@ -185,6 +189,8 @@ pub struct Offer {
     pub columns: Columns,
     /// The view of the file that it shows.
     pub view: Option<usize>,
+    /// What it runs over, where no view says so.
+    pub over: Vec<Variation>,
 }
 
 /// Why a point of a picture does not begin a motion.

@@ -110,6 +110,7 @@ impl Instrument for Legendre {
                 about: "the momentum as a slope, the Hamiltonian as an intercept".to_owned(),
                 columns,
                 view: None,
+                over: Vec::new(),
             })
         };
         physics.positions().filter_map(offer).collect()

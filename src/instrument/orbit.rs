@@ -73,6 +73,7 @@ impl Instrument for Orbit {
             about: "the periodic orbit near the motion: period, action, multipliers".to_owned(),
             columns: vec![vec![x], vec![y]],
             view: None,
+            over: Vec::new(),
         };
         pairs(physics).into_iter().map(offer).collect()
     }

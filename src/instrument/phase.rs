@@ -62,6 +62,7 @@ impl Instrument for Phase {
                 about: format!("{}{unit}", channel.name),
                 columns: vec![vec![index]],
                 view: None,
+                over: Vec::new(),
             }
         };
         physics.named().map(offer).collect()

@@ -110,6 +110,8 @@ pub enum Layer {
     Points(Arc<Vec<[f64; 2]>>, Ink),
     /// Many points, shaded by how many there are in each cell.
     Cloud(Arc<Vec<[f64; 2]>>),
+    /// A number at each place of a plane, shaded.
+    Field(Arc<Field>),
     /// Where the running motion has crossed a surface of section.
     Crossings {
         /// The index of the surface.
@@ -143,6 +145,38 @@ pub enum Layer {
     Point([f64; 2], Sign, Ink),
     /// Lines of text in a corner, over everything else.
     Legend(Vec<String>),
+}
+
+/// A number at each place of a lattice over a window.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Field {
+    /// The range of each axis.
+    pub window: [[f64; 2]; 2],
+    /// The places of a row.
+    pub columns: usize,
+    /// The numbers, the lowest row first; NaN where there is none.
+    pub values: Vec<f64>,
+    /// The numbers from the faintest shade to the strongest.
+    pub range: [f64; 2],
+}
+
+impl Field {
+    /// The number at a point, if the window has it.
+    pub fn at(&self, point: [f64; 2]) -> Option<f64> {
+        let rows = self.values.len() / self.columns.max(1);
+        let [i, j] = [(0, self.columns), (1, rows)].map(|(axis, count)| {
+            let [from, to] = self.window[axis];
+            let place = (point[axis] - from) / (to - from) * count as f64;
+            (place >= 0.0 && place < count as f64).then_some(place as usize)
+        });
+        self.values.get(j? * self.columns + i?).copied().filter(|x| x.is_finite())
+    }
+
+    /// How far a number is from the faintest shade, 0, to the strongest, 1.
+    pub fn share(&self, value: f64) -> f64 {
+        let [low, high] = self.range;
+        if high > low { ((value - low) / (high - low)).clamp(0.0, 1.0) } else { 0.0 }
+    }
 }
 
 /// The style of a line.

@@ -9,7 +9,7 @@ use super::{
     Answer, CameraPose, Entry, Heading, Instrument, MOST_SEEDS, Physics, Present, Seed, Sight,
     Viewport,
 };
-use crate::model::{Model, View};
+use crate::model::{Model, Variation, View};
 use crate::system::ChannelKind;
 
 /// The channels of each axis, in the order of the axes.
@@ -24,8 +24,8 @@ pub struct Plot {
     pub columns: Columns,
     /// The view of the file that it shows, if nothing is chosen.
     pub view: Option<usize>,
-    /// The parameter over whose range it runs.
-    pub over: Option<usize>,
+    /// What it runs over, in the order of the axes.
+    pub over: Vec<Variation>,
     /// The camera or the window.
     pub sight: Sight,
     /// The orbits added to a section.
@@ -44,8 +44,8 @@ impl Plot {
         } else {
             (view, Sight::Axes(Viewport::WHOLE))
         };
-        let over = view.and_then(|view| model.views.get(view)?.over);
-        Self { kind, columns, view, over, sight, seeds: Vec::new() }
+        let over = view.and_then(|view| model.views.get(view)).map(|view| view.over.clone());
+        Self { kind, columns, view, over: over.unwrap_or_default(), sight, seeds: Vec::new() }
     }
 
     /// The plot of a kind that shows a view of the file, or `None` if one of its quantities is not a channel.

@@ -80,6 +80,7 @@ impl Instrument for Potential {
                 about: y?.written.clone(),
                 columns: Vec::new(),
                 view: Some(index),
+                over: Vec::new(),
             })
         };
         views.filter(|(_, view)| view.kind == self.name()).filter_map(offer).collect()

@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::Instrument;
 use super::{CameraPose, MOST_SEEDS, Physics, Plot, Seed, Sight, Viewport, named};
-use crate::model::Model;
+use super::{Instrument, varied};
+use crate::model::{Model, Variation};
 use crate::system::Channel;
 
 /// A plot as saved in a session, with quantities by name.
@@ -19,9 +19,9 @@ pub struct SavedPlot {
     /// The index of the view of the file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub view: Option<usize>,
-    /// The parameter over whose range it runs, by its name.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub over: Option<String>,
+    /// What it runs over.
+    #[serde(default, skip_serializing_if = "SavedVariations::is_empty")]
+    pub over: SavedVariations,
     /// The camera, if it has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub eye: Option<CameraPose>,
@@ -35,6 +35,52 @@ pub struct SavedPlot {
     /// The quantities chosen for each axis, by the axis's key.
     #[serde(flatten)]
     pub axes: BTreeMap<String, Chosen>,
+}
+
+/// What a plot runs over, by name: a parameter, or the coordinate, velocity or momentum of an initial value.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum SavedVariations {
+    /// One of them.
+    One(String),
+    /// Several, or none.
+    Several(Vec<String>),
+}
+
+impl Default for SavedVariations {
+    fn default() -> Self {
+        Self::Several(Vec::new())
+    }
+}
+
+impl SavedVariations {
+    fn of(plot: &Plot, physics: Physics<'_>) -> Self {
+        let mut names: Vec<String> =
+            plot.over.iter().map(|&over| varied::written(physics, over).to_owned()).collect();
+        match &mut names[..] {
+            [only] => Self::One(std::mem::take(only)),
+            _ => Self::Several(names),
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        matches!(self, Self::Several(names) if names.is_empty())
+    }
+
+    /// What they are in a system, if all are there.
+    fn place(&self, physics: Physics<'_>) -> Option<Vec<Variation>> {
+        let names = match self {
+            Self::One(name) => std::slice::from_ref(name),
+            Self::Several(names) => &names[..],
+        };
+        let parameters = (0..physics.model.parameters.len()).map(Variation::Parameter);
+        let all: Vec<Variation> =
+            parameters.chain((0..physics.model.moving()).map(Variation::Initial)).collect();
+        let known = |name: &String| {
+            all.iter().find(|&&over| varied::written(physics, over) == name).copied()
+        };
+        names.iter().map(known).collect()
+    }
 }
 
 /// The quantities chosen for an axis.
@@ -73,7 +119,7 @@ impl SavedPlot {
         Self {
             kind: plot.kind.name().to_owned(),
             view: plot.view,
-            over: plot.over.map(|over| physics.model.parameters[over].name.clone()),
+            over: SavedVariations::of(plot, physics),
             eye: plot.eye(),
             viewport: plot.viewport(),
             seeds: plot.seeds.clone(),
@@ -112,8 +158,7 @@ impl SavedPlot {
         };
         let view = self.view.filter(|_| kind.shows_a_view());
         let shown = view.map(|view| model.views.get(view).ok_or(())).transpose().ok()?;
-        let over = self.over.as_ref().map(|name| model.parameter(name).ok_or(()));
-        let over = over.transpose().ok()?;
+        let over = self.over.place(physics)?;
         if !kind.shows(shown) {
             return None;
         }

@@ -120,6 +120,7 @@ impl Instrument for Section {
                 about: "where orbits cross a surface, two quantities of your choice".to_owned(),
                 columns: Vec::new(),
                 view: Some(index),
+                over: Vec::new(),
             })
         };
         views.filter_map(offer).collect()
@@ -237,6 +238,7 @@ impl Instrument for Section {
                 count: Some(COUNT),
                 until: None,
                 idle: IDLE,
+                all_channels: true,
             },
             columns: [x, y],
             transient: if dissipates(present.physics) { TRANSIENT } else { 0 },

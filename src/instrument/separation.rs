@@ -34,6 +34,7 @@ impl Instrument for Separation {
             about: "ln of the distance from the motions beside this one, against time".to_owned(),
             columns: Columns::new(),
             view: None,
+            over: Vec::new(),
         }]
     }
 

@@ -26,6 +26,7 @@ impl Instrument for Space {
             about: "the picture of the thing itself".to_owned(),
             columns,
             view: None,
+            over: Vec::new(),
         };
         self.opening(physics).into_iter().map(offer).collect()
     }

@@ -59,6 +59,7 @@ impl Instrument for Spectrum {
             about: "the frequencies of the motion, and what they are combinations of".to_owned(),
             columns: vec![vec![index]],
             view: None,
+            over: Vec::new(),
         };
         known.map(offer).collect()
     }
@@ -119,9 +120,6 @@ impl Instrument for Spectrum {
         let (Some(channel), Some(method)) = (plot.column(0), method_named(present.method)) else {
             return Need::Nothing;
         };
-        if channel >= system.columns() {
-            return Need::Nothing;
-        }
         let (begin, speed, system) = (model.run.start, model.run.speed, system.clone());
         let fundamentals = independent_frequencies(model, equations, &system);
         let is_angle = matches!(system.channels()[channel].kind, ChannelKind::Position(_))

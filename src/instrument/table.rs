@@ -6,12 +6,12 @@
 use super::kind::{Instrument, Offer};
 use super::present::Physics;
 use super::{
-    action, diagram, ensemble, exponents, legendre, orbit, phase, potential, section, separation,
-    space, spectrum, time, transformation,
+    action, diagram, ensemble, exponents, legendre, map, orbit, phase, potential, section,
+    separation, space, spectrum, time, transformation,
 };
 
 /// All kinds, in the order in which the lab opens with them.
-pub static INSTRUMENTS: [&dyn Instrument; 14] = [
+pub static INSTRUMENTS: [&dyn Instrument; 15] = [
     &space::Space,
     &phase::Phase,
     &transformation::Transformation,
@@ -26,6 +26,7 @@ pub static INSTRUMENTS: [&dyn Instrument; 14] = [
     &action::Action,
     &legendre::Legendre,
     &diagram::Diagram,
+    &map::Map,
 ];
 
 /// Finds a kind by its name.

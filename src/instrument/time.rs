@@ -37,6 +37,7 @@ impl Instrument for Time {
             about: "time, with one or several quantities upwards".to_owned(),
             columns: Columns::new(),
             view: None,
+            over: Vec::new(),
         }]
     }
 

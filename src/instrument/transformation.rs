@@ -92,6 +92,7 @@ impl Instrument for Transformation {
                     about: format!("the transformation {}, with the grid of (q, p)", law.name),
                     columns: vec![vec![x], vec![y]],
                     view: None,
+                    over: Vec::new(),
                 })
             })
         });

@@ -27,10 +27,21 @@ pub struct View {
     pub shapes: Option<Vec<Shape>>,
     /// The surface of section, by its index among the model's.
     pub section: Option<usize>,
-    /// The parameter over whose range it runs, by its index.
-    pub over: Option<usize>,
+    /// What it runs over, in the order of the axes.
+    pub over: Vec<Variation>,
+    /// How long each of the motions of a map is followed, if the file gives it.
+    pub until: Option<Expr>,
     /// The range of each axis, if the file gives it: expressions of the parameters.
     pub ranges: [Option<[Expr; 2]>; 2],
+}
+
+/// A number that differs between the motions of one picture.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Variation {
+    /// The parameter of this index.
+    Parameter(usize),
+    /// The initial value of this index: coordinates come first, then velocities or momenta.
+    Initial(usize),
 }
 
 /// A point in space: three expressions, with z up; the third is zero for a plane system.

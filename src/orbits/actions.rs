@@ -232,8 +232,13 @@ fn follow(
     start: &Start,
     count: u64,
 ) -> Result<Vec<Vec<f64>>, NoAction> {
-    let plan =
-        SectionPlan { event: event.to_owned(), count: Some(count), until: None, idle: PATIENCE };
+    let plan = SectionPlan {
+        event: event.to_owned(),
+        count: Some(count),
+        until: None,
+        idle: PATIENCE,
+        all_channels: false,
+    };
     let Crossings { rows, status, message } =
         crossings(system, systems.method, systems.settings, start, &plan);
     if status == OrbitStatus::Completed {

@@ -63,6 +63,7 @@ impl MeasuredOrbit<'_> {
             count,
             until: Some(self.end),
             idle: u64::MAX,
+            all_channels: false,
         };
         let found = crossings(self.system, self.method, self.settings, self.start, &plan);
         (!self.system.cancel().is_cancelled()).then_some(found)

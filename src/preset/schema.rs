@@ -485,7 +485,7 @@ const VIEW: Section = Section {
         key(
             "kind",
             Text,
-            "`phase`, `space`, `time`, `potential`, `section`, `diagram`, `transformation`, `ensemble`, `orbit`, `spectrum`, `action` or `legendre`",
+            "`phase`, `space`, `time`, `potential`, `section`, `diagram`, `map`, `transformation`, `ensemble`, `orbit`, `spectrum`, `action` or `legendre`",
         )
         .needed("write kind = \"phase\", \"space\", \"time\", \"potential\" or \"section\""),
         key("title", Text, "what it is called"),
@@ -493,6 +493,7 @@ const VIEW: Section = Section {
             "phase",
             "potential",
             "section",
+            "map",
             "transformation",
             "ensemble",
             "orbit",
@@ -505,6 +506,7 @@ const VIEW: Section = Section {
             "potential",
             "section",
             "diagram",
+            "map",
             "transformation",
             "ensemble",
             "orbit",
@@ -515,13 +517,16 @@ const VIEW: Section = Section {
             .only(&["diagram"]),
         key("on", Formula, "vanishes on the surface of section")
             .needed("write on = \"...\", which vanishes on the surface")
-            .only(&["section", "diagram"]),
+            .only(&["section", "diagram", "map"]),
         key("direction", Text, "of the crossings: `rising`, `falling` or `either`; `rising`")
-            .only(&["section", "diagram"]),
+            .only(&["section", "diagram", "map"]),
         key("x_range", Formulas, "the two ends of the horizontal axis")
-            .only(&["section", "diagram"]),
+            .only(&["section", "diagram", "map"]),
         key("y_range", Formulas, "the two ends of the vertical axis")
-            .only(&["section", "diagram"]),
+            .only(&["section", "diagram", "map"]),
+        key("of", Formula, "the quantity at the end of the motions; without it and `on` the largest exponent")
+            .only(&["map"]),
+        key("until", Formula, "how long the motions are followed").only(&["map"]),
         key("frame", Text, "the frame it is seen from").only(&["space"]),
         key("shapes", List(&SHAPE), "what is drawn in place of the shapes of [space]")
             .only(&["space"]),

@@ -15,7 +15,9 @@ use super::theme::Role;
 use super::values::{Values, window};
 use super::wrap::{capitalised, words};
 use super::{equations, gauges, picture};
-use crate::app::{App, DrawnPanes, Field, HitTarget, Lab, LawInView, Overlay, Pane, ValueId};
+use crate::app::{
+    App, DrawnPanes, Field, HitTarget, Lab, LawInView, Overlay, Pane, PlotsInView, ValueId,
+};
 use crate::experiment::{Failure, Status};
 
 /// Draws all panes of the layout, and returns what that has determined.
@@ -73,7 +75,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) ->
     if let Some(Status::Failed(fault)) = lab.snapshot.as_ref().map(|s| &s.status) {
         stopped(canvas, area, fault);
     }
-    DrawnPanes { single: is_single(area), law: in_view }
+    DrawnPanes { single: is_single(area), law: in_view, plots: PlotsInView::of(shown) }
 }
 
 /// Draws the law of motion, and returns how much of it is in view.

@@ -15,7 +15,7 @@ use super::plot::ticks::nice_range;
 use super::plot::{Ages, Axes, Axis, Frame, Marker, Pen, Raster, Scale};
 use super::quantity::{Quantities, through};
 use super::theme::Role;
-use super::{companions, cursor, legend, space};
+use super::{companions, cursor, field, legend, space};
 use crate::analysis::{Curve, Landscape};
 use crate::instrument::{
     Across, Entry, Heading, Ink, Layer, Level, Picture, Plot, Sign, Upwards, Viewport,
@@ -312,6 +312,7 @@ fn draw_layer(
         Layer::Cloud(points) => {
             raster.cloud(frame, points.iter().copied(), look.theme.density(), level);
         }
+        Layer::Field(found) => field::draw(canvas, frame, found),
         Layer::Crossings { section, channels, ink } => {
             raster.points(frame, crossings(q, *section, *channels), &pen(canvas, *ink, level));
         }

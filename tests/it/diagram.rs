@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use phaselab::app::{App, Drawn, Effect, Event, Saved};
 use phaselab::experiment::Command;
-use phaselab::instrument::{Layer, Picture, Plot};
+use phaselab::instrument::{Layer, Picture, Plot, SavedVariations};
+use phaselab::model::Variation;
 
 use crate::hand::{begun, catalog, press};
 use crate::section::{layers, measure};
@@ -55,6 +56,16 @@ fn the_answer_of_a_linear_oscillator_grows_with_its_drive() {
     let ends = points.iter().fold([9.0_f64, 0.0], |[lo, hi], at| [lo.min(at[0]), hi.max(at[0])]);
     assert!(ends[0] == 1.0 && ends[1] > 2.9 && ends[1] <= 3.0, "{ends:?}");
     assert!((measure(&app, &diagram(&app), "value") - 1.2).abs() < 0.05);
+}
+
+/// A quantity that is no column of the motion, but an expression of the view.
+#[test]
+fn an_expression_is_shown_as_a_coordinate_is() {
+    let app = begun(&DRIVEN.replace("y = \"x\"", "y = \"x^2 + 1\""));
+    let points = points(&app);
+    assert_eq!(points.len(), 32 * 80);
+    let answer = |a: f64| (a * 0.8).powi(2) + 1.0;
+    assert!(points.iter().all(|at| (at[1] - answer(at[0])).abs() < 1e-7), "{points:?}");
 }
 
 /// The pendulum of Baker and Gollub at a value of its drive: how many crossings are different.
@@ -143,15 +154,15 @@ fn sessions_have_it_with_its_parameter() {
     // over the other parameter, on the same surface
     press(&mut app, "Down v");
     let plot = diagram(&app);
-    assert_eq!((plot.over, plot.view), (Some(1), Some(0)));
+    assert_eq!((&plot.over[..], plot.view), (&[Variation::Parameter(1)][..], Some(0)));
     let text = toml::to_string(&app.saved().unwrap()).unwrap();
     let read: Saved = toml::from_str(&text).unwrap();
     let saved = read.plots.iter().find(|plot| plot.kind == "diagram").unwrap();
-    assert_eq!(saved.over.as_deref(), Some("k"));
+    assert_eq!(saved.over, SavedVariations::One("k".to_owned()));
     let physics = app.lab.as_ref().unwrap().loaded.physics();
     assert_eq!(saved.place(physics), Some(plot));
     let mut strange = saved.clone();
-    strange.over = Some("nothing".to_owned());
+    strange.over = SavedVariations::One("nothing".to_owned());
     assert_eq!(strange.place(physics), None);
     strange = saved.clone();
     strange.view = Some(7);

@@ -11,7 +11,7 @@ use phaselab::job::{Outcome, Progress, Share};
 use phaselab::mechanics::derive_for_motion;
 use phaselab::preset;
 
-use crate::hand::{catalog, in_lab, loaded, pendulum, press, snapshot};
+use crate::hand::{begun, catalog, in_lab, loaded, pendulum, press, snapshot};
 use crate::screen::{rich, rows};
 
 /// The kinds that the pendulum has: all but sections, whose surface a file names (`section` tests those), and
@@ -333,4 +333,19 @@ fn a_key_finds_the_frequency_of_the_pendulum() {
         assert!(shown.contains(&format!("{name} = {frequency:.8}")), "{name} {frequency}: {shown}");
     }
     assert!(!shown.contains("mean rate"), "it swings: {shown}");
+}
+
+/// x = cos t, so that x x′ = −½ sin 2t: an expression of the view has a spectrum as a coordinate has.
+#[test]
+fn the_spectrum_of_an_expression() {
+    let app = begun(
+        "title = 'a test'\n[coordinates]\nx = { initial = 1.0 }\n\
+         [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n\
+         [[views]]\nkind = \"spectrum\"\ny = \"x*x'\"\n",
+    );
+    let lab = app.lab.as_ref().unwrap();
+    let plot = lab.plots.iter().find(|plot| plot.kind.name() == "spectrum").unwrap();
+    let measure = plot.kind.measures().iter().find(|m| m.word == "frequency").unwrap();
+    let frequency = (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot));
+    assert!(frequency.is_some_and(|f| (f - 2.0).abs() < 1e-10), "{frequency:?}");
 }

@@ -25,6 +25,7 @@ mod instrument;
 mod integrability;
 mod layers;
 mod legendre;
+mod map;
 mod mechanics;
 mod methods;
 mod notation;

@@ -7,9 +7,12 @@ use toml::Spanned;
 use super::Check;
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::ensemble::section_name;
-use crate::expr::Expr;
+use crate::expr::{Expr, Symbol};
 use crate::instrument::Instrument;
-use crate::model::{Action, Allowed, Channel, Direction, Event, Follow, Point, Scope, Shape, View};
+use crate::model::{
+    Action, Allowed, Channel, Direction, Event, Follow, Mechanics, Point, Scope, Shape, Variation,
+    View,
+};
 use crate::preset::draft::{
     DraftFollow, DraftSection, DraftShape, DraftShapeKind, DraftView, Formula, Formulas,
 };
@@ -25,7 +28,7 @@ impl Check<'_> {
     pub(super) fn views(&mut self, written: &[DraftView], nodes: &mut usize) {
         let mut scope = Scope::new(&self.model, Allowed::Observable, "a view");
         for view in written {
-            let mut axes = Vec::new();
+            let (mut axes, mut over) = (Vec::new(), Vec::new());
             for (place, formulas) in view.axes.iter().enumerate() {
                 let axis = view.kind.written().get(place);
                 let mut channels = Vec::new();
@@ -41,6 +44,9 @@ impl Check<'_> {
                     if axis.is_some_and(|axis| axis.transformed) {
                         self.is_transformed(&channel, formula);
                     }
+                    if axis.is_some_and(|axis| axis.varied) {
+                        over.extend(self.variation(&channel, formula));
+                    }
                     channels.push(channel);
                 }
                 axes.push(channels);
@@ -53,14 +59,29 @@ impl Check<'_> {
             });
             let section = match &view.section {
                 None => None,
+                Some(written) if written.on.is_none() && view.kind.follows_motions() => None,
                 Some(written) => {
                     let Some((on, section)) = self.section(written, &view.place) else { continue };
                     axes.push(vec![on]);
                     Some(section)
                 }
             };
-            let over = view.over.as_ref().and_then(|name| self.parameter_of_view(name));
-            self.model.views.push(View { kind, title, axes, frame, shapes, section, over, ranges });
+            let named = view.over.as_ref().and_then(|name| self.parameter_of_view(name));
+            over.extend(named.map(Variation::Parameter));
+            let mut scope = Scope::new(&self.model, Allowed::Parameters, "a time");
+            let until = view.until.as_ref();
+            let until = until.and_then(|until| self.formula(&mut scope, "a time", until));
+            self.model.views.push(View {
+                kind,
+                title,
+                axes,
+                frame,
+                shapes,
+                section,
+                over,
+                until,
+                ranges,
+            });
         }
     }
 
@@ -126,6 +147,30 @@ impl Check<'_> {
             format!("write one of {}", names.join(", "))
         };
         self.mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
+    }
+
+    /// An axis of a map must be a parameter, or an initial value.
+    fn variation(&mut self, channel: &Channel, written: &Formula) -> Option<Variation> {
+        let model = &self.model;
+        let symbol = model.pool.as_symbol(channel.expression);
+        let is = |other: Symbol| symbol == Some(other);
+        let parameter = model.parameters.iter().position(|p| is(p.symbol));
+        let of = model.coordinates.iter();
+        let position = of.clone().position(|c| is(c.position));
+        let rate = of.clone().position(|c| {
+            let velocity = model.is_lagrangian() && is(c.velocity);
+            velocity || matches!(model.mechanics, Mechanics::Hamiltonian { .. }) && is(c.momentum)
+        });
+        let rate = rate.map(|rate| model.coordinates.len() + rate);
+        let found = parameter.map(Variation::Parameter);
+        let found = found.or(position.or(rate).map(Variation::Initial));
+        if found.is_none() {
+            let rates = if model.is_lagrangian() { "velocity" } else { "momentum" };
+            let message = "an axis of a map is a parameter or an initial value, and this is none";
+            let help = format!("write a parameter, a coordinate or its {rates}");
+            self.mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
+        }
+        found
     }
 
     /// The horizontal axis of this kind must be a coordinate, because everything else is fixed while it varies.

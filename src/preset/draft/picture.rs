@@ -26,6 +26,8 @@ pub(in crate::preset) struct DraftView {
     pub(in crate::preset) section: Option<DraftSection>,
     /// The parameter over whose range it runs.
     pub(in crate::preset) over: Option<Spanned<String>>,
+    /// How long the motions of a map are followed.
+    pub(in crate::preset) until: Option<Formula>,
 }
 
 /// The surface of a section as written.
@@ -125,7 +127,7 @@ fn view(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftView> {
         let axes = INSTRUMENTS.into_iter().flat_map(Instrument::written);
         for key in axes
             .map(|axis| axis.key)
-            .chain(["title", "frame", "shapes", "over"])
+            .chain(["title", "frame", "shapes", "over", "of", "until"])
             .chain(SECTION_KEYS)
         {
             table.take(key);
@@ -138,13 +140,23 @@ fn view(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftView> {
     table.called = format!("this view of kind {}", written.get_ref());
     let title = table.line("title", mistakes);
     let place = table.place.clone();
-    let axes = kind.written().iter().map(|axis| several(&mut table, axis, mistakes)).collect();
+    let mut axes: Vec<Vec<Formula>> =
+        kind.written().iter().map(|axis| several(&mut table, axis, mistakes)).collect();
     let (mut frame, mut shapes) = (None, None);
     if kind.is_scene() {
         frame = table.text("frame", mistakes);
         shapes = table.has("shapes").then(|| shapes_of(&mut table, mistakes));
     }
-    let section = kind.is_section().then(|| section(&mut table, mistakes));
+    let mut until = None;
+    if kind.follows_motions() {
+        let of = table.take("of");
+        axes.extend(of.map(|(_, found)| {
+            value::formula(found, "`of`", mistakes).into_iter().collect::<Vec<_>>()
+        }));
+        let found = table.take("until");
+        until = found.and_then(|(_, found)| value::formula(found, "`until`", mistakes));
+    }
+    let section = kind.is_section().then(|| section(&mut table, !kind.follows_motions(), mistakes));
     let mut over = None;
     if kind.is_over_a_parameter() {
         over = table.text("over", mistakes);
@@ -153,14 +165,18 @@ fn view(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftView> {
         }
     }
     table.finish(mistakes);
-    Some(DraftView { place, kind, title, axes, frame, shapes, section, over })
+    Some(DraftView { place, kind, title, axes, frame, shapes, section, over, until })
 }
 
 /// The keys of a section besides its axes.
 const SECTION_KEYS: [&str; 4] = ["on", "direction", "x_range", "y_range"];
 
-fn section(table: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftSection {
-    let on = table.require("on", "write on = \"...\", which vanishes on the surface");
+fn section(table: &mut Table<'_>, needed: bool, mistakes: &mut Diagnostics) -> DraftSection {
+    let on = if needed {
+        table.require("on", "write on = \"...\", which vanishes on the surface")
+    } else {
+        table.take("on")
+    };
     let on = on.and_then(|(_, found)| value::formula(found, "`on`", mistakes));
     let direction = table.text("direction", mistakes);
     let ranges = ["x_range", "y_range"].map(|key| range(table, key, mistakes));

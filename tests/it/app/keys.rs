@@ -85,7 +85,8 @@ fn states_made(place: Place) -> Vec<App> {
         Place::Message => vec![wrong_file()],
         Place::Law => {
             let mut app = in_lab();
-            let panes = DrawnPanes { single: false, law: LawInView::Clipped(90) };
+            let panes =
+                DrawnPanes { single: false, law: LawInView::Clipped(90), ..DrawnPanes::default() };
             app.update(Event::Drawn(Drawn { panes: Some(panes), ..Drawn::default() }));
             press(&mut app, "Shift-Tab PgDn PgDn");
             vec![app]

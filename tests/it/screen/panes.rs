@@ -95,7 +95,7 @@ fn the_law_of_motion_scrolls_where_it_is_clipped() {
     }
     // Where all of it is in view there is nothing to scroll, and Tab passes it by.
     let mut app = in_lab();
-    let panes = DrawnPanes { single: false, law: LawInView::Whole };
+    let panes = DrawnPanes { single: false, ..DrawnPanes::default() };
     app.update(Event::Drawn(Drawn { panes: Some(panes), ..Drawn::default() }));
     press(&mut app, "Shift-Tab");
     assert!(matches!(app.lab.as_ref().unwrap().focus, Pane::Plot(_)));
