@@ -1,13 +1,15 @@
 //! What jobs have found for the lab, and those that have not ended.
 //!
-//! In: outcomes. Out: the last answer for each plot, the equilibria found. Never here: which jobs are needed.
+//! In: outcomes. Out: the last answer for each plot, the equilibria and symmetries found. Never here: which jobs are needed.
 
 use std::sync::Arc;
 use std::time::Duration;
 
 use super::computation::UnderWay;
 use crate::instrument::{Answer, Columns, FoundEquilibria, Instrument, Plot};
+use crate::integrability::PointSymmetry;
 use crate::job::Outcome;
+use crate::mechanics::Equations;
 use crate::model::Variation;
 
 /// The results and running jobs for the plots of a lab.
@@ -42,6 +44,23 @@ impl PlotJob {
 pub(super) struct EquilibriaSearch {
     pub(super) under_way: Option<UnderWay>,
     pub(super) found: Option<Arc<FoundEquilibria>>,
+}
+
+/// The symmetries of a lab's system.
+#[derive(Clone, Debug, Default)]
+pub(super) struct SymmetrySearch {
+    /// The symmetries that were found, with the values of the parameters.
+    pub(super) found: Option<Arc<FoundSymmetries>>,
+    pub(super) under_way: Option<UnderWay>,
+}
+
+/// What a search found.
+#[derive(Clone, Debug)]
+pub(super) struct FoundSymmetries {
+    /// The equations, in which the changes stand.
+    pub(super) equations: Equations,
+    pub(super) parameters: Vec<f64>,
+    pub(super) found: Vec<PointSymmetry>,
 }
 
 impl EquilibriaSearch {

@@ -6,10 +6,9 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::answers::{Answers, EquilibriaSearch};
+use super::answers::{Answers, EquilibriaSearch, SymmetrySearch};
 use super::history::History;
 use super::pending::PendingChanges;
-use super::symmetries::SymmetrySearch;
 use super::{DrawnPanes, LawInView, Loaded, Pane, Search, Selection, ValueId};
 use crate::experiment::{Checkpoint, Snapshot, Status};
 use crate::expr::Zero;

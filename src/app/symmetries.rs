@@ -5,6 +5,7 @@
 
 use std::sync::Arc;
 
+use super::answers::FoundSymmetries;
 use super::flow::FlowGenerator;
 use super::{
     App, Asker, Choice, Choosing, Effect, Item, Lab, Menu, Notification, Overlay, UnderWay,
@@ -15,23 +16,6 @@ use crate::integrability::{PointSymmetry, point_symmetries, symmetries};
 use crate::job::{Job, Outcome, Progress};
 use crate::mechanics::Equations;
 use crate::model::Model;
-
-/// The symmetries of a lab's system.
-#[derive(Clone, Debug, Default)]
-pub(super) struct SymmetrySearch {
-    /// The symmetries that were found, with the values of the parameters.
-    found: Option<Arc<FoundSymmetries>>,
-    under_way: Option<UnderWay>,
-}
-
-/// What a search found.
-#[derive(Clone, Debug)]
-struct FoundSymmetries {
-    /// The equations, in which the changes stand.
-    equations: Equations,
-    parameters: Vec<f64>,
-    found: Vec<PointSymmetry>,
-}
 
 impl FoundSymmetries {
     /// Makes the search: Noether's first, so that they are known for what they are.

@@ -229,8 +229,9 @@ impl Newton<'_> {
             stalled = if better > 0.5 * residual { stalled + 1 } else { 0 };
             (state, time, look, residual) = (there, later, found, better);
         }
+        // rest is an equilibrium; under a drive it may be one of the orbits that have its period
         let turned = time / self.units.time();
-        let still = look.rates[0].norm() * turned < 1e-6 * look.size;
+        let still = self.space.is_autonomous() && look.rates[0].norm() * turned < 1e-6 * look.size;
         if residual > CLOSED * look.size || still {
             return Err(no_orbit(residual, time));
         }

@@ -27,13 +27,13 @@ const NOW: Level = 2;
 
 /// The places of the lattice, and how many of them make one part of the work, after which the picture is drawn anew.
 const LATTICE: [usize; 2] = [128, 64];
-const PART: usize = 128;
+const PART: usize = 64;
 
 /// The distance of neighbours in the first pass, a power of two; each further pass halves it.
 const COARSE: usize = 16;
 
 /// The parts that are waited for where there is no background.
-const AT_ONCE: usize = 4;
+const AT_ONCE: usize = 2;
 
 /// Motions are followed over so many seconds of the wall clock at the file's own speed, where it does not say how long.
 const SECONDS: f64 = 60.0;

@@ -151,7 +151,7 @@ impl Instrument for Orbit {
         Need::Job(Job::new("periodic orbit", move |progress: &Progress| {
             let system = system.with_cancel(progress.token().clone());
             let physics = Physics { model: &model, equations: &equations, system: &system.into() };
-            let outcome = close(physics, (method, settings), &start, [x, y]);
+            let outcome = close(physics, (method, settings), (&start, &conditions), [x, y]);
             let outcome = outcome.map_err(|why| why.to_string());
             Answer::new(ComputedOrbit { conditions: conditions.clone(), asked, outcome })
         }))
@@ -201,16 +201,27 @@ impl Instrument for Orbit {
     }
 }
 
-/// Closes the orbit near a start, and follows it once around.
+/// Closes the orbit near a start, and follows it once around. Impulses that come at their times count from the initial
+/// values; over them the orbit is closed from there.
 fn close(
     physics: Physics<'_>,
     method: (&'static Method, Settings),
-    start: &Start,
+    (start, conditions): (&Start, &Conditions),
     channels: [usize; 2],
 ) -> Result<Described, DynamicsError> {
     let (system, parameters) = (physics.system, &start.parameters);
-    let space = PhaseSpace::of(physics.model, physics.equations, system, parameters)?;
-    let state = space.state(&start.state(system)?)?;
+    let (model, equations) = (physics.model, physics.equations);
+    let space = PhaseSpace::through_impulses(model, equations, system, parameters)?;
+    if space.has_jumps() && space.is_autonomous() {
+        let why = "events act on the motion, and its orbits are not closed over them";
+        return Err(DynamicsError::Unsuited(why.to_owned()));
+    }
+    let begun = if space.has_jumps() {
+        conditions.state(system, model.run.start)?
+    } else {
+        start.state(system)?
+    };
+    let state = space.state(&begun)?;
     let fixed = if space.is_hamiltonian() && space.is_conservative() {
         Fixed::Energy(system.energy(&state, parameters)?)
     } else {

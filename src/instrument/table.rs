@@ -52,6 +52,6 @@ pub fn offers(physics: Physics<'_>) -> Vec<(&'static dyn Instrument, Offer)> {
         kind.offers(physics).into_iter().map(move |offer| (kind, offer))
     };
     let mut all: Vec<_> = INSTRUMENTS.into_iter().flat_map(of).collect();
-    all.sort_by_key(|(_, offer)| !offer.columns.is_empty());
+    all.sort_by_key(|(_, offer)| !offer.columns.is_empty() || !offer.over.is_empty());
     all
 }

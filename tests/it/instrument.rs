@@ -349,3 +349,30 @@ fn the_spectrum_of_an_expression() {
     let frequency = (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot));
     assert!(frequency.is_some_and(|f| (f - 2.0).abs() < 1e-10), "{frequency:?}");
 }
+
+/// The rotor at rest where its kick vanishes and draws it back: K/4 is Greene's residue of that point of the standard map.
+#[test]
+fn orbits_of_kicked_systems_are_closed_from_the_initial_values() {
+    let text = catalog().find("kicked-rotor").unwrap().text.clone();
+    let near = text.replace("value = 0.5,", "value = 3.0,").replace("value = 2.6,", "value = 0.1,");
+    assert_ne!(near, text);
+    let mut app = begun(&near);
+    press(&mut app, "t");
+    let lab = app.lab.as_ref().unwrap();
+    let (_, plot) = lab.focused_plot().unwrap();
+    assert_eq!(plot.kind.name(), "orbit");
+    let measure = |word: &str| {
+        let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
+        (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot))
+    };
+    assert!(measure("period").is_some_and(|period| (period - 1.0).abs() < 1e-12));
+    assert!(measure("residue").is_some_and(|r| (r - 0.971635406 / 4.0).abs() < 1e-8));
+    assert_eq!(measure("stable"), Some(1.0));
+    // an impact comes when the motion makes it come
+    let mut ball = begun(&catalog().find("bouncing-ball").unwrap().text);
+    press(&mut ball, "t");
+    let lab = ball.lab.as_ref().unwrap();
+    let (_, plot) = lab.focused_plot().unwrap();
+    let shown = screen(&ball, 120, 40).concat();
+    assert!(plot.kind.name() != "orbit" || shown.contains("events act on the motion"), "{shown}");
+}

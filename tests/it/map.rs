@@ -43,12 +43,12 @@ fn field(app: &App) -> Option<Arc<Field>> {
     })
 }
 
-/// The places that have a motion of their own where there is no background, every fourth of a row and of a column, with
+/// The places that have a motion of their own where there is no background, every eighth of a row and of a column, with
 /// their numbers.
 fn own(app: &App) -> Vec<([f64; 2], f64)> {
     let field = field(app).expect("a field");
     let rows = field.values.len() / field.columns;
-    let all = (0..rows).step_by(4).flat_map(|j| (0..field.columns).step_by(4).map(move |i| [i, j]));
+    let all = (0..rows).step_by(8).flat_map(|j| (0..field.columns).step_by(8).map(move |i| [i, j]));
     all.map(|place| {
         let at = [0, 1].map(|axis| {
             let [from, to] = field.window[axis];
@@ -63,7 +63,7 @@ fn own(app: &App) -> Vec<([f64; 2], f64)> {
 #[test]
 fn the_time_of_the_first_crossing_is_that_of_a_fall() {
     let app = begun(BALL);
-    assert_eq!(measure(&app, &map(&app), "places"), 512.0);
+    assert_eq!(measure(&app, &map(&app), "places"), 128.0);
     let (mut fallen, mut blank) = (0, 0);
     for ([x, v], time) in own(&app) {
         // x + v t − t² falls through zero at t = v/2 + √(v²/4 + x); from below only on the way down
@@ -77,9 +77,9 @@ fn the_time_of_the_first_crossing_is_that_of_a_fall() {
             blank += 1;
         }
     }
-    assert!(fallen > 300 && blank > 50, "{fallen} {blank}");
+    assert!(fallen > 80 && blank > 10, "{fallen} {blank}");
     // x = 1, v = ½, of the nearest place that has a motion of its own
-    assert!((measure(&app, &map(&app), "value") - 1.28).abs() < 0.2);
+    assert!((measure(&app, &map(&app), "value") - 1.28).abs() < 0.4);
 }
 
 #[test]
@@ -134,7 +134,7 @@ fn a_point_of_it_begins_a_motion_and_changes_nothing_of_it() {
     experiment.set_epoch(loaded.epoch);
     app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
     assert!(Arc::ptr_eq(&before, &field(&app).expect("a field")));
-    assert!((measure(&app, &map(&app), "value") - 1.295).abs() < 0.2);
+    assert!((measure(&app, &map(&app), "value") - 1.295).abs() < 0.4);
 }
 
 #[test]
