@@ -38,4 +38,5 @@ pub use search::{Constant, Invariants, Limits, Proof, SIZE_LIMIT, Searched, inva
 pub use separation::separates;
 pub use summary::summary;
 pub use symmetry_flow::symmetry_flow;
+pub use transformations::changed;
 pub use verdict::{Relations, relations};

@@ -51,7 +51,8 @@ pub(super) struct EquilibriaSearch {
 pub(super) struct SymmetrySearch {
     /// The symmetries that were found, with the values of the parameters.
     pub(super) found: Option<Arc<FoundSymmetries>>,
-    pub(super) under_way: Option<UnderWay>,
+    /// The ticket of the search that is waited for.
+    pub(super) awaited: Option<u64>,
 }
 
 /// What a search found.

@@ -29,7 +29,7 @@ impl App {
 
     pub(super) fn open_themes(&mut self) -> Vec<Effect> {
         let line = |(index, (name, about)): (usize, &(&str, &str))| {
-            line(name, about, Choice::Theme(index))
+            Item::plain(*name, *about, Choice::Theme(index))
         };
         let items: Vec<Item> = self.themes.iter().enumerate().map(line).collect();
         if items.is_empty() {
@@ -51,7 +51,7 @@ impl App {
                 && shown.view == offer.view
                 && shown.columns.starts_with(&offer.columns);
             now = now.or(begins.then_some(Choice::Offer(index)));
-            items.push(line(&offer.label, &offer.about, Choice::Offer(index)));
+            items.push(Item::plain(offer.label, offer.about, Choice::Offer(index)));
         }
         let menu = Menu::new(Axis::ACROSS.heading, Choosing::Contents { plot }, items);
         self.overlay = Some(Overlay::Menu(menu.at(now)));
@@ -192,16 +192,6 @@ impl App {
     }
 }
 
-fn line(label: &str, about: &str, choice: Choice) -> Item {
-    Item {
-        label: label.to_owned(),
-        about: about.to_owned(),
-        keys: String::new(),
-        refusal: None,
-        choice,
-    }
-}
-
 /// Returns a line for each distinguishable channel.
 fn channels(lab: &Lab) -> Vec<Item> {
     let named = lab.loaded.physics().named();
@@ -212,7 +202,7 @@ fn channels(lab: &Lab) -> Vec<Item> {
             } else {
                 format!(" [{}]", channel.unit)
             };
-            line(&channel.shown, &format!("{}{unit}", channel.name), Choice::Channel(index))
+            Item::plain(&channel.shown, format!("{}{unit}", channel.name), Choice::Channel(index))
         })
         .collect()
 }

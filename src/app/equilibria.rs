@@ -78,21 +78,14 @@ impl App {
     fn list_equilibria(&mut self) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };
         let Some(present) = lab.present() else { return Vec::new() };
-        let line = |label: String, about: String, choice: Choice| Item {
-            label,
-            about,
-            keys: String::new(),
-            refusal: None,
-            choice,
-        };
         let mut items = Vec::new();
         for (index, one) in present.equilibria.iter().enumerate() {
             let (label, about) = described(present.physics, one);
-            items.push(line(label, about, Choice::Equilibrium(index)));
+            items.push(Item::plain(label, about, Choice::Equilibrium(index)));
             for mode in 0..one.modes.len() {
                 let label = format!("  mode {}", described_mode(present.physics, one, mode));
                 let about = "begin along it".to_owned();
-                items.push(line(label, about, Choice::Mode(index, mode)));
+                items.push(Item::plain(label, about, Choice::Mode(index, mode)));
             }
         }
         let menu = Menu::new(

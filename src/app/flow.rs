@@ -170,24 +170,19 @@ impl App {
             return self.notify(format!("There is nothing to apply: {why}."));
         }
         let Some(lab) = &self.lab else { return Vec::new() };
-        let line = |label: &str, about: String, choice: Choice| Item {
-            label: label.to_owned(),
-            about,
-            keys: String::new(),
-            refusal: None,
-            choice,
-        };
         let mut items = Vec::new();
         if let Some(Ok(findings)) = lab.findings() {
             let pool = &findings.equations.pool;
             let flows = lab.flows().into_iter().enumerate();
             items.extend(
-                flows.map(|(index, (name, e))| line(&name, pool.unicode(e), Choice::Flow(index))),
+                flows.map(|(index, (name, e))| {
+                    Item::plain(name, pool.unicode(e), Choice::Flow(index))
+                }),
             );
         }
         if lab.may_have_symmetries() {
-            let about = "changes of time and coordinates that take motions to motions".to_owned();
-            items.push(line("symmetries …", about, Choice::Symmetries));
+            let about = "changes of time and coordinates that take motions to motions";
+            items.push(Item::plain("symmetries …", about, Choice::Symmetries));
         }
         let title = "Carry the state along the flow of a constant of the motion, or of a symmetry";
         self.overlay = Some(Overlay::Menu(Menu::new(title, Choosing::Flow, items)));

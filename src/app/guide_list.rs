@@ -20,12 +20,8 @@ impl App {
 
     /// Lists the lessons and demos. Selected is the next lesson that is not finished, or the demo that was watched last.
     pub(super) fn open_guides(&mut self) -> Vec<Effect> {
-        let item = |(index, guide): (usize, &Guide)| Item {
-            label: guide.title.clone(),
-            about: guide.about(),
-            keys: String::new(),
-            refusal: None,
-            choice: Choice::Guide(index),
+        let item = |(index, guide): (usize, &Guide)| {
+            Item::plain(guide.title.clone(), guide.about(), Choice::Guide(index))
         };
         let items: Vec<Item> = self.picker.guides.iter().enumerate().map(item).collect();
         if items.is_empty() {

@@ -23,13 +23,11 @@ impl Lab {
     pub(super) fn impulse_lines(&self) -> Vec<Item> {
         let line = |index: usize| {
             let impulse = &self.loaded.model.impulses[index];
-            Item {
-                label: format!("impulse: {}", impulse.name),
-                about: impulse.about.clone(),
-                keys: String::new(),
-                refusal: None,
-                choice: Choice::Impulse(index),
-            }
+            Item::plain(
+                format!("impulse: {}", impulse.name),
+                impulse.about.clone(),
+                Choice::Impulse(index),
+            )
         };
         self.impulses().into_iter().map(line).collect()
     }

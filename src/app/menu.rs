@@ -112,6 +112,18 @@ pub enum Choice {
     Mode(usize, usize),
 }
 
+impl Item {
+    /// A line that has no keys and can be chosen.
+    pub(super) fn plain(
+        label: impl Into<String>,
+        about: impl Into<String>,
+        choice: Choice,
+    ) -> Self {
+        let (label, about) = (label.into(), about.into());
+        Self { label, about, keys: String::new(), refusal: None, choice }
+    }
+}
+
 impl Menu {
     /// Creates a list with its first line selected.
     pub fn new(title: impl Into<String>, purpose: Choosing, items: Vec<Item>) -> Self {

@@ -246,13 +246,11 @@ impl Lab {
                 ),
                 _ => (String::new(), format!("{}: {}", value_info.name, value_info.about)),
             };
-            Some(Item {
-                label: format!("{what} {}{meaning}", value_info.shown),
+            Some(Item::plain(
+                format!("{what} {}{meaning}", value_info.shown),
                 about,
-                keys: String::new(),
-                refusal: None,
-                choice: Choice::Value(target),
-            })
+                Choice::Value(target),
+            ))
         };
         parameters.chain(initial).filter_map(line).collect()
     }

@@ -11,7 +11,6 @@ use super::hit_target::{Grab, HitTarget};
 use super::{Action, App, Effect, Lab, Overlay, Page, Pane, ValueId};
 use crate::experiment::Command;
 use crate::instrument::NoStart;
-use crate::model::Variation;
 use crate::system::InitialOverride;
 
 /// The number of lines of text or of a list per notch of the wheel.
@@ -268,29 +267,24 @@ impl App {
 impl Lab {
     /// Begins the motion at a point of a plot, or sets the values that the point stands for.
     fn begun_at(&mut self, index: usize, at: [f64; 2]) -> Result<Vec<Effect>, NoStart> {
-        let varied = self.plots.get(index).map(|plot| plot.kind.variations_at(plot, at));
-        let varied = varied.unwrap_or_default();
-        if !varied.is_empty() {
-            let (mut effects, mut initial) = (Vec::new(), Vec::new());
-            for (over, value) in varied {
-                match over {
-                    Variation::Parameter(index) => {
-                        let target = ValueId::Parameter(index);
-                        let value = self.rounded(target, value);
-                        effects.extend(self.change(target, value));
-                    }
-                    Variation::Initial(index) => {
-                        initial.push(self.loaded.system.initial_override(index, value));
-                    }
-                }
-            }
-            if !initial.is_empty() {
-                effects.extend(self.start(&initial));
-            }
-            return Ok(effects);
+        let given = self.beginning_at(index, at);
+        if let Err(NoStart::Refused(_)) = given {
+            return given.map(|_| Vec::new());
         }
-        let given = self.beginning_at(index, at)?;
-        Ok(self.start(&given))
+        let parameters = self.plots.get(index).map(|plot| plot.kind.parameters_at(plot, at));
+        let parameters = parameters.unwrap_or_default();
+        let mut effects = Vec::new();
+        for &(parameter, value) in &parameters {
+            let target = ValueId::Parameter(parameter);
+            let value = self.rounded(target, value);
+            effects.extend(self.change(target, value));
+        }
+        match given {
+            Ok(given) => effects.extend(self.start(&given)),
+            Err(why) if parameters.is_empty() => return Err(why),
+            Err(_) => {}
+        }
+        Ok(effects)
     }
 
     /// Returns the initial values that a point of a plot represents, or why it represents none.

@@ -4,18 +4,19 @@
 //! In: keys, the outcome of the job. Out: effects, a list. Never here: the search, or how a flow is followed.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use super::answers::FoundSymmetries;
 use super::flow::FlowGenerator;
-use super::{
-    App, Asker, Choice, Choosing, Effect, Item, Lab, Menu, Notification, Overlay, UnderWay,
-};
-use crate::expr::Expr;
+use super::{App, Asker, Choice, Choosing, Effect, Item, Lab, Menu, Notification, Overlay};
 use crate::instrument::Answer;
-use crate::integrability::{PointSymmetry, point_symmetries, symmetries};
+use crate::integrability::{PointSymmetry, changed, point_symmetries, symmetries};
 use crate::job::{Job, Outcome, Progress};
 use crate::mechanics::Equations;
 use crate::model::Model;
+
+/// The time that a search may take.
+const BUDGET: Duration = Duration::from_secs(10);
 
 impl FoundSymmetries {
     /// Makes the search: Noether's first, so that they are known for what they are.
@@ -30,7 +31,7 @@ impl FoundSymmetries {
         if equations.has_pending_forms() {
             equations.find_closed_forms();
         }
-        let is_over = || progress.is_cancelled();
+        let is_over = || progress.is_cancelled() || progress.is_spent();
         let noether = symmetries(&model, &mut equations, &is_over).ok();
         let found = point_symmetries(&model, &mut equations, noether.as_ref(), &is_over);
         let found = found.map_err(|why| why.to_string())?.found;
@@ -66,10 +67,11 @@ impl App {
             let (model, equations) = ((*model).clone(), (*equations).clone());
             let found = FoundSymmetries::search(model, equations, parameters.clone(), progress);
             Answer::new(found.map(Arc::new))
-        });
+        })
+        .within(BUDGET);
         let computation = self.computation(Asker::Symmetries, job);
         if let Some(lab) = &mut self.lab {
-            lab.symmetries.under_way = Some(UnderWay::new(&computation));
+            lab.symmetries.awaited = Some(computation.ticket);
         }
         self.notice =
             Some(Notification::info("Looking for symmetries of the equations of motion."));
@@ -83,7 +85,7 @@ impl App {
         outcome: &Outcome<Answer>,
     ) -> Option<Vec<Effect>> {
         let search = &mut self.lab.as_mut()?.symmetries;
-        search.under_way.take_if(|job| job.ticket == ticket)?;
+        search.awaited.take_if(|awaited| *awaited == ticket)?;
         self.notice = None;
         let found = match outcome {
             Outcome::Cancelled => return Some(Vec::new()),
@@ -108,12 +110,12 @@ impl App {
         let Some(found) = self.lab.as_ref().and_then(Lab::found_symmetries) else {
             return Vec::new();
         };
-        let item = |(index, symmetry): (usize, &PointSymmetry)| Item {
-            label: symmetry.name.clone(),
-            about: changes(&found.equations, symmetry),
-            keys: String::new(),
-            refusal: None,
-            choice: Choice::Symmetry(index),
+        let item = |(index, symmetry): (usize, &PointSymmetry)| {
+            Item::plain(
+                symmetry.name.clone(),
+                changes(&found.equations, symmetry),
+                Choice::Symmetry(index),
+            )
         };
         let items = found.found.iter().enumerate().map(item).collect();
         let title = "Carry the state along the flow of a symmetry";
@@ -133,15 +135,11 @@ impl App {
     }
 }
 
-/// What a symmetry changes: `t → t + ε t, x → x + ε 2x/3`.
+/// What a symmetry changes: `t by 3 t, x by 2 x`.
 fn changes(equations: &Equations, symmetry: &PointSymmetry) -> String {
     let pool = &equations.pool;
-    let time = (equations.symbols.time, symmetry.time);
-    let coordinates = equations.coordinates.iter().map(|c| c.position);
-    let all = [time].into_iter().chain(coordinates.zip(symmetry.coordinates.iter().copied()));
-    let moved = all.filter(|(_, e)| *e != Expr::ZERO).map(|(symbol, e)| {
-        let name = &pool.symbol_info(symbol).unicode;
-        format!("{name} by {}", pool.unicode(e))
-    });
-    moved.collect::<Vec<_>>().join(", ")
+    let all = changed(equations, symmetry.time, &symmetry.coordinates);
+    let all = all
+        .map(|(symbol, e)| format!("{} by {}", pool.symbol_info(symbol).unicode, pool.unicode(e)));
+    all.collect::<Vec<_>>().join(", ")
 }

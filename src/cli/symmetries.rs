@@ -102,17 +102,8 @@ fn text(model: &Model, equations: &Equations, found: &Symmetries, script: Script
     let mut text = format!("{}\n", model.info.title);
     for symmetry in &found.found {
         text.push_str(&format!("\n{}\n", symmetry.name));
-        let mut moved = Vec::new();
-        if symmetry.time != Expr::ZERO {
-            moved.push(format!("t by {}", math(symmetry.time)));
-        }
-        for (c, &e) in equations.coordinates.iter().zip(&symmetry.coordinates) {
-            if e != Expr::ZERO {
-                let name = script.symbol(&equations.pool, c.position);
-                moved.push(format!("{name} by {}", math(e)));
-            }
-        }
-        text.push_str(&format!("  moves {}\n", moved.join(", ")));
+        let moved = similar::moved(equations, script, symmetry.time, &symmetry.coordinates);
+        text.push_str(&format!("  moves {moved}\n"));
         if symmetry.gauge != Expr::ZERO {
             text.push_str(&format!("  L changes by the derivative of {}\n", math(symmetry.gauge)));
         }

@@ -9,17 +9,15 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::section::zero;
-use super::varied::{self, VariedConditions};
+use super::varied::{self, VariedConditions, VariedMotions};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, Present, Upwards,
 };
 use crate::ensemble::{SectionPlan, crossings, in_order};
 use crate::expr::Expr;
-use crate::integrate::{Method, method_named};
 use crate::job::{Job, Progress};
-use crate::mechanics::Equations;
-use crate::model::{Model, Variation, View};
+use crate::model::{Variation, View};
 use crate::system::System;
 
 /// The levels of the picture.
@@ -148,31 +146,23 @@ impl Instrument for Diagram {
         Some(Picture::Axes { upwards, layers, occurrences: None })
     }
 
-    fn variations_at(&self, plot: &Plot, at: [f64; 2]) -> Vec<(Variation, f64)> {
-        plot.over.iter().map(|&over| (over, at[0])).collect()
+    fn parameters_at(&self, plot: &Plot, at: [f64; 2]) -> Vec<(usize, f64)> {
+        varied::parameters_at(plot, at)
     }
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
-        let (Some(conditions), Some(method)) =
-            (VariedConditions::of(plot, present), method_named(present.method))
-        else {
-            return Need::Nothing;
-        };
-        let known = computed(answer).filter(|known| known.conditions == conditions);
+        let Some(motions) = VariedMotions::of(plot, present) else { return Need::Nothing };
+        let known = computed(answer).filter(|known| known.conditions == motions.conditions);
         let columns = known.map_or_else(Vec::new, |known| known.columns.clone());
         if columns.len() >= MOST || known.is_some_and(|known| known.refused.is_some()) {
             return Need::Held;
         }
-        let Physics { model, equations, system } = present.physics;
+        let view = view(plot, present.physics);
         let task = Task {
-            model: Arc::clone(model),
-            equations: Arc::clone(equations),
-            system: Arc::clone(system),
-            method,
-            conditions,
-            section: view(plot, present.physics).and_then(|view| view.section),
-            channel: view(plot, present.physics)
-                .and_then(|view| system.channel_of(view.axes.first()?.first()?.expression)),
+            section: view.and_then(|view| view.section),
+            channel: view
+                .and_then(|view| motions.system.channel_of(view.axes.first()?.first()?.expression)),
+            motions,
             columns,
         };
         let first = task.columns.len() < AT_ONCE * PART;
@@ -211,11 +201,7 @@ impl Instrument for Diagram {
 
 /// What a job computes: the numbers at the next values of the parameter.
 struct Task {
-    model: Arc<Model>,
-    equations: Arc<Equations>,
-    system: Arc<System>,
-    method: &'static Method,
-    conditions: VariedConditions,
+    motions: VariedMotions,
     section: Option<usize>,
     /// The quantity at the crossings.
     channel: Option<usize>,
@@ -224,8 +210,8 @@ struct Task {
 
 impl Task {
     fn next_part(&self, progress: &Progress) -> ComputedDiagram {
-        let conditions = self.conditions.clone();
-        let system = self.system.with_cancel(progress.token().clone());
+        let conditions = self.motions.conditions.clone();
+        let system = self.motions.system.with_cancel(progress.token().clone());
         let mut columns = self.columns.clone();
         let first = columns.len();
         let [from, to] = conditions.window.first().copied().unwrap_or_default();
@@ -261,13 +247,11 @@ impl Task {
 
     /// The crossings of the motion at a value of the parameter, or its largest exponent.
     fn numbers(&self, system: &System, value: f64) -> Result<Vec<f64>, String> {
-        let Self { model, equations, method, conditions, .. } = self;
-        let physics = Physics { model, equations, system: &self.system };
-        let start = conditions.start(physics, &[value]);
-        let settings = conditions.settings;
+        let VariedMotions { model, method: (method, settings), .. } = &self.motions;
+        let start = self.motions.start(&[value]);
         let (Some(section), Some(channel)) = (self.section, self.channel) else {
             let length = SECONDS * model.run.speed;
-            let exponent = varied::exponent(physics, system, &start, (method, settings), length)?;
+            let exponent = self.motions.exponent(system, &start, length)?;
             return Ok(exponent.into_iter().collect());
         };
         let dissipates = model.mechanics.dissipation() != Expr::ZERO;
@@ -279,13 +263,12 @@ impl Task {
             idle: IDLE,
             all_channels: true,
         };
-        let found = crossings(system, method, settings, &start, &plan);
+        let found = crossings(system, method, *settings, &start, &plan);
         let period = system.period(channel, &start.parameters);
-        // an angle is the same after a turn
-        let within = |x: f64| period.map_or(x, |period| x - period * (x / period).round());
         let rows = found.rows.iter().skip(transient);
-        let numbers: Vec<f64> =
-            rows.filter_map(|row| row.get(1 + channel).map(|&x| within(x))).collect();
+        let numbers: Vec<f64> = rows
+            .filter_map(|row| row.get(1 + channel).map(|&x| varied::within(x, period)))
+            .collect();
         match found.message {
             Some(why) if numbers.is_empty() => Err(why),
             _ => Ok(numbers),

@@ -119,8 +119,8 @@ pub trait Instrument: Sync {
         Err(NoStart::Nothing)
     }
 
-    /// The parameters and initial values that a point of the picture stands for.
-    fn variations_at(&self, _plot: &Plot, _at: [f64; 2]) -> Vec<(Variation, f64)> {
+    /// The parameters, and their values, that a point of the picture stands for.
+    fn parameters_at(&self, _plot: &Plot, _at: [f64; 2]) -> Vec<(usize, f64)> {
         Vec::new()
     }
 

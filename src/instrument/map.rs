@@ -8,18 +8,17 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::section::zero;
-use super::varied::{self, VariedConditions};
+use super::varied::{self, VariedConditions, VariedMotions};
 use super::{
     Across, Answer, Axis, Entry, Field, Heading, Ink, Instrument, Layer, Level, Measure, Need,
-    Offer, Physics, Picture, Plot, Present, Sign, Upwards,
+    NoStart, Offer, Physics, Picture, Plot, Present, Sign, Upwards,
 };
 use crate::ensemble::{Flow, SectionPlan, Start, crossings, in_order};
-use crate::integrate::{Method, method_named};
 use crate::job::{Job, Progress};
-use crate::mechanics::{Equations, Valuation};
-use crate::model::{Model, Variation, View};
+use crate::mechanics::Valuation;
+use crate::model::{Variation, View};
 use crate::num::significant;
-use crate::system::System;
+use crate::system::{InitialOverride, System};
 
 /// The levels of the picture.
 const FIELD: Level = 0;
@@ -100,13 +99,12 @@ impl Instrument for Map {
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
         let offer = |over: Vec<Variation>, view: Option<usize>| {
-            let names: Vec<&str> = over.iter().map(|&one| varied::named(physics, one).0).collect();
             let about = match view.and_then(|view| physics.model.views.get(view)) {
                 Some(view) if !view.title.is_empty() => view.title.clone(),
-                _ => "the largest exponent of motions that begin there".to_owned(),
+                _ => "the largest exponent of the motion at each place".to_owned(),
             };
             Offer {
-                label: format!("map over {}", names.join(" and ")),
+                label: format!("map over {}", varied::names(physics, &over)),
                 about,
                 columns: Vec::new(),
                 view,
@@ -135,8 +133,7 @@ impl Instrument for Map {
     }
 
     fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
-        let names: Vec<&str> = plot.over.iter().map(|&one| varied::named(physics, one).0).collect();
-        format!("{} over {}", quantity(plot, physics), names.join(" and "))
+        format!("{} over {}", quantity(plot, physics), varied::names(physics, &plot.over))
     }
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
@@ -188,38 +185,39 @@ impl Instrument for Map {
         Some(Picture::Axes { upwards, layers, occurrences: None })
     }
 
-    fn variations_at(&self, plot: &Plot, at: [f64; 2]) -> Vec<(Variation, f64)> {
-        plot.over.iter().copied().zip(at).collect()
+    fn start(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        at: [f64; 2],
+    ) -> Result<Vec<InitialOverride>, NoStart> {
+        let system = present.physics.system;
+        let initial = plot.over.iter().zip(at).filter_map(|(&over, x)| match over {
+            Variation::Initial(index) => Some(system.initial_override(index, x)),
+            Variation::Parameter(_) => None,
+        });
+        let initial: Vec<InitialOverride> = initial.collect();
+        if initial.is_empty() { Err(NoStart::Nothing) } else { Ok(initial) }
+    }
+
+    fn parameters_at(&self, plot: &Plot, at: [f64; 2]) -> Vec<(usize, f64)> {
+        varied::parameters_at(plot, at)
     }
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
-        let (Some(conditions), Some(method)) =
-            (VariedConditions::of(plot, present), method_named(present.method))
-        else {
+        let motions = VariedMotions::of(plot, present);
+        let Some(motions) = motions.filter(|motions| motions.conditions.window.len() == 2) else {
             return Need::Nothing;
         };
-        if conditions.window.len() < 2 {
-            return Need::Nothing;
-        }
         let length = length(plot, present);
         let known = computed(answer)
-            .filter(|known| known.conditions == conditions && known.length == length);
+            .filter(|known| known.conditions == motions.conditions && known.length == length);
         let values = known.map_or_else(Vec::new, |known| known.values.clone());
         let whole = values.len() >= LATTICE[0] * LATTICE[1];
         if whole || known.is_some_and(|known| known.refused.is_some()) {
             return Need::Held;
         }
-        let Physics { model, equations, system } = present.physics;
-        let task = Task {
-            model: Arc::clone(model),
-            equations: Arc::clone(equations),
-            system: Arc::clone(system),
-            method,
-            number: number(plot, present.physics),
-            conditions,
-            length,
-            values,
-        };
+        let task = Task { motions, number: number(plot, present.physics), length, values };
         let first = task.values.len() < AT_ONCE * PART;
         let job = Job::new("map", move |progress| Answer::new(task.next_part(progress)));
         if first { Need::Job(job) } else { Need::Addition(job) }
@@ -254,19 +252,15 @@ impl Instrument for Map {
 
 /// What a job computes: the numbers at the next places.
 struct Task {
-    model: Arc<Model>,
-    equations: Arc<Equations>,
-    system: Arc<System>,
-    method: &'static Method,
+    motions: VariedMotions,
     number: Number,
-    conditions: VariedConditions,
     length: f64,
     values: Vec<f64>,
 }
 
 impl Task {
     fn next_part(&self, progress: &Progress) -> ComputedMap {
-        let system = self.system.with_cancel(progress.token().clone());
+        let system = self.motions.system.with_cancel(progress.token().clone());
         let mut values = self.values.clone();
         let places = places();
         let next = places.get(values.len()..).unwrap_or_default();
@@ -288,39 +282,37 @@ impl Task {
         }
         let nothing = values.iter().all(|x| x.is_nan());
         let refused = refused.filter(|_| nothing);
-        let field = Arc::new(field(&self.conditions.window, &places, &values));
-        let (conditions, length) = (self.conditions.clone(), self.length);
+        let (conditions, length) = (self.motions.conditions.clone(), self.length);
+        let field = Arc::new(field(&conditions.window, &places, &values));
         ComputedMap { conditions, length, values, field, refused }
     }
 
     /// The numbers of a place.
     fn at(&self, place: [usize; 2]) -> [f64; 2] {
         [0, 1].map(|axis| {
-            let [from, to] = self.conditions.window[axis];
+            let [from, to] = self.motions.conditions.window[axis];
             from + (to - from) * (place[axis] as f64 + 0.5) / LATTICE[axis] as f64
         })
     }
 
     /// The number of the motion that begins at a place.
     fn value(&self, system: &System, at: [f64; 2]) -> Result<f64, String> {
-        let Self { model, equations, method, conditions, length, .. } = self;
-        let physics = Physics { model, equations, system: &self.system };
-        let start = conditions.start(physics, &at);
-        let method = (*method, conditions.settings);
+        let VariedMotions { model, method: (method, settings), .. } = &self.motions;
+        let start = self.motions.start(&at);
         match self.number {
             Number::Exponent => {
-                let found = varied::exponent(physics, system, &start, method, *length)?;
+                let found = self.motions.exponent(system, &start, self.length)?;
                 Ok(found.unwrap_or(f64::NAN))
             }
             Number::FirstCrossing(section) => {
                 let plan = SectionPlan {
                     event: model.sections[section].name.clone(),
                     count: Some(1),
-                    until: Some(start.time + length),
+                    until: Some(start.time + self.length),
                     idle: u64::MAX,
                     all_channels: false,
                 };
-                let found = crossings(system, method.0, method.1, &start, &plan);
+                let found = crossings(system, method, *settings, &start, &plan);
                 match (found.rows.first(), found.message) {
                     (Some(row), _) => Ok(row[0] - start.time),
                     (None, Some(why)) => Err(why),
@@ -336,16 +328,14 @@ impl Task {
         let state = start.state(system).map_err(|why| why.to_string())?;
         let flow = Flow {
             system: system.clone(),
-            method: (self.method, self.conditions.settings),
+            method: self.motions.method,
             parameters: start.parameters.clone(),
             start: start.time,
         };
         let carried = flow.carry(&state, &[start.time + self.length], &[channel]);
         let value = carried.seen.first().and_then(|row| row.first());
         let value = *value.ok_or("the motion cannot be followed to its end")?;
-        let period = system.period(channel, &start.parameters);
-        // an angle is the same after a turn
-        Ok(period.map_or(value, |period| value - period * (value / period).round()))
+        Ok(varied::within(value, system.period(channel, &start.parameters)))
     }
 }
 

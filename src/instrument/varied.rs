@@ -3,12 +3,14 @@
 //! In: a plot, the present. Out: the range of each variation and the part of it that is seen, the conditions on which the
 //! result depends, the start of the motion at given numbers. Never here: what is computed of it.
 
+use std::sync::Arc;
+
 use super::{Physics, Plot, Present};
 use crate::dynamics::{Chaos, PhaseSpace, lyapunov};
 use crate::ensemble::Start;
 use crate::integrate::{Method, Settings, Stepping, method_named};
-use crate::mechanics::Valuation;
-use crate::model::{Variation, View};
+use crate::mechanics::{Equations, Valuation};
+use crate::model::{Model, Variation, View};
 use crate::system::{ChannelKind, InitialOverride, System};
 
 /// The tolerance of the method: a dot is a thousandth of the picture.
@@ -17,13 +19,13 @@ const TOLERANCE: f64 = 1e-10;
 /// What the motions of a picture depend on; parameters that are varied count as zero, initial values are left out.
 #[derive(Clone, PartialEq)]
 pub(super) struct VariedConditions {
-    pub(super) over: Vec<Variation>,
+    over: Vec<Variation>,
     /// The part of the range of each that is seen.
     pub(super) window: Vec<[f64; 2]>,
     parameters: Vec<f64>,
-    overrides: Vec<(usize, InitialOverride)>,
-    pub(super) method: &'static str,
-    pub(super) settings: Settings,
+    overrides: Vec<InitialOverride>,
+    method: &'static str,
+    settings: Settings,
 }
 
 impl VariedConditions {
@@ -36,7 +38,7 @@ impl VariedConditions {
         let set = present.initial.iter().zip(&of_file).enumerate().filter(|(_, (x, own))| x != own);
         let overrides = set
             .filter(|(i, _)| !plot.over.contains(&Variation::Initial(*i)))
-            .map(|(i, (&x, _))| (i, system.initial_override(i, x)))
+            .map(|(i, (&x, _))| system.initial_override(i, x))
             .collect();
         let mut window = Vec::new();
         for (axis, &over) in plot.over.iter().enumerate() {
@@ -55,9 +57,9 @@ impl VariedConditions {
     }
 
     /// The start of the motion at these numbers.
-    pub(super) fn start(&self, physics: Physics<'_>, at: &[f64]) -> Start {
+    fn start(&self, physics: Physics<'_>, at: &[f64]) -> Start {
         let mut parameters = self.parameters.clone();
-        let mut overrides: Vec<InitialOverride> = self.overrides.iter().map(|(_, x)| *x).collect();
+        let mut overrides = self.overrides.clone();
         for (&over, &x) in self.over.iter().zip(at) {
             match over {
                 Variation::Parameter(index) => parameters[index] = x,
@@ -70,25 +72,63 @@ impl VariedConditions {
     }
 }
 
-/// The largest Lyapunov exponent of a motion over a time; `system` may be cancelled. What a regular motion has of it falls
-/// off with the time it was followed, and counts as zero.
-pub(super) fn exponent(
-    physics: Physics<'_>,
-    system: &System,
-    start: &Start,
-    (method, settings): (&'static Method, Settings),
-    length: f64,
-) -> Result<Option<f64>, String> {
-    let space = PhaseSpace::of(physics.model, physics.equations, system, &start.parameters);
-    let space = space.map_err(|why| why.to_string())?;
-    let state = start.state(system).and_then(|state| space.state(&state));
-    let state = state.map_err(|why| why.to_string())?;
-    let until = start.time + length;
-    let found = lyapunov(&space, (method, settings), &state, until, &mut |_| ());
-    let found = found.map_err(|why| why.to_string())?;
-    let regular = found.verdict == Chaos::Regular;
-    let seen = |&exponent: &f64| if regular { exponent.min(0.0) } else { exponent };
-    Ok(found.exponents.first().map(seen))
+/// The motions of a picture, as a job follows them.
+pub(super) struct VariedMotions {
+    pub(super) model: Arc<Model>,
+    equations: Arc<Equations>,
+    pub(super) system: Arc<System>,
+    /// The method, and its step or tolerance.
+    pub(super) method: (&'static Method, Settings),
+    pub(super) conditions: VariedConditions,
+}
+
+impl VariedMotions {
+    /// Those of a plot, if what it runs over is there.
+    pub(super) fn of(plot: &Plot, present: &Present<'_>) -> Option<Self> {
+        let conditions = VariedConditions::of(plot, present)?;
+        let Physics { model, equations, system } = present.physics;
+        Some(Self {
+            model: Arc::clone(model),
+            equations: Arc::clone(equations),
+            system: Arc::clone(system),
+            method: (method_named(conditions.method)?, conditions.settings),
+            conditions,
+        })
+    }
+
+    fn physics(&self) -> Physics<'_> {
+        Physics { model: &self.model, equations: &self.equations, system: &self.system }
+    }
+
+    /// The start of the motion at these numbers.
+    pub(super) fn start(&self, at: &[f64]) -> Start {
+        self.conditions.start(self.physics(), at)
+    }
+
+    /// The largest Lyapunov exponent of a motion over a time; `system` may be cancelled. What a regular motion has of it
+    /// falls off with the time it was followed, and counts as zero.
+    pub(super) fn exponent(
+        &self,
+        system: &System,
+        start: &Start,
+        length: f64,
+    ) -> Result<Option<f64>, String> {
+        let space = PhaseSpace::of(&self.model, &self.equations, system, &start.parameters);
+        let space = space.map_err(|why| why.to_string())?;
+        let state = start.state(system).and_then(|state| space.state(&state));
+        let state = state.map_err(|why| why.to_string())?;
+        let until = start.time + length;
+        let found = lyapunov(&space, self.method, &state, until, &mut |_| ());
+        let found = found.map_err(|why| why.to_string())?;
+        let regular = found.verdict == Chaos::Regular;
+        let seen = |&exponent: &f64| if regular { exponent.min(0.0) } else { exponent };
+        Ok(found.exponents.first().map(seen))
+    }
+}
+
+/// A number within half a period of zero: an angle is the same after a turn.
+pub(super) fn within(x: f64, period: Option<f64>) -> f64 {
+    period.map_or(x, |period| x - period * (x / period).round())
 }
 
 /// The view of the file that a plot shows.
@@ -120,6 +160,22 @@ pub(super) fn named(physics: Physics<'_>, over: Variation) -> (&str, &str) {
             found.map_or(nothing, |c| (c.shown.as_str(), c.unit.as_str()))
         }
     }
+}
+
+/// The names of all of them.
+pub(super) fn names(physics: Physics<'_>, over: &[Variation]) -> String {
+    let names: Vec<&str> = over.iter().map(|&one| named(physics, one).0).collect();
+    names.join(" and ")
+}
+
+/// The parameters, and their values, that a point of the picture stands for.
+pub(super) fn parameters_at(plot: &Plot, at: [f64; 2]) -> Vec<(usize, f64)> {
+    let all = plot.over.iter().zip(at);
+    let parameters = all.filter_map(|(&over, x)| match over {
+        Variation::Parameter(index) => Some((index, x)),
+        Variation::Initial(_) => None,
+    });
+    parameters.collect()
 }
 
 /// Its name as written.

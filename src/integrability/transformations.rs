@@ -4,7 +4,19 @@
 //! and oscillations in the time with the frequencies that it shows. Never here: conditions on them.
 
 use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
+use crate::mechanics::Equations;
 use crate::num::Number;
+
+/// What a change of time and coordinates changes, t first, and by how much.
+pub fn changed<'a>(
+    equations: &'a Equations,
+    time: Expr,
+    coordinates: &'a [Expr],
+) -> impl Iterator<Item = (Symbol, Expr)> + 'a {
+    let positions = equations.coordinates.iter().map(|c| c.position);
+    let all = [(equations.symbols.time, time)].into_iter();
+    all.chain(positions.zip(coordinates.iter().copied())).filter(|(_, e)| *e != Expr::ZERO)
+}
 
 /// The functions in which changes of time and coordinates are polynomials.
 pub(super) fn generators_of(

@@ -29,7 +29,7 @@ pub struct View {
     pub section: Option<usize>,
     /// What it runs over, in the order of the axes.
     pub over: Vec<Variation>,
-    /// How long each of the motions of a map is followed, if the file gives it.
+    /// The time at which the motions of a map end, if the file gives it.
     pub until: Option<Expr>,
     /// The range of each axis, if the file gives it: expressions of the parameters.
     pub ranges: [Option<[Expr; 2]>; 2],

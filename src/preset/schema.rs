@@ -526,7 +526,7 @@ const VIEW: Section = Section {
             .only(&["section", "diagram", "map"]),
         key("of", Formula, "the quantity at the end of the motions; without it and `on` the largest exponent")
             .only(&["map"]),
-        key("until", Formula, "how long the motions are followed").only(&["map"]),
+        key("until", Formula, "the time at which the motions end").only(&["map"]),
         key("frame", Text, "the frame it is seen from").only(&["space"]),
         key("shapes", List(&SHAPE), "what is drawn in place of the shapes of [space]")
             .only(&["space"]),

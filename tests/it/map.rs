@@ -155,6 +155,37 @@ fn sessions_have_it_and_the_list_of_contents_offers_others() {
     assert!(offers.iter().any(|offer| offer.view.is_none() && offer.over == placed.over));
 }
 
+/// One axis is an initial value, the other a parameter: a point stands for both.
+#[test]
+fn a_point_sets_parameters_and_initial_values() {
+    let text = BALL
+        .replace("x = \"x\"\ny = \"x'\"", "x = \"x\"\ny = \"g\"")
+        .replace("y_range = [\"-1\", \"3\"]\n", "");
+    let mut app = begun(&text);
+    while app.lab.as_ref().unwrap().focused_plot().is_none_or(|(_, p)| p.kind.name() != "map") {
+        press(&mut app, "Tab");
+    }
+    press(&mut app, "c");
+    app.update(Event::Drawn(Drawn { reading: Some([1.5, 2.5]), ..Drawn::default() }));
+    let effects = press(&mut app, "Enter");
+    let [Effect::Tell(Command::Parameter { index: 0, value }), Effect::Tell(Command::Start(given))] =
+        &effects[..]
+    else {
+        panic!("{effects:?}")
+    };
+    assert!((value - 2.5).abs() < 0.02);
+    assert_eq!(given[..], [InitialOverride::Position(0, 1.5)]);
+}
+
+#[test]
+fn an_end_before_the_start_is_refused() {
+    for wrong in ["-1", "0", "g - g", "0/0"] {
+        let text = BALL.replace("until = \"4\"", &format!("until = \"{wrong}\""));
+        let mistakes = phaselab::preset::read(&text).expect_err(wrong);
+        assert!(!format!("{mistakes:?}").is_empty(), "{wrong}");
+    }
+}
+
 #[test]
 fn an_axis_that_is_no_number_of_the_motion_is_refused() {
     for wrong in ["x + 1", "energy", "t"] {

@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 
 use super::super::script::Script;
 use crate::expr::{Expr, Pool};
-use crate::integrability::{PointSymmetries, PointSymmetry, Unsupported};
+use crate::integrability::{PointSymmetries, PointSymmetry, Unsupported, changed};
 use crate::mechanics::{Equations, Similarity};
 use crate::num::Number;
 
@@ -18,18 +18,15 @@ pub(super) struct Others {
 }
 
 /// `x by …, y by …`.
-fn moved(equations: &Equations, script: Script, symmetry: &PointSymmetry) -> String {
-    let math = |e: Expr| script.math(&equations.pool, e);
-    let mut moved = Vec::new();
-    if symmetry.time != Expr::ZERO {
-        moved.push(format!("t by {}", math(symmetry.time)));
-    }
-    for (c, &e) in equations.coordinates.iter().zip(&symmetry.coordinates) {
-        if e != Expr::ZERO {
-            moved.push(format!("{} by {}", script.symbol(&equations.pool, c.position), math(e)));
-        }
-    }
-    moved.join(", ")
+pub(super) fn moved(
+    equations: &Equations,
+    script: Script,
+    time: Expr,
+    coordinates: &[Expr],
+) -> String {
+    let pool = &equations.pool;
+    let one = |(s, e)| format!("{} by {}", script.symbol(pool, s), script.math(pool, e));
+    changed(equations, time, coordinates).map(one).collect::<Vec<_>>().join(", ")
 }
 
 /// The exponents of a scaling by name, `t` first.
@@ -62,7 +59,10 @@ impl Others {
                         _ => "takes motions to motions",
                     };
                     text.push_str(&format!("\n{}\n", symmetry.name));
-                    text.push_str(&format!("  moves {}\n", moved(equations, script, symmetry)));
+                    text.push_str(&format!(
+                        "  moves {}\n",
+                        moved(equations, script, symmetry.time, &symmetry.coordinates)
+                    ));
                     if let Some(exponents) = &symmetry.scaling {
                         let scaled = scaling(equations, exponents).into_iter();
                         let scaled = scaled.filter(|(_, n)| n != "0");
@@ -113,16 +113,13 @@ impl Others {
         let mut lines = Vec::new();
         let others = self.points.iter().flat_map(|points| &points.found);
         for symmetry in others.filter(|s| s.noether != Some(true)) {
-            let mut terms = Vec::new();
-            if symmetry.time != Expr::ZERO {
-                terms.push(format!("\\left({}\\right) \\partial_t", pool.latex(symmetry.time)));
-            }
-            for (c, &e) in equations.coordinates.iter().zip(&symmetry.coordinates) {
-                if e != Expr::ZERO {
-                    let name = &pool.symbol_info(c.position).latex;
-                    terms.push(format!("\\left({}\\right) \\partial_{{{name}}}", pool.latex(e)));
-                }
-            }
+            let all = changed(equations, symmetry.time, &symmetry.coordinates);
+            let terms: Vec<String> = all
+                .map(|(s, e)| {
+                    let name = &pool.symbol_info(s).latex;
+                    format!("\\left({}\\right) \\partial_{{{name}}}", pool.latex(e))
+                })
+                .collect();
             lines.push(format!("X &= {}", terms.join(" + ")));
         }
         if let Some(known) = &self.similarity {

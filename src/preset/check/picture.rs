@@ -70,7 +70,10 @@ impl Check<'_> {
             over.extend(named.map(Variation::Parameter));
             let mut scope = Scope::new(&self.model, Allowed::Parameters, "a time");
             let until = view.until.as_ref();
-            let until = until.and_then(|until| self.formula(&mut scope, "a time", until));
+            let until = until.and_then(|written| {
+                let until = self.formula(&mut scope, "a time", written)?;
+                self.lies_ahead(until, written).then_some(until)
+            });
             self.model.views.push(View {
                 kind,
                 title,
@@ -147,6 +150,23 @@ impl Check<'_> {
             format!("write one of {}", names.join(", "))
         };
         self.mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
+    }
+
+    /// The end of the motions of a map must come after their start, at the file's parameters.
+    fn lies_ahead(&mut self, until: Expr, written: &Formula) -> bool {
+        let model = &self.model;
+        let value = |symbol: Symbol| {
+            let known = model.parameters.iter().find(|p| p.symbol == symbol);
+            known.map_or(f64::NAN, |p| p.value)
+        };
+        let (end, start) = (model.pool.evaluate(until, &value), model.run.start);
+        if end > start && end.is_finite() {
+            return true;
+        }
+        let message = format!("the motions of a map begin at {start}, and this is {end}");
+        let help = "write a later time";
+        self.mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
+        false
     }
 
     /// An axis of a map must be a parameter, or an initial value.

@@ -26,7 +26,7 @@ pub(in crate::preset) struct DraftView {
     pub(in crate::preset) section: Option<DraftSection>,
     /// The parameter over whose range it runs.
     pub(in crate::preset) over: Option<Spanned<String>>,
-    /// How long the motions of a map are followed.
+    /// The time at which the motions of a map end.
     pub(in crate::preset) until: Option<Formula>,
 }
 
