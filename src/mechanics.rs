@@ -55,7 +55,8 @@ pub use derive::{derive, derive_for_motion};
 pub use domain::widened;
 pub use equations::{
     Apparent, Auxiliary, AuxiliaryRates, CLOSED_FORM_LIMIT, Conserved, ConstraintRow,
-    CoordinateSymbols, Equations, Flow, NoClosedForm, Reason, Separable, Supplements, Vakonomic,
+    CoordinateSymbols, Equations, Flow, ImplicitMap, NoClosedForm, Reason, Separable, Supplements,
+    Vakonomic,
 };
 pub use flaw::StructureError;
 pub use gauge::Gauge;

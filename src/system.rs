@@ -19,6 +19,7 @@ mod error;
 mod exact;
 mod expansion;
 mod growth;
+mod image;
 mod inertia;
 mod jet;
 mod kink_sides;

@@ -151,12 +151,13 @@ impl Instrument for Transformation {
             (TRAIL, Layer::Trail([x, y])),
             (NOW, Layer::Point([x, y].map(|k| present.value(k)), Sign::Disc, Ink::Accent)),
         ]);
-        let lines = match mapped {
+        let mut lines = match mapped {
             _ if shown(plot, present.physics).is_none() => {
                 vec!["these are not two new variables of one transformation".to_owned()]
             }
             _ => judged(answer).map_or_else(Vec::new, |judged| judged.lines.clone()),
         };
+        lines.extend(solved(plot, present).map(str::to_owned));
         layers.push((NOW, Layer::Legend(lines)));
         let upwards = Upwards::Channel(y, range(plot, present, answer, 1));
         Some(Picture::Axes { upwards, layers, occurrences: None })
@@ -230,6 +231,19 @@ impl Instrument for Transformation {
             },
         ]
     }
+}
+
+/// What is said of an image that is found by Newton's method.
+fn solved(plot: &Plot, present: &Present<'_>) -> Option<&'static str> {
+    let Shown { new, .. } = shown(plot, present.physics)?;
+    let maps = &present.physics.equations.supplements.implicit_maps;
+    maps.iter().find(|map| map.new.contains(&new[0]))?;
+    let image = [plot.column(0)?, plot.column(1)?].map(|channel| present.value(channel));
+    Some(if image.iter().all(|x| x.is_finite()) {
+        "solved numerically"
+    } else {
+        "no image: a caustic, det ∂²F/∂old∂new = 0"
+    })
 }
 
 /// The channels of the old variables of the pair that is shown, where the point is moved and not its coordinates.
@@ -317,7 +331,7 @@ impl Mapped {
 }
 
 impl Judged {
-    /// Nothing is said of a map that cannot be written down.
+    /// Nothing is said of what is no map.
     fn of(pool: &Pool, report: Option<&TransformationReport>) -> Self {
         Self {
             lines: report.map_or_else(Vec::new, |report| lines(pool, report)),

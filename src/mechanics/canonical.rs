@@ -10,7 +10,7 @@ use std::collections::HashMap;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::equations::Equations;
+use super::equations::{Equations, ImplicitMap};
 use super::isolate::{self, Solution, tidy};
 use super::sampling::{POINTS, TRIES};
 use super::valuation::Valuation;
@@ -239,6 +239,17 @@ impl PhaseMap {
         [true, false].into_iter().find_map(|everywhere| {
             let mut test = |pool: &mut Pool, found: &Solution| accept(pool, found, everywhere);
             isolate::solve(&mut equations.pool, &relations, &self.old, &mut test)
+        })
+    }
+
+    /// The relations alone, with an image of a point near the start; `None` if none is found.
+    pub(super) fn implicit(&self, model: &Model, equations: &Equations) -> Option<ImplicitMap> {
+        let at = self.images(model, equations, 1).pop()?;
+        Some(ImplicitMap {
+            new: self.new.clone(),
+            relations: self.relations.clone(),
+            by_new: self.by_new.clone(),
+            example: self.new.iter().map(|&s| at.at(s)).collect(),
         })
     }
 

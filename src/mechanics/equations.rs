@@ -72,6 +72,19 @@ pub struct Equations {
     pub supplements: Supplements,
 }
 
+/// A transformation whose new variables are known by relations only.
+#[derive(Clone, Debug)]
+pub struct ImplicitMap {
+    /// Q…, then P….
+    pub new: Vec<Symbol>,
+    /// Expressions of (q, p, Q, P, t) that vanish, as many as there are new variables.
+    pub relations: Vec<Expr>,
+    /// Their derivatives with respect to the new variables, a row for each relation.
+    pub by_new: Vec<Vec<Expr>>,
+    /// An image of a point near the start.
+    pub example: Vec<f64>,
+}
+
 /// What is integrated, drawn or derived alongside the equations of motion without affecting them.
 #[derive(Clone, Debug, Default)]
 pub struct Supplements {
@@ -93,6 +106,8 @@ pub struct Supplements {
     /// New variables of transformations and constants of the complete integral, as functions of
     /// (q, p, t), as far as they can be written down.
     pub new_variables: Vec<(Symbol, Expr)>,
+    /// The transformations that cannot be written down, whose new variables other expressions may use.
+    pub implicit_maps: Vec<ImplicitMap>,
     /// q̇ as columns show it, if that is not what the state moves by.
     pub shown_velocities: Option<Vec<Expr>>,
     /// The symbols of the attitude matrix, by rows.

@@ -18,6 +18,7 @@ use crate::model::{GeneratingType, Model, Transformation, TransformationLaw};
 
 /// Finds the transformations of a model.
 pub(super) fn find(equations: &mut Equations, model: &Model) {
+    let shared: Vec<Symbol> = model.new_variables().into_iter().map(|(_, s)| s).collect();
     let mut all: Vec<Option<Solution>> = Vec::new();
     for given in &model.transformations {
         let before = equations.supplements.transformation_laws.clone();
@@ -27,10 +28,17 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
             let map = PhaseMap::relations(&mut equations.pool, model, &given);
             map.find_forwards(model, equations)
         });
+        if let (Ok(law), None) = (&law, &forwards)
+            && given.new.iter().flatten().all(|symbol| shared.contains(symbol))
+        {
+            let given = Transformation { law: law.clone(), ..given.clone() };
+            let map = PhaseMap::relations(&mut equations.pool, model, &given);
+            let implicit = map.implicit(model, equations);
+            equations.supplements.implicit_maps.extend(implicit);
+        }
         equations.supplements.transformation_laws.push(law);
         all.push(forwards);
     }
-    let shared: Vec<Symbol> = model.new_variables().into_iter().map(|(_, s)| s).collect();
     let known = all.iter().flatten().flatten().copied();
     equations.supplements.new_variables =
         known.filter(|(symbol, _)| shared.contains(symbol)).collect();

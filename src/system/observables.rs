@@ -5,12 +5,13 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::channel::{Channel, ChannelKind};
+use super::image::ImageProgram;
 use super::kkt::ConstraintSystem;
 use super::lower::Lowering;
 use super::program::{Program, Register};
 use super::rhs::ProgramBuilder;
 use crate::expr::{Expr, FunctionId, Node, Symbol};
-use crate::mechanics::{Equations, Flow};
+use crate::mechanics::{Equations, Flow, ImplicitMap};
 use crate::model::{self, Follow, Mechanics, Model, Shape};
 
 /// All observables of one system.
@@ -25,6 +26,8 @@ pub(super) struct Observables {
     pub(super) precise: Arc<Program>,
     /// The other channels, of the same inputs.
     pub(super) drawn: Arc<Program>,
+    /// The maps whose images are the last inputs.
+    pub(super) images: Vec<ImageProgram>,
 }
 
 /// A list of channels under construction, with their expressions; the ledger has none.
@@ -229,15 +232,23 @@ impl ObservableList {
 
     /// Compiles the list.
     pub(super) fn compile(self, builder: &mut ProgramBuilder<'_>) -> Result<Observables, Symbol> {
+        let equations = builder.equations;
+        let maps = equations.supplements.implicit_maps.iter();
+        let used: Vec<&ImplicitMap> =
+            maps.filter(|map| map.new.iter().any(|&s| self.depends(equations, s))).collect();
+        let images = used.iter().map(|map| ImageProgram::of(map, builder));
+        let images = images.collect::<Result<_, _>>()?;
+        let new: Vec<Symbol> = used.iter().flat_map(|map| map.new.clone()).collect();
         let (precise, drawn) = self.expressions.split_at(self.precise);
-        let precise = program(builder, precise)?;
-        let drawn = program(builder, drawn)?;
+        let precise = program_with(builder, precise, &new)?;
+        let drawn = program_with(builder, drawn, &new)?;
         Ok(Observables {
             channels: self.channels,
             columns: self.columns,
             index: self.index,
             precise,
             drawn,
+            images,
         })
     }
 }
@@ -247,6 +258,15 @@ impl ObservableList {
 pub(super) fn program(
     builder: &mut ProgramBuilder<'_>,
     channels: &[Option<Expr>],
+) -> Result<Arc<Program>, Symbol> {
+    program_with(builder, channels, &[])
+}
+
+/// The same, with the new variables of implicit maps as its last inputs.
+fn program_with(
+    builder: &mut ProgramBuilder<'_>,
+    channels: &[Option<Expr>],
+    new: &[Symbol],
 ) -> Result<Arc<Program>, Symbol> {
     let equations = builder.equations;
     let accelerated = is_accelerated(builder, channels);
@@ -264,6 +284,10 @@ pub(super) fn program(
     let mut lowering = builder.on_full_state();
     let (action, work) = (lowering.input(), lowering.input());
     lowering.bind(equations.symbols.action, action);
+    for &symbol in new {
+        let image = lowering.input();
+        lowering.bind(symbol, image);
+    }
     bind_derived(&mut lowering, equations, &kkt, accelerated, &accelerations, &used);
     let energy = lowering.variable(equations.symbols.energy);
     let outputs: Vec<Register> = channels

@@ -1,5 +1,6 @@
 //! Evaluates the value of every channel at a state.
 
+use super::image::Image;
 use super::legendre::Legendre;
 use super::value::Evaluator;
 use super::{Form, MotionError, State, System};
@@ -23,12 +24,14 @@ pub struct Observer {
     parameters: Vec<f64>,
     inputs: Vec<DoubleDouble>,
     rounded: Vec<f64>,
+    images: Vec<Image>,
 }
 
 impl Observer {
     pub(super) fn new(system: System, parameters: &[f64]) -> Observer {
         let watch = system.watch();
-        let inputs = system.motion_len() + 2;
+        let images: Vec<Image> = watch.images.iter().map(Image::new).collect();
+        let inputs = system.motion_len() + 2 + images.iter().map(Image::len).sum::<usize>();
         let mut observer = Observer {
             precise: Evaluator::new(Arc::clone(&watch.precise)),
             drawn: Evaluator::new(Arc::clone(&watch.drawn)),
@@ -38,6 +41,7 @@ impl Observer {
             parameters: Vec::new(),
             inputs: vec![DoubleDouble::ZERO; inputs],
             rounded: vec![0.0; inputs],
+            images,
             system,
         };
         observer.set_parameters(parameters);
@@ -53,6 +57,9 @@ impl Observer {
         self.drawn.set_parameters(&parameters);
         self.energy.set_parameters(&parameters);
         self.legendre.set_parameters(&parameters);
+        for image in &mut self.images {
+            image.set_parameters(&parameters);
+        }
     }
 
     /// The parameters in use.
@@ -89,6 +96,12 @@ impl Observer {
     fn observe_leading(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
         let n = self.system.degrees();
         self.take_in(state)?;
+        let (own, mut images) = self.inputs.split_at_mut(self.system.motion_len() + 2);
+        for image in &mut self.images {
+            let (first, others) = images.split_at_mut(image.len());
+            image.write(state.exact_time(), &own[..self.system.motion_len()], first);
+            images = others;
+        }
         let outcome = self.precise.evaluate(state.exact_time(), &self.inputs);
         outcome.map_err(|singular| {
             let program = &self.system.watch().precise;

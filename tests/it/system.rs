@@ -1,6 +1,7 @@
 //! From equations to numbers: the program and its two evaluators, states, conversions, channels.
 
 mod channels;
+mod images;
 mod program;
 mod series;
 mod states;
