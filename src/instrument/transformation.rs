@@ -6,6 +6,8 @@
 //! plane. The job finds the lines, whether the map is canonical, and K.
 //! Source: *The Principles of Dynamics*, §§ 3.2.2, 3.3.
 
+mod grid;
+
 use std::sync::Arc;
 
 use super::{
@@ -14,7 +16,7 @@ use super::{
 };
 use crate::expr::{Expr, Pool, Symbol};
 use crate::job::Job;
-use crate::mechanics::{TransformationReport, Valuation};
+use crate::mechanics::{ImplicitMap, TransformationReport, phase_maps};
 use crate::model::Transformation as Law;
 use crate::num::significant;
 use crate::system::ChannelKind;
@@ -24,19 +26,11 @@ const GRID: Level = 0;
 const TRAIL: Level = 2;
 const NOW: Level = 4;
 
-/// The lines of each old variable, and the points of a line.
-const LINES: usize = 7;
-const POINTS: usize = 129;
-
 /// The part of the range of the motion that is added on each side.
 const MARGIN: f64 = 0.15;
 
 /// One of so many points of the grid may be out of the picture at each end of an axis.
 const OUTER: usize = 40;
-
-/// A step along a line is a jump if it is so many times the one in the middle of all, and longer than this part of the line.
-const JUMP: f64 = 30.0;
-const PART: f64 = 0.25;
 
 /// The row.
 pub(super) struct Transformation;
@@ -171,10 +165,14 @@ impl Instrument for Transformation {
         let old = known.and_then(Option::as_ref).and_then(|forwards| {
             let of = |symbol: Symbol| forwards.iter().find(|(s, _)| *s == symbol).map(|(_, e)| *e);
             let images = [of(new[0])?, of(new[1])?];
-            let old = old_variables(&equations.pool, present.physics, images)?;
+            let old = old_variables(&equations.pool, present.physics, &images)?;
             Some((images, old))
         });
-        let wanted = old.and_then(|(_, old)| {
+        let implicit = implicit(present.physics, new).filter(|map| map.new.len() == 2);
+        let unwritten = implicit
+            .and_then(|map| old_variables(&equations.pool, present.physics, &map.relations));
+        let axes = old.map(|(_, old)| old).or(unwritten);
+        let wanted = axes.and_then(|old| {
             let [u, v] = old.map(|(_, channel)| present.bounds.get(channel).copied());
             Some([u?, v?].map(|(lo, hi)| [lo, hi]))
         });
@@ -203,10 +201,21 @@ impl Instrument for Transformation {
             })
         });
         let (equations, at) = (Arc::clone(equations), present.valuation());
+        let model = Arc::clone(model);
+        let image = [plot.column(0), plot.column(1)];
+        let image = image.map(|channel| channel.map_or(f64::NAN, |c| present.value(c)));
         Need::Job(Job::new("grid", move |_| {
-            let grid = match (old, window) {
-                (Some((images, old)), Some(window)) => {
-                    grid(&equations.pool, &at, images, (old.map(|(s, _)| s), window))
+            let grid = match (old, axes, window) {
+                (Some((images, _)), Some(old), Some(window)) => {
+                    grid::written(&equations.pool, &at, images, (old.map(|(s, _)| s), window))
+                }
+                (None, Some(old), Some(window)) => {
+                    let mut equations = (*equations).clone();
+                    let maps = phase_maps(&model, &mut equations);
+                    let map = maps.iter().find(|map| map.new == new);
+                    let at = at.clone().with(new.into_iter().zip(image));
+                    let old = (old.map(|(s, _)| s), window);
+                    map.map_or_else(Vec::new, |map| grid::solved(&equations.pool, map, &at, old))
                 }
                 _ => Vec::new(),
             };
@@ -236,14 +245,19 @@ impl Instrument for Transformation {
 /// What is said of an image that is found by Newton's method.
 fn solved(plot: &Plot, present: &Present<'_>) -> Option<&'static str> {
     let Shown { new, .. } = shown(plot, present.physics)?;
-    let maps = &present.physics.equations.supplements.implicit_maps;
-    maps.iter().find(|map| map.new.contains(&new[0]))?;
+    implicit(present.physics, new)?;
     let image = [plot.column(0)?, plot.column(1)?].map(|channel| present.value(channel));
     Some(if image.iter().all(|x| x.is_finite()) {
         "solved numerically"
     } else {
         "no image: a caustic, det ∂²F/∂old∂new = 0"
     })
+}
+
+/// The map of two new variables, if it is known by relations only.
+fn implicit(physics: Physics<'_>, new: [Symbol; 2]) -> Option<&ImplicitMap> {
+    let maps = &physics.equations.supplements.implicit_maps;
+    maps.iter().find(|map| map.new.contains(&new[0]))
 }
 
 /// The channels of the old variables of the pair that is shown, where the point is moved and not its coordinates.
@@ -355,83 +369,21 @@ fn shown<'a>(plot: &Plot, physics: Physics<'a>) -> Option<Shown<'a>> {
     })
 }
 
-/// The two old variables on which two new ones depend, with their channels; `None` if there are others, or the time.
-fn old_variables(
-    pool: &Pool,
-    physics: Physics<'_>,
-    images: [Expr; 2],
-) -> Option<[(Symbol, usize); 2]> {
+/// The two old variables on which new ones, or their relations, depend, with their channels; `None` if there are others,
+/// or the time.
+fn old_variables(pool: &Pool, physics: Physics<'_>, of: &[Expr]) -> Option<[(Symbol, usize); 2]> {
     let model = physics.model;
-    if pool.depends_on_any(images[0], &[model.symbols.time])
-        || pool.depends_on_any(images[1], &[model.symbols.time])
-    {
+    if of.iter().any(|&e| pool.depends_on_any(e, &[model.symbols.time])) {
         return None;
     }
     let coordinates = model.coordinates.iter().enumerate();
     let all = coordinates.flat_map(|(i, c)| {
         [(c.position, ChannelKind::Position(i)), (c.momentum, ChannelKind::Momentum(i))]
     });
-    let on = all.filter(|(symbol, _)| images.iter().any(|&e| pool.depends(e, *symbol)));
+    let on = all.filter(|(symbol, _)| of.iter().any(|&e| pool.depends(e, *symbol)));
     let on: Vec<(Symbol, usize)> =
         on.map(|(s, kind)| Some((s, physics.channel(kind)?))).collect::<Option<_>>()?;
     on.try_into().ok()
-}
-
-/// The lines on which one of two old variables is constant, in the plane of two new ones.
-fn grid(
-    pool: &Pool,
-    at: &Valuation,
-    images: [Expr; 2],
-    (old, window): ([Symbol; 2], [[f64; 2]; 2]),
-) -> Vec<Vec<[f64; 2]>> {
-    let place = |axis: usize, k: usize, count: usize| {
-        let [lo, hi] = window[axis];
-        lo + (hi - lo) * k as f64 / (count - 1) as f64
-    };
-    let mut all = Vec::new();
-    for constant in [0, 1] {
-        for line in 0..LINES {
-            let mut point = at.clone();
-            point.set(old[constant], place(constant, line, LINES));
-            let image = |k: usize| {
-                point.set(old[1 - constant], place(1 - constant, k, POINTS));
-                images.map(|e| point.value(pool, e))
-            };
-            let line: Vec<[f64; 2]> = (0..POINTS).map(image).collect();
-            all.extend(parted(&line));
-        }
-    }
-    all
-}
-
-/// A line without what joins the two sides of a jump, and without places that have no value.
-fn parted(line: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
-    let length = |pair: &[[f64; 2]]| [0, 1].map(|k| (pair[1][k] - pair[0][k]).abs());
-    let steps: Vec<[f64; 2]> = line.windows(2).map(length).collect();
-    let bound = [0, 1].map(|k| {
-        let mut sizes: Vec<f64> = steps.iter().map(|s| s[k]).filter(|s| s.is_finite()).collect();
-        sizes.sort_by(f64::total_cmp);
-        let values = line.iter().map(|point| point[k]).filter(|x| x.is_finite());
-        let (lo, hi) =
-            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), x| (lo.min(x), hi.max(x)));
-        let middle = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
-        (JUMP * middle).max(PART * (hi - lo))
-    });
-    let mut parts = vec![Vec::new()];
-    for (i, &point) in line.iter().enumerate() {
-        let breaks = |k: usize| steps[i - 1][k].is_nan() || steps[i - 1][k] > bound[k];
-        let jumps = i > 0 && (breaks(0) || breaks(1));
-        if jumps {
-            parts.push(Vec::new());
-        }
-        if point.iter().all(|x| x.is_finite())
-            && let Some(part) = parts.last_mut()
-        {
-            part.push(point);
-        }
-    }
-    parts.retain(|part| part.len() > 1);
-    parts
 }
 
 /// What is said of a transformation.
@@ -451,20 +403,4 @@ fn lines(pool: &Pool, report: &TransformationReport) -> Vec<String> {
     lines.extend(verdict.valence.map(|c| format!("of valence {}", pool.unicode(c))));
     lines.extend(report.hamiltonian.as_ref().ok().map(|k| format!("K = {}", pool.unicode(*k))));
     lines
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_line_is_not_joined_across_a_jump() {
-        let angle = |k: i32| [f64::from((k + 40) % 100), f64::from(k)];
-        let parts = parted(&(0..100).map(angle).collect::<Vec<_>>());
-        assert_eq!(parts.iter().map(Vec::len).collect::<Vec<_>>(), [60, 40]);
-        let whole = parted(&(0..100).map(|k| [f64::from(k * k), 1.0]).collect::<Vec<_>>());
-        assert_eq!(whole.len(), 1);
-        let holes = parted(&[[0.0, 0.0], [1.0, 0.0], [f64::NAN, 0.0], [3.0, 0.0], [4.0, 0.0]]);
-        assert_eq!(holes.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);
-    }
 }

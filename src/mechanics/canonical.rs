@@ -24,6 +24,9 @@ const CANONICAL: f64 = 1e-10;
 /// Relations hold at a point if what is left of them is this small relative to their terms.
 const HOLDS: f64 = 1e-9;
 
+/// An image is near another if Newton's first step misses it by less than this part of the step.
+const NEAR: f64 = 0.5;
+
 /// Points at which M is larger are left out while there are others: they are next to where the map
 /// breaks down.
 const LARGEST: f64 = 1e4;
@@ -287,6 +290,22 @@ impl PhaseMap {
             let at = point.clone().with(self.new.iter().copied().zip(guess));
             self.newton(pool, at)
         })
+    }
+
+    /// A point with its image on the branch of a near image, which the valuation has as values of the new variables;
+    /// `None` where that branch has ended.
+    pub fn image_near(&self, pool: &Pool, near: Valuation) -> Option<Valuation> {
+        let before: Vec<f64> = self.new.iter().map(|&s| near.at(s)).collect();
+        let left = DVector::from_iterator(
+            before.len(),
+            self.relations.iter().map(|&e| near.value(pool, e)),
+        );
+        let step = matrix_at(pool, &self.by_new, &near).full_piv_lu().solve(&left)?;
+        let image = self.newton(pool, near)?;
+        let off = self.new.iter().zip(before.iter().zip(step.iter()));
+        // next to a caustic the first step leads far away, and the image is elsewhere
+        let missed = off.map(|(&s, (x, d))| (image.at(s) - (x - d)).abs()).fold(0.0, f64::max);
+        (missed <= NEAR * step.amax() || step.amax() <= HOLDS).then_some(image)
     }
 
     /// The image of a point by Newton's method from a guess.

@@ -5,7 +5,7 @@ use phaselab::instrument::{Ink, Layer, Picture, Plot};
 use phaselab::num::math;
 use phaselab::preset;
 
-use crate::hand::{lab, press};
+use crate::hand::{begun, lab, press};
 
 /// The plots of this kind in the lab of a preset, on which motion has been seen up to a time.
 fn plots(app: &App) -> Vec<Plot> {
@@ -158,4 +158,37 @@ fn only_new_variables_are_its_axes() {
     assert!(said.contains("is shown in its new variables, and this is none"), "{said}");
     assert!(said.contains("write one of X, Y"), "{said}");
     assert_eq!(report(&text.replace("y = \"p_q\"", "y = \"Y\"")), "");
+}
+
+/// p = P + a cos(q + P) and Q = q + a cos(q + P) cannot be written down: along each line of the grid q or p is constant, by
+/// iterating q = Q − a cos(q + P).
+#[test]
+fn a_map_without_a_closed_form_has_its_grid() {
+    let text = "title = \"t\"\n[coordinates]\nq = { initial = 0.4, momentum = 0.3 }\n[hamiltonian]\n\
+        H = \"p_q^2/2 + q^2/2\"\n[[transformations]]\nname = \"twist\"\nkind = \"F2\"\nnew = [\"Q\", \"P\"]\n\
+        F = \"q*P + 0.1*sin(q + P)\"\n[[views]]\nkind = \"transformation\"\nx = \"Q\"\ny = \"P\"\n";
+    let mut app = begun(text);
+    press(&mut app, "Wait");
+    let [plot] = &plots(&app)[..] else { panic!("the file has one") };
+    let (grid, words) = shown(&app, plot);
+    assert_eq!(words.first().map(String::as_str), Some("canonical, proved"));
+    assert_eq!(words.last().map(String::as_str), Some("solved numerically"));
+    assert_eq!(grid.len(), 14, "seven lines of each");
+    let spread = |values: Vec<f64>| {
+        let hi = values.iter().fold(f64::NEG_INFINITY, |hi, &x| hi.max(x));
+        hi - values.iter().fold(f64::INFINITY, |lo, &x| lo.min(x))
+    };
+    let mut constant = [0, 0];
+    for line in &grid {
+        let old = |&[new_q, new_p]: &[f64; 2]| {
+            let turn = |q: f64| 0.1 * math::cos(q + new_p);
+            let q = (0..60).fold(new_q, |q, _| new_q - turn(q));
+            [q, new_p + turn(q)]
+        };
+        let held = [0, 1].map(|k| spread(line.iter().map(|image| old(image)[k]).collect()));
+        let axis = usize::from(held[1] < held[0]);
+        assert!(held[axis] < 1e-14 && held[1 - axis] > 0.25, "{held:?}");
+        constant[axis] += 1;
+    }
+    assert_eq!(constant, [7, 7]);
 }
