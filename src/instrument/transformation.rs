@@ -16,7 +16,7 @@ use super::{
 };
 use crate::expr::{Expr, Pool, Symbol};
 use crate::job::Job;
-use crate::mechanics::{ImplicitMap, TransformationReport, phase_maps};
+use crate::mechanics::{ImplicitMap, TransformationReport};
 use crate::model::Transformation as Law;
 use crate::num::significant;
 use crate::system::ChannelKind;
@@ -169,9 +169,11 @@ impl Instrument for Transformation {
             Some((images, old))
         });
         let implicit = implicit(present.physics, new).filter(|map| map.new.len() == 2);
-        let unwritten = implicit
-            .and_then(|map| old_variables(&equations.pool, present.physics, &map.relations));
-        let axes = old.map(|(_, old)| old).or(unwritten);
+        let unwritten = implicit.and_then(|map| {
+            let old = old_variables(&equations.pool, present.physics, &map.relations)?;
+            Some((map.clone(), old))
+        });
+        let axes = old.map(|(_, old)| old).or(unwritten.as_ref().map(|(_, old)| *old));
         let wanted = axes.and_then(|old| {
             let [u, v] = old.map(|(_, channel)| present.bounds.get(channel).copied());
             Some([u?, v?].map(|(lo, hi)| [lo, hi]))
@@ -201,21 +203,17 @@ impl Instrument for Transformation {
             })
         });
         let (equations, at) = (Arc::clone(equations), present.valuation());
-        let model = Arc::clone(model);
         let image = [plot.column(0), plot.column(1)];
         let image = image.map(|channel| channel.map_or(f64::NAN, |c| present.value(c)));
         Need::Job(Job::new("grid", move |_| {
-            let grid = match (old, axes, window) {
-                (Some((images, _)), Some(old), Some(window)) => {
+            let grid = match (old, &unwritten, window) {
+                (Some((images, old)), _, Some(window)) => {
                     grid::written(&equations.pool, &at, images, (old.map(|(s, _)| s), window))
                 }
-                (None, Some(old), Some(window)) => {
-                    let mut equations = (*equations).clone();
-                    let maps = phase_maps(&model, &mut equations);
-                    let map = maps.iter().find(|map| map.new == new);
+                (None, Some((map, old)), Some(window)) => {
                     let at = at.clone().with(new.into_iter().zip(image));
                     let old = (old.map(|(s, _)| s), window);
-                    map.map_or_else(Vec::new, |map| grid::solved(&equations.pool, map, &at, old))
+                    grid::solved(&equations.pool, map, &at, (new, old))
                 }
                 _ => Vec::new(),
             };
@@ -257,7 +255,7 @@ fn solved(plot: &Plot, present: &Present<'_>) -> Option<&'static str> {
 /// The map of two new variables, if it is known by relations only.
 fn implicit(physics: Physics<'_>, new: [Symbol; 2]) -> Option<&ImplicitMap> {
     let maps = &physics.equations.supplements.implicit_maps;
-    maps.iter().find(|map| map.new.contains(&new[0]))
+    maps.iter().map(|(map, _)| map).find(|map| map.new.contains(&new[0]))
 }
 
 /// The channels of the old variables of the pair that is shown, where the point is moved and not its coordinates.

@@ -8,9 +8,10 @@
 
 use std::collections::HashMap;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use super::equations::{Equations, ImplicitMap};
+use super::implicit_map::matrix_at;
 use super::isolate::{self, Solution, tidy};
 use super::sampling::{POINTS, TRIES};
 use super::valuation::Valuation;
@@ -20,12 +21,6 @@ use crate::num::Number;
 
 /// The residual below which a map without a proof is canonical, relative to the size of M.
 const CANONICAL: f64 = 1e-10;
-
-/// Relations hold at a point if what is left of them is this small relative to their terms.
-const HOLDS: f64 = 1e-9;
-
-/// An image is near another if Newton's first step misses it by less than this part of the step.
-const NEAR: f64 = 0.5;
 
 /// Points at which M is larger are left out while there are others: they are next to where the map
 /// breaks down.
@@ -42,17 +37,14 @@ pub struct PhaseMap {
     pub name: String,
     /// q…, then p….
     pub old: Vec<Symbol>,
-    /// Q…, then P….
-    pub new: Vec<Symbol>,
-    /// Expressions of both that vanish, as many as there are new variables.
-    pub relations: Vec<Expr>,
+    /// The relations between them and the new variables.
+    pub implicit: ImplicitMap,
     /// ∂F/∂t at fixed variables of the generating function; `None` if the map is explicit.
     pub function_rate: Option<Expr>,
     /// The new variables as functions of the old and t, if they can be written down.
     pub forwards: Option<Solution>,
     /// Whether its generating function has an old and a new variable of different kinds.
     may_be_near_identity: bool,
-    by_new: Vec<Vec<Expr>>,
     by_old: Vec<Vec<Expr>>,
 }
 
@@ -144,12 +136,10 @@ impl PhaseMap {
         PhaseMap {
             name,
             old,
-            new,
-            relations,
+            implicit: ImplicitMap { new, relations, by_new },
             function_rate,
             forwards: None,
             may_be_near_identity,
-            by_new,
             by_old,
         }
     }
@@ -170,8 +160,10 @@ impl PhaseMap {
         // of a map that may be near the identity the branch that is nearest to it comes first
         let nearest: Vec<Option<Valuation>> = if self.may_be_near_identity {
             let same = |point: &Valuation| {
-                let values = self.new.iter().zip(&self.old).map(|(&s, &old)| (s, point.at(old)));
-                self.newton(&equations.pool, point.clone().with(values.collect::<Vec<_>>()))
+                let values =
+                    self.implicit.new.iter().zip(&self.old).map(|(&s, &old)| (s, point.at(old)));
+                self.implicit
+                    .newton(&equations.pool, point.clone().with(values.collect::<Vec<_>>()))
             };
             points.iter().take(WITNESSES).map(same).collect()
         } else {
@@ -189,7 +181,7 @@ impl PhaseMap {
             let (right, wrong): (Vec<_>, Vec<_>) = both.partition(|(p, image)| same(p, image));
             right.len() > wrong.len()
         };
-        let (relations, new) = (self.relations.clone(), self.new.clone());
+        let (relations, new) = (self.implicit.relations.clone(), self.implicit.new.clone());
         if nearest.iter().any(Option::is_some) {
             let found = isolate::solve(&mut equations.pool, &relations, &new, &mut near);
             if found.is_some() {
@@ -202,7 +194,7 @@ impl PhaseMap {
                 let image: Vec<(Symbol, f64)> =
                     found.iter().map(|&(s, e)| (s, point.value(pool, e))).collect();
                 let at = point.clone().with(image);
-                match self.holds(pool, &at) {
+                match self.implicit.holds(pool, &at) {
                     Some(true) => right += 1,
                     Some(false) => wrong += 1,
                     None => {}
@@ -237,36 +229,12 @@ impl PhaseMap {
             let e = pool.open_tangents(e);
             pool.simplify(e)
         };
-        let relations: Vec<Expr> = self.relations.iter().map(|&e| open(pool, e)).collect();
+        let relations: Vec<Expr> = self.implicit.relations.iter().map(|&e| open(pool, e)).collect();
         // a solution that holds everywhere, else a branch
         [true, false].into_iter().find_map(|everywhere| {
             let mut test = |pool: &mut Pool, found: &Solution| accept(pool, found, everywhere);
             isolate::solve(&mut equations.pool, &relations, &self.old, &mut test)
         })
-    }
-
-    /// The relations alone, with an image of a point near the start; `None` if none is found.
-    pub(super) fn implicit(&self, model: &Model, equations: &Equations) -> Option<ImplicitMap> {
-        let at = self.images(model, equations, 1).pop()?;
-        Some(ImplicitMap {
-            new: self.new.clone(),
-            relations: self.relations.clone(),
-            by_new: self.by_new.clone(),
-            example: self.new.iter().map(|&s| at.at(s)).collect(),
-        })
-    }
-
-    /// Whether the relations hold at a point; `None` if they have no values there.
-    fn holds(&self, pool: &Pool, at: &Valuation) -> Option<bool> {
-        let mut all = true;
-        for &e in &self.relations {
-            let (value, size) = pool.evaluate_with_size(e, &|s| at.at(s));
-            if !value.is_finite() {
-                return None;
-            }
-            all &= value.abs() <= HOLDS * size.max(f64::MIN_POSITIVE);
-        }
-        Some(all)
     }
 
     /// A point with its image, if one is found by what is written down or by Newton's method.
@@ -275,88 +243,28 @@ impl PhaseMap {
             let image: Vec<(Symbol, f64)> =
                 forwards.iter().map(|&(s, e)| (s, point.value(pool, e))).collect();
             let at = point.clone().with(image);
-            if self.holds(pool, &at) == Some(true) {
-                return Some(self.newton(pool, at.clone()).unwrap_or(at));
+            if self.implicit.holds(pool, &at) == Some(true) {
+                return Some(self.implicit.newton(pool, at.clone()).unwrap_or(at));
             }
         }
-        // guesses: the old variables, and numbers of several sizes and signs
-        let same: Vec<f64> = self.old.iter().map(|&s| point.at(s)).collect();
-        let n = self.new.len();
-        let spread = |k: usize| -> Vec<f64> {
-            const SIZES: [f64; 7] = [0.7, -0.6, 1.9, 0.1, -1.7, 5.0, 30.0];
-            (0..n).map(|i| SIZES[(k + i * (k / 7 + 1)) % 7]).collect()
-        };
-        std::iter::once(same).chain((0..21).map(spread)).find_map(|guess| {
-            let at = point.clone().with(self.new.iter().copied().zip(guess));
-            self.newton(pool, at)
-        })
-    }
-
-    /// A point with its image on the branch of a near image, which the valuation has as values of the new variables;
-    /// `None` where that branch has ended.
-    pub fn image_near(&self, pool: &Pool, near: Valuation) -> Option<Valuation> {
-        let before: Vec<f64> = self.new.iter().map(|&s| near.at(s)).collect();
-        let left = DVector::from_iterator(
-            before.len(),
-            self.relations.iter().map(|&e| near.value(pool, e)),
-        );
-        let step = matrix_at(pool, &self.by_new, &near).full_piv_lu().solve(&left)?;
-        let image = self.newton(pool, near)?;
-        let off = self.new.iter().zip(before.iter().zip(step.iter()));
-        // next to a caustic the first step leads far away, and the image is elsewhere
-        let missed = off.map(|(&s, (x, d))| (image.at(s) - (x - d)).abs()).fold(0.0, f64::max);
-        (missed <= NEAR * step.amax() || step.amax() <= HOLDS).then_some(image)
-    }
-
-    /// The image of a point by Newton's method from a guess.
-    fn newton(&self, pool: &Pool, mut at: Valuation) -> Option<Valuation> {
-        const MOST: usize = 60;
-        let n = self.new.len();
-        let residual = |at: &Valuation| {
-            DVector::from_iterator(n, self.relations.iter().map(|&e| at.value(pool, e)))
-        };
-        let mut left = residual(&at);
-        for _ in 0..MOST {
-            if !left.iter().all(|x| x.is_finite()) {
-                return None;
-            }
-            let step = matrix_at(pool, &self.by_new, &at).full_piv_lu().solve(&left)?;
-            let (mut part, mut moved) = (1.0, None);
-            for _ in 0..12 {
-                let values =
-                    self.new.iter().zip(step.iter()).map(|(&s, d)| (s, at.at(s) - part * d));
-                let trial = at.clone().with(values.collect::<Vec<_>>());
-                let after = residual(&trial);
-                if after.iter().all(|x| x.is_finite())
-                    && (after.norm() < left.norm() || step.norm() < 1e-12)
-                {
-                    moved = Some((trial, after));
-                    break;
-                }
-                part *= 0.5;
-            }
-            let size = self.new.iter().map(|&s| at.at(s).abs()).fold(1.0, f64::max);
-            let small = step.amax() <= 1e-14 * size;
-            match moved {
-                Some((trial, after)) => (at, left) = (trial, after),
-                None => return (self.holds(pool, &at) == Some(true)).then_some(at),
-            }
-            if small {
-                break;
-            }
-        }
-        (self.holds(pool, &at) == Some(true)).then_some(at)
+        let same = self.old.iter().map(|&s| point.at(s)).collect();
+        self.implicit.search(pool, point, same)
     }
 
     /// M = ∂(Q, P)/∂(q, p) at a point with its image; `None` where the map breaks down.
     pub fn tangent(&self, pool: &Pool, at: &Valuation) -> Option<DMatrix<f64>> {
         let by_old = matrix_at(pool, &self.by_old, at);
-        let tangent = -matrix_at(pool, &self.by_new, at).full_piv_lu().solve(&by_old)?;
+        let tangent = -matrix_at(pool, &self.implicit.by_new, at).full_piv_lu().solve(&by_old)?;
         tangent.iter().all(|x| x.is_finite()).then_some(tangent)
     }
 
     /// Points near the start with their images.
-    fn images(&self, model: &Model, equations: &Equations, most: usize) -> Vec<Valuation> {
+    pub(super) fn images(
+        &self,
+        model: &Model,
+        equations: &Equations,
+        most: usize,
+    ) -> Vec<Valuation> {
         let points = (0..TRIES).map(|n| Valuation::near_start(model, equations, n));
         // where a tenth of the points has no image, none of the others will
         let mut failed = 0;
@@ -408,7 +316,7 @@ impl PhaseMap {
 
     /// Why a generating function gives no map.
     fn no_map(&self, pool: &mut Pool) -> String {
-        let matrix = self.by_new.clone();
+        let matrix = self.implicit.by_new.clone();
         let right = vec![Expr::ZERO; matrix.len()];
         match super::linear::solve(pool, &matrix, &right) {
             Err(_) => "its equations cannot be solved: the determinant of ∂²F/∂old∂new vanishes \
@@ -420,7 +328,7 @@ impl PhaseMap {
 
     /// Compares the brackets of an explicit map with those of canonical variables.
     fn by_brackets(&self, equations: &mut Equations, verdict: &mut Verdict) {
-        let n = self.new.len() / 2;
+        let n = self.implicit.new.len() / 2;
         let pool = &mut equations.pool;
         let mut all: Vec<(FailingBracket, Zero)> = Vec::new();
         for i in 0..2 * n {
@@ -438,7 +346,7 @@ impl PhaseMap {
                 let expected = if j == i + n { Expr::ONE } else { Expr::ZERO };
                 let difference = pool.sub(is, expected);
                 let zero = pool.is_zero(difference);
-                let pair = [self.new[i], self.new[j]];
+                let pair = [self.implicit.new[i], self.implicit.new[j]];
                 all.push((FailingBracket { pair, is, expected }, zero));
             }
         }
@@ -485,10 +393,6 @@ impl PhaseMap {
         }
         valence.filter(|&c| pool.is_zero(c) == Zero::No)
     }
-}
-
-fn matrix_at(pool: &Pool, of: &[Vec<Expr>], at: &Valuation) -> DMatrix<f64> {
-    DMatrix::from_fn(of.len(), of.len(), |i, j| at.value(pool, of[i][j]))
 }
 
 /// The largest entry of |M 𝕁 Mᵀ − 𝕁|.

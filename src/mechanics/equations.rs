@@ -72,7 +72,7 @@ pub struct Equations {
     pub supplements: Supplements,
 }
 
-/// A transformation whose new variables are known by relations only.
+/// A transformation as relations between the old and the new variables.
 #[derive(Clone, Debug)]
 pub struct ImplicitMap {
     /// Q…, then P….
@@ -81,8 +81,6 @@ pub struct ImplicitMap {
     pub relations: Vec<Expr>,
     /// Their derivatives with respect to the new variables, a row for each relation.
     pub by_new: Vec<Vec<Expr>>,
-    /// An image of a point near the start.
-    pub example: Vec<f64>,
 }
 
 /// What is integrated, drawn or derived alongside the equations of motion without affecting them.
@@ -106,8 +104,9 @@ pub struct Supplements {
     /// New variables of transformations and constants of the complete integral, as functions of
     /// (q, p, t), as far as they can be written down.
     pub new_variables: Vec<(Symbol, Expr)>,
-    /// The transformations that cannot be written down, whose new variables other expressions may use.
-    pub implicit_maps: Vec<ImplicitMap>,
+    /// The transformations that cannot be written down, whose new variables other expressions may use, each with the
+    /// image of a point near the start.
+    pub implicit_maps: Vec<(ImplicitMap, Vec<f64>)>,
     /// q̇ as columns show it, if that is not what the state moves by.
     pub shown_velocities: Option<Vec<Expr>>,
     /// The symbols of the attitude matrix, by rows.

@@ -72,7 +72,7 @@ impl PhaseMap {
     /// The new variables in order, as functions of the old ones.
     fn images_of(&self, forwards: &Solution) -> Option<Vec<Expr>> {
         let value = |s: &Symbol| forwards.iter().find(|(found, _)| found == s).map(|&(_, e)| e);
-        self.new.iter().map(value).collect()
+        self.implicit.new.iter().map(value).collect()
     }
 
     /// F1 as a function of (q, p, t): dF1 = p dq − P dQ at fixed t.
@@ -133,7 +133,7 @@ impl PhaseMap {
         // the old half that it does not have follows from the new half that it has
         let missing = if of.has_position() { &self.old[n..] } else { &self.old[..n] };
         let kept = if of.has_new_position() { 0..n } else { n..2 * n };
-        let (names, values) = (&self.new[kept.clone()], &images[kept]);
+        let (names, values) = (&self.implicit.new[kept.clone()], &images[kept]);
         let pool = &mut equations.pool;
         let mut matrix = Vec::new();
         let mut relations = Vec::new();
@@ -169,7 +169,9 @@ impl PhaseMap {
         let mut found: Option<(Expr, bool)> = None;
         let relations_of = |pool: &mut Pool, function: Expr| {
             let law = TransformationLaw::Generating { types: vec![of; n], function };
-            PhaseMap::relations(pool, model, &Transformation { law, ..given.clone() }).relations
+            PhaseMap::relations(pool, model, &Transformation { law, ..given.clone() })
+                .implicit
+                .relations
         };
         let map: HashMap<Symbol, Expr> = forwards.iter().copied().collect();
         let mut accept = |pool: &mut Pool, solution: &Solution| {

@@ -33,8 +33,10 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
         {
             let given = Transformation { law: law.clone(), ..given.clone() };
             let map = PhaseMap::relations(&mut equations.pool, model, &given);
-            let implicit = map.implicit(model, equations);
-            equations.supplements.implicit_maps.extend(implicit);
+            if let Some(at) = map.images(model, equations, 1).pop() {
+                let image = map.implicit.new.iter().map(|&s| at.at(s)).collect();
+                equations.supplements.implicit_maps.push((map.implicit, image));
+            }
         }
         equations.supplements.transformation_laws.push(law);
         all.push(forwards);

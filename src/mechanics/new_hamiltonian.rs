@@ -60,9 +60,10 @@ impl PhaseMap {
     /// R(q, p, t): its slopes by the old variables are w = Σ (∂Q_i/∂t ∂P_i − ∂P_i/∂t ∂Q_i), and
     /// R = ∫₀¹ w(s η)·η ds, which is written down where w is a polynomial.
     fn rate_of_explicit(&self, pool: &mut Pool, time: Symbol) -> Result<Expr, NoClosedForm> {
-        let n = self.new.len() / 2;
+        let n = self.implicit.new.len() / 2;
         // the relations are Q − Q(q, p, t)
-        let rates: Vec<Expr> = self.relations.iter().map(|&e| pool.derivative(e, time)).collect();
+        let rates: Vec<Expr> =
+            self.implicit.relations.iter().map(|&e| pool.derivative(e, time)).collect();
         if rates.iter().all(|&rate| rate == Expr::ZERO) {
             return Ok(Expr::ZERO);
         }
@@ -70,8 +71,8 @@ impl PhaseMap {
         for k in 0..2 * n {
             let mut terms = Vec::new();
             for i in 0..n {
-                let by_momentum = pool.derivative(self.relations[n + i], self.old[k]);
-                let by_position = pool.derivative(self.relations[i], self.old[k]);
+                let by_momentum = pool.derivative(self.implicit.relations[n + i], self.old[k]);
+                let by_position = pool.derivative(self.implicit.relations[i], self.old[k]);
                 terms.push((Number::ONE, pool.mul(rates[i], by_momentum)));
                 terms.push((Number::MINUS_ONE, pool.mul(rates[n + i], by_position)));
             }

@@ -14,7 +14,7 @@ use super::rhs::ProgramBuilder;
 use super::solve::Factored;
 use super::value::Evaluator;
 use crate::expr::Symbol;
-use crate::mechanics::{Flow, ImplicitMap};
+use crate::mechanics::{Flow, ImplicitMap, guesses};
 use crate::num::{DoubleDouble, Real};
 
 /// The maximal numbers of steps, and of halvings of a step.
@@ -33,9 +33,6 @@ const TAME: f64 = 0.25;
 /// The numbers of parts into which the way from the last state is divided.
 const PARTS: [u32; 4] = [1, 4, 16, 64];
 
-/// Numbers of several sizes and signs, from which a first image is searched.
-const GUESSES: [f64; 7] = [0.7, -0.6, 1.9, 0.1, -1.7, 5.0, 30.0];
-
 /// The relations of one map, and an image near the start.
 #[derive(Clone, Debug)]
 pub(super) struct ImageProgram {
@@ -47,7 +44,7 @@ pub(super) struct ImageProgram {
 
 impl ImageProgram {
     pub(super) fn of(
-        map: &ImplicitMap,
+        (map, example): &(ImplicitMap, Vec<f64>),
         builder: &mut ProgramBuilder<'_>,
     ) -> Result<ImageProgram, Symbol> {
         let equations = builder.equations;
@@ -65,7 +62,7 @@ impl ImageProgram {
         let mut outputs = lowering.lower_all(&map.relations);
         outputs.extend(map.by_new.iter().flat_map(|row| lowering.lower_all(row)));
         let program = lowering.finish(outputs)?;
-        Ok(ImageProgram { program, example: map.example.clone() })
+        Ok(ImageProgram { program, example: example.clone() })
     }
 }
 
@@ -184,13 +181,10 @@ impl Image {
     ) -> Option<Vec<DoubleDouble>> {
         let n = self.len();
         self.inputs[..state.len()].copy_from_slice(state);
-        let double = |x: &f64| DoubleDouble::from(*x);
-        let example: Vec<DoubleDouble> = self.example.iter().map(double).collect();
-        let given = [last.to_vec(), example].into_iter().filter(|guess| guess.len() == n);
-        let spread = (0..3 * GUESSES.len()).map(|k| {
-            let size = |i: usize| &GUESSES[(k + i * (k / GUESSES.len() + 1)) % GUESSES.len()];
-            (0..n).map(|i| double(size(i))).collect()
-        });
+        let doubles = |guess: Vec<f64>| guess.into_iter().map(DoubleDouble::from).collect();
+        let given = [last.to_vec(), doubles(self.example.clone())];
+        let given = given.into_iter().filter(|guess: &Vec<DoubleDouble>| guess.len() == n);
+        let spread = guesses(n).map(doubles);
         given.chain(spread).find_map(|guess| Some(self.newton(time, &guess)?.0))
     }
 

@@ -234,11 +234,11 @@ impl ObservableList {
     pub(super) fn compile(self, builder: &mut ProgramBuilder<'_>) -> Result<Observables, Symbol> {
         let equations = builder.equations;
         let maps = equations.supplements.implicit_maps.iter();
-        let used: Vec<&ImplicitMap> =
-            maps.filter(|map| map.new.iter().any(|&s| self.depends(equations, s))).collect();
+        let used: Vec<&(ImplicitMap, Vec<f64>)> =
+            maps.filter(|(map, _)| map.new.iter().any(|&s| self.depends(equations, s))).collect();
         let images = used.iter().map(|map| ImageProgram::of(map, builder));
         let images = images.collect::<Result<_, _>>()?;
-        let new: Vec<Symbol> = used.iter().flat_map(|map| map.new.clone()).collect();
+        let new: Vec<Symbol> = used.iter().flat_map(|(map, _)| map.new.clone()).collect();
         let (precise, drawn) = self.expressions.split_at(self.precise);
         let precise = program_with(builder, precise, &new)?;
         let drawn = program_with(builder, drawn, &new)?;

@@ -164,10 +164,17 @@ fn only_new_variables_are_its_axes() {
 /// iterating q = Q − a cos(q + P).
 #[test]
 fn a_map_without_a_closed_form_has_its_grid() {
+    for axes in [["Q", "P"], ["P", "Q"]] {
+        has_the_grid_of_a_twist(axes);
+    }
+}
+
+fn has_the_grid_of_a_twist(axes: [&str; 2]) {
     let text = "title = \"t\"\n[coordinates]\nq = { initial = 0.4, momentum = 0.3 }\n[hamiltonian]\n\
         H = \"p_q^2/2 + q^2/2\"\n[[transformations]]\nname = \"twist\"\nkind = \"F2\"\nnew = [\"Q\", \"P\"]\n\
-        F = \"q*P + 0.1*sin(q + P)\"\n[[views]]\nkind = \"transformation\"\nx = \"Q\"\ny = \"P\"\n";
-    let mut app = begun(text);
+        F = \"q*P + 0.1*sin(q + P)\"\n[[views]]\nkind = \"transformation\"\n";
+    let [x, y] = axes;
+    let mut app = begun(&format!("{text}x = \"{x}\"\ny = \"{y}\"\n"));
     press(&mut app, "Wait");
     let [plot] = &plots(&app)[..] else { panic!("the file has one") };
     let (grid, words) = shown(&app, plot);
@@ -180,7 +187,8 @@ fn a_map_without_a_closed_form_has_its_grid() {
     };
     let mut constant = [0, 0];
     for line in &grid {
-        let old = |&[new_q, new_p]: &[f64; 2]| {
+        let old = |&image: &[f64; 2]| {
+            let [new_q, new_p] = if x == "Q" { image } else { [image[1], image[0]] };
             let turn = |q: f64| 0.1 * math::cos(q + new_p);
             let q = (0..60).fold(new_q, |q, _| new_q - turn(q));
             [q, new_p + turn(q)]

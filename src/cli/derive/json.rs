@@ -217,7 +217,7 @@ impl JsonReport<'_> {
                 "proved": known.verdict.proved,
                 "residual": known.verdict.residual,
                 "K": known.hamiltonian.as_ref().ok().map(|&e| self.text(e)),
-                "new": map(&known.map.forwards, &known.map.new),
+                "new": map(&known.map.forwards, &known.map.implicit.new),
                 "old": map(&known.backwards, &known.map.old),
                 "valence": valence,
                 "generating_functions": self.generating_functions(&known.functions),

@@ -4,7 +4,7 @@
 //! where a new variable jumps or has no value. Never here: drawing.
 
 use crate::expr::{Expr, Pool, Symbol};
-use crate::mechanics::{PhaseMap, Valuation};
+use crate::mechanics::{ImplicitMap, Valuation};
 
 /// The lines of each old variable, and the points of a line.
 const LINES: usize = 7;
@@ -43,13 +43,17 @@ pub(super) fn written(
     all
 }
 
-/// The lines of new variables that are solved for, on the branch of the image in `at`.
+/// The lines of new variables that are solved for, on the branch of the image in `at`, or on any where it has none.
 pub(super) fn solved(
     pool: &Pool,
-    map: &PhaseMap,
+    map: &ImplicitMap,
     at: &Valuation,
-    (old, window): Old,
+    (new, (old, window)): ([Symbol; 2], Old),
 ) -> Vec<Vec<[f64; 2]>> {
+    let known = new.iter().all(|&s| at.at(s).is_finite());
+    let begin =
+        if known { Some(at.clone()) } else { map.search(pool, at, old.map(|s| at.at(s)).to_vec()) };
+    let Some(at) = begin else { return Vec::new() };
     let mut all = Vec::new();
     for constant in [0, 1] {
         let other = 1 - constant;
@@ -60,7 +64,7 @@ pub(super) fn solved(
             let way = (1..=WAY).try_fold(at.clone(), |at, k| {
                 let share = k as f64 / WAY as f64;
                 let next = from[constant] + (level - from[constant]) * share;
-                map.image_near(pool, at.with([(old[constant], next)]))
+                map.near(pool, at.with([(old[constant], next)]))
             });
             let Some(begin) = way else { continue };
             let mut line = vec![[f64::NAN; 2]; POINTS];
@@ -71,8 +75,8 @@ pub(super) fn solved(
                 let mut last = begin.clone();
                 for k in side {
                     let next = last.with([(old[other], place(window[other], k, POINTS))]);
-                    let Some(image) = map.image_near(pool, next) else { break };
-                    line[k] = [image.at(map.new[0]), image.at(map.new[1])];
+                    let Some(image) = map.near(pool, next) else { break };
+                    line[k] = new.map(|s| image.at(s));
                     last = image;
                 }
             }

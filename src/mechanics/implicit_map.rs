@@ -1,0 +1,110 @@
+//! Points and their images under a map that is known by relations between old and new variables.
+//!
+//! In: an [`ImplicitMap`], a point, what its image may be near to. Out: the image by Newton's method. Never here: where the
+//! relations come from, motion.
+//! Source: *The Principles of Dynamics*, § 3.2.1.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::equations::ImplicitMap;
+use super::valuation::Valuation;
+use crate::expr::{Expr, Pool};
+
+/// Relations hold at a point if what is left of them is this small relative to their terms.
+const HOLDS: f64 = 1e-9;
+
+/// An image is near another if Newton's first step misses it by less than this part of the step.
+const NEAR: f64 = 0.5;
+
+/// Numbers of several sizes and signs.
+const SIZES: [f64; 7] = [0.7, -0.6, 1.9, 0.1, -1.7, 5.0, 30.0];
+
+/// What `n` numbers of which nothing is known may be near to, for Newton's method to begin with.
+pub fn guesses(n: usize) -> impl Iterator<Item = Vec<f64>> {
+    let row = SIZES.len();
+    (0..3 * row).map(move |k| (0..n).map(|i| SIZES[(k + i * (k / row + 1)) % row]).collect())
+}
+
+impl ImplicitMap {
+    /// Whether the relations hold at a point; `None` if they have no values there.
+    pub(super) fn holds(&self, pool: &Pool, at: &Valuation) -> Option<bool> {
+        let mut all = true;
+        for &e in &self.relations {
+            let (value, size) = pool.evaluate_with_size(e, &|s| at.at(s));
+            if !value.is_finite() {
+                return None;
+            }
+            all &= value.abs() <= HOLDS * size.max(f64::MIN_POSITIVE);
+        }
+        Some(all)
+    }
+
+    /// A point with an image, on whichever branch one is found from a first guess, then from others.
+    pub fn search(&self, pool: &Pool, point: &Valuation, first: Vec<f64>) -> Option<Valuation> {
+        std::iter::once(first).chain(guesses(self.new.len())).find_map(|guess| {
+            let at = point.clone().with(self.new.iter().copied().zip(guess));
+            self.newton(pool, at)
+        })
+    }
+
+    /// A point with its image on the branch of a near image, which the valuation has as values of the new variables;
+    /// `None` where that branch has ended.
+    pub fn near(&self, pool: &Pool, near: Valuation) -> Option<Valuation> {
+        let before: Vec<f64> = self.new.iter().map(|&s| near.at(s)).collect();
+        let left = DVector::from_iterator(
+            before.len(),
+            self.relations.iter().map(|&e| near.value(pool, e)),
+        );
+        let step = matrix_at(pool, &self.by_new, &near).full_piv_lu().solve(&left)?;
+        let image = self.newton(pool, near)?;
+        let off = self.new.iter().zip(before.iter().zip(step.iter()));
+        // next to a caustic the first step leads far away, and the image is elsewhere
+        let missed = off.map(|(&s, (x, d))| (image.at(s) - (x - d)).abs()).fold(0.0, f64::max);
+        (missed <= NEAR * step.amax() || step.amax() <= HOLDS).then_some(image)
+    }
+
+    /// The image of a point by Newton's method from a guess.
+    pub(super) fn newton(&self, pool: &Pool, mut at: Valuation) -> Option<Valuation> {
+        const MOST: usize = 60;
+        let n = self.new.len();
+        let residual = |at: &Valuation| {
+            DVector::from_iterator(n, self.relations.iter().map(|&e| at.value(pool, e)))
+        };
+        let mut left = residual(&at);
+        for _ in 0..MOST {
+            if !left.iter().all(|x| x.is_finite()) {
+                return None;
+            }
+            let step = matrix_at(pool, &self.by_new, &at).full_piv_lu().solve(&left)?;
+            let (mut part, mut moved) = (1.0, None);
+            for _ in 0..12 {
+                let values =
+                    self.new.iter().zip(step.iter()).map(|(&s, d)| (s, at.at(s) - part * d));
+                let trial = at.clone().with(values.collect::<Vec<_>>());
+                let after = residual(&trial);
+                if after.iter().all(|x| x.is_finite())
+                    && (after.norm() < left.norm() || step.norm() < 1e-12)
+                {
+                    moved = Some((trial, after));
+                    break;
+                }
+                part *= 0.5;
+            }
+            let size = self.new.iter().map(|&s| at.at(s).abs()).fold(1.0, f64::max);
+            let small = step.amax() <= 1e-14 * size;
+            match moved {
+                Some((trial, after)) => (at, left) = (trial, after),
+                None => return (self.holds(pool, &at) == Some(true)).then_some(at),
+            }
+            if small {
+                break;
+            }
+        }
+        (self.holds(pool, &at) == Some(true)).then_some(at)
+    }
+}
+
+/// The values of the entries of a matrix.
+pub(super) fn matrix_at(pool: &Pool, of: &[Vec<Expr>], at: &Valuation) -> DMatrix<f64> {
+    DMatrix::from_fn(of.len(), of.len(), |i, j| at.value(pool, of[i][j]))
+}
