@@ -16,7 +16,7 @@ use super::{
 };
 use crate::expr::{Expr, Pool, Symbol};
 use crate::job::Job;
-use crate::mechanics::{ImplicitMap, TransformationReport};
+use crate::mechanics::{Equations, ImplicitMap, TransformationReport};
 use crate::model::Transformation as Law;
 use crate::num::significant;
 use crate::system::ChannelKind;
@@ -168,12 +168,10 @@ impl Instrument for Transformation {
             let old = old_variables(&equations.pool, present.physics, &images)?;
             Some((images, old))
         });
-        let implicit = implicit(present.physics, new).filter(|map| map.new.len() == 2);
-        let unwritten = implicit.and_then(|map| {
-            let old = old_variables(&equations.pool, present.physics, &map.relations)?;
-            Some((map.clone(), old))
-        });
-        let axes = old.map(|(_, old)| old).or(unwritten.as_ref().map(|(_, old)| *old));
+        let unwritten = implicit(equations, new)
+            .filter(|map| map.new.len() == 2)
+            .and_then(|map| old_variables(&equations.pool, present.physics, &map.relations));
+        let axes = old.map(|(_, old)| old).or(unwritten);
         let wanted = axes.and_then(|old| {
             let [u, v] = old.map(|(_, channel)| present.bounds.get(channel).copied());
             Some([u?, v?].map(|(lo, hi)| [lo, hi]))
@@ -206,14 +204,13 @@ impl Instrument for Transformation {
         let image = [plot.column(0), plot.column(1)];
         let image = image.map(|channel| channel.map_or(f64::NAN, |c| present.value(c)));
         Need::Job(Job::new("grid", move |_| {
-            let grid = match (old, &unwritten, window) {
-                (Some((images, old)), _, Some(window)) => {
-                    grid::written(&equations.pool, &at, images, (old.map(|(s, _)| s), window))
-                }
-                (None, Some((map, old)), Some(window)) => {
+            let pool = &equations.pool;
+            let axes = axes.zip(window).map(|(old, window)| (old.map(|(s, _)| s), window));
+            let grid = match (old, implicit(&equations, new), axes) {
+                (Some((images, _)), _, Some(old)) => grid::written(pool, &at, images, old),
+                (None, Some(map), Some(old)) => {
                     let at = at.clone().with(new.into_iter().zip(image));
-                    let old = (old.map(|(s, _)| s), window);
-                    grid::solved(&equations.pool, map, &at, (new, old))
+                    grid::solved(pool, map, &at, (new, old))
                 }
                 _ => Vec::new(),
             };
@@ -243,7 +240,7 @@ impl Instrument for Transformation {
 /// What is said of an image that is found by Newton's method.
 fn solved(plot: &Plot, present: &Present<'_>) -> Option<&'static str> {
     let Shown { new, .. } = shown(plot, present.physics)?;
-    implicit(present.physics, new)?;
+    implicit(present.physics.equations, new)?;
     let image = [plot.column(0)?, plot.column(1)?].map(|channel| present.value(channel));
     Some(if image.iter().all(|x| x.is_finite()) {
         "solved numerically"
@@ -253,9 +250,9 @@ fn solved(plot: &Plot, present: &Present<'_>) -> Option<&'static str> {
 }
 
 /// The map of two new variables, if it is known by relations only.
-fn implicit(physics: Physics<'_>, new: [Symbol; 2]) -> Option<&ImplicitMap> {
-    let maps = &physics.equations.supplements.implicit_maps;
-    maps.iter().map(|(map, _)| map).find(|map| map.new.contains(&new[0]))
+fn implicit(equations: &Equations, new: [Symbol; 2]) -> Option<&ImplicitMap> {
+    let maps = equations.supplements.implicit_maps.iter();
+    maps.map(|(map, _)| map).find(|map| map.new.contains(&new[0]))
 }
 
 /// The channels of the old variables of the pair that is shown, where the point is moved and not its coordinates.

@@ -160,6 +160,23 @@ fn only_new_variables_are_its_axes() {
     assert_eq!(report(&text.replace("y = \"p_q\"", "y = \"Y\"")), "");
 }
 
+/// p = P² + 0.1 sin P + 0.01 is nowhere below 0.0075, so there is no image at p = 0, where the motion begins. Above it
+/// there is one, and P is constant where p is.
+#[test]
+fn a_grid_is_there_where_the_point_itself_has_no_image() {
+    let text = "title = \"t\"\n[coordinates]\nq = { initial = 0.4, momentum = 0 }\n[hamiltonian]\n\
+        H = \"p_q^2/2 + q^2/2\"\n[[transformations]]\nname = \"fold\"\nkind = \"F2\"\nnew = [\"Q\", \"P\"]\n\
+        F = \"q*(P^2 + 0.1*sin(P) + 0.01)\"\n[[views]]\nkind = \"transformation\"\nx = \"Q\"\ny = \"P\"\n";
+    let mut app = begun(text);
+    press(&mut app, "Wait");
+    let [plot] = &plots(&app)[..] else { panic!("the file has one") };
+    let (grid, words) = shown(&app, plot);
+    assert!(grid.len() > 4, "{} lines, {words:?}", grid.len());
+    // where p is constant, P is
+    let level = |line: &[[f64; 2]]| line.iter().all(|at| (at[1] - line[0][1]).abs() < 1e-12);
+    assert!(grid.iter().any(|line| level(line)), "{words:?}");
+}
+
 /// p = P + a cos(q + P) and Q = q + a cos(q + P) cannot be written down: along each line of the grid q or p is constant, by
 /// iterating q = Q − a cos(q + P).
 #[test]

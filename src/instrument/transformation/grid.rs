@@ -17,6 +17,9 @@ const PART: f64 = 0.25;
 /// The points on the way from a known image to a line.
 const WAY: usize = 16;
 
+/// The places of each old variable at which an image is searched.
+const ACROSS: usize = 5;
+
 /// Two old variables, and the range of each.
 type Old = ([Symbol; 2], [[f64; 2]; 2]);
 
@@ -43,17 +46,15 @@ pub(super) fn written(
     all
 }
 
-/// The lines of new variables that are solved for, on the branch of the image in `at`, or on any where it has none.
+/// The lines of new variables that are solved for, on the branch of the image in `at`. Where the point has none, on that
+/// of the first place of the window that has one.
 pub(super) fn solved(
     pool: &Pool,
     map: &ImplicitMap,
     at: &Valuation,
     (new, (old, window)): ([Symbol; 2], Old),
 ) -> Vec<Vec<[f64; 2]>> {
-    let known = new.iter().all(|&s| at.at(s).is_finite());
-    let begin =
-        if known { Some(at.clone()) } else { map.search(pool, at, old.map(|s| at.at(s)).to_vec()) };
-    let Some(at) = begin else { return Vec::new() };
+    let Some(at) = with_image(pool, map, at, (new, (old, window))) else { return Vec::new() };
     let mut all = Vec::new();
     for constant in [0, 1] {
         let other = 1 - constant;
@@ -84,6 +85,24 @@ pub(super) fn solved(
         }
     }
     all
+}
+
+/// The point itself if its image is known, else that point or one of the window, with the image that is found.
+fn with_image(
+    pool: &Pool,
+    map: &ImplicitMap,
+    at: &Valuation,
+    (new, (old, window)): ([Symbol; 2], Old),
+) -> Option<Valuation> {
+    if new.iter().all(|&s| at.at(s).is_finite()) {
+        return Some(at.clone());
+    }
+    let places = (0..ACROSS * ACROSS)
+        .map(|k| [place(window[0], k / ACROSS, ACROSS), place(window[1], k % ACROSS, ACROSS)]);
+    std::iter::once(old.map(|s| at.at(s))).chain(places).find_map(|values| {
+        let point = at.clone().with(old.into_iter().zip(values));
+        map.search(pool, &point, values.to_vec())
+    })
 }
 
 /// One of so many places of a range.
