@@ -11,6 +11,7 @@ mod plane;
 mod pool;
 mod region;
 mod section;
+mod side_by_side;
 mod start;
 
 pub use closed_curve::{Circulation, ClosedCurve};
@@ -20,4 +21,5 @@ pub use plane::{NotInPlane, SectionPlane};
 pub use pool::{PoolError, in_order};
 pub use region::{Region, spread};
 pub use section::{Crossings, OrbitStatus, SectionPlan, add_section, crossings, section_name};
+pub use side_by_side::{Course, Follower, side_by_side};
 pub use start::Start;

@@ -3,6 +3,7 @@
 //! In: a [`System`](crate::system::System) and a state. Out: steppers, which advance the state step
 //! by step and evaluate it anywhere inside the last one. Never here: rows, gauges, wall clocks.
 
+mod batch;
 mod clock;
 mod dop853;
 mod event_location;
@@ -10,6 +11,7 @@ mod fixed;
 mod gauss;
 mod impulse_schedule;
 mod initial_step;
+mod lane_status;
 mod leapfrog;
 mod located_event;
 mod method;
@@ -28,7 +30,9 @@ mod taylor;
 mod yoshida;
 mod zeno;
 
+pub use batch::BatchPropagator;
 pub use clock::spacing;
+pub use lane_status::LaneStatus;
 pub use method::{ACCURACIES, Method, MethodError, Preserves, Settings, StepperResult, Stepping};
 pub use methods::{METHODS, method_named};
 pub use propagator::{Occurrence, OccurrenceKind, Propagator, Reached};

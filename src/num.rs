@@ -1,11 +1,13 @@
 //! Numbers: the arithmetic in which everything else is computed.
 //!
-//! In and out: numbers. A program is evaluated in a [`Real`]: `f64`, [`DoubleDouble`] for twice its
-//! digits, [`ExtendedRange`] for values outside the range of both. A [`Number`] is a constant in an
+//! In and out: numbers. A program is evaluated in [`Analytic`] numbers: `f64`, [`DoubleDouble`] for twice its
+//! digits, [`ExtendedRange`] for values outside the range of both, a [`Batch`] of the numbers of several
+//! orbits. A [`Number`] is a constant in an
 //! expression. A [`PrimeField`] has the residues in which ranks are computed. [`math`] has the
 //! elementary functions, with the same bits on every machine. [`eigenvalues`] are those of a small
 //! matrix of `f64`. Never here: expressions, units, files.
 
+mod batch;
 mod compensated;
 mod convolution;
 mod double_double;
@@ -19,8 +21,8 @@ mod number;
 mod prime_field;
 mod real;
 
+pub use batch::{BATCH, Batch};
 pub use compensated::accumulate;
-pub use convolution::LANES;
 pub use double_double::DoubleDouble;
 pub use eigenvalues::eigenvalues;
 pub use extended_range::ExtendedRange;
@@ -29,4 +31,4 @@ pub use horner::{Polynomial, polynomial};
 pub use instruction_set::{Kernel, vectorized};
 pub use number::Number;
 pub use prime_field::{PRIMES, PrimeField, Residue, Unreduced, rational};
-pub use real::Real;
+pub use real::{Analytic, Real};

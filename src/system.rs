@@ -7,6 +7,7 @@
 //! their equations of motion. Never here: steps in time, files, symbols after compiling.
 
 mod attitude;
+mod batch_series;
 mod branch;
 mod channel;
 mod compiled;
@@ -49,6 +50,7 @@ mod valuation;
 mod value;
 mod variational;
 
+pub use batch_series::BatchSeries;
 pub use branch::Branch;
 pub use channel::{Channel, ChannelKind};
 pub use compiled::{CompileError, System};

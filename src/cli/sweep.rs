@@ -21,7 +21,7 @@ use super::motion_options::MotionOptions;
 use super::output::{Form, Output};
 use super::starts::{Axis, Starts};
 use super::stderr;
-use crate::ensemble::{PoolError, in_order};
+use crate::ensemble::in_order;
 use crate::printable;
 
 use identity::{Identity, Shard};
@@ -182,13 +182,35 @@ impl Sweep<'_> {
             + &cells::record(self.table.columns())
     }
 
-    fn pool_failed(why: &PoolError) -> CommandError {
-        CommandError::CouldNot(why.to_string())
-    }
-
     /// Ends with the signal, if one came.
     fn ended(&self) -> Result<(), CommandError> {
         self.interrupt.signal().map_or(Ok(()), |signal| Err(CommandError::Signal(signal)))
+    }
+
+    /// Computes the rows at these places of the shard. `note` sees each as soon as it is there, on the thread that computed
+    /// it, and `take` what it made of them, in order; `None` where the sweep was cancelled.
+    fn compute<T: Send>(
+        &self,
+        places: &[usize],
+        note: impl Fn(usize, Row) -> T + Sync,
+        mut take: impl FnMut(usize, Option<T>) -> ControlFlow<()>,
+    ) -> Result<(), CommandError> {
+        let (threads, cancel) = (self.arguments.crowd.threads(), self.interrupt.cancel());
+        let size = self.table.group(places.len(), threads);
+        let groups: Vec<&[usize]> = places.chunks(size).collect();
+        let work = |group: usize| {
+            let group = groups[group];
+            let indices: Vec<usize> = group.iter().map(|&place| self.index(place)).collect();
+            let mut made: Vec<Option<T>> = group.iter().map(|_| None).collect();
+            self.table.rows(&indices, |i, row| made[i] = Some(note(group[i], row)));
+            made
+        };
+        let take = |group: usize, made: Vec<Option<T>>| {
+            let mut made = made.into_iter().enumerate();
+            made.try_for_each(|(i, one)| take(group * size + i, one))
+        };
+        in_order(threads, groups.len(), cancel, work, take)
+            .map_err(|why| CommandError::CouldNot(why.to_string()))
     }
 
     /// Writes each row as soon as all before it are written.
@@ -211,10 +233,8 @@ impl Sweep<'_> {
             tally.add();
             ControlFlow::Continue(())
         };
-        let work = |place| self.table.row(self.index(place));
-        let (threads, cancel) = (self.arguments.crowd.threads(), self.interrupt.cancel());
-        in_order(threads, self.places.len(), cancel, work, take)
-            .map_err(|why| Self::pool_failed(&why))?;
+        let places: Vec<usize> = self.places.clone().collect();
+        self.compute(&places, |_, row| row, take)?;
         drop(tally);
         if let Some(failed) = failed {
             return Err(failed);
@@ -241,12 +261,10 @@ impl Sweep<'_> {
         let mut tally = Tally::new(lines.len() - missing.len(), lines.len());
         let (mut failures, mut failed) = (Failures::default(), None);
         // a row is in the journal before anything waits for those before it
-        let work = |i: usize| {
-            let place = missing[i];
-            let row = self.table.row(self.index(place))?;
+        let note = |place: usize, row: Row| {
             let line = cells::record(row.plain());
             let noted = journal.note(place, &line);
-            Some((row, line, noted))
+            (row, line, noted)
         };
         let take = |i: usize, done: Option<(Row, String, std::io::Result<()>)>| {
             let Some((row, line, noted)) = done else { return ControlFlow::Break(()) };
@@ -259,9 +277,7 @@ impl Sweep<'_> {
             tally.add();
             ControlFlow::Continue(())
         };
-        let (threads, cancel) = (self.arguments.crowd.threads(), self.interrupt.cancel());
-        in_order(threads, missing.len(), cancel, work, take)
-            .map_err(|why| Self::pool_failed(&why))?;
+        self.compute(&missing, note, take)?;
         drop(tally);
         if let Some(failed) = failed {
             return Err(failed);
@@ -281,10 +297,16 @@ impl Sweep<'_> {
     /// Writes all rows at once, as JSON or for reading.
     fn whole(self) -> Result<(), CommandError> {
         let out = Output::open(self.arguments.output.as_deref(), self.arguments.format.form())?;
-        let work = |place| self.table.row(self.index(place));
-        let crowd = &self.arguments.crowd;
-        let rows = crowd::collect(crowd, self.places.len(), self.interrupt, work)?;
-        let rows: Vec<Row> = rows.into_iter().map_while(|row| row).collect();
+        let (mut rows, mut tally) = (Vec::new(), Tally::new(0, self.places.len()));
+        let places: Vec<usize> = self.places.clone().collect();
+        let take = |_, row: Option<Row>| {
+            let Some(row) = row else { return ControlFlow::Break(()) };
+            rows.push(row);
+            tally.add();
+            ControlFlow::Continue(())
+        };
+        self.compute(&places, |_, row| row, take)?;
+        drop(tally);
         let mut failures = Failures::default();
         rows.iter().enumerate().for_each(|(i, row)| failures.note(i, row));
         let cells: Vec<Vec<Cell>> = rows.iter().map(|row| row.cells.clone()).collect();

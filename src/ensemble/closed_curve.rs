@@ -8,10 +8,7 @@
 //!
 //! In: starts by a parameter s from 0 to 1. Out: the curve and the integral at each time. Never here: which curve.
 
-use std::ops::ControlFlow;
-
-use super::pool::in_order;
-use super::{Carried, Flow};
+use super::Flow;
 use crate::system::State;
 
 /// The intervals of a panel: the polygon is extrapolated twice.
@@ -122,15 +119,9 @@ impl ClosedCurve {
         mut nodes: Vec<Node>,
         from: &(dyn Fn(&Node) -> Option<State> + Sync),
     ) -> Result<Vec<Node>, super::PoolError> {
-        let one = |i: usize| {
-            let from = from(&nodes[i]);
-            from.map_or_else(Carried::default, |from| flow.carry(&from, times, &self.channels))
-        };
-        let mut results = Vec::with_capacity(nodes.len());
-        in_order(0, nodes.len(), flow.system.cancel(), one, |_, carried| {
-            results.push(carried);
-            ControlFlow::Continue(())
-        })?;
+        let from: Vec<Option<State>> = nodes.iter().map(from).collect();
+        let from: Vec<Option<&State>> = from.iter().map(Option::as_ref).collect();
+        let results = flow.carry_all(&from, times, &self.channels, |_| ())?;
         for (node, carried) in nodes.iter_mut().zip(results) {
             (node.end, node.seen) = (carried.end, carried.seen);
         }

@@ -3,8 +3,17 @@
 //! In: a system, a method, a state. Out: channels at the times, and the state at the last of them, from which it can be
 //! carried on. Never here: which states, pictures.
 
-use crate::integrate::{Method, Propagator, Reached, Settings, Stepping};
-use crate::system::{MotionError, State, System};
+use std::ops::ControlFlow;
+
+use super::pool::{PoolError, in_order};
+use super::side_by_side::{Course, Follower, side_by_side};
+use crate::integrate::{
+    ACCURACIES, BatchPropagator, LaneStatus, Method, Propagator, Reached, Settings, Stepping,
+};
+use crate::system::{MotionError, Observer, State, System};
+
+/// The states that one thread carries at a time.
+const GROUP: usize = 64;
 
 /// The steps between two looks at the token.
 const STEPS_PER_LOOK: u64 = 64;
@@ -48,6 +57,18 @@ impl Flow {
         self
     }
 
+    /// The same flow in plain `f64` where no other tolerance is asked for: orbits are then carried side
+    /// by side, and a picture of many does not show the difference.
+    #[must_use]
+    pub fn fast(mut self) -> Flow {
+        let (method, settings) = &mut self.method;
+        let (_, tolerance) = ACCURACIES[0];
+        if method.stepping == Stepping::Adaptive && method.order.is_none() {
+            settings.tolerance.get_or_insert(tolerance);
+        }
+        self
+    }
+
     /// Carries a state forwards through these times, which do not decrease and are not before it, and reads these channels
     /// at each.
     pub fn carry(&self, from: &State, times: &[f64], channels: &[usize]) -> Carried {
@@ -58,6 +79,58 @@ impl Flow {
         carried
     }
 
+    /// Carries many states on all cores, several of them side by side where the system and the method
+    /// allow it, as each would be carried alone, to the last bit. `done` is told how many are there.
+    ///
+    /// # Errors
+    /// Returns an error if there are no threads.
+    pub fn carry_all(
+        &self,
+        from: &[Option<&State>],
+        times: &[f64],
+        channels: &[usize],
+        mut done: impl FnMut(u64),
+    ) -> Result<Vec<Carried>, PoolError> {
+        let mut all = Vec::with_capacity(from.len());
+        let groups: Vec<&[Option<&State>]> = from.chunks(GROUP).collect();
+        let one = |group: usize| self.carry_group(groups[group], times, channels);
+        in_order(0, groups.len(), self.system.cancel(), one, |_, carried| {
+            all.extend(carried);
+            done(all.len() as u64);
+            ControlFlow::Continue(())
+        })?;
+        Ok(all)
+    }
+
+    fn carry_group(
+        &self,
+        from: &[Option<&State>],
+        times: &[f64],
+        channels: &[usize],
+    ) -> Vec<Carried> {
+        let alone = |state: Option<&State>| {
+            state.map_or_else(Carried::default, |state| self.carry(state, times, channels))
+        };
+        let (method, settings) = self.method;
+        match BatchPropagator::new(&self.system.without_marks(), method, settings) {
+            Some(mut batch) => {
+                let mut together = CarriedTogether {
+                    from,
+                    parameters: &self.parameters,
+                    times,
+                    sight: Sight::new(&self.system, &self.parameters, channels),
+                    here: State::new(0.0, self.system.form(), Vec::new()),
+                    carried: vec![Some(Carried::default()); from.len()],
+                };
+                // what a cancellation leaves is not asked for
+                side_by_side(&mut batch, from.len(), &mut together);
+                let carried = together.carried.into_iter().zip(from);
+                carried.map(|(one, &state)| one.unwrap_or_else(|| alone(state))).collect()
+            }
+            None => from.iter().map(|&state| alone(state)).collect(),
+        }
+    }
+
     fn follow(
         &self,
         from: &State,
@@ -66,17 +139,12 @@ impl Flow {
         seen: &mut Vec<Vec<f64>>,
     ) -> Result<Option<State>, MotionError> {
         let (method, settings) = self.method;
-        let Ok(mut motion) = Propagator::new(&self.system, method, settings, &self.parameters)
-        else {
+        let system = self.system.without_marks();
+        let Ok(mut motion) = Propagator::new(&system, method, settings, &self.parameters) else {
             return Ok(None);
         };
         motion.restore(from, &self.parameters, self.start, &[])?;
-        let mut observer = motion.system().observer(&self.parameters);
-        // those after the columns are computed only where one of them is read
-        let columns = self.system.columns();
-        let leading = channels.iter().all(|&channel| channel < columns);
-        let count = if leading { columns } else { self.system.channels().len() };
-        let mut values = vec![0.0; count];
+        let mut sight = Sight::new(motion.system(), &self.parameters, channels);
         let last = times.last().copied().unwrap_or(from.time);
         for &time in times {
             loop {
@@ -89,13 +157,83 @@ impl Flow {
                     return Ok(None);
                 }
             }
-            if leading {
-                observer.observe_columns(motion.state(), &mut values)?;
-            } else {
-                observer.observe(motion.state(), &mut values)?;
-            }
-            seen.push(channels.iter().map(|&c| values[c]).collect());
+            seen.push(sight.of(motion.state())?);
         }
         Ok(Some(motion.state().clone()))
+    }
+}
+
+/// What is seen of a state.
+struct Sight<'a> {
+    observer: Observer,
+    channels: &'a [usize],
+    /// Whether all channels are columns: those after them are computed only where one is read.
+    leading: bool,
+    values: Vec<f64>,
+}
+
+impl Sight<'_> {
+    fn new<'a>(system: &System, parameters: &[f64], channels: &'a [usize]) -> Sight<'a> {
+        let columns = system.columns();
+        let leading = channels.iter().all(|&channel| channel < columns);
+        let count = if leading { columns } else { system.channels().len() };
+        let (observer, values) = (system.observer(parameters), vec![0.0; count]);
+        Sight { observer, channels, leading, values }
+    }
+
+    fn of(&mut self, state: &State) -> Result<Vec<f64>, MotionError> {
+        if self.leading {
+            self.observer.observe_columns(state, &mut self.values)?;
+        } else {
+            self.observer.observe(state, &mut self.values)?;
+        }
+        Ok(self.channels.iter().map(|&c| self.values[c]).collect())
+    }
+}
+
+/// States carried side by side.
+struct CarriedTogether<'a> {
+    from: &'a [Option<&'a State>],
+    parameters: &'a [f64],
+    times: &'a [f64],
+    sight: Sight<'a>,
+    here: State,
+    /// What becomes of each state; `None` for what has to be carried alone.
+    carried: Vec<Option<Carried>>,
+}
+
+impl Follower for CarriedTogether<'_> {
+    fn begin(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> Course {
+        let Some(state) = self.from[orbit] else { return Course::Over };
+        if batch.begin(lane, state, self.parameters) == LaneStatus::Irregular {
+            self.carried[orbit] = None;
+            return Course::Over;
+        }
+        self.look(orbit, lane, batch)
+    }
+
+    fn look(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> Course {
+        let Some(one) = &mut self.carried[orbit] else { return Course::Over };
+        let Some(&last) = self.times.last() else {
+            one.end = Some(batch.state(lane).clone());
+            return Course::Over;
+        };
+        let known = batch.state(lane).time;
+        while let Some(&time) = self.times.get(one.seen.len()) {
+            if time > known {
+                return Course::Until(last);
+            }
+            batch.at(lane, time, &mut self.here);
+            match self.sight.of(&self.here) {
+                Ok(row) => one.seen.push(row),
+                Err(_) => return Course::Over,
+            }
+        }
+        one.end = Some(self.here.clone());
+        Course::Over
+    }
+
+    fn leave(&mut self, orbit: usize) {
+        self.carried[orbit] = None;
     }
 }

@@ -185,3 +185,10 @@ impl From<crate::system::MotionError> for Failure {
         Failure { time: fault.time, message: fault.to_string() }
     }
 }
+
+/// The greatest drift of the energy, or of the energy less the work done; NaN if neither is monitored.
+pub fn energy_drift(gauges: &[Gauge]) -> f64 {
+    let gauge = |name: &str| gauges.iter().find(|gauge| gauge.name == name);
+    let energy = gauge("energy ledger").or_else(|| gauge("energy"));
+    energy.map_or(f64::NAN, |gauge| gauge.max_drift)
+}

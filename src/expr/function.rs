@@ -25,7 +25,7 @@ mod tanh;
 
 use super::node::{Expr, FunctionId, Node};
 use super::pool::Pool;
-use crate::num::{Number, Real};
+use crate::num::{Analytic, Number};
 pub use recurrence::{BilinearEquation, Convolution, Divisor, Operand, Recurrence};
 
 /// The functions, in the order of [`FunctionId`].
@@ -104,8 +104,7 @@ impl FunctionId {
     /// The value of the function and that of its companion in its Taylor recurrence (cos for sin,
     /// 1 + u² for atan, …), which is zero where it has none. A function of one argument ignores the
     /// second.
-    pub fn with_companion<R: Real>(self, u: [R; 2]) -> (R, R) {
-        let positive = |x: R| x.value() > 0.0;
+    pub fn with_companion<R: Analytic>(self, u: [R; 2]) -> (R, R) {
         match self {
             FunctionId::Sin => sin::with_companion(u),
             FunctionId::Cos => cos::with_companion(u),
@@ -121,14 +120,13 @@ impl FunctionId {
             FunctionId::Exp => exp::with_companion(u),
             FunctionId::Ln => ln::with_companion(u),
             FunctionId::Sqrt => (u[0].sqrt(), R::ZERO),
-            FunctionId::Abs => (if positive(u[0]) { u[0] } else { -u[0] }, R::ZERO),
-            FunctionId::Sign => match u[0].value() {
-                x if x > 0.0 => (R::ONE, R::ZERO),
-                x if x < 0.0 => (-R::ONE, R::ZERO),
-                _ => (R::ZERO, R::ZERO),
-            },
-            FunctionId::Max => (if positive(u[0] - u[1]) { u[0] } else { u[1] }, R::ZERO),
-            FunctionId::Min => (if positive(u[0] - u[1]) { u[1] } else { u[0] }, R::ZERO),
+            FunctionId::Abs => (u[0].where_positive(u[0], -u[0]), R::ZERO),
+            FunctionId::Sign => {
+                let not_positive = (-u[0]).where_positive(-R::ONE, R::ZERO);
+                (u[0].where_positive(R::ONE, not_positive), R::ZERO)
+            }
+            FunctionId::Max => ((u[0] - u[1]).where_positive(u[0], u[1]), R::ZERO),
+            FunctionId::Min => ((u[0] - u[1]).where_positive(u[1], u[0]), R::ZERO),
         }
     }
 

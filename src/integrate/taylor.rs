@@ -9,6 +9,8 @@
 //! high-order Taylor methods", Experimental Mathematics 14 (2005) 99; F. Biscani, D. Izzo, Monthly
 //! Notices of the Royal Astronomical Society 504 (2021) 2614.
 
+mod batch;
+mod batch_step_size;
 mod branches;
 mod collocation_step;
 mod kinks;
@@ -16,6 +18,7 @@ mod steep;
 mod step_size;
 mod sticking;
 
+pub(super) use batch::TaylorBatch;
 use collocation_step::CollocationStep;
 use kinks::Kinks;
 use step_size::StepSize;
@@ -89,6 +92,9 @@ struct Taylor {
     /// The number of collocation steps, and the time at the end of their last round.
     leaps: (u32, f64),
 }
+
+/// A step is well represented in a unit of time between these parts of it.
+const NEARBY_UNITS: (f64, f64) = (1e-4, 1e3);
 
 /// This many collocation steps must advance the time by this part of the time that has passed.
 const ROUND: u32 = 64;
@@ -218,7 +224,7 @@ impl Taylor {
                 return Err(self.not_finite());
             }
             let wanted = step.min(size);
-            if (scale * 1e-4..=scale * 1e3).contains(&wanted) {
+            if (scale * NEARBY_UNITS.0..=scale * NEARBY_UNITS.1).contains(&wanted) {
                 return Ok(step);
             }
             if wanted < scale {
@@ -449,6 +455,20 @@ impl Units {
     }
 }
 
+/// The time after the beginning of a step at which it is looked at. An `f64` may lie just outside a
+/// step that is shorter than its last digit, near a point where the series has no radius of
+/// convergence.
+fn part_of_step(after: DoubleDouble, step: DoubleDouble) -> DoubleDouble {
+    let part = after.high / step.high;
+    if part > 1.0 {
+        step
+    } else if part < 0.0 {
+        DoubleDouble::ZERO
+    } else {
+        after
+    }
+}
+
 impl Taylor {
     /// Writes the state at a time within the last step into `out`.
     fn write_state(&mut self, time: DoubleDouble, out: &mut State) -> Result<(), MotionError> {
@@ -456,26 +476,14 @@ impl Taylor {
             out.copy_from(&still.at(&mut self.rates, time)?);
             return Ok(());
         }
-        // an `f64` may lie just outside a step that is shorter than its last digit, near a point where
-        // the series has no radius of convergence
-        let within = |after: DoubleDouble, step: DoubleDouble| {
-            let part = after.high / step.high;
-            if part > 1.0 {
-                step
-            } else if part < 0.0 {
-                DoubleDouble::ZERO
-            } else {
-                after
-            }
-        };
         let Some((from, toward)) = &self.leapt else {
             let begin = self.series.time();
-            let after = within(time - begin, self.state.exact_time() - begin);
+            let after = part_of_step(time - begin, self.state.exact_time() - begin);
             self.series.state_after(after, out);
             return Ok(());
         };
         let begin = from.exact_time();
-        let after = within(time - begin, self.state.exact_time() - begin);
+        let after = part_of_step(time - begin, self.state.exact_time() - begin);
         if after.high == 0.0 {
             out.copy_from(from);
             return Ok(());

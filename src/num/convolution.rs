@@ -15,58 +15,70 @@ use super::double_double::DoubleDouble;
 use super::instruction_set::Kernel;
 
 /// The number of pairs computed side by side.
-pub const LANES: usize = 4;
+pub(super) const LANES: usize = 4;
 
 /// Numbers side by side.
 #[derive(Clone, Copy, Debug)]
-struct Vector([f64; LANES]);
+struct Vector<const N: usize>([f64; N]);
 
-impl Vector {
-    const ZERO: Vector = Vector([0.0; LANES]);
+impl<const N: usize> Vector<N> {
+    const ZERO: Vector<N> = Vector([0.0; N]);
+
+    // loops, which become vector instructions where the combinators of arrays may not be inlined
 
     #[inline(always)]
-    fn plus(self, other: Vector) -> Vector {
-        Vector(std::array::from_fn(|lane| self.0[lane] + other.0[lane]))
+    fn plus(mut self, other: Vector<N>) -> Vector<N> {
+        for lane in 0..N {
+            self.0[lane] += other.0[lane];
+        }
+        self
     }
 
     #[inline(always)]
-    fn minus(self, other: Vector) -> Vector {
-        Vector(std::array::from_fn(|lane| self.0[lane] - other.0[lane]))
+    fn minus(mut self, other: Vector<N>) -> Vector<N> {
+        for lane in 0..N {
+            self.0[lane] -= other.0[lane];
+        }
+        self
     }
 
     #[inline(always)]
-    fn times(self, other: Vector) -> Vector {
-        Vector(std::array::from_fn(|lane| self.0[lane] * other.0[lane]))
+    fn times(mut self, other: Vector<N>) -> Vector<N> {
+        for lane in 0..N {
+            self.0[lane] *= other.0[lane];
+        }
+        self
     }
 
     /// The rounding errors of a sum: [`DoubleDouble::sum`].
     #[inline(always)]
-    fn error_of_sum(self, other: Vector, sum: Vector) -> Vector {
+    fn error_of_sum(self, other: Vector<N>, sum: Vector<N>) -> Vector<N> {
         let part = sum.minus(self);
         self.minus(sum.minus(part)).plus(other.minus(part))
     }
 
     /// The rounding errors of a product: [`DoubleDouble::product_by`].
     #[inline(always)]
-    fn error_of_product<const FUSED: bool>(self, other: Vector) -> Vector {
-        Vector(std::array::from_fn(|lane| {
-            DoubleDouble::product_by::<FUSED>(self.0[lane], other.0[lane]).low
-        }))
+    fn error_of_product<const FUSED: bool>(mut self, other: Vector<N>) -> Vector<N> {
+        for lane in 0..N {
+            self.0[lane] = DoubleDouble::product_by::<FUSED>(self.0[lane], other.0[lane]).low;
+        }
+        self
     }
 }
 
-/// Inner products of [`LANES`] pairs of series, the second of each read from its end.
+/// Inner products of N pairs of series, the second of each read from its end.
 pub(super) struct InnerProducts<'a, T> {
     pub(super) left: &'a [T],
     pub(super) right: &'a [T],
 }
 
-impl Kernel for InnerProducts<'_, [f64; LANES]> {
-    type Output = [f64; LANES];
+impl<const N: usize> Kernel for InnerProducts<'_, [f64; N]> {
+    type Output = [f64; N];
 
     /// Four sums are kept apart, so that none waits for the one before.
     #[inline(always)]
-    fn run<const FUSED: bool>(self) -> [f64; LANES] {
+    fn run<const FUSED: bool>(self) -> [f64; N] {
         const APART: usize = 4;
         let (left, left_rest) = self.left.as_chunks::<APART>();
         let (right_rest, right) = self.right.as_rchunks::<APART>();
@@ -86,29 +98,33 @@ impl Kernel for InnerProducts<'_, [f64; LANES]> {
 
 /// [`DoubleDouble`]s side by side.
 #[derive(Clone, Copy, Debug)]
-pub struct DoubleLanes {
-    high: [f64; LANES],
-    low: [f64; LANES],
+pub struct DoubleLanes<const N: usize> {
+    high: [f64; N],
+    low: [f64; N],
 }
 
-impl DoubleLanes {
+impl<const N: usize> DoubleLanes<N> {
     /// Zeros.
-    pub(super) const ZERO: DoubleLanes = DoubleLanes { high: [0.0; LANES], low: [0.0; LANES] };
+    pub(super) const ZERO: DoubleLanes<N> = DoubleLanes { high: [0.0; N], low: [0.0; N] };
 
     #[inline(always)]
-    pub(super) fn of(x: [DoubleDouble; LANES]) -> DoubleLanes {
-        DoubleLanes { high: x.map(|x| x.high), low: x.map(|x| x.low) }
+    pub(super) fn of(x: [DoubleDouble; N]) -> DoubleLanes<N> {
+        let mut lanes = DoubleLanes::ZERO;
+        for lane in 0..N {
+            (lanes.high[lane], lanes.low[lane]) = (x[lane].high, x[lane].low);
+        }
+        lanes
     }
 }
 
 /// The errors of products and sums are added up beside the sum (T. Ogita, S. M. Rump, S. Oishi, SIAM
 /// J. Sci. Comput. 26 (2005) 1955, algorithm 5.3), which leaves an error of n² 2⁻¹⁰⁴ of the sum of
 /// the absolute terms.
-impl Kernel for InnerProducts<'_, DoubleLanes> {
-    type Output = [DoubleDouble; LANES];
+impl<const N: usize> Kernel for InnerProducts<'_, DoubleLanes<N>> {
+    type Output = [DoubleDouble; N];
 
     #[inline(always)]
-    fn run<const FUSED: bool>(self) -> [DoubleDouble; LANES] {
+    fn run<const FUSED: bool>(self) -> [DoubleDouble; N] {
         let (mut sum, mut errors) = (Vector::ZERO, Vector::ZERO);
         for (a, b) in self.left.iter().zip(self.right.iter().rev()) {
             let (a_high, a_low) = (Vector(a.high), Vector(a.low));
@@ -121,7 +137,11 @@ impl Kernel for InnerProducts<'_, DoubleLanes> {
             errors = errors.plus(lost.plus(low));
             sum = next;
         }
-        std::array::from_fn(|lane| DoubleDouble::sum(sum.0[lane], errors.0[lane]))
+        let mut sums = [DoubleDouble::ZERO; N];
+        for lane in 0..N {
+            sums[lane] = DoubleDouble::sum(sum.0[lane], errors.0[lane]);
+        }
+        sums
     }
 }
 

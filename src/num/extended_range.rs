@@ -9,7 +9,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use super::convolution::LANES;
 use super::double_double::DoubleDouble;
 use super::math;
-use super::real::Real;
+use super::real::{Analytic, Real};
 
 /// `mantissa · 2^exponent`, with the mantissa in [1, 2) or (−2, −1], or zero, or not finite.
 #[derive(Clone, Copy, Debug)]
@@ -175,15 +175,7 @@ impl Div<f64> for ExtendedRange {
 }
 
 impl Real for ExtendedRange {
-    const ZERO: ExtendedRange = ExtendedRange { mantissa: DoubleDouble::ZERO, exponent: 0 };
-    const ONE: ExtendedRange = ExtendedRange { mantissa: DoubleDouble::ONE, exponent: 0 };
-    type Lanes = [ExtendedRange; LANES];
-    const ZEROS: [ExtendedRange; LANES] = [ExtendedRange::ZERO; LANES];
     const UNBOUNDED: bool = true;
-
-    fn of(x: DoubleDouble) -> ExtendedRange {
-        ExtendedRange::new(x, 0)
-    }
 
     fn value(self) -> f64 {
         scaled(self.mantissa.high, self.exponent)
@@ -194,25 +186,55 @@ impl Real for ExtendedRange {
         let low = if high.is_finite() { scaled(self.mantissa.low, self.exponent) } else { 0.0 };
         DoubleDouble { high, low }
     }
+}
+
+impl Analytic for ExtendedRange {
+    const ZERO: ExtendedRange = ExtendedRange { mantissa: DoubleDouble::ZERO, exponent: 0 };
+    const ONE: ExtendedRange = ExtendedRange { mantissa: DoubleDouble::ONE, exponent: 0 };
+    type Unit = f64;
+    type Lanes = [ExtendedRange; LANES];
+    const ZEROS: [ExtendedRange; LANES] = [ExtendedRange::ZERO; LANES];
+    const SIDE: usize = LANES;
+
+    fn of(x: DoubleDouble) -> ExtendedRange {
+        ExtendedRange::new(x, 0)
+    }
 
     fn sqrt(self) -> ExtendedRange {
         let odd = self.exponent.rem_euclid(2);
-        let mantissa = Real::sqrt(self.mantissa * if odd == 1 { 2.0 } else { 1.0 });
+        let mantissa = Analytic::sqrt(self.mantissa * if odd == 1 { 2.0 } else { 1.0 });
         ExtendedRange::new(mantissa, (self.exponent - odd) / 2)
     }
 
-    fn side_by_side(numbers: [ExtendedRange; LANES]) -> [ExtendedRange; LANES] {
-        numbers
+    fn scaled(self, power_of_two: f64) -> ExtendedRange {
+        self * power_of_two
+    }
+
+    fn side_by_side(number: impl Fn(usize) -> ExtendedRange) -> [ExtendedRange; LANES] {
+        std::array::from_fn(number)
     }
 
     fn inner_products<const FUSED: bool>(
         left: &[[ExtendedRange; LANES]],
         right: &[[ExtendedRange; LANES]],
-    ) -> [ExtendedRange; LANES] {
-        std::array::from_fn(|lane| {
+        out: &mut [ExtendedRange],
+    ) {
+        for (lane, out) in out.iter_mut().enumerate() {
             let pairs = left.iter().zip(right.iter().rev());
-            pairs.fold(ExtendedRange::ZERO, |sum, (a, b)| sum + a[lane] * b[lane])
-        })
+            *out = pairs.fold(ExtendedRange::ZERO, |sum, (a, b)| sum + a[lane] * b[lane]);
+        }
+    }
+
+    #[inline(always)]
+    fn where_positive(self, a: ExtendedRange, b: ExtendedRange) -> ExtendedRange {
+        if self.value() > 0.0 { a } else { b }
+    }
+    #[inline(always)]
+    fn unless_vanishing(self, mut series: impl Iterator<Item = ExtendedRange>) -> ExtendedRange {
+        if series.all(|x| x.value() == 0.0) { ExtendedRange::ZERO } else { self }
+    }
+    fn raised(self, exponent: ExtendedRange) -> ExtendedRange {
+        self.power(exponent.double())
     }
 
     fn exp(self) -> ExtendedRange {
@@ -262,26 +284,26 @@ impl Real for ExtendedRange {
     }
 
     fn tanh(self) -> ExtendedRange {
-        if self.is_tiny() { self } else { self.by(Real::tanh) }
+        if self.is_tiny() { self } else { self.by(Analytic::tanh) }
     }
 
     fn atan2(self, x: ExtendedRange) -> ExtendedRange {
         let unit = self.order().max(x.order());
         if unit == i64::MIN / 4 {
-            return ExtendedRange::new(Real::atan2(self.mantissa, x.mantissa), 0);
+            return ExtendedRange::new(Analytic::atan2(self.mantissa, x.mantissa), 0);
         }
         if x.mantissa.high > 0.0 && self.order() < x.order() + TINY {
             return self / x;
         }
-        ExtendedRange::new(Real::atan2(self.in_units(unit), x.in_units(unit)), 0)
+        ExtendedRange::new(Analytic::atan2(self.in_units(unit), x.in_units(unit)), 0)
     }
 
     fn asin(self) -> ExtendedRange {
-        if self.is_tiny() { self } else { self.by(Real::asin) }
+        if self.is_tiny() { self } else { self.by(Analytic::asin) }
     }
 
     fn acos(self) -> ExtendedRange {
-        self.by(Real::acos)
+        self.by(Analytic::acos)
     }
 
     fn power(self, exponent: DoubleDouble) -> ExtendedRange {
@@ -342,7 +364,7 @@ mod tests {
             close(wide(x).sinh_cosh().0, d.sinh_cosh().0.high);
             close(wide(x).tanh(), d.tanh().high);
             close(wide(x).sin_cos().0, d.sin_cos().0.high);
-            close(wide(x).tan(), Real::tan(d).high);
+            close(wide(x).tan(), Analytic::tan(d).high);
             close(wide(x) - wide(0.7), x - 0.7);
             close(wide(x).atan2(wide(-0.2)), math::atan2(x, -0.2));
             if x > 0.0 {

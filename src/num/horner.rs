@@ -23,14 +23,19 @@ pub struct Polynomial<'a> {
     pub x: DoubleDouble,
 }
 
-impl Kernel for Polynomial<'_> {
-    type Output = DoubleDouble;
-
+impl Polynomial<'_> {
+    /// The sum of the terms after those of low order, over the power of the first of them.
     #[inline(always)]
-    fn run<const FUSED: bool>(self) -> DoubleDouble {
+    fn tail(&self) -> f64 {
         let x = self.x.high;
-        let mut sum = self.high.iter().rev().fold(0.0, |sum, &c| sum * x + c);
-        let mut errors = 0.0;
+        self.high.iter().rev().fold(0.0, |sum, &c| sum * x + c)
+    }
+
+    /// The polynomial, from that sum. `high` is read only where the argument is no `f64`.
+    #[inline(always)]
+    pub fn with_tail<const FUSED: bool>(self, tail: f64) -> DoubleDouble {
+        let x = self.x.high;
+        let (mut sum, mut errors) = (tail, 0.0);
         for c in self.low.iter().rev() {
             let product = DoubleDouble::product_by::<FUSED>(sum, x);
             let next = DoubleDouble::sum(product.high, c.high);
@@ -41,6 +46,16 @@ impl Kernel for Polynomial<'_> {
             errors += self.x.low * slope(self.low, self.high, x);
         }
         DoubleDouble::sum(sum, errors)
+    }
+}
+
+impl Kernel for Polynomial<'_> {
+    type Output = DoubleDouble;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> DoubleDouble {
+        let tail = self.tail();
+        self.with_tail::<FUSED>(tail)
     }
 }
 

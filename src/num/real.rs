@@ -1,6 +1,7 @@
 //! The arithmetic in which an expression is evaluated: `f64`, [`DoubleDouble`] for twice its
-//! digits, or [`ExtendedRange`] for values outside the range of both. Every rule that is written
-//! for a [`Real`] serves all three.
+//! digits, [`ExtendedRange`](super::ExtendedRange) for values outside the range of both, or a
+//! [`Batch`](super::Batch) of the numbers of several orbits. Every rule that is written for an
+//! [`Analytic`] number serves all four; what decides by the size of a number needs a [`Real`].
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -9,8 +10,9 @@ use super::double_double::DoubleDouble;
 use super::instruction_set::Kernel;
 use crate::num::math;
 
-/// A real number of some precision, with the functions an expression may call.
-pub trait Real:
+/// A number of some precision, or several side by side, with the functions that an expression may
+/// call. Nothing depends on its size but through masks.
+pub trait Analytic:
     Copy
     + Send
     + Sync
@@ -28,42 +30,49 @@ pub trait Real:
     const ZERO: Self;
     /// One.
     const ONE: Self;
-    /// [`LANES`] numbers side by side.
+    /// A unit of time, a power of two.
+    type Unit: Copy + Send + Sync + std::fmt::Debug;
+    /// The operands of [`Analytic::SIDE`] inner products side by side.
     type Lanes: Copy + Send + Sync + std::fmt::Debug;
     /// Zeros side by side.
     const ZEROS: Self::Lanes;
-    /// Whether its range is practically unlimited.
-    const UNBOUNDED: bool = false;
+    /// The number of inner products that are computed side by side.
+    const SIDE: usize;
 
     /// The number nearest to a [`DoubleDouble`].
     fn of(x: DoubleDouble) -> Self;
-    /// The nearest `f64`.
-    fn value(self) -> f64;
-    /// The number as a [`DoubleDouble`].
-    fn double(self) -> DoubleDouble;
 
     /// Division by an integer from 1 to 64.
     #[must_use]
+    #[inline(always)]
     fn over(self, n: usize) -> Self {
         self / n as f64
     }
     /// Multiplication by a power of two.
     #[must_use]
-    fn scaled(self, power_of_two: f64) -> Self {
-        self * power_of_two
-    }
+    fn scaled(self, power_of_two: Self::Unit) -> Self;
     /// The product, with a fused multiply-add where that gives the same bits.
     #[must_use]
+    #[inline(always)]
     fn times<const FUSED: bool>(self, other: Self) -> Self {
         self * other
     }
-    /// Puts numbers side by side.
-    fn side_by_side(numbers: [Self; LANES]) -> Self::Lanes;
-    /// `Σ_{j<n} a_j b_{n−1−j}` in each lane, for series of length n. To be inlined into a [`Kernel`].
+    /// Puts [`Analytic::SIDE`] numbers side by side.
+    fn side_by_side(number: impl Fn(usize) -> Self) -> Self::Lanes;
+    /// Writes `Σ_{j<n} a_j b_{n−1−j}` of each lane, for series of length n. To be inlined into a
+    /// [`Kernel`].
     fn inner_products<const FUSED: bool>(
         left: &[Self::Lanes],
         right: &[Self::Lanes],
-    ) -> [Self; LANES];
+        out: &mut [Self],
+    );
+
+    /// `a` where this number is positive, else `b`.
+    #[must_use]
+    fn where_positive(self, a: Self, b: Self) -> Self;
+    /// This number, or zero where all terms of a series are zero.
+    #[must_use]
+    fn unless_vanishing(self, series: impl Iterator<Item = Self>) -> Self;
 
     /// The square root.
     #[must_use]
@@ -96,34 +105,74 @@ pub trait Real:
     /// This number raised to a fixed real power.
     #[must_use]
     fn power(self, exponent: DoubleDouble) -> Self;
+    /// This number raised to a power of its own kind.
+    #[must_use]
+    fn raised(self, exponent: Self) -> Self;
+}
+
+/// One number, which has a value.
+pub trait Real: Analytic<Unit = f64> {
+    /// Whether its range is practically unlimited.
+    const UNBOUNDED: bool = false;
+
+    /// The nearest `f64`.
+    fn value(self) -> f64;
+    /// The number as a [`DoubleDouble`].
+    fn double(self) -> DoubleDouble;
 }
 
 impl Real for f64 {
+    fn value(self) -> f64 {
+        self
+    }
+    fn double(self) -> DoubleDouble {
+        DoubleDouble::from(self)
+    }
+}
+
+impl Analytic for f64 {
     const ZERO: f64 = 0.0;
     const ONE: f64 = 1.0;
+    type Unit = f64;
     type Lanes = [f64; LANES];
     const ZEROS: [f64; LANES] = [0.0; LANES];
+    const SIDE: usize = LANES;
 
     #[inline(always)]
-    fn side_by_side(numbers: [f64; LANES]) -> [f64; LANES] {
+    fn scaled(self, power_of_two: f64) -> f64 {
+        self * power_of_two
+    }
+    #[inline(always)]
+    fn side_by_side(number: impl Fn(usize) -> f64) -> [f64; LANES] {
+        let mut numbers = [0.0; LANES];
+        for lane in 0..LANES {
+            numbers[lane] = number(lane);
+        }
         numbers
     }
     #[inline(always)]
     fn inner_products<const FUSED: bool>(
         left: &[[f64; LANES]],
         right: &[[f64; LANES]],
-    ) -> [f64; LANES] {
-        InnerProducts { left, right }.run::<FUSED>()
+        out: &mut [f64],
+    ) {
+        out.copy_from_slice(&InnerProducts { left, right }.run::<FUSED>());
+    }
+
+    #[inline(always)]
+    fn where_positive(self, a: f64, b: f64) -> f64 {
+        if self.value() > 0.0 { a } else { b }
+    }
+    #[inline(always)]
+    fn unless_vanishing(self, mut series: impl Iterator<Item = f64>) -> f64 {
+        if series.all(|x| x.value() == 0.0) { f64::ZERO } else { self }
+    }
+    fn raised(self, exponent: f64) -> f64 {
+        self.power(exponent.double())
     }
 
     fn of(x: DoubleDouble) -> f64 {
         x.high
-    }
-    fn value(self) -> f64 {
-        self
-    }
-    fn double(self) -> DoubleDouble {
-        DoubleDouble::from(self)
     }
     fn sqrt(self) -> f64 {
         f64::sqrt(self)

@@ -1,16 +1,17 @@
 //! The end of one run among many.
 //!
-//! In: a system, a start, an end in time. Out: the values of all columns there and the drift of the energy on the way,
-//! those that a run of the same start has: it is the same experiment. Never here: rows on the way, files.
+//! In: a system, a start, an end in time. Out: the values of all columns there, those that a run of the same start has, and
+//! the drift of the energy on the way. Orbits that need nothing but steps are followed side by side, the others each as
+//! an experiment; which of the two depends on the orbit alone. Never here: rows on the way, files.
 
 use std::sync::Arc;
 
-use crate::ensemble::{OrbitStatus, Start};
-use crate::experiment::{Experiment, Setup, Status};
-use crate::integrate::Settings;
+use crate::ensemble::{Course, Follower, OrbitStatus, Start, side_by_side};
+use crate::experiment::{DriftWatch, Experiment, Setup, Status, energy_drift};
+use crate::integrate::{BatchPropagator, LaneStatus, Settings, method_named};
 use crate::mechanics::Equations;
 use crate::model::Model;
-use crate::num::short;
+use crate::num::{BATCH, short};
 use crate::system::System;
 
 /// What all runs have in common.
@@ -39,8 +40,8 @@ pub struct Outcome {
     pub time: f64,
     /// The value of every column there.
     pub values: Vec<f64>,
-    /// The greatest drift of the energy, or of the energy less the work done, over all steps, relative to what moves; NaN
-    /// if neither is monitored.
+    /// The greatest drift of the energy, or of the energy less the work done, over the ends of all steps at least, relative
+    /// to what moves; NaN if neither is monitored.
     pub energy_drift: f64,
 }
 
@@ -112,14 +113,103 @@ impl RunPlan {
             }
         };
         let gauges = experiment.snapshot().gauges;
-        let gauge = |name: &str| gauges.iter().find(|gauge| gauge.name == name);
-        let energy = gauge("energy ledger").or_else(|| gauge("energy"));
         Some(Outcome {
             status,
             message,
             time: experiment.time(),
             values: experiment.values()[..columns].to_vec(),
-            energy_drift: energy.map_or(f64::NAN, |gauge| gauge.max_drift),
+            energy_drift: energy_drift(&gauges),
         })
+    }
+}
+
+/// Many runs.
+impl RunPlan {
+    /// Whether they are followed side by side.
+    pub fn is_side_by_side(&self) -> bool {
+        self.batch().is_some()
+    }
+
+    /// Follows several runs to their ends and hands each to `done` as soon as it is over. One that is cancelled is not.
+    pub fn run_all(&self, runs: &[(&Start, f64)], mut done: impl FnMut(usize, Outcome)) {
+        let alone = |i: usize, done: &mut dyn FnMut(usize, Outcome)| {
+            let (start, end) = runs[i];
+            self.run(start, end).into_iter().for_each(|outcome| done(i, outcome));
+        };
+        let Some(mut batch) = self.batch() else {
+            (0..runs.len()).for_each(|i| alone(i, &mut done));
+            return;
+        };
+        let watch = DriftWatch::new(&self.model, &self.equations, &self.system);
+        let mut together = RunTogether {
+            plan: self,
+            runs,
+            watches: std::array::from_fn(|_| watch.clone()),
+            alone: Vec::new(),
+            done: &mut done,
+        };
+        side_by_side(&mut batch, runs.len(), &mut together);
+        let left = together.alone;
+        left.into_iter().for_each(|i| alone(i, &mut done));
+    }
+
+    /// Room for runs side by side, where they need nothing but steps.
+    fn batch(&self) -> Option<BatchPropagator> {
+        let method = method_named(&self.method)?;
+        BatchPropagator::new(&self.system.without_marks(), method, self.settings)
+    }
+}
+
+/// Runs that are followed side by side.
+struct RunTogether<'a, D: FnMut(usize, Outcome)> {
+    plan: &'a RunPlan,
+    runs: &'a [(&'a Start, f64)],
+    watches: [DriftWatch; BATCH],
+    /// Those that have to be followed alone.
+    alone: Vec<usize>,
+    done: &'a mut D,
+}
+
+impl<D: FnMut(usize, Outcome)> Follower for RunTogether<'_, D> {
+    fn begin(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> Course {
+        let (start, end) = self.runs[orbit];
+        let parameters = &start.parameters;
+        let regular = start.time < end
+            && start.state(&self.plan.system).is_ok_and(|state| {
+                self.watches[lane].begin(&state, parameters).is_ok()
+                    && batch.begin(lane, &state, parameters) == LaneStatus::Underway
+            });
+        if regular {
+            return Course::Until(end);
+        }
+        self.leave(orbit);
+        Course::Over
+    }
+
+    fn look(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> Course {
+        let (_, end) = self.runs[orbit];
+        let (state, watch) = (batch.state(lane), &mut self.watches[lane]);
+        watch.step(state);
+        if state.time < end {
+            return Course::Until(end);
+        }
+        match watch.end(state) {
+            Ok((values, energy_drift)) => {
+                let outcome = Outcome {
+                    status: OrbitStatus::Completed,
+                    message: None,
+                    time: state.time,
+                    values: values[..self.plan.system.columns()].to_vec(),
+                    energy_drift,
+                };
+                (self.done)(orbit, outcome);
+            }
+            Err(_) => self.leave(orbit),
+        }
+        Course::Over
+    }
+
+    fn leave(&mut self, orbit: usize) {
+        self.alone.push(orbit);
     }
 }

@@ -29,6 +29,8 @@ pub struct System {
     holding: ActiveSet,
     cancel: Cancel,
     tangents: Option<Arc<Tangents>>,
+    /// Whether events that only mark their times are left out.
+    pub(super) unmarked: bool,
 }
 
 #[derive(Debug)]
@@ -151,7 +153,7 @@ impl System {
         let holding = holding.unwrap_or_default();
         let cancel = equations.pool.cancel().clone();
         let shared = Arc::new(Shared { inertia, extra: extra.to_vec(), ..shared });
-        Ok(System { shared, holding, cancel, tangents: None })
+        Ok(System { shared, holding, cancel, tangents: None, unmarked: false })
     }
 
     /// The same system, whose work another token cancels.

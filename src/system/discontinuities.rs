@@ -268,12 +268,28 @@ impl EventFunctions {
 }
 
 impl System {
+    /// The same system for motions of which nobody asks when the events and crossings happen that
+    /// change nothing; they are located only where others are.
+    #[must_use]
+    pub fn without_marks(&self) -> System {
+        let mark =
+            |event: &CompiledEvent| matches!(event.action, Action::Mark | Action::Section(_));
+        let mut system = self.clone();
+        system.unmarked = self.discontinuities().events.iter().all(mark);
+        system
+    }
+
+    /// Whether there are events to be located.
+    pub(super) fn locates_events(&self) -> bool {
+        !self.unmarked && !self.discontinuities().events.is_empty()
+    }
+
     /// Returns the evaluator of the events' functions, or `None` if there are no events.
     pub fn event_functions(&self, parameters: &[f64]) -> Option<EventFunctions> {
-        let program = &self.discontinuities().when;
-        if program.outputs() == 0 {
+        if !self.locates_events() {
             return None;
         }
+        let program = &self.discontinuities().when;
         let inputs = self.motion_len() + 2;
         let mut event_functions = EventFunctions {
             system: self.clone(),

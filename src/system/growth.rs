@@ -3,7 +3,7 @@
 //! In: the numbers of a state, the sides of its switches. Out: coefficients, or why there are none.
 //! Never here: the choice of precision for each order, time.
 
-use super::jet::{Jet, Side};
+use super::jet::{Coefficient, Jet, Side};
 use super::program::Singular;
 use super::solve::Factored;
 use crate::cancel::Cancel;
@@ -11,9 +11,15 @@ use crate::num::{DoubleDouble, ExtendedRange, Kernel, Real, vectorized};
 
 /// The time of the origin, and the unit of time.
 #[derive(Clone, Copy)]
-pub(super) struct Clock {
-    pub(super) time: DoubleDouble,
-    pub(super) scale: f64,
+pub(super) struct Clock<R: Coefficient> {
+    pub(super) time: R,
+    pub(super) scale: R::Unit,
+}
+
+impl<R: Real> Clock<R> {
+    pub(super) fn new(time: DoubleDouble, scale: f64) -> Clock<R> {
+        Clock { time: R::of(time), scale }
+    }
 }
 
 /// Why a series cannot be built.
@@ -33,7 +39,7 @@ impl From<Singular> for Halt {
 
 /// The series in one precision, built order by order.
 #[derive(Clone, Debug)]
-pub(super) struct SeriesBuilder<R: Real> {
+pub(super) struct SeriesBuilder<R: Coefficient> {
     pub(super) jet: Jet<R>,
     /// The highest order of the state's series.
     pub(super) order: usize,
@@ -47,7 +53,7 @@ pub(super) struct SeriesBuilder<R: Real> {
     pub(super) depth: usize,
 }
 
-impl<R: Real> SeriesBuilder<R> {
+impl<R: Coefficient> SeriesBuilder<R> {
     pub(super) fn new(jet: Jet<R>, inputs: usize, len: usize) -> SeriesBuilder<R> {
         let order = jet.order();
         let state = vec![R::ZERO; len * (order + 1)];
@@ -62,9 +68,61 @@ impl<R: Real> SeriesBuilder<R> {
         self.state.len() / (self.order + 1)
     }
 
+    /// Sets a number at the origin.
+    pub(super) fn set_origin(&mut self, i: usize, x: R) {
+        self.state[i * (self.order + 1)] = x;
+    }
+
+    /// A number at the origin.
+    pub(super) fn origin_mut(&mut self, i: usize) -> &mut R {
+        &mut self.state[i * (self.order + 1)]
+    }
+
+    /// Computes the orders above `first` of the state, each from the one before, where no switch is
+    /// kept at zero.
+    pub(super) fn grow_plainly(
+        &mut self,
+        first: usize,
+        clock: Clock<R>,
+        cancel: &Cancel,
+    ) -> Result<(), Halt> {
+        vectorized(Grow { builder: self, first, clock, cancel })
+    }
+
+    fn extend(&mut self, k: usize, clock: Clock<R>) -> Result<(), Singular> {
+        vectorized(Extend { builder: self, k, clock })
+    }
+
+    #[inline(always)]
+    fn extend_with<const FUSED: bool>(
+        &mut self,
+        k: usize,
+        clock: Clock<R>,
+    ) -> Result<(), Singular> {
+        self.jet.take_in(&self.state, self.inputs, k);
+        self.jet.advance_with::<FUSED>(k, clock.time, clock.scale)?;
+        let made = |x: R| x.scaled(clock.scale).over(k + 1);
+        self.jet.give_out(&mut self.state, k, made);
+        Ok(())
+    }
+
+    /// Computes the highest order of everything but the state.
+    pub(super) fn watch(&mut self, clock: Clock<R>) -> Result<(), Singular> {
+        let k = self.order;
+        for i in 0..self.inputs {
+            self.jet.set_input(i, k, self.state[i * (k + 1) + k]);
+        }
+        for &switch in &self.kept {
+            self.jet.set_weight(switch, k, R::ZERO);
+        }
+        self.jet.advance(k, clock.time, clock.scale)
+    }
+}
+
+impl<R: Real> SeriesBuilder<R> {
     pub(super) fn begin(&mut self, origin: &[DoubleDouble], sides: &[Side]) {
         for (i, &x) in origin.iter().enumerate() {
-            self.state[i * (self.order + 1)] = R::of(x);
+            self.set_origin(i, R::of(x));
         }
         self.kept.clear();
         for (switch, &side) in sides.iter().enumerate() {
@@ -98,9 +156,14 @@ impl<R: Real> SeriesBuilder<R> {
     }
 
     /// Computes the orders above `first` of the state, each from the one before.
-    pub(super) fn grow(&mut self, first: usize, clock: Clock, cancel: &Cancel) -> Result<(), Halt> {
+    pub(super) fn grow(
+        &mut self,
+        first: usize,
+        clock: Clock<R>,
+        cancel: &Cancel,
+    ) -> Result<(), Halt> {
         if self.kept.is_empty() {
-            return vectorized(Grow { builder: self, first, clock, cancel });
+            return self.grow_plainly(first, clock, cancel);
         }
         for k in first..self.order {
             if cancel.is_cancelled() {
@@ -113,34 +176,9 @@ impl<R: Real> SeriesBuilder<R> {
         Ok(())
     }
 
-    fn extend(&mut self, k: usize, clock: Clock) -> Result<(), Singular> {
-        vectorized(Extend { builder: self, k, clock })
-    }
-
-    #[inline(always)]
-    fn extend_with<const FUSED: bool>(&mut self, k: usize, clock: Clock) -> Result<(), Singular> {
-        self.jet.take_in(&self.state, self.inputs, k);
-        self.jet.advance_with::<FUSED>(k, R::of(clock.time), clock.scale)?;
-        let made = |x: R| x.scaled(clock.scale).over(k + 1);
-        self.jet.give_out(&mut self.state, k, made);
-        Ok(())
-    }
-
-    /// Computes the highest order of everything but the state.
-    pub(super) fn watch(&mut self, clock: Clock) -> Result<(), Singular> {
-        let k = self.order;
-        for i in 0..self.inputs {
-            self.jet.set_input(i, k, self.state[i * (k + 1) + k]);
-        }
-        for &switch in &self.kept {
-            self.jet.set_weight(switch, k, R::ZERO);
-        }
-        self.jet.advance(k, R::of(clock.time), clock.scale)
-    }
-
     /// Finds the coefficients of order `k` of the weights that make those of order `k + 1` of the
     /// kept switches vanish. The latter depend linearly on the former.
-    fn solve_weights(&mut self, k: usize, clock: Clock) -> Result<(), Halt> {
+    fn solve_weights(&mut self, k: usize, clock: Clock<R>) -> Result<(), Halt> {
         let kept = self.kept.clone();
         let n = kept.len();
         if k == 0 {
@@ -185,7 +223,7 @@ impl<R: Real> SeriesBuilder<R> {
     fn probe(
         &mut self,
         k: usize,
-        clock: Clock,
+        clock: Clock<R>,
         kept: &[usize],
         one: Option<usize>,
     ) -> Result<Vec<R>, Singular> {
@@ -203,19 +241,19 @@ impl<R: Real> SeriesBuilder<R> {
                 self.jet.set_input(i, order + 1, self.state[i * (self.order + 1) + order + 1]);
             }
         }
-        self.jet.advance(last, R::of(clock.time), clock.scale)?;
+        self.jet.advance(last, clock.time, clock.scale)?;
         Ok(kept.iter().map(|&switch| self.jet.switch(switch)[last]).collect())
     }
 }
 
 /// One order of a series.
-struct Extend<'a, R: Real> {
+struct Extend<'a, R: Coefficient> {
     builder: &'a mut SeriesBuilder<R>,
     k: usize,
-    clock: Clock,
+    clock: Clock<R>,
 }
 
-impl<R: Real> Kernel for Extend<'_, R> {
+impl<R: Coefficient> Kernel for Extend<'_, R> {
     type Output = Result<(), Singular>;
 
     #[inline(always)]
@@ -225,14 +263,14 @@ impl<R: Real> Kernel for Extend<'_, R> {
 }
 
 /// All orders of a series without weights.
-struct Grow<'a, R: Real> {
+struct Grow<'a, R: Coefficient> {
     builder: &'a mut SeriesBuilder<R>,
     first: usize,
-    clock: Clock,
+    clock: Clock<R>,
     cancel: &'a Cancel,
 }
 
-impl<R: Real> Kernel for Grow<'_, R> {
+impl<R: Coefficient> Kernel for Grow<'_, R> {
     type Output = Result<(), Halt>;
 
     #[inline(always)]

@@ -7,6 +7,7 @@
 //!
 //! Rules: À. Jorba, M. Zou, Experimental Mathematics 14 (2005) 99, section 2.
 
+mod batch;
 mod series_index;
 mod side;
 mod tables;
@@ -17,20 +18,21 @@ use std::sync::Arc;
 use super::program::{Op, Program, Register, Singular};
 use super::schedule::Schedule;
 use crate::expr::FunctionId;
-use crate::num::{DoubleDouble, Kernel, Real, vectorized};
+use crate::num::{Batch, DoubleDouble, Kernel, Real, vectorized};
 use series_index::SeriesIndex;
 pub use side::Side;
+pub(super) use tables::Coefficient;
 use tables::Tables;
 
 /// The registers of one program as power series, in one precision.
 #[derive(Clone, Debug)]
-pub struct Jet<R: Real> {
+pub struct Jet<R: Coefficient> {
     program: Arc<Program>,
     schedule: Arc<Schedule>,
     tables: Tables<R>,
 }
 
-impl<R: Real> Jet<R> {
+impl<R: Coefficient> Jet<R> {
     /// Allocates registers for a program, up to an order. The parameters must be set before it is
     /// evaluated.
     pub fn new(program: Arc<Program>, order: usize) -> Jet<R> {
@@ -49,7 +51,7 @@ impl<R: Real> Jet<R> {
     }
 
     /// The same for the program of another jet.
-    pub(super) fn like<S: Real>(other: &Jet<S>, order: usize) -> Jet<R> {
+    pub(super) fn like<S: Coefficient>(other: &Jet<S>, order: usize) -> Jet<R> {
         let (program, schedule) = (Arc::clone(&other.program), Arc::clone(&other.schedule));
         Jet::with_schedule(program, schedule, Arc::clone(&other.tables.index), order)
     }
@@ -135,7 +137,7 @@ impl<R: Real> Jet<R> {
 
     /// Evaluates all registers at order `k`, at a time that advances in units of `scale`. The lower
     /// orders must have been evaluated, and the inputs' coefficients of order `k` set.
-    pub fn advance(&mut self, k: usize, time: R, scale: f64) -> Result<(), Singular> {
+    pub fn advance(&mut self, k: usize, time: R, scale: R::Unit) -> Result<(), Singular> {
         vectorized(Advance { jet: self, orders: k..=k, time, scale })
     }
 
@@ -145,7 +147,7 @@ impl<R: Real> Jet<R> {
         &mut self,
         k: usize,
         time: R,
-        scale: f64,
+        scale: R::Unit,
     ) -> Result<(), Singular> {
         let (program, schedule, tables) = (&*self.program, &*self.schedule, &mut self.tables);
         if k == 0 {
@@ -154,7 +156,7 @@ impl<R: Real> Jet<R> {
             return Ok(());
         }
         tables.multiply::<FUSED>(k);
-        let rate = if k == 1 { R::ONE * scale } else { R::ZERO };
+        let rate = if k == 1 { R::ONE.scaled(scale) } else { R::ZERO };
         tables.finish::<FUSED>(program, schedule, k, rate);
         tables.hand_on(schedule, k);
         tables.keep(k);
@@ -163,7 +165,12 @@ impl<R: Real> Jet<R> {
 
     /// Evaluates all orders up to one, at a time that advances in units of `scale`. The inputs'
     /// coefficients must have been set.
-    pub(super) fn advance_to(&mut self, last: usize, time: R, scale: f64) -> Result<(), Singular> {
+    pub(super) fn advance_to(
+        &mut self,
+        last: usize,
+        time: R,
+        scale: R::Unit,
+    ) -> Result<(), Singular> {
         vectorized(Advance { jet: self, orders: 0..=last, time, scale })
     }
 
@@ -205,7 +212,9 @@ impl<R: Real> Jet<R> {
     pub(super) fn value(&self, register: Register) -> R {
         self.tables.rows[register as usize]
     }
+}
 
+impl<R: Real> Jet<R> {
     /// Copies the orders below `orders` from a jet of the same program in another precision, and
     /// factors the matrices that it has factored.
     pub fn take_over<S: Real>(&mut self, other: &Jet<S>, orders: usize) -> Result<(), Singular> {
@@ -248,15 +257,25 @@ impl<R: Real> Jet<R> {
     }
 }
 
+impl Jet<Batch> {
+    /// Takes what depends on parameters alone, in one lane, from a jet of the same program.
+    pub(super) fn take_parameters(&mut self, lane: usize, from: &Jet<f64>) {
+        let registers = self.tables.rows.iter_mut().zip(&from.tables.rows);
+        for ((own, other), _) in registers.zip(&self.program.fixed).filter(|(_, fixed)| **fixed) {
+            own.0[lane] = *other;
+        }
+    }
+}
+
 /// Some orders of a jet whose inputs are known up to them.
-struct Advance<'a, R: Real> {
+struct Advance<'a, R: Coefficient> {
     jet: &'a mut Jet<R>,
     orders: RangeInclusive<usize>,
     time: R,
-    scale: f64,
+    scale: R::Unit,
 }
 
-impl<R: Real> Kernel for Advance<'_, R> {
+impl<R: Coefficient> Kernel for Advance<'_, R> {
     type Output = Result<(), Singular>;
 
     #[inline(always)]

@@ -15,7 +15,7 @@ use super::program::{Program, Register};
 use super::state::State;
 use super::underflow;
 use crate::expr::FunctionId;
-use crate::num::{DoubleDouble, ExtendedRange, Kernel, Polynomial, math, polynomial, vectorized};
+use crate::num::{DoubleDouble, ExtendedRange, Kernel, Polynomial, polynomial, vectorized};
 
 /// The series of all numbers of a state, in the native form of its system.
 #[derive(Clone, Debug)]
@@ -111,8 +111,7 @@ impl Series {
     /// Chooses the unit of time of the next series: the power of two below `step`, negative for a
     /// step back in time.
     pub fn set_scale(&mut self, step: f64) {
-        let exponent = math::log2(step.abs()).floor().clamp(-1000.0, 1000.0);
-        self.scale = math::powi(2.0, exponent as i32).copysign(step);
+        self.scale = unit_below(step);
     }
 
     /// The time of the origin.
@@ -164,7 +163,7 @@ impl Series {
     }
 
     fn grow_extended(&mut self) -> Result<(), Halt> {
-        let clock = Clock { time: self.time, scale: self.scale };
+        let clock = Clock::new(self.time, self.scale);
         let (inputs, len, order) = (self.high.inputs, self.len(), self.high.order);
         let wide = self.wide.get_or_insert_with(|| {
             let jet = Jet::like(&self.high.jet, order);
@@ -186,11 +185,12 @@ impl Series {
 
     fn grow_in_range(&mut self) -> Result<(), Halt> {
         let mut first = 0;
-        let clock = Clock { time: self.time, scale: self.scale };
+        let (time, scale) = (self.time, self.scale);
+        let clock = Clock::new(time, scale);
         let cancel = self.system.cancel();
         if let Some(low) = &mut self.low {
             low.begin(&self.origin, &self.sides);
-            low.grow(0, clock, cancel)?;
+            low.grow(0, Clock::new(time, scale), cancel)?;
             // a weight that acts two orders later is not yet known at the last order
             first = if low.kept.is_empty() { low.order } else { low.order + 1 - low.depth };
             self.high.take_over(low)?;
@@ -284,6 +284,12 @@ impl Series {
         let time = self.time + after;
         (out.time, out.time_carry) = (time.high, time.low);
     }
+}
+
+/// The power of two below the size of a step, with its sign.
+pub(super) fn unit_below(step: f64) -> f64 {
+    let exponent = (step.abs().to_bits() >> 52).clamp(23, 2023);
+    f64::from_bits(exponent << 52).copysign(step)
 }
 
 /// The polynomials of a state, at a time in the unit of the series.

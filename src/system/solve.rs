@@ -8,7 +8,7 @@ const SMALLEST_PIVOT: f64 = 1e-13;
 
 /// The factored matrix of one block.
 #[derive(Clone, Debug)]
-pub(super) struct Factored<R> {
+pub struct Factored<R> {
     size: usize,
     entries: Vec<R>,
     rows: Vec<usize>,

@@ -10,7 +10,7 @@ use super::kink_sides::KinkSides;
 use super::program::{Op, Program, Register, Singular};
 use super::solve::Factored;
 use super::underflow;
-use crate::num::{DoubleDouble, ExtendedRange, Real};
+use crate::num::{Analytic, DoubleDouble, ExtendedRange, Real};
 
 /// The registers of one program as numbers, in one precision.
 #[derive(Clone, Debug)]
@@ -183,7 +183,7 @@ fn run<R: Real>(program: &Program, registers: &mut [R], register: Register, op: 
 /// The value of an operation on registers with these values and, of a function, that of its
 /// companion in the next register. `None` for what is set elsewhere.
 #[inline]
-pub(super) fn value_of<R: Real>(
+pub(super) fn value_of<R: Analytic>(
     program: &Program,
     op: Op,
     get: impl Fn(Register) -> R,
@@ -203,21 +203,16 @@ pub(super) fn value_of<R: Real>(
         Op::Divide(a, b) => get(a) / get(b),
         Op::Root(a) => get(a).sqrt(),
         Op::Power(a, exponent) => get(a).power(program.constants[exponent as usize]),
-        Op::ParametricPower(a, exponent) => get(a).power(get(exponent).double()),
+        Op::ParametricPower(a, exponent) => get(a).raised(get(exponent)),
         Op::Call(function, [a, b]) => {
             let (value, companion) = function.with_companion([get(a), get(b)]);
             return Some((value, Some(companion)));
         }
         Op::Select { switch, positive, negative, .. } => {
-            let side = get(switch).value();
-            if side > 0.0 {
-                get(positive)
-            } else if side < 0.0 {
-                get(negative)
-            } else {
-                // on the surface; NaN if the switch is NaN
-                (get(positive) + get(negative)) * (0.5 + side)
-            }
+            let (side, positive, negative) = (get(switch), get(positive), get(negative));
+            // on the surface; NaN if the switch is NaN
+            let between = (positive + negative) * 0.5 * (side + R::ONE);
+            side.where_positive(positive, (-side).where_positive(negative, between))
         }
         Op::Parameter(_) | Op::Time | Op::Input(_) | Op::Solve(_) | Op::Written => return None,
     };

@@ -7,7 +7,7 @@
     reason = "digits as the reference printed them; some are near a constant's"
 )]
 
-use phaselab::num::{DoubleDouble, Real};
+use phaselab::num::{Analytic, DoubleDouble};
 
 /// The function, its argument as written, and its value as the sum of two numbers.
 const VALUES: &[(&str, f64, (f64, f64))] = &[

@@ -3,6 +3,7 @@
 
 mod analysis;
 mod app;
+mod batch;
 mod build;
 mod circles;
 mod cli;

@@ -16,12 +16,17 @@ use crate::diagnostic::nearest;
 use crate::dynamics::PhaseSpace;
 use crate::ensemble::{OrbitStatus, Start, add_section};
 use crate::model::Direction;
-use crate::orbits::{MEASURES, Measure, MeasuredOrbit, RunPlan, Zeros, measure_named};
+use crate::orbits::{MEASURES, Measure, MeasuredOrbit, Outcome, RunPlan, Zeros, measure_named};
 use crate::printable;
 use crate::system::{InitialOverride, System};
 
 /// How long a run is where nothing says so.
 const LENGTH: f64 = 10.0;
+
+/// The most rows that one thread computes at a time, and how many such groups each has at least, so that none waits long
+/// for another.
+const GROUP: usize = 64;
+const SHARES: usize = 4;
 
 /// A measure as it is asked for, `NAME` or `NAME=EXPR`.
 #[derive(Clone)]
@@ -184,11 +189,27 @@ impl Table {
         parts.join("\0").into_bytes()
     }
 
-    /// Computes a row; `None` if it was cancelled.
-    pub(super) fn row(&self, index: usize) -> Option<Row> {
-        let start = &self.starts[index];
-        let end = self.until.unwrap_or(start.time + LENGTH);
-        let outcome = self.plan.run(start, end)?;
+    /// How many rows of so many one thread computes at a time.
+    pub(super) fn group(&self, count: usize, threads: usize) -> usize {
+        if self.plan.is_side_by_side() { (count / (SHARES * threads)).clamp(1, GROUP) } else { 1 }
+    }
+
+    /// Computes rows, and hands each to `done` with its place among these as soon as it is there. One that is cancelled is
+    /// not.
+    pub(super) fn rows(&self, indices: &[usize], mut done: impl FnMut(usize, Row)) {
+        let run = |&index: &usize| {
+            let start = &self.starts[index];
+            (start, self.until.unwrap_or(start.time + LENGTH))
+        };
+        let runs: Vec<(&Start, f64)> = indices.iter().map(run).collect();
+        self.plan.run_all(&runs, |i, outcome| {
+            let (start, end) = runs[i];
+            self.row(start, end, outcome).into_iter().for_each(|row| done(i, row));
+        });
+    }
+
+    /// The row of a run; `None` if a measure was cancelled.
+    fn row(&self, start: &Start, end: f64, outcome: Outcome) -> Option<Row> {
         let mut cells: Vec<Cell> =
             self.set.iter().map(|&set| Cell::Number(value(set, start))).collect();
         cells.push(Cell::Word(outcome.status.word().to_owned()));

@@ -5,10 +5,10 @@ use super::recurrence::{
 };
 use super::{Function, FunctionId, Rule};
 use crate::expr::{Expr, Pool};
-use crate::num::{Number, Real, math};
+use crate::num::{Analytic, Number, math};
 
 /// The value, and that of the companion.
-pub(super) fn with_companion<R: Real>(u: [R; 2]) -> (R, R) {
+pub(super) fn with_companion<R: Analytic>(u: [R; 2]) -> (R, R) {
     (u[0].asin(), cosine_of(u[0]))
 }
 
@@ -20,7 +20,7 @@ pub(super) fn slope(pool: &mut Pool, u: Expr) -> Expr {
 }
 
 /// `√(1 − u²)`.
-pub(super) fn cosine_of<R: Real>(u: R) -> R {
+pub(super) fn cosine_of<R: Analytic>(u: R) -> R {
     ((R::ONE - u) * (R::ONE + u)).sqrt()
 }
 

@@ -2,10 +2,10 @@
 
 use super::recurrence::{BilinearEquation, COMPANION, Convolution, FIRST, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule, exact_sine};
-use crate::num::{Number, Real, math};
+use crate::num::{Analytic, Number, math};
 
 /// The value, and that of the companion.
-pub(super) fn with_companion<R: Real>(u: [R; 2]) -> (R, R) {
+pub(super) fn with_companion<R: Analytic>(u: [R; 2]) -> (R, R) {
     let (sine, cosine) = u[0].sin_cos();
     (cosine, sine)
 }

@@ -3,10 +3,10 @@
 use super::recurrence::{BilinearEquation, COMPANION, Convolution, FIRST, Recurrence, VALUE};
 use super::{Function, FunctionId, Rule};
 use crate::expr::Expr;
-use crate::num::{Real, math};
+use crate::num::{Analytic, math};
 
 /// The value, and that of the companion.
-pub(super) fn with_companion<R: Real>(u: [R; 2]) -> (R, R) {
+pub(super) fn with_companion<R: Analytic>(u: [R; 2]) -> (R, R) {
     let (sinh, cosh) = u[0].sinh_cosh();
     (cosh, sinh)
 }

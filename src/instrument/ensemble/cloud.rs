@@ -2,14 +2,13 @@
 //!
 //! In: an [`Origin`], or a [`Cloud`] that was carried so far. Out: the next [`Cloud`]. Never here: how it is drawn.
 
-use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::super::conditions::Conditions;
 use super::super::{Answer, Physics, Plot};
 use super::origin::Origin;
 use crate::dynamics::{PhaseSpace, conformal_rate};
-use crate::ensemble::{Carried, Circulation, ClosedCurve, Flow, in_order};
+use crate::ensemble::{Carried, Circulation, ClosedCurve, Flow};
 use crate::integrate::{Method, Settings};
 use crate::job::Progress;
 use crate::mechanics::Equations;
@@ -100,8 +99,8 @@ impl Task {
             start: self.model.run.start,
         };
         let flow = match self.state(self.origin.centre) {
-            Some(centre) => flow.settled(&centre),
-            None => flow,
+            Some(centre) => flow.settled(&centre).fast(),
+            None => flow.fast(),
         };
         let known = self.known.as_ref().and_then(Answer::of::<Cloud>);
         let speed = Some(self.model.run.speed).filter(|s| s.is_finite() && *s > 0.0);
@@ -118,25 +117,19 @@ impl Task {
             Some(known) => known.points.clone(),
             None => self.origin.states(COUNT, &self.plot, self.physics(), parameters),
         };
-        let mut carried: Vec<Carried> = Vec::with_capacity(points.len());
         progress.expect(points.len() as u64);
-        let axes = self.axes();
-        let one = |i: usize| {
-            let from = points[i].as_ref();
-            from.map_or_else(Carried::default, |from| flow.carry(from, &times, &axes))
+        let from: Vec<Option<&State>> = points.iter().map(Option::as_ref).collect();
+        let outcome = flow.carry_all(&from, &times, &self.axes(), |done| progress.reach(done));
+        let (carried, mut failure) = match outcome {
+            Ok(carried) => (carried, None),
+            Err(why) => (Vec::new(), Some(why.to_string())),
         };
-        let threads = in_order(0, points.len(), progress.token(), one, |i, result| {
-            progress.reach(i as u64);
-            carried.push(result);
-            ControlFlow::Continue(())
-        });
         let start = |s: f64| self.state(self.origin.boundary(s));
         let mut curve = match known {
             Some(known) => known.curve.clone(),
             None if !self.origin.has_boundary() => None,
             None => self.channels().and_then(|all| ClosedCurve::new(&start, all, self.scales())),
         };
-        let mut failure = threads.err().map(|why| why.to_string());
         if let Some(curve) = &mut curve
             && let Err(why) = curve.carry(&flow, &times, &start)
         {

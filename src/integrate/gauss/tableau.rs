@@ -2,7 +2,7 @@
 //!
 //! Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, table II.1.1.
 
-use crate::num::{DoubleDouble, Real};
+use crate::num::{Analytic, DoubleDouble};
 
 /// The coefficients of one method.
 #[derive(Clone, Debug)]

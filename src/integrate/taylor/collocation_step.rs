@@ -11,7 +11,7 @@
 //! the rates have no limit. Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations
 //! II, IV.5.
 
-use crate::num::{DoubleDouble, Real, math};
+use crate::num::{Analytic, DoubleDouble, math};
 use crate::system::{ExactRates, MotionError, MotionErrorKind, State};
 
 /// The part of the wanted step that is tried first, and the factor after each failure.
@@ -59,7 +59,7 @@ struct Scheme {
 impl Scheme {
     fn new() -> Scheme {
         let part = |n: f64, d: f64| DoubleDouble::from(n) / d;
-        let root = Real::sqrt(DoubleDouble::from(15.0));
+        let root = Analytic::sqrt(DoubleDouble::from(15.0));
         let half = part(1.0, 2.0);
         Scheme {
             at: [half - root / 10.0, half, half + root / 10.0],

@@ -6,7 +6,7 @@
 //! |c_j| h^j, and stays inside the radius of convergence however small those terms are: a body far
 //! from a collision is hardly affected by it.
 
-use std::array;
+use std::ops::RangeInclusive;
 
 use crate::expr::FunctionId;
 use crate::num::{Kernel, math, vectorized};
@@ -33,7 +33,7 @@ const SPARED: f64 = 1e3;
 
 /// The largest change of a function's argument in one step: a short-range potential must not be
 /// stepped over.
-const FARTHEST_ARGUMENT: f64 = 6.0;
+pub(super) const FARTHEST_ARGUMENT: f64 = 6.0;
 
 /// Beyond this argument exponentials leave the range of `f64`, and functions that saturate with
 /// them no longer change: up to there an argument may move at once.
@@ -70,10 +70,9 @@ pub(super) struct StepSize {
 
 impl StepSize {
     pub(super) fn new(tolerance: f64, order: usize) -> StepSize {
-        let tolerance = tolerance * SHARE;
         StepSize {
-            motion: Shares::new(tolerance, order),
-            integrals: Shares::new(tolerance * SPARED, order),
+            motion: Shares::of_motion(tolerance, order),
+            integrals: Shares::of_integrals(tolerance, order),
             least: 0,
         }
     }
@@ -133,7 +132,7 @@ impl Kernel for ByCoefficients<'_> {
 }
 
 /// The step in which the argument of a function changes by the largest amount allowed.
-fn of_argument(function: FunctionId, u: &[f64]) -> f64 {
+pub(super) fn of_argument(function: FunctionId, u: &[f64]) -> f64 {
     let room = match function {
         FunctionId::Exp | FunctionId::Sinh | FunctionId::Cosh | FunctionId::Tanh => {
             u[0].abs() - SATURATED
@@ -176,7 +175,7 @@ fn integrals(series: &Series) -> impl Iterator<Item = &[f64]> {
 }
 
 /// The most coefficients that a series has, and room for a whole chunk behind them.
-const ROOM: usize = 64;
+pub(super) const ROOM: usize = 64;
 
 /// The reciprocals of the differences of two orders, so that those of k − j for j = 0, 1, …, k − 1
 /// lie side by side: 1/n is the one at `ROOM - n`.
@@ -194,17 +193,33 @@ const RECIPROCALS: [f64; ROOM] = {
 const LANES: usize = 4;
 
 /// The number of lowest orders that are looked at first.
-const FIRST: usize = 3;
+pub(super) const FIRST: usize = 3;
 
 /// The logarithm of a tolerance, divided among the orders: `ln ε / (p − j)` for the j-th of p.
 #[derive(Clone, Debug)]
-struct Shares {
-    table: [f64; ROOM],
-    log_part: f64,
+pub(super) struct Shares {
+    pub(super) table: [f64; ROOM],
+    pub(super) log_part: f64,
     log_indulgence: f64,
 }
 
 impl Shares {
+    /// Those of the coordinates and rates, at the tolerance of a method.
+    pub(super) fn of_motion(tolerance: f64, order: usize) -> Shares {
+        Shares::new(tolerance * SHARE, order)
+    }
+
+    /// Those of what does not act on the motion.
+    pub(super) fn of_integrals(tolerance: f64, order: usize) -> Shares {
+        Shares::new(tolerance * SHARE * SPARED, order)
+    }
+
+    /// By how much the logarithm of the step may be longer for the k-th of p orders.
+    #[inline(always)]
+    pub(super) fn indulgence(&self, k: usize, p: usize) -> f64 {
+        if k + LAST <= p { self.log_indulgence } else { 0.0 }
+    }
+
     fn new(tolerance: f64, order: usize) -> Shares {
         let log = math::ln(tolerance);
         let mut table = [f64::NEG_INFINITY; ROOM];
@@ -232,19 +247,19 @@ fn of_one<const FUSED: bool>(
     if !(Logarithms { of: coefficients, logs: &mut logs }).run::<FUSED>() {
         return None;
     }
-    for k in ((p + 1).saturating_sub(LAST + BEFORE).max(3)..=p).rev() {
+    for k in last_orders(p).rev() {
         let own = logs[k];
         if own == f64::NEG_INFINITY {
             continue;
         }
-        let indulgence = if k + LAST <= p { shares.log_indulgence } else { 0.0 };
+        let indulgence = shares.indulgence(k, p);
         let (logs, reciprocals) = (&logs[..k], &RECIPROCALS[ROOM - k..]);
         let table = &shares.table[..k];
         let root = |j: usize| (logs[j] - own) * reciprocals[j];
-        let step = shortest - indulgence;
-        let radius = step - shares.log_part;
-        if (0..FIRST.min(k)).any(|j| root(j) + table[j] >= step)
-            && (2..(2 + FIRST).min(k - 1)).any(|j| root(j) >= radius)
+        // each of these bounds what follows from all of them, to the last bit
+        let enough = |log: f64| log + indulgence >= shortest;
+        if (0..FIRST.min(k)).any(|j| enough(root(j) + table[j]))
+            && (2..(2 + FIRST).min(k - 1)).any(|j| enough(root(j) + shares.log_part))
         {
             continue;
         }
@@ -258,6 +273,18 @@ fn of_one<const FUSED: bool>(
         shortest = shortest.min(log + indulgence);
     }
     Some(shortest)
+}
+
+/// The orders up to p that enter.
+#[inline(always)]
+pub(super) fn last_orders(p: usize) -> RangeInclusive<usize> {
+    (p + 1).saturating_sub(LAST + BEFORE).max(3)..=p
+}
+
+/// The reciprocal of the difference of two orders.
+#[inline(always)]
+pub(super) fn reciprocal(n: usize) -> f64 {
+    RECIPROCALS[ROOM - n]
 }
 
 /// Nothing to be added to any order.
@@ -297,17 +324,20 @@ impl Kernel for Logarithms<'_> {
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> bool {
-        let mut finite = [true; LANES];
+        let mut finite = true;
         let (chunks, rest) = self.of.as_chunks::<LANES>();
         let mut last = [0.0; LANES];
         last[..rest.len()].copy_from_slice(rest);
         let places = self.logs.as_chunks_mut::<LANES>().0.iter_mut();
         for (log, c) in places.zip(chunks.iter().chain([&last])) {
-            let x = c.map(f64::abs);
+            let mut x = *c;
+            for size in &mut x {
+                *size = size.abs();
+                finite &= *size < f64::INFINITY;
+            }
             *log = rough_logarithms(x);
-            finite = array::from_fn(|lane| finite[lane] && x[lane] < f64::INFINITY);
         }
-        finite == [true; LANES]
+        finite
     }
 }
 
@@ -315,22 +345,26 @@ impl Kernel for Logarithms<'_> {
 /// series about the middle of the mantissas; −∞ for what is as good as zero. Written lane by lane,
 /// as vector instructions do it.
 #[inline(always)]
-fn rough_logarithms(x: [f64; LANES]) -> [f64; LANES] {
+pub(super) fn rough_logarithms<const N: usize>(x: [f64; N]) -> [f64; N] {
     const MIDDLE: f64 = 1.5;
     const LN_MIDDLE: f64 = 0.405_465_108_108_164_4;
+    const SHIFT: f64 = (1_u64 << 52) as f64;
     const MANTISSA: u64 = 0x000F_FFFF_FFFF_FFFF;
-    let bits = x.map(f64::to_bits);
-    let exponent = bits.map(|bits| f64::from((bits >> 52) as i32 - 1023));
-    let mantissa = bits.map(|bits| f64::from_bits((bits & MANTISSA) | 0x3FF0_0000_0000_0000));
-    let t = mantissa.map(|m| (m - MIDDLE) * (1.0 / MIDDLE));
-    let even = t.map(|t| t * t);
-    let first = even.map(|e| 1.0 + e * (1.0 / 3.0 + e * (0.2 + e * (1.0 / 7.0))));
-    let second = even.map(|e| e * (0.5 + e * (0.25 + e * (1.0 / 6.0))));
-    array::from_fn(|lane| {
-        let series = t[lane] * first[lane] - second[lane];
-        let log = exponent[lane] * std::f64::consts::LN_2 + LN_MIDDLE + series;
-        if x[lane] < FAINT { f64::NEG_INFINITY } else { log }
-    })
+    let mut logs = [0.0; N];
+    for lane in 0..N {
+        let bits = x[lane].to_bits();
+        // in the last digits of 2⁵², since vectors of integers are not converted by one instruction
+        let exponent = f64::from_bits(SHIFT.to_bits() | (bits >> 52)) - (SHIFT + 1023.0);
+        let mantissa = f64::from_bits((bits & MANTISSA) | 0x3FF0_0000_0000_0000);
+        let t = (mantissa - MIDDLE) * (1.0 / MIDDLE);
+        let even = t * t;
+        let first = 1.0 + even * (1.0 / 3.0 + even * (0.2 + even * (1.0 / 7.0)));
+        let second = even * (0.5 + even * (0.25 + even * (1.0 / 6.0)));
+        let series = t * first - second;
+        let log = exponent * std::f64::consts::LN_2 + LN_MIDDLE + series;
+        logs[lane] = if x[lane] < FAINT { f64::NEG_INFINITY } else { log };
+    }
+    logs
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@
 //! direction loses energy. This is tested in many directions, including those in which all other
 //! forces pull, and repeatedly if the forces depend on time.
 
-use crate::num::{DoubleDouble, Real};
+use crate::num::{Analytic, DoubleDouble};
 use crate::system::{ExactRates, Form, MotionError, MotionErrorKind, State, System};
 
 /// Velocities below this part of their change in a typical step count as zero where friction
@@ -249,7 +249,7 @@ impl Asked<'_> {
             .iter()
             .map(|x| DoubleDouble::product(*x, *x))
             .fold(DoubleDouble::ZERO, |a, b| a + b);
-        let length = Real::sqrt(length);
+        let length = Analytic::sqrt(length);
         let mut state = self.still.clone();
         for (i, &x) in direction.iter().enumerate() {
             state.set(self.n + i, DoubleDouble::from(x) / length * self.size);

@@ -5,7 +5,7 @@ use super::DoubleDouble;
 use crate::num::convolution::{DoubleLanes, InnerProducts, LANES};
 use crate::num::instruction_set::Kernel;
 use crate::num::math;
-use crate::num::real::Real;
+use crate::num::real::{Analytic, Real};
 
 /// ln 2.
 const LN_2: DoubleDouble =
@@ -125,10 +125,22 @@ fn even_series(first: &[DoubleDouble], tail: &[f64], x: DoubleDouble) -> DoubleD
 }
 
 impl Real for DoubleDouble {
+    fn value(self) -> f64 {
+        self.high
+    }
+
+    fn double(self) -> DoubleDouble {
+        self
+    }
+}
+
+impl Analytic for DoubleDouble {
     const ZERO: DoubleDouble = DoubleDouble::ZERO;
     const ONE: DoubleDouble = DoubleDouble::ONE;
-    type Lanes = DoubleLanes;
-    const ZEROS: DoubleLanes = DoubleLanes::ZERO;
+    type Unit = f64;
+    type Lanes = DoubleLanes<LANES>;
+    const ZEROS: DoubleLanes<LANES> = DoubleLanes::ZERO;
+    const SIDE: usize = LANES;
 
     #[inline]
     fn over(self, n: usize) -> DoubleDouble {
@@ -144,27 +156,36 @@ impl Real for DoubleDouble {
         DoubleDouble::ordered_sum(p.high, p.low + (self.high * other.low + self.low * other.high))
     }
     #[inline(always)]
-    fn side_by_side(numbers: [DoubleDouble; LANES]) -> DoubleLanes {
+    fn side_by_side(number: impl Fn(usize) -> DoubleDouble) -> DoubleLanes<LANES> {
+        let mut numbers = [DoubleDouble::ZERO; LANES];
+        for lane in 0..LANES {
+            numbers[lane] = number(lane);
+        }
         DoubleLanes::of(numbers)
     }
     #[inline(always)]
     fn inner_products<const FUSED: bool>(
-        left: &[DoubleLanes],
-        right: &[DoubleLanes],
-    ) -> [DoubleDouble; LANES] {
-        InnerProducts { left, right }.run::<FUSED>()
+        left: &[DoubleLanes<LANES>],
+        right: &[DoubleLanes<LANES>],
+        out: &mut [DoubleDouble],
+    ) {
+        out.copy_from_slice(&InnerProducts { left, right }.run::<FUSED>());
+    }
+
+    #[inline(always)]
+    fn where_positive(self, a: DoubleDouble, b: DoubleDouble) -> DoubleDouble {
+        if self.value() > 0.0 { a } else { b }
+    }
+    #[inline(always)]
+    fn unless_vanishing(self, mut series: impl Iterator<Item = DoubleDouble>) -> DoubleDouble {
+        if series.all(|x| x.value() == 0.0) { DoubleDouble::ZERO } else { self }
+    }
+    fn raised(self, exponent: DoubleDouble) -> DoubleDouble {
+        self.power(exponent.double())
     }
 
     fn of(x: DoubleDouble) -> DoubleDouble {
         x
-    }
-
-    fn value(self) -> f64 {
-        self.high
-    }
-
-    fn double(self) -> DoubleDouble {
-        self
     }
 
     fn sqrt(self) -> DoubleDouble {

@@ -7,16 +7,57 @@ use std::sync::Arc;
 
 use super::series_index::SeriesIndex;
 use super::side::Side;
-use crate::num::{LANES, Real};
+use crate::num::{Analytic, Real};
 use crate::system::parametric_power;
 use crate::system::program::{Block, Op, Program, Register, Singular};
 use crate::system::schedule::{Denominator, Direct, Ends, Factor, Pair, Relation, Schedule, Step};
 use crate::system::solve::Factored;
 use crate::system::value::value_of;
 
+/// A coefficient of a power series.
+pub trait Coefficient: Analytic {
+    /// A matrix of linear equations.
+    type Factored: Elimination<Self>;
+
+    /// The coefficient of order `k` of an operation that is evaluated by itself.
+    fn alone(tables: &mut Tables<Self>, program: &Program, register: u32, k: usize) -> Self;
+}
+
+/// A matrix that is factored, to solve linear equations with.
+pub trait Elimination<R>: Clone + Send + Sync + std::fmt::Debug {
+    /// Room for a matrix of this size.
+    fn new(size: usize) -> Self;
+    /// Factors the matrix whose entries `entry` gives by row and column. Returns false if it is
+    /// singular.
+    #[must_use]
+    fn factor(&mut self, entry: impl Fn(usize, usize) -> R) -> bool;
+    /// Solves for a right-hand side, in place.
+    fn solve(&mut self, right: &mut [R]);
+}
+
+impl<R: Real> Elimination<R> for Factored<R> {
+    fn new(size: usize) -> Factored<R> {
+        Factored::new(size)
+    }
+    fn factor(&mut self, entry: impl Fn(usize, usize) -> R) -> bool {
+        Factored::factor(self, entry)
+    }
+    fn solve(&mut self, right: &mut [R]) {
+        Factored::solve(self, right);
+    }
+}
+
+impl<R: Real> Coefficient for R {
+    type Factored = Factored<R>;
+
+    fn alone(tables: &mut Tables<R>, program: &Program, register: u32, k: usize) -> R {
+        tables.alone(program, register, k)
+    }
+}
+
 /// What a jet computes with.
 #[derive(Clone, Debug)]
-pub(super) struct Tables<R: Real> {
+pub struct Tables<R: Coefficient> {
     /// The number of orders.
     pub(super) stride: usize,
     /// The number of registers and slopes.
@@ -26,16 +67,16 @@ pub(super) struct Tables<R: Real> {
     /// Those of the registers that are read as whole series, one register after another.
     pub(super) series: Vec<R>,
     pub(super) index: Arc<SeriesIndex>,
-    /// The pairs of the schedule, [`LANES`] of them side by side, and the coefficients of their
-    /// operands. The last ones may be filled up.
-    pairs: Vec<[Pair; LANES]>,
+    /// The pairs of the schedule, [`Analytic::SIDE`] of them side by side, and the coefficients of
+    /// their operands. The last ones may be filled up.
+    pairs: Vec<Pair>,
     left: Vec<R::Lanes>,
     right: Vec<R::Lanes>,
     /// Their inner products at the present order.
     products: Vec<R>,
     /// The terms of the program's sums.
     terms: Vec<(Register, R)>,
-    blocks: Vec<Factored<R>>,
+    blocks: Vec<R::Factored>,
     /// The right-hand side of a system of linear equations, then its solution.
     vector: Vec<R>,
     pub(super) sides: Vec<Side>,
@@ -43,7 +84,7 @@ pub(super) struct Tables<R: Real> {
     pub(super) weights: Vec<R>,
 }
 
-impl<R: Real> Tables<R> {
+impl<R: Coefficient> Tables<R> {
     /// Zeros, and the constants of the program.
     pub(super) fn new(
         program: &Program,
@@ -52,22 +93,21 @@ impl<R: Real> Tables<R> {
         order: usize,
     ) -> Tables<R> {
         let (stride, width) = (order + 1, program.ops.len() + schedule.slopes.len());
-        let blocks: Vec<_> = program.blocks.iter().map(|b| Factored::new(b.size())).collect();
+        let blocks = program.blocks.iter().map(|block| R::Factored::new(block.size())).collect();
         let widest = program.blocks.iter().map(Block::size).max().unwrap_or(0);
-        let pairs: Vec<[Pair; LANES]> = schedule
-            .pairs
-            .chunks(LANES)
-            .map(|chunk| std::array::from_fn(|lane| chunk[lane.min(chunk.len() - 1)]))
-            .collect();
+        let mut pairs = schedule.pairs.clone();
+        let filled = pairs.len().next_multiple_of(R::SIDE);
+        pairs.extend(pairs.last().copied().into_iter().cycle().take(filled - pairs.len()));
+        let groups = pairs.len() / R::SIDE;
         Tables {
             stride,
             width,
             rows: vec![R::ZERO; width * stride],
             series: vec![R::ZERO; index.registers.len() * stride],
             index,
-            left: vec![R::ZEROS; pairs.len() * stride],
-            right: vec![R::ZEROS; pairs.len() * stride],
-            products: vec![R::ZERO; pairs.len() * LANES],
+            left: vec![R::ZEROS; groups * stride],
+            right: vec![R::ZEROS; groups * stride],
+            products: vec![R::ZERO; pairs.len()],
             pairs,
             terms: program
                 .terms
@@ -87,9 +127,9 @@ impl<R: Real> Tables<R> {
         // counted along, since to divide a table into chunks takes a division
         let (left, right) = (&self.left[..], &self.right[..]);
         let mut first = 1;
-        for products in self.products.as_chunks_mut::<LANES>().0 {
+        for products in self.products.chunks_exact_mut(R::SIDE) {
             let last = first + k - 1;
-            *products = R::inner_products::<FUSED>(&left[first..last], &right[first..last]);
+            R::inner_products::<FUSED>(&left[first..last], &right[first..last], products);
             first += self.stride;
         }
     }
@@ -118,7 +158,7 @@ impl<R: Real> Tables<R> {
     /// Sets the value of an operation.
     pub(super) fn evaluate(&mut self, program: &Program, r: Register, op: Op) {
         if let Op::Select { .. } | Op::ParametricPower(..) = op {
-            let value = self.alone(program, r, 0);
+            let value = R::alone(self, program, r, 0);
             self.rows[r as usize] = value;
         } else if let Some((value, companion)) = value_of(program, op, |r| self.rows[r as usize]) {
             self.rows[r as usize] = value;
@@ -144,7 +184,7 @@ impl<R: Real> Tables<R> {
                     self.solve(program, (register, block as usize, product as usize), k);
                 }
                 Step::Alone(register) => {
-                    let coefficient = self.alone(program, register, k);
+                    let coefficient = R::alone(self, program, register, k);
                     self.rows[k * self.width + register as usize] = coefficient;
                 }
                 _ => {}
@@ -192,14 +232,13 @@ impl<R: Real> Tables<R> {
                 }
                 Step::Relation { register, relation } => {
                     let relation = &schedule.relations[at(relation)];
-                    let vanishes = |a: Register| {
-                        now[at(a)].value() == 0.0
-                            && below.chunks_exact(width).all(|row| row[at(a)].value() == 0.0)
-                    };
-                    let x = if relation.vanishing.is_some_and(vanishes) {
-                        R::ZERO
-                    } else {
-                        related::<R, FUSED>(schedule, relation, (values, now, products), k)
+                    let x = related::<R, FUSED>(schedule, relation, (values, now, products), k);
+                    let x = match relation.vanishing.map(at) {
+                        Some(a) => {
+                            let below = below.chunks_exact(width).map(|row| row[a]);
+                            x.unless_vanishing(std::iter::once(now[a]).chain(below))
+                        }
+                        None => x,
                     };
                     (register, x)
                 }
@@ -232,8 +271,48 @@ impl<R: Real> Tables<R> {
         now[first..first + n].copy_from_slice(solution);
     }
 
+    /// Stores order `k` once more where inner products read it.
+    #[inline(always)]
+    pub(super) fn hand_on(&mut self, schedule: &Schedule, k: usize) {
+        let now = &mut self.rows[k * self.width..][..self.width];
+        let (registers, slopes) = now.split_at_mut(self.width - schedule.slopes.len());
+        for (slope, &r) in slopes.iter_mut().zip(&schedule.slopes) {
+            *slope = registers[r as usize] * k as f64;
+        }
+        let now = &now[..];
+        let (left, right) = (&mut self.left[..], &mut self.right[..]);
+        let mut place = k;
+        for pairs in self.pairs.chunks_exact(R::SIDE) {
+            left[place] = R::side_by_side(|lane| now[pairs[lane].left as usize]);
+            right[place] = R::side_by_side(|lane| now[pairs[lane].right as usize]);
+            place += self.stride;
+        }
+    }
+
+    /// Stores order `k` once more where whole series are read.
+    #[inline(always)]
+    pub(super) fn keep(&mut self, k: usize) {
+        let now = &self.rows[k * self.width..][..self.width];
+        let mut place = k;
+        for (&register, &factor) in self.index.registers.iter().zip(&self.index.factors) {
+            if !factor {
+                self.series[place] = now[register as usize];
+            }
+            place += self.stride;
+        }
+    }
+
+    pub(super) fn factor(&mut self, program: &Program, at: usize) -> Result<(), Singular> {
+        let block = &program.blocks[at];
+        let n = block.size();
+        let entry = |i, j| self.rows[block.matrix[i * n + j] as usize];
+        if self.blocks[at].factor(entry) { Ok(()) } else { Err(Singular { block: at as u32 }) }
+    }
+}
+
+impl<R: Real> Tables<R> {
     /// The coefficient of order `k` of an operation that has no place in the batch.
-    fn alone(&mut self, program: &Program, register: Register, k: usize) -> R {
+    pub(super) fn alone(&mut self, program: &Program, register: Register, k: usize) -> R {
         let (stride, width) = (self.stride, self.width);
         let row = |k: usize| &self.rows[k * width..][..width];
         match program.ops[register as usize] {
@@ -273,50 +352,12 @@ impl<R: Real> Tables<R> {
             _ => row(k)[register as usize],
         }
     }
-
-    /// Stores order `k` once more where inner products read it.
-    #[inline(always)]
-    pub(super) fn hand_on(&mut self, schedule: &Schedule, k: usize) {
-        let now = &mut self.rows[k * self.width..][..self.width];
-        let (registers, slopes) = now.split_at_mut(self.width - schedule.slopes.len());
-        for (slope, &r) in slopes.iter_mut().zip(&schedule.slopes) {
-            *slope = registers[r as usize] * k as f64;
-        }
-        let now = &now[..];
-        let (left, right) = (&mut self.left[..], &mut self.right[..]);
-        let mut place = k;
-        for pairs in &self.pairs {
-            left[place] = R::side_by_side(pairs.map(|pair| now[pair.left as usize]));
-            right[place] = R::side_by_side(pairs.map(|pair| now[pair.right as usize]));
-            place += self.stride;
-        }
-    }
-
-    /// Stores order `k` once more where whole series are read.
-    #[inline(always)]
-    pub(super) fn keep(&mut self, k: usize) {
-        let now = &self.rows[k * self.width..][..self.width];
-        let mut place = k;
-        for (&register, &factor) in self.index.registers.iter().zip(&self.index.factors) {
-            if !factor {
-                self.series[place] = now[register as usize];
-            }
-            place += self.stride;
-        }
-    }
-
-    pub(super) fn factor(&mut self, program: &Program, at: usize) -> Result<(), Singular> {
-        let block = &program.blocks[at];
-        let n = block.size();
-        let entry = |i, j| self.rows[block.matrix[i * n + j] as usize];
-        if self.blocks[at].factor(entry) { Ok(()) } else { Err(Singular { block: at as u32 }) }
-    }
 }
 
 /// The coefficient of order `k` that follows from a relation, from all registers at order 0, those
 /// at order k that are known, and the inner products.
 #[inline(always)]
-fn related<R: Real, const FUSED: bool>(
+fn related<R: Analytic, const FUSED: bool>(
     schedule: &Schedule,
     relation: &Relation,
     (values, now, products): (&[R], &[R], &[R]),

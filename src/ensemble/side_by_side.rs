@@ -1,0 +1,69 @@
+//! Orbits followed side by side, a new one in every lane whose orbit is over.
+//!
+//! In: how many orbits, and what is done with each: a [`Follower`]. Out: what that keeps. Never here: what is seen of an
+//! orbit, threads.
+
+use crate::integrate::{BatchPropagator, LaneStatus};
+use crate::num::BATCH;
+
+/// How an orbit goes on.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Course {
+    /// No farther than this time.
+    Until(f64),
+    /// It is over, or it has not begun.
+    Over,
+}
+
+/// What is done with each orbit.
+pub trait Follower {
+    /// Puts an orbit into a lane.
+    fn begin(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> Course;
+
+    /// Looks at an orbit after a step.
+    fn look(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> Course;
+
+    /// An orbit has to be followed alone, from its beginning.
+    fn leave(&mut self, orbit: usize);
+}
+
+/// Follows all orbits. Returns false if it was cancelled on the way.
+pub fn side_by_side(
+    batch: &mut BatchPropagator,
+    orbits: usize,
+    follower: &mut impl Follower,
+) -> bool {
+    let mut waiting = 0..orbits;
+    let mut places: [Option<usize>; BATCH] = [None; BATCH];
+    let mut limits = [0.0; BATCH];
+    loop {
+        for lane in 0..BATCH {
+            while places[lane].is_none() {
+                let Some(orbit) = waiting.next() else { break };
+                if let Course::Until(limit) = follower.begin(orbit, lane, batch) {
+                    (places[lane], limits[lane]) = (Some(orbit), limit);
+                }
+            }
+            if places[lane].is_none() {
+                batch.clear(lane);
+            }
+        }
+        if places.iter().all(Option::is_none) {
+            return true;
+        }
+        if !batch.step(&limits) {
+            return false;
+        }
+        for (lane, place) in places.iter_mut().enumerate() {
+            let Some(orbit) = *place else { continue };
+            if batch.status(lane) == LaneStatus::Irregular {
+                follower.leave(orbit);
+                *place = None;
+            } else if let Course::Until(limit) = follower.look(orbit, lane, batch) {
+                limits[lane] = limit;
+            } else {
+                *place = None;
+            }
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! The drift of the energy of a motion that nobody else looks at: one of many.
+//!
+//! In: the state where it begins, those at the ends of its steps, and where it ends. Out: the values of all columns there,
+//! and the greatest drift. Never here: rows, histories, the steps themselves.
+
+use std::sync::Arc;
+
+use super::gauges::{Gauges, Present};
+use crate::mechanics::{Equations, Valuation};
+use crate::model::Model;
+use crate::system::{MotionError, Observer, State, System, TermWatch};
+
+/// What is watched of one motion.
+#[derive(Clone)]
+pub struct DriftWatch {
+    model: Arc<Model>,
+    system: System,
+    gauges: Gauges,
+    terms: TermWatch,
+    observer: Observer,
+    constants: Valuation,
+    values: Vec<f64>,
+    steps: u64,
+}
+
+impl DriftWatch {
+    /// A watch for motions of a system, of which each must [begin](DriftWatch::begin).
+    pub fn new(model: &Arc<Model>, equations: &Arc<Equations>, system: &System) -> DriftWatch {
+        let parameters = model.parameter_values();
+        DriftWatch {
+            model: Arc::clone(model),
+            gauges: Gauges::new(model, equations, system),
+            terms: system.term_watch(&parameters),
+            observer: system.observer(&parameters),
+            constants: Valuation::of_parameters(model, &parameters),
+            values: vec![f64::NAN; system.channels().len()],
+            steps: 0,
+            system: system.clone(),
+        }
+    }
+
+    /// Begins at a state.
+    ///
+    /// # Errors
+    /// Returns an error if the state cannot be observed.
+    pub fn begin(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
+        self.terms.set_parameters(parameters);
+        self.observer.set_parameters(parameters);
+        let body = self.system.body_values(parameters);
+        self.constants = Valuation::of_parameters(&self.model, parameters).with(body);
+        self.steps = 0;
+        self.look(state)?;
+        let mut gauges = self.gauges.clone();
+        gauges.refer(&self.present(state));
+        self.gauges = gauges;
+        Ok(())
+    }
+
+    /// Looks at the end of a step.
+    pub fn step(&mut self, state: &State) {
+        self.steps += 1;
+        if self.terms.look(state) {
+            self.gauges.step(state.time, self.steps, &self.terms, true);
+        }
+    }
+
+    /// Ends at a state, and returns the value of every channel there and the greatest drift of the energy, or of the energy
+    /// less the work done; NaN if neither is monitored.
+    ///
+    /// # Errors
+    /// Returns an error if the state cannot be observed.
+    pub fn end(&mut self, state: &State) -> Result<(&[f64], f64), MotionError> {
+        self.look(state)?;
+        let gauges = self.gauges.show(&self.present(state));
+        Ok((&self.values, super::snapshot::energy_drift(&gauges)))
+    }
+
+    fn look(&mut self, state: &State) -> Result<(), MotionError> {
+        self.terms.look(state);
+        self.observer.observe(state, &mut self.values)
+    }
+
+    fn present<'a>(&'a self, state: &State) -> Present<'a> {
+        Present {
+            time: state.time,
+            steps: self.steps,
+            values: &self.values,
+            residuals: &[],
+            action: state.values.get(self.system.driven_len()).copied().unwrap_or(f64::NAN),
+            terms: &self.terms,
+            system: &self.system,
+            constants: &self.constants,
+        }
+    }
+}

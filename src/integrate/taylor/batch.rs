@@ -1,0 +1,201 @@
+//! Taylor series of several orbits at once.
+//!
+//! In: a state, parameters and a limit for each lane. Out: the steps that [`Taylor`](super::Taylor)
+//! takes in `f64` where nothing on the way is out of the ordinary. What else that does (another unit
+//! of time, points that a series cannot pass, numbers out of range) it does alone, so the orbit is
+//! given back as [`LaneStatus::Irregular`]. Never here: kinks, occurrences.
+
+use super::batch_step_size::BatchStepSize;
+use super::{
+    EXACT_BELOW, METHOD, NEARBY_UNITS, SOON_STALLED, VANISHING_IN_F64, part_of_step, step_size,
+};
+use crate::integrate::lane_status::LaneStatus;
+use crate::integrate::method::{Method, Settings};
+use crate::num::{BATCH, DoubleDouble};
+use crate::system::{BatchSeries, State, System};
+
+/// One orbit.
+#[derive(Clone, Debug)]
+struct Lane {
+    status: LaneStatus,
+    state: State,
+    /// The size of the last step, from which the next series takes its unit of time.
+    taken: Option<f64>,
+    /// Whether that unit was determined for this orbit.
+    scaled: bool,
+    /// The longest step.
+    stride: f64,
+    /// The last limit of a step, and the decimal number it is written as.
+    limit: (f64, DoubleDouble),
+}
+
+/// Orbits by Taylor series, side by side.
+pub(in crate::integrate) struct TaylorBatch {
+    system: System,
+    series: BatchSeries,
+    rule: BatchStepSize,
+    lanes: [Lane; BATCH],
+}
+
+impl TaylorBatch {
+    /// Room for orbits of a system; `None` where they have to be followed one by one.
+    pub(in crate::integrate) fn new(
+        system: &System,
+        method: &Method,
+        settings: &Settings,
+    ) -> Option<TaylorBatch> {
+        let tolerance = settings.tolerance?;
+        if method.name != METHOD.name || !(EXACT_BELOW..1.0).contains(&tolerance) {
+            return None;
+        }
+        let order = step_size::order_for(tolerance);
+        let series = system.batch_series(order)?;
+        let lane = Lane {
+            status: LaneStatus::Empty,
+            state: State::new(0.0, system.form(), vec![0.0; system.state_len()]),
+            taken: None,
+            scaled: false,
+            stride: 0.0,
+            limit: (f64::NAN, DoubleDouble::ZERO),
+        };
+        Some(TaylorBatch {
+            system: system.clone(),
+            series,
+            rule: BatchStepSize::new(tolerance, order),
+            lanes: std::array::from_fn(|_| lane.clone()),
+        })
+    }
+
+    /// Puts an orbit into a lane.
+    pub(in crate::integrate) fn start(
+        &mut self,
+        lane: usize,
+        state: &State,
+        parameters: &[f64],
+    ) -> LaneStatus {
+        let regular = self.series.set_parameters(lane, &self.system.inputs(parameters));
+        let own = &mut self.lanes[lane];
+        own.status = match self.system.convert(state, self.system.form(), parameters) {
+            Ok(state) if regular => {
+                own.state = state;
+                LaneStatus::Underway
+            }
+            _ => LaneStatus::Irregular,
+        };
+        (own.taken, own.scaled, own.stride) = (None, false, 0.0);
+        own.limit.0 = f64::NAN;
+        self.series.set_scale(lane, 1.0);
+        own.status
+    }
+
+    pub(in crate::integrate) fn clear(&mut self, lane: usize) {
+        self.lanes[lane].status = LaneStatus::Empty;
+    }
+
+    pub(in crate::integrate) fn status(&self, lane: usize) -> LaneStatus {
+        self.lanes[lane].status
+    }
+
+    pub(in crate::integrate) fn state(&self, lane: usize) -> &State {
+        &self.lanes[lane].state
+    }
+
+    /// Takes a step in every lane that is under way. Returns false if it was cancelled.
+    #[must_use]
+    pub(in crate::integrate) fn step(&mut self, limits: &[f64; BATCH]) -> bool {
+        let mut left = [DoubleDouble::ZERO; BATCH];
+        let going: [bool; BATCH] = std::array::from_fn(|i| {
+            let Lane { status, state, .. } = &self.lanes[i];
+            *status == LaneStatus::Underway && state.time != limits[i]
+        });
+        for (i, lane) in self.lanes.iter_mut().enumerate() {
+            if going[i] {
+                left[i] = lane.left(limits[i]);
+                let scale = if lane.scaled { self.series.scale().0[i] } else { left[i].high };
+                let step = lane.taken.take().unwrap_or(scale).abs();
+                self.series.set_scale(i, step.clamp(1e-300, 1e300).copysign(left[i].high));
+                lane.scaled = true;
+                self.series.set_state(i, &lane.state);
+            }
+        }
+        if !self.series.build() {
+            return false;
+        }
+        let found = self.rule.longest(&self.series);
+        let mut after = [DoubleDouble::ZERO; BATCH];
+        for (i, lane) in self.lanes.iter_mut().enumerate() {
+            if going[i] {
+                let scale = self.series.scale().0[i].abs();
+                match lane.choose(found.0[i] * scale, scale, left[i]) {
+                    Some(chosen) => after[i] = chosen,
+                    None => lane.status = LaneStatus::Irregular,
+                }
+            }
+        }
+        let mut i = 0..BATCH;
+        let states = self.lanes.each_mut().map(|lane| {
+            let going = i.next().is_some_and(|i| going[i]) && lane.status == LaneStatus::Underway;
+            going.then_some(&mut lane.state)
+        });
+        self.series.states_after(&after, states);
+        for (i, lane) in self.lanes.iter_mut().enumerate() {
+            if going[i] && lane.status == LaneStatus::Underway {
+                lane.arrive(self.series.time(i), limits[i], left[i]);
+            }
+        }
+        true
+    }
+
+    /// Writes the state of a lane at a time within its last step into `out`.
+    pub(in crate::integrate) fn at(&mut self, lane: usize, time: f64, out: &mut State) {
+        let state = &self.lanes[lane].state;
+        out.copy_from(state);
+        if time != state.time {
+            let begin = self.series.time(lane);
+            let after = part_of_step(
+                DoubleDouble::written(time) - begin,
+                self.lanes[lane].state.exact_time() - begin,
+            );
+            self.series.state_after(lane, after, out);
+            out.time = time;
+        }
+    }
+}
+
+impl Lane {
+    /// The time to go.
+    fn left(&mut self, limit: f64) -> DoubleDouble {
+        if self.limit.0 != limit {
+            self.limit = (limit, DoubleDouble::written(limit));
+        }
+        self.limit.1 - self.state.exact_time()
+    }
+
+    /// The time to step, where the series allows `step` in its unit `scale`; `None` where that is out
+    /// of the ordinary.
+    fn choose(&mut self, step: f64, scale: f64, left: DoubleDouble) -> Option<DoubleDouble> {
+        let wanted = step.min(left.high.abs());
+        let near = (scale * NEARBY_UNITS.0..=scale * NEARBY_UNITS.1).contains(&wanted);
+        let vanishing =
+            step < VANISHING_IN_F64 * self.stride || step < SOON_STALLED * self.state.time.abs();
+        if step.is_nan() || !near || vanishing {
+            return None;
+        }
+        let last = step >= left.high.abs();
+        let after = if last { left } else { DoubleDouble::from(step.copysign(left.high)) };
+        self.stride = self.stride.max(after.high.abs());
+        self.taken = (!last).then(|| step.min(left.high.abs()).min(4.0 * after.high.abs()));
+        Some(after)
+    }
+
+    /// Ends a step that began at a time.
+    fn arrive(&mut self, begin: DoubleDouble, limit: f64, left: DoubleDouble) {
+        if self.taken.is_none() {
+            self.state.time = limit;
+        }
+        let moved = (self.state.exact_time() - begin).high.abs() > 0.0;
+        if !self.state.is_finite() || !(moved || left.high == 0.0) {
+            self.status = LaneStatus::Irregular;
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! The Taylor series of several orbits at once, each from its own state, at its own time, in its own
+//! unit and with its own parameters.
+//!
+//! In: a state and parameters for each lane. Out: the coefficients that a [`Series`](super::Series)
+//! in `f64` of that orbit alone has, to the last bit; NaN where it has none. Never here: systems with
+//! kinks, roots, constraints, events or impulses, whose orbits part from each other.
+
+use std::sync::Arc;
+
+use super::compiled::System;
+use super::growth::{Clock, Halt, SeriesBuilder};
+use super::jet::Jet;
+use super::program::Op;
+use super::series::unit_below;
+use super::state::State;
+use super::underflow;
+use crate::expr::FunctionId;
+use crate::num::{Analytic, BATCH, Batch, DoubleDouble, Kernel, Polynomial, vectorized};
+
+/// The series of all numbers of the states of several orbits.
+#[derive(Clone, Debug)]
+pub struct BatchSeries {
+    system: System,
+    builder: SeriesBuilder<Batch>,
+    /// What depends on the parameters of one lane alone is computed here.
+    single: Jet<f64>,
+    origins: Vec<[DoubleDouble; BATCH]>,
+    times: [DoubleDouble; BATCH],
+    scale: Batch,
+    /// The coefficients of one number of one lane, gathered.
+    gathered: Vec<f64>,
+}
+
+impl System {
+    /// Allocates series of several orbits, up to an order. There are none where an orbit may take
+    /// another course than its neighbours: with kinks, roots or powers that leave their branch,
+    /// constraints, events, impulses, tangent vectors.
+    pub fn batch_series(&self, order: usize) -> Option<BatchSeries> {
+        let program = &self.motion().native;
+        let alone = |&r: &u32| {
+            matches!(program.ops[r as usize], Op::Select { .. } | Op::ParametricPower(..))
+        };
+        let smooth = program.switches() == 0 && program.guards.is_empty() && !program.steep;
+        let alike = !program.body.iter().any(alone) && !self.has_branches();
+        let undisturbed = self.constraints() == 0
+            && self.attitude_place().is_none()
+            && self.tangents() == 0
+            && !self.locates_events()
+            && self.discontinuities().impulses.is_empty();
+        if !(smooth && alike && undisturbed) {
+            return None;
+        }
+        let (inputs, len) = (self.driven_len(), self.state_len());
+        let jet = Jet::without_outputs(Arc::clone(program), order);
+        Some(BatchSeries {
+            system: self.clone(),
+            single: Jet::like(&jet, 0),
+            builder: SeriesBuilder::new(jet, inputs, len),
+            origins: vec![[DoubleDouble::ZERO; BATCH]; len],
+            times: [DoubleDouble::ZERO; BATCH],
+            scale: Batch::ONE,
+            gathered: Vec::with_capacity(order),
+        })
+    }
+}
+
+impl BatchSeries {
+    /// Sets the parameters of a lane. Returns false if its numbers may leave the range of `f64`, so
+    /// that the orbit must be followed by itself.
+    #[must_use]
+    pub fn set_parameters(&mut self, lane: usize, parameters: &[DoubleDouble]) -> bool {
+        self.single.set_parameters(parameters);
+        self.builder.jet.take_parameters(lane, &self.single);
+        let value = |register: u32| self.single.value(register);
+        !underflow::may_count(&self.system.motion().native, parameters, value)
+    }
+
+    /// Chooses the unit of time of a lane: the power of two below `step`, negative for a step back.
+    pub fn set_scale(&mut self, lane: usize, step: f64) {
+        self.scale.0[lane] = unit_below(step);
+    }
+
+    /// The units of time.
+    pub fn scale(&self) -> Batch {
+        self.scale
+    }
+
+    /// Sets the state of a lane, of the native form.
+    pub fn set_state(&mut self, lane: usize, state: &State) {
+        self.times[lane] = state.exact_time();
+        for (i, origin) in self.origins.iter_mut().enumerate() {
+            origin[lane] = state.exact(i);
+            self.builder.origin_mut(i).0[lane] = state.values[i];
+        }
+    }
+
+    /// The time at the origin of a lane.
+    pub fn time(&self, lane: usize) -> DoubleDouble {
+        self.times[lane]
+    }
+
+    /// Builds all series. Returns false if the computation was cancelled.
+    #[must_use]
+    pub fn build(&mut self) -> bool {
+        let clock = Clock { time: Batch(self.times.map(|time| time.high)), scale: self.scale };
+        match self.builder.grow_plainly(0, clock, self.system.cancel()) {
+            Ok(()) | Err(Halt::Singular(_) | Halt::Sticks) => true,
+            Err(Halt::Cancelled) => false,
+        }
+    }
+
+    /// The number of numbers of a state.
+    #[expect(clippy::len_without_is_empty, reason = "a state is never empty")]
+    pub fn len(&self) -> usize {
+        self.origins.len()
+    }
+
+    /// The number of coordinates, rates and auxiliary numbers; the integrals follow them.
+    pub fn inputs(&self) -> usize {
+        self.system.motion_len()
+    }
+
+    /// All coefficients of a number.
+    pub fn coefficients(&self, i: usize) -> &[Batch] {
+        self.builder.series(i)
+    }
+
+    /// The series of the arguments of functions.
+    pub fn arguments(&self) -> impl Iterator<Item = (FunctionId, &[Batch])> {
+        self.builder.jet.arguments()
+    }
+
+    /// Writes the states at times after the origins into `out`, in the lanes that have one, by the
+    /// polynomials.
+    pub fn states_after(
+        &mut self,
+        after: &[DoubleDouble; BATCH],
+        out: [Option<&mut State>; BATCH],
+    ) {
+        vectorized(States { series: self, after, out });
+    }
+
+    /// Writes the state of one lane at a time `after` its origin into `out`.
+    pub fn state_after(&mut self, lane: usize, after: DoubleDouble, out: &mut State) {
+        let x = after * self.scale.0[lane].recip();
+        for i in 0..self.origins.len() {
+            self.gather(i, lane);
+            let low = &self.origins[i][lane..=lane];
+            out.set(i, vectorized(Polynomial { low, high: &self.gathered, x }));
+        }
+        let time = self.times[lane] + after;
+        (out.time, out.time_carry) = (time.high, time.low);
+    }
+
+    /// Gathers the coefficients above the first of a number of a lane.
+    fn gather(&mut self, i: usize, lane: usize) {
+        self.gathered.clear();
+        self.gathered.extend(self.builder.series(i)[1..].iter().map(|c| c.0[lane]));
+    }
+}
+
+/// The states of all lanes at times of their own.
+struct States<'a> {
+    series: &'a mut BatchSeries,
+    after: &'a [DoubleDouble; BATCH],
+    out: [Option<&'a mut State>; BATCH],
+}
+
+impl Kernel for States<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        let States { series, after, mut out } = self;
+        let x: [DoubleDouble; BATCH] =
+            std::array::from_fn(|lane| after[lane] * series.scale.0[lane].recip());
+        let high = Batch(x.map(|x| x.high));
+        for i in 0..series.origins.len() {
+            let above = series.builder.series(i)[1..].iter().rev();
+            let tail = above.fold(Batch::ZERO, |sum, &c| sum * high + c);
+            for (lane, out) in out.iter_mut().enumerate() {
+                let Some(out) = out else { continue };
+                if x[lane].low != 0.0 {
+                    series.gather(i, lane);
+                }
+                let low = &series.origins[i][lane..=lane];
+                let polynomial = Polynomial { low, high: &series.gathered, x: x[lane] };
+                out.set(i, polynomial.with_tail::<FUSED>(tail.0[lane]));
+            }
+        }
+        for (lane, out) in out.into_iter().enumerate() {
+            let Some(out) = out else { continue };
+            let time = series.times[lane] + after[lane];
+            (out.time, out.time_carry) = (time.high, time.low);
+        }
+    }
+}

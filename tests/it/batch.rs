@@ -1,0 +1,157 @@
+//! Orbits carried side by side: the bits of each alone, in every shipped system where that is possible, and the orbits
+//! that must be followed alone.
+
+use phaselab::diagnostic::Document;
+use phaselab::ensemble::{Carried, Flow};
+use phaselab::experiment::Prepared;
+use phaselab::integrate::{BatchPropagator, LaneStatus, Settings, method_named};
+use phaselab::num::BATCH;
+use phaselab::system::{State, System};
+
+use crate::hand::catalog;
+
+const TOLERANCES: [f64; 2] = [1e-15, 1e-9];
+
+fn settings(tolerance: f64) -> Settings {
+    Settings { tolerance: Some(tolerance), ..Settings::default() }
+}
+
+fn flow(ready: &Prepared, tolerance: f64) -> Flow {
+    let method = method_named("taylor").unwrap();
+    let parameters = ready.model.parameter_values();
+    let system = System::clone(&ready.system);
+    Flow { system, method: (method, settings(tolerance)), parameters, start: ready.model.run.start }
+}
+
+/// States near that of the file, in no order of size.
+fn states(ready: &Prepared, count: usize) -> Vec<State> {
+    let parameters = ready.model.parameter_values();
+    let first = ready.system.initial(ready.model.run.start, &parameters, &[]).unwrap();
+    let one = |i: usize| {
+        let mut state = first.clone();
+        for (j, x) in state.values[..ready.system.moving()].iter_mut().enumerate() {
+            let off = ((i * 37 + j * 11) % 101) as f64 / 101.0 - 0.5;
+            *x += 0.05 * off * (1.0 + x.abs()) * f64::from(u8::from(i > 0));
+        }
+        state
+    };
+    (0..count).map(one).collect()
+}
+
+fn bits(one: &Carried) -> (Vec<Vec<u64>>, Option<Vec<u64>>) {
+    let of = |row: &Vec<f64>| row.iter().map(|x| x.to_bits()).collect();
+    let all = |state: &State| {
+        let time = [state.time, state.time_carry];
+        let numbers = state.values.iter().chain(&state.carry).chain(&time);
+        numbers.map(|x| x.to_bits()).collect()
+    };
+    (one.seen.iter().map(of).collect(), one.end.as_ref().map(all))
+}
+
+/// Whether orbits of a system are carried side by side.
+fn goes_side_by_side(ready: &Prepared) -> bool {
+    let method = method_named("taylor").unwrap();
+    BatchPropagator::new(&ready.system.without_marks(), method, settings(1e-15)).is_some()
+}
+
+#[test]
+fn every_orbit_has_the_bits_that_it_has_alone() {
+    let mut seen = Vec::new();
+    for entry in catalog().entries() {
+        let ready = Prepared::of(&entry.document().unwrap()).unwrap();
+        if !goes_side_by_side(&ready) {
+            continue;
+        }
+        let states = states(&ready, 2 * BATCH + 3);
+        // of different lengths, so that lanes are refilled at different steps
+        let start = ready.model.run.start;
+        let length = 3.0 * Some(ready.model.run.speed).filter(|s| s.is_finite()).unwrap_or(1.0);
+        let times: Vec<f64> = (0..5).map(|k| start + 0.25 * f64::from(k) * length).collect();
+        let channels: Vec<usize> = (0..ready.system.columns()).collect();
+        for tolerance in TOLERANCES {
+            let flow = flow(&ready, tolerance);
+            let from: Vec<Option<&State>> = states.iter().map(Some).chain([None]).collect();
+            let together = flow.carry_all(&from, &times, &channels, |_| ()).unwrap();
+            assert_eq!(together.len(), from.len());
+            for (i, state) in states.iter().enumerate() {
+                let alone = flow.carry(state, &times, &channels);
+                assert_eq!(bits(&together[i]), bits(&alone), "{} {tolerance} {i}", entry.name);
+            }
+            assert!(together[states.len()].seen.is_empty());
+        }
+        seen.push(entry.name.clone());
+    }
+    // some with linear equations in them, some with functions, some with the time
+    for name in ["henon-heiles", "double-pendulum", "heavy-top", "pendulum", "spherical-pendulum"] {
+        assert!(seen.iter().any(|s| s == name), "{name} not among {seen:?}");
+    }
+}
+
+#[test]
+fn orbits_of_a_smooth_system_stay_side_by_side() {
+    let entry = catalog();
+    let entry = entry.entries().iter().find(|entry| entry.name == "henon-heiles").unwrap();
+    let ready = Prepared::of(&entry.document().unwrap()).unwrap();
+    let method = method_named("taylor").unwrap();
+    let mut batch =
+        BatchPropagator::new(&ready.system.without_marks(), method, settings(1e-12)).unwrap();
+    let parameters = ready.model.parameter_values();
+    for (lane, state) in states(&ready, BATCH).iter().enumerate() {
+        assert_eq!(batch.begin(lane, state, &parameters), LaneStatus::Underway);
+    }
+    while (0..BATCH).any(|lane| batch.state(lane).time < 50.0) {
+        assert!(batch.step(&[50.0; BATCH]));
+        assert!((0..BATCH).all(|lane| batch.status(lane) == LaneStatus::Underway));
+    }
+}
+
+/// One coordinate with this Lagrangian.
+fn line(lagrangian: &str, more: &str) -> Prepared {
+    let text = format!(
+        "title = \"line\"\n[coordinates]\nx = {{ initial = 1.0, velocity = 0.5 }}\n\
+         [lagrangian]\nL = \"{lagrangian}\"\n{more}"
+    );
+    Prepared::of(&Document::new("line", &text)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn orbits_that_part_from_each_other_go_alone() {
+    assert!(goes_side_by_side(&line("1/2*x'^2 - 1/2*x^2", "")));
+    for (lagrangian, more) in [
+        ("1/2*x'^2 - abs(x)", ""),
+        ("1/2*x'^2 - sqrt(x)", ""),
+        ("1/2*x'^2 - x^40", ""),
+        ("1/2*x'^2 - x", "[[events]]\nname = \"floor\"\nwhen = \"x\"\naction = \"stop\"\n"),
+        ("1/2*x'^2", "[[impulses]]\nname = \"kick\"\nat = [1.0]\nchange = { p_x = \"1\" }\n"),
+    ] {
+        assert!(!goes_side_by_side(&line(lagrangian, more)), "{lagrangian} {more}");
+    }
+    // nor where the lowest orders are in double-double, or by another method
+    let oscillator = line("1/2*x'^2 - 1/2*x^2", "");
+    let of = |name: &str, settings| {
+        BatchPropagator::new(&oscillator.system, method_named(name).unwrap(), settings).is_some()
+    };
+    assert!(!of("taylor", Settings::default()));
+    assert!(!of("dop853", settings(1e-12)));
+}
+
+#[test]
+fn an_orbit_that_leaves_the_ordinary_is_carried_alone_and_the_others_go_on() {
+    // 1/x falls into its singularity from here, and does not from far away
+    let ready = line("1/2*x'^2 + 1/x", "");
+    let parameters = ready.model.parameter_values();
+    let flow = flow(&ready, 1e-12);
+    let state = |x: f64, v: f64| {
+        let mut state = ready.system.initial(0.0, &parameters, &[]).unwrap();
+        (state.values[0], state.values[1]) = (x, v);
+        state
+    };
+    let states = [state(1.0, -1.0), state(30.0, 0.0), state(2.0, 5.0), state(0.0, 1.0)];
+    let from: Vec<Option<&State>> = states.iter().map(Some).collect();
+    let together = flow.carry_all(&from, &[0.0, 5.0], &[0], |_| ()).unwrap();
+    for (one, state) in together.iter().zip(&states) {
+        assert_eq!(bits(one), bits(&flow.carry(state, &[0.0, 5.0], &[0])));
+    }
+    let arrived: Vec<bool> = together.iter().map(|one| one.end.is_some()).collect();
+    assert_eq!(arrived, [false, true, true, false]);
+}
