@@ -8,6 +8,7 @@ mod gali;
 mod impulses;
 mod lyapunov;
 mod orbit;
+mod rotation;
 mod spectrum;
 
 use phaselab::dynamics::PhaseSpace;
