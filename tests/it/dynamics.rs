@@ -2,6 +2,7 @@
 
 mod action;
 mod equilibria;
+mod event_orbits;
 mod family;
 mod flow;
 mod gali;
