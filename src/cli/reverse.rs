@@ -3,8 +3,6 @@
 //! In: arguments. Out: how far it comes back from its start, beside what the exponents of the motion predict. Never here: how
 //! time is reversed (`experiment`).
 
-use std::sync::Arc;
-
 use serde_json::{Map, Value, json};
 
 use super::assignment::number;
@@ -152,7 +150,7 @@ impl Found {
     fn object(&self, laid: &Laid) -> Map<String, Value> {
         let parameters = &laid.start.parameters;
         let method = (laid.method, laid.settings);
-        let mut object = study::head(&Arc::clone(&laid.model), &laid.system, parameters, method);
+        let mut object = study::head(&laid.model, &laid.system, parameters, method);
         let mut insert = |name: &str, value: Value| object.insert(name.to_owned(), value);
         let rate = self.rate.as_ref().ok();
         insert("turned", json!(self.returned.turned));

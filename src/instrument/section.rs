@@ -178,7 +178,8 @@ impl Instrument for Section {
                 (ORBITS, Layer::Points(Arc::clone(&orbit.points), ink))
             };
             layers.extend(portrait.orbits.iter().enumerate().map(points));
-            layers.push((NOW, Layer::Legend(rotations(portrait))));
+            let told = newest_rotation(portrait).map(|line| (NOW, Layer::Legend(vec![line])));
+            layers.extend(told);
         }
         layers.push((OWN, Layer::CompanionCrossings { section, channels }));
         layers.push((OWN, Layer::Crossings { section, channels, ink: Ink::Accent }));
@@ -416,28 +417,18 @@ fn portrait(answer: Option<&Answer>) -> Option<&Portrait> {
     answer?.of::<Portrait>()
 }
 
-/// The newest orbits whose rotation numbers are listed.
-const LISTED: usize = 5;
-
-/// How many orbits have a rotation number, and those of the newest.
-fn rotations(portrait: &Portrait) -> Vec<String> {
-    let all = &portrait.orbits;
-    let rotating = all.iter().filter(|orbit| orbit.rotation.is_ok()).count();
-    if all.is_empty() {
-        return Vec::new();
-    }
-    let of = |(index, orbit): (usize, &DrawnOrbit)| match &orbit.rotation {
+/// The rotation number of the newest orbit, if it goes through a point that a person chose; a list would cover the picture.
+fn newest_rotation(portrait: &Portrait) -> Option<String> {
+    let chosen = matches!(portrait.seeds.last(), Some(Seed::Through(_)));
+    let newest = portrait.orbits.last().filter(|_| chosen)?;
+    Some(match &newest.rotation {
         Ok(found) => format!(
-            "orbit {}: rotation number {} ± {}",
-            index + 1,
+            "rotation number {} ± {}",
             significant(found.number, 8, 1e-4..1e6).replace('-', "−"),
             significant(found.error, 1, 1.0..10.0)
         ),
-        Err(why) => format!("orbit {}: no rotation number, {why}", index + 1),
-    };
-    let mut lines = vec![format!("{rotating} of {} orbits have a rotation number", all.len())];
-    lines.extend(all.iter().enumerate().rev().take(LISTED).map(of));
-    lines
+        Err(why) => format!("no rotation number: {why}"),
+    })
 }
 
 /// The view of the file that has the surface.
