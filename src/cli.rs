@@ -43,6 +43,7 @@ mod path;
 mod play;
 mod record;
 mod report;
+mod reverse;
 mod rows;
 mod run;
 mod script;

@@ -24,6 +24,7 @@ mod orbit_units;
 mod phase_space;
 mod principle;
 mod quadrature;
+mod rotation;
 mod spectrum;
 mod stationary_path;
 mod transverse;
@@ -43,6 +44,7 @@ pub use lyapunov::{Chaos, Lyapunov, lyapunov};
 pub use orbit::{Fixed, Orbit, periodic_orbit};
 pub use phase_space::{PhaseSpace, VectorField};
 pub use principle::{Hamiltonian, abbreviated_action, action_at_energy};
+pub use rotation::{NoRotation, Rotation, Turning, angle_rotation, rotation};
 pub use spectrum::{
     MeanRate, SpectralLine, Spectrum, independent_frequencies, mean_rate, spectrum, straightened,
 };

@@ -35,6 +35,7 @@ use super::orbit;
 use super::path;
 use super::play;
 use super::record;
+use super::reverse;
 use super::run;
 use super::section;
 use super::spectrum;
@@ -95,6 +96,7 @@ enum Command {
     Run(Box<run::Arguments>),
     Flow(Box<flow::Arguments>),
     Lyapunov(Box<lyapunov::Arguments>),
+    Reverse(Box<reverse::Arguments>),
     Orbit(Box<orbit::Arguments>),
     Spectrum(Box<spectrum::Arguments>),
     Equilibria(Box<equilibria::Arguments>),
@@ -179,6 +181,7 @@ fn execute(command: Command, interrupt: &Interrupt) -> Result<(), CommandError> 
         Command::Run(arguments) => run::perform(&arguments, actions::of_start, interrupt),
         Command::Flow(arguments) => flow::perform(&arguments, interrupt),
         Command::Lyapunov(arguments) => lyapunov::perform(&arguments, interrupt),
+        Command::Reverse(arguments) => reverse::perform(&arguments, interrupt),
         Command::Orbit(arguments) => orbit::perform(&arguments, interrupt),
         Command::Spectrum(arguments) => spectrum::perform(&arguments, interrupt),
         Command::Equilibria(arguments) => equilibria::perform(&arguments, interrupt),

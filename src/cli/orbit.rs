@@ -19,7 +19,8 @@ use crate::printable;
 /// Newton's method on the flow map finds the orbit of the start's energy, or of another energy or
 /// of a given period; where energy is not conserved, the limit cycle. Its multipliers are those of
 /// the monodromy matrix: with a conserved energy two of them are 1, those along the orbit and
-/// across the energy. --along follows the family of the orbit, in both directions, through folds,
+/// across the energy. Impulses, also those that events cause, are part of an orbit, and carry its
+/// multipliers on by their own derivatives. --along follows the family of the orbit, in both directions, through folds,
 /// and names where it turns back or others branch off.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -27,6 +28,7 @@ Examples:
   phaselab orbit henon-heiles --init x=0 --init y=-0.18 --init p_x=0.46 --init p_y=0
   phaselab orbit pendulum --energy 0.5
   phaselab orbit pendulum --along energy=-9:9:10
+  phaselab orbit bouncing-ball --set eps=1 --set vx=0
   phaselab orbit figure-eight --period 6.3259 --format json")]
 pub(super) struct Arguments {
     #[command(flatten)]
@@ -75,10 +77,6 @@ impl FromStr for Values {
 
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let study = Study::open_with_impulses(&arguments.study, interrupt)?;
-    if study.space.has_jumps() && study.space.is_autonomous() {
-        let why = "events act on the motion, and its orbits are not closed over them";
-        return Err(CommandError::CouldNot(why.to_owned()));
-    }
     let fixed = fixed(arguments, &study)?;
     let along = arguments.along.as_ref().map(|values| along(values, &study)).transpose()?;
     interrupt.ends_by_itself(|| ());

@@ -14,6 +14,7 @@ use super::output::Output;
 use super::starts::Starts;
 use super::stderr;
 use crate::diagnostic::{Diagnostic, report};
+use crate::dynamics::{NoRotation, Rotation, angle_rotation, rotation};
 use crate::ensemble::{
     Crossings, EnergyShell, OrbitStatus, Root, SectionPlan, Start, add_section, crossings,
 };
@@ -27,14 +28,17 @@ use crate::system::InitialOverride;
 /// One row a crossing: the orbit, the number of the crossing, the time, and the columns of `run`.
 /// Crossings are located on the dense output of the method, their times as exact as the method's
 /// own; a start on the surface is no crossing. A periodic function of the time makes a
-/// stroboscopic section.
+/// stroboscopic section. --rotation adds the mean part of a turn between two crossings, by weighted
+/// Birkhoff averages: a regular orbit has one with many digits, for a chaotic one none converges.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   phaselab section henon-heiles --on x --count 200 --columns y,p_y > section.csv
   phaselab section henon-heiles --on x --orbits starts.csv --energy 1/8 --solve p_x
   phaselab section duffing --on 'sin(w*t)' --count 5000 --columns \"x,x'\" -o attractor.csv
-  phaselab section kicked-rotor --on 'sin(2*pi*t/T - pi)' --until 1000 --format json")]
+  phaselab section kicked-rotor --on 'sin(2*pi*t/T - pi)' --until 1000 --format json
+  phaselab section kicked-rotor --on 'sin(2*pi*t/T - pi)' --count 1000 --rotation theta
+  phaselab section henon-heiles --on x --count 1000 --rotation y,p_y --format json")]
 pub(super) struct Arguments {
     #[command(flatten)]
     motion: MotionOptions,
@@ -63,6 +67,9 @@ pub(super) struct Arguments {
     /// The velocity or momentum that completes a start: its positive root, or with `-` its negative one.
     #[arg(long, value_name = "NAME|-NAME", allow_hyphen_values = true, requires = "energy")]
     solve: Option<String>,
+    /// The rotation number of each orbit: of an angle, or of two columns around the middle of the orbit.
+    #[arg(long, value_name = "A[,B]", allow_hyphen_values = true)]
+    rotation: Option<String>,
     #[command(flatten)]
     crowd: Crowd,
     /// How the crossings are written.
@@ -116,8 +123,9 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let on = surface(&mut reading.model, &arguments.on, "--on")?;
     let event = add_section(&mut reading.model, on, arguments.direction.direction());
     let wanted = arguments.columns.as_deref().map(split);
-    let extra =
-        wanted.as_ref().map_or_else(Vec::new, |wanted| unknown_columns(&reading.model, wanted));
+    let turning = arguments.rotation.as_deref().map(split);
+    let named: Vec<String> = wanted.iter().chain(&turning).flatten().cloned().collect();
+    let extra = unknown_columns(&reading.model, &named);
     let laid = arguments.motion.compile(reading, &extra, "--columns", interrupt)?;
     let starts = match &arguments.orbits {
         Some(path) => Starts::read(path)?.starts(&laid.model, &laid.start)?,
@@ -134,6 +142,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let plan =
         SectionPlan { event, count, until: arguments.until, idle: IDLE, all_channels: false };
     let shown = shown_columns(&laid, wanted.as_deref())?;
+    let turning = turning.map(|names| Turning::of(&laid, &names)).transpose()?;
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
 
     let one = |i: usize| {
@@ -146,7 +155,15 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         crossings(&laid.system, laid.method, laid.settings, &start, &plan)
     };
     let orbits = crowd::collect(&arguments.crowd, starts.len(), interrupt, one)?;
-    let section = SectionReport { laid: &laid, arguments, orbits: &orbits, shown: &shown };
+    let section = SectionReport {
+        laid: &laid,
+        arguments,
+        orbits: &orbits,
+        shown: &shown,
+        rotations: turning.map_or_else(Vec::new, |turning| {
+            orbits.iter().map(|orbit| turning.rotation(&orbit.rows)).collect()
+        }),
+    };
     crowd::write(out, &section.written(), interrupt)?;
     section.ending(interrupt)
 }
@@ -261,12 +278,61 @@ fn shown_columns(laid: &Laid, wanted: Option<&[String]>) -> Result<Vec<Shown>, C
     Ok(shown)
 }
 
+/// What turns from one crossing to the next: the places of one or two columns in a row, and their periods.
+struct Turning {
+    places: Vec<usize>,
+    periods: [Option<f64>; 2],
+}
+
+impl Turning {
+    fn of(laid: &Laid, names: &[String]) -> Result<Turning, CommandError> {
+        let wrong = |why: String| Err(CommandError::WrongUse(format!("--rotation: {why}")));
+        if names.is_empty() || names.len() > 2 {
+            return wrong("name one column that is an angle, or two columns".to_owned());
+        }
+        let columns = laid.header().columns;
+        let mut turning = Turning { places: Vec::new(), periods: [None; 2] };
+        for (i, name) in names.iter().enumerate() {
+            let called = name.split_once('=').map_or(name.as_str(), |(name, _)| name).trim();
+            let place = columns.iter().position(|column| column == called);
+            let Some(place) = place.filter(|&place| place > 0) else {
+                return wrong(format!("there is no column `{}`", printable::quoted(called)));
+            };
+            turning.places.push(place);
+            turning.periods[i] = laid.system.period(place - 1, &laid.start.parameters);
+        }
+        if names.len() == 1 && turning.periods[0].is_none() {
+            return wrong(format!(
+                "`{}` has no period, so it takes two columns to tell a turn, such as {0},p_{0}",
+                printable::quoted(&names[0])
+            ));
+        }
+        Ok(turning)
+    }
+
+    fn rotation(&self, rows: &[Vec<f64>]) -> Result<Rotation, NoRotation> {
+        match (&self.places[..], self.periods) {
+            (&[x, y], periods) => {
+                let points: Vec<[f64; 2]> = rows.iter().map(|row| [row[x], row[y]]).collect();
+                rotation(&points, periods)
+            }
+            (&[x], [Some(period), _]) => {
+                let angle: Vec<f64> = rows.iter().map(|row| row[x]).collect();
+                angle_rotation(&angle, period)
+            }
+            _ => Err(NoRotation::TooFew(rows.len())),
+        }
+    }
+}
+
 /// All orbits, ready to be written.
 struct SectionReport<'a> {
     laid: &'a Laid,
     arguments: &'a Arguments,
     orbits: &'a [Crossings],
     shown: &'a [Shown],
+    /// The rotation number of each orbit, if they were asked for.
+    rotations: Vec<Result<Rotation, NoRotation>>,
 }
 
 impl SectionReport<'_> {
@@ -313,18 +379,29 @@ impl SectionReport<'_> {
         let rows = rows.iter().map(|row| row.iter().map(Cell::value).collect::<Value>());
         members.insert("rows".to_owned(), rows.collect());
         let orbits = (1u64..).zip(self.orbits).map(|(orbit, crossings)| {
-            json!({
+            let mut object = json!({
                 "orbit": orbit,
                 "status": crossings.status.word(),
                 "message": crossings.message,
                 "crossings": crossings.rows.len(),
-            })
+            });
+            let index = usize::try_from(orbit - 1).unwrap_or(usize::MAX);
+            if let Some(rotation) = self.rotations.get(index) {
+                object["rotation"] = match rotation {
+                    Ok(Rotation { number, error, .. }) => {
+                        json!({ "number": number, "error": error })
+                    }
+                    Err(_) => Value::Null,
+                };
+                object["no_rotation"] = json!(rotation.as_ref().err().map(ToString::to_string));
+            }
+            object
         });
         members.insert("orbits".to_owned(), orbits.collect());
         members
     }
 
-    /// A line for each orbit that did not end as it should.
+    /// A line for each orbit that did not end as it should, and for each rotation number.
     fn remarks(&self, lead: &str) -> String {
         let other = |(_, orbit): &(u64, &Crossings)| orbit.status != OrbitStatus::Completed;
         let line = |(i, orbit): (u64, &Crossings)| {
@@ -332,7 +409,16 @@ impl SectionReport<'_> {
             let message = message.split_whitespace().collect::<Vec<_>>().join(" ");
             format!("{lead}orbit {i}: {}: {}\n", orbit.status.word(), printable::line(&message))
         };
-        (1u64..).zip(self.orbits).filter(other).map(line).collect()
+        let turn = |(i, rotation): (u64, &Result<Rotation, NoRotation>)| match rotation {
+            Ok(found) => format!(
+                "{lead}orbit {i}: rotation number {} ± {:.0e}\n",
+                printable::number(found.number),
+                found.error
+            ),
+            Err(why) => format!("{lead}orbit {i}: no rotation number: {why}\n"),
+        };
+        let ended = (1u64..).zip(self.orbits).filter(other).map(line);
+        ended.chain((1u64..).zip(&self.rotations).map(turn)).collect()
     }
 
     /// The exit code: a failure where no orbit could be followed as it should.

@@ -1,8 +1,9 @@
-//! The period of a law that depends on time: of its drive, where time enters by sines and cosines of a t + b alone, and of
-//! impulses at equal intervals.
+//! The period of a law that depends on time: of its drive, where time enters by sines and cosines of a t + b alone, of impulses at
+//! equal intervals, and of surfaces that move and cause impulses.
 //!
 //! In: the equations, the parameters. Out: the common period, if there is one. Never here: orbits.
 
+use super::phase_space::acts;
 use crate::expr::{Expr, FunctionId, Node};
 use crate::mechanics::{Equations, Flow, Valuation};
 use crate::model::Model;
@@ -30,6 +31,7 @@ pub(super) fn drive_period(
         }
         Flow::Poisson { rates } => rates.clone(),
     };
+    open.extend(acts(model));
     let values = Valuation::of_parameters(model, parameters);
     let mut seen = std::collections::HashSet::new();
     let mut rates: Vec<f64> = Vec::new();

@@ -18,6 +18,10 @@ const LOOKED_FIXED: u64 = 20_000;
 /// A time later than any return.
 const ENDLESS: f64 = 1e20;
 
+/// Where impulses may act, a step ends so much later than it begins, or this much longer than the one before.
+const FIRST_LOOK: f64 = 1.0;
+const GROWTH: f64 = 8.0;
+
 /// A return this near, relative to the farthest distance, is taken at once, …
 const NEAR: f64 = 0.2;
 
@@ -53,7 +57,14 @@ pub(super) fn first_return(
     let mut best: Option<(f64, f64)> = None;
     let mut stopped = None;
     'looking: for step in 1..=steps {
-        if let Err(why) = carrier.step(if fixed { f64::INFINITY } else { ENDLESS }) {
+        let (before, now) = carrier.interval();
+        // a step of free motion has no end by itself, and in one that is too long no event is found
+        let limit = match (space.has_jumps(), fixed) {
+            (true, _) => now + (GROWTH * (now - before)).max(FIRST_LOOK),
+            (false, true) => f64::INFINITY,
+            (false, false) => ENDLESS,
+        };
+        if let Err(why) = carrier.step(limit) {
             let why = DynamicsError::from(why);
             if why.is_cancelled() {
                 return Err(why);

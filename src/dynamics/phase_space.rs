@@ -73,7 +73,8 @@ impl PhaseSpace {
             Mechanics::Poisson { .. } => false,
         };
         let timeless = !system.without_tangents().exact_rates().depends_on_time();
-        let autonomous = timeless && !acts_by_the_clock(system);
+        let moving = acts(model).iter().any(|&e| equations.pool.depends(e, model.symbols.time));
+        let autonomous = timeless && !acts_by_the_clock(system) && !moving;
         let mut periods: Vec<Option<f64>> =
             (0..degrees).map(|i| system.period(i, parameters)).collect();
         periods.resize(names.len(), None);
@@ -243,6 +244,15 @@ fn refuse_acts(system: &System) -> Result<(), DynamicsError> {
         return unsuited("events act on the motion, across which its derivatives are not computed");
     }
     Ok(())
+}
+
+/// The functions whose zeros let impulses act, and what these change.
+pub(super) fn acts(model: &Model) -> Vec<Expr> {
+    let acting = model.events.iter().filter_map(|event| match event.action {
+        Action::Impulse(index) => Some((event.when, model.impulses.get(index)?)),
+        _ => None,
+    });
+    acting.flat_map(|(when, impulse)| impulse.change.iter().copied().chain([when])).collect()
 }
 
 /// Whether impulses act at given times.

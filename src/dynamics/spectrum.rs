@@ -13,6 +13,7 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::{DMatrix, DVector};
 
 use super::linear::least_squares;
+use super::rotation::birkhoff_average;
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::num::math;
@@ -167,15 +168,9 @@ pub fn independent_frequencies(model: &Model, equations: &Equations, system: &Sy
 /// The mean rate of an angle that is given without jumps, at intervals of `spacing`; `None` if there are too few.
 pub fn mean_rate(angle: &[f64], spacing: f64) -> Option<MeanRate> {
     let average = |angle: &[f64]| {
-        let count = angle.len().checked_sub(1).filter(|count| *count >= 8)?;
-        let (mut sum, mut weights) = (0.0, 0.0);
-        for (k, pair) in angle.windows(2).enumerate() {
-            let u = (k as f64 + 0.5) / count as f64;
-            let weight = math::exp(-1.0 / (u * (1.0 - u)));
-            sum += weight * (pair[1] - pair[0]);
-            weights += weight;
-        }
-        Some(sum / weights / spacing)
+        angle.len().checked_sub(1).filter(|count| *count >= 8)?;
+        let steps: Vec<f64> = angle.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        Some(birkhoff_average(&steps) / spacing)
     };
     let (rate, before) = (average(angle)?, average(&angle[..angle.len() / 2])?);
     rate.is_finite().then_some(MeanRate { rate, error: (rate - before).abs() })

@@ -212,10 +212,6 @@ fn close(
     let (system, parameters) = (physics.system, &start.parameters);
     let (model, equations) = (physics.model, physics.equations);
     let space = PhaseSpace::through_impulses(model, equations, system, parameters)?;
-    if space.has_jumps() && space.is_autonomous() {
-        let why = "events act on the motion, and its orbits are not closed over them";
-        return Err(DynamicsError::Unsuited(why.to_owned()));
-    }
     let begun = if space.has_jumps() {
         conditions.state(system, model.run.start)?
     } else {

@@ -11,12 +11,14 @@ use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
     Offer, Physics, Picture, Plot, Present, Seed, Sign, Upwards,
 };
+use crate::dynamics::{NoRotation, Rotation, rotation};
 use crate::ensemble::{Crossings, Region, SectionPlan, SectionPlane, crossings, in_order, spread};
 use crate::expr::Expr;
 use crate::integrate::{Method, Settings};
 use crate::job::{Job, Progress};
 use crate::mechanics::Valuation;
 use crate::model::{Direction, View};
+use crate::num::significant;
 use crate::system::{ChannelKind, InitialOverride, System};
 
 /// The levels of the picture.
@@ -56,9 +58,16 @@ struct Portrait {
     /// The additions whose orbits are there, and those at first.
     seeds: Vec<Seed>,
     region: Region,
-    orbits: Vec<Arc<Vec<[f64; 2]>>>,
+    orbits: Vec<DrawnOrbit>,
     /// The starts of the orbits to come, and the crossings of each.
     pending: (Vec<[f64; 2]>, u64),
+}
+
+/// The points of an orbit, and its rotation number.
+#[derive(Clone)]
+struct DrawnOrbit {
+    points: Arc<Vec<[f64; 2]>>,
+    rotation: Result<Rotation, NoRotation>,
 }
 
 #[derive(Clone, PartialEq, Debug)]
@@ -164,11 +173,13 @@ impl Instrument for Section {
             layers.extend(portrait.region.boundary.iter().map(|pair| (BOUNDARY, line(pair))));
             // orbits on an attractor show one thing
             let dissipates = dissipates(present.physics);
-            let points = |(index, orbit): (usize, &Arc<Vec<[f64; 2]>>)| {
+            let points = |(index, orbit): (usize, &DrawnOrbit)| {
                 let ink = if dissipates { Ink::Curve(0) } else { Ink::Curve(index + 1) };
-                (ORBITS, Layer::Points(Arc::clone(orbit), ink))
+                (ORBITS, Layer::Points(Arc::clone(&orbit.points), ink))
             };
             layers.extend(portrait.orbits.iter().enumerate().map(points));
+            let told = newest_rotation(portrait).map(|line| (NOW, Layer::Legend(vec![line])));
+            layers.extend(told);
         }
         layers.push((OWN, Layer::CompanionCrossings { section, channels }));
         layers.push((OWN, Layer::Crossings { section, channels, ink: Ink::Accent }));
@@ -278,7 +289,23 @@ impl Instrument for Section {
                 about: "how many crossings of other orbits are drawn",
                 value: |_, _, answer| {
                     let orbits = &portrait(answer)?.orbits;
-                    Some(orbits.iter().map(|orbit| orbit.len()).sum::<usize>() as f64)
+                    Some(orbits.iter().map(|orbit| orbit.points.len()).sum::<usize>() as f64)
+                },
+            },
+            Measure {
+                word: "rotating",
+                about: "how many of them have a rotation number",
+                value: |_, _, answer| {
+                    let rotating = portrait(answer)?.orbits.iter().filter(|o| o.rotation.is_ok());
+                    Some(rotating.count() as f64)
+                },
+            },
+            Measure {
+                word: "rotation",
+                about: "the rotation number of the newest of them",
+                value: |_, _, answer| {
+                    let newest = portrait(answer)?.orbits.last()?.rotation.as_ref().ok();
+                    newest.map(|rotation| rotation.number)
                 },
             },
         ]
@@ -304,7 +331,7 @@ struct Task {
 /// A picture that was begun.
 struct Begun {
     region: Region,
-    orbits: Vec<Arc<Vec<[f64; 2]>>>,
+    orbits: Vec<DrawnOrbit>,
     pending: (Vec<[f64; 2]>, u64),
 }
 
@@ -346,7 +373,9 @@ impl Task {
             progress.reach(i as u64 + 1);
             // an orbit that never comes back is no part of a section
             if orbit.len() > 1 {
-                orbits.push(Arc::new(orbit));
+                let periods = self.columns.map(|c| system.period(c, self.plane.parameters()));
+                let rotation = rotation(&orbit, periods);
+                orbits.push(DrawnOrbit { points: Arc::new(orbit), rotation });
             }
             ControlFlow::Continue(())
         };
@@ -386,6 +415,20 @@ impl Task {
 
 fn portrait(answer: Option<&Answer>) -> Option<&Portrait> {
     answer?.of::<Portrait>()
+}
+
+/// The rotation number of the newest orbit, if it goes through a point that a person chose; a list would cover the picture.
+fn newest_rotation(portrait: &Portrait) -> Option<String> {
+    let chosen = matches!(portrait.seeds.last(), Some(Seed::Through(_)));
+    let newest = portrait.orbits.last().filter(|_| chosen)?;
+    Some(match &newest.rotation {
+        Ok(found) => format!(
+            "rotation number {} ± {}",
+            significant(found.number, 8, 1e-4..1e6).replace('-', "−"),
+            significant(found.error, 1, 1.0..10.0)
+        ),
+        Err(why) => format!("no rotation number: {why}"),
+    })
 }
 
 /// The view of the file that has the surface.

@@ -19,6 +19,7 @@ mod new;
 mod path;
 mod ramp;
 mod record;
+mod reverse;
 mod run;
 mod section;
 mod signals;

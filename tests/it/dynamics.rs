@@ -2,12 +2,14 @@
 
 mod action;
 mod equilibria;
+mod event_orbits;
 mod family;
 mod flow;
 mod gali;
 mod impulses;
 mod lyapunov;
 mod orbit;
+mod rotation;
 mod spectrum;
 
 use phaselab::dynamics::PhaseSpace;

@@ -311,3 +311,31 @@ fn what_is_not_right_is_refused_with_a_sentence() {
     bad("y\n", &["no rows"]);
     bad("y\nx+\n", &["row 1"]);
 }
+
+/// Without kicks the rotor turns by p T/2π; two oscillators turn by the part of √2 that is no whole turn.
+#[test]
+fn rotation_numbers_are_those_of_closed_forms() {
+    let rotor = ["kicked-rotor", "--on=sin(2*pi*t/T - pi)", "--count=400", "--rotation=theta"];
+    let object = section(&[&rotor[..], &["--set=K=0", "--init=p_theta=2.6"]].concat());
+    let orbit = &object["orbits"][0];
+    near(orbit["rotation"]["number"].as_f64().unwrap(), 2.6 / (2.0 * PI), 1e-13);
+    assert!(orbit["no_rotation"].is_null());
+    let chaotic = ["--init=theta=0.01", "--init=p_theta=0", "--set=K=2"];
+    let object = section(&[&rotor[..], &chaotic].concat());
+    let orbit = &object["orbits"][0];
+    assert!(orbit["rotation"].is_null(), "{orbit}");
+    assert!(orbit["no_rotation"].as_str().unwrap().contains("does not converge"), "{orbit}");
+    let text = "title = \"two oscillators\"\n[coordinates]\nx = { initial = 0.0, momentum = 1.0 }\n\
+        y = { initial = 1.0, momentum = 0.0 }\n\
+        [hamiltonian]\nH = \"1/2*(p_x^2 + p_y^2) + 1/2*x^2 + y^2\"\n";
+    let words = ["section", "./system.toml", "--on=x", "--count=600", "--rotation=y,p_y"];
+    let done = with_file(text, &[&words[..], &["--format=json"]].concat());
+    let object: Value = serde_json::from_str(&done.stdout).unwrap();
+    let rotation = &object["orbits"][0]["rotation"];
+    near(rotation["number"].as_f64().unwrap(), 2f64.sqrt() - 1.0, 1e-9);
+    assert!(rotation["error"].as_f64().unwrap() < 1e-7);
+    let done = with_file(text, &words);
+    assert!(done.stdout.contains("# orbit 1: rotation number 0.41421356"), "{}", done.stdout);
+    let wrong = with_file(text, &["section", "./system.toml", "--on=x", "--rotation=y"]);
+    assert!(wrong.code == 2 && wrong.stderr.contains("has no period"), "{}", wrong.stderr);
+}

@@ -12,7 +12,7 @@ use super::{Case, method, taylor};
 use crate::hand::{loaded, lowered};
 
 /// A system with its phase space over impulses, at its initial state with other variables.
-fn case(loaded: &Loaded, start: &[f64]) -> Case {
+pub(super) fn case(loaded: &Loaded, start: &[f64]) -> Case {
     let parameters = loaded.model.parameter_values();
     let (model, equations) = (&loaded.model, &loaded.equations);
     let space = PhaseSpace::through_impulses(model, equations, &loaded.system, &parameters);
@@ -25,7 +25,7 @@ fn case(loaded: &Loaded, start: &[f64]) -> Case {
     Case { space, start: start.0 }
 }
 
-fn file(text: &str) -> Case {
+pub(super) fn file(text: &str) -> Case {
     case(&lowered(text), &[])
 }
 

@@ -1,0 +1,188 @@
+//! `phaselab reverse`: a motion carried on, its time reversed, and carried back to where it began.
+//!
+//! In: arguments. Out: how far it comes back from its start, beside what the exponents of the motion predict. Never here: how
+//! time is reversed (`experiment`).
+
+use serde_json::{Map, Value, json};
+
+use super::assignment::number;
+use super::failure::CommandError;
+use super::interrupt::Interrupt;
+use super::motion_options::Laid;
+use super::run::progress::Bar;
+use super::study::{self, StudyArguments, shown};
+use crate::dynamics::{DynamicsError, PhaseSpace, lyapunov};
+use crate::experiment::{Command, Experiment, Progress, Return, Setup, Status};
+use crate::num::math;
+use crate::printable;
+
+/// Reverse a motion and bring it back.
+///
+/// The motion is carried to T and from there back to its start by the same method. A step errs by
+/// ε, which the way back multiplies by e^{λT}: a regular motion returns nearly to its start, a
+/// chaotic one to about ε e^{λT} of it, and none at all where that is as large as the motion. λ
+/// is the largest exponent of the reversed motion, −λₙ. Where there is no way back, as over
+/// impulses or dry friction, it is said why.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  phaselab reverse pendulum --until 50
+  phaselab reverse henon-heiles --until 200 --tolerance 1e-12
+  phaselab reverse double-pendulum --until 10 --format json")]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    study: StudyArguments,
+    /// When to reverse; where it is left out, the file says, or 10 after the start.
+    #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
+    until: Option<f64>,
+}
+
+/// The steps between two looks at the time and at signals.
+const STEPS: u64 = 256;
+
+/// The number of times that the gauges are sampled on the way.
+const LOOKS: f64 = 1000.0;
+
+pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
+    let motion = &arguments.study.motion;
+    let laid = motion.compile(motion.read()?, &[], "", interrupt)?;
+    let start = laid.start.time;
+    let until = arguments.until.or(laid.model.run.until).unwrap_or(start + 10.0);
+    if until.partial_cmp(&start) != Some(std::cmp::Ordering::Greater) {
+        let [until, start] = [until, start].map(printable::number);
+        let message = format!("a motion begins at {start}; --until {until} is not after it");
+        return Err(CommandError::WrongUse(message));
+    }
+    interrupt.ends_by_itself(|| ());
+    let (returned, steps) = returned(&laid, until, interrupt)?;
+    let rate = rate(&laid, returned.turned);
+    let expected = rate.as_ref().ok().map(|(rate, _)| {
+        returned.step_error * math::exp(rate * (returned.turned - returned.start).abs())
+    });
+    let found = Found { returned, steps, rate, expected };
+    let result = (found.object(&laid), found.text());
+    study::write(&arguments.study, result, None, interrupt)
+}
+
+/// How the motion returned, and what was expected.
+struct Found {
+    returned: Return,
+    steps: u64,
+    /// The largest exponent of the reversed motion and its uncertainty, or why it is not known.
+    rate: Result<(f64, f64), String>,
+    expected: Option<f64>,
+}
+
+/// Carries the motion there and back.
+fn returned(laid: &Laid, until: f64, interrupt: &Interrupt) -> Result<(Return, u64), CommandError> {
+    let start = laid.start.time;
+    let setup = Setup {
+        parameters: laid.start.parameters.clone(),
+        overrides: laid.start.overrides.clone(),
+        method: laid.method.name.to_owned(),
+        settings: laid.settings,
+        spacing: (until - start) / LOOKS,
+        ..Setup::of(&laid.model)
+    };
+    let mut experiment = Experiment::new(&laid.model, &laid.equations, &laid.system, setup)
+        .map_err(|why| CommandError::WrongUse(why.to_string()))?;
+    let (there, back) = (until, 2.0 * until - start);
+    let mut bar = Bar::new(start, back);
+    advance(&mut experiment, until, interrupt, &mut |clock| bar.show(clock))?;
+    experiment.execute(Command::Reverse);
+    if !experiment.is_backwards() {
+        let notices = experiment.snapshot().notices;
+        let why = notices.last().map_or("time is not reversed here", String::as_str);
+        return Err(CommandError::CouldNot(why.to_owned()));
+    }
+    let home = -start;
+    advance(&mut experiment, home, interrupt, &mut |clock| bar.show(clock + 2.0 * there))?;
+    drop(bar);
+    let snapshot = experiment.snapshot();
+    match snapshot.returned {
+        Some(returned) => Ok((returned, snapshot.method.steps)),
+        None => Err(CommandError::CouldNot("the way there was not recorded".to_owned())),
+    }
+}
+
+/// Advances to a reading of the clock.
+fn advance(
+    experiment: &mut Experiment,
+    clock: f64,
+    interrupt: &Interrupt,
+    look: &mut dyn FnMut(f64),
+) -> Result<(), CommandError> {
+    loop {
+        let progress = experiment.advance(clock, STEPS);
+        look(experiment.clock());
+        if let Some(signal) = interrupt.signal() {
+            return Err(CommandError::Signal(signal));
+        }
+        if let Status::Failed(failure) = experiment.status() {
+            return Err(CommandError::CouldNot(failure.message));
+        }
+        if progress != Progress::Underway {
+            return Ok(());
+        }
+    }
+}
+
+/// The largest exponent of the reversed motion, and its uncertainty.
+fn rate(laid: &Laid, until: f64) -> Result<(f64, f64), String> {
+    let told = |why: DynamicsError| why.to_string();
+    let parameters = &laid.start.parameters;
+    let space =
+        PhaseSpace::of(&laid.model, &laid.equations, &laid.system, parameters).map_err(told)?;
+    let start = laid.start.state(&laid.system).and_then(|state| space.state(&state));
+    let start = start.map_err(|why| why.to_string())?;
+    let method = (laid.method, laid.settings);
+    let found = lyapunov(&space, method, &start, until, &mut |_| {}).map_err(told)?;
+    if let Some(failure) = found.failure {
+        return Err(failure.to_string());
+    }
+    let pairs = found.exponents.iter().zip(&found.uncertainty);
+    let least = pairs.min_by(|a, b| a.0.total_cmp(b.0));
+    // the direction of the motion itself neither grows nor shrinks
+    Ok(least.map_or((0.0, 0.0), |(rate, off)| ((-rate).max(0.0), *off)))
+}
+
+impl Found {
+    fn object(&self, laid: &Laid) -> Map<String, Value> {
+        let parameters = &laid.start.parameters;
+        let method = (laid.method, laid.settings);
+        let mut object = study::head(&laid.model, &laid.system, parameters, method);
+        let mut insert = |name: &str, value: Value| object.insert(name.to_owned(), value);
+        let rate = self.rate.as_ref().ok();
+        insert("turned", json!(self.returned.turned));
+        insert("t", json!(self.returned.start));
+        insert("steps", json!(self.steps));
+        insert("return_error", json!(self.returned.error));
+        insert("step_error", json!(self.returned.step_error));
+        insert("exponent", json!(rate.map(|(rate, _)| rate)));
+        insert("uncertainty", json!(rate.map(|(_, off)| off)));
+        insert("expected", json!(self.expected));
+        insert("message", json!(self.rate.as_ref().err()));
+        object
+    }
+
+    fn text(&self) -> String {
+        let Return { turned, start, step_error, error, .. } = &self.returned;
+        let [turned, start] = [turned, start].map(|&time| shown(time));
+        let error = match error {
+            Some(0.0) => "to the last bit".to_owned(),
+            Some(error) => format!("to {error:.1e} from where it began"),
+            None => "not to the start".to_owned(),
+        };
+        let mut text = format!("from t = {turned} back to t = {start}: {error}\n\n");
+        text.push_str(&format!("ε, the error of a step  {step_error:.1e}\n"));
+        match (&self.rate, self.expected) {
+            (Ok((rate, off)), Some(expected)) => {
+                text.push_str(&format!("λ                       {} ± {off:.1e}\n", shown(*rate)));
+                text.push_str(&format!("ε e^λT                  {expected:.1e}\n"));
+            }
+            (Err(why), _) => text.push_str(&format!("λ is not known: {why}\n")),
+            (Ok(_), None) => {}
+        }
+        text
+    }
+}

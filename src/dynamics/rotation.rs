@@ -1,0 +1,185 @@
+//! The rotation number of an orbit on a surface of section: the mean part of a turn from one crossing to the next.
+//!
+//! It is a weighted Birkhoff average, which converges faster than any power of the number of crossings where the orbit is
+//! quasi-periodic, and as slowly as the mean of random numbers where it is chaotic (E. Sander and J. D. Meiss, Physica D
+//! 411 (2020) 132569); how far the averages of parts of the orbit differ tells one from the other. Where an axis is an angle
+//! that goes round, its turns are counted; else those around the middle of the orbit, from the vertical axis towards
+//! the horizontal one, as a point of (q, p) moves. The turn between two crossings is known but for whole ones: they are cut
+//! where no turn of the orbit lies, so that number is in [0, 1).
+//!
+//! In: points in the order of the crossings. Out: the number with its error, or why there is none. Never here: motions.
+
+use std::f64::consts::TAU;
+
+use crate::num::{math, short};
+
+/// The fewest crossings of which a rotation number is told.
+const FEWEST: usize = 16;
+
+/// The widest part of a turn that no turn of the orbit lies in is at least this wide, …
+const GAP: f64 = 0.05;
+
+/// … and the points of an orbit differ by more than this part of their size.
+const SPREAD: f64 = 1e-9;
+
+/// An average converges if its parts differ by less than this over the number of crossings: chaotic ones differ by about the
+/// root of that number times more.
+const CONVERGED: f64 = 0.05;
+
+/// What turns.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Turning {
+    /// The angle on this axis.
+    Axis(usize),
+    /// The orbit around its middle.
+    Middle,
+}
+
+/// The rotation number of an orbit.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Rotation {
+    /// Turns from one crossing to the next.
+    pub number: f64,
+    /// The largest difference between the averages of the first half, the middle half and the last half of the orbit.
+    pub error: f64,
+    /// What turns.
+    pub turning: Turning,
+}
+
+/// Why an orbit has no rotation number.
+#[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
+pub enum NoRotation {
+    /// There are too few crossings.
+    #[error("{0} crossings are too few for it; it takes {FEWEST}")]
+    TooFew(usize),
+    /// A number is not finite.
+    #[error("a crossing is not finite")]
+    NotFinite,
+    /// All crossings are at one point.
+    #[error("all crossings are at one point")]
+    OnePoint,
+    /// The orbit does not go once around.
+    #[error("the orbit does not go once round its middle")]
+    NotAround,
+    /// Turns of all sizes occur.
+    #[error("it does not converge: turns of all sizes occur, as in chaos")]
+    AllTurns,
+    /// The average of parts of the orbit differs.
+    #[error("it does not converge: averages of parts of the orbit differ by {}, as in chaos or where crossings are too few", short(*.0))]
+    Diverges(f64),
+}
+
+/// The rotation number of an orbit by its points on a section, and the periods of the axes that are angles.
+///
+/// # Errors
+/// Returns why there is none: the orbit is chaotic, does not go round anything, or crosses too rarely.
+pub fn rotation(points: &[[f64; 2]], periods: [Option<f64>; 2]) -> Result<Rotation, NoRotation> {
+    if points.len() < FEWEST {
+        return Err(NoRotation::TooFew(points.len()));
+    }
+    if points.iter().flatten().any(|x| !x.is_finite()) {
+        return Err(NoRotation::NotFinite);
+    }
+    let round = (0..2).find_map(|axis| Some((axis, periods[axis].filter(|p| *p > 0.0)?)));
+    if let Some((axis, period)) = round
+        && extent(points, axis) >= period
+    {
+        let turns: Vec<f64> =
+            points.windows(2).map(|pair| (pair[1][axis] - pair[0][axis]) / period).collect();
+        return averaged(&turns, Turning::Axis(axis));
+    }
+    let turns = around(points)?;
+    let found = averaged(&turns, Turning::Middle)?;
+    let whole = found.number.round();
+    if (found.number - whole).abs() * turns.len() as f64 <= 1.0 {
+        return Err(NoRotation::NotAround);
+    }
+    Ok(Rotation { number: found.number.rem_euclid(1.0), ..found })
+}
+
+/// The rotation number of an angle alone, with whole turns.
+///
+/// # Errors
+/// Returns why there is none.
+pub fn angle_rotation(angle: &[f64], period: f64) -> Result<Rotation, NoRotation> {
+    if angle.len() < FEWEST {
+        return Err(NoRotation::TooFew(angle.len()));
+    }
+    if angle.iter().any(|x| !x.is_finite()) {
+        return Err(NoRotation::NotFinite);
+    }
+    let turns: Vec<f64> = angle.windows(2).map(|pair| (pair[1] - pair[0]) / period).collect();
+    averaged(&turns, Turning::Axis(0))
+}
+
+/// Σ w x / Σ w with the weights e^{−1/(u(1−u))}, u from 0 to 1 along the values.
+pub(super) fn birkhoff_average(values: &[f64]) -> f64 {
+    let count = values.len() as f64;
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for (k, value) in values.iter().enumerate() {
+        let u = (k as f64 + 0.5) / count;
+        let weight = math::exp(-1.0 / (u * (1.0 - u)));
+        sum += weight * value;
+        weights += weight;
+    }
+    sum / weights
+}
+
+fn averaged(turns: &[f64], turning: Turning) -> Result<Rotation, NoRotation> {
+    let (count, half) = (turns.len(), turns.len() / 2);
+    let quarter = (count - half) / 2;
+    let number = birkhoff_average(turns);
+    let [first, middle, last] =
+        [0, quarter, count - half].map(|from| birkhoff_average(&turns[from..from + half]));
+    let apart = (first - middle).abs().max((middle - last).abs()).max((first - last).abs());
+    let error = apart.max(f64::EPSILON * number.abs());
+    if error * count as f64 > CONVERGED {
+        return Err(NoRotation::Diverges(error));
+    }
+    Ok(Rotation { number, error, turning })
+}
+
+fn extent(points: &[[f64; 2]], axis: usize) -> f64 {
+    let least = points.iter().map(|point| point[axis]).fold(f64::INFINITY, f64::min);
+    let greatest = points.iter().map(|point| point[axis]).fold(f64::NEG_INFINITY, f64::max);
+    greatest - least
+}
+
+/// The turns around the middle of an orbit, each from the middle of the widest gap between them, and less than one more.
+fn around(points: &[[f64; 2]]) -> Result<Vec<f64>, NoRotation> {
+    let count = points.len() as f64;
+    let middle = [0, 1].map(|axis| points.iter().map(|point| point[axis]).sum::<f64>() / count);
+    let widths = [0, 1].map(|axis| extent(points, axis));
+    let sizes = [0, 1].map(|axis| points.iter().map(|point| point[axis].abs()).fold(0.0, f64::max));
+    if (0..2).all(|axis| widths[axis] <= SPREAD * sizes[axis].max(f64::MIN_POSITIVE)) {
+        return Err(NoRotation::OnePoint);
+    }
+    let place = |point: &[f64; 2]| {
+        let [x, y] = [0, 1].map(|axis| {
+            let width = widths[axis].max(f64::MIN_POSITIVE);
+            (point[axis] - middle[axis]) / width
+        });
+        // from the vertical axis towards the horizontal one
+        math::atan2(x, y) / TAU
+    };
+    let places: Vec<f64> = points.iter().map(place).collect();
+    let turns: Vec<f64> =
+        places.windows(2).map(|pair| (pair[1] - pair[0]).rem_euclid(1.0)).collect();
+    let mut sorted = turns.clone();
+    sorted.sort_by(f64::total_cmp);
+    let (Some(least), Some(greatest)) = (sorted.first(), sorted.last()) else {
+        return Err(NoRotation::TooFew(points.len()));
+    };
+    let mut widest = (least + 1.0 - greatest, (greatest + (least + 1.0)) / 2.0);
+    for pair in sorted.windows(2) {
+        let gap = pair[1] - pair[0];
+        if gap > widest.0 {
+            widest = (gap, f64::midpoint(pair[0], pair[1]));
+        }
+    }
+    if widest.0 < GAP {
+        return Err(NoRotation::AllTurns);
+    }
+    let cut = widest.1;
+    Ok(turns.iter().map(|turn| cut + (turn - cut).rem_euclid(1.0) - 1.0).collect())
+}

@@ -1,0 +1,62 @@
+//! `reverse`: how far motions come back, against what their exponents predict, and motions without a way back.
+
+use super::{phaselab, with_file};
+
+fn reverse(words: &[&str]) -> serde_json::Value {
+    phaselab(&[&["reverse"], words, &["--format", "json"]].concat()).json()
+}
+
+fn number(object: &serde_json::Value, name: &str) -> f64 {
+    object[name].as_f64().unwrap_or_else(|| panic!("{name} of {object}"))
+}
+
+#[test]
+fn a_regular_motion_returns_to_rounding() {
+    let found = reverse(&["pendulum", "--until", "50"]);
+    assert!(number(&found, "return_error") < 1e-13, "{found}");
+    assert_eq!((number(&found, "turned"), number(&found, "t")), (50.0, 0.0));
+    assert_eq!(found["method"]["name"], "taylor");
+    let text = phaselab(&["reverse", "pendulum", "--until", "50"]).success();
+    assert!(text.starts_with("from t = 50 back to t = 0: to "), "{text}");
+}
+
+/// The orbit B of Hénon and Heiles at E = 1/8 has λ = 0.19195453623623.
+#[test]
+fn a_chaotic_motion_returns_to_the_error_of_a_step_times_its_growth() {
+    let start = ["--init=x=0", "--init=y=-0.18", "--init=p_x=0.46", "--init=p_y=0.01"];
+    for (tolerance, until) in [("1e-9", "100"), ("1e-12", "120")] {
+        let words = [&["henon-heiles", "--until", until, "--tolerance", tolerance], &start[..]];
+        let words = [&words.concat()[..], &["--method", "dop853"]].concat();
+        let found = reverse(&words);
+        let (error, expected) = (number(&found, "return_error"), number(&found, "expected"));
+        let lambda = number(&found, "exponent");
+        assert!(lambda > 0.02 && lambda < 0.3, "{found}");
+        // errors of many steps add up, each multiplied by what is left of the way
+        assert!(error > 1e-3 * expected && error < 1e3 * expected, "{error} {expected}");
+        assert!(error > 10.0 * number(&found, "step_error"), "{found}");
+        let [t, rate] = [number(&found, "turned"), lambda];
+        let by_hand = number(&found, "step_error") * (rate * t).exp();
+        assert!((by_hand / expected - 1.0).abs() < 1e-12);
+    }
+}
+
+/// Friction −c x' shrinks areas: backwards they grow, by e^{cT}.
+#[test]
+fn friction_makes_the_way_back_unstable() {
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 1.0, velocity = 0.0 }\n\
+        [lagrangian]\nL = \"1/2*x'^2\"\ndissipation = \"1/2*x'^2\"\n";
+    let words = ["reverse", "./system.toml", "--until", "200", "--format", "json"];
+    let found: serde_json::Value = serde_json::from_str(&with_file(text, &words).stdout).unwrap();
+    // the exponents are 0 and −c; over the time T two vectors know them to ln √2 / T, as M = [[1, 1 − e^−T], [0, e^−T]]
+    let within = 2f64.sqrt().ln() / 200.0;
+    assert!((number(&found, "exponent") - 1.0).abs() < within, "{found}");
+}
+
+#[test]
+fn where_there_is_no_way_back_it_is_said_why() {
+    let done = phaselab(&["reverse", "bouncing-ball", "--until", "1"]);
+    assert!(done.code == 1 && done.stdout.is_empty());
+    assert!(done.stderr.contains("makes the motion jump"), "{}", done.stderr);
+    let done = phaselab(&["reverse", "pendulum", "--until", "-1"]);
+    assert!(done.code == 2 && done.stderr.contains("is not after it"), "{}", done.stderr);
+}

@@ -1,0 +1,110 @@
+//! Rotation numbers by weighted Birkhoff averages, against maps whose rotation numbers are known.
+
+use std::f64::consts::{PI, TAU};
+
+use phaselab::dynamics::{NoRotation, Turning, angle_rotation, rotation};
+
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// The standard map: p' = p + K sin θ, θ' = θ + p'.
+fn standard(k: f64, start: (f64, f64), count: usize) -> Vec<[f64; 2]> {
+    let (mut theta, mut p) = start;
+    let step = |_| {
+        p += k * theta.sin();
+        theta += p;
+        [theta, p]
+    };
+    (0..count).map(step).collect()
+}
+
+/// A turn through ρ on an ellipse with a bump: q = a sin φ, p = b cos φ, φ distorted.
+fn curve(rho: f64, count: usize) -> Vec<[f64; 2]> {
+    let point = |n: usize| {
+        let phase = TAU * (0.1 + rho * n as f64);
+        let bent = phase + 0.2 * phase.sin();
+        [3.0 + 2.0 * bent.sin() * (1.0 + 0.1 * phase.cos()), 0.1 * bent.cos() - 1.0]
+    };
+    (0..count).map(point).collect()
+}
+
+#[test]
+fn a_curve_has_the_number_it_was_made_with() {
+    for rho in [GOLDEN, 1.0 - GOLDEN, 0.1234567, PI - 3.0, 0.93] {
+        for (count, within) in [(250, 1e-5), (4000, 1e-12)] {
+            let found = rotation(&curve(rho, count), [None; 2]).unwrap();
+            let off = (found.number - rho).abs();
+            assert!(off < within && off <= found.error + 1e-15, "{rho} {count}: {found:?}");
+            assert_eq!(found.turning, Turning::Middle);
+        }
+    }
+    // the other way round it is the rest of a turn
+    let back: Vec<[f64; 2]> = curve(0.3, 2000).into_iter().rev().collect();
+    assert!((rotation(&back, [None; 2]).unwrap().number - 0.7).abs() < 1e-10);
+    // p of q islands
+    let islands = rotation(&curve(3.0 / 7.0, 700), [None; 2]).unwrap();
+    assert!((islands.number - 3.0 / 7.0).abs() < 1e-12);
+}
+
+/// Without kicks the angle advances by p; with small ones the torus of ω lies at θ = φ − K sin φ/(4 sin² πω) + O(K²).
+#[test]
+fn the_torus_of_the_golden_mean_is_where_perturbation_theory_has_it() {
+    let free = standard(0.0, (0.5, 1.3), 300);
+    let found = rotation(&free, [Some(TAU), None]).unwrap();
+    assert!((found.number - 1.3 / TAU).abs() < 1e-14 && found.turning == Turning::Axis(0));
+    let kick = 1e-3;
+    let size = kick / (4.0 * (PI * GOLDEN).sin().powi(2));
+    let torus = |phase: f64| phase - size * phase.sin();
+    let phase = 0.9;
+    let (now, before) = (torus(phase), torus(phase - TAU * GOLDEN));
+    let orbit = standard(kick, (now, now - before), 5000);
+    let found = rotation(&orbit, [Some(TAU), None]).unwrap();
+    let off = (found.number - GOLDEN).abs();
+    assert!(off < kick * kick && found.error < 1e-12, "{found:?} {off}");
+    // without the first order it lies farther away
+    let off = standard(kick, (now, TAU * GOLDEN), 5000);
+    let off = (rotation(&off, [Some(TAU), None]).unwrap().number - GOLDEN).abs();
+    assert!(off > 10.0 * kick * kick, "{off}");
+}
+
+/// Inside an island about θ = π the map turns by arccos(1 − K/2)/2π at its centre.
+#[test]
+fn an_island_turns_as_its_centre_does() {
+    let kick = 0.6_f64;
+    let orbit = standard(kick, (PI + 1e-5, 0.0), 3000);
+    let found = rotation(&orbit, [Some(TAU), None]).unwrap();
+    let centre = (1.0 - kick / 2.0).acos() / TAU;
+    assert_eq!(found.turning, Turning::Middle);
+    assert!((found.number - centre).abs() < 1e-9, "{found:?} {centre}");
+}
+
+#[test]
+fn a_chaotic_orbit_has_none_and_is_told_why() {
+    for (kick, start) in [(1.5, (0.01, 0.0)), (3.0, (0.3, 0.2)), (7.0, (1.0, 2.0))] {
+        for count in [100, 1000, 20000] {
+            let orbit = standard(kick, start, count);
+            let found = rotation(&orbit, [Some(TAU), None]);
+            assert!(matches!(found, Err(NoRotation::Diverges(_))), "{kick} {count}: {found:?}");
+            let wrapped: Vec<[f64; 2]> =
+                orbit.iter().map(|at| at.map(|x| x.rem_euclid(TAU))).collect();
+            let around = rotation(&wrapped, [None; 2]);
+            let told = matches!(around, Err(NoRotation::Diverges(_) | NoRotation::AllTurns));
+            assert!(told, "{kick} {count}: {around:?}");
+        }
+    }
+}
+
+#[test]
+fn what_is_no_rotation_is_refused() {
+    assert_eq!(rotation(&curve(0.3, 15), [None; 2]), Err(NoRotation::TooFew(15)));
+    assert_eq!(rotation(&[[0.5, 0.25]; 50], [None; 2]), Err(NoRotation::OnePoint));
+    assert_eq!(rotation(&[[f64::NAN, 0.0]; 50], [None; 2]), Err(NoRotation::NotFinite));
+    // a crescent around a point that its middle is not
+    let crescent = |n: u32| {
+        let phase = TAU * 0.0531 * f64::from(n);
+        let (angle, radius) = (1.8 * phase.sin(), 1.0 + 0.05 * phase.cos());
+        [radius * angle.cos(), radius * angle.sin()]
+    };
+    let points: Vec<[f64; 2]> = (0..1000).map(crescent).collect();
+    assert_eq!(rotation(&points, [None; 2]), Err(NoRotation::NotAround));
+    assert_eq!(angle_rotation(&[0.0; 3], TAU), Err(NoRotation::TooFew(3)));
+}
