@@ -346,8 +346,8 @@ fn tangent_vectors_do_not_act_on_the_motion() {
     for method in METHODS {
         for name in ["henon-heiles", "double-pendulum", "planet"] {
             let (system, start, parameters) = preset(name);
-            // the iteration of Gauss's methods may end a pass earlier where fewer numbers move
-            let gauss = method.name.starts_with("gauss");
+            // the iteration of an implicit method may end a pass earlier where fewer numbers move
+            let gauss = method.name.starts_with("gauss") || method.name == "symplectic-euler";
             if (method.fits)(&system).is_err() || (gauss && name == "planet") {
                 continue;
             }
