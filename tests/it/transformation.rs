@@ -249,7 +249,7 @@ impl Course {
     }
 
     /// The lines of the grid, whole or dim, the images on other branches, and the legend.
-    #[allow(clippy::type_complexity)]
+    #[allow(clippy::type_complexity, reason = "the parts of one picture")]
     fn seen(&self) -> ([Vec<Vec<[f64; 2]>>; 2], Vec<[f64; 2]>, Vec<String>) {
         let lab = self.app.lab.as_ref().expect("a lab");
         let [plot] = &plots(&self.app)[..] else { panic!("the file has one") };
