@@ -63,7 +63,7 @@ pub use flaw::StructureError;
 pub use gauge::Gauge;
 pub use generating::GeneratingFunction;
 pub use generator::{GeneratorFlow, flow_of};
-pub use group::phase_maps;
+pub use group::{phase_maps, relations_of};
 pub use hamilton_jacobi::HamiltonJacobi;
 pub use implicit_map::guesses;
 pub use invariants::{casimir_rate, is_changed_by_impulse};

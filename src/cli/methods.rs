@@ -81,7 +81,8 @@ fn stepping(stepping: Stepping) -> &'static str {
 fn preserves(preserves: Preserves) -> &'static str {
     match preserves {
         Preserves::Nothing => "nothing but its accuracy",
-        Preserves::Symplectic => "the symplectic form and reversibility",
+        Preserves::Symplectic => "the symplectic form",
+        Preserves::SymplecticReversible => "the symplectic form and reversibility",
     }
 }
 
@@ -91,7 +92,7 @@ fn object(method: &Method) -> Value {
         "title": method.title,
         "order": method.order,
         "adaptive": method.stepping == Stepping::Adaptive,
-        "symplectic": method.preserves == Preserves::Symplectic,
+        "symplectic": method.preserves.is_symplectic(),
         "needs": method.needs,
         "about": method.about,
     })

@@ -455,6 +455,10 @@ impl Experiment {
     /// Records the current values as the row that is due.
     pub(super) fn record(&mut self) {
         self.rows += 1;
+        // what was lost between two rows, as an image at a caustic, is not joined
+        if let Some(values) = self.motion.parting() {
+            self.recorder.insert(self.motion.clock(), &values);
+        }
         self.recorder.record(self.motion.clock(), self.motion.values());
         if !self.is_backwards() {
             self.companions.expect(self.motion.time(), self.motion.values());

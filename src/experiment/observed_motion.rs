@@ -16,6 +16,8 @@ pub(super) struct ObservedMotion {
     inner: integrate::Propagator,
     observer: Observer,
     values: Vec<f64>,
+    /// The channels that had no value at some state that was observed since the last row.
+    lost: Vec<bool>,
     residuals: Vec<[f64; 2]>,
     /// The motion's count of constraint changes when the observer was made.
     holdings: u64,
@@ -88,6 +90,7 @@ impl ObservedMotion {
             inner: integrate::Propagator::new(system, method, settings, parameters)?,
             observer: system.observer(parameters),
             values: vec![f64::NAN; system.channels().len()],
+            lost: vec![false; system.channels().len()],
             residuals: Vec::new(),
             holdings: 0,
             watch: StepSampler::of(system, parameters),
@@ -226,6 +229,7 @@ impl ObservedMotion {
             let StepSampler { terms, state, values, .. } = &mut self.watch;
             if self.inner.anywhere_inside(time, state).is_ok() && terms.look(state) {
                 if due && self.observer.observe(state, values).is_ok() {
+                    mark_lost(&mut self.lost, values);
                     gauges.look_on_the_way(self.sign * time, steps, values, terms);
                 }
                 gauges.step(self.sign * time, steps, terms, false);
@@ -237,6 +241,7 @@ impl ObservedMotion {
                 && self.inner.method().order.is_some()
                 && self.observer.observe(state, values).is_ok()
             {
+                mark_lost(&mut self.lost, values);
                 gauges.look_on_the_way(self.sign * end, steps, values, terms);
             }
             gauges.step(self.sign * end, steps, terms, !sparse);
@@ -386,7 +391,20 @@ impl ObservedMotion {
             self.take_observer();
         }
         let outcome = self.observer.observe(self.inner.state(), &mut self.values);
+        mark_lost(&mut self.lost, &self.values);
         outcome.map_err(|fault| self.inner.explained(fault))
+    }
+
+    /// The current values but for those of channels that had none at some state since this was last asked: a row that
+    /// parts what lies before it from what comes. `None` if no channel has a value again.
+    pub(super) fn parting(&mut self) -> Option<Vec<f64>> {
+        let mut parted = None;
+        for (k, lost) in self.lost.iter_mut().enumerate() {
+            if std::mem::take(lost) && !self.values[k].is_nan() {
+                parted.get_or_insert_with(|| self.values.clone())[k] = f64::NAN;
+            }
+        }
+        parted
     }
 
     /// A fault of this motion at its time.
@@ -399,6 +417,13 @@ impl ObservedMotion {
         let mut values = vec![f64::NAN; self.values.len()];
         self.observer.observe(self.inner.before(), &mut values)?;
         Ok(values)
+    }
+}
+
+/// Marks the channels that have no value.
+fn mark_lost(lost: &mut [bool], values: &[f64]) {
+    for (lost, value) in lost.iter_mut().zip(values) {
+        *lost |= value.is_nan();
     }
 }
 

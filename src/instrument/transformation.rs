@@ -6,17 +6,19 @@
 //! plane. The job finds the lines, whether the map is canonical, and K.
 //! Source: *The Principles of Dynamics*, §§ 3.2.2, 3.3.
 
+mod branches;
 mod grid;
 
 use std::sync::Arc;
 
+use self::branches::Branches;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, Present, Sign, Stroke, Upwards,
 };
 use crate::expr::{Expr, Pool, Symbol};
 use crate::job::Job;
-use crate::mechanics::{Equations, ImplicitMap, TransformationReport};
+use crate::mechanics::{Equations, ImplicitMap, TransformationReport, Valuation, relations_of};
 use crate::model::Transformation as Law;
 use crate::num::significant;
 use crate::system::ChannelKind;
@@ -28,6 +30,9 @@ const NOW: Level = 4;
 
 /// The part of the range of the motion that is added on each side.
 const MARGIN: f64 = 0.15;
+
+/// The share of the dots of a grid of another branch that is drawn.
+const DIM: f64 = 0.35;
 
 /// One of so many points of the grid may be out of the picture at each end of an axis.
 const OUTER: usize = 40;
@@ -41,6 +46,7 @@ struct Mapped {
     /// The range of the two old variables.
     window: Option<[[f64; 2]; 2]>,
     grid: Arc<Vec<Vec<[f64; 2]>>>,
+    branches: Option<Arc<Branches>>,
     verdict: Option<Judged>,
 }
 
@@ -140,6 +146,14 @@ impl Instrument for Transformation {
         let grid = mapped.into_iter().flat_map(|mapped| mapped.grid.iter());
         let mut layers: Vec<(Level, Layer)> =
             grid.map(|line| (GRID, Layer::Line(line.clone(), stroke))).collect();
+        let branches = mapped.and_then(|mapped| mapped.branches.as_deref());
+        let at = branches.map(|_| with_image(plot, present));
+        if let (Some(branches), Some(at)) = (branches, &at) {
+            let dim = Stroke { ink: Ink::Level, covering: Some(DIM) };
+            layers.extend(branches.lines.iter().map(|line| (GRID, Layer::Line(line.clone(), dim))));
+            let images = branches.images(at).into_iter();
+            layers.extend(images.map(|image| (NOW, Layer::Point(image, Sign::Ring, Ink::Level))));
+        }
         layers.extend([
             (TRAIL, Layer::Companions([x, y])),
             (TRAIL, Layer::Trail([x, y])),
@@ -152,6 +166,11 @@ impl Instrument for Transformation {
             _ => judged(answer).map_or_else(Vec::new, |judged| judged.lines.clone()),
         };
         lines.extend(solved(plot, present).map(str::to_owned));
+        match branches.map_or(0, Branches::others) {
+            0 => {}
+            1 => lines.push("ring, dim grid: the other branch".to_owned()),
+            n => lines.push(format!("rings, dim grids: {n} other branches")),
+        }
         layers.push((NOW, Layer::Legend(lines)));
         let upwards = Upwards::Channel(y, range(plot, present, answer, 1));
         Some(Picture::Axes { upwards, layers, occurrences: None })
@@ -179,11 +198,17 @@ impl Instrument for Transformation {
         let known = mapped(answer).filter(|known| known.parameters == present.parameters);
         let verdict = known.and_then(|known| known.verdict.clone());
         let (parameters, name) = (present.parameters.to_vec(), law.name.clone());
-        if let Some(known) = known.filter(|known| known.covers(wanted)) {
+        let stays = |known: &&Mapped| {
+            let at = || with_image(plot, present);
+            let left = |branches: &Arc<Branches>| old.is_none() && branches.has_left(&at());
+            known.covers(wanted) && !known.branches.as_ref().is_some_and(left)
+        };
+        if let Some(known) = known.filter(stays) {
             if verdict.is_some() {
                 return Need::Held;
             }
             let (window, grid) = (known.window, Arc::clone(&known.grid));
+            let branches = known.branches.clone();
             let (model, equations) = (Arc::clone(model), Arc::clone(equations));
             return Need::Job(Job::new("verdict", move |progress| {
                 let mut equations = (*equations).clone();
@@ -191,7 +216,13 @@ impl Instrument for Transformation {
                 let report = TransformationReport::named(&model, &mut equations, &name);
                 let verdict = Some(Judged::of(&equations.pool, report.as_ref()));
                 let (parameters, grid) = (parameters.clone(), Arc::clone(&grid));
-                Answer::new(Mapped { parameters, window, grid, verdict })
+                Answer::new(Mapped {
+                    parameters,
+                    window,
+                    grid,
+                    branches: branches.clone(),
+                    verdict,
+                })
             }));
         }
         let window = wanted.map(|window| {
@@ -200,22 +231,30 @@ impl Instrument for Transformation {
                 [lo - margin, hi + margin]
             })
         });
-        let (equations, at) = (Arc::clone(equations), present.valuation());
-        let image = [plot.column(0), plot.column(1)];
-        let image = image.map(|channel| channel.map_or(f64::NAN, |c| present.value(c)));
-        Need::Job(Job::new("grid", move |_| {
-            let pool = &equations.pool;
+        let (model, equations) = (Arc::clone(model), Arc::clone(equations));
+        let (at, written) = (with_image(plot, present), old.map(|(images, _)| images));
+        let period = |axis| present.physics.system.period(plot.column(axis)?, present.parameters);
+        let periods = [period(0), period(1)];
+        Need::Job(Job::new("grid", move |progress| {
             let axes = axes.zip(window).map(|(old, window)| (old.map(|(s, _)| s), window));
-            let grid = match (old, implicit(&equations, new), axes) {
-                (Some((images, _)), _, Some(old)) => grid::written(pool, &at, images, old),
-                (None, Some(map), Some(old)) => {
-                    let at = at.clone().with(new.into_iter().zip(image));
-                    grid::solved(pool, map, &at, (new, old))
-                }
-                _ => Vec::new(),
+            let known = place.zip(axes).and_then(|(place, axes)| {
+                let mut own = (*equations).clone();
+                own.pool.set_cancel(progress.token().clone());
+                let map = relations_of(&model, &mut own, place).filter(|map| map.new.len() == 2)?;
+                Branches::around((Arc::new(own), map), &at, (new, periods), axes)
+            });
+            let (solved, branches) = known.unzip();
+            let grid = match (written, axes) {
+                (Some(images), Some(old)) => grid::written(&equations.pool, &at, images, old),
+                _ => solved.unwrap_or_default(),
             };
-            let (parameters, verdict) = (parameters.clone(), verdict.clone());
-            Answer::new(Mapped { parameters, window, grid: Arc::new(grid), verdict })
+            Answer::new(Mapped {
+                parameters: parameters.clone(),
+                window,
+                grid: Arc::new(grid),
+                branches: branches.map(Arc::new),
+                verdict: verdict.clone(),
+            })
         }))
     }
 
@@ -235,6 +274,13 @@ impl Instrument for Transformation {
             },
         ]
     }
+}
+
+/// The values of all symbols now, those of the two new variables that are shown among them.
+fn with_image(plot: &Plot, present: &Present<'_>) -> Valuation {
+    let new = shown(plot, present.physics).map(|shown| shown.new).into_iter().flatten();
+    let image = [0, 1].map(|axis| plot.column(axis).map_or(f64::NAN, |c| present.value(c)));
+    present.valuation().with(new.zip(image))
 }
 
 /// What is said of an image that is found by Newton's method.
@@ -317,8 +363,10 @@ fn range(
     axis: usize,
 ) -> Option<[f64; 2]> {
     let turns = present.physics.system.period(plot.column(axis)?, present.parameters).is_some();
-    let grid = &mapped(answer).filter(|_| !turns)?.grid;
-    let mut all: Vec<f64> = grid.iter().flatten().map(|point| point[axis]).collect();
+    let mapped = mapped(answer).filter(|_| !turns)?;
+    let others = mapped.branches.iter().flat_map(|branches| &branches.lines);
+    let lines = mapped.grid.iter().chain(others);
+    let mut all: Vec<f64> = lines.flatten().map(|point| point[axis]).collect();
     all.sort_by(f64::total_cmp);
     let cut = all.len() / OUTER;
     let (least, greatest) = (*all.get(cut)?, *all.get(all.len().checked_sub(cut + 1)?)?);

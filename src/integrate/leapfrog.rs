@@ -10,7 +10,7 @@ pub(super) const METHOD: Method = Method {
     title: "Leapfrog (Störmer–Verlet)",
     order: Some(2),
     stepping: Stepping::Fixed,
-    preserves: Preserves::Symplectic,
+    preserves: Preserves::SymplecticReversible,
     locates_kinks: false,
     needs: splitting::NEEDS,
     about: "Half a kick, a drift, half a kick: the simplest symplectic method. Energy swings a \

@@ -50,8 +50,17 @@ pub enum Stepping {
 pub enum Preserves {
     /// Nothing but its accuracy.
     Nothing,
-    /// The symplectic form, and reversibility.
+    /// The symplectic form.
     Symplectic,
+    /// The symplectic form, and reversibility: a step backwards is the inverse of one forwards.
+    SymplecticReversible,
+}
+
+impl Preserves {
+    /// Whether the symplectic form is preserved.
+    pub fn is_symplectic(self) -> bool {
+        self != Preserves::Nothing
+    }
 }
 
 /// The settings of a method that a user may change.

@@ -2,7 +2,7 @@
 //! picker, command line, documents and tests follow.
 
 use super::method::Method;
-use super::{dop853, gauss, leapfrog, rk4, taylor, yoshida};
+use super::{dop853, gauss, leapfrog, rk4, symplectic_euler, taylor, yoshida};
 
 /// The table; the first row is the default.
 pub const METHODS: &[Method] = &[
@@ -13,6 +13,7 @@ pub const METHODS: &[Method] = &[
     yoshida::EIGHTH_ORDER,
     gauss::FOURTH_ORDER,
     gauss::SIXTH_ORDER,
+    symplectic_euler::METHOD,
     dop853::METHOD,
     rk4::METHOD,
 ];

@@ -102,7 +102,7 @@ impl Scheme for Splitting {
 /// The growth of an oscillation q' = p, p' = −θ² q in one step of size 1, with iθ = z; modes that
 /// do not oscillate are not judged. The step is a matrix of determinant 1, so its trace determines
 /// the growth.
-fn growth(weights: &[f64], [re, im]: [f64; 2]) -> f64 {
+pub(super) fn growth(weights: &[f64], [re, im]: [f64; 2]) -> f64 {
     if im.abs() <= 10.0 * re.abs() {
         return 1.0;
     }

@@ -27,7 +27,7 @@ pub(super) const FOURTH_ORDER: Method = Method {
     title: "Yoshida, order 4",
     order: Some(4),
     stepping: Stepping::Fixed,
-    preserves: Preserves::Symplectic,
+    preserves: Preserves::SymplecticReversible,
     locates_kinks: false,
     needs: splitting::NEEDS,
     about: "Three leapfrogs, the middle one backwards: order 4 without a drift of energy. \
@@ -44,7 +44,7 @@ pub(super) const SIXTH_ORDER: Method = Method {
     title: "Yoshida, order 6",
     order: Some(6),
     stepping: Stepping::Fixed,
-    preserves: Preserves::Symplectic,
+    preserves: Preserves::SymplecticReversible,
     locates_kinks: false,
     needs: splitting::NEEDS,
     about: "Seven leapfrogs of different length: order 6 without a drift of energy. Yoshida, \
@@ -58,7 +58,7 @@ pub(super) const EIGHTH_ORDER: Method = Method {
     title: "Yoshida, order 8",
     order: Some(8),
     stepping: Stepping::Fixed,
-    preserves: Preserves::Symplectic,
+    preserves: Preserves::SymplecticReversible,
     locates_kinks: false,
     needs: splitting::NEEDS,
     about: "Fifteen leapfrogs of different length: order 8 without a drift of energy, for small \

@@ -2,7 +2,8 @@
 //! F4 = F1 + QP − qp.
 //!
 //! In: a map whose new variables are known in closed form. Out: F1 … F4 as functions of their variables, each with its
-//! relations proved or holding at points near the start; where one does not exist, why. Never here: mixed types.
+//! relations proved or holding at points near the start; where one does not exist, why. Of a map given by mixed types, one
+//! for each pair, those of mixed types too. Never here: whether the map is canonical.
 //! Source: *The Principles of Dynamics*, § 3.2.1.
 
 use std::collections::HashMap;
@@ -17,22 +18,67 @@ use crate::expr::{Expr, Pool, Symbol, Zero};
 use crate::model::{GeneratingType, Model, Transformation, TransformationLaw};
 use crate::num::Number;
 
+/// Of so many pairs every choice of types is tried, of more those that differ from the given one at a single pair.
+const PAIRS: usize = 2;
+
 /// The points at which a function has to give the map.
 const POINTS: u64 = 24;
 
 /// A generating function of a map, if it has one of this type.
 #[derive(Clone, Debug)]
 pub struct GeneratingFunction {
-    /// Its type, for all pairs.
-    pub of: GeneratingType,
+    /// Its type for each pair.
+    pub types: Vec<GeneratingType>,
     /// The function, or why there is none.
     pub function: Result<Expr, NoClosedForm>,
     /// Whether its relations are proved; else they hold at points near the start.
     pub proved: bool,
 }
 
+impl GeneratingFunction {
+    /// The name of its type, or the names of those of each pair.
+    pub fn name(&self) -> String {
+        let names: Vec<&str> = self.types.iter().map(|of| of.name()).collect();
+        let single = names.windows(2).all(|pair| pair[0] == pair[1]);
+        if single {
+            names.first().map_or_else(String::new, |&name| name.into())
+        } else {
+            names.join(", ")
+        }
+    }
+}
+
+/// The types to be tried for a map: one for all pairs; and where the map is given by several, one for each pair.
+fn choices(given: &Transformation) -> Vec<Vec<GeneratingType>> {
+    let n = given.new.len();
+    let mut all: Vec<Vec<GeneratingType>> =
+        GeneratingType::ALL.into_iter().map(|of| vec![of; n]).collect();
+    let TransformationLaw::Generating { types, .. } = &given.law else { return all };
+    if types.windows(2).all(|pair| pair[0] == pair[1]) {
+        return all;
+    }
+    let with = |list: &[GeneratingType], i: usize, of: GeneratingType| {
+        let mut list = list.to_vec();
+        list[i] = of;
+        list
+    };
+    let mut mixed = vec![types.clone()];
+    for i in 0..n {
+        let from = if n <= PAIRS { mixed.clone() } else { vec![types.clone()] };
+        for list in from {
+            mixed.extend(GeneratingType::ALL.into_iter().map(|of| with(&list, i, of)));
+        }
+    }
+    for list in mixed {
+        if !all.contains(&list) {
+            all.push(list);
+        }
+    }
+    all
+}
+
 impl PhaseMap {
-    /// The generating functions of one type for all pairs; none where the new variables are not known in closed form. The
+    /// The generating functions of one type for all pairs, and of a map given by mixed types of one for each; none where the new variables are not known in closed form. The
     /// map has to be canonical.
     pub fn generating_functions(
         &self,
@@ -44,29 +90,20 @@ impl PhaseMap {
         let Some(value) = self.value_of_first(&mut equations.pool, given, &forwards) else {
             return Vec::new();
         };
-        let all = GeneratingType::ALL.into_iter().map(|of| {
+        let all = choices(given).into_iter().map(|wanted| {
             let written = match &given.law {
-                TransformationLaw::Generating { types, function }
-                    if types.iter().all(|known| *known == of) =>
-                {
+                TransformationLaw::Generating { types, function } if *types == wanted => {
                     Some(*function)
                 }
                 _ => None,
             };
             let (function, proved) = match written {
                 Some(function) => (Ok(function), true),
-                None => self.of_type(model, equations, given, &forwards, value, of),
+                None => self.of_types(model, equations, given, (&forwards, value), &wanted),
             };
-            GeneratingFunction { of, function, proved }
+            GeneratingFunction { types: wanted, function, proved }
         });
         all.collect()
-    }
-
-    /// Σ over pairs of Q P, or of q p, as functions of the old variables.
-    fn work(pool: &mut Pool, positions: &[Expr], momenta: &[Expr]) -> Expr {
-        let terms: Vec<Expr> =
-            positions.iter().zip(momenta).map(|(&q, &p)| pool.mul(q, p)).collect();
-        pool.sum(&terms)
     }
 
     /// The new variables in order, as functions of the old ones.
@@ -116,14 +153,13 @@ impl PhaseMap {
         potential(pool, &form, &self.old)
     }
 
-    fn of_type(
+    fn of_types(
         &self,
         model: &Model,
         equations: &mut Equations,
         given: &Transformation,
-        forwards: &Solution,
-        first: Expr,
-        of: GeneratingType,
+        (forwards, first): (&Solution, Expr),
+        types: &[GeneratingType],
     ) -> (Result<Expr, NoClosedForm>, bool) {
         let no = |why: String| (Err(NoClosedForm(why)), false);
         let n = self.old.len() / 2;
@@ -131,13 +167,16 @@ impl PhaseMap {
             return no("the new variables are not known".to_owned());
         };
         // the old half that it does not have follows from the new half that it has
-        let missing = if of.has_position() { &self.old[n..] } else { &self.old[..n] };
-        let kept = if of.has_new_position() { 0..n } else { n..2 * n };
-        let (names, values) = (&self.implicit.new[kept.clone()], &images[kept]);
+        let half = |i: usize, first: bool| if first { i } else { n + i };
+        let each = || types.iter().enumerate();
+        let missing: Vec<Symbol> =
+            each().map(|(i, of)| self.old[half(i, !of.has_position())]).collect();
+        let kept: Vec<usize> = each().map(|(i, of)| half(i, of.has_new_position())).collect();
         let pool = &mut equations.pool;
         let mut matrix = Vec::new();
         let mut relations = Vec::new();
-        for (&name, &value) in names.iter().zip(values) {
+        for k in kept {
+            let (name, value) = (self.implicit.new[k], images[k]);
             let row: Vec<Expr> = missing.iter().map(|&s| pool.derivative(value, s)).collect();
             matrix.push(row);
             let variable = pool.variable(name);
@@ -145,19 +184,27 @@ impl PhaseMap {
         }
         let single = n == 1 && pool.is_zero(matrix[0][0]) == Zero::Proved;
         if single || (n > 1 && linear::solve(pool, &matrix, &vec![Expr::ZERO; n]).is_err()) {
-            let letters = [
-                if of.has_position() { "q" } else { "p" },
-                if of.has_new_position() { "Q" } else { "P" },
-            ];
-            return no(format!("{} and {} are not independent", letters[0], letters[1]));
+            let mut letters = [String::new(), String::new()];
+            for of in types.iter().take(if types.iter().all(|of| *of == types[0]) { 1 } else { n })
+            {
+                letters[0].push(if of.has_position() { 'q' } else { 'p' });
+                letters[1].push(if of.has_new_position() { 'Q' } else { 'P' });
+            }
+            let [old, new] = letters.map(|list| {
+                let list: Vec<String> = list.chars().map(String::from).collect();
+                list.join(", ")
+            });
+            return no(format!("{old} and {new} are not independent"));
         }
         let old: Vec<Expr> = self.old.iter().map(|&s| pool.variable(s)).collect();
         let mut terms = vec![(Number::ONE, first)];
-        if !of.has_position() {
-            terms.push((Number::MINUS_ONE, PhaseMap::work(pool, &old[..n], &old[n..])));
-        }
-        if !of.has_new_position() {
-            terms.push((Number::ONE, PhaseMap::work(pool, &images[..n], &images[n..])));
+        for (i, of) in types.iter().enumerate() {
+            if !of.has_position() {
+                terms.push((Number::MINUS_ONE, pool.mul(old[i], old[n + i])));
+            }
+            if !of.has_new_position() {
+                terms.push((Number::ONE, pool.mul(images[i], images[n + i])));
+            }
         }
         let value = pool.linear(Number::ZERO, &terms);
         let points: Vec<Valuation> = (0..POINTS)
@@ -168,7 +215,7 @@ impl PhaseMap {
             .collect();
         let mut found: Option<(Expr, bool)> = None;
         let relations_of = |pool: &mut Pool, function: Expr| {
-            let law = TransformationLaw::Generating { types: vec![of; n], function };
+            let law = TransformationLaw::Generating { types: types.to_vec(), function };
             PhaseMap::relations(pool, model, &Transformation { law, ..given.clone() })
                 .implicit
                 .relations
@@ -178,7 +225,7 @@ impl PhaseMap {
             let put: HashMap<Symbol, Expr> = solution.iter().copied().collect();
             let function = isolate::tidy(pool, value, &put);
             let function = pool.simplify(function);
-            if pool.depends_on_any(function, missing) {
+            if pool.depends_on_any(function, &missing) {
                 return false;
             }
             let relations = relations_of(pool, function);
@@ -202,7 +249,7 @@ impl PhaseMap {
             found = Some((function, proved));
             true
         };
-        let solved = isolate::solve(&mut equations.pool, &relations, missing, &mut accept);
+        let solved = isolate::solve(&mut equations.pool, &relations, &missing, &mut accept);
         match (solved, found) {
             (Some(_), Some((function, proved))) => (Ok(function), proved),
             _ => no("its variables cannot be solved for the others".to_owned()),

@@ -10,7 +10,7 @@
 use std::collections::HashMap;
 
 use super::canonical::PhaseMap;
-use super::equations::{Equations, NoClosedForm};
+use super::equations::{Equations, ImplicitMap, NoClosedForm};
 use super::flaw::StructureError;
 use super::isolate::Solution;
 use crate::expr::{Expr, Symbol};
@@ -69,6 +69,14 @@ pub(super) fn written_maps(
 /// The maps alone.
 pub fn phase_maps(model: &Model, equations: &mut Equations) -> Vec<PhaseMap> {
     written_maps(model, equations).into_iter().map(|(_, map)| map).collect()
+}
+
+/// The relations of the transformation at a place of the file; `None` if it is explicit, or cannot be written down.
+pub fn relations_of(model: &Model, equations: &mut Equations, place: usize) -> Option<ImplicitMap> {
+    let law = equations.supplements.transformation_laws.get(place)?.clone().ok()?;
+    let generated = matches!(law, TransformationLaw::Generating { .. });
+    let given = Transformation { law, ..model.transformations.get(place)?.clone() };
+    generated.then(|| PhaseMap::relations(&mut equations.pool, model, &given).implicit)
 }
 
 /// The law of a transformation, given those before it and their new variables as functions of the old ones.
@@ -182,7 +190,8 @@ fn composition(
     TransformationLaw::Explicit { positions: values, momenta }
 }
 
-/// The transformations of a file whose laws cannot be written down.
+/// The transformations of a file whose laws cannot be written down, and the events and surfaces of section on the new
+/// variables of one that is solved numerically.
 pub(super) fn flaws(model: &Model, equations: &Equations) -> Vec<StructureError> {
     let laws = equations.supplements.transformation_laws.iter();
     let all = model.transformations.iter().zip(laws).filter_map(|(given, law)| {
@@ -191,6 +200,31 @@ pub(super) fn flaws(model: &Model, equations: &Equations) -> Vec<StructureError>
             place: given.place.clone(),
             message: format!("`{}` cannot be written down: {why}", given.name),
             help: "write it out as an explicit transformation or by a generating function"
+                .to_owned(),
+        })
+    });
+    all.chain(unlocated(model, equations)).collect()
+}
+
+/// Zeros are located on the dense output of a step, by slopes too; the image of a map that is solved numerically is known
+/// at the states that are observed, one after the other, and ends at caustics.
+fn unlocated(model: &Model, equations: &Equations) -> Vec<StructureError> {
+    let pool = &equations.pool;
+    let new = equations.supplements.implicit_maps.iter().flat_map(|(map, _)| &map.new);
+    let new: Vec<Symbol> = new.copied().collect();
+    let all = model.events.iter().chain(&model.sections).filter_map(|event| {
+        let symbol = *new.iter().find(|&&symbol| pool.depends(event.when, symbol))?;
+        let mut laws = model.transformations.iter();
+        let law = laws.find(|law| law.new.iter().flatten().any(|&s| s == symbol))?;
+        let (name, law) = (&pool.symbol_info(symbol).name, &law.name);
+        Some(StructureError {
+            place: event.place.clone(),
+            message: format!(
+                "zeros cannot be located on `{name}`: `{law}` has no closed form, so that its image is solved for at \
+                 single states and is no function along a step"
+            ),
+            help: "write it in the old variables, which the relations of the transformation give along a level of \
+                   the new ones, or write the transformation out as an explicit one"
                 .to_owned(),
         })
     });

@@ -19,6 +19,9 @@ const NEAR: f64 = 0.5;
 /// Numbers of several sizes and signs.
 const SIZES: [f64; 7] = [0.7, -0.6, 1.9, 0.1, -1.7, 5.0, 30.0];
 
+/// Multiples of a known image that may be near another.
+const FACTORS: [f64; 4] = [1.0, -1.0, 2.0, -0.5];
+
 /// What `n` numbers of which nothing is known may be near to, for Newton's method to begin with.
 pub fn guesses(n: usize) -> impl Iterator<Item = Vec<f64>> {
     let row = SIZES.len();
@@ -45,6 +48,23 @@ impl ImplicitMap {
             let at = point.clone().with(self.new.iter().copied().zip(guess));
             self.newton(pool, at)
         })
+    }
+
+    /// A point with each of the images that are found from first guesses, some of them twice: from numbers of several
+    /// sizes, and from multiples of the image that it has.
+    pub fn images(&self, pool: &Pool, at: &Valuation) -> Vec<Valuation> {
+        let own: Vec<f64> = self.new.iter().map(|&s| at.at(s)).collect();
+        let n = FACTORS.len();
+        let multiples = (0..n * n).map(|k| {
+            let factor =
+                |i: usize| if i.is_multiple_of(2) { FACTORS[k % n] } else { FACTORS[k / n] };
+            own.iter().enumerate().map(|(i, x)| x * factor(i)).collect::<Vec<f64>>()
+        });
+        let all = multiples.chain(guesses(self.new.len()));
+        all.filter_map(|guess| {
+            self.newton(pool, at.clone().with(self.new.iter().copied().zip(guess)))
+        })
+        .collect()
     }
 
     /// A point with its image on the branch of a near image, which the valuation has as values of the new variables;

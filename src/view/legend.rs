@@ -1,5 +1,5 @@
-//! What an instrument writes into its plot: a few lines, beside the axes where the pane is wide, else into their upper left
-//! corner.
+//! What an instrument writes into its plot: a few lines, beside the axes where the pane is wide, above them where it is
+//! narrow, so that they cover nothing; in their upper left corner where there is no room for both.
 //!
 //! In: the lines, the area. Out: cells. Never here: what the lines say.
 
@@ -14,7 +14,10 @@ use crate::instrument::{Layer, Level};
 /// An area this wide has room beside its axes.
 const WIDE: u16 = 64;
 
-/// Parts a wide area into one for the axes and one for the lines, so that these cover nothing.
+/// Axes have at least this height.
+const LOW: u16 = 6;
+
+/// Parts an area into one for the axes and one for the lines, so that these cover nothing.
 pub(super) fn beside(
     area: Rect,
     layers: &[(Level, Layer)],
@@ -32,16 +35,47 @@ pub(super) fn beside(
             let [axes, lines] = Layout::horizontal(parts).areas(area);
             (axes, Some(lines))
         }
-        _ => (area, None),
+        Some(_) => {
+            let wanted = u16::try_from(wrapped(area, layers, look)).unwrap_or(u16::MAX);
+            let room = (area.height / 2).min(area.height.saturating_sub(LOW));
+            let parts = [Constraint::Length(wanted.min(room)), Constraint::Min(0)];
+            let [lines, axes] = Layout::vertical(parts).areas(area);
+            if lines.height == 0 { (area, None) } else { (axes, Some(lines)) }
+        }
+        None => (area, None),
     }
 }
 
-/// Writes lines from the top, wrapped, as far as there is room for them.
+/// The number of rows of all lines.
+fn wrapped(area: Rect, layers: &[(Level, Layer)], look: &RenderStyle) -> usize {
+    let lines = layers.iter().map(|(_, layer)| match layer {
+        Layer::Legend(lines) => rows(area, lines, look).count(),
+        _ => 0,
+    });
+    lines.sum()
+}
+
+/// The rows of some lines in the width of an area.
+fn rows<'a>(
+    area: Rect,
+    lines: &'a [String],
+    look: &'a RenderStyle,
+) -> impl Iterator<Item = String> + 'a {
+    let room = usize::from(area.width).saturating_sub(2).max(1);
+    lines.iter().flat_map(move |line| wrap::words(&look.glyphs.text(line), room))
+}
+
+/// Writes lines from the top, wrapped, as far as there is room for them; where there is not, the last row says so.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lines: &[String]) {
     let look = canvas.look;
     let room = usize::from(area.width).saturating_sub(2);
-    let wrapped = lines.iter().flat_map(|line| wrap::words(&look.glyphs.text(line), room.max(1)));
-    for (y, line) in (area.y..area.bottom()).zip(wrapped) {
+    let mut rows = rows(area, lines, look).peekable();
+    for y in area.y..area.bottom() {
+        let Some(mut line) = rows.next() else { break };
+        if y + 1 == area.bottom() && rows.peek().is_some() {
+            let short: String = line.chars().take(room.saturating_sub(2)).collect();
+            line = look.glyphs.text(&format!("{short} …")).into_owned();
+        }
         let line = format!("{line} ");
         canvas.buffer.set_stringn(area.x + 1, y, line, room, look.theme[Role::Text]);
     }

@@ -37,6 +37,7 @@ fn methods() -> String {
         let keeps = match method.preserves {
             Preserves::Nothing => "–",
             Preserves::Symplectic => "the symplectic form",
+            Preserves::SymplecticReversible => "the symplectic form, reversibility",
         };
         let needs = if method.needs.is_empty() { "–" } else { method.needs };
         writeln!(table, "| `{}` | {order} | {steps} | {keeps} | {needs} |", method.name).unwrap();

@@ -346,8 +346,8 @@ fn tangent_vectors_do_not_act_on_the_motion() {
     for method in METHODS {
         for name in ["henon-heiles", "double-pendulum", "planet"] {
             let (system, start, parameters) = preset(name);
-            // the iteration of Gauss's methods may end a pass earlier where fewer numbers move
-            let gauss = method.name.starts_with("gauss");
+            // the iteration of an implicit method may end a pass earlier where fewer numbers move
+            let gauss = method.name.starts_with("gauss") || method.name == "symplectic-euler";
             if (method.fits)(&system).is_err() || (gauss && name == "planet") {
                 continue;
             }
@@ -395,7 +395,7 @@ fn a_method_of_fixed_step_has_the_derivative_of_its_own_map() {
             let apart = apart.fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
             // the map of the method is not the flow
             assert!(apart > 1e-9, "{} of {name}: {apart:e}", method.name);
-            if method.preserves == phaselab::integrate::Preserves::Symplectic {
+            if method.preserves.is_symplectic() {
                 let residual = symplectic_residual(&found);
                 assert!(
                     residual < 1e-12 * largest(&found),

@@ -1,7 +1,9 @@
 //! The orbit in the new variables of a transformation: the grid of the old ones, and what is said of the map.
 
-use phaselab::app::{App, Pane};
-use phaselab::instrument::{Ink, Layer, Picture, Plot};
+use phaselab::app::{App, Event, Pane};
+use phaselab::diagnostic::Document;
+use phaselab::experiment::Prepared;
+use phaselab::instrument::{Ink, Layer, Picture, Plot, Sign};
 use phaselab::num::math;
 use phaselab::preset;
 
@@ -45,7 +47,7 @@ fn the_oscillator_by_its_angle_has_the_grid_of_q_and_p() {
     press(&mut app, "Wait");
     let [by_angle, polar] = &plots(&app)[..] else { panic!("the file has two") };
     let (grid, words) = shown(&app, by_angle);
-    assert_eq!(words, ["canonical, proved", "K = ω P"]);
+    assert_eq!(words, ["canonical, proved", "K = ω P", "ring, dim grid: the other branch"]);
     assert_eq!(measure(&app, by_angle, "canonical"), 1.0);
     assert!(measure(&app, by_angle, "residual") < 1e-12);
     assert!(grid.len() >= 14, "seven lines of each, some of them parted: {}", grid.len());
@@ -216,4 +218,139 @@ fn has_the_grid_of_a_twist(axes: [&str; 2]) {
         constant[axis] += 1;
     }
     assert_eq!(constant, [7, 7]);
+}
+
+/// An oscillator with the transformation of an F2, at times one after the other.
+struct Course {
+    app: App,
+    experiment: phaselab::experiment::Experiment,
+}
+
+impl Course {
+    fn of(start: [f64; 2], function: &str) -> Course {
+        let [q, p] = start;
+        let text = format!(
+            "title = \"t\"\n[coordinates]\nq = {{ initial = {q}, momentum = {p} }}\n[hamiltonian]\n\
+             H = \"p_q^2/2 + q^2/2\"\n[[transformations]]\nname = \"a\"\nkind = \"F2\"\nnew = [\"Q\", \"P\"]\n\
+             F = \"{function}\"\n[[views]]\nkind = \"transformation\"\nx = \"Q\"\ny = \"P\"\n"
+        );
+        let app = begun(&text);
+        let ready =
+            Prepared::of(&Document::new("test", &text)).unwrap_or_else(|why| panic!("{why}"));
+        let mut experiment = ready.experiment;
+        experiment.set_epoch(1);
+        Course { app, experiment }
+    }
+
+    fn go(&mut self, time: f64) {
+        self.experiment.advance(time, 1_000_000);
+        self.app.update(Event::Snapshot(std::sync::Arc::new(self.experiment.snapshot())));
+        press(&mut self.app, "Wait");
+    }
+
+    /// The lines of the grid, whole or dim, the images on other branches, and the legend.
+    #[allow(clippy::type_complexity, reason = "the parts of one picture")]
+    fn seen(&self) -> ([Vec<Vec<[f64; 2]>>; 2], Vec<[f64; 2]>, Vec<String>) {
+        let lab = self.app.lab.as_ref().expect("a lab");
+        let [plot] = &plots(&self.app)[..] else { panic!("the file has one") };
+        let present = lab.present().expect("a motion");
+        let picture = plot.kind.picture(plot, &present, [0.0, 1.0], lab.answer(plot));
+        let Some(Picture::Axes { layers, .. }) = picture else { panic!("it has axes") };
+        let (mut grids, mut others, mut words) = ([vec![], vec![]], vec![], vec![]);
+        for (_, layer) in layers {
+            match layer {
+                Layer::Line(line, stroke) => {
+                    grids[usize::from(stroke.covering.is_some())].push(line);
+                }
+                Layer::Point(at, Sign::Ring, Ink::Level) => others.push(at),
+                Layer::Legend(lines) => words = lines,
+                _ => {}
+            }
+        }
+        (grids, others, words)
+    }
+
+    fn value(&self, name: &str) -> f64 {
+        let lab = self.app.lab.as_ref().expect("a lab");
+        let present = lab.present().expect("a motion");
+        let channels = present.physics.system.channels();
+        present.value(channels.iter().position(|c| c.name == name).expect(name))
+    }
+}
+
+/// F2 = q P²/2: p = P²/2 and Q = q P, so that P = ±√(2p): both roots are drawn, and where P alone solves there is but one.
+#[test]
+fn both_square_roots_are_drawn() {
+    let mut course = Course::of([0.3, 0.9], "q*P^2/2");
+    for time in [0.2, 0.5] {
+        course.go(time);
+        let ([whole, dim], others, words) = course.seen();
+        let image = ["Q", "P"].map(|name| course.value(name));
+        assert!((image[1].abs() - (2.0 * course.value("p_q")).sqrt()).abs() < 1e-14);
+        let [other] = others[..] else { panic!("{others:?}, {words:?}") };
+        assert!((0..2).all(|k| (other[k] + image[k]).abs() < 1e-12), "{other:?} of {image:?}");
+        assert!(words.iter().any(|line| line.contains("the other branch")), "{words:?}");
+        let side = |lines: &[Vec<[f64; 2]>], sign: f64| {
+            !lines.is_empty() && lines.iter().flatten().all(|at| at[1] * sign >= -1e-9)
+        };
+        assert!(side(&whole, image[1]) && side(&dim, -image[1]));
+        // along each dim line q = Q/P or p = P²/2 is constant
+        for line in &dim {
+            let old = |k: usize| {
+                line.iter().map(move |at| if k == 0 { at[0] / at[1] } else { at[1] * at[1] / 2.0 })
+            };
+            let spread =
+                |k: usize| old(k).fold(f64::MIN, f64::max) - old(k).fold(f64::MAX, f64::min);
+            assert!(spread(0).min(spread(1)) < 1e-9, "{} {}", spread(0), spread(1));
+        }
+    }
+    let mut single = Course::of([0.3, 0.9], "q*P + 0.1*sin(q + P)");
+    single.go(0.2);
+    let ([_, dim], others, words) = single.seen();
+    assert!(dim.is_empty() && others.is_empty(), "{words:?}");
+}
+
+/// p = P³ − 3P + sin P/10: beyond p ≈ ±2 the branch in the middle ends, and then each of the outer ones beyond the other side.
+/// The grid is that of the image's own branch, after a whole turn too, when its window no longer grows.
+#[test]
+fn the_grid_changes_its_branch_with_the_image() {
+    let mut course = Course::of([-3.0, 0.0], "q*(P^3 - 3*P + 0.1*sin(P))");
+    let turn = std::f64::consts::TAU;
+    for k in 1..60 {
+        course.go(turn * f64::from(k) / 60.0);
+    }
+    for (part, sign) in [(1.25, 1.0), (1.75, -1.0), (2.25, 1.0)] {
+        course.go(turn * part);
+        let image = course.value("P");
+        assert!(image * sign > 1.0, "P = {image} at {part}");
+        let ([whole, _], _, words) = course.seen();
+        let outside = whole.iter().flatten().filter(|at| at[1] * sign < 0.5).count();
+        assert!(!whole.is_empty() && outside == 0, "{outside} points of another branch, {words:?}");
+    }
+}
+
+/// No stroke joins two branches, whichever observation it is that has no image, while frames are seen between the rows.
+#[test]
+fn a_trail_is_parted_at_a_caustic() {
+    let text = "title = \"t\"\n[coordinates]\nq = { initial = -3.0, momentum = 0.0 }\n[hamiltonian]\n\
+        H = \"p_q^2/2 + q^2/2\"\n[[transformations]]\nname = \"a\"\nkind = \"F2\"\nnew = [\"Q\", \"P\"]\n\
+        F = \"q*(P^3 - 3*P + 0.1*sin(P))\"\n[[views]]\nkind = \"transformation\"\nx = \"Q\"\ny = \"P\"\n";
+    let mut jumps = 0;
+    for frames in [0.0, 0.0007, 0.003, 0.011] {
+        let ready =
+            Prepared::of(&Document::new("test", text)).unwrap_or_else(|why| panic!("{why}"));
+        let mut experiment = ready.experiment;
+        let mut time = 0.0;
+        while time < 20.0 {
+            time += if frames > 0.0 { frames } else { 20.0 };
+            experiment.advance(time, 1_000_000);
+        }
+        let place = ready.system.channels().iter().position(|c| c.name == "P").expect("a channel");
+        let trail = experiment.snapshot().trail.clone();
+        let rows: Vec<f64> = trail.rows().map(|row| row[1 + place]).collect();
+        let joined = rows.windows(2).filter(|pair| (pair[1] - pair[0]).abs() > 1.5).count();
+        assert_eq!(joined, 0, "strokes between branches with a frame every {frames}");
+        jumps += rows.split(|x| x.is_nan()).filter(|part| !part.is_empty()).count() - 1;
+    }
+    assert!(jumps >= 20, "{jumps}: five changes of branch or more each time");
 }

@@ -228,14 +228,14 @@ impl JsonReport<'_> {
         all.collect()
     }
 
-    /// F1 … F4 where they exist, and why others do not.
+    /// F1 … F4 and those of mixed types where they exist, and why others do not.
     fn generating_functions(&self, known: &[GeneratingFunction]) -> Value {
         let all = known.iter().map(|one| {
             let value = match &one.function {
                 Ok(e) => json!({ "F": self.text(*e), "proved": one.proved }),
                 Err(why) => json!({ "F": null, "why": why.to_string() }),
             };
-            (one.of.name().to_owned(), value)
+            (one.name(), value)
         });
         Value::Object(all.collect())
     }

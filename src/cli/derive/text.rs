@@ -389,7 +389,7 @@ impl TextReport<'_> {
                 self.line(&format!("  a scale transformation of valence {}", self.math(valence)));
             }
             for one in &known.functions {
-                let name = one.of.name();
+                let name = one.name();
                 let words = match &one.function {
                     Ok(e) if one.proved => format!("{} = {}", name, self.math(*e)),
                     Ok(e) => format!("{} = {}   (near the start)", name, self.math(*e)),

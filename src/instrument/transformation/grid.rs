@@ -21,7 +21,10 @@ const WAY: usize = 16;
 const ACROSS: usize = 5;
 
 /// Two old variables, and the range of each.
-type Old = ([Symbol; 2], [[f64; 2]; 2]);
+pub(super) type Old = ([Symbol; 2], [[f64; 2]; 2]);
+
+/// A point of a grid, and its image.
+pub(super) type Node = ([f64; 2], [f64; 2]);
 
 /// The lines of new variables that are written down.
 pub(super) fn written(
@@ -46,16 +49,15 @@ pub(super) fn written(
     all
 }
 
-/// The lines of new variables that are solved for, on the branch of the image in `at`. Where the point has none, on that
-/// of the first place of the window that has one.
+/// The lines of new variables that are solved for, on the branch of the image in `at`, and the points of them.
 pub(super) fn solved(
     pool: &Pool,
     map: &ImplicitMap,
     at: &Valuation,
     (new, (old, window)): ([Symbol; 2], Old),
-) -> Vec<Vec<[f64; 2]>> {
-    let Some(at) = with_image(pool, map, at, (new, (old, window))) else { return Vec::new() };
-    let mut all = Vec::new();
+) -> (Vec<Vec<[f64; 2]>>, Vec<Node>) {
+    let here = [old, new].map(|symbols| symbols.map(|s| at.at(s)));
+    let (mut all, mut nodes) = (Vec::new(), vec![(here[0], here[1])]);
     for constant in [0, 1] {
         let other = 1 - constant;
         for line in 0..LINES {
@@ -78,17 +80,18 @@ pub(super) fn solved(
                     let next = last.with([(old[other], place(window[other], k, POINTS))]);
                     let Some(image) = map.near(pool, next) else { break };
                     line[k] = new.map(|s| image.at(s));
+                    nodes.push((old.map(|s| image.at(s)), line[k]));
                     last = image;
                 }
             }
             all.extend(parted(&line));
         }
     }
-    all
+    (all, nodes)
 }
 
 /// The point itself if its image is known, else that point or one of the window, with the image that is found.
-fn with_image(
+pub(super) fn with_image(
     pool: &Pool,
     map: &ImplicitMap,
     at: &Valuation,

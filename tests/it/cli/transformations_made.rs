@@ -111,6 +111,29 @@ fn what_is_made_of_nothing_is_a_mistake() {
     );
 }
 
+/// Zeros are located along a step; of an image that is solved for that is refused with its reason, of one in closed form
+/// it is done.
+#[test]
+fn an_event_on_an_image_that_is_solved_numerically_is_refused() {
+    let text = |f: &str, when: &str| {
+        format!(
+            "title = \"T\"\n[coordinates]\nq = {{ initial = 0.4, momentum = 0.3 }}\n[hamiltonian]\n\
+             H = \"p_q^2/2 + q^2/2\"\n[[transformations]]\nname = \"twist\"\nkind = \"F2\"\nnew = [\"Q\", \"P\"]\n\
+             F = \"{f}\"\n[[events]]\nname = \"zero\"\nwhen = \"{when}\"\naction = \"mark\"\n"
+        )
+    };
+    let implicit = text("q*P + 0.1*sin(q + P)", "P - 0.1");
+    for command in ["check", "run", "derive"] {
+        with_file(&implicit, &[command, "system.toml"]).fails(
+            65,
+            &["zeros cannot be located on `P`", "`twist` has no closed form", "old variables"],
+        );
+    }
+    let until = ["run", "system.toml", "--until", "3"];
+    assert_eq!(with_file(&text("q*P + 0.1*q^2", "P - 0.1"), &until).code, 0);
+    assert_eq!(with_file(&text("q*P + 0.1*sin(q + P)", "p_q - 0.1"), &until).code, 0);
+}
+
 /// The differential of each generating function, by differences at points of the map: p dq − P dQ and the like.
 fn check_functions(given: &str, old: [&str; 2], expected: [bool; 4]) {
     let found = derived(&[given]).remove(0);
@@ -186,6 +209,48 @@ fn the_other_three_generating_functions() {
     check_functions(&point, ["q^3", "p_q/(3*q^2)"], [false, true, true, true]);
 }
 
+/// F = x A₁ + y B₂ + c x y, of type F1 in the first pair and F2 in the second: A₁ = p_x − c y, A₂ = y, B₁ = −x, B₂ = p_y − c x,
+/// and by hand five of the sixteen choices have independent variables. None is the same for both pairs.
+#[test]
+fn of_mixed_types_the_others_that_exist() {
+    let text = "title = \"T\"\n[coordinates]\nx = { initial = 0.3, momentum = 0.2 }\ny = { initial = 0.1, momentum = 0.4 }\n\
+        [parameters]\nc = 0.7\n[hamiltonian]\nH = \"p_x^2/2 + p_y^2/2\"\n[[transformations]]\nname = \"a\"\n\
+        types = [\"F1\", \"F2\"]\nF = \"x*A1 + y*B2 + c*x*y\"\nnew = [\"A1\", \"A2\", \"B1\", \"B2\"]\n";
+    let found = with_file(text, &["derive", "system.toml", "--format", "json"]).json();
+    let functions = found["transformations"][0]["generating_functions"].as_object().expect("some");
+    assert_eq!(functions.len(), 16);
+    let mut model = names(&["z"], &["x", "y", "px", "py", "A1", "B1", "A2", "B2", "c"]);
+    let expected = [
+        ("F1, F2", "x*A1 + y*B2 + c*x*y"),
+        ("F1, F3", "x*A1 - py*A2 + c*x*A2"),
+        ("F4, F2", "px*B1 + y*B2 - c*y*B1"),
+        ("F4, F3", "px*B1 - py*A2 - c*A2*B1"),
+        ("F3, F4", "-(px - A1)*(py - B2)/c"),
+    ];
+    for (name, one) in functions {
+        let by_hand = expected.iter().find(|(known, _)| known == name);
+        let written = one["F"].as_str();
+        assert_eq!(written.is_some(), by_hand.is_some(), "{name}: {one}");
+        match (written, by_hand) {
+            (Some(written), Some((_, by_hand))) => {
+                let written = written.replace("p_x", "px").replace("p_y", "py");
+                let both = [written.as_str(), *by_hand].map(|text| read(&mut model, text));
+                let apart = model.pool.sub(both[0], both[1]);
+                assert_eq!(
+                    model.pool.is_zero(apart),
+                    phaselab::expr::Zero::Proved,
+                    "{name} = {written}"
+                );
+                assert_eq!(one["proved"], true, "{name}");
+            }
+            _ => assert!(
+                one["why"].as_str().is_some_and(|why| why.contains("not independent")),
+                "{one}"
+            ),
+        }
+    }
+}
+
 /// Symplectic Euler is F2 = q P + h H(q, P); Störmer and Verlet's step is one of half the length and then the inverse of one
 /// backwards: the map of these generating functions is the step that the method takes, to rounding.
 /// Source: Hairer, Lubich & Wanner, *Geometric Numerical Integration*, §§ II.4, VI.5.
@@ -210,11 +275,16 @@ fn a_step_of_the_leapfrog_is_a_composition_of_generating_functions() {
     for map in maps["transformations"].as_array().expect("a list") {
         assert_eq!((&map["canonical"], &map["proved"]), (&json!(true), &json!(true)), "{map}");
     }
+    check_step(&text, "leapfrog", 0.1, [["X", "q"], ["Y", "p_q"]]);
+}
+
+/// Whether new variables at the start are old ones after one step of a method, to rounding.
+fn check_step(text: &str, method: &str, step: f64, pairs: [[&str; 2]; 2]) {
     let row = |words: &[&str]| -> (Vec<String>, Vec<f64>) {
         let words = [&["run", "system.toml", "--format", "json"], words].concat();
         // the long step is warned of on standard error
         let found: Value =
-            serde_json::from_str(&with_file(&text, &words).stdout).expect("an object");
+            serde_json::from_str(&with_file(text, &words).stdout).expect("an object");
         let names = found["columns"].as_array().expect("columns").iter();
         let last = found["rows"].as_array().expect("rows").last().expect("a row").as_array();
         let last = last.expect("a row").iter().map(|x| x.as_f64().unwrap_or(f64::NAN)).collect();
@@ -223,12 +293,33 @@ fn a_step_of_the_leapfrog_is_a_composition_of_generating_functions() {
     let of = |(names, row): &(Vec<String>, Vec<f64>), name: &str| {
         row[names.iter().position(|n| n == name).unwrap_or_else(|| panic!("{name}: {names:?}"))]
     };
-    let start = row(&["--at", "0", "--observe", "X=X", "--observe", "Y=Y"]);
-    let stepped = row(&["--method", "leapfrog", "--step", "0.1", "--at", "0.1"]);
-    for (map, method) in [("X", "q"), ("Y", "p_q")] {
-        let (map, method) = (of(&start, map), of(&stepped, method));
-        assert!((map - method).abs() < 1e-15, "{map} is not {method}");
+    let observed = pairs.map(|[new, _]| format!("{new}={new}"));
+    let start = row(&["--at", "0", "--observe", &observed[0], "--observe", &observed[1]]);
+    let step = step.to_string();
+    let stepped = row(&["--method", method, "--step", &step, "--at", &step]);
+    for [new, old] in pairs {
+        let (map, taken) = (of(&start, new), of(&stepped, old));
+        assert!((map - taken).abs() < 1e-15, "{method}: {new} = {map}, {old} = {taken}");
+        // and that is no accident of a step that does nothing
+        assert!((taken - of(&start, old)).abs() > 0.01, "{method}: {old} = {taken}");
     }
-    // and that is no accident of a step that does nothing
-    assert!((of(&stepped, "q") - 0.8).abs() > 0.04);
+}
+
+/// The shipped preset's map is the method's step; so it is where H does not separate, at two degrees of freedom, where
+/// the map is solved numerically as the step is, and explicit Euler's map is not.
+#[test]
+fn a_step_of_symplectic_euler_is_the_map_of_its_generating_function() {
+    let preset = include_str!("../../../presets/canonical/symplectic-euler.toml");
+    check_step(preset, "symplectic-euler", 0.1, [["Q1", "q"], ["P1", "p_q"]]);
+    let explicit = std::panic::catch_unwind(|| {
+        check_step(preset, "symplectic-euler", 0.1, [["Q2", "q"], ["P2", "p_q"]]);
+    });
+    assert!(explicit.is_err(), "a step of explicit Euler is another map");
+    let entangled = "title = \"T\"\n\
+        [coordinates]\nx = { initial = 0.8, momentum = 0.5 }\ny = { initial = -0.3, momentum = 0.7 }\n\
+        [parameters]\nh = 0.05\n[hamiltonian]\nH = \"(1 + x^2)*p_x^2/2 + p_y^2/(2 + cos(x*y)) + x^4*p_y + sin(y)\"\n\
+        [[transformations]]\nname = \"step\"\nkind = \"F2\"\nnew = [\"X\", \"Y\", \"U\", \"V\"]\n\
+        F = \"x*U + y*V + h*((1 + x^2)*U^2/2 + V^2/(2 + cos(x*y)) + x^4*V + sin(y))\"\n";
+    check_step(entangled, "symplectic-euler", 0.05, [["X", "x"], ["U", "p_x"]]);
+    check_step(entangled, "symplectic-euler", 0.05, [["Y", "y"], ["V", "p_y"]]);
 }

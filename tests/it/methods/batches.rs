@@ -1,6 +1,6 @@
 //! Steps that nobody looks at: taken many at once, with the bits of single ones.
 
-use phaselab::integrate::{Method, Preserves, Settings, Stepper};
+use phaselab::integrate::{Method, Settings, Stepper};
 use phaselab::system::Form;
 
 use super::{
@@ -53,7 +53,7 @@ fn many_steps_at_once_have_the_bits_of_single_ones() {
         [pendulum(), henon_heiles(), kepler(0.3), rich(), driven(), double_pendulum(), heavy_top()];
     for case in cases {
         for method in fixed().filter(|method| (method.fits)(&case.system).is_ok()) {
-            let long = method.preserves == Preserves::Symplectic && case.system.separable().is_ok();
+            let long = method.preserves.is_symplectic() && case.system.separable().is_ok();
             let times = if long { &times[..] } else { &[0.5, 0.75, -0.25] };
             same(&case, method, 0.01, times);
         }

@@ -34,7 +34,7 @@ fn limit(case: &Case, method: &Method, step: f64) -> Option<f64> {
 #[test]
 fn the_limit_told_is_where_amplitudes_begin_to_grow() {
     let case = oscillator(1.0, 1.0, 1.0);
-    for name in ["leapfrog", "yoshida4", "yoshida6", "yoshida8", "rk4"] {
+    for name in ["leapfrog", "symplectic-euler", "yoshida4", "yoshida6", "yoshida8", "rk4"] {
         let method = named(name);
         let limit = limit(&case, method, 5.0).unwrap_or_else(|| panic!("{name}"));
         assert!(go(case.stepper(method, 0.98 * limit).as_mut(), 4000) < 30.0, "{name} {limit}");
@@ -50,13 +50,14 @@ fn the_limit_told_is_where_amplitudes_begin_to_grow() {
 
 #[test]
 fn known_limits_are_met() {
-    // 2 for the leapfrog; 2√2 on the imaginary axis and 2.785… on the real one for rk4
+    // 2 for the leapfrog and its conjugate; 2√2 on the imaginary axis and 2.785… on the real one for rk4
     let case = oscillator(1.0, 1.0, 1.0);
     let near = |found: Option<f64>, wanted: f64| {
         let found = found.expect("told");
         assert!((found / wanted - 1.0).abs() < 0.02, "{found} for {wanted}");
     };
     near(limit(&case, named("leapfrog"), 2.3), 2.0);
+    near(limit(&case, named("symplectic-euler"), 2.3), 2.0);
     near(limit(&case, named("rk4"), 3.0), 8_f64.sqrt());
     let damped = dissipative(&["x"], &[], "1/2*x'^2 - 1/2*x^2", "500*x'^2", &["0"]);
     let damped = self::case(damped, Form::Velocity, &[1.0, 0.0]);

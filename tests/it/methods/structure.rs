@@ -47,7 +47,9 @@ fn the_symplectic_form_is_kept_by_those_who_say_so_and_by_no_other() {
             let defect = defect(&case, method, step, 3.0);
             let name = method.name;
             match method.preserves {
-                Preserves::Symplectic => assert!(defect < 1e-8, "{name}: {defect:e}"),
+                Preserves::Symplectic | Preserves::SymplecticReversible => {
+                    assert!(defect < 1e-8, "{name}: {defect:e}");
+                }
                 Preserves::Nothing => assert!(defect > 1e-7, "{name}: {defect:e}"),
             }
         }
@@ -75,8 +77,12 @@ fn symmetric_methods_find_the_way_back() {
             assert_eq!(stepper.time(), 0.0);
             let error = distance(&back, &case.start);
             match method.preserves {
-                Preserves::Symplectic => assert!(error < 3e-14, "{}: {error:e}", method.name),
-                Preserves::Nothing => assert!(error > 1e-8, "{}: {error:e}", method.name),
+                Preserves::SymplecticReversible => {
+                    assert!(error < 3e-14, "{}: {error:e}", method.name);
+                }
+                Preserves::Symplectic | Preserves::Nothing => {
+                    assert!(error > 1e-8, "{}: {error:e}", method.name);
+                }
             }
         }
     }
@@ -89,7 +95,8 @@ fn every_method_goes_backwards_from_the_start() {
         let before = case.run(method, 1e-3, -1.0);
         assert_eq!(before.time, -1.0);
         let error = distance(&before, &case.exact(-1.0));
-        assert!(error < 1e-6, "{}: {error:e}", method.name);
+        let allowed = if method.order == Some(1) { 2e-3 } else { 1e-6 };
+        assert!(error < allowed, "{}: {error:e}", method.name);
     }
 }
 
@@ -111,7 +118,8 @@ fn a_look_between_steps_disturbs_nothing() {
             let state = case.system.convert(&state, case.start.form, &case.parameters);
             let state = state.expect("converts");
             let error = distance(&state, &case.exact(state.time));
-            assert!(error < 2e-2, "{}: {error:e}", method.name);
+            let allowed = if method.order == Some(1) { 0.5 } else { 2e-2 };
+            assert!(error < allowed, "{}: {error:e}", method.name);
         }
     }
 }

@@ -358,7 +358,16 @@ fn length(case: &mut Case, dice: &mut Dice) {
 }
 
 fn method(case: &mut Case, dice: &mut Dice) {
-    let fixed = ["leapfrog", "yoshida4", "yoshida6", "yoshida8", "gauss4", "gauss6", "rk4"];
+    let fixed = [
+        "leapfrog",
+        "yoshida4",
+        "yoshida6",
+        "yoshida8",
+        "gauss4",
+        "gauss6",
+        "symplectic-euler",
+        "rk4",
+    ];
     match dice.below(10) {
         0..=4 => {}
         5 | 6 => {

@@ -1,6 +1,6 @@
-//! The coefficients of Gauss's methods with two and three stages.
+//! The coefficients of implicit Runge–Kutta methods: Gauss's with two and three stages, and one stage at the end.
 //!
-//! Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, table II.1.1.
+//! Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, tables II.1.1, II.1.2.
 
 use crate::num::{Analytic, DoubleDouble};
 
@@ -15,6 +15,12 @@ pub(super) struct Tableau {
     pub(super) matrix: Vec<Vec<DoubleDouble>>,
     /// Row i: the polynomial through the slopes at the nodes, evaluated at 1 + c_i.
     pub(super) onward: Vec<Vec<f64>>,
+}
+
+/// A single stage that has moved by the whole step; it is taken at the time at which the step begins.
+pub(super) fn of_the_end() -> Tableau {
+    let one = DoubleDouble::from(1.0);
+    Tableau::new(vec![DoubleDouble::ZERO], vec![one], vec![vec![one]])
 }
 
 pub(super) fn of_two_stages() -> Tableau {

@@ -1,0 +1,114 @@
+//! The branches of a map whose relations have several images at a point, as both square roots.
+//!
+//! In: the relations of one pair of variables, a point with an image. Out: the grid of that image's branch and of the
+//! others, and the images of the moving point on each, found next to those of the grid. Never here: drawing.
+//!
+//! An image found next to one of the grid belongs to the branch on which that was drawn; where the motion's own image is
+//! another, it has changed its branch, and the grids are drawn anew.
+
+use std::sync::Arc;
+
+use super::grid::{self, Node, Old};
+use crate::expr::Symbol;
+use crate::mechanics::{Equations, ImplicitMap, Valuation};
+
+/// So many other branches are drawn; where there are more, as of an angle without a period, none.
+const MOST: usize = 3;
+
+/// The steps from a point of a grid to one next to it.
+const WAY: u32 = 8;
+
+/// Images are the same if they differ by less than this part of their size.
+const SAME: f64 = 1e-6;
+
+/// The branches of a map around a point.
+pub(super) struct Branches {
+    equations: Arc<Equations>,
+    map: ImplicitMap,
+    new: [Symbol; 2],
+    periods: [Option<f64>; 2],
+    old: Old,
+    main: Vec<Node>,
+    others: Vec<Vec<Node>>,
+    /// The lines of the other branches.
+    pub(super) lines: Vec<Vec<[f64; 2]>>,
+}
+
+impl Branches {
+    /// The lines of the branch of the image in `at`, and the branches around it; `None` if no image is found.
+    pub(super) fn around(
+        (equations, map): (Arc<Equations>, ImplicitMap),
+        at: &Valuation,
+        (new, periods): ([Symbol; 2], [Option<f64>; 2]),
+        old: Old,
+    ) -> Option<(Vec<Vec<[f64; 2]>>, Branches)> {
+        let pool = &equations.pool;
+        let at = grid::with_image(pool, &map, at, (new, old))?;
+        let (lines, main) = grid::solved(pool, &map, &at, (new, old));
+        let of = |image: &Valuation| new.map(|s| image.at(s));
+        let mut images = vec![at.clone()];
+        for image in map.images(pool, &at) {
+            if images.iter().all(|known| !same(of(known), of(&image), periods)) {
+                images.push(image);
+            }
+        }
+        if images.len() > 1 + MOST {
+            images.truncate(1);
+        }
+        let (mut all, mut others) = (Vec::new(), Vec::new());
+        for image in &images[1..] {
+            let (lines, nodes) = grid::solved(pool, &map, image, (new, old));
+            all.extend(lines);
+            others.push(nodes);
+        }
+        let branches = Branches { map, new, periods, old, main, others, lines: all, equations };
+        Some((lines, branches))
+    }
+
+    /// The number of other branches.
+    pub(super) fn others(&self) -> usize {
+        self.others.len()
+    }
+
+    /// The images of a point on the other branches.
+    pub(super) fn images(&self, at: &Valuation) -> Vec<[f64; 2]> {
+        self.others.iter().filter_map(|nodes| self.next_to(nodes, at)).collect()
+    }
+
+    /// Whether the image in `at` is not on the branch of the grid, which may have ended there.
+    pub(super) fn has_left(&self, at: &Valuation) -> bool {
+        let image = self.new.map(|s| at.at(s));
+        image.iter().all(|x| x.is_finite())
+            && !self.next_to(&self.main, at).is_some_and(|own| same(own, image, self.periods))
+    }
+
+    /// The image of a point on the branch of the nodes, from the nearest of them.
+    fn next_to(&self, nodes: &[Node], at: &Valuation) -> Option<[f64; 2]> {
+        let (symbols, window) = self.old;
+        let here = symbols.map(|s| at.at(s));
+        let distance = |(place, _): &Node| {
+            let part = |k: usize| (place[k] - here[k]) / (window[k][1] - window[k][0]);
+            part(0).powi(2) + part(1).powi(2)
+        };
+        let nearest = nodes.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        let begin = at.clone().with(self.new.into_iter().zip(nearest.1));
+        let found = (1..=WAY).try_fold(begin, |near, k| {
+            let share = f64::from(k) / f64::from(WAY);
+            let place = |i: usize| {
+                if k == WAY { here[i] } else { nearest.0[i] + (here[i] - nearest.0[i]) * share }
+            };
+            let next = near.with([0, 1].map(|i| (symbols[i], place(i))));
+            self.map.near(&self.equations.pool, next)
+        })?;
+        Some(self.new.map(|s| found.at(s)))
+    }
+}
+
+/// Whether two images are the same, but for whole turns.
+fn same(a: [f64; 2], b: [f64; 2], periods: [Option<f64>; 2]) -> bool {
+    (0..2).all(|k| {
+        let apart = a[k] - b[k];
+        let apart = periods[k].map_or(apart, |turn| apart - turn * (apart / turn).round());
+        apart.abs() <= SAME * (1.0 + a[k].abs().max(b[k].abs()))
+    })
+}

@@ -1,0 +1,274 @@
+//! Implicit Runge–Kutta methods in canonical form, whose stages are solved for by iteration.
+//!
+//! Y_i = y + h Σ_j a_ij f(t + c_i h, Y_j) is solved by iteration, and y moves by h Σ_j b_j f(Y_j).
+//! In a partitioned method the momenta alone move to the stages, and all else stays at y.
+//!
+//! - The iteration starts from the extrapolated polynomial of the step before.
+//! - It ends when no number of any stage moves less from one pass to the next, each by itself and
+//!   all together: the rest is rounding. Fewer passes would leave an error of the same sign at
+//!   every step. A number may rest for a pass while what it depends on still moves, as at a turning
+//!   point; when it moves on, it no longer counts as at rest.
+//! - The last pass uses all digits of the coefficients, and sums are compensated, for the same
+//!   reason: energy then performs a random walk.
+//!
+//! In: a tableau, a system. Out: a scheme of fixed step. Never here: the rows of the table.
+//!
+//! Sources: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, II.1.3, VI.1.1,
+//! VIII.6; E. Hairer, R. McLachlan, A. Razakarivony, BIT Numerical Mathematics 48 (2008) 231.
+
+use super::fixed::Scheme;
+use super::method::{Method, MethodError};
+use super::roundoff;
+use super::tableau::Tableau;
+use crate::num::DoubleDouble;
+use crate::system::{Form, MotionError, MotionErrorKind, Rates, State, System};
+
+/// The maximal number of passes.
+const PASSES: usize = 120;
+
+/// A number counts as moving by rounding alone only if it moves by less than this part of its size
+/// …
+const SMALL: f64 = 1e-9;
+
+/// … or, checked after every so many passes, by less than this multiple of the rounding of its
+/// rate.
+const PATIENCE: usize = 12;
+const ROUNDINGS: f64 = 64.0;
+
+/// A number that has come to rest moves on if it moves by more than this multiple of what it moved
+/// by then, or of its last digit.
+const RESTLESS: f64 = 4.0;
+
+/// Checks that the method has the properties it is chosen for.
+pub(super) fn fits(method: &Method, system: &System) -> Result<(), MethodError> {
+    if system.constraints() > 0 {
+        let reason = "the motion is held to constraints, and would no longer be symplectic";
+        return Err(MethodError { method: method.name, reason: reason.to_owned() });
+    }
+    Ok(())
+}
+
+/// The scheme of a tableau.
+#[derive(Clone)]
+pub(super) struct Implicit {
+    rates: Rates,
+    tableau: Tableau,
+    /// The numbers that stay as they are at the stages of a partitioned method.
+    held: Vec<bool>,
+    /// The slopes at the stages; before a step those of the step before, if `contiguous`.
+    slopes: Vec<Vec<f64>>,
+    contiguous: bool,
+    stages: Vec<Vec<f64>>,
+    /// The movement of each number in the last pass, and in the one before.
+    moves: Vec<[f64; 2]>,
+    /// The movement up to which each number has come to rest, if it has.
+    resting: Vec<Option<f64>>,
+    /// The largest movement of any number, in units of its size, in the last two passes.
+    largest: [f64; 2],
+    /// The effect of rounding on each rate, computed on demand.
+    noise: Vec<f64>,
+    sizes: Vec<f64>,
+    scratch: Vec<Vec<f64>>,
+}
+
+impl Implicit {
+    pub(super) fn new(system: &System, tableau: Tableau) -> Implicit {
+        let (s, n) = (tableau.nodes.len(), system.state_len());
+        let zeros = vec![vec![0.0; n]; s];
+        Implicit {
+            rates: system.canonical_rates(),
+            tableau,
+            held: vec![false; n],
+            slopes: zeros.clone(),
+            contiguous: false,
+            stages: zeros.clone(),
+            moves: vec![[0.0; 2]; s * n],
+            resting: vec![None; s * n],
+            largest: [f64::INFINITY; 2],
+            noise: vec![0.0; n],
+            sizes: vec![0.0; n],
+            scratch: zeros,
+        }
+    }
+
+    /// The same, partitioned: the momenta, and those of tangent vectors, alone move to the stages.
+    pub(super) fn partitioned(system: &System, tableau: Tableau) -> Implicit {
+        let mut scheme = Implicit::new(system, tableau);
+        scheme.held.fill(true);
+        let (degrees, moving) = (system.degrees(), system.moving());
+        let vectors = (0..system.tangents()).map(|vector| system.tangent_place(vector));
+        for first in std::iter::once(0).chain(vectors) {
+            scheme.held[first + degrees..first + moving].fill(false);
+        }
+        scheme
+    }
+
+    /// The initial slopes: the extrapolated polynomial of the last step, or else the slope at the
+    /// beginning.
+    fn guess(&mut self, state: &State) -> Result<(), MotionError> {
+        if !self.contiguous {
+            for slope in &mut self.slopes {
+                self.rates.evaluate(state.time, &state.values, slope)?;
+            }
+            return Ok(());
+        }
+        for (weights, guess) in self.tableau.onward.iter().zip(&mut self.scratch) {
+            for (i, x) in guess.iter_mut().enumerate() {
+                *x = weights.iter().zip(&self.slopes).map(|(w, slope)| w * slope[i]).sum();
+            }
+        }
+        std::mem::swap(&mut self.slopes, &mut self.scratch);
+        Ok(())
+    }
+
+    /// Computes the stages from the slopes.
+    fn place(&mut self, step: f64, state: &State) {
+        for (weights, stage) in self.tableau.matrix.iter().zip(&mut self.stages) {
+            for (i, x) in stage.iter_mut().enumerate() {
+                if self.held[i] {
+                    *x = state.exact(i).high;
+                    continue;
+                }
+                let pairs = weights.iter().zip(&self.slopes);
+                let slope: f64 = pairs.map(|(a, slope)| a.high * slope[i]).sum();
+                *x = state.values[i] + (state.carry[i] + step * slope);
+            }
+        }
+    }
+
+    /// Computes the slopes from the stages.
+    fn evaluate(&mut self, step: f64, time: f64) -> Result<(), MotionError> {
+        for ((c, stage), slope) in self.tableau.nodes.iter().zip(&self.stages).zip(&mut self.slopes)
+        {
+            self.rates.evaluate(time + c.high * step, stage, slope)?;
+        }
+        Ok(())
+    }
+
+    /// Performs one pass. Returns whether all numbers have converged.
+    fn pass(&mut self, count: usize, step: f64, state: &State) -> Result<bool, MotionError> {
+        self.evaluate(step, state.time)?;
+        for (old, stage) in self.scratch.iter_mut().zip(&self.stages) {
+            old.clone_from(stage);
+        }
+        self.place(step, state);
+        let n = state.values.len();
+        let (mut rest, mut largest) = (true, 0.0_f64);
+        for (s, stage) in self.stages.iter().enumerate() {
+            for (i, x) in stage.iter().enumerate() {
+                let moved = (x - self.scratch[s][i]).abs();
+                let [before, last] = self.moves[s * n + i];
+                let size = x.abs().max((step * self.slopes[s][i]).abs());
+                let small = SMALL * size + ROUNDINGS * step.abs() * self.noise[i];
+                // compares with two passes before, as positions and momenta may shrink alternately
+                let level = count >= 2 && moved >= before && moved <= small;
+                self.moves[s * n + i] = [last, moved];
+                let resting = &mut self.resting[s * n + i];
+                if resting.is_some_and(|bound| moved > bound) {
+                    *resting = None;
+                } else if resting.is_none() && (moved == 0.0 || level) {
+                    *resting = Some(RESTLESS * moved.max(f64::EPSILON * size));
+                }
+                rest &= resting.is_some();
+                largest = largest.max(moved / (size + f64::MIN_POSITIVE));
+            }
+        }
+        let level = largest >= self.largest[0] || largest <= RESTLESS * f64::EPSILON;
+        self.largest = [self.largest[1], largest];
+        Ok(rest && level)
+    }
+
+    /// Measures the effect of rounding on the rates at the first stage.
+    fn estimate_roundoff(&mut self, step: f64, state: &State) {
+        let (stage, slope) = (&self.stages[0], &self.slopes[0]);
+        for (i, size) in self.sizes.iter_mut().enumerate() {
+            *size = state.values[i].abs().max(stage[i].abs()).max((step * slope[i]).abs());
+        }
+        let time = state.time + self.tableau.nodes[0].high * step;
+        let place = roundoff::Place { time, numbers: stage, sizes: &self.sizes, step };
+        if roundoff::measure(&mut self.rates, &place, &mut self.noise).is_err() {
+            self.noise.fill(0.0);
+        }
+    }
+
+    fn solve(&mut self, step: f64, state: &State) -> Result<(), MotionError> {
+        self.noise.fill(0.0);
+        self.resting.fill(None);
+        self.largest = [f64::INFINITY; 2];
+        self.place(step, state);
+        for count in 1..=PASSES {
+            if self.rates.system().cancel().is_cancelled() {
+                let kind = MotionErrorKind::Cancelled;
+                return Err(self.rates.system().fault(kind, state.time, &state.values));
+            }
+            match self.pass(count - 1, step, state) {
+                Ok(true) => return Ok(()),
+                Ok(false) => {}
+                // a distant stage may lie where there are no rates
+                Err(_) if count > 1 => break,
+                Err(fault) => return Err(fault),
+            }
+            if count % PATIENCE == 0 {
+                self.estimate_roundoff(step, state);
+            }
+            if self.stages.iter().flatten().any(|x| !x.is_finite()) {
+                break;
+            }
+        }
+        self.rates.evaluate(state.time, &state.values, &mut self.slopes[0])?;
+        let system = self.rates.system();
+        let mut here = state.clone();
+        here.values.clone_from(&self.slopes[0]);
+        system.check_finite(&here)?;
+        Err(system.fault(MotionErrorKind::NoConvergence(step), state.time, &state.values))
+    }
+}
+
+impl Scheme for Implicit {
+    fn form(&self) -> Form {
+        self.rates.form()
+    }
+
+    fn begin(&mut self, parameters: &[f64]) {
+        self.rates.set_parameters(parameters);
+        self.contiguous = false;
+    }
+
+    fn begin_near(&mut self, native: &State) {
+        self.rates.begin_near(native);
+    }
+
+    fn go_on_from(&mut self, other: &Implicit) {
+        self.rates.go_on_from(&other.rates);
+    }
+
+    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError> {
+        self.rates.evaluate(time, numbers, out)
+    }
+
+    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), MotionError> {
+        self.guess(state)?;
+        self.contiguous = false;
+        self.solve(step, state)?;
+        self.evaluate(step, state.time)?;
+        for (weights, stage) in self.tableau.matrix.iter().zip(&mut self.stages) {
+            for (i, x) in stage.iter_mut().enumerate() {
+                if !self.held[i] {
+                    *x = (state.exact(i) + change(weights, &self.slopes, i, step)).high;
+                }
+            }
+        }
+        self.evaluate(step, state.time)?;
+        for i in 0..state.values.len() {
+            state.set(i, state.exact(i) + change(&self.tableau.weights, &self.slopes, i, step));
+        }
+        self.contiguous = true;
+        Ok(())
+    }
+}
+
+/// h Σ w f of one number, in double-double.
+fn change(weights: &[DoubleDouble], slopes: &[Vec<f64>], i: usize, step: f64) -> DoubleDouble {
+    let pairs = weights.iter().zip(slopes);
+    pairs.fold(DoubleDouble::ZERO, |sum, (&w, slope)| sum + w * slope[i]) * step
+}
