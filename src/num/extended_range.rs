@@ -59,7 +59,7 @@ impl ExtendedRange {
         if high == 0.0 || !high.is_finite() {
             return ExtendedRange { mantissa: DoubleDouble::from(high), exponent: 0 };
         }
-        let field = (high.to_bits() >> 52 & 0x7FF) as i128;
+        let field = i128::from(high.to_bits() >> 52 & 0x7FF);
         if field == 0 {
             let raised = DoubleDouble {
                 high: high * power_of_two(200),
