@@ -15,7 +15,7 @@ use super::real::{Analytic, Real};
 #[derive(Clone, Copy, Debug)]
 pub struct ExtendedRange {
     mantissa: DoubleDouble,
-    exponent: i64,
+    exponent: i128,
 }
 
 /// ln 2.
@@ -23,24 +23,27 @@ const LN_2: DoubleDouble =
     DoubleDouble { high: std::f64::consts::LN_2, low: 2.319_046_813_846_299_6e-17 };
 
 /// Adding numbers whose exponents differ by more than this leaves the larger one unchanged.
-const DIGITS: i64 = 220;
+const DIGITS: i128 = 220;
 
-/// Exponents beyond this count as infinity, or zero.
-const LARGEST: i64 = 1 << 60;
+/// Exponents beyond this count as infinity, or zero: e^x has an exponent for every |x| below 9e35.
+const LARGEST: i128 = 1 << 120;
+
+/// What the exponent of zero counts as in sums.
+const LOWEST: i128 = i128::MIN / 4;
 
 /// For an argument of this size e^−x is negligible against e^x, to all digits.
 const LOPSIDED: f64 = 80.0;
 
 /// The exponent below which x and sin x agree to all digits.
-const TINY: i64 = -120;
+const TINY: i128 = -120;
 
 /// `2^n` for |n| ≤ 1022.
-fn power_of_two(n: i64) -> f64 {
+fn power_of_two(n: i128) -> f64 {
     f64::from_bits(((1023 + n) as u64) << 52)
 }
 
 /// `x · 2^n`, in steps that do not overflow before the result does.
-fn scaled(x: f64, n: i64) -> f64 {
+fn scaled(x: f64, n: i128) -> f64 {
     let (mut x, mut n) = (x, n.clamp(-4000, 4000));
     while n != 0 {
         let part = n.clamp(-1000, 1000);
@@ -51,12 +54,12 @@ fn scaled(x: f64, n: i64) -> f64 {
 }
 
 impl ExtendedRange {
-    fn new(mantissa: DoubleDouble, exponent: i64) -> ExtendedRange {
+    fn new(mantissa: DoubleDouble, exponent: i128) -> ExtendedRange {
         let high = mantissa.high;
         if high == 0.0 || !high.is_finite() {
             return ExtendedRange { mantissa: DoubleDouble::from(high), exponent: 0 };
         }
-        let field = (high.to_bits() >> 52 & 0x7FF) as i64;
+        let field = i128::from(high.to_bits() >> 52 & 0x7FF);
         if field == 0 {
             let raised = DoubleDouble {
                 high: high * power_of_two(200),
@@ -83,12 +86,12 @@ impl ExtendedRange {
     }
 
     /// The exponent, or for zero one lower than that of any other number.
-    fn order(self) -> i64 {
-        if self.mantissa.high == 0.0 { i64::MIN / 4 } else { self.exponent }
+    fn order(self) -> i128 {
+        if self.mantissa.high == 0.0 { LOWEST } else { self.exponent }
     }
 
     /// The number in units of `2^exponent`.
-    fn in_units(self, exponent: i64) -> DoubleDouble {
+    fn in_units(self, exponent: i128) -> DoubleDouble {
         let shift = self.order() - exponent;
         if shift < -DIGITS && self.mantissa.high.is_finite() {
             return DoubleDouble::ZERO;
@@ -124,8 +127,12 @@ impl ExtendedRange {
 impl Add for ExtendedRange {
     type Output = ExtendedRange;
     fn add(self, other: ExtendedRange) -> ExtendedRange {
+        let (a, b) = (self.mantissa.high, other.mantissa.high);
+        if !a.is_finite() || !b.is_finite() {
+            return ExtendedRange { mantissa: DoubleDouble::from(a + b), exponent: 0 };
+        }
         let unit = self.order().max(other.order());
-        if unit == i64::MIN / 4 {
+        if unit == LOWEST {
             return ExtendedRange::ZERO;
         }
         ExtendedRange::new(self.in_units(unit) + other.in_units(unit), unit)
@@ -156,6 +163,9 @@ impl Mul for ExtendedRange {
 impl Div for ExtendedRange {
     type Output = ExtendedRange;
     fn div(self, other: ExtendedRange) -> ExtendedRange {
+        if other.mantissa.high.is_infinite() && self.mantissa.high.is_finite() {
+            return ExtendedRange::ZERO;
+        }
         ExtendedRange::new(self.mantissa / other.mantissa, self.exponent - other.exponent)
     }
 }
@@ -246,7 +256,13 @@ impl Analytic for ExtendedRange {
         if n.abs() >= LARGEST as f64 || n.is_nan() {
             return ExtendedRange::new(DoubleDouble::from(math::exp(x.high)), 0);
         }
-        ExtendedRange::new((x - LN_2 * n).exp(), n as i64)
+        let rest = x - LN_2 * n;
+        // beyond 2⁵³ the nearest whole number is known to the digits of `f64` only
+        let more = (rest.high / LN_2.high).round();
+        let rest = rest - LN_2 * more;
+        // beyond 1e30 no digit of the mantissa is known
+        let mantissa = if rest.high.abs() < 1.0 { rest.exp() } else { DoubleDouble::ONE };
+        ExtendedRange::new(mantissa, n as i128 + more as i128)
     }
 
     fn ln(self) -> ExtendedRange {
@@ -254,7 +270,9 @@ impl Analytic for ExtendedRange {
         if high <= 0.0 || !high.is_finite() {
             return ExtendedRange::new(DoubleDouble::from(math::ln(high)), 0);
         }
-        ExtendedRange::new(self.mantissa.ln() + LN_2 * self.exponent as f64, 0)
+        let high = self.exponent as f64;
+        let low = (self.exponent - high as i128) as f64;
+        ExtendedRange::new(self.mantissa.ln() + LN_2 * high + LN_2 * low, 0)
     }
 
     fn sin_cos(self) -> (ExtendedRange, ExtendedRange) {
@@ -289,7 +307,7 @@ impl Analytic for ExtendedRange {
 
     fn atan2(self, x: ExtendedRange) -> ExtendedRange {
         let unit = self.order().max(x.order());
-        if unit == i64::MIN / 4 {
+        if unit == LOWEST {
             return ExtendedRange::new(Analytic::atan2(self.mantissa, x.mantissa), 0);
         }
         if x.mantissa.high > 0.0 && self.order() < x.order() + TINY {
@@ -336,7 +354,7 @@ mod tests {
 
     #[test]
     fn what_leaves_the_range_of_f64_comes_back() {
-        for x in [400.0, 1e3, 1e5, 1e10] {
+        for x in [400.0, 1e3, 1e5, 1e10, 8e17, 1e25, 1e35] {
             let (e, one) = (wide(x).exp(), ExtendedRange::ONE);
             assert_eq!((e / (one + e)).value(), 1.0);
             assert_eq!((one / (one + e)).value(), 0.0_f64.max(math::exp(-x)));
@@ -388,6 +406,9 @@ mod tests {
         assert!((wide(f64::INFINITY) - wide(f64::INFINITY)).value().is_nan());
         assert_eq!(wide(1e30).exp().value(), f64::INFINITY);
         assert_eq!(wide(-1e30).exp().value(), 0.0);
+        for x in [1e40, 1e300, f64::INFINITY] {
+            assert_eq!((ExtendedRange::ONE / (ExtendedRange::ONE + wide(x).exp())).value(), 0.0);
+        }
         assert_eq!(wide(0.0).sqrt().value(), 0.0);
         assert_eq!((ExtendedRange::ONE + wide(1e-300)).value(), 1.0);
     }

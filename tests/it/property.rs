@@ -102,6 +102,32 @@ fn the_judge_knows_motions_in_closed_form() {
     assert!((end[0] - 1.0).abs() < 1e-11 && end[1].abs() < 1e-11, "{end:?}");
 }
 
+/// B(2/3, 1/2), to which the period in |x|^(3/2) is proportional.
+const BETA: f64 = 2.587_109_559_229_790_5;
+
+#[test]
+fn the_judge_is_accurate_at_powers_between_one_and_two() {
+    // from rest at 1 a period is 4/√2 · 2/3 · B(2/3, 1/2)
+    let period = 8.0 / 3.0 / 2.0_f64.sqrt() * BETA;
+    let well = particle(kinked(Kinked::SquarePower(1.5), variable(0)), [1.0, 0.0], 2.0 * period);
+    let end = follow(&well, &well.start, 1e-13, 100_000).unwrap().state;
+    assert!((end[0] - 1.0).abs() < 2e-11 && end[1].abs() < 2e-11, "{end:?}");
+}
+
+#[test]
+fn the_judge_locates_an_event_to_the_last_bit_of_the_state() {
+    // free fall: after the distance 1 the velocity is √(2 a), at a time whose last bit is 1e-23
+    let fall = Case {
+        stop: Some(variable(0)),
+        ..particle(product([number(1e14), variable(0)]), [1.0, 0.0], 1.0)
+    };
+    let arrival = follow(&fall, &fall.start, 1e-13, 100_000).unwrap();
+    let velocity = -(2e14_f64).sqrt();
+    assert!(arrival.stopped, "{arrival:?}");
+    assert!(arrival.state[0].abs() < 1e-13, "{:?}", arrival.state);
+    assert!((arrival.state[1] / velocity - 1.0).abs() < 1e-13, "{:?}", arrival.state);
+}
+
 #[test]
 fn the_judge_tells_a_run_that_is_wrong() {
     let spring = |k: f64| product([number(0.5 * k), power(variable(0), 2)]);

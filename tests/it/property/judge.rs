@@ -103,8 +103,14 @@ pub(crate) fn judged_as(case: &Case, run: &Case, budget: Budget) -> Outcome {
     let (case, run) = (case.clone(), run.clone());
     let cancel = Cancel::new();
     let token = cancel.clone();
+    let (known, own) = channel();
     let work = move || {
-        let outcome = catch_unwind(AssertUnwindSafe(|| judge(&case, &run, budget, &token)));
+        let judging = || {
+            let motion = know(&case, budget);
+            let _ = known.send(());
+            judge(&case, motion, &run, budget, &token)
+        };
+        let outcome = catch_unwind(AssertUnwindSafe(judging));
         let outcome = outcome.unwrap_or_else(|panic| {
             let text = panic.downcast_ref::<String>().cloned();
             let text = text.or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned()));
@@ -113,6 +119,8 @@ pub(crate) fn judged_as(case: &Case, run: &Case, budget: Budget) -> Outcome {
         let _ = sender.send(outcome);
     };
     std::thread::spawn(work);
+    // the judge's own work has an end, its budget, and is no part of the time that the program is given
+    let _ = own.recv();
     match receiver.recv_timeout(budget.watchdog) {
         Ok(outcome) => outcome,
         Err(RecvTimeoutError::Timeout) => {
@@ -271,8 +279,13 @@ fn know(case: &Case, budget: Budget) -> Result<Known, Lost> {
 /// The tolerance beyond which a case is left undecided.
 const UNREPORTED: f64 = 0.01;
 
-fn judge(case: &Case, as_run: &Case, budget: Budget, cancel: &Cancel) -> Outcome {
-    let known = know(case, budget);
+fn judge(
+    case: &Case,
+    known: Result<Known, Lost>,
+    as_run: &Case,
+    budget: Budget,
+    cancel: &Cancel,
+) -> Outcome {
     let told = match run(as_run, budget, cancel) {
         Ok(told) => told,
         Err(outcome) => return outcome,

@@ -35,6 +35,16 @@ fn the_edge_of_a_well_however_it_is_written() {
 }
 
 #[test]
+fn a_step_is_flat_at_any_distance() {
+    // the exponents of two in exp(−x/0.05) do not fit into 64 bits
+    for (x, energy) in [("-4e16", 0.5), ("-4e25", 0.5), ("-1e34", 0.5), ("4e16", 1.5)] {
+        let mut run = potential(x, "1.0", "1/(1 + exp(-x/0.05))");
+        assert_eq!(run.to(10.0)[1], 1.0, "{x}");
+        assert_eq!(run.columns()[3], energy, "{x}");
+    }
+}
+
+#[test]
 fn quotients_of_what_overflows_have_values_on_both_sides() {
     for (bounded, left, right) in [
         ("sinh(x)/cosh(x)", -1.0, 1.0),
