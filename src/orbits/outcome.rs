@@ -150,7 +150,9 @@ impl RunPlan {
         };
         side_by_side(&mut batch, runs.len(), &mut together);
         let left = together.alone;
-        left.into_iter().for_each(|i| alone(i, &mut done));
+        for i in left {
+            alone(i, &mut done);
+        }
     }
 
     /// Room for runs side by side, where they need nothing but steps.

@@ -36,7 +36,9 @@ impl Elimination<Batch> for FactoredBatch {
     fn solve(&mut self, right: &mut [Batch]) {
         for (lane, factored) in self.lanes.iter_mut().enumerate() {
             if self.singular[lane] {
-                right.iter_mut().for_each(|x| x.0[lane] = f64::NAN);
+                for x in right.iter_mut() {
+                    x.0[lane] = f64::NAN;
+                }
                 continue;
             }
             for (own, x) in self.right.iter_mut().zip(&*right) {
