@@ -88,7 +88,7 @@ impl Branches {
         let here = symbols.map(|s| at.at(s));
         let distance = |(place, _): &Node| {
             let part = |k: usize| (place[k] - here[k]) / (window[k][1] - window[k][0]);
-            part(0).powi(2) + part(1).powi(2)
+            part(0) * part(0) + part(1) * part(1)
         };
         let nearest = nodes.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
         let begin = at.clone().with(self.new.into_iter().zip(nearest.1));
