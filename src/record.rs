@@ -19,6 +19,8 @@ mod lesson;
 mod lesson_check;
 mod lesson_keys;
 mod lesson_order;
+mod lesson_pointing;
+mod lesson_question;
 mod lesson_speech;
 mod plain;
 mod recording;

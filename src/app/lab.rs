@@ -9,7 +9,7 @@ use std::time::Duration;
 use super::answers::{Answers, EquilibriaSearch, SymmetrySearch};
 use super::history::History;
 use super::pending::PendingChanges;
-use super::{DrawnPanes, LawInView, Loaded, Pane, Search, Selection, ValueId};
+use super::{DrawnPanes, LawInView, Loaded, Pane, Prediction, Search, Selection, ValueId};
 use crate::experiment::{Checkpoint, Snapshot, Status};
 use crate::expr::Zero;
 use crate::instrument::{CameraPose, Plot, Present};
@@ -57,6 +57,8 @@ pub struct Lab {
     pub(super) speed_wish: Option<f64>,
     pub(super) equilibria: EquilibriaSearch,
     pub(super) history: History,
+    /// What a person predicts on a picture.
+    pub prediction: Option<Prediction>,
     /// The times that are marked, in order.
     pub marks: Vec<f64>,
     /// The checkpoint that the experiment is to restore, until it has.
@@ -127,6 +129,7 @@ impl Lab {
             speed_wish: None,
             equilibria: EquilibriaSearch::default(),
             history: History::default(),
+            prediction: None,
             marks: Vec::new(),
             awaited: None,
         }

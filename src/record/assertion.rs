@@ -145,17 +145,21 @@ fn gauge<'a>(
     })
 }
 
+/// The index of the channel of a name.
+pub(super) fn column(app: &App, of: &Text) -> Result<usize, Diagnostic> {
+    let (lab, _) = seen(app, of)?;
+    let channels = lab.loaded.system.channels();
+    channels.iter().position(|c| c.name == of.text || c.shown == of.text).ok_or_else(|| {
+        missing("column", of, channels.iter().map(|c| c.name.as_str()), &lab.loaded.name)
+    })
+}
+
 fn measured(app: &App, measure: Measure, of: &Text) -> Result<f64, Diagnostic> {
     if measure == Measure::Value {
         return value(app, of);
     }
     let (lab, snapshot) = seen(app, of)?;
-    let channels = lab.loaded.system.channels();
-    let channel = || {
-        channels.iter().position(|c| c.name == of.text || c.shown == of.text).ok_or_else(|| {
-            missing("column", of, channels.iter().map(|c| c.name.as_str()), &lab.loaded.name)
-        })
-    };
+    let channel = || column(app, of);
     let tally = || {
         let model = &lab.loaded.model;
         let names = || {

@@ -8,15 +8,15 @@
 
 use ratatui::layout::Size;
 
-use super::assertion::{self, Finding};
+use super::assertion::Finding;
 use super::clock::Micros;
 use super::headless_lab::Budget;
 use super::lesson_order::mistakes_in;
+use super::lesson_question::{Answer, Choice, Question, QuestionKind, Verdict};
 use super::recording::rows;
-use super::script::{Assert, LessonStep, Script, Step, Text};
+use super::script::{Asked, Assert, LessonStep, Script, Step};
 use super::script_runner::{RunnerEvent, ScriptRunner};
 use crate::diagnostic::{Diagnostic, Document, SourceRange};
-use crate::num::significant;
 use crate::view::lesson::{Paragraph, ParagraphKind};
 
 /// A lesson being taken.
@@ -49,49 +49,14 @@ pub(super) enum Stage {
     Choosing(usize),
     /// It waits for a number, with what is wrong with the last.
     Typing(String, Option<String>),
+    /// It waits for a point or a curve on a plot, with what is wrong with the last.
+    Pointing(Option<String>),
     /// The lab is the person's until a claim holds.
     Task { place: SourceRange, hint: Option<String>, claim: Assert, hinted: bool },
     /// The lab is the person's until a key.
     Free,
     /// It is over.
     Ended,
-}
-
-/// A question.
-#[derive(Clone, Debug)]
-pub(super) struct Question {
-    pub(super) place: SourceRange,
-    pub(super) text: String,
-    pub(super) kind: QuestionKind,
-}
-
-#[derive(Clone, Debug)]
-pub(super) enum QuestionKind {
-    Choice { options: Vec<Choice>, chosen: Option<usize> },
-    Number { value: Text, within: Text, said: Option<f64> },
-}
-
-#[derive(Clone, Debug)]
-pub(super) struct Choice {
-    pub(super) place: SourceRange,
-    pub(super) text: String,
-    pub(super) why: Option<String>,
-    pub(super) claim: Assert,
-}
-
-/// How a question was answered.
-#[derive(Clone, Debug)]
-pub(super) struct Verdict {
-    pub(super) question: Question,
-    pub(super) right: bool,
-    /// Which options are right, or the number and how far a prediction may be off.
-    pub(super) truth: Truth,
-}
-
-#[derive(Clone, Debug)]
-pub(super) enum Truth {
-    Options(Vec<bool>),
-    Value(f64, f64),
 }
 
 /// A paragraph of the pane.
@@ -234,12 +199,19 @@ impl Lesson {
         if !self.is_moving() {
             self.time = self.runner.now();
         }
+        // a motion that began again is looked at from its beginning
+        let now = self.runner.lab.app.snapshot().map_or(f64::INFINITY, |snapshot| snapshot.time);
+        if let Some(QuestionKind::Place { since, .. }) =
+            self.question.as_mut().map(|question| &mut question.kind)
+        {
+            *since = since.min(now);
+        }
         let waits = !self.is_moving() && !matches!(self.stage, Stage::Ended);
         self.runner.hold(waits);
         Ok(())
     }
 
-    fn find(&self, claim: &Assert) -> Result<Finding, Diagnostic> {
+    pub(super) fn find(&self, claim: &Assert) -> Result<Finding, Diagnostic> {
         let screen = match claim {
             Assert::Screen(_) => rows(&self.runner.picture(&self.runner.script.head.look())),
             _ => Vec::new(),
@@ -251,6 +223,11 @@ impl Lesson {
         if self.question.is_none() {
             // the step itself is to be seen again
             self.safe = self.runner.next - 1;
+        }
+        if asks_anew(&step)
+            && let Some(lab) = &mut self.runner.lab.app.lab
+        {
+            lab.prediction = None;
         }
         match step {
             LessonStep::Say(text) => {
@@ -264,10 +241,16 @@ impl Lesson {
                 self.question = Some(Question { place, text, kind });
                 self.stage = Stage::Choosing(0);
             }
-            LessonStep::Predict { text, value, within } => {
+            LessonStep::Predict { text, asked: Asked::Value { value, within } } => {
                 let kind = QuestionKind::Number { value, within, said: None };
                 self.question = Some(Question { place, text, kind });
                 self.stage = Stage::Typing(String::new(), None);
+            }
+            LessonStep::Predict { text, asked: Asked::Place { is_curve, axes } } => {
+                let prediction = self.prediction(&place, is_curve, &axes)?;
+                let kind = QuestionKind::Place { prediction, since: 0.0 };
+                self.question = Some(Question { place, text, kind });
+                self.stage = Stage::Pointing(None);
             }
             LessonStep::Outcome => {
                 self.judge()?;
@@ -305,54 +288,22 @@ impl Lesson {
     /// Holds the answer against what the engine says now.
     fn judge(&mut self) -> Result<(), Diagnostic> {
         let Some(question) = self.question.take() else { return Ok(()) };
-        let (mut said, right, truth);
-        match &question.kind {
-            QuestionKind::Choice { options, chosen } => {
-                let findings: Vec<Finding> = options
-                    .iter()
-                    .map(|option| self.find(&option.claim))
-                    .collect::<Result<_, _>>()?;
-                let holds: Vec<bool> = findings.iter().map(|finding| finding.holds).collect();
-                let chosen = chosen.unwrap_or(0);
-                right = holds[chosen];
-                let own = letter(chosen, &options[chosen].text);
-                said = vec![match (right, &options[chosen].why) {
-                    (true, _) => paragraph(ParagraphKind::Right, format!("Right: {own}")),
-                    (false, None) => paragraph(ParagraphKind::Wrong, format!("Not so: {own}")),
-                    (false, Some(why)) => {
-                        paragraph(ParagraphKind::Wrong, format!("Not so: {own}. {why}"))
-                    }
-                }];
-                if let (false, Some(other)) = (right, holds.iter().position(|holds| *holds)) {
-                    let other = letter(other, &options[other].text);
-                    said.push(paragraph(ParagraphKind::Text, format!("It is {other}")));
-                }
-                if let Some(at) = holds.iter().position(|holds| *holds) {
-                    let found = format!("Found: {}.", findings[at].sentence);
-                    said.push(paragraph(ParagraphKind::Quiet, found));
-                }
-                truth = Truth::Options(holds);
+        let (said, verdict) = match &question.kind {
+            QuestionKind::Choice { options, chosen } => self.judge_choice(options, *chosen)?,
+            QuestionKind::Number { value, within, said } => {
+                self.judge_number(value, within, *said)?
             }
-            QuestionKind::Number { value, within, said: number } => {
-                let app = &self.runner.lab.app;
-                let (value, within) =
-                    (assertion::value(app, value)?, assertion::value(app, within)?);
-                let number = number.unwrap_or(f64::NAN);
-                right = (number - value).abs() <= within;
-                let (kind, word) = if right {
-                    (ParagraphKind::Right, "Right")
-                } else {
-                    (ParagraphKind::Wrong, "Not so")
-                };
-                let (number, found) = (short(number), short(value));
-                let near = short(within);
-                let text =
-                    format!("{word}: you predicted {number}, it is {found} (right within {near}).");
-                said = vec![paragraph(kind, text)];
-                truth = Truth::Value(value, within);
+            QuestionKind::Place { prediction, since } => {
+                let (said, verdict, outcome) = self.judge_place(prediction, *since);
+                let lab = self.runner.lab.app.lab.as_mut();
+                if let Some(shown) = lab.and_then(|lab| lab.prediction.as_mut()) {
+                    shown.outcome = outcome;
+                }
+                (said, verdict)
             }
-        }
+        };
         self.said = said;
+        let (right, truth) = verdict;
         self.verdicts.push(Verdict { question, right, truth });
         self.stage = Stage::Said;
         Ok(())
@@ -406,27 +357,38 @@ impl Lesson {
         self.stage = Stage::Playing;
     }
 
-    /// Commits an answer to the question: an option, or a number.
-    pub(super) fn commit(&mut self, option: usize, number: f64) {
-        match self.question.as_mut().map(|question| &mut question.kind) {
-            Some(QuestionKind::Choice { chosen, options }) => {
+    /// Commits an answer to the question.
+    pub(super) fn commit(&mut self, answer: Answer) {
+        let app = &mut self.runner.lab.app;
+        match (self.question.as_mut().map(|question| &mut question.kind), answer) {
+            (Some(QuestionKind::Choice { chosen, options }), Answer::Option(option)) => {
                 *chosen = Some(option.min(options.len().saturating_sub(1)));
             }
-            Some(QuestionKind::Number { said, .. }) => *said = Some(number),
-            None => {}
+            (Some(QuestionKind::Number { said, .. }), Answer::Number(number)) => {
+                *said = Some(number);
+            }
+            (Some(QuestionKind::Place { prediction, since }), Answer::Points(points)) => {
+                prediction.points = points;
+                *since = app.snapshot().map_or(0.0, |snapshot| snapshot.time);
+                app.end_prediction();
+                if let Some(lab) = &mut app.lab {
+                    lab.prediction = Some(prediction.clone());
+                }
+            }
+            _ => {}
         }
         self.said.clear();
         self.go_on();
     }
 }
 
-/// An option with its letter.
-pub(super) fn letter(index: usize, text: &str) -> String {
-    let letter = char::from(b'a' + (index.min(25) as u8));
-    format!("{letter}) {text}")
-}
-
-/// A number with four digits, for display only.
-pub(super) fn short(x: f64) -> String {
-    significant(x, 4, 1e-3..1e6)
+/// Whether a line asks for something, so that what was predicted before is no longer looked at.
+fn asks_anew(step: &LessonStep) -> bool {
+    matches!(
+        step,
+        LessonStep::Ask(_)
+            | LessonStep::Predict { .. }
+            | LessonStep::Task { .. }
+            | LessonStep::Free(_)
+    )
 }

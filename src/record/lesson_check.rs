@@ -3,7 +3,8 @@
 //! In: a [`Script`] and its system. Out: every claim of the lesson that is false, in its place. Never here: a person.
 
 use super::headless_lab::Budget;
-use super::lesson::{Lesson, Question, QuestionKind, Stage, Truth, Verdict};
+use super::lesson::{Lesson, Stage};
+use super::lesson_question::{Answer, Question, QuestionKind, Truth, Verdict};
 use super::script::{LessonStep, Script, Step};
 use crate::app::Event;
 use crate::diagnostic::{Diagnostic, Document};
@@ -31,7 +32,7 @@ pub fn check_lesson(
     document: &Document,
     called: &str,
 ) -> Result<LessonReport, Vec<Diagnostic>> {
-    let pass = |answer: &dyn Fn(usize, &Question) -> (usize, f64)| {
+    let pass = |answer: &dyn Fn(usize, &Question) -> Answer| {
         let mut lesson = Lesson::new(script.clone(), document, called, Budget::RECORDED)?;
         let tasks = take(&mut lesson, answer)?;
         if lesson.false_claims.is_empty() {
@@ -41,7 +42,7 @@ pub fn check_lesson(
         }
     };
     // the truth does not depend on what is answered
-    let (truth, tasks) = pass(&|_, _| (0, 0.0))?;
+    let (truth, tasks) = pass(&|_, question| question.any_answer())?;
     let mut mistakes: Vec<Diagnostic> = truth.iter().flat_map(faults).collect();
     if !mistakes.is_empty() {
         return Err(mistakes);
@@ -56,7 +57,7 @@ pub fn check_lesson(
     for round in 0..most {
         let choose = |index: usize| {
             let wrong = truth[index].wrong_answers();
-            wrong.get(round).or(wrong.last()).copied().unwrap_or((0, f64::NAN))
+            wrong.get(round).or(wrong.last()).cloned().unwrap_or(Answer::Option(0))
         };
         let (answered, _) = pass(&|index, _| choose(index))?;
         for (verdict, before) in answered.iter().zip(&truth) {
@@ -74,18 +75,17 @@ pub fn check_lesson(
 /// Takes a lesson to its end; returns the number of tasks.
 fn take(
     lesson: &mut Lesson,
-    answer: &dyn Fn(usize, &Question) -> (usize, f64),
+    answer: &dyn Fn(usize, &Question) -> Answer,
 ) -> Result<usize, Vec<Diagnostic>> {
     let mut tasks = 0;
     loop {
         match &lesson.stage {
             Stage::Playing => lesson.beat().map_err(|mistake| vec![mistake])?,
             Stage::Said | Stage::Free => lesson.go_on(),
-            Stage::Choosing(_) | Stage::Typing(..) => {
+            Stage::Choosing(_) | Stage::Typing(..) | Stage::Pointing(_) => {
                 let index = lesson.verdicts.len();
-                let (option, number) =
-                    lesson.question.as_ref().map_or((0, 0.0), |question| answer(index, question));
-                lesson.commit(option, number);
+                let answer = lesson.question.as_ref().map(|question| answer(index, question));
+                lesson.commit(answer.unwrap_or(Answer::Option(0)));
             }
             Stage::Task { .. } => {
                 solve(lesson).map_err(|mistake| vec![mistake])?;
@@ -155,21 +155,57 @@ fn faults(verdict: &Verdict) -> Vec<Diagnostic> {
     faults
 }
 
+/// The number of points through which the right curve is drawn, as a person would set them.
+const POINTS: usize = 12;
+
+impl Question {
+    /// An answer, be it right or wrong.
+    fn any_answer(&self) -> Answer {
+        match &self.kind {
+            QuestionKind::Choice { .. } => Answer::Option(0),
+            QuestionKind::Number { .. } => Answer::Number(0.0),
+            QuestionKind::Place { .. } => Answer::Points(Vec::new()),
+        }
+    }
+}
+
 impl Verdict {
-    fn right_answer(&self) -> (usize, f64) {
+    fn right_answer(&self) -> Answer {
         match &self.truth {
-            Truth::Options(holds) => (holds.iter().position(|holds| *holds).unwrap_or(0), f64::NAN),
-            Truth::Value(value, _) => (0, *value),
+            Truth::Options(holds) => {
+                Answer::Option(holds.iter().position(|holds| *holds).unwrap_or(0))
+            }
+            Truth::Value(value, _) => Answer::Number(*value),
+            Truth::Place(found) => Answer::Points(match &self.question.kind {
+                QuestionKind::Place { prediction, .. } => prediction.spread(found, POINTS),
+                _ => found.clone(),
+            }),
         }
     }
 
-    fn wrong_answers(&self) -> Vec<(usize, f64)> {
-        match &self.truth {
-            Truth::Options(holds) => {
+    fn wrong_answers(&self) -> Vec<Answer> {
+        match (&self.truth, self.right_answer()) {
+            (Truth::Options(holds), _) => {
                 let wrong = holds.iter().enumerate().filter(|(_, holds)| !**holds);
-                wrong.map(|(index, _)| (index, f64::NAN)).collect()
+                wrong.map(|(index, _)| Answer::Option(index)).collect()
             }
-            Truth::Value(value, near) => vec![(0, value - 2.0 * near), (0, value + 2.0 * near)],
+            (Truth::Value(value, near), _) => {
+                vec![Answer::Number(value - 2.0 * near), Answer::Number(value + 2.0 * near)]
+            }
+            // a curve that is moved is as far from where it was as it was moved: its farthest point in that direction is
+            (Truth::Place(_), Answer::Points(points)) => {
+                let QuestionKind::Place { prediction, .. } = &self.question.kind else {
+                    return Vec::new();
+                };
+                let within = prediction.axes.map(|axis| axis.within);
+                let moves = [[2.0, 0.0], [-2.0, 0.0], [0.0, 2.0], [0.0, -2.0]];
+                let moved = moves.map(|by| {
+                    let place = |at: &[f64; 2]| [0, 1].map(|k| at[k] + by[k] * within[k]);
+                    Answer::Points(points.iter().map(place).collect())
+                });
+                moved.into()
+            }
+            (Truth::Place(_), _) => Vec::new(),
         }
     }
 }

@@ -4,7 +4,8 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use super::lesson::{Lesson, QuestionKind, Stage, paragraph};
+use super::lesson::{Lesson, Stage, paragraph};
+use super::lesson_question::{Answer, QuestionKind};
 use crate::app::Event;
 use crate::view::lesson::ParagraphKind;
 
@@ -52,7 +53,7 @@ impl Lesson {
                     }
                     KeyCode::Enter => {
                         let chosen = *selected;
-                        self.commit(chosen, f64::NAN);
+                        self.commit(Answer::Option(chosen));
                     }
                     _ => {}
                 }
@@ -67,11 +68,15 @@ impl Lesson {
                     *wrong = None;
                 }
                 KeyCode::Enter => match number(text) {
-                    Some(number) => self.commit(0, number),
+                    Some(number) => self.commit(Answer::Number(number)),
                     None => *wrong = Some("This is not a number; write it as 1.5 or 3/2.".into()),
                 },
                 _ => {}
             },
+            Stage::Pointing(wrong) => {
+                *wrong = None;
+                self.set_point(key);
+            }
             Stage::Free if key.code == KeyCode::F(9) => self.go_on(),
             Stage::Task { hinted, hint, .. } if key.code == KeyCode::F(9) => {
                 match hint.take().filter(|_| !*hinted) {

@@ -6,8 +6,9 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::lesson::{Lesson, Question, QuestionKind, Stage, letter, paragraph, short};
+use super::lesson::{Lesson, Stage, paragraph};
 use super::lesson_order::steps_of_person;
+use super::lesson_question::{Question, QuestionKind, letter, pair, short};
 use crate::view::RenderStyle;
 use crate::view::lesson::{self, Paragraph, ParagraphKind, Speech};
 
@@ -57,6 +58,17 @@ impl Lesson {
                     self.question.as_ref().map_or(Vec::new(), |question| question.asked(*selected));
                 "↑ ↓ choose · Enter commits · q leaves"
             }
+            Stage::Pointing(wrong) => {
+                let question = self.question.as_ref();
+                said = question.map_or(Vec::new(), |question| question.asked(0));
+                said.push(paragraph(ParagraphKind::Selected, self.pointed()));
+                said.extend(wrong.iter().map(|why| paragraph(ParagraphKind::Wrong, why.clone())));
+                if question.is_some_and(Question::is_curve) {
+                    "arrows, mouse · Space sets a point · Backspace · Enter commits · q leaves"
+                } else {
+                    "arrows or mouse · Enter commits · q leaves"
+                }
+            }
             Stage::Typing(text, wrong) => {
                 let question = self.question.as_ref().map(|question| question.text.clone());
                 said = vec![paragraph(ParagraphKind::Text, question.unwrap_or_default())];
@@ -71,7 +83,30 @@ impl Lesson {
     }
 }
 
+impl Lesson {
+    /// Where the cursor is, and how many points there are.
+    fn pointed(&self) -> String {
+        let app = &self.runner.lab.app;
+        let prediction = app.lab.as_ref().and_then(|lab| lab.prediction.as_ref());
+        let (Some(prediction), Some(at)) = (prediction, app.cursor_reading()) else {
+            return String::new();
+        };
+        let [x, y] = self.names(prediction);
+        let cursor = format!("{x} = {}, {y} = {}", short(at[0]), short(at[1]));
+        match prediction.points.len() {
+            _ if !prediction.is_curve => cursor,
+            1 => format!("{cursor}; 1 point is set"),
+            many => format!("{cursor}; {many} points are set"),
+        }
+    }
+}
+
 impl Question {
+    /// Whether a curve is asked for.
+    fn is_curve(&self) -> bool {
+        matches!(&self.kind, QuestionKind::Place { prediction, .. } if prediction.is_curve)
+    }
+
     /// The question with its options.
     pub(super) fn asked(&self, selected: usize) -> Vec<Paragraph> {
         let mut said = vec![paragraph(ParagraphKind::Text, self.text.clone())];
@@ -94,6 +129,10 @@ impl Question {
             QuestionKind::Number { said: Some(number), .. } => {
                 format!("Your prediction: {}", short(*number))
             }
+            QuestionKind::Place { prediction, .. } => match prediction.points.last() {
+                Some(at) if !prediction.is_curve => format!("Your prediction: {}", pair(*at)),
+                _ => "Your prediction: the curve in the picture".to_owned(),
+            },
             _ => String::new(),
         }
     }

@@ -151,14 +151,12 @@ pub enum LessonStep {
         /// The claim that decides, at the outcome, whether it is right.
         claim: Assert,
     },
-    /// A number to be predicted.
+    /// Something to be predicted.
     Predict {
         /// The question.
         text: String,
-        /// The expression that is asked for, at the outcome.
-        value: Text,
-        /// How far a prediction may be off.
-        within: Text,
+        /// What is asked for.
+        asked: Asked,
     },
     /// The answer is compared with what has happened.
     Outcome,
@@ -175,6 +173,36 @@ pub enum LessonStep {
     Solution(Vec<KeyEvent>),
     /// The lab is the person's until a key.
     Free(String),
+}
+
+/// What a prediction is asked for, at the outcome.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Asked {
+    /// The value of an expression.
+    Value {
+        /// The expression.
+        value: Text,
+        /// How far a prediction may be off.
+        within: Text,
+    },
+    /// A place on a plot, set by its cursor: a point, or the curve that the motion draws from here to the outcome.
+    Place {
+        /// Whether it is a curve.
+        is_curve: bool,
+        /// The horizontal and the vertical axis.
+        axes: Box<[AskedAxis; 2]>,
+    },
+}
+
+/// An axis of a plot on which something is predicted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AskedAxis {
+    /// The quantity.
+    pub of: Text,
+    /// The ends of what the axis shows at least.
+    pub range: Option<[Text; 2]>,
+    /// How far a prediction may be off along this axis.
+    pub within: Text,
 }
 
 /// An assertion.

@@ -45,7 +45,7 @@ pub struct ScriptRunner {
     caption: String,
     pub(super) keys: Vec<ShownKey>,
     /// The size of the screen when it was last drawn.
-    size: Size,
+    pub(super) size: Size,
     painter: Painter,
 }
 
@@ -392,7 +392,7 @@ impl ScriptRunner {
     }
 
     /// Draws the lab, and the caption below it.
-    fn paint(
+    pub(super) fn paint(
         &self,
         painter: &mut Painter,
         style: &RenderStyle,
@@ -416,7 +416,7 @@ impl ScriptRunner {
     }
 
     /// The number of rows reserved for captions, constant throughout.
-    fn caption_rows(&self, width: u16) -> u16 {
+    pub(super) fn caption_rows(&self, width: u16) -> u16 {
         let texts = self.script.steps.iter().filter_map(|(_, step)| match step {
             Step::Caption(text) => Some(text.as_str()),
             _ => None,

@@ -135,7 +135,6 @@ pub fn take_lesson(
     TerminalError::check()?;
     let variable = |name: &str| std::env::var(name).ok();
     let mut screen = LessonScreen::new(lesson, request.look(&variable));
-    let pace = Pace { mouse: false, ..request.pace(&variable) };
-    let ending = perform(&mut screen, pace)?;
+    let ending = perform(&mut screen, request.pace(&variable))?;
     Ok((ending, screen.outcome().1))
 }

@@ -11,6 +11,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 
 use super::frame_loop::{Screen, ScreenRequest};
+use super::session::with_shift;
 use crate::diagnostic::Diagnostic;
 use crate::record::{Lesson, Pressed};
 use crate::view::{Detail, RenderStyle};
@@ -40,6 +41,12 @@ impl<L: BorrowMut<Lesson>> LessonScreen<L> {
 
 impl<L: BorrowMut<Lesson>> Screen for LessonScreen<L> {
     fn input(&mut self, event: Event) -> ScreenRequest {
+        if let Event::Mouse(mouse) = event {
+            let at = [mouse.column, mouse.row];
+            let look = self.look.reduced(self.detail);
+            self.lesson.borrow_mut().point(with_shift(mouse), &look, at);
+            return ScreenRequest::Nothing;
+        }
         let Event::Key(key) = event else { return ScreenRequest::Nothing };
         if key.kind == KeyEventKind::Release {
             return ScreenRequest::Nothing;

@@ -347,7 +347,7 @@ fn is_interrupt(event: &TerminalEvent) -> bool {
 }
 
 /// Shift makes the right button of the left one: many terminals keep one of the two for themselves.
-fn with_shift(mouse: MouseEvent) -> MouseEventKind {
+pub(super) fn with_shift(mouse: MouseEvent) -> MouseEventKind {
     match mouse.kind {
         MouseEventKind::Up(MouseButton::Left) if mouse.modifiers.contains(KeyModifiers::SHIFT) => {
             MouseEventKind::Up(MouseButton::Right)

@@ -15,18 +15,12 @@ use super::plot::ticks::nice_range;
 use super::plot::{Ages, Axes, Axis, Frame, Marker, Pen, Raster, Scale};
 use super::quantity::{Quantities, through};
 use super::theme::Role;
-use super::{companions, cursor, field, legend, space};
+use super::time_window::time_window;
+use super::{companions, cursor, field, legend, prediction, space};
 use crate::analysis::{Curve, Landscape};
 use crate::instrument::{
     Across, Entry, Heading, Ink, Layer, Level, Picture, Plot, Sign, Upwards, Viewport,
 };
-use crate::num::math;
-
-/// The greatest length of a time window in seconds of the wall clock, at the file's own speed.
-const SECONDS: f64 = 20.0;
-
-/// How often the length of a time window is doubled until it is the greatest.
-const DOUBLINGS: i32 = 3;
 
 /// A level curve is omitted if it shares more than this fraction of its cells with others: in ASCII, and with dots.
 const CROWDED: [f64; 2] = [0.25, 0.35];
@@ -187,7 +181,7 @@ pub(super) fn draw(
             Some(Axis::new(name, "", through(Scale::linear(from, to), (viewport, 0))))
         }
         Across::Time => {
-            Some(Axis::new("t", q.lab.loaded.model.time_unit(), window(q, viewport, 1)))
+            Some(Axis::new("t", q.lab.loaded.model.time_unit(), time_window(q, viewport, 1)))
         }
     };
     let seen = across.as_ref().map_or([f64::NAN; 2], |axis| [axis.scale.lo, axis.scale.hi]);
@@ -204,7 +198,7 @@ pub(super) fn draw(
     let mut axes = if viewport.equal { axes.equal() } else { axes };
     if let Across::Time = plot.kind.across(plot, &present, answer) {
         let cells = axes.frame(area, look.glyphs).area.width;
-        axes.x.scale = window(q, viewport, cells);
+        axes.x.scale = time_window(q, viewport, cells);
     }
     let frame = axes.draw(area, canvas.buffer, &look.theme, look.glyphs);
     let mut raster = Raster::new(frame.area, look.glyphs);
@@ -220,7 +214,9 @@ pub(super) fn draw(
         marks.draw(&mut raster, &frame, &Pen::new(look.theme[Role::Warn], level));
         marks
     });
+    prediction::draw(canvas, &mut raster, &frame, (q, plot));
     raster.draw(canvas.buffer);
+    prediction::label(canvas, &frame, (q, plot));
     for (_, layer) in &layers {
         if let Layer::Legend(lines) = layer {
             legend::draw(canvas, beside.unwrap_or(frame.area), lines);
@@ -407,27 +403,6 @@ fn levels(
     for saddle in &landscape.saddles {
         raster.marker(frame, *saddle, Marker::Cross, &parting);
     }
-}
-
-/// The time window over this many columns: it doubles its length as the motion fills it, up to the greatest, then
-/// moves along by whole columns.
-fn window(q: &Quantities<'_>, viewport: Viewport, columns: u16) -> Scale {
-    let speed = q.lab.loaded.model.run.speed;
-    let most = SECONDS * if speed.is_finite() && speed > 0.0 { speed } else { 1.0 };
-    let start = q.lab.loaded.model.run.start;
-    let passed = q.snapshot.time - start;
-    let lengths = (0..=DOUBLINGS).rev().map(|halved| most / math::powi(2.0, halved));
-    let span = lengths.clone().find(|length| passed <= *length);
-    let (span, end) = span.map_or_else(
-        || {
-            let column = most / f64::from(columns.max(1));
-            (most, start + (passed / column).ceil() * column)
-        },
-        |span| (span, start + span),
-    );
-    let span = span / viewport.zoom[0];
-    let shift = viewport.pan[0] * span;
-    Scale::linear(end - span + shift, end + shift)
 }
 
 /// One axis for all quantities: their names are in the frame, and the axis has the unit if they share it.

@@ -108,6 +108,14 @@ impl<'a> Quantities<'a> {
         viewport: (Viewport, usize),
     ) -> Axis {
         let (lo, hi) = self.extent(channel);
+        let range = self
+            .lab
+            .predicted_range(Some(channel))
+            .map(|least| {
+                let [from, to] = range.unwrap_or([lo, hi]);
+                [least[0].min(from), least[1].max(to)]
+            })
+            .or(range);
         let period = self.period(channel);
         let scale = match (range, period) {
             (Some([lo, hi]), _) => Scale::linear(lo, hi),

@@ -5,7 +5,9 @@
 use crossterm::event::KeyEvent;
 
 use super::line::Line;
-use super::{Assert, LessonStep, Measure, Relation, Said, Step, SweepPath, Text, Word};
+use super::{
+    Asked, AskedAxis, Assert, LessonStep, Measure, Relation, Said, Step, SweepPath, Text, Word,
+};
 use crate::app::key;
 use crate::diagnostic::Diagnostic;
 use crate::view::colour::ColourDepth;
@@ -57,7 +59,7 @@ pub const COMMANDS: &[Command] = &[
     row("Say", "Say \"TEXT\"", "lesson: say something, and wait for a key; the motion waits too", say),
     row("Ask", "Ask \"QUESTION\"", "lesson: ask; the options stand on the lines below, and `Outcome` says who is right", ask),
     row("Option", "Option \"TEXT\" [why \"TEXT\"] if CLAIM", "lesson: an option of the question above, right if the claim holds at the outcome; `why` is for who chose it wrongly", option),
-    row("Predict", "Predict \"QUESTION\" EXPR within EPS", "lesson: ask for a number, the value of EXPR at the outcome", predict),
+    row("Predict", "Predict \"QUESTION\" EXPR within EPS", "lesson: ask for a number, the value of EXPR at the outcome; a `point` or `curve` of a plot is set by its cursor", predict),
     row("Outcome", "Outcome", "lesson: hold the answer to the last question against what has happened since", outcome),
     row("Task", "Task \"TEXT\" [hint \"TEXT\"] until CLAIM", "lesson: give the lab to the person until the claim holds; afterwards the system begins as its file says", task),
     row("Solution", "Solution KEY [xN] [KEY …]", "lesson: the keys that fulfil the task above, which `lesson check` presses", solution),
@@ -363,9 +365,39 @@ fn option(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
 
 fn predict(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     let text = line.quoted("a question")?.text;
+    let is_curve = line.take("curve");
+    if is_curve || line.take("point") {
+        let asked = Asked::Place { is_curve, axes: Box::new(axes(line)?) };
+        return Ok(lesson(LessonStep::Predict { text, asked }));
+    }
     let value = line.until(&["within"], "what is to be predicted")?;
     expect(line, "within")?;
-    Ok(lesson(LessonStep::Predict { text, value, within: line.until(&[], "a tolerance")? }))
+    let asked = Asked::Value { value, within: line.until(&[], "a tolerance")? };
+    Ok(lesson(LessonStep::Predict { text, asked }))
+}
+
+/// The axes of a plot: `X [from A to B] and Y [from A to B] within EPS [and EPS]`.
+fn axes(line: &mut Line<'_>) -> Result<[AskedAxis; 2], Diagnostic> {
+    let axis = |line: &mut Line<'_>, end: &str| {
+        let of = line.until(&["from", end], "the quantity on an axis")?;
+        if !line.take("from") {
+            return Ok((of, None));
+        }
+        let from = line.until(&["to"], "the end of an axis")?;
+        expect(line, "to")?;
+        let to = line.until(&[end], "the other end of the axis")?;
+        Ok((of, Some([from, to])))
+    };
+    let (across, window) = axis(line, "and")?;
+    expect(line, "and")?;
+    let (upwards, height) = axis(line, "within")?;
+    expect(line, "within")?;
+    let within = line.until(&["and"], "a tolerance")?;
+    let also = if line.take("and") { line.until(&[], "a tolerance")? } else { within.clone() };
+    Ok([
+        AskedAxis { of: across, range: window, within },
+        AskedAxis { of: upwards, range: height, within: also },
+    ])
 }
 
 #[expect(clippy::unnecessary_wraps, reason = "a reader of the table")]
