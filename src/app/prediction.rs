@@ -5,6 +5,7 @@
 
 use super::{App, Lab, Pane};
 use crate::instrument::Plot;
+use crate::num::math;
 
 /// The number of pieces of a smooth curve between two of its points.
 const PIECES: usize = 16;
@@ -131,12 +132,12 @@ impl Prediction {
         } else {
             0.0
         };
-        (there[0] - share * along[0]).hypot(there[1] - share * along[1])
+        math::hypot(there[0] - share * along[0], there[1] - share * along[1])
     }
 
     fn length(&self, from: [f64; 2], to: [f64; 2]) -> f64 {
         let [x, y] = [0, 1].map(|k| (to[k] - from[k]) / self.axes[k].within);
-        x.hypot(y)
+        math::hypot(x, y)
     }
 }
 
@@ -209,7 +210,7 @@ mod tests {
         let bent = curve([1.0, 0.5], &[[0.0, 0.0], [1.0, 2.0], [4.0, -1.0]]);
         for (index, point) in bent.points.iter().enumerate() {
             let [x, y] = bent.line()[index * PIECES];
-            assert!((x - point[0]).hypot(y - point[1]) < 1e-12);
+            assert!(math::hypot(x - point[0], y - point[1]) < 1e-12);
         }
     }
 
@@ -218,13 +219,14 @@ mod tests {
     fn a_smooth_curve_through_points_of_a_circle_is_near_to_it() {
         let on_circle = |turns: f64| {
             let angle = turns * std::f64::consts::TAU;
-            [angle.cos(), angle.sin()]
+            [math::cos(angle), math::sin(angle)]
         };
         let points: Vec<_> = (0..=8).map(|k| on_circle(f64::from(k) / 8.0)).collect();
         let line = curve([1.0, 1.0], &points).line();
         // at the two ends the curve does not know how to go on
         let inner = &line[PIECES..line.len() - PIECES];
-        let worst = inner.iter().map(|[x, y]| (x.hypot(*y) - 1.0).abs()).fold(0.0, f64::max);
+        let worst =
+            inner.iter().map(|[x, y]| (math::hypot(*x, *y) - 1.0).abs()).fold(0.0, f64::max);
         assert!(worst < 0.01 && worst > 0.0, "{worst}");
     }
 
