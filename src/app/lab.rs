@@ -58,7 +58,7 @@ pub struct Lab {
     pub(super) equilibria: EquilibriaSearch,
     pub(super) history: History,
     /// What a person predicts on a picture.
-    pub prediction: Option<Prediction>,
+    pub prediction: Option<Box<Prediction>>,
     /// The times that are marked, in order.
     pub marks: Vec<f64>,
     /// The checkpoint that the experiment is to restore, until it has.

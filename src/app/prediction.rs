@@ -173,7 +173,7 @@ impl App {
             (viewport.zoom, viewport.pan) = ([1.0; 2], [0.0; 2]);
             viewport.cursor = Some([0.5; 2]);
         }
-        lab.prediction = Some(prediction);
+        lab.prediction = Some(Box::new(prediction));
         true
     }
 

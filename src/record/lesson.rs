@@ -372,7 +372,7 @@ impl Lesson {
                 *since = app.snapshot().map_or(0.0, |snapshot| snapshot.time);
                 app.end_prediction();
                 if let Some(lab) = &mut app.lab {
-                    lab.prediction = Some(prediction.clone());
+                    lab.prediction = Some(Box::new(prediction.clone()));
                 }
             }
             _ => {}

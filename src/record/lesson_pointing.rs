@@ -55,7 +55,7 @@ impl Lesson {
     }
 
     fn predicted(&mut self) -> Option<&mut Prediction> {
-        self.runner.lab.app.lab.as_mut()?.prediction.as_mut()
+        self.runner.lab.app.lab.as_mut()?.prediction.as_deref_mut()
     }
 
     fn add_point(&mut self, at: Option<[f64; 2]>) {

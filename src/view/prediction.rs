@@ -16,7 +16,7 @@ const FOUND: Level = 250;
 const PREDICTED: Level = 251;
 
 fn shown<'a>(q: &Quantities<'a>, plot: &Plot) -> Option<&'a Prediction> {
-    q.lab.prediction.as_ref().filter(|prediction| prediction.is_on(plot))
+    q.lab.prediction.as_deref().filter(|prediction| prediction.is_on(plot))
 }
 
 /// Draws the points and curves.
