@@ -45,6 +45,7 @@ mod perform;
 mod picker;
 mod plain;
 mod pointer;
+mod predicting;
 mod prediction;
 mod prompt;
 mod rate;

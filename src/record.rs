@@ -17,6 +17,7 @@ mod clock;
 mod headless_lab;
 mod lesson;
 mod lesson_check;
+mod lesson_judge;
 mod lesson_keys;
 mod lesson_order;
 mod lesson_pointing;

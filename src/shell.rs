@@ -33,6 +33,7 @@ mod lab_error;
 mod lesson;
 mod loader;
 mod log;
+mod mouse;
 mod new_file;
 pub mod options;
 mod panic;

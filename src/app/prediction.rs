@@ -3,7 +3,7 @@
 //! In: the quantities on the two axes, points in their units, afterwards what the motion did. Out: the smooth curve
 //! through the points, and how far it is from the motion. Never here: who predicts, cells.
 
-use super::{App, Lab, Pane};
+use super::pane::Pane;
 use crate::instrument::Plot;
 use crate::num::math;
 
@@ -21,6 +21,8 @@ pub struct Prediction {
     pub points: Vec<[f64; 2]>,
     /// What the motion did, once it is to be shown: one point, or a curve.
     pub outcome: Vec<[f64; 2]>,
+    /// The pane that had the focus before.
+    pub before: Option<Pane>,
 }
 
 /// An axis of a prediction.
@@ -152,54 +154,19 @@ fn spline(points: &[[f64; 2]], knots: &[f64], at: f64) -> [f64; 2] {
     between(arcs[0], arcs[1], knots[1], knots[2])
 }
 
-impl Lab {
-    /// The range that an axis shows at least, because something is predicted there.
-    pub fn predicted_range(&self, channel: Option<usize>) -> Option<[f64; 2]> {
-        let axes = &self.prediction.as_ref()?.axes;
-        axes.iter().find(|axis| axis.channel == channel)?.range
-    }
-}
-
-impl App {
-    /// Asks for a prediction: focuses the first plot with its axes, and puts the cursor in the middle. Returns whether
-    /// there is such a plot.
-    pub fn begin_prediction(&mut self, prediction: Prediction) -> bool {
-        let Some(lab) = &mut self.lab else { return false };
-        let Some(index) = lab.plots.iter().position(|plot| prediction.is_on(plot)) else {
-            return false;
-        };
-        (lab.focus, lab.front, lab.untouched) = (Pane::Plot(index), Some(index), false);
-        if let Some(viewport) = lab.plots[index].viewport_mut() {
-            (viewport.zoom, viewport.pan) = ([1.0; 2], [0.0; 2]);
-            viewport.cursor = Some([0.5; 2]);
-        }
-        lab.prediction = Some(Box::new(prediction));
-        true
-    }
-
-    /// The coordinates of the cursor of the focused plot, as it was last drawn.
-    pub fn cursor_reading(&self) -> Option<[f64; 2]> {
-        self.drawn.reading
-    }
-
-    /// Takes the cursor off the plot on which something was predicted.
-    pub fn end_prediction(&mut self) {
-        let Some(lab) = &mut self.lab else { return };
-        let Some(prediction) = &lab.prediction else { return };
-        let Some(plot) = lab.plots.iter_mut().find(|plot| prediction.is_on(plot)) else { return };
-        if let Some(viewport) = plot.viewport_mut() {
-            viewport.cursor = None;
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn curve(within: [f64; 2], points: &[[f64; 2]]) -> Prediction {
         let axes = within.map(|within| PredictedAxis { channel: None, range: None, within });
-        Prediction { axes, is_curve: true, points: points.to_vec(), outcome: Vec::new() }
+        Prediction {
+            axes,
+            is_curve: true,
+            points: points.to_vec(),
+            outcome: Vec::new(),
+            before: None,
+        }
     }
 
     #[test]

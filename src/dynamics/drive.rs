@@ -3,10 +3,9 @@
 //!
 //! In: the equations, the parameters. Out: the common period, if there is one. Never here: orbits.
 
-use super::phase_space::acts;
 use crate::expr::{Expr, FunctionId, Node};
 use crate::mechanics::{Equations, Flow, Valuation};
-use crate::model::Model;
+use crate::model::{Action, Model};
 use crate::system::System;
 
 /// The most turns of the slowest part of a drive in its common period.
@@ -14,6 +13,15 @@ const TURNS: u32 = 64;
 
 /// A number of turns this close to a whole one is one.
 const WHOLE: f64 = 1e-9;
+
+/// The functions whose zeros let impulses act, and what these change.
+pub(super) fn acts(model: &Model) -> Vec<Expr> {
+    let acting = model.events.iter().filter_map(|event| match event.action {
+        Action::Impulse(index) => Some((event.when, model.impulses.get(index)?)),
+        _ => None,
+    });
+    acting.flat_map(|(when, impulse)| impulse.change.iter().copied().chain([when])).collect()
+}
 
 /// The period of the drive of a law of motion at these parameters; `None` if it has none.
 pub(super) fn drive_period(

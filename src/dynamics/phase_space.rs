@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::drive::drive_period;
+use super::drive::{acts, drive_period};
 use super::error::DynamicsError;
 use crate::expr::Expr;
 use crate::mechanics::Equations;
@@ -244,15 +244,6 @@ fn refuse_acts(system: &System) -> Result<(), DynamicsError> {
         return unsuited("events act on the motion, across which its derivatives are not computed");
     }
     Ok(())
-}
-
-/// The functions whose zeros let impulses act, and what these change.
-pub(super) fn acts(model: &Model) -> Vec<Expr> {
-    let acting = model.events.iter().filter_map(|event| match event.action {
-        Action::Impulse(index) => Some((event.when, model.impulses.get(index)?)),
-        _ => None,
-    });
-    acting.flat_map(|(when, impulse)| impulse.change.iter().copied().chain([when])).collect()
 }
 
 /// Whether impulses act at given times.

@@ -7,8 +7,9 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::lesson::{Lesson, Stage, paragraph};
+use super::lesson_judge::{letter, pair, short};
 use super::lesson_order::steps_of_person;
-use super::lesson_question::{Question, QuestionKind, letter, pair, short};
+use super::lesson_question::{Question, QuestionKind};
 use crate::view::RenderStyle;
 use crate::view::lesson::{self, Paragraph, ParagraphKind, Speech};
 

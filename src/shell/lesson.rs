@@ -11,7 +11,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 
 use super::frame_loop::{Screen, ScreenRequest};
-use super::session::with_shift;
+use super::mouse::with_shift;
 use crate::diagnostic::Diagnostic;
 use crate::record::{Lesson, Pressed};
 use crate::view::{Detail, RenderStyle};

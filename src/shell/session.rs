@@ -14,8 +14,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crossterm::event::{
-    Event as TerminalEvent, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent,
-    MouseEventKind,
+    Event as TerminalEvent, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEventKind,
 };
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
@@ -28,6 +27,7 @@ use super::files::{self, FileChange, Watch};
 use super::frame_loop::{Pace, Screen, ScreenRequest};
 use super::guided::Guided;
 use super::loader::Loader;
+use super::mouse::with_shift;
 use super::recorder::Recorder;
 use super::request::Request;
 use super::store::Store;
@@ -344,21 +344,6 @@ impl Session {
 fn is_interrupt(event: &TerminalEvent) -> bool {
     matches!(event, TerminalEvent::Key(KeyEvent { code: KeyCode::Char('c'), modifiers, .. })
         if modifiers.contains(KeyModifiers::CONTROL))
-}
-
-/// Shift makes the right button of the left one: many terminals keep one of the two for themselves.
-pub(super) fn with_shift(mouse: MouseEvent) -> MouseEventKind {
-    match mouse.kind {
-        MouseEventKind::Up(MouseButton::Left) if mouse.modifiers.contains(KeyModifiers::SHIFT) => {
-            MouseEventKind::Up(MouseButton::Right)
-        }
-        MouseEventKind::Down(MouseButton::Left)
-            if mouse.modifiers.contains(KeyModifiers::SHIFT) =>
-        {
-            MouseEventKind::Down(MouseButton::Right)
-        }
-        kind => kind,
-    }
 }
 
 impl Screen for Session {

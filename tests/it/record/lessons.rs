@@ -260,3 +260,26 @@ fn a_lesson_is_not_recorded_as_a_demo() {
     let refused = phaselab::record::play(&script, &system("planet"), "planet", (80, 24));
     assert!(refused.expect_err("nobody answers")[0].message.contains("waits for a person"));
 }
+
+#[test]
+fn a_point_is_set_by_the_cursor_committed_and_kept_beside_the_outcome() {
+    let point = "Predict \"Where is it in half a turn?\" point r from 0 to 2 and p_r within 0.1 and 1\n\
+                 Wait 3s\nOutcome\nSay \"after\"\n";
+    let curve = point.replace("point", "curve");
+    // the right answer and wrong ones are taken by the check, which finds what is false
+    assert_eq!(mistakes(point), Vec::<String>::new());
+    assert_eq!(mistakes(&curve), Vec::<String>::new());
+    assert!(!mistakes(&point.replace("p_r", "nothing")).is_empty());
+    let mut lesson = taken(point);
+    pass(&mut lesson, 0.1);
+    let wide = |lesson: &mut Lesson| screen(lesson, (120, 40), &plain()).join("\n");
+    let before = wide(&mut lesson);
+    assert!(before.contains("Where is it in half a turn?") && !before.contains("found"), "{before}");
+    for key in [KeyCode::Right, KeyCode::Up, KeyCode::Enter] {
+        assert_eq!(lesson.press(KeyEvent::from(key)), Pressed::Taken, "{key:?}");
+        wide(&mut lesson);
+    }
+    pass(&mut lesson, 4.0);
+    let after = wide(&mut lesson);
+    assert!(after.contains("predicted") && after.contains("found"), "{after}");
+}

@@ -1,0 +1,190 @@
+//! What the motion says to an answer.
+//!
+//! In: an answer that was committed, a [`Lesson`] at the outcome. Out: whether it is right, what is right, and what is said.
+//! Never here: keys, or what comes next.
+
+use super::assertion::{self, Finding};
+use super::lesson::{Lesson, paragraph};
+use super::lesson_question::{Choice, Truth};
+use super::script::{AskedAxis, Text};
+use crate::app::{PredictedAxis, Prediction};
+use crate::diagnostic::{Diagnostic, SourceRange};
+use crate::num::significant;
+use crate::view::lesson::{Paragraph, ParagraphKind};
+
+/// What is said, whether the answer was right, and what is right.
+type Judged = (Vec<Paragraph>, (bool, Truth));
+
+impl Lesson {
+    pub(super) fn judge_choice(
+        &self,
+        options: &[Choice],
+        chosen: Option<usize>,
+    ) -> Result<Judged, Diagnostic> {
+        let findings: Vec<Finding> =
+            options.iter().map(|option| self.find(&option.claim)).collect::<Result<_, _>>()?;
+        let holds: Vec<bool> = findings.iter().map(|finding| finding.holds).collect();
+        let chosen = chosen.unwrap_or(0);
+        let right = holds[chosen];
+        let own = letter(chosen, &options[chosen].text);
+        let mut said = vec![match (right, &options[chosen].why) {
+            (true, _) => paragraph(ParagraphKind::Right, format!("Right: {own}")),
+            (false, None) => paragraph(ParagraphKind::Wrong, format!("Not so: {own}")),
+            (false, Some(why)) => paragraph(ParagraphKind::Wrong, format!("Not so: {own}. {why}")),
+        }];
+        if let (false, Some(other)) = (right, holds.iter().position(|holds| *holds)) {
+            let other = letter(other, &options[other].text);
+            said.push(paragraph(ParagraphKind::Text, format!("It is {other}")));
+        }
+        if let Some(at) = holds.iter().position(|holds| *holds) {
+            let found = format!("Found: {}.", findings[at].sentence);
+            said.push(paragraph(ParagraphKind::Quiet, found));
+        }
+        Ok((said, (right, Truth::Options(holds))))
+    }
+
+    pub(super) fn judge_number(
+        &self,
+        value: &Text,
+        within: &Text,
+        said: Option<f64>,
+    ) -> Result<Judged, Diagnostic> {
+        let app = &self.runner.lab.app;
+        let (value, within) = (assertion::value(app, value)?, assertion::value(app, within)?);
+        let number = said.unwrap_or(f64::NAN);
+        let right = (number - value).abs() <= within;
+        let (kind, word) = spoken(right);
+        let (number, found, near) = (short(number), short(value), short(within));
+        let text = format!("{word}: you predicted {number}, it is {found} (right within {near}).");
+        Ok((vec![paragraph(kind, text)], (right, Truth::Value(value, within))))
+    }
+
+    /// As the others, and the point or the curve of the motion.
+    pub(super) fn judge_place(
+        &self,
+        prediction: &Prediction,
+        since: f64,
+    ) -> (Vec<Paragraph>, (bool, Truth), Vec<[f64; 2]>) {
+        let found = self.motion_along(prediction, since);
+        let distance = prediction.distance(&found);
+        let right = distance.is_some_and(|distance| distance <= 1.0);
+        let (kind, word) = spoken(right);
+        let [x, y] = prediction.axes.map(|axis| short(axis.within));
+        let names = self.names(prediction);
+        let text = match (prediction.points.last(), found.last()) {
+            (Some(own), Some(found)) if !prediction.is_curve => {
+                let [own, found] = [own, found].map(|at| pair(*at));
+                format!("{word}: you predicted {own}, it is {found} (right within {x} and {y}).")
+            }
+            _ if right => format!("{word}: your curve stays as near to the motion as was asked."),
+            _ => {
+                let times = short(distance.unwrap_or(f64::INFINITY));
+                let [across, upwards] = names;
+                format!(
+                    "{word}: your curve is up to {times} times as far from the motion as is \
+                     right ({x} along {across}, {y} along {upwards})."
+                )
+            }
+        };
+        (vec![paragraph(kind, text)], (right, Truth::Place(found.clone())), found)
+    }
+
+    /// Where the motion is on the axes of a prediction, or the curve that it has drawn there since a time.
+    fn motion_along(&self, prediction: &Prediction, since: f64) -> Vec<[f64; 2]> {
+        let Some(snapshot) = self.runner.lab.app.lab.as_ref().and_then(|lab| lab.seen()) else {
+            return Vec::new();
+        };
+        let channels = prediction.axes.map(|axis| axis.channel);
+        let value = |channel: &usize| snapshot.values.get(*channel).copied().unwrap_or(f64::NAN);
+        let now = channels.map(|channel| channel.as_ref().map_or(snapshot.time, value));
+        if !prediction.is_curve {
+            return vec![now];
+        }
+        let rows = snapshot.trail.rows().filter(|row| row.first().is_some_and(|t| *t >= since));
+        let place = |row: &[f64]| {
+            channels.map(|channel| {
+                row.get(channel.map_or(0, |channel| 1 + channel)).copied().unwrap_or(f64::NAN)
+            })
+        };
+        let finite = |at: &[f64; 2]| at.iter().all(|x| x.is_finite());
+        rows.map(place).chain([now]).filter(finite).collect()
+    }
+
+    /// A prediction on the axes that a script names; begins to ask for it.
+    pub(super) fn prediction(
+        &mut self,
+        place: &SourceRange,
+        is_curve: bool,
+        axes: &[AskedAxis; 2],
+    ) -> Result<Prediction, Diagnostic> {
+        let [across, upwards] = axes;
+        let axes = [self.axis(across, true)?, self.axis(upwards, false)?];
+        let prediction =
+            Prediction { axes, is_curve, points: Vec::new(), outcome: Vec::new(), before: None };
+        if self.runner.lab.app.begin_prediction(prediction.clone()) {
+            return Ok(prediction);
+        }
+        let message = format!("no plot shows {} against {}", upwards.of.text, across.of.text);
+        let help = "the system needs a view of kind \"phase\" of the two, or \"time\" against t";
+        Err(Diagnostic::error(place.clone(), message).with_help(help))
+    }
+
+    fn axis(&self, asked: &AskedAxis, across: bool) -> Result<PredictedAxis, Diagnostic> {
+        let app = &self.runner.lab.app;
+        let channel = match asked.of.text.as_str() {
+            "t" if across => None,
+            _ => Some(assertion::column(app, &asked.of)?),
+        };
+        let within = assertion::value(app, &asked.within)?;
+        if within <= 0.0 {
+            let message = format!("nobody predicts a place exactly; this is within {within}");
+            return Err(Diagnostic::error(asked.within.place.clone(), message));
+        }
+        let range = match &asked.range {
+            Some([from, to]) => {
+                let range = [assertion::value(app, from)?, assertion::value(app, to)?];
+                if range[0] >= range[1] {
+                    let message = format!("this axis would go from {} to {}", range[0], range[1]);
+                    let place = from.place.start..to.place.end;
+                    return Err(Diagnostic::error(place, message));
+                }
+                Some(range)
+            }
+            None => None,
+        };
+        Ok(PredictedAxis { channel, range, within })
+    }
+
+    /// The names of the axes of a prediction.
+    pub(super) fn names(&self, prediction: &Prediction) -> [String; 2] {
+        let lab = self.runner.lab.app.lab.as_ref();
+        prediction.axes.map(|axis| match axis.channel {
+            None => "t".to_owned(),
+            Some(channel) => {
+                let channels = lab.map(|lab| lab.loaded.system.channels());
+                let named = channels.and_then(|channels| channels.get(channel));
+                named.map_or_else(String::new, |channel| channel.shown.clone())
+            }
+        })
+    }
+}
+
+fn spoken(right: bool) -> (ParagraphKind, &'static str) {
+    if right { (ParagraphKind::Right, "Right") } else { (ParagraphKind::Wrong, "Not so") }
+}
+
+/// An option with its letter.
+pub(super) fn letter(index: usize, text: &str) -> String {
+    let letter = char::from(b'a' + (index.min(25) as u8));
+    format!("{letter}) {text}")
+}
+
+/// A number with four digits, for display only.
+pub(super) fn short(x: f64) -> String {
+    significant(x, 4, 1e-3..1e6)
+}
+
+/// A point, for display only.
+pub(super) fn pair([x, y]: [f64; 2]) -> String {
+    format!("({}, {})", short(x), short(y))
+}
