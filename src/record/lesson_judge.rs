@@ -12,6 +12,9 @@ use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::num::significant;
 use crate::view::lesson::{Paragraph, ParagraphKind};
 
+/// A number this small relative to how far a prediction may be off is zero.
+const ROUNDING: f64 = 1e-9;
+
 /// What is said, whether the answer was right, and what is right.
 type Judged = (Vec<Paragraph>, (bool, Truth));
 
@@ -73,7 +76,12 @@ impl Lesson {
         let names = self.names(prediction);
         let text = match (prediction.points.last(), found.last()) {
             (Some(own), Some(found)) if !prediction.is_curve => {
-                let [own, found] = [own, found].map(|at| pair(*at));
+                // the last digits of what vanishes say nothing
+                let shown = |at: &[f64; 2]| {
+                    let known = |k: usize| at[k].abs() > ROUNDING * prediction.axes[k].within;
+                    pair([0, 1].map(|k| if known(k) { at[k] } else { 0.0 }))
+                };
+                let [own, found] = [own, found].map(shown);
                 format!("{word}: you predicted {own}, it is {found} (right within {x} and {y}).")
             }
             _ if right => format!("{word}: your curve stays as near to the motion as was asked."),

@@ -274,7 +274,10 @@ fn a_point_is_set_by_the_cursor_committed_and_kept_beside_the_outcome() {
     pass(&mut lesson, 0.1);
     let wide = |lesson: &mut Lesson| screen(lesson, (120, 40), &plain()).join("\n");
     let before = wide(&mut lesson);
-    assert!(before.contains("Where is it in half a turn?") && !before.contains("found"), "{before}");
+    assert!(
+        before.contains("Where is it in half a turn?") && !before.contains("found"),
+        "{before}"
+    );
     for key in [KeyCode::Right, KeyCode::Up, KeyCode::Enter] {
         assert_eq!(lesson.press(KeyEvent::from(key)), Pressed::Taken, "{key:?}");
         wide(&mut lesson);
