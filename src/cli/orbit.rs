@@ -165,6 +165,9 @@ fn members(study: &Study, family: &Family) -> Value {
     Value::Array(family.members.iter().map(member).collect())
 }
 
+/// Multipliers up to this far from 1 are shown together: of a double one half of the digits are lost.
+const NEAR_ONE: f64 = 1e-5;
+
 /// The family as a table, and why it ends early.
 fn rows(family: &Family, name: &str) -> String {
     let head = [name, "period", "energy", "trace", "", ""];
@@ -211,6 +214,8 @@ fn object(study: &Study, orbit: &Orbit) -> Map<String, Value> {
     insert("action", json!(orbit.action));
     insert("closure", json!(orbit.closure));
     insert("multipliers", json!(multipliers(orbit)));
+    let exponents = orbit.multipliers.iter().map(|z| orbit.exponent(*z));
+    insert("exponents", exponents.chain(std::iter::repeat_n(0.0, orbit.trivial.count())).collect());
     insert("trivial", json!(trivial(orbit.trivial)));
     insert("trace", json!(orbit.transverse.trace()));
     insert("residue", json!(orbit.residue()));
@@ -222,11 +227,6 @@ fn text(study: &Study, orbit: &Orbit) -> String {
     let names = study.space.names();
     let start = names.iter().zip(study.space.variables(&orbit.state));
     let start: Vec<String> = start.map(|(name, &x)| format!("{name} = {x:?}")).collect();
-    let complex = |z: &[f64; 2]| match z[1] {
-        0.0 => shown(z[0]),
-        im => format!("{} {} {}i", shown(z[0]), if im < 0.0 { '−' } else { '+' }, shown(im.abs())),
-    };
-    let all: Vec<String> = orbit.multipliers.iter().map(complex).collect();
     let stable = if orbit.stable { "stable" } else { "unstable" };
     let mut text = format!("{stable} periodic orbit\n\n");
     text.push_str(&format!("period   {:?}\n", orbit.period));
@@ -236,14 +236,43 @@ fn text(study: &Study, orbit: &Orbit) -> String {
     }
     text.push_str(&format!("start    {}\n", start.join(", ")));
     text.push_str(&format!("closure  {:.1e}\n", orbit.closure));
-    let all = if all.is_empty() { "none but these".to_owned() } else { all.join(", ") };
-    text.push_str(&format!("\nmultipliers {all}\n"));
-    if orbit.trivial.count() > 0 {
-        let names = trivial(orbit.trivial).join(" and of the ");
-        text.push_str(&format!("and 1 of the {names}\n"));
+    text.push_str("\nmultipliers\n");
+    let rows = multiplier_rows(orbit);
+    let widest = rows.iter().map(|(value, _)| value.chars().count()).max().unwrap_or(0);
+    for (value, meaning) in rows {
+        text.push_str(&format!("  {value:<widest$}  {meaning}\n"));
     }
     if let Some(residue) = orbit.residue() {
         text.push_str(&format!("residue     {}\n", shown(residue)));
     }
     text
+}
+
+/// A row for each multiplier or conjugate pair: what it is, and its exponent or its angle. Those that symmetries hold at 1 are
+/// one row.
+fn multiplier_rows(orbit: &Orbit) -> Vec<(String, String)> {
+    let off_one = |z: &[f64; 2]| crate::num::math::hypot(z[0] - 1.0, z[1]);
+    let (ones, others): (Vec<&[f64; 2]>, Vec<&[f64; 2]>) =
+        orbit.multipliers.iter().partition(|z| off_one(z) <= NEAR_ONE);
+    let mut rows = Vec::new();
+    for &z in others.into_iter().filter(|z| z[1] >= 0.0) {
+        let value = match z[1] {
+            0.0 => shown(z[0]),
+            im => format!("{} ± {}i", shown(z[0]), shown(im)),
+        };
+        let meaning = match orbit.rotation(z) {
+            Some(turns) => format!("ν = {turns:.12}"),
+            None => format!("ln|μ|/T = {:.12}", orbit.exponent(z)),
+        };
+        rows.push((value, meaning));
+    }
+    if !ones.is_empty() {
+        let spread = ones.iter().map(|z| off_one(z)).fold(0.0, f64::max);
+        rows.push(("1".to_owned(), format!("{} times, to {spread:.0e}", ones.len())));
+    }
+    if orbit.trivial.count() > 0 {
+        let names = trivial(orbit.trivial).join(" and of the ");
+        rows.push(("1".to_owned(), format!("of the {names}")));
+    }
+    rows
 }

@@ -27,6 +27,9 @@ use crate::system::State;
 const STEPS: usize = 50;
 const HALVINGS: u32 = 10;
 
+/// The maximal number of corrections of the period alone, before those of the state.
+const SETTLINGS: usize = 6;
+
 /// An orbit is closed up to this part of its size.
 const CLOSED: f64 = 1e-9;
 
@@ -82,6 +85,17 @@ impl Orbit {
         let preserves = across.nrows() == 2 && (across.determinant() - 1.0).abs() <= ON_CIRCLE;
         preserves.then(|| (2.0 - across.trace()) / 4.0)
     }
+
+    /// The characteristic exponent ln|μ|/T of a multiplier μ: the Lyapunov exponent along its direction.
+    pub fn exponent(&self, [re, im]: [f64; 2]) -> f64 {
+        math::ln(math::hypot(re, im)) / self.period
+    }
+
+    /// The angle by which a pair of multipliers e^{±2πiν} turns in a period, in turns: 0 < ν < ½, or nothing off the unit circle.
+    pub fn rotation(&self, [re, im]: [f64; 2]) -> Option<f64> {
+        let on_circle = im != 0.0 && (math::hypot(re, im) - 1.0).abs() <= ON_CIRCLE;
+        on_circle.then(|| math::atan2(im.abs(), re) / core::f64::consts::TAU)
+    }
 }
 
 /// Finds the periodic orbit near a state of the space. Without a period it begins at the first
@@ -113,6 +127,7 @@ pub fn periodic_orbit(
     let apart = |state: &State| difference(space, state, start);
     let units = OrbitUnits::of_motion(space, method, (start, period), apart)?;
     let mut newton = Newton { space, method, fixed, units };
+    let period = newton.settled(start, period);
     let mut closed = newton.solve(start, period)?;
     // the same orbit may have been followed several times
     if !matches!(fixed, Fixed::Period(_)) {
@@ -190,6 +205,28 @@ impl Newton<'_> {
             _ => 0.0,
         };
         math::hypot(look.miss.norm(), energy)
+    }
+
+    /// The period at which the motion misses its start across itself only: a start that lies on a periodic orbit
+    /// is then left as it is.
+    fn settled(&self, start: &State, period: f64) -> f64 {
+        let mut time = period;
+        if !self.space.is_autonomous() || matches!(self.fixed, Fixed::Period(_)) {
+            return time;
+        }
+        let Ok(mut look) = self.look(start, time) else { return time };
+        for _ in 0..SETTLINGS {
+            let rate = &look.rates[1];
+            let later = time - look.miss.dot(rate) / rate.norm_squared() * self.units.time();
+            if !(0.5 * period..2.0 * period).contains(&later) {
+                break;
+            }
+            match self.look(start, later) {
+                Ok(found) if found.miss.norm() < look.miss.norm() => (time, look) = (later, found),
+                _ => break,
+            }
+        }
+        time
     }
 
     fn solve(&mut self, start: &State, period: f64) -> Result<Closed, DynamicsError> {
