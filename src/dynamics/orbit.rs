@@ -230,7 +230,6 @@ impl Newton<'_> {
     }
 
     fn solve(&mut self, start: &State, period: f64) -> Result<Closed, DynamicsError> {
-        let n = self.space.dimension();
         let (mut state, mut time) = (start.clone(), period);
         let mut look = self.look(&state, time)?;
         let mut residual = self.residual(&look);
@@ -239,31 +238,17 @@ impl Newton<'_> {
             if residual <= ROUNDING * look.size || stalled > 1 {
                 break;
             }
-            let step = self.step(&look, residual).ok_or_else(|| no_orbit(residual, time))?;
-            let change = self.units.unscaled(&step.rows(0, n).into_owned());
-            let mut part = 1.0;
-            let mut next = None;
-            for _ in 0..HALVINGS {
-                let mut there = state.clone();
-                for i in 0..n {
-                    there.set(i, state.exact(i) + DoubleDouble::from(part * change[i]));
-                }
-                let later = time + part * step[n] * self.units.time();
-                if (0.2 * period..5.0 * period).contains(&later) {
-                    match self.look(&there, later) {
-                        Ok(found) if self.residual(&found) < residual => {
-                            next = Some((there, later, found));
-                            break;
-                        }
-                        Err(error) if error.is_cancelled() => return Err(error),
-                        _ => {}
-                    }
-                }
-                part *= 0.5;
-            }
+            // a direction that hardly matters must not be moved along as long as there is much to do, unless that is all
+            // that is left
+            let next = match self.advanced(&state, (time, period), &look, 1e-3 * residual)? {
+                None => self.advanced(&state, (time, period), &look, 0.0)?,
+                next => next,
+            };
             let Some((there, later, found)) = next else { break };
             let better = self.residual(&found);
-            stalled = if better > 0.5 * residual { stalled + 1 } else { 0 };
+            // parts of steps are slow far from the orbit; close to it slowness is rounding
+            let slow = if residual <= CLOSED * look.size { 0.5 } else { 0.95 };
+            stalled = if better > slow * residual { stalled + 1 } else { 0 };
             (state, time, look, residual) = (there, later, found, better);
         }
         // rest is an equilibrium; under a drive it may be one of the orbits that have its period
@@ -276,12 +261,41 @@ impl Newton<'_> {
         Ok(Closed { state, period: time, residual, monodromy: look.monodromy, settings })
     }
 
-    /// The correction of the state and of the period.
-    fn step(&self, look: &Look, residual: f64) -> Option<DVector<f64>> {
+    /// The state and the period after a correction, or a part of it, that leaves less missing; the period within five times
+    /// the first one. Singular values up to `cut` count as zero.
+    fn advanced(
+        &self,
+        state: &State,
+        (time, first): (f64, f64),
+        look: &Look,
+        cut: f64,
+    ) -> Result<Option<(State, f64, Look)>, DynamicsError> {
+        let n = self.space.dimension();
         let (matrix, right) = self.equations(look);
-        // a direction that hardly matters must not be moved along as long as there is much to do
-        let cut = 1e-11 * matrix.amax() + 1e-3 * residual;
-        linear::least_squares(&matrix, &right, cut)
+        let residual = self.residual(look);
+        let Some(step) = linear::least_squares(&matrix, &right, 1e-11 * matrix.amax() + cut) else {
+            return Err(no_orbit(residual, time));
+        };
+        let change = self.units.unscaled(&step.rows(0, n).into_owned());
+        let mut part = 1.0;
+        for _ in 0..HALVINGS {
+            let mut there = state.clone();
+            for i in 0..n {
+                there.set(i, state.exact(i) + DoubleDouble::from(part * change[i]));
+            }
+            let later = time + part * step[n] * self.units.time();
+            if (0.2 * first..5.0 * first).contains(&later) {
+                match self.look(&there, later) {
+                    Ok(found) if self.residual(&found) < residual => {
+                        return Ok(Some((there, later, found)));
+                    }
+                    Err(error) if error.is_cancelled() => return Err(error),
+                    _ => {}
+                }
+            }
+            part *= 0.5;
+        }
+        Ok(None)
     }
 
     /// What is missing, equation by equation, and the derivatives by (z, T).

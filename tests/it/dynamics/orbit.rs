@@ -1,6 +1,6 @@
 //! Periodic orbits.
 
-use phaselab::dynamics::{DynamicsError, Fixed, Orbit, Removed, periodic_orbit};
+use phaselab::dynamics::{Along, DynamicsError, Fixed, Orbit, Removed, family, periodic_orbit};
 
 use super::{Case, file, method, preset, taylor};
 
@@ -68,6 +68,31 @@ fn the_lyapunov_orbit_at_l1_closes() {
     close(found.multipliers[0][0] * found.multipliers[1][0], 1.0, 1e-8);
 }
 
+/// A start on an orbit is left as it is, to the last bit; beside one of a given period the orbit moves.
+#[test]
+fn a_start_on_an_orbit_is_left_as_it_is() {
+    let case = preset("henon-heiles", &[], &[0.0, -0.18540508709080214, 0.45975654576795759, 0.0]);
+    let found = of(&case, None, Fixed::Nothing);
+    assert_eq!(found.state.values, case.start.values);
+    close(found.period, 6.900_599_447_648_208_6, 2e-13);
+    close(found.exponent(found.multipliers[0]), 0.191_954_536_236_23, 1e-12);
+    assert_eq!(found.rotation(found.multipliers[0]), None);
+    // the orbits at L1 that are shorter lie nearer to it, x = 0.8369; their family followed gives x = 0.827128… at 2.716
+    let (x, v) = (0.826915, 0.090663934460268879);
+    let set = [("mu", 0.0121505856), ("x0", x), ("v0", v)];
+    let case = preset("restricted-three-body", &set, &[]);
+    let first = of(&case, Some(2.7172), Fixed::Nothing);
+    let walk = (Along::Period, Fixed::Nothing);
+    let members = family(&case.space, taylor(), &first, walk, &[2.717, 2.716]).unwrap().members;
+    assert_eq!(members.len(), 2);
+    for member in members {
+        let found = of(&case, Some(member.value), Fixed::Period(member.value));
+        assert!(found.period == member.value && found.closure < 1e-12);
+        close(found.state.values[0], member.orbit.state.values[0], 1e-8);
+        close(found.energy, member.orbit.energy, 1e-9);
+    }
+}
+
 fn energy(case: &Case) -> f64 {
     case.space.system().energy(&case.start, case.space.parameters()).unwrap()
 }
@@ -81,7 +106,9 @@ fn the_figure_eight_is_linearly_stable_by_its_two_angles() {
     for angle in [0.00842272471, 0.298092529] {
         let angle = angle * std::f64::consts::TAU;
         let there = |z: &&[f64; 2]| (z[0] - angle.cos()).abs() + (z[1] - angle.sin()).abs() < 1e-7;
-        assert!(found.multipliers.iter().any(|z| there(&z)), "{angle}: {:?}", found.multipliers);
+        let at = found.multipliers.iter().find(there).unwrap();
+        close(found.rotation(*at).unwrap() * std::f64::consts::TAU, angle, 1e-7);
+        close(found.exponent(*at), 0.0, 1e-8);
     }
     assert!(found.stable);
 }
