@@ -10,7 +10,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Complex, DMatrix, DVector};
+use rustfft::FftPlanner;
 
 use super::linear::least_squares;
 use super::rotation::birkhoff_average;
@@ -254,12 +255,19 @@ impl<'a> Fit<'a> {
 
     /// The amplitude at frequencies half a turn in the whole time from each other, up to what the spacing can tell apart.
     fn transform(&self, left: &[f64]) -> Vec<[f64; 2]> {
-        let step = PI / self.length();
-        let at = |k: usize| {
-            let frequency = step * k as f64;
-            [frequency, self.amplitude(left, frequency)]
+        let mut numbers: Vec<Complex<f64>> = left
+            .iter()
+            .zip(&self.window)
+            .map(|(x, weight)| Complex::new(weight * x, 0.0))
+            .collect();
+        // zeros as many again halve the distance of the frequencies
+        numbers.resize(2 * left.len(), Complex::new(0.0, 0.0));
+        FftPlanner::new().plan_fft_forward(numbers.len()).process(&mut numbers);
+        let (step, weights) = (PI / self.length(), self.window.iter().sum::<f64>());
+        let at = |(k, z): (usize, &Complex<f64>)| {
+            [step * k as f64, 2.0 * math::hypot(z.re, z.im) / weights]
         };
-        (0..left.len()).map(at).collect()
+        numbers[..left.len()].iter().enumerate().map(at).collect()
     }
 
     /// The frequency at which the amplitude is largest, between those of the transform.

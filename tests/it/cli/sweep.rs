@@ -239,16 +239,23 @@ fn a_killed_sweep_is_resumed_to_the_same_bytes() {
     assert_eq!(fs::read_to_string(home.path().join("out.csv")).unwrap(), whole);
 }
 
-/// Shards through GNU parallel, killed and resumed; where that is not installed the script says so and does nothing.
+/// Shards through GNU parallel and through Slurm, killed and resumed; of what is not installed the script says so.
 #[test]
-fn shards_run_through_gnu_parallel() {
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/sweep-through-parallel");
+fn shards_run_through_schedulers() {
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/sweep-through-schedulers");
     let program = assert_cmd::cargo::cargo_bin("phaselab");
     let output = Command::new("bash").arg(script).arg(program).output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     let errors = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(output.status.success(), "{said}{errors}");
-    assert!(said.contains("the same bytes") || said.contains("not installed"), "{said}{errors}");
+    for scheduler in ["GNU parallel", "Slurm"] {
+        let line = said.lines().find(|line| line.starts_with(scheduler));
+        let line = line.unwrap_or_else(|| panic!("{said}{errors}"));
+        assert!(
+            line.contains("the same bytes") || line.ends_with("not installed"),
+            "{said}{errors}"
+        );
+    }
 }
 
 #[test]

@@ -74,6 +74,41 @@ fn ten_lines_of_perihelia_are_found_to_rounding() {
     }
 }
 
+/// The perihelion of Jupiter as Laskar gives it, Icarus 88 (1990) 266, table VI: the ten lines by which REBOUND tests its
+/// analysis of frequencies, of amplitudes that span three powers of ten, over 10.8 million years.
+#[test]
+fn the_lines_of_jupiters_perihelion_are_found_to_rounding() {
+    let arcseconds = [
+        4.2488163, 28.2206942, 3.0895148, 52.1925732, 27.0613982, 29.3799573, 28.8679427,
+        27.5734578, 5.4070444, 0.6671228,
+    ];
+    let amplitudes = [44119.0, 15750.0, 1800.0, 516.0, 183.0, 178.0, 107.0, 95.0, 62.0, 58.0];
+    let phases =
+        [30.676, 308.112, 121.362, 45.551, 218.696, 217.460, 32.614, 43.733, 116.984, 74.116];
+    let per_year = std::f64::consts::PI / (180.0 * 3600.0);
+    let spacing = 120_000.0 / 365.25;
+    let signal: Vec<f64> = (0..32_768)
+        .map(|k| {
+            let t = spacing * f64::from(k);
+            let lines = arcseconds.iter().zip(amplitudes).zip(phases);
+            lines
+                .map(|((w, a), phase)| a * 1e-6 * (w * per_year * t + f64::to_radians(phase)).cos())
+                .sum()
+        })
+        .collect();
+    let found = spectrum(&signal, spacing, (10, 1), &mut |_| true).unwrap();
+    assert_eq!(found.lines.len(), 10, "{:#?}", found.lines);
+    for (line, (wanted, amplitude)) in found.lines.iter().zip(arcseconds.iter().zip(amplitudes)) {
+        let off = (line.frequency / per_year - wanted).abs();
+        assert!(off < 1e-12, "{wanted}″ a year: {off:e}");
+        assert!(
+            (line.amplitude * 1e6 / amplitude - 1.0).abs() < 1e-9,
+            "{wanted}: {}",
+            line.amplitude
+        );
+    }
+}
+
 #[test]
 fn what_is_no_combination_is_not_named_one() {
     let found = lines(&known, 0.25, 2);
