@@ -4,12 +4,14 @@
 //! In: histories of values, a compiled system. Out: a [`Verdict`], an [`Inquiry`], curves. Never
 //! here: files and their claims, threads, wall clocks, terminals.
 
+mod crossing_log;
 mod history;
 mod inquiry;
 mod landscape;
 mod separation;
 mod verdict;
 
+pub use crossing_log::CrossingLog;
 pub use history::{History, Stretch};
 pub use inquiry::{Answer, Inquiry};
 pub use landscape::{Curve, Grid, Landscape, Plane};

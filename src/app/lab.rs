@@ -171,7 +171,7 @@ impl Lab {
             initial: &snapshot.initial,
             values: &snapshot.values,
             bounds: &snapshot.bounds,
-            crossed: snapshot.crossings.counts(),
+            crossings: &snapshot.crossings,
             separations: &snapshot.separations,
             equilibria: self.equilibria_at(&snapshot.parameters),
             method: snapshot.method.name,

@@ -7,9 +7,8 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use super::Trail;
-use super::crossing_log::CrossingLog;
 use super::recorder::Recorder;
-use crate::analysis::Separation;
+use crate::analysis::{CrossingLog, Separation};
 use crate::integrate::{Method, OccurrenceKind, Propagator, Reached, Settings};
 use crate::system::{InitialOverride, MotionError, Observer, State, System};
 

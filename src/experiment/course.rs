@@ -6,7 +6,6 @@
 use std::sync::Arc;
 
 use super::companions::Companions;
-use super::crossing_log::CrossingLog;
 use super::echo::Echo;
 use super::event_log::EventLog;
 use super::gauges::{Gauges, Present};
@@ -15,6 +14,7 @@ use super::recorder::Recorder;
 use super::scrubbed::Scrubbed;
 use super::setup::{MethodNotFound, Setup, choose_method};
 use super::snapshot::{Failure, Gauge, MethodFact, Recorded, Snapshot, Status};
+use crate::analysis::CrossingLog;
 use crate::cancel::Cancel;
 use crate::integrate::Stepping;
 use crate::integrate::{Occurrence, OccurrenceKind, Reached};

@@ -10,8 +10,8 @@
 use std::sync::Arc;
 
 use super::observed_motion::ObservedMotion;
-use super::{Companion, CrossingLog, Origin, Return, Trail};
-use crate::analysis::{Separation, distance};
+use super::{Companion, Origin, Return, Trail};
+use crate::analysis::{CrossingLog, Separation, distance};
 
 /// Half the distance between 1 and the next number.
 const ROUNDING: f64 = 1.110_223_024_625_156_5e-16;

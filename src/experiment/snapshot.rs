@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::{Companion, CrossingLog, EventLog, Return, Setup, Trail};
-use crate::analysis::{Separation, Verdict};
+use super::{Companion, EventLog, Return, Setup, Trail};
+use crate::analysis::{CrossingLog, Separation, Verdict};
 use crate::system::{Form, State};
 
 /// The state of an experiment as the screen and the reports see it.

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use crate::analysis::Separation;
+use crate::analysis::{CrossingLog, Separation};
 use crate::dynamics::Equilibrium;
 use crate::integrate::Settings;
 use crate::mechanics::{Equations, Valuation};
@@ -37,8 +37,8 @@ pub struct Present<'a> {
     pub values: &'a [f64],
     /// The least and greatest value of each channel since the start.
     pub bounds: &'a [(f64, f64)],
-    /// How often each surface of section was crossed.
-    pub crossed: &'a [u64],
+    /// Where the motion has crossed each surface of section.
+    pub crossings: &'a CrossingLog,
     /// The motions beside this one: the number of each, and its distance.
     pub separations: &'a [(usize, Arc<Separation>)],
     /// The equilibria that were found at these parameters.

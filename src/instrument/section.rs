@@ -4,22 +4,23 @@
 //! the same energy, their starts spread over what the energy allows, and the boundary of that region; it is done in
 //! parts, so that the picture fills as one looks, and begun anew when a parameter, the method or the energy changes.
 
-use std::ops::ControlFlow;
+mod portrait;
+
 use std::sync::Arc;
 
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
     Offer, Physics, Picture, Plot, Present, Seed, Sign, Upwards,
 };
-use crate::dynamics::{NoRotation, Rotation, rotation};
-use crate::ensemble::{Crossings, Region, SectionPlan, SectionPlane, crossings, in_order, spread};
+use crate::dynamics::{Rotation, rotation};
+use crate::ensemble::{SectionPlan, SectionPlane};
 use crate::expr::Expr;
-use crate::integrate::{Method, Settings};
-use crate::job::{Job, Progress};
+use crate::job::Job;
 use crate::mechanics::Valuation;
 use crate::model::{Direction, View};
 use crate::num::significant;
-use crate::system::{ChannelKind, InitialOverride, System};
+use crate::system::InitialOverride;
+use portrait::{Begun, COUNT, DrawnOrbit, IDLE, Portrait, SectionConditions, TRANSIENT, Task};
 
 /// The levels of the picture.
 const BOUNDARY: Level = 0;
@@ -27,77 +28,11 @@ const ORBITS: Level = 1;
 const OWN: Level = 2;
 const NOW: Level = 3;
 
-/// The orbits of a picture at first and those of each addition, and the crossings of each.
-const BATCH: usize = 16;
-const COUNT: u64 = 60;
-
-/// The orbits of one part of the work, after which the picture is drawn anew.
-const PART: usize = 4;
-
-/// The crossings of an orbit through a point that a person chose.
-const COUNT_CHOSEN: u64 = 240;
-
-/// The crossings that are left out where friction draws all orbits to an attractor.
-const TRANSIENT: usize = 20;
-
-/// How many points are tried for each start that is found.
-const TRIES: usize = 24;
-
-/// An orbit ends after so many steps without a crossing.
-const IDLE: u64 = 4000;
-
-/// The relative change of the energy beyond which the other orbits are computed again.
-const DRIFT: f64 = 1e-3;
+/// The newest crossings of the running motion by which its rotation number is measured.
+const COUNT_OWN: usize = 1000;
 
 /// The row.
 pub(super) struct Section;
-
-/// The orbits computed so far, and the conditions they were computed for.
-struct Portrait {
-    conditions: SectionConditions,
-    /// The additions whose orbits are there, and those at first.
-    seeds: Vec<Seed>,
-    region: Region,
-    orbits: Vec<DrawnOrbit>,
-    /// The starts of the orbits to come, and the crossings of each.
-    pending: (Vec<[f64; 2]>, u64),
-}
-
-/// The points of an orbit, and its rotation number.
-#[derive(Clone)]
-struct DrawnOrbit {
-    points: Arc<Vec<[f64; 2]>>,
-    rotation: Result<Rotation, NoRotation>,
-}
-
-#[derive(Clone, PartialEq, Debug)]
-struct SectionConditions {
-    parameters: Vec<f64>,
-    energy: f64,
-    method: &'static str,
-    settings: Settings,
-}
-
-impl SectionConditions {
-    fn of(present: &Present<'_>) -> Self {
-        let kind = ChannelKind::Energy;
-        let energy = present.physics.channel(kind).map_or(f64::NAN, |c| present.value(c));
-        Self {
-            parameters: present.parameters.to_vec(),
-            energy,
-            method: present.method,
-            settings: present.settings,
-        }
-    }
-
-    /// Whether the orbits of one are those of the other. Where the plane has no bound the energy does not matter.
-    fn still_hold(&self, now: &Self, bounded: bool) -> bool {
-        let scale = self.energy.abs().max(1e-9);
-        let near = !bounded || (self.energy - now.energy).abs() <= DRIFT * scale;
-        near && (&self.parameters, self.method, self.settings)
-            == (&now.parameters, now.method, now.settings)
-    }
-}
 
 impl Instrument for Section {
     fn name(&self) -> &'static str {
@@ -142,14 +77,20 @@ impl Instrument for Section {
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
         let view = view(plot, present.physics)?;
-        let count = present.crossed.get(view.section?).copied().unwrap_or(0);
-        let entries = vec![
-            Entry::Words(surface(present.physics, view)),
-            Entry::Words(match count {
-                1 => "1 crossing".to_owned(),
-                _ => format!("{count} crossings"),
-            }),
-        ];
+        let count = present.crossings.counts().get(view.section?).copied().unwrap_or(0);
+        let own = own_rotation(plot, present);
+        let rotation = own.map(|own| format!("rotation {}", to_its_error(own.number, own.error)));
+        let words = surface(present.physics, view);
+        // the title may say it
+        let zero = zero(present.physics, view);
+        let titled = plot.title(present.physics).is_some_and(|title| title.contains(&zero));
+        let on = if titled { words.split(", ").nth(1) } else { Some(words.as_str()) };
+        let counted = match count {
+            1 => "1 crossing".to_owned(),
+            _ => format!("{count} crossings"),
+        };
+        let entries = rotation.into_iter().chain(on.map(str::to_owned)).chain([counted]);
+        let entries = entries.map(Entry::Words).collect();
         Some(plot.heading(present.physics, "Section", entries))
     }
 
@@ -276,8 +217,13 @@ impl Instrument for Section {
                 about: "how often the running motion has crossed the surface",
                 value: |plot, present, _| {
                     let section = view(plot, present.physics)?.section?;
-                    present.crossed.get(section).map(|count| *count as f64)
+                    present.crossings.counts().get(section).map(|count| *count as f64)
                 },
+            },
+            Measure {
+                word: "own_rotation",
+                about: "the rotation number of the running motion",
+                value: |plot, present, _| own_rotation(plot, present).map(|found| found.number),
             },
             Measure {
                 word: "orbits",
@@ -312,107 +258,6 @@ impl Instrument for Section {
     }
 }
 
-/// What a job computes: the orbits of a picture at first, or those of its next addition.
-struct Task {
-    plane: SectionPlane,
-    system: Arc<System>,
-    method: &'static Method,
-    conditions: SectionConditions,
-    plan: SectionPlan,
-    columns: [usize; 2],
-    transient: usize,
-    known: Option<Begun>,
-    given: [Option<[f64; 2]>; 2],
-    around: [[f64; 2]; 2],
-    seed: Option<Seed>,
-    seeds: Vec<Seed>,
-}
-
-/// A picture that was begun.
-struct Begun {
-    region: Region,
-    orbits: Vec<DrawnOrbit>,
-    pending: (Vec<[f64; 2]>, u64),
-}
-
-impl Task {
-    fn portrait(&self, progress: &Progress) -> Portrait {
-        let system = self.system.with_cancel(progress.token().clone());
-        let begun = self.known.as_ref();
-        let region = begun.map_or_else(
-            || Region::of(&self.plane, &system, self.given, self.around, progress.token()),
-            |begun| begun.region.clone(),
-        );
-        let mut orbits = begun.map_or_else(Vec::new, |begun| begun.orbits.clone());
-        let (mut points, count) = match (self.seed, begun) {
-            // each addition goes on where the one before ended
-            (Some(Seed::Spread(window)), _) => {
-                (self.starts(&system, &region, window, self.seeds.len() * BATCH * TRIES), COUNT)
-            }
-            (Some(Seed::Through(point)), _) => (vec![point], COUNT_CHOSEN),
-            (None, Some(begun)) => begun.pending.clone(),
-            (Some(Seed::Shell), _) | (None, None) => {
-                (self.starts(&system, &region, region.window, 0), COUNT)
-            }
-        };
-        let pending = (points.split_off(points.len().min(PART)), count);
-        let plan = SectionPlan { count: Some(count), ..self.plan.clone() };
-        progress.expect(points.len() as u64);
-        let one = |i: usize| {
-            let mut observer = system.observer(self.plane.parameters());
-            match self.plane.start(&system, &mut observer, points[i]) {
-                Ok(start) => {
-                    let settings = self.conditions.settings;
-                    let found = crossings(&system, self.method, settings, &start, &plan);
-                    self.drawn(&found, points[i])
-                }
-                Err(_) => Vec::new(),
-            }
-        };
-        let take = |i: usize, orbit: Vec<[f64; 2]>| {
-            progress.reach(i as u64 + 1);
-            // an orbit that never comes back is no part of a section
-            if orbit.len() > 1 {
-                let periods = self.columns.map(|c| system.period(c, self.plane.parameters()));
-                let rotation = rotation(&orbit, periods);
-                orbits.push(DrawnOrbit { points: Arc::new(orbit), rotation });
-            }
-            ControlFlow::Continue(())
-        };
-        // without threads the picture has no further orbits
-        let _ = in_order(0, points.len(), progress.token(), one, take);
-        let seeds = self.seeds.clone();
-        Portrait { conditions: self.conditions.clone(), seeds, region, orbits, pending }
-    }
-
-    /// Points of a window that are starts.
-    fn starts(
-        &self,
-        system: &System,
-        region: &Region,
-        window: [[f64; 2]; 2],
-        from: usize,
-    ) -> Vec<[f64; 2]> {
-        let mut observer = system.observer(self.plane.parameters());
-        let points = (from..from + BATCH * TRIES).map(|index| spread(index, window));
-        points
-            .filter(|&at| {
-                region.contains(at) && self.plane.start(system, &mut observer, at).is_ok()
-            })
-            .take(BATCH)
-            .collect()
-    }
-
-    /// The points of an orbit: its start, if that is a crossing, and its crossings.
-    fn drawn(&self, found: &Crossings, start: [f64; 2]) -> Vec<[f64; 2]> {
-        let [x, y] = self.columns;
-        let first = (self.plane.is_bounded()).then_some(start);
-        let crossed =
-            found.rows.iter().filter_map(|row| Some([*row.get(1 + x)?, *row.get(1 + y)?]));
-        first.into_iter().chain(crossed).skip(self.transient).collect()
-    }
-}
-
 fn portrait(answer: Option<&Answer>) -> Option<&Portrait> {
     answer?.of::<Portrait>()
 }
@@ -429,6 +274,24 @@ fn newest_rotation(portrait: &Portrait) -> Option<String> {
         ),
         Err(why) => format!("no rotation number: {why}"),
     })
+}
+
+/// The rotation number of the running motion, if it has one, by its newest crossings.
+fn own_rotation(plot: &Plot, present: &Present<'_>) -> Option<Rotation> {
+    let Physics { system, .. } = present.physics;
+    let axes = [plot.column(0)?, plot.column(1)?];
+    let section = view(plot, present.physics)?.section?;
+    let rows = present.crossings.rows(section, present.values.len());
+    let newest = rows.rev().take(COUNT_OWN).map(|row| axes.map(|axis| row[1 + axis]));
+    let mut points: Vec<[f64; 2]> = newest.collect();
+    points.reverse();
+    rotation(&points, axes.map(|axis| system.period(axis, present.parameters))).ok()
+}
+
+/// A number between 0 and 1 with the decimals that its error leaves.
+fn to_its_error(number: f64, error: f64) -> String {
+    let decimals = (1..12).take_while(|k| error < 0.5 * 10.0_f64.powi(-k)).count();
+    format!("{number:.decimals$}")
 }
 
 /// The view of the file that has the surface.

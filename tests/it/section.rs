@@ -7,7 +7,7 @@ use phaselab::cancel::Cancel;
 use phaselab::diagnostic::Document;
 use phaselab::ensemble::{NotInPlane, NotOnShell, Region, SectionPlane};
 use phaselab::experiment::{Command, Prepared, Snapshot};
-use phaselab::instrument::{Layer, Picture, Plot, Present, Seed};
+use phaselab::instrument::{Entry, Layer, Picture, Plot, Present, Seed};
 use phaselab::job::Progress;
 use phaselab::system::{ChannelKind, InitialOverride};
 
@@ -273,6 +273,32 @@ fn each_orbit_of_an_integrable_system_lies_on_its_curve() {
     assert_eq!(curves.len(), 16);
     assert!(curves.windows(2).all(|pair| pair[1] - pair[0] > 1e-6), "different orbits: {curves:?}");
     assert!(curves[0] < 0.6 && curves[15] > 2.4, "over all of the region: {curves:?}");
+}
+
+/// Two oscillators whose frequencies are as 1 to √2: from one crossing to the next the other turns by √2, or √2 − 1.
+#[test]
+fn the_running_motion_has_its_rotation_number_in_the_title() {
+    let words = |app: &App, index: usize| {
+        let lab = app.lab.as_ref().unwrap();
+        let plot = &lab.plots[index];
+        let heading = plot.kind.heading(plot, &lab.present().unwrap()).unwrap();
+        let entries = heading.entries.into_iter().map(|entry| match entry {
+            Entry::Words(words) => words,
+            other => panic!("{other:?}"),
+        });
+        entries.collect::<Vec<_>>()
+    };
+    let (app, index) = opened(prepared(OSCILLATORS), 700.0);
+    let number = measure(&app, &app.lab.as_ref().unwrap().plots[index], "own_rotation");
+    assert!((number - (2.0_f64.sqrt() - 1.0)).abs() < 1e-6, "{number}");
+    let said = words(&app, index);
+    assert!(said[0].starts_with("rotation 0.41421"), "{said:?}");
+    // too few crossings have none, and what the title of the view says is not said again
+    let (app, index) = opened(shipped("henon-heiles"), 30.0);
+    assert_eq!(words(&app, index), ["rising", "4 crossings"]);
+    let lab = app.lab.as_ref().unwrap();
+    let own = lab.plots[index].kind.measures().iter().find(|m| m.word == "own_rotation").unwrap();
+    assert_eq!((own.value)(&lab.plots[index], &lab.present().unwrap(), None), None);
 }
 
 #[test]

@@ -29,7 +29,7 @@ struct Crossed {
 
 impl CrossingLog {
     /// Creates an empty log of this many surfaces.
-    pub(super) fn new(surfaces: usize) -> CrossingLog {
+    pub fn new(surfaces: usize) -> CrossingLog {
         CrossingLog {
             surfaces: vec![Crossed::default(); surfaces],
             counts: vec![0; surfaces].into(),
@@ -38,18 +38,18 @@ impl CrossingLog {
     }
 
     /// Clears the log.
-    pub(super) fn clear(&mut self) {
+    pub fn clear(&mut self) {
         let only_counts = self.only_counts;
         *self = CrossingLog { only_counts, ..CrossingLog::new(self.surfaces.len()) };
     }
 
     /// Only counts crossings from now on, without storing them.
-    pub(super) fn only_count(&mut self) {
+    pub fn only_count(&mut self) {
         self.only_counts = true;
     }
 
     /// Adds a crossing.
-    pub(super) fn push(&mut self, surface: usize, time: f64, values: &[f64]) {
+    pub fn push(&mut self, surface: usize, time: f64, values: &[f64]) {
         let Some(crossed) = self.surfaces.get_mut(surface) else { return };
         Arc::make_mut(&mut self.counts)[surface] += 1;
         if self.only_counts {
@@ -69,7 +69,7 @@ impl CrossingLog {
     }
 
     /// Forgets the crossings after a time, of a motion with this many channels; with the sign −1, those at earlier times.
-    pub(super) fn rewind(&mut self, time: f64, sign: f64, channels: usize) {
+    pub fn rewind(&mut self, time: f64, sign: f64, channels: usize) {
         for surface in 0..self.surfaces.len() {
             let rows: Vec<Vec<f64>> = self
                 .rows(surface, channels)

@@ -1,0 +1,183 @@
+//! The orbits of a section: those at first, their starts spread over what the energy allows, and those of each addition.
+//!
+//! In: a plane of section, what is there already. Out: a portrait, a part of it at a time. Never here: what is drawn of it.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use crate::dynamics::{NoRotation, Rotation, rotation};
+use crate::ensemble::{Crossings, Region, SectionPlan, SectionPlane, crossings, in_order, spread};
+use crate::instrument::{Present, Seed};
+use crate::integrate::{Method, Settings};
+use crate::job::Progress;
+use crate::system::{ChannelKind, System};
+
+/// The orbits of a picture at first and those of each addition, and the crossings of each.
+const BATCH: usize = 16;
+pub(super) const COUNT: u64 = 60;
+
+/// The orbits of one part of the work, after which the picture is drawn anew.
+const PART: usize = 4;
+
+/// The crossings of an orbit through a point that a person chose.
+const COUNT_CHOSEN: u64 = 240;
+
+/// The crossings that are left out where friction draws all orbits to an attractor.
+pub(super) const TRANSIENT: usize = 20;
+
+/// How many points are tried for each start that is found.
+const TRIES: usize = 24;
+
+/// An orbit ends after so many steps without a crossing.
+pub(super) const IDLE: u64 = 4000;
+
+/// The relative change of the energy beyond which the other orbits are computed again.
+const DRIFT: f64 = 1e-3;
+
+/// The orbits computed so far, and the conditions they were computed for.
+pub(super) struct Portrait {
+    pub(super) conditions: SectionConditions,
+    /// The additions whose orbits are there, and those at first.
+    pub(super) seeds: Vec<Seed>,
+    pub(super) region: Region,
+    pub(super) orbits: Vec<DrawnOrbit>,
+    /// The starts of the orbits to come, and the crossings of each.
+    pub(super) pending: (Vec<[f64; 2]>, u64),
+}
+
+/// The points of an orbit, and its rotation number.
+#[derive(Clone)]
+pub(super) struct DrawnOrbit {
+    pub(super) points: Arc<Vec<[f64; 2]>>,
+    pub(super) rotation: Result<Rotation, NoRotation>,
+}
+
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct SectionConditions {
+    pub(super) parameters: Vec<f64>,
+    pub(super) energy: f64,
+    pub(super) method: &'static str,
+    pub(super) settings: Settings,
+}
+
+impl SectionConditions {
+    pub(super) fn of(present: &Present<'_>) -> Self {
+        let kind = ChannelKind::Energy;
+        let energy = present.physics.channel(kind).map_or(f64::NAN, |c| present.value(c));
+        Self {
+            parameters: present.parameters.to_vec(),
+            energy,
+            method: present.method,
+            settings: present.settings,
+        }
+    }
+
+    /// Whether the orbits of one are those of the other. Where the plane has no bound the energy does not matter.
+    pub(super) fn still_hold(&self, now: &Self, bounded: bool) -> bool {
+        let scale = self.energy.abs().max(1e-9);
+        let near = !bounded || (self.energy - now.energy).abs() <= DRIFT * scale;
+        near && (&self.parameters, self.method, self.settings)
+            == (&now.parameters, now.method, now.settings)
+    }
+}
+
+/// What a job computes: the orbits of a picture at first, or those of its next addition.
+pub(super) struct Task {
+    pub(super) plane: SectionPlane,
+    pub(super) system: Arc<System>,
+    pub(super) method: &'static Method,
+    pub(super) conditions: SectionConditions,
+    pub(super) plan: SectionPlan,
+    pub(super) columns: [usize; 2],
+    pub(super) transient: usize,
+    pub(super) known: Option<Begun>,
+    pub(super) given: [Option<[f64; 2]>; 2],
+    pub(super) around: [[f64; 2]; 2],
+    pub(super) seed: Option<Seed>,
+    pub(super) seeds: Vec<Seed>,
+}
+
+/// A picture that was begun.
+pub(super) struct Begun {
+    pub(super) region: Region,
+    pub(super) orbits: Vec<DrawnOrbit>,
+    pub(super) pending: (Vec<[f64; 2]>, u64),
+}
+
+impl Task {
+    pub(super) fn portrait(&self, progress: &Progress) -> Portrait {
+        let system = self.system.with_cancel(progress.token().clone());
+        let begun = self.known.as_ref();
+        let region = begun.map_or_else(
+            || Region::of(&self.plane, &system, self.given, self.around, progress.token()),
+            |begun| begun.region.clone(),
+        );
+        let mut orbits = begun.map_or_else(Vec::new, |begun| begun.orbits.clone());
+        let (mut points, count) = match (self.seed, begun) {
+            // each addition goes on where the one before ended
+            (Some(Seed::Spread(window)), _) => {
+                (self.starts(&system, &region, window, self.seeds.len() * BATCH * TRIES), COUNT)
+            }
+            (Some(Seed::Through(point)), _) => (vec![point], COUNT_CHOSEN),
+            (None, Some(begun)) => begun.pending.clone(),
+            (Some(Seed::Shell), _) | (None, None) => {
+                (self.starts(&system, &region, region.window, 0), COUNT)
+            }
+        };
+        let pending = (points.split_off(points.len().min(PART)), count);
+        let plan = SectionPlan { count: Some(count), ..self.plan.clone() };
+        progress.expect(points.len() as u64);
+        let one = |i: usize| {
+            let mut observer = system.observer(self.plane.parameters());
+            match self.plane.start(&system, &mut observer, points[i]) {
+                Ok(start) => {
+                    let settings = self.conditions.settings;
+                    let found = crossings(&system, self.method, settings, &start, &plan);
+                    self.drawn(&found, points[i])
+                }
+                Err(_) => Vec::new(),
+            }
+        };
+        let take = |i: usize, orbit: Vec<[f64; 2]>| {
+            progress.reach(i as u64 + 1);
+            // an orbit that never comes back is no part of a section
+            if orbit.len() > 1 {
+                let periods = self.columns.map(|c| system.period(c, self.plane.parameters()));
+                let rotation = rotation(&orbit, periods);
+                orbits.push(DrawnOrbit { points: Arc::new(orbit), rotation });
+            }
+            ControlFlow::Continue(())
+        };
+        // without threads the picture has no further orbits
+        let _ = in_order(0, points.len(), progress.token(), one, take);
+        let seeds = self.seeds.clone();
+        Portrait { conditions: self.conditions.clone(), seeds, region, orbits, pending }
+    }
+
+    /// Points of a window that are starts.
+    fn starts(
+        &self,
+        system: &System,
+        region: &Region,
+        window: [[f64; 2]; 2],
+        from: usize,
+    ) -> Vec<[f64; 2]> {
+        let mut observer = system.observer(self.plane.parameters());
+        let points = (from..from + BATCH * TRIES).map(|index| spread(index, window));
+        points
+            .filter(|&at| {
+                region.contains(at) && self.plane.start(system, &mut observer, at).is_ok()
+            })
+            .take(BATCH)
+            .collect()
+    }
+
+    /// The points of an orbit: its start, if that is a crossing, and its crossings.
+    fn drawn(&self, found: &Crossings, start: [f64; 2]) -> Vec<[f64; 2]> {
+        let [x, y] = self.columns;
+        let first = (self.plane.is_bounded()).then_some(start);
+        let crossed =
+            found.rows.iter().filter_map(|row| Some([*row.get(1 + x)?, *row.get(1 + y)?]));
+        first.into_iter().chain(crossed).skip(self.transient).collect()
+    }
+}
