@@ -129,6 +129,8 @@ pub enum Action {
     Diagram,
     /// Lets a transformation move the point in place of the coordinates, or the coordinates again.
     Active,
+    /// Colours the orbits of a section by whether they are regular, or each in its own colour.
+    ByChaos,
     /// Keep the present run beside what follows.
     Pin,
     /// Remove all motions beside the main one.

@@ -313,6 +313,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Plot, &[c('g')], Action::Log, "", "make the vertical axis logarithmic, or linear again"),
     row(Place::Plot, &[c('o')], Action::Equal, "", "equal scales on both axes, or fill the pane again"),
     row(Place::Plot, &[c('Q')], Action::Active, "", "let a transformation move the point (the active view), or the coordinates again (the passive one)"),
+    row(Place::Plot, &[c('H')], Action::ByChaos, "", "colour the orbits of a section by whether they are regular or chaotic, or each in its own colour"),
     row(Place::Plot, &[c('c')], Action::Cursor, "cursor", "put a cursor on the plot that reads coordinates, or take it away"),
     row(Place::Plot, &[LEFT, c('h')], Action::Move(Direction::Left), "move", "move the window, or the cursor, to the left"),
     row(Place::Plot, &[RIGHT, c('l')], Action::Move(Direction::Right), "", "move the window, or the cursor, to the right"),

@@ -200,6 +200,12 @@ impl App {
                     "Only a transformation moves the coordinates or the point; v chooses one.",
                 ),
             },
+            Action::ByChaos => match lab.focused_plot() {
+                Some((_, plot)) if plot.kind.tells_orbits_apart() => {
+                    self.with_viewport(|viewport| viewport.by_chaos = !viewport.by_chaos)
+                }
+                _ => self.notify("Only a section colours its orbits; v chooses one."),
+            },
             Action::Cursor => self.with_viewport(|viewport| {
                 viewport.cursor = if viewport.cursor.is_some() { None } else { Some([0.5, 0.5]) };
             }),

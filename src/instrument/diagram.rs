@@ -309,7 +309,13 @@ fn quantity(plot: &Plot, physics: Physics<'_>) -> String {
 /// The range upwards: the file's, or that of the numbers.
 fn heights(plot: &Plot, present: &Present<'_>, found: Option<&ComputedDiagram>) -> [f64; 2] {
     let own = found.map(|found| found.extent).filter(|[low, high]| low < high);
-    varied::given(plot, present, 1).or(own).unwrap_or([0.0, 1.0])
+    // it shows the horizontal axis of a section
+    let section = view(plot, present.physics).filter(|view| view.kind != plot.kind.name());
+    let given = match section {
+        Some(section) => varied::ends(section, present, 0),
+        None => varied::given(plot, present, 1),
+    };
+    given.or(own).unwrap_or([0.0, 1.0])
 }
 
 /// The numbers at the value of the parameter next to this one.

@@ -65,6 +65,11 @@ pub trait Instrument: Sync {
         }
     }
 
+    /// Whether it can colour its orbits by whether they are regular.
+    fn tells_orbits_apart(&self) -> bool {
+        false
+    }
+
     /// Whether its axes share a unit that can be drawn at the same scale on both.
     fn has_equal_axes(&self) -> bool {
         false

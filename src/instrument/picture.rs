@@ -30,6 +30,8 @@ pub enum Entry {
     Number(String, f64),
     /// Text.
     Words(String),
+    /// What an ink stands for, in it.
+    Key(Ink, String),
     /// The names of recent occurrences, whose marks are in the picture.
     Happenings,
 }

@@ -247,8 +247,8 @@ impl Plot {
         self.sight = match self.sight {
             Sight::Camera(eye) => Sight::Camera(eye.at_first(model)),
             Sight::Axes(viewport) => {
-                let Viewport { equal, active, .. } = viewport;
-                Sight::Axes(Viewport { equal, active, ..Viewport::WHOLE })
+                let Viewport { equal, active, by_chaos, .. } = viewport;
+                Sight::Axes(Viewport { equal, active, by_chaos, ..Viewport::WHOLE })
             }
         };
     }

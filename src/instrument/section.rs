@@ -18,7 +18,6 @@ use crate::expr::Expr;
 use crate::job::Job;
 use crate::mechanics::Valuation;
 use crate::model::{Direction, View};
-use crate::num::significant;
 use crate::system::InitialOverride;
 use portrait::{Begun, COUNT, DrawnOrbit, IDLE, Portrait, SectionConditions, TRANSIENT, Task};
 
@@ -52,6 +51,10 @@ impl Instrument for Section {
     }
 
     fn has_equal_axes(&self) -> bool {
+        true
+    }
+
+    fn tells_orbits_apart(&self) -> bool {
         true
     }
 
@@ -90,7 +93,12 @@ impl Instrument for Section {
             _ => format!("{count} crossings"),
         };
         let entries = rotation.into_iter().chain(on.map(str::to_owned)).chain([counted]);
-        let entries = entries.map(Entry::Words).collect();
+        let mut entries: Vec<Entry> = entries.map(Entry::Words).collect();
+        if by_chaos(plot) {
+            let key =
+                |(regular, words): (bool, &str)| Entry::Key(chaos_ink(regular), words.to_owned());
+            entries.splice(0..0, [(true, "regular"), (false, "chaotic")].map(|one| key(one)));
+        }
         Some(plot.heading(present.physics, "Section", entries))
     }
 
@@ -114,18 +122,26 @@ impl Instrument for Section {
             layers.extend(portrait.region.boundary.iter().map(|pair| (BOUNDARY, line(pair))));
             // orbits on an attractor show one thing
             let dissipates = dissipates(present.physics);
+            let by_chaos = by_chaos(plot);
             let points = |(index, orbit): (usize, &DrawnOrbit)| {
-                let ink = if dissipates { Ink::Curve(0) } else { Ink::Curve(index + 1) };
+                let ink = match orbit.regular() {
+                    Some(regular) if by_chaos => chaos_ink(regular),
+                    None if by_chaos => Ink::Plain,
+                    _ if dissipates => Ink::Curve(0),
+                    _ => Ink::Curve(index + 1),
+                };
                 (ORBITS, Layer::Points(Arc::clone(&orbit.points), ink))
             };
             layers.extend(portrait.orbits.iter().enumerate().map(points));
-            let told = newest_rotation(portrait).map(|line| (NOW, Layer::Legend(vec![line])));
-            layers.extend(told);
         }
         layers.push((OWN, Layer::CompanionCrossings { section, channels }));
         layers.push((OWN, Layer::Crossings { section, channels, ink: Ink::Accent }));
         layers.push((NOW, Layer::LastCrossing { section, channels, sign: Sign::Disc }));
-        let upwards = Upwards::Channel(channels[1], range(plot, present, answer, 1));
+        let (channel, range) = (channels[1], range(plot, present, answer, 1));
+        let upwards = match portrait(answer).and_then(newest_rotation) {
+            Some(words) => Upwards::Annotated { channel, range, words },
+            None => Upwards::Channel(channel, range),
+        };
         Some(Picture::Axes { upwards, layers, occurrences: None })
     }
 
@@ -247,6 +263,14 @@ impl Instrument for Section {
                 },
             },
             Measure {
+                word: "chaotic",
+                about: "how many of them have none, as their average turn does not converge",
+                value: |_, _, answer| {
+                    let orbits = portrait(answer)?.orbits.iter();
+                    Some(orbits.filter(|orbit| orbit.regular() == Some(false)).count() as f64)
+                },
+            },
+            Measure {
                 word: "rotation",
                 about: "the rotation number of the newest of them",
                 value: |_, _, answer| {
@@ -267,13 +291,20 @@ fn newest_rotation(portrait: &Portrait) -> Option<String> {
     let chosen = matches!(portrait.seeds.last(), Some(Seed::Through(_)));
     let newest = portrait.orbits.last().filter(|_| chosen)?;
     Some(match &newest.rotation {
-        Ok(found) => format!(
-            "rotation number {} ± {}",
-            significant(found.number, 8, 1e-4..1e6).replace('-', "−"),
-            significant(found.error, 1, 1.0..10.0)
-        ),
+        Ok(found) => {
+            format!("rotation {}", to_its_error(found.number, found.error))
+        }
         Err(why) => format!("no rotation number: {why}"),
     })
+}
+
+/// Whether orbits are coloured by whether they are regular.
+fn by_chaos(plot: &Plot) -> bool {
+    plot.viewport().is_some_and(|viewport| viewport.by_chaos)
+}
+
+fn chaos_ink(regular: bool) -> Ink {
+    if regular { Ink::Level } else { Ink::Warn }
 }
 
 /// The rotation number of the running motion, if it has one, by its newest crossings.

@@ -48,6 +48,9 @@ pub struct Viewport {
     /// Whether a transformation moves the point in place of the coordinates.
     #[serde(default)]
     pub active: bool,
+    /// Whether orbits are coloured by whether they are regular, in place of each in its own colour.
+    #[serde(default)]
+    pub by_chaos: bool,
     /// The cursor, in fractions of the width from the left and of the height from below.
     pub cursor: Option<[f64; 2]>,
 }
@@ -60,6 +63,7 @@ impl Viewport {
         log: false,
         equal: false,
         active: false,
+        by_chaos: false,
         cursor: None,
     };
 
@@ -73,7 +77,8 @@ impl Viewport {
     /// The same window with the smooth settings at their defaults.
     pub(super) fn at_rest(self) -> Self {
         let cursor = self.cursor.map(|_| [0.0; 2]);
-        Self { log: self.log, equal: self.equal, active: self.active, cursor, ..Self::WHOLE }
+        let Self { log, equal, active, by_chaos, .. } = self;
+        Self { log, equal, active, by_chaos, cursor, ..Self::WHOLE }
     }
 
     /// Moves one step in a direction: the cursor if there is one, otherwise the window.

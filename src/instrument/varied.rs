@@ -207,10 +207,17 @@ pub(super) fn now(present: &Present<'_>, over: Variation) -> Option<f64> {
     }
 }
 
-/// The ends of an axis that the file gives.
+/// The ends that the file gives an axis of this picture.
 pub(super) fn given(plot: &Plot, present: &Present<'_>, axis: usize) -> Option<[f64; 2]> {
+    // the axes of another kind, whose surface it shares, are others
+    let view = view(plot, present.physics).filter(|view| view.kind == plot.kind.name())?;
+    ends(view, present, axis)
+}
+
+/// The ends that the file gives an axis of a view.
+pub(super) fn ends(view: &View, present: &Present<'_>, axis: usize) -> Option<[f64; 2]> {
     let model = present.physics.model;
-    let ends = view(plot, present.physics)?.ranges[axis]?;
+    let ends = view.ranges[axis]?;
     let known = Valuation::of_parameters(model, present.parameters);
     let [from, to] = ends.map(|end| known.value(&model.pool, end));
     (from.is_finite() && to.is_finite() && from < to).then_some([from, to])

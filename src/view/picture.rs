@@ -104,6 +104,11 @@ fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<Span> {
         Entry::Channel(channel) => valued(&q.name(*channel), q.value(*channel)),
         Entry::Number(name, value) => valued(name, *value),
         Entry::Words(words) => vec![canvas.span(Role::Dim, format!("  {words}"))],
+        Entry::Key(ink, words) => {
+            let mark = canvas.look.glyphs.pick("●", "o");
+            let style = pen(canvas, *ink, 0).style;
+            vec![(format!("  {mark} "), style), canvas.span(Role::Dim, words)]
+        }
         Entry::Happenings => marks::legend(canvas, q),
         Entry::Curve(index, channel) => key(canvas, q, *index, *channel),
     }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use phaselab::app::{App, Drawn, Effect, Event, Saved};
 use phaselab::experiment::Command;
-use phaselab::instrument::{Layer, Picture, Plot, SavedVariations};
+use phaselab::instrument::{Across, Layer, Picture, Plot, SavedVariations, Upwards};
 use phaselab::model::Variation;
 
 use crate::hand::{begun, catalog, press};
@@ -129,6 +129,32 @@ fn a_key_shows_the_exponent_where_there_is_no_section() {
     press(&mut app, "Tab Tab v");
     let told = app.notice.take().map(|notice| notice.text).unwrap_or_default();
     assert!(told.contains("over a parameter"), "{told}");
+}
+
+/// The axes of the section whose surface it shares are others: the parameter has its own range, and upwards is the
+/// section's horizontal axis.
+#[test]
+fn a_key_on_a_parameter_shows_all_of_its_range() {
+    let section = "kind = \"section\"\non = \"sin(t)\"\nx = \"x\"\ny = \"x'\"\n\
+                   x_range = [\"-7\", \"7\"]\ny_range = [\"-5\", \"5\"]\n";
+    let at = DRIVEN.find("kind = \"diagram\"").unwrap();
+    let mut app = begun(&[&DRIVEN[..at], section].concat());
+    press(&mut app, "v");
+    let (plot, lab) = (diagram(&app), app.lab.as_ref().unwrap());
+    let present = lab.present().unwrap();
+    let Across::Named(_, range) = plot.kind.across(&plot, &present, lab.answer(&plot)) else {
+        panic!("an axis")
+    };
+    assert_eq!(range, [0.0, 4.0]);
+    match plot.kind.picture(&plot, &present, range, lab.answer(&plot)) {
+        Some(Picture::Axes { upwards: Upwards::Named(_, range), .. }) => {
+            assert_eq!(range, [-7.0, 7.0])
+        }
+        other => panic!("{other:?}"),
+    }
+    let points = points(&app);
+    assert!(points.iter().all(|at| (0.0..=4.0).contains(&at[0])));
+    assert!(points.iter().any(|at| at[0] > 3.5) && points.iter().any(|at| at[0] < 0.5));
 }
 
 #[test]

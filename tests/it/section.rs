@@ -7,7 +7,7 @@ use phaselab::cancel::Cancel;
 use phaselab::diagnostic::Document;
 use phaselab::ensemble::{NotInPlane, NotOnShell, Region, SectionPlane};
 use phaselab::experiment::{Command, Prepared, Snapshot};
-use phaselab::instrument::{Entry, Layer, Picture, Plot, Present, Seed};
+use phaselab::instrument::{Entry, Ink, Layer, Picture, Plot, Present, Seed};
 use phaselab::job::Progress;
 use phaselab::system::{ChannelKind, InitialOverride};
 
@@ -299,6 +299,40 @@ fn the_running_motion_has_its_rotation_number_in_the_title() {
     let lab = app.lab.as_ref().unwrap();
     let own = lab.plots[index].kind.measures().iter().find(|m| m.word == "own_rotation").unwrap();
     assert_eq!((own.value)(&lab.plots[index], &lab.present().unwrap(), None), None);
+}
+
+/// `H` colours orbits by whether their average turn converges: all of two oscillators', not all of Hénon and Heiles's.
+#[test]
+fn a_key_colours_orbits_by_whether_they_are_regular() {
+    let inks = |app: &App, index: usize| {
+        let plot = app.lab.as_ref().unwrap().plots[index].clone();
+        let inks = layers(app, &plot).into_iter().filter_map(|layer| match layer {
+            Layer::Points(_, ink) => Some(ink),
+            _ => None,
+        });
+        inks.collect::<Vec<Ink>>()
+    };
+    for (mut app, chaos) in [
+        (opened(prepared(OSCILLATORS), 30.0).0, false),
+        (opened(shipped("henon-heiles"), 30.0).0, true),
+    ] {
+        typed(&mut app, "Tab Tab Tab");
+        assert!(inks(&app, 0).iter().all(|ink| matches!(ink, Ink::Curve(_))));
+        let plain = inks(&app, 0);
+        typed(&mut app, "H");
+        let inked = inks(&app, 0);
+        let plot = app.lab.as_ref().unwrap().plots[0].clone();
+        let of = |wanted: Ink| inked.iter().filter(|ink| **ink == wanted).count() as f64;
+        assert_eq!(of(Ink::Warn), measure(&app, &plot, "chaotic"));
+        assert_eq!(of(Ink::Level), measure(&app, &plot, "rotating"));
+        assert_eq!((of(Ink::Warn) > 4.0, of(Ink::Level) > 2.0), (chaos, true), "{inked:?}");
+        typed(&mut app, "H");
+        assert_eq!(inks(&app, 0), plain);
+    }
+    // elsewhere it says what it is for
+    let (mut app, _) = opened(shipped("henon-heiles"), 1.0);
+    typed(&mut app, "Tab Tab Tab Tab Tab H");
+    assert!(app.notice.take().is_some_and(|notice| notice.text.contains("section")));
 }
 
 #[test]

@@ -52,6 +52,17 @@ pub(super) struct DrawnOrbit {
     pub(super) rotation: Result<Rotation, NoRotation>,
 }
 
+impl DrawnOrbit {
+    /// Whether its average turn converges; `None` if there is none to tell by.
+    pub(super) fn regular(&self) -> Option<bool> {
+        match self.rotation {
+            Ok(_) => Some(true),
+            Err(NoRotation::AllTurns | NoRotation::Diverges(_)) => Some(false),
+            Err(_) => None,
+        }
+    }
+}
+
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct SectionConditions {
     pub(super) parameters: Vec<f64>,
