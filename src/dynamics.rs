@@ -29,13 +29,16 @@ mod spectrum;
 mod stationary_path;
 mod transverse;
 mod variation;
+mod virtual_work;
 
 pub use action::{Lagrangian, Path};
 pub use carrier::Carrier;
 pub use conformal::conformal_rate;
 pub use conjugate::conjugate_points;
 pub use driven_orbit::driven_orbit;
-pub use equilibria::{Equilibria, Equilibrium, Kind, Mode, equilibria, equilibria_watched};
+pub use equilibria::{
+    Equilibria, Equilibrium, Kind, Mode, equilibria, equilibria_watched, with_virtual_work,
+};
 pub use error::DynamicsError;
 pub use family::{Along, Bifurcation, Family, Member, family};
 pub use flow_map::{FlowMap, flow_map};
@@ -51,3 +54,4 @@ pub use spectrum::{
 pub use stationary_path::{PathKind, StationaryPath, morse_index, stationary_path};
 pub use transverse::Removed;
 pub use variation::{VARIATIONS, VariedAction, varied_action};
+pub use virtual_work::VirtualWork;

@@ -34,7 +34,8 @@ mod transformation;
 mod varied;
 
 pub use equilibria::{
-    FoundEquilibria, described, described_mode, equilibria_search, start_along, start_at, value_at,
+    FoundEquilibria, described, described_mode, displaced, equilibria_search, start_along,
+    start_at, value_at,
 };
 pub use exponents::largest_exponent;
 pub use kind::{Answer, Axis, Instrument, Measure, Need, NoStart, Offer};

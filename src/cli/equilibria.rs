@@ -6,7 +6,7 @@ use super::assignment::Assignment;
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::study::{self, Study, StudyArguments, shown, table};
-use crate::dynamics::{Equilibria, Equilibrium, Kind, equilibria};
+use crate::dynamics::{Equilibria, Equilibrium, Kind, VirtualWork, equilibria, with_virtual_work};
 
 /// Find equilibria and the small oscillations about them.
 ///
@@ -32,7 +32,9 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let study = Study::open(&arguments.study, interrupt)?;
     let middle = study.around(&arguments.around)?;
     interrupt.ends_by_itself(|| ());
-    let found = equilibria(&study.space, &middle).map_err(study::failed)?;
+    let mut found = equilibria(&study.space, &middle).map_err(study::failed)?;
+    let law = (&*study.model, &*study.equations);
+    with_virtual_work(law, study.space.parameters(), &mut found.found);
     let result = (object(&study, &found), text(&study, &found));
     study::write(&arguments.study, result, None, interrupt)
 }
@@ -58,6 +60,7 @@ fn object(study: &Study, found: &Equilibria) -> Map<String, Value> {
             "state": study.named(&one.variables),
             "rates": Value::Object(rates.collect()),
             "energy": one.energy,
+            "virtual_work": one.work.iter().map(|work| balance(names, work)).collect::<Vec<_>>(),
             "kind": one.kind.map(word),
             "eigenvalues": one.eigenvalues,
             "frequencies": frequencies,
@@ -71,6 +74,16 @@ fn object(study: &Study, found: &Equilibria) -> Map<String, Value> {
     let status = if found.cancelled { "stopped" } else { "completed" };
     object.insert("status".to_owned(), status.into());
     object
+}
+
+/// The forces on a coordinate.
+fn balance(names: &[String], work: &VirtualWork) -> Value {
+    let terms = work.terms.iter().map(|(term, value)| json!({ "term": term, "value": value }));
+    json!({
+        "coordinate": names[work.coordinate],
+        "terms": terms.collect::<Vec<_>>(),
+        "sum": work.sum(),
+    })
 }
 
 fn text(study: &Study, found: &Equilibria) -> String {
@@ -93,6 +106,9 @@ fn text(study: &Study, found: &Equilibria) -> String {
         text.push_str(&format!("  {}\n", places.join(", ")));
         for &(i, rate) in &one.rates {
             text.push_str(&format!("  {}' = {}\n", names[i], shown(rate)));
+        }
+        for work in &one.work {
+            text.push_str(&format!("  δW/δ{} = {}\n", names[work.coordinate], work.balance()));
         }
         let complex = |z: &[f64; 2]| match z[1] {
             0.0 => shown(z[0]),

@@ -19,6 +19,7 @@ use super::output::{Form, Output};
 use super::run;
 use crate::dynamics::{DynamicsError, PhaseSpace};
 use crate::integrate::{Method, Settings};
+use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::num::DoubleDouble;
 use crate::system::{InitialOverride, State, System};
@@ -49,6 +50,7 @@ pub(super) enum Format {
 /// A system to be studied, at a state.
 pub(super) struct Study {
     pub(super) model: Arc<Model>,
+    pub(super) equations: Arc<Equations>,
     pub(super) space: PhaseSpace,
     /// The initial state, in the variables of the space.
     pub(super) start: State,
@@ -87,7 +89,7 @@ impl Study {
             .state(&system)
             .and_then(|state| space.state(&state))
             .map_err(|fault| CommandError::CouldNot(fault.to_string()))?;
-        Ok(Study { model, space, start, method, settings })
+        Ok(Study { model, equations, space, start, method, settings })
     }
 
     /// When to end: as requested, otherwise as the file says, otherwise 10 after the start.

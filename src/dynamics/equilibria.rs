@@ -14,6 +14,9 @@ use nalgebra::{DMatrix, DVector};
 use super::error::DynamicsError;
 use super::linear;
 use super::phase_space::{PhaseSpace, VectorField};
+use super::virtual_work::{VirtualWork, virtual_work};
+use crate::mechanics::Equations;
+use crate::model::Model;
 use crate::num::math;
 use crate::system::{Form, MotionErrorKind, State};
 
@@ -82,6 +85,8 @@ pub struct Equilibrium {
     pub stable: Option<bool>,
     /// The rates of the cyclic coordinates, by index.
     pub rates: Vec<(usize, f64)>,
+    /// The forces that balance there, once [`with_virtual_work`] has written them.
+    pub work: Vec<VirtualWork>,
 }
 
 /// What a search has found.
@@ -91,6 +96,15 @@ pub struct Equilibria {
     pub found: Vec<Equilibrium>,
     /// Whether the search was cancelled.
     pub cancelled: bool,
+}
+
+/// Writes into each equilibrium the forces that balance there.
+pub fn with_virtual_work(law: (&Model, &Equations), parameters: &[f64], found: &mut [Equilibrium]) {
+    let places: Vec<_> = found.iter().map(|one| (&one.variables[..], &one.rates[..])).collect();
+    let works = virtual_work(law, parameters, &places);
+    for (one, work) in found.iter_mut().zip(works) {
+        one.work = work;
+    }
 }
 
 /// Searches around the coordinates of `start`; cyclic coordinates have its momenta.
@@ -313,7 +327,8 @@ impl<'a> EquilibriumSearch<'a> {
         let modes = if canonical { self.modes(&df, &eigenvalues, scale) } else { Vec::new() };
         let rates = self.cyclic.iter().map(|&i| (i, rate[i])).collect();
         let kind = canonical.then(|| kind(&df));
-        Ok(Some(Equilibrium { variables, energy, kind, eigenvalues, modes, stable, rates }))
+        let work = Vec::new();
+        Ok(Some(Equilibrium { variables, energy, kind, eigenvalues, modes, stable, rates, work }))
     }
 
     fn modes(&self, df: &DMatrix<f64>, eigenvalues: &[[f64; 2]], scale: f64) -> Vec<Mode> {

@@ -5,7 +5,9 @@
 //! keys, how the search works ([`equilibria`](crate::dynamics::equilibria)).
 
 use super::{Physics, Present};
-use crate::dynamics::{Equilibrium, Kind, PhaseSpace, equilibria_watched};
+use crate::dynamics::{
+    Equilibrium, Kind, PhaseSpace, VirtualWork, equilibria_watched, with_virtual_work,
+};
 use crate::ensemble::Start;
 use crate::job::Progress;
 use crate::num::significant;
@@ -43,7 +45,9 @@ pub fn equilibria_search(
             progress.reach(done as u64);
         };
         let found = equilibria_watched(&space, &state, &mut look).map_err(|why| why.to_string())?;
-        Ok(FoundEquilibria { found: found.found, parameters: start.parameters.clone() })
+        let (mut found, parameters) = (found.found, start.parameters.clone());
+        with_virtual_work((&model, &equations), &parameters, &mut found);
+        Ok(FoundEquilibria { found, parameters })
     }
 }
 
@@ -141,6 +145,12 @@ pub fn described(physics: Physics<'_>, one: &Equilibrium) -> (String, String) {
         if modes.is_empty() { String::new() } else { format!(", ω = {}", modes.join(", ")) };
     let energy = short(one.energy);
     (format!("{}: {stable} {kind}", places.join(", ")), format!("E = {energy}{modes}"))
+}
+
+/// The coordinate along which a virtual displacement is taken.
+pub fn displaced(physics: Physics<'_>, work: &VirtualWork) -> String {
+    let channel = physics.channel(ChannelKind::Position(work.coordinate));
+    channel.map_or("?", |channel| physics.shown(channel)).to_owned()
 }
 
 /// A mode in words: its frequency, and how far each coordinate goes.

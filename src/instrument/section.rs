@@ -18,6 +18,7 @@ use crate::expr::Expr;
 use crate::job::Job;
 use crate::mechanics::Valuation;
 use crate::model::{Direction, View};
+use crate::num::math;
 use crate::system::InitialOverride;
 use portrait::{Begun, COUNT, DrawnOrbit, IDLE, Portrait, SectionConditions, TRANSIENT, Task};
 
@@ -321,7 +322,7 @@ fn own_rotation(plot: &Plot, present: &Present<'_>) -> Option<Rotation> {
 
 /// A number between 0 and 1 with the decimals that its error leaves.
 fn to_its_error(number: f64, error: f64) -> String {
-    let decimals = (1..12).take_while(|k| error < 0.5 * 10.0_f64.powi(-k)).count();
+    let decimals = (1..12).take_while(|k| error < 0.5 * math::powi(10.0, -k)).count();
     format!("{number:.decimals$}")
 }
 

@@ -9,7 +9,7 @@ use super::quantity::Quantities;
 use super::text_page::TextPage;
 use super::theme::Role;
 use crate::experiment::EventCount;
-use crate::instrument::{described, described_mode};
+use crate::instrument::{described, described_mode, displaced};
 use crate::system::{Channel, ChannelKind};
 
 /// A heading, and the test for the channels listed under it.
@@ -78,9 +78,14 @@ fn equilibria(page: &mut TextPage, q: &Quantities<'_>) {
     for one in present.equilibria {
         let (what, about) = described(present.physics, one);
         page.line(&glyphs.text(&format!("{what}; {about}")));
+        for work in &one.work {
+            let coordinate = displaced(present.physics, work);
+            let label = glyphs.text(&format!("δW/δ{coordinate}")).into_owned();
+            page.formula(&label, glyphs.text(&work.balance()).into_owned(), "");
+        }
         for mode in 0..one.modes.len() {
             let mode = described_mode(present.physics, one, mode);
-            page.line(&glyphs.text(&format!("    mode {mode}")));
+            page.item("  mode", &glyphs.text(&mode));
         }
     }
 }

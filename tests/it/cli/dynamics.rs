@@ -115,6 +115,34 @@ fn equilibria_are_listed_by_energy() {
     assert_eq!(wrong.code, 2);
 }
 
+/// At a point of Lagrange the centrifugal force balances both bodies' pull; on a turning hoop, the weight.
+#[test]
+fn virtual_work_vanishes_term_by_term() {
+    let words = ["equilibria", "restricted-three-body", "--set", "mu=0.01215", "--format", "json"];
+    let found = phaselab(&words).json();
+    let one = &found["equilibria"][0];
+    let x = one["state"]["x"].as_f64().unwrap();
+    let along = &one["virtual_work"][0];
+    assert_eq!(along["coordinate"], "x");
+    let values: Vec<f64> =
+        along["terms"].as_array().unwrap().iter().map(|t| t["value"].as_f64().unwrap()).collect();
+    let (a, b) = (x + 0.01215, x - 1.0 + 0.01215);
+    let expected = [x, -(1.0 - 0.01215) * a / a.abs().powi(3), -0.01215 * b / b.abs().powi(3)];
+    assert_eq!(values.len(), 3, "{along}");
+    for (value, expected) in values.iter().zip(expected) {
+        assert!((value - expected).abs() < 1e-12, "{along}");
+    }
+    assert!(along["sum"].as_f64().unwrap().abs() < 1e-13);
+    assert!(one["virtual_work"][1]["terms"].as_array().unwrap().is_empty(), "nothing along y");
+    // cos θ = g/(ω² a): the centrifugal force on the bead is m g tan θ
+    let text = phaselab(&["equilibria", "bead-on-hoop"]).success();
+    let line = text.lines().find(|line| line.contains("δW/δtheta")).unwrap();
+    assert!(line.ends_with("9.023 − 9.023 = 0"), "{line}");
+    // where the motion is not at rest there is nothing to balance: all other coordinates are listed
+    let text = phaselab(&["equilibria", "spherical-pendulum"]).success();
+    assert!(text.contains("φ̇²") && !text.contains("δW/δphi"), "{text}");
+}
+
 #[test]
 fn what_has_no_derivative_ends_with_a_sentence() {
     for command in ["flow", "lyapunov", "orbit", "equilibria"] {

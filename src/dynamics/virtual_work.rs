@@ -1,0 +1,152 @@
+//! The virtual work at an equilibrium: what each term of the forces does along a small displacement of each coordinate.
+//!
+//! δW = Σ Qᵢ δqᵢ vanishes for every displacement there (H. Goldstein, *Classical Mechanics*, §1.4). Qᵢ is the rate of pᵢ at rest: −∂V/∂qᵢ and
+//! what acts beside it; where cyclic coordinates go on, the centrifugal forces of their motion are among its terms.
+//!
+//! In: equations, an equilibrium. Out: terms and their values. Never here: where equilibria are.
+
+use std::collections::HashMap;
+
+use crate::expr::{Expr, Pool, Symbol};
+use crate::mechanics::{Equations, Flow, Valuation};
+use crate::model::Model;
+use crate::num::significant;
+
+/// A sum of forces below this part of the largest is zero.
+const SUMS_TO_ZERO: f64 = 1e-9;
+
+/// A term that has more parts than this is shown as a whole.
+const MOST_PARTS: usize = 12;
+
+/// The generalised force on a coordinate at an equilibrium, term by term.
+#[derive(Clone, PartialEq, Debug)]
+pub struct VirtualWork {
+    /// The coordinate, by index.
+    pub coordinate: usize,
+    /// Each term, in mathematical notation, with its value.
+    pub terms: Vec<(String, f64)>,
+}
+
+impl VirtualWork {
+    /// The sum of the terms: zero but for rounding and the accuracy of the place.
+    pub fn sum(&self) -> f64 {
+        self.terms.iter().map(|(_, value)| value).sum()
+    }
+
+    /// The balance of the terms: `m ω² r² cos θ sin θ − g m r sin θ = 4.905 − 4.905 = 0`.
+    pub fn balance(&self) -> String {
+        let largest = self.terms.iter().fold(0.0_f64, |most, (_, value)| most.max(value.abs()));
+        if largest == 0.0 {
+            return "0".to_owned();
+        }
+        let short = |x: f64| significant(x, 4, 1e-4..1e5).replace('-', "−");
+        let terms = added(self.terms.iter().map(|(term, _)| term.clone()));
+        let values = added(self.terms.iter().map(|(_, value)| short(*value)));
+        // beyond what the place is known to, the sum is zero
+        let sum = if self.sum().abs() <= SUMS_TO_ZERO * largest { 0.0 } else { self.sum() };
+        format!("{terms} = {values} = {}", short(sum))
+    }
+}
+
+/// A sum of terms that have their signs.
+fn added(terms: impl Iterator<Item = String>) -> String {
+    let mut text = String::new();
+    for term in terms {
+        match (text.is_empty(), term.strip_prefix('−')) {
+            (true, _) => text.push_str(&term),
+            (false, Some(rest)) => text.push_str(&format!(" − {rest}")),
+            (false, None) => text.push_str(&format!(" + {term}")),
+        }
+    }
+    text
+}
+
+/// A term of a force.
+struct Term {
+    shown: String,
+    expression: Expr,
+    /// Its derivative along the coordinate.
+    slope: Expr,
+}
+
+impl Term {
+    fn new(pool: &mut Pool, expression: Expr, q: Symbol) -> Term {
+        let slope = pool.derivative(expression, q);
+        Term { shown: pool.unicode(expression), expression, slope }
+    }
+
+    /// Its value at a place, as far as the place is known.
+    fn value(&self, pool: &Pool, known: &Valuation, place: f64) -> f64 {
+        let (value, slope) = (known.value(pool, self.expression), known.value(pool, self.slope));
+        if value.abs() <= SUMS_TO_ZERO * slope.abs() * place { 0.0 } else { value }
+    }
+}
+
+/// The forces at each place on the coordinates that rest, by its variables and the rates of the cyclic coordinates; none
+/// where the law is a bracket.
+pub(super) fn virtual_work(
+    (model, equations): (&Model, &Equations),
+    parameters: &[f64],
+    places: &[(&[f64], &[(usize, f64)])],
+) -> Vec<Vec<VirtualWork>> {
+    let (Flow::Lagrange { momentum_rates, .. } | Flow::Hamilton { momentum_rates, .. }) =
+        &equations.flow
+    else {
+        return Vec::new();
+    };
+    let mut pool = equations.pool.clone();
+    let n = equations.coordinates.len();
+    let Some((_, going)) = places.first() else { return Vec::new() };
+    // the coordinates that are cyclic go on at every place
+    let rests = |i: usize| going.iter().all(|&(cyclic, _)| cyclic != i);
+    let resting: Vec<usize> = (0..n).filter(|&i| rests(i)).collect();
+    let still: HashMap<_, _> =
+        resting.iter().map(|&i| (equations.coordinates[i].velocity, Expr::ZERO)).collect();
+    let mut forces = Vec::new();
+    for &i in &resting {
+        let rate = pool.substitute(momentum_rates[i], &still);
+        let q = equations.coordinates[i].position;
+        let mut force = Vec::new();
+        for (factor, term) in pool.summands(rate) {
+            let term = pool.scale(factor, term);
+            let product = pool.multiplied_out(term);
+            let mut parts = Vec::new();
+            for (factor, part) in pool.summands(product) {
+                let part = pool.scale(factor, part);
+                parts.push(Term::new(&mut pool, part, q));
+            }
+            parts.truncate(if parts.len() > MOST_PARTS { 0 } else { MOST_PARTS });
+            force.push((Term::new(&mut pool, term, q), parts));
+        }
+        forces.push((i, force));
+    }
+    let at = |(variables, rates): &(&[f64], &[(usize, f64)])| {
+        let mut known = Valuation::of_parameters(model, parameters);
+        known.set(equations.symbols.time, 0.0);
+        for (i, symbols) in equations.coordinates.iter().enumerate() {
+            known.set(symbols.position, variables[i]);
+            known.set(symbols.momentum, variables[n + i]);
+            known.set(symbols.velocity, 0.0);
+        }
+        for &(i, rate) in *rates {
+            known.set(equations.coordinates[i].velocity, rate);
+        }
+        let work = forces.iter().map(|(coordinate, force)| {
+            let place = variables[*coordinate].abs();
+            let value = |term: &Term| term.value(&pool, &known, place);
+            let mut terms = Vec::new();
+            for (whole, parts) in force {
+                let largest = parts.iter().fold(0.0_f64, |most, part| most.max(value(part).abs()));
+                // forces with a common factor may balance within it
+                let balanced = value(whole).abs() <= SUMS_TO_ZERO * largest;
+                let shown = if balanced { &parts[..] } else { std::slice::from_ref(whole) };
+                terms.extend(shown.iter().map(|term| (term.shown.clone(), value(term))));
+            }
+            // what is zero by itself is no part of the balance
+            terms.retain(|(_, value)| *value != 0.0);
+            VirtualWork { coordinate: *coordinate, terms }
+        });
+        work.collect()
+    };
+    places.iter().map(at).collect()
+}
