@@ -98,7 +98,7 @@ impl Instrument for Section {
         if by_chaos(plot) {
             let key =
                 |(regular, words): (bool, &str)| Entry::Key(chaos_ink(regular), words.to_owned());
-            entries.splice(0..0, [(true, "regular"), (false, "chaotic")].map(|one| key(one)));
+            entries.splice(0..0, [(true, "regular"), (false, "chaotic")].map(key));
         }
         Some(plot.heading(present.physics, "Section", entries))
     }

@@ -148,7 +148,7 @@ fn a_key_on_a_parameter_shows_all_of_its_range() {
     assert_eq!(range, [0.0, 4.0]);
     match plot.kind.picture(&plot, &present, range, lab.answer(&plot)) {
         Some(Picture::Axes { upwards: Upwards::Named(_, range), .. }) => {
-            assert_eq!(range, [-7.0, 7.0])
+            assert_eq!(range, [-7.0, 7.0]);
         }
         other => panic!("{other:?}"),
     }
