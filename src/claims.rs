@@ -11,4 +11,4 @@ mod invariants;
 mod motion;
 mod start;
 
-pub use check::{false_claims, flaws};
+pub use check::{false_claims, structure_diagnostics};

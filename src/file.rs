@@ -52,7 +52,7 @@ pub fn read_regular(path: &Path, most: u64) -> io::Result<(Vec<u8>, u64)> {
 /// # Errors
 /// Returns an error that names what it is instead.
 pub fn check_regular(kind: FileType) -> io::Result<()> {
-    if kind.is_fifo() { Err(refusal("it is a pipe, not a file")) } else { readable(kind) }
+    if kind.is_fifo() { Err(unreadable("it is a pipe, not a file")) } else { readable(kind) }
 }
 
 fn whole(file: File, about: &Metadata, most: u64) -> io::Result<(Vec<u8>, u64)> {
@@ -75,17 +75,17 @@ fn open(path: &Path) -> io::Result<(File, Metadata)> {
 
 fn readable(kind: FileType) -> io::Result<()> {
     if kind.is_dir() {
-        Err(refusal("it is a folder, not a file"))
+        Err(unreadable("it is a folder, not a file"))
     } else if kind.is_char_device() || kind.is_block_device() {
-        Err(refusal("it is a device, not a file"))
+        Err(unreadable("it is a device, not a file"))
     } else if kind.is_socket() {
-        Err(refusal("it is a socket, not a file"))
+        Err(unreadable("it is a socket, not a file"))
     } else {
         Ok(())
     }
 }
 
-fn refusal(what: &str) -> io::Error {
+fn unreadable(what: &str) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidInput, what)
 }
 
@@ -102,7 +102,7 @@ fn from_pipe(mut file: &File, most: u64) -> io::Result<Vec<u8>> {
                 wait(&mut [], INTERVAL)?;
             }
             Ok(0) if bytes.is_empty() => {
-                return Err(refusal("it is a pipe that nothing was written into"));
+                return Err(unreadable("it is a pipe that nothing was written into"));
             }
             Ok(0) => break,
             Ok(count) => bytes.extend(&chunk[..count]),

@@ -77,7 +77,7 @@ impl<T> Job<T> {
             _ if progress.is_cancelled() => Outcome::Cancelled,
             Ok(result) => Outcome::Done(result),
             Err(panic) => Outcome::Failed(format!(
-                "{} stopped by a defect of the program: {}",
+                "{} stopped by a bug in phaselab: {}",
                 self.name,
                 reason(panic.as_ref())
             )),
@@ -213,7 +213,7 @@ mod tests {
     #[test]
     fn a_panic_is_reported_with_the_name_of_the_job() {
         let job: Job<()> = Job::new("the search", |_| panic!("no way"));
-        let reason = "the search stopped by a defect of the program: no way".to_owned();
+        let reason = "the search stopped by a bug in phaselab: no way".to_owned();
         assert_eq!(job.run(&Progress::new()), Outcome::Failed(reason));
     }
 }

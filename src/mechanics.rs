@@ -13,7 +13,6 @@ mod derive;
 mod dimension;
 mod domain;
 mod equations;
-mod flaw;
 mod frames;
 mod frobenius;
 mod gauge;
@@ -44,6 +43,7 @@ mod separation;
 mod similarity;
 mod slope;
 mod structure;
+mod structure_error;
 mod symmetry;
 mod vakonomic;
 mod valuation;
@@ -59,7 +59,6 @@ pub use equations::{
     CoordinateSymbols, Equations, Flow, ImplicitMap, NoClosedForm, Reason, Separable, Supplements,
     Vakonomic,
 };
-pub use flaw::StructureError;
 pub use gauge::Gauge;
 pub use generating::GeneratingFunction;
 pub use generator::{GeneratorFlow, flow_of};
@@ -69,7 +68,7 @@ pub use implicit_map::guesses;
 pub use invariants::{casimir_rate, is_changed_by_impulse};
 pub use latex::latex;
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
-pub use poisson_structure::flaws;
+pub use poisson_structure::structure_errors;
 pub use report::{
     BodyNumbers, BodyReport, ConservedReport, Constant, Constrained, Further, GeneratorReport,
     ImpulseReport, Left, Line, Reaction, Report, TransformationReport,
@@ -81,4 +80,5 @@ pub use sampling::{POINTS, TRIES};
 pub use separation::separation;
 pub use similarity::Similarity;
 pub use structure::{Holonomy, Separation};
+pub use structure_error::StructureError;
 pub use valuation::Valuation;

@@ -190,7 +190,7 @@ pub fn why(error: &io::Error) -> String {
         ErrorKind::PermissionDenied => "permission denied",
         ErrorKind::AlreadyExists => "it is there already",
         ErrorKind::IsADirectory => "it is a folder, not a file",
-        ErrorKind::NotADirectory => "a part of the path is no folder",
+        ErrorKind::NotADirectory => "a part of the path is not a folder",
         ErrorKind::ReadOnlyFilesystem => "the file system is read-only",
         ErrorKind::StorageFull => "no space left on the device",
         ErrorKind::QuotaExceeded => "no space left within the quota",

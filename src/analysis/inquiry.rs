@@ -79,7 +79,7 @@ impl Inquiry {
             }
             more => {
                 let (start, part) = more[2];
-                let message = "a bracket has two sides, and this is a third";
+                let message = "a bracket takes two expressions, and this is a third";
                 let span = crate::expr::Span { start, end: start + part.len() };
                 return Err(SyntaxError::new(span, message));
             }

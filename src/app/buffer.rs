@@ -37,7 +37,7 @@ pub struct SourceBuffer {
     /// The text.
     pub editor: Editor,
     /// The diagnostics of the last check, in order.
-    pub flaws: Vec<BufferDiagnostic>,
+    pub diagnostics: Vec<BufferDiagnostic>,
     /// Whether the text has been checked, and with what result.
     pub state: State,
     /// The prompt below the text, if one is open.
@@ -137,7 +137,7 @@ impl SourceBuffer {
         };
         let mut buffer = Self { state: State::Runs(None), ..Self::of_unsaved(known) };
         // It opens at the law: L, H or the brackets.
-        let law = buffer.editor.spot(loaded.model.law_place.start);
+        let law = buffer.editor.caret_at(loaded.model.law_place.start);
         buffer.editor.go(Caret { column: 0, ..law });
         buffer
     }
@@ -149,7 +149,7 @@ impl SourceBuffer {
             title: unsaved.title,
             place: unsaved.place,
             editor: Editor::new(&unsaved.text, TEXT_LIMIT),
-            flaws: Vec::new(),
+            diagnostics: Vec::new(),
             state: State::Left,
             asking: None,
             scroll: (0, 0),
@@ -193,17 +193,20 @@ impl SourceBuffer {
     }
 
     /// Returns the diagnostic at or after the cursor, or else the first one.
-    pub fn flaw(&self) -> Option<&BufferDiagnostic> {
+    pub fn diagnostic(&self) -> Option<&BufferDiagnostic> {
         let cursor = self.editor.cursor();
-        let on_line = self.flaws.iter().find(|flaw| flaw.from.row == cursor.row);
-        let after = self.flaws.iter().find(|flaw| flaw.to >= cursor);
-        let at = self.flaws.iter().find(|flaw| flaw.from <= cursor && cursor <= flaw.to);
-        at.or(on_line).or(after).or(self.flaws.first())
+        let on_line = self.diagnostics.iter().find(|diagnostic| diagnostic.from.row == cursor.row);
+        let after = self.diagnostics.iter().find(|diagnostic| diagnostic.to >= cursor);
+        let at = self
+            .diagnostics
+            .iter()
+            .find(|diagnostic| diagnostic.from <= cursor && cursor <= diagnostic.to);
+        at.or(on_line).or(after).or(self.diagnostics.first())
     }
 
     /// Returns the number of errors, which keep the text from being used.
     pub fn mistakes(&self) -> usize {
-        self.flaws.iter().filter(|flaw| !flaw.warning).count()
+        self.diagnostics.iter().filter(|diagnostic| !diagnostic.warning).count()
     }
 
     /// Returns the first row and column to show so that the cursor is visible in a window of this size.
@@ -242,7 +245,7 @@ impl SourceBuffer {
     pub(super) fn leave(&mut self) {
         (self.checking, self.rest, self.asking) = (None, None, None);
         (self.half, self.overrule) = (false, false);
-        self.flaws.clear();
+        self.diagnostics.clear();
         self.state = State::Left;
     }
 
@@ -297,16 +300,16 @@ impl SourceBuffer {
     /// Returns the warning for a text that is saved with mistakes, or before they were found.
     pub(super) fn saved_as(&self) -> Option<String> {
         let shown = self.place.as_ref()?.display();
-        let flaw = self.flaws.iter().find(|flaw| !flaw.warning);
-        let Some(flaw) = flaw.filter(|_| self.state == State::Wrong) else {
+        let diagnostic = self.diagnostics.iter().find(|diagnostic| !diagnostic.warning);
+        let Some(diagnostic) = diagnostic.filter(|_| self.state == State::Wrong) else {
             return Some(format!("Saved: {shown}"));
         };
         let count = match self.mistakes() {
             1 => "1 mistake".to_owned(),
             n => format!("{n} mistakes"),
         };
-        let (row, column) = (flaw.from.row + 1, flaw.from.column + 1);
-        Some(format!("Saved: {shown}, with {count}: {row}:{column} {}", flaw.message))
+        let (row, column) = (diagnostic.from.row + 1, diagnostic.from.column + 1);
+        Some(format!("Saved: {shown}, with {count}: {row}:{column} {}", diagnostic.message))
     }
 
     /// Handles a typed key.
@@ -325,9 +328,9 @@ impl SourceBuffer {
 
     /// Stores the diagnostics, each at its position.
     fn note(&mut self, mistakes: &[Diagnostic]) {
-        let flaw = |mistake: &Diagnostic| {
-            let from = self.editor.spot(mistake.place.start);
-            let end = self.editor.spot(mistake.place.end);
+        let diagnostic = |mistake: &Diagnostic| {
+            let from = self.editor.caret_at(mistake.place.start);
+            let end = self.editor.caret_at(mistake.place.end);
             let length = self.editor.lines()[from.row].chars().count();
             let column = if end.row == from.row { end.column } else { length };
             BufferDiagnostic {
@@ -338,12 +341,12 @@ impl SourceBuffer {
                 help: mistake.help.clone(),
             }
         };
-        self.flaws = mistakes.iter().map(flaw).collect();
+        self.diagnostics = mistakes.iter().map(diagnostic).collect();
     }
 
     /// Goes to the first mistake.
     pub(super) fn step_to_first(&mut self) {
-        if let Some(from) = self.flaws.iter().map(|flaw| flaw.from).min() {
+        if let Some(from) = self.diagnostics.iter().map(|diagnostic| diagnostic.from).min() {
             self.editor.go(from);
         }
     }
@@ -351,7 +354,7 @@ impl SourceBuffer {
     /// Goes to the next mistake (+1) or the previous one (−1). Returns whether there is one.
     pub(super) fn step(&mut self, sign: i8) -> bool {
         let cursor = self.editor.cursor();
-        let mut places = self.flaws.iter().map(|flaw| flaw.from);
+        let mut places = self.diagnostics.iter().map(|diagnostic| diagnostic.from);
         let to = if sign > 0 {
             places.clone().find(|place| *place > cursor).or(places.next())
         } else {

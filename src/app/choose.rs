@@ -14,7 +14,7 @@ impl App {
             label: method.name.to_owned(),
             about: format!("{}. {}", method.title, method.about),
             keys: String::new(),
-            refusal: (method.fits)(&lab.loaded.system).err().map(|refusal| refusal.reason),
+            unavailable: (method.fits)(&lab.loaded.system).err().map(|error| error.reason),
             choice: Choice::Method(method.name),
         };
         let menu = Menu::new(
@@ -33,7 +33,7 @@ impl App {
         };
         let items: Vec<Item> = self.themes.iter().enumerate().map(line).collect();
         if items.is_empty() {
-            return self.notify("There is only one theme here.");
+            return self.notify("Only one theme is available here.");
         }
         let now = self.themes.iter().position(|(name, _)| Some(*name) == self.theme);
         let menu = Menu::new("Theme", Choosing::Theme, items);
@@ -119,7 +119,7 @@ impl App {
             self.overlay = Some(Overlay::Menu(menu));
             return self.notify("No match.");
         };
-        if let Some(reason) = &item.refusal {
+        if let Some(reason) = &item.unavailable {
             let sentence = format!("{} cannot be used here: {reason}", item.label);
             self.overlay = Some(Overlay::Menu(menu));
             return self.notify(sentence);

@@ -7,8 +7,7 @@ use crate::experiment::{Command, MOST_COMPANIONS};
 use crate::instrument::{NoStart, Plot, named};
 
 /// What is said where a point is no start.
-const NO_START: &str =
-    "A point of this plot is no start: that takes a coordinate and a rate, or a section.";
+const NO_START: &str = "No motion can start from a point of this plot: that takes a coordinate and its rate, or a section.";
 
 impl App {
     /// Adds a motion that begins at the cursor of the focused plot.
@@ -18,7 +17,7 @@ impl App {
         let has_cursor = plot.viewport().is_some_and(|viewport| viewport.cursor.is_some());
         match self.drawn.reading.filter(|_| has_cursor) {
             Some(at) => self.add_start_at(index, at),
-            None => self.notify("A motion is added at the cursor, which c puts on the plot."),
+            None => self.notify("A motion is added at the cursor; c puts one on the plot."),
         }
     }
 
@@ -53,7 +52,7 @@ impl App {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         if !lab.loaded.model.constraints.is_empty() {
             return self.notify(
-                "A neighbour takes independent coordinates, and constraints tie these together.",
+                "A neighbour needs independent coordinates, and constraints tie these together.",
             );
         }
         if !lab.has_room() {
@@ -92,7 +91,7 @@ impl App {
 }
 
 fn full() -> String {
-    format!("{MOST_COMPANIONS} motions beside the main one are the most; C clears them.")
+    format!("There can be at most {MOST_COMPANIONS} motions beside the main one; C clears them.")
 }
 
 impl Lab {

@@ -11,7 +11,7 @@ impl App {
     pub(super) fn show_diagram(&mut self) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let Some(ValueId::Parameter(over)) = lab.selected() else {
-            return self.notify("A diagram is over a parameter: choose one of those.");
+            return self.notify("A diagram is over a parameter: choose one.");
         };
         lab.show_over(over);
         Vec::new()

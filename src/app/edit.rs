@@ -55,9 +55,12 @@ impl App {
     /// Returns a line about the file's mistakes while its editor is closed.
     pub fn banner(&self) -> Option<String> {
         let buffer = self.own_buffer().filter(|_| self.overlay.is_none())?;
-        let flaw = buffer.flaws.first().filter(|_| buffer.state == State::Wrong)?;
-        let (row, column) = (flaw.from.row + 1, flaw.from.column + 1);
-        Some(format!("{}:{row}:{column}: {}; what was right goes on", buffer.title, flaw.message))
+        let diagnostic = buffer.diagnostics.first().filter(|_| buffer.state == State::Wrong)?;
+        let (row, column) = (diagnostic.from.row + 1, diagnostic.from.column + 1);
+        Some(format!(
+            "{}:{row}:{column}: {}; still running the last valid version",
+            buffer.title, diagnostic.message
+        ))
     }
 
     /// Whether the result of a check is still wanted.
@@ -107,7 +110,7 @@ impl App {
     /// Returns a sentence about what would be lost.
     fn loss(&self) -> Option<String> {
         let text = self.workbench.unsaved().into_iter().next()?;
-        Some(format!("{} has changes that are not saved; quit again to lose them.", text.title))
+        Some(format!("{} has unsaved changes; quit again to discard them.", text.title))
     }
 
     /// Checks an unsaved text at once if it is the one that was running. Returns whether there is one.
@@ -119,8 +122,7 @@ impl App {
     /// Reminds the user of an unsaved text of the system in the lab.
     pub(super) fn remind(&mut self) {
         if let Some(buffer) = self.own_buffer().filter(|buffer| buffer.is_modified()) {
-            let message =
-                format!("{} has changes that are not saved; E goes to them.", buffer.title);
+            let message = format!("{} has unsaved changes; E shows them.", buffer.title);
             self.notice = Some(Notification::info(message));
         }
     }
@@ -165,7 +167,7 @@ impl App {
             EditCommand::Cut => buffer.editor.cut(),
             EditCommand::Copy => {
                 buffer.editor.copy();
-                self.notice = Some(Notification::info("Copied; Ctrl-v puts it in."));
+                self.notice = Some(Notification::info("Copied; Ctrl-v pastes it."));
                 return Vec::new();
             }
             EditCommand::PutBack => buffer.editor.put_back(),
@@ -212,8 +214,8 @@ impl App {
             buffer.leave();
         }
         let message = match (stopped, buffer.is_modified()) {
-            (true, _) => format!("{} is no longer being checked; E goes on with it.", buffer.title),
-            (false, true) => format!("{} is not saved; E goes back to it.", buffer.title),
+            (true, _) => format!("{} is no longer being checked; E resumes.", buffer.title),
+            (false, true) => format!("{} is not saved; E returns to it.", buffer.title),
             (false, false) if self.lab.is_none() => return self.leave_alone(),
             (false, false) => return Vec::new(),
         };
@@ -300,13 +302,13 @@ impl App {
                 }
             }
             Err(SaveError::Changed) => Notification::error(format!(
-                "{} was changed by another program: Ctrl-s again writes over it, Ctrl-o reads it.",
+                "{} was changed by another program: Ctrl-s again overwrites it, Ctrl-o reloads it.",
                 buffer.title
             )),
             Err(SaveError::Exists(place)) => {
                 buffer.asking = Some(Asking::Name(Input::new(place.display().to_string())));
                 Notification::error(format!(
-                    "{} exists already; give another name.",
+                    "{} already exists; choose another name.",
                     place.display()
                 ))
             }
@@ -319,7 +321,7 @@ impl App {
         if let Some(buffer) = self.own_buffer().filter(|buffer| !asked && buffer.is_modified()) {
             if buffer.on_disk != text {
                 let message = format!(
-                    "{} was changed by another program; what stands here is not saved.",
+                    "{} was changed by another program; your text here is not saved.",
                     buffer.title
                 );
                 self.notice = Some(Notification::error(message));
@@ -342,7 +344,9 @@ impl App {
         self.notice = Some(if there {
             Notification::info(format!("{title} is there again."))
         } else {
-            Notification::error(format!("{title} is no longer there; what it held goes on."))
+            Notification::error(format!(
+                "{title} no longer exists; its last valid version keeps running."
+            ))
         });
     }
 
@@ -375,13 +379,14 @@ impl App {
         match (outcome, found) {
             (Ok(loaded), found) => {
                 if let Found::Newest = found {
-                    buffer.flaws.clear();
+                    buffer.diagnostics.clear();
                     buffer.state = State::Runs(Some(took));
                 }
                 let resumes = self.lab.as_ref().is_some_and(|lab| lab.awaited.is_some());
                 if !resumes && !matches!(self.overlay, Some(Overlay::Workbench)) {
                     let (title, time) = (&loaded.document.path, took.as_secs_f64() * 1e3);
-                    let message = format!("{title}: rebuilt in {time:.0} ms; the motion goes on.");
+                    let message =
+                        format!("{title}: rebuilt in {time:.0} ms; the motion continues.");
                     self.notice = Some(Notification::info(message));
                 }
                 self.rebuilt(loaded)

@@ -92,7 +92,7 @@ impl Editor {
     }
 
     /// Returns the position of a byte offset.
-    pub fn spot(&self, byte: usize) -> Caret {
+    pub fn caret_at(&self, byte: usize) -> Caret {
         let ending = if self.carriage { 2 } else { 1 };
         let mut left = byte;
         for (row, line) in self.lines.iter().enumerate() {

@@ -18,7 +18,7 @@ impl App {
     pub(super) fn find_equilibria(&mut self) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         if lab.equilibria.under_way.take().is_some() {
-            self.notice = Some(Notification::info("The search for equilibria is stopped."));
+            self.notice = Some(Notification::info("The search for equilibria was stopped."));
             return vec![Effect::StopComputing(Asker::Equilibria)];
         }
         let Some(present) = lab.present() else { return Vec::new() };
@@ -51,7 +51,7 @@ impl App {
             Outcome::Done(answer) => answer.of::<Result<Arc<FoundEquilibria>, String>>()?,
         };
         Some(match found {
-            Err(why) => self.notify(format!("No equilibria are looked for here: {why}.")),
+            Err(why) => self.notify(format!("Equilibria cannot be searched for here: {why}.")),
             Ok(found) if found.found.is_empty() => {
                 self.notify("There is no equilibrium in reach of where the motion is now.")
             }

@@ -99,7 +99,7 @@ fn number(model: &Model, parameters: &[f64], text: &str) -> Result<f64, String> 
         let what = mistake.map_or("it cannot be read".to_owned(), ToString::to_string);
         let help = mistake.and_then(|m| m.help.clone());
         let help = help.map_or(String::new(), |help| format!(": {help}"));
-        return Err(format!("`{}` is no number: {what}{help}.", text.trim()));
+        return Err(format!("`{}` is not a number: {what}{help}.", text.trim()));
     };
     let value = pool.evaluate(expression, &|symbol| {
         let index = model.parameters.iter().position(|p| p.symbol == symbol);

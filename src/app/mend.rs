@@ -16,7 +16,7 @@ impl App {
     pub(super) fn mend_file(&mut self) -> Vec<Effect> {
         let Some(name) = self.failed_system().map(str::to_owned) else { return Vec::new() };
         let Some(place) = self.place_of(&name) else {
-            return self.notify("This system has no file that could be edited.");
+            return self.notify("This system has no file to edit.");
         };
         self.mending = Some(name);
         vec![Effect::Reread(place)]

@@ -70,7 +70,7 @@ pub struct Item {
     /// The keys with the same effect, separated by spaces.
     pub keys: String,
     /// Why it cannot be chosen at present.
-    pub refusal: Option<String>,
+    pub unavailable: Option<String>,
     /// What choosing it means.
     pub choice: Choice,
 }
@@ -120,7 +120,7 @@ impl Item {
         choice: Choice,
     ) -> Self {
         let (label, about) = (label.into(), about.into());
-        Self { label, about, keys: String::new(), refusal: None, choice }
+        Self { label, about, keys: String::new(), unavailable: None, choice }
     }
 }
 
@@ -179,7 +179,7 @@ impl Menu {
         // Among equal matches, available lines come first, then the order of the list decides.
         found.sort_by_key(|(index, fit)| {
             let item = &self.items[*index];
-            (item.refusal.is_some(), std::cmp::Reverse(fit.score))
+            (item.unavailable.is_some(), std::cmp::Reverse(fit.score))
         });
         found
     }

@@ -32,7 +32,7 @@ impl App {
         let near = |row: &&Binding| self.nearest(row.place).is_some();
         let line = |row: &Binding| self.line_of(row, None);
         let (mut items, refused): (Vec<Item>, Vec<Item>) =
-            often.map(line).partition(|item| item.refusal.is_none());
+            often.map(line).partition(|item| item.unavailable.is_none());
         if let Some(lab) = &self.lab {
             items.extend(lab.impulse_lines());
             items.extend(lab.value_lines());
@@ -75,7 +75,7 @@ impl App {
     }
 
     fn line_of(&self, row: &Binding, elsewhere: Option<&str>) -> Item {
-        let refusal = elsewhere.or_else(|| self.lack(row.action));
+        let unavailable = elsewhere.or_else(|| self.lack(row.action));
         // Users search for the word in the footer.
         let named = row.hint.is_empty() || moves(row.action) || row.help.contains(row.hint);
         let name = if named { String::new() } else { format!("{}: ", row.hint) };
@@ -83,7 +83,7 @@ impl App {
             label: format!("{name}{}", row.help),
             about: row.place.title().to_owned(),
             keys: row.key_names().join(" "),
-            refusal: refusal.map(str::to_owned),
+            unavailable: unavailable.map(str::to_owned),
             choice: Choice::Action(row.action),
         }
     }
@@ -117,7 +117,7 @@ impl App {
             label: format!("theme: {name}"),
             about: (*about).to_owned(),
             keys: String::new(),
-            refusal: None,
+            unavailable: None,
             choice: Choice::Theme(index),
         })
     }
@@ -132,7 +132,7 @@ impl App {
                 label: format!("open: {}", entry.info.title),
                 about: format!("{} · {}", entry.name, entry.info.summary),
                 keys: String::new(),
-                refusal: (open == Some(&entry.name)).then(|| "it is open".to_owned()),
+                unavailable: (open == Some(&entry.name)).then(|| "it is open".to_owned()),
                 choice: Choice::System(index),
             })
             .collect()
@@ -179,7 +179,7 @@ fn moves(action: Action) -> bool {
 /// Returns where the keys of a place are active, as a hint to a user who is elsewhere.
 fn where_active(place: Place) -> &'static str {
     match place {
-        Place::Always | Place::Anywhere => "it holds where no text is typed",
+        Place::Always | Place::Anywhere => "it works while no text is being typed",
         Place::Picker => "it is for the list of systems, to which Esc leads",
         Place::Search => "it is for a search among the systems",
         Place::Experiment => "it is for a system that is open",
@@ -206,7 +206,7 @@ fn method_lines(system: &System) -> impl Iterator<Item = Item> {
         label: format!("method: {}", method.name),
         about: format!("{}. {}", method.title, method.about),
         keys: String::new(),
-        refusal: (method.fits)(system).err().map(|refusal| refusal.reason),
+        unavailable: (method.fits)(system).err().map(|error| error.reason),
         choice: Choice::Method(method.name),
     })
 }
@@ -261,7 +261,7 @@ impl Lab {
             label: format!("focus: {}", self.titled(pane)),
             about: "a pane of the lab".to_owned(),
             keys: String::new(),
-            refusal: None,
+            unavailable: None,
             choice: Choice::Pane(pane),
         };
         self.panes().map(line).collect()

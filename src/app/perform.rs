@@ -84,7 +84,7 @@ impl App {
             Action::PlayPause => match lab.snapshot.as_ref().map(|s| &s.status) {
                 Some(Status::Running) => vec![Effect::Tell(Command::Pause)],
                 Some(Status::Failed(_)) => {
-                    self.notify("It cannot go on from here: reset it with r.")
+                    self.notify("It cannot continue from here: reset it with r.")
                 }
                 Some(Status::Ended(_)) => {
                     self.notify("The motion has ended: begin it again with r.")
@@ -189,8 +189,7 @@ impl App {
                 Some((_, plot)) if plot.kind.has_equal_axes() => {
                     self.with_viewport(|viewport| viewport.equal = !viewport.equal)
                 }
-                _ => self
-                    .notify("Only where one quantity stands against another can units be equal."),
+                _ => self.notify("Equal scales need a plot of one quantity against another."),
             },
             Action::Active => match lab.focused_plot() {
                 Some((_, plot)) if plot.kind.written().iter().any(|axis| axis.transformed) => {
@@ -330,7 +329,7 @@ impl App {
         }
         if let Some((name, _)) = self.asked.take_if(|_| self.page == Page::Picker) {
             self.resuming = None;
-            self.notice = Some(Notification::info(format!("{name} is no longer being loaded.")));
+            self.notice = Some(Notification::info(format!("Loading {name} was cancelled.")));
             return vec![Effect::StopLoading];
         }
         let leaves = self.asked_to_leave();

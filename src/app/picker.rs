@@ -91,17 +91,28 @@ impl Picker {
         self.found().into_iter().map(|(index, _)| index).collect()
     }
 
-    /// Returns the session that can be resumed; a search with words in it is among the systems only.
+    /// Returns the session that can be resumed, if the search leaves its row there.
     pub fn session(&self) -> Option<&Saved> {
-        self.session.as_ref().filter(|_| self.sought().is_none())
+        self.session.as_ref().filter(|_| self.lists(Above::Session))
     }
 
-    /// Returns the rows above the systems; a search with words in it is among the systems only.
+    /// Returns the rows above the systems: of a search with words in it, those that one of its own words begins with them.
     pub fn above(&self) -> impl Iterator<Item = Above> {
         let session = self.session().map(|_| Above::Session);
-        let listed = self.sought().is_none();
-        let guides = (listed && !self.guides.is_empty()).then_some(Above::Guides);
-        session.into_iter().chain(guides).chain(listed.then_some(Above::NewSystem))
+        let guides = (!self.guides.is_empty()).then_some(Above::Guides);
+        let all = session.into_iter().chain(guides).chain([Above::NewSystem]);
+        all.filter(|row| self.lists(*row))
+    }
+
+    /// Whether a row above the systems fits the search.
+    fn lists(&self, row: Above) -> bool {
+        let Some(sought) = self.sought().map(str::to_lowercase) else { return true };
+        let words: &[&str] = match row {
+            Above::Session => &["continue", "resume"],
+            Above::Guides => &["lessons", "demos", "tour"],
+            Above::NewSystem => &["new"],
+        };
+        sought.len() > 2 && words.iter().any(|word| word.starts_with(&sought))
     }
 
     /// Returns the one of these rows that is selected.
@@ -191,7 +202,8 @@ impl Picker {
     /// Changes the search, and selects the best match.
     pub fn search(&mut self, change: impl FnOnce(&mut Input)) {
         change(self.search.get_or_insert_default());
-        (self.above, self.selected) = (None, 0);
+        let best = if self.found().is_empty() { self.above().next() } else { None };
+        (self.above, self.selected) = (best, 0);
         self.touch();
     }
 

@@ -21,7 +21,7 @@ impl App {
         } else {
             self.reading.automatic = !self.reading.automatic;
             self.notice = Some(Notification::info(if self.reading.automatic {
-                "It is read anew every two seconds."
+                "It is reread every two seconds."
             } else {
                 "It stays as it is until Enter."
             }));

@@ -209,7 +209,7 @@ impl App {
             Ok(effects) => effects,
             Err(NoStart::Refused(why)) => self.notify(why),
             Err(NoStart::Nothing) => self.notify(
-                "A point of this plot is no start: that takes a coordinate and a rate, or a section.",
+                "No motion can start from a point of this plot: that takes a coordinate and its rate, or a section.",
             ),
         }
     }
@@ -238,7 +238,7 @@ impl App {
         };
         if !added {
             let why = if plot.seeds.is_empty() {
-                "No orbits can be added here: points of this section are no starts."
+                "No orbits can be added here: points of this section cannot be starts."
             } else {
                 "No more orbits can be added; N removes those that were."
             };

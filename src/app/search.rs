@@ -121,7 +121,7 @@ impl App {
     pub(super) fn search_further(&mut self) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         if lab.search.under_way.is_some() {
-            return self.notify("A search is being made; Esc ends it.");
+            return self.notify("A search is running; Esc stops it.");
         }
         let fresh = self.page != Page::Equations && lab.findings().is_none();
         if !fresh && lab.search.outcome.is_some() {

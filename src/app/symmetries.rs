@@ -93,7 +93,7 @@ impl App {
             Outcome::Done(answer) => answer.of::<Result<Arc<FoundSymmetries>, String>>()?,
         };
         Some(match found {
-            Err(why) => self.notify(format!("No symmetries are looked for here: {why}.")),
+            Err(why) => self.notify(format!("Symmetries cannot be searched for here: {why}.")),
             Ok(found) if found.found.is_empty() => {
                 self.notify("The equations of motion have no symmetry among those searched.")
             }

@@ -44,7 +44,7 @@ impl App {
         let Some(seen) = self.lab.as_ref().and_then(Lab::seen) else { return Vec::new() };
         let Recorded { from, to, .. } = seen.recorded;
         if from == to {
-            return self.notify("Nothing is recorded yet that could be looked at.");
+            return self.notify("Nothing has been recorded yet.");
         }
         let time = seen.time + by * (to - from) / STEPS;
         let (low, high) = (from.min(to), from.max(to));
@@ -63,15 +63,16 @@ impl App {
         let sentence = match lab.marks.iter().position(|mark| (mark - time).abs() <= near) {
             Some(index) => {
                 lab.marks.remove(index);
-                format!("The mark at t = {} is taken away.", short(time))
+                format!("Removed the mark at t = {}.", short(time))
             }
             None if lab.marks.len() == MOST => {
-                return self.notify(format!("{MOST} marks are the most; ; at a mark removes it."));
+                return self
+                    .notify(format!("There can be at most {MOST} marks; ; at a mark removes it."));
             }
             None => {
                 lab.marks.push(time);
                 lab.marks.sort_by(f64::total_cmp);
-                format!("A mark at t = {}; ' leads back to it.", short(time))
+                format!("Mark set at t = {}; ' returns to it.", short(time))
             }
         };
         self.notice = Some(Notification::info(sentence));
@@ -84,7 +85,7 @@ impl App {
         let Some(lab) = &self.lab else { return Vec::new() };
         let Some(seen) = lab.seen() else { return Vec::new() };
         if lab.marks.is_empty() {
-            return self.notify("There are no marks; ; sets one at the time that is seen.");
+            return self.notify("There are no marks; ; sets one at the time shown.");
         }
         let Recorded { from, to, .. } = seen.recorded;
         let (low, high) = (from.min(to), from.max(to));
@@ -138,7 +139,7 @@ impl Lab {
         match rate {
             Some(0.0) => None,
             Some(rate) if rate < 0.0 => Some(format!(
-                "Backwards the friction gives back what it took: areas grow like e^{{{} t}}, and errors with them.",
+                "Running backwards, friction returns what it took: areas grow like e^{{{} t}}, and errors with them.",
                 short(-rate)
             )),
             _ => Some(

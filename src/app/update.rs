@@ -181,7 +181,7 @@ impl App {
         if !whole || text.len() < all {
             self.notice = Some(Notification::error(match self.overlay {
                 Some(Overlay::Workbench) => LONG_TEXT,
-                _ => "The pasted text was too long; its beginning was taken.",
+                _ => "The pasted text was too long; only its beginning was inserted.",
             }));
         }
         Vec::new()

@@ -14,7 +14,7 @@ use crate::system::System;
 
 /// Returns a diagnostic for each false claim of a model, at its place.
 pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
-    let mut mistakes = flaws(model, equations);
+    let mut mistakes = structure_diagnostics(model, equations);
     if !mistakes.is_empty() {
         // without a Poisson structure the motion is meaningless
         return mistakes;
@@ -39,8 +39,7 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     }
     for e in mechanics::widened(model, equations) {
         let message = format!(
-            "`{}` stands under a root that is squared away: the equations go on where it is below \
-             zero",
+            "`{}` is under a root that is squared away: the equations continue where it is below zero",
             equations.pool.text(e)
         );
         mistakes.push(Diagnostic::warning(model.law_place.clone(), message));
@@ -58,16 +57,18 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
 }
 
 /// Returns the errors in the brackets and Casimirs of a file, with which it has no motion.
-pub fn flaws(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
-    let flaws = mechanics::flaws(model, equations).into_iter();
-    flaws.map(|flaw| Diagnostic::error(flaw.place, flaw.message).with_help(flaw.help)).collect()
+pub fn structure_diagnostics(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
+    let errors = mechanics::structure_errors(model, equations).into_iter();
+    errors
+        .map(|error| Diagnostic::error(error.place, error.message).with_help(error.help))
+        .collect()
 }
 
 /// A complete integral that is none.
 fn incomplete(model: &Model, equations: &Equations) -> Option<Diagnostic> {
     let integral = model.complete_integral.as_ref()?;
     let found = HamiltonJacobi::of(model, &mut equations.clone())?;
-    let message = format!("this is no complete integral: {}", found.why?);
+    let message = format!("this is not a complete integral: {}", found.why?);
     let help = match found.residual {
         Some(residual) if residual > 0.0 => {
             format!("|H(q, ∂S/∂q, t) + ∂S/∂t| reaches {residual:.1e} at points near the start")

@@ -130,7 +130,7 @@ impl<'a> Motion<'a> {
         let method =
             method_named("auto").ok_or_else(|| refused(0..0, "there is no method".into()))?;
         let course = integrate::Propagator::new(system, method, Settings::default(), &parameters);
-        let course = course.map_err(|refusal| refused(0..0, refusal.to_string()))?;
+        let course = course.map_err(|error| refused(0..0, error.to_string()))?;
         let allowed = steps_for(equations);
         let mut motion = Motion {
             system,

@@ -254,7 +254,9 @@ fn coordinate(model: &Model, wanted: Option<&str>) -> Result<usize, CommandError
             return Ok(0);
         }
         let names = names.collect::<Vec<_>>().join(", ");
-        return wrong(format!("of several coordinates one is taken, --coordinate: {names}"));
+        return wrong(format!(
+            "there are several coordinates: choose one with --coordinate, {names}"
+        ));
     };
     match model.coordinate(wanted) {
         Some(index) => Ok(index),

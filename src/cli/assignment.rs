@@ -245,7 +245,7 @@ pub(super) fn column(
     };
     if name.is_empty() {
         let text = printable::quoted(text);
-        return Err(CommandError::WrongUse(format!("{called} {text}: a name stands before the =")));
+        return Err(CommandError::WrongUse(format!("{called} {text}: a name comes before the =")));
     }
     let expression = expression(model, pool, written, called)?;
     Ok(Channel { written: name.to_owned(), expression })

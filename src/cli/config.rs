@@ -74,8 +74,7 @@ fn find() -> Result<Option<Document>, CommandError> {
 }
 
 fn path() -> Result<PathBuf, CommandError> {
-    let none =
-        "there is no home, and so no folder for a configuration: set HOME or XDG_CONFIG_HOME";
+    let none = "there is no home folder to keep a configuration in: set HOME or XDG_CONFIG_HOME";
     config::path().ok_or_else(|| CommandError::CouldNot(none.to_owned()))
 }
 

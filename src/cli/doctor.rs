@@ -44,21 +44,21 @@ fn findings(variables: &dyn Fn(&str) -> Option<String>, size: Option<(u16, u16)>
         text.push_str(line.trim_end());
         text.push('\n');
     }
-    text + "\n--color, --glyphs, --fps and --bandwidth choose otherwise;\n\
+    text + "\n--color, --glyphs, --fps and --bandwidth override this;\n\
         `phaselab doctor --glyphs` shows which glyphs the font has.\n"
 }
 
 fn glyphs(chosen: Glyphs, near: bool) -> String {
     let mut text = String::new();
     if !near {
-        text += "This is no terminal: look at it in the one you use.\n";
+        text += "This is not a terminal: run it in the one you use.\n";
     }
     if chosen.is_ascii() {
         text += "The locale is not UTF-8, so plots are drawn in ASCII; what is not ASCII below\n\
             can be judged only where the terminal takes UTF-8.\n";
     }
     text += "A set is in your font where its curve is unbroken, its block at the right is full\n\
-        and the bars at the right end are in one column. Take it with --glyphs NAME.\n";
-    text += &format!("Where nothing is said, {} is taken here.\n\n", chosen.name());
+        and the bars at the right end are in one column. Select it with --glyphs NAME.\n";
+    text += &format!("The default here is {}.\n\n", chosen.name());
     text + &card().join("\n") + "\n"
 }

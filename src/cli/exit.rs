@@ -30,10 +30,10 @@ const fn exit(code: &'static str, when: &'static str) -> Exit {
 
 /// Every exit code, in order.
 pub const EXITS: &[Exit] = &[
-    exit("0", "done, also where nobody reads the output to its end (| head)"),
+    exit("0", "success, also where nobody reads the output to its end (| head)"),
     exit(
         "1",
-        "could not: the motion met a fault (a singular mass matrix, a state that is not finite); \
+        "failed: the motion met a fault (a singular mass matrix, a state that is not finite); \
          the rows so far are written",
     ),
     exit(
@@ -47,7 +47,7 @@ pub const EXITS: &[Exit] = &[
          places",
     ),
     exit("74", "output could not be written; a file that stood there is as it was"),
-    exit("101", "a panic: a defect of phaselab; the terminal is given back first"),
+    exit("101", "a panic: a bug in phaselab; the terminal is restored first"),
     exit("129", "ended by a signal: the terminal has hung up"),
     exit("130", "ended by a signal: interrupted (Ctrl-C)"),
     exit("131", "ended by a signal: quit"),

@@ -74,7 +74,7 @@ pub(super) fn perform(
         ended = shell::run(&request);
     }
     if matches!(ended, Ok(Ending::Quit)) && std::io::stderr().is_terminal() {
-        stderr::tell("`phaselab --resume` takes up where you left");
+        stderr::tell("`phaselab --resume` continues where you left off");
     }
     how_it_ended(ended)
 }
@@ -93,7 +93,7 @@ fn perform_demo(
     let performance = ScriptRunner::watched(script, &system, &name).map_err(wrong)?;
     let (ending, outcome) = match shell::perform_demo(performance, &request) {
         Ok(done) => done,
-        Err(refusal) => return how_it_ended(Err(refusal)),
+        Err(error) => return how_it_ended(Err(error)),
     };
     if let (Ending::Quit, Some(picture)) = (ending, outcome.map_err(wrong)?) {
         Output::print(Form::Coloured, &picture)?;
@@ -121,13 +121,13 @@ pub(super) fn how_it_ended(ended: Result<Ending, LabError>) -> Result<(), Comman
         Ok(Ending::Quit) => Ok(()),
         Ok(Ending::Gone) => Err(CommandError::Signal(signal_hook::consts::SIGHUP)),
         Ok(Ending::Signal(number)) => Err(CommandError::Signal(number)),
-        Err(refusal @ LabError::System(_)) => Err(CommandError::CouldNot(refusal.to_string())),
-        Err(refusal @ (LabError::Unsaved(_) | LabError::Unrecorded(_) | LabError::LogError(_))) => {
-            Err(CommandError::CouldNotWrite(refusal.to_string()))
+        Err(error @ LabError::System(_)) => Err(CommandError::CouldNot(error.to_string())),
+        Err(error @ (LabError::Unsaved(_) | LabError::Unrecorded(_) | LabError::LogError(_))) => {
+            Err(CommandError::CouldNotWrite(error.to_string()))
         }
         Err(LabError::SessionError(
             why @ (SessionError::Newer { .. } | SessionError::Malformed { .. }),
         )) => Err(CommandError::WrongFile(why.to_string())),
-        Err(refusal) => Err(CommandError::WrongUse(refusal.to_string())),
+        Err(error) => Err(CommandError::WrongUse(error.to_string())),
     }
 }

@@ -24,7 +24,7 @@ use crate::shell::{self, Ending, LabError, LessonMark, LessonProgress, Request};
 #[command(after_help = "\
 Examples:
   phaselab lessons                       all lessons, with a tick where one was finished
-  phaselab lessons kepler                take one, or go on where it was left
+  phaselab lessons kepler                take one, or continue where you left off
   phaselab lessons kepler --restart      from its beginning
   phaselab lessons my/own.lesson         one of your own")]
 pub(super) struct Lessons {
@@ -230,7 +230,7 @@ fn take(
     interrupt.stand_aside();
     let (ending, outcome) = match shell::take_lesson(&mut lesson, &request) {
         Ok(done) => done,
-        Err(refusal) => return (shared.ended)(Err(refusal)),
+        Err(error) => return (shared.ended)(Err(error)),
     };
     let mark = LessonMark::of(&lesson);
     if let Some(file) = &file {
@@ -239,7 +239,7 @@ fn take(
     }
     outcome.map_err(|mistake| located(vec![mistake]))?;
     if ending == Ending::Quit && !mark.finished && file.is_some() {
-        stderr::tell(&format!("`phaselab lessons {}` goes on here", printable::line(name)));
+        stderr::tell(&format!("`phaselab lessons {}` continues here", printable::line(name)));
     }
     (shared.ended)(Ok(ending))
 }

@@ -51,7 +51,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     if catalog.is_cut() {
         let folder =
             Catalog::user_folder().map_or(String::new(), |folder| printable::path(&folder));
-        stderr::tell(&format!("{folder} holds more than is looked at; not all of it is listed"));
+        stderr::tell(&format!("{folder} holds too many files; not all of them are listed"));
     }
     let text = match arguments.format {
         Format::Text => text(catalog.entries()),

@@ -33,12 +33,11 @@ const FILES: &[(&str, &str)] = &[
     ),
     (
         "~/.config/phaselab/presets/",
-        "Systems of your own, one TOML file each; they stand beside the shipped ones and win over \
-         those of the same name.",
+        "Systems of your own, one TOML file each; they stand beside the shipped ones and take precedence over those of the same name.",
     ),
     (
         "~/.local/state/phaselab/session.toml",
-        "The last session, saved on every way out of the lab; --resume goes on with it.",
+        "The last session, saved whenever the lab is left; --resume continues it.",
     ),
     (
         "~/.local/state/phaselab/texts.toml",
@@ -49,7 +48,7 @@ const FILES: &[(&str, &str)] = &[
 /// The environment variables, apart from those of the options, which come first.
 const ENVIRONMENT: &[(&str, &str)] = &[
     ("NO_COLOR", "No colours, whatever the configuration says."),
-    ("COLORTERM, TERM", "How many colours the terminal has. TERM=dumb is no terminal for the lab."),
+    ("COLORTERM, TERM", "How many colours the terminal has. The lab does not run where TERM=dumb."),
     ("LC_ALL, LC_CTYPE, LANG", "Whether mathematics and plots may be drawn in UTF-8."),
     ("SSH_CONNECTION, SSH_TTY", "That the terminal is at the other end of a line."),
     ("XDG_CONFIG_HOME, HOME", "Where the configuration and your presets are."),

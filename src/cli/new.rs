@@ -27,7 +27,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     if path.file_name().is_none() {
         let shown = printable::path(&path);
         return Err(CommandError::WrongUse(format!(
-            "`{shown}` names no file; write phaselab new NAME, as phaselab new cart"
+            "`{shown}` is not a file name; write phaselab new NAME, as phaselab new cart"
         )));
     }
     if path.extension().is_none_or(|extension| extension != "toml") {
@@ -36,14 +36,14 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let shown = printable::path(&path);
     let mut file = File::create_new(&path).map_err(|why| match why.kind() {
         io::ErrorKind::AlreadyExists => CommandError::WrongUse(format!(
-            "{shown} exists and is not written over; give another name, or open it: phaselab {}",
+            "{shown} already exists and was not overwritten; choose another name, or open it: phaselab {}",
             as_argument(&shown)
         )),
         _ => CommandError::writing(&shown, &why),
     })?;
     let written = file.write_all(template().as_bytes()).and_then(|()| file.sync_all());
     written.map_err(|why| CommandError::writing(&shown, &why))?;
-    let text = format!("{shown} is written; open it: phaselab {}\n", as_argument(&shown));
+    let text = format!("{shown} was written; open it with phaselab {}\n", as_argument(&shown));
     Output::print(Form::Text, &text)
 }
 

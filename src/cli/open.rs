@@ -36,7 +36,7 @@ pub(super) fn derive(document: &Document, model: Model) -> Result<Derived, Comma
     let derived = Derived::of(model);
     let derived =
         derived.map_err(|why| CommandError::WrongFile(format!("{}: {why}", document.path)))?;
-    let mistakes = derived.flaws();
+    let mistakes = derived.diagnostics();
     if mistakes.is_empty() { Ok(derived) } else { Err(refuse(document, &mistakes)) }
 }
 

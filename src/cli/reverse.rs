@@ -129,14 +129,14 @@ fn advance(
 
 /// The largest exponent of the reversed motion, and its uncertainty.
 fn rate(laid: &Laid, until: f64) -> Result<(f64, f64), String> {
-    let told = |why: DynamicsError| why.to_string();
+    let in_words = |why: DynamicsError| why.to_string();
     let parameters = &laid.start.parameters;
     let space =
-        PhaseSpace::of(&laid.model, &laid.equations, &laid.system, parameters).map_err(told)?;
+        PhaseSpace::of(&laid.model, &laid.equations, &laid.system, parameters).map_err(in_words)?;
     let start = laid.start.state(&laid.system).and_then(|state| space.state(&state));
     let start = start.map_err(|why| why.to_string())?;
     let method = (laid.method, laid.settings);
-    let found = lyapunov(&space, method, &start, until, &mut |_| {}).map_err(told)?;
+    let found = lyapunov(&space, method, &start, until, &mut |_| {}).map_err(in_words)?;
     if let Some(failure) = found.failure {
         return Err(failure.to_string());
     }

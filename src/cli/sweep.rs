@@ -95,7 +95,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         Some(path) => Starts::read(path)?,
         None if arguments.grid.is_empty() => {
             return wrong(
-                "what to sweep over is a table, --over TABLE.csv, or a grid, --grid NAME=FROM:TO:COUNT",
+                "say what to sweep over: a table, --over TABLE.csv, or a grid, --grid NAME=FROM:TO:COUNT",
             );
         }
         None => Starts::grid(&arguments.grid)?,
@@ -113,7 +113,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         (TableFormat::Csv, Some(path)) if journal::is_regular(path) => sweep.into_file(path),
         (TableFormat::Csv, path) if !arguments.resume => sweep.into_stream(path.as_deref()),
         (TableFormat::Csv, _) => {
-            wrong("--resume: -o names no regular file, which could be gone on with")
+            wrong("--resume: -o does not name a regular file, so there is nothing to continue")
         }
         _ => sweep.whole(),
     }
@@ -283,7 +283,7 @@ impl Sweep<'_> {
             return Err(failed);
         }
         if self.interrupt.signal().is_some() {
-            stderr::tell(&format!("the rows so far are in {}; --resume goes on", journal.name()));
+            stderr::tell(&format!("the rows so far are in {}; --resume continues", journal.name()));
             return self.ended();
         }
         let out = Output::open(Some(path), Form::Text)?;

@@ -5,6 +5,8 @@
 //! (R. McLachlan and M. Perlmutter, J. Geom. Phys. 39 (2001) 276). For one degree of freedom c is the trace of D
 //! (Liouville).
 //!
+//! A law that depends on time is looked at over a period of its drive.
+//!
 //! In: a phase space and some of its states. Out: the rate. Never here: curves.
 
 use nalgebra::DMatrix;
@@ -16,8 +18,13 @@ use crate::system::Form;
 /// Rates that differ by less than this part of the size of D are the same.
 const SAME: f64 = 1e-10;
 
+/// How many times each state is looked at over a period of the drive, and the part of it from one time to the next: no
+/// harmonic is at all of them what it is at the first.
+const TIMES: u8 = 5;
+const PART: f64 = 0.618_033_988_749_894_8;
+
 /// The rate c at which areas change along the flow: `None` if it is not the same number everywhere, looked at in these
-/// states, or the variables are not canonical.
+/// states, or the variables are not canonical, or the law depends on time without a period.
 ///
 /// # Errors
 /// Returns an error if the law of motion cannot be evaluated at one of them.
@@ -32,9 +39,12 @@ pub fn conformal_rate<'a>(
     if space.is_hamiltonian() {
         return Ok(Some(0.0));
     }
-    if !space.is_autonomous() {
-        return Ok(None);
-    }
+    let period = match space.drive() {
+        _ if space.is_autonomous() => 0.0,
+        Some(period) => period,
+        None => return Ok(None),
+    };
+    let times = if period > 0.0 { TIMES } else { 1 };
     let size = space.dimension();
     let half = size / 2;
     let unit = DMatrix::from_fn(size, size, |i, j| {
@@ -42,8 +52,9 @@ pub fn conformal_rate<'a>(
     });
     let mut field = space.vector_field();
     let mut rate: Option<f64> = None;
-    for variables in states {
-        field.evaluate(time, variables)?;
+    let looks = states.into_iter().flat_map(|variables| (0..times).map(move |k| (variables, k)));
+    for (variables, k) in looks {
+        field.evaluate(time + (PART * f64::from(k)).fract() * period, variables)?;
         let derivative = field.derivative();
         let change = derivative.transpose() * &unit + &unit * &derivative;
         let here = (0..half).map(|i| change[(i, half + i)]).sum::<f64>() / half as f64;

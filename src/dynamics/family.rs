@@ -422,7 +422,7 @@ impl Walk<'_> {
             }
             here = next;
         }
-        Ok(Some(format!("the family goes on beyond {}, after {STEPS} steps", here.value)))
+        Ok(Some(format!("the family continues beyond {}, after {STEPS} steps", here.value)))
     }
 
     /// Collects the members between two points, in their order.

@@ -134,8 +134,7 @@ fn no_return(
     };
     let stopped = stopped.map_or(String::new(), |why| format!("; then {why}"));
     DynamicsError::Unsuited(format!(
-        "no periodic orbit to begin with: a return of ({}) to within {:.0} % of the farthest distance from the start was \
-         looked for over a time of {time:.6}, and the motion {found}{stopped}. Begin nearer to a periodic orbit, or give \
+        "no periodic orbit to begin with: a return of ({}) to within {:.0} % of the farthest distance from the start was searched for over a time of {time:.6}, and the motion {found}{stopped}. Begin nearer to a periodic orbit, or give \
          its period",
         space.names().join(", "),
         100.0 * FAR

@@ -66,7 +66,7 @@ pub fn action_at_energy(
         _ if !natural => Err(unsuited(
             "L is not T − V with T of the second degree in the velocities, or depends on the time",
         )),
-        _ if !allowed => Err(unsuited("the way leaves the region that its energy allows")),
+        _ if !allowed => Err(unsuited("the path leaves the region that its energy allows")),
         found => found,
     }
 }

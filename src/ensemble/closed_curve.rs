@@ -9,6 +9,7 @@
 //! In: starts by a parameter s from 0 to 1. Out: the curve and the integral at each time. Never here: which curve.
 
 use super::Flow;
+use crate::num::math;
 use crate::system::State;
 
 /// The intervals of a panel: the polygon is extrapolated twice.
@@ -16,9 +17,10 @@ const INTERVALS: usize = 4;
 
 /// The panels at first, and the most of them.
 const PANELS: usize = 32;
-const MOST: usize = 1024;
+const MOST: usize = 2048;
 
-/// A panel is cut in two if its part of the integral is known less well than this part of all, …
+/// A panel is cut in two if its part of the integral is known less well than this part of all while there are few panels,
+/// and than [`UNKNOWN`] where there is room for no more, …
 const TOLERANCE: f64 = 1e-11;
 
 /// … or if one of its intervals is longer than this part of the extent of the curve.
@@ -94,13 +96,12 @@ impl ClosedCurve {
         let ends = |node: &Node| if begun { node.end.clone() } else { Some(node.start.clone()) };
         self.nodes = self.carried(flow, times, nodes, &ends)?;
         for _ in 0..ROUNDS {
-            let crowded = self.nodes.len() >= MOST * INTERVALS;
-            let cut;
-            (cut, self.resolved) = self.to_cut();
-            if !cut.contains(&true) || crowded || flow.system.cancel().is_cancelled() {
+            let want;
+            (want, self.resolved) = self.wanting();
+            if flow.system.cancel().is_cancelled() {
                 break;
             }
-            let added = self.between(&cut, start);
+            let added = self.between(&want, start);
             if added.is_empty() {
                 break;
             }
@@ -138,8 +139,9 @@ impl ClosedCurve {
         self.nodes.len() / INTERVALS
     }
 
-    /// Which panels are to be cut, by what is seen at the last time, and whether the integral is known without.
-    fn to_cut(&self) -> (Vec<bool>, bool) {
+    /// How much each panel wants to be cut, above 1 where it does, by what is seen at the last time; and whether the
+    /// integral is known without.
+    fn wanting(&self) -> (Vec<f64>, bool) {
         let last = self.nodes.first().and_then(|node| node.seen.len().checked_sub(1));
         let parts = last.and_then(|last| {
             (0..self.panels()).map(|k| self.part(k, last)).collect::<Option<Vec<Part>>>()
@@ -148,18 +150,20 @@ impl ClosedCurve {
         let (Some(last), Some(parts)) = (last, parts) else { return (Vec::new(), false) };
         let size: f64 = parts.iter().map(|part| part.size).sum();
         let extent = self.extent(last);
-        let long = |panel: usize| {
+        let length = |panel: usize| {
             let nodes = self.panel(panel);
-            nodes.windows(2).any(|pair| {
-                let [Some(a), Some(b)] = [0, 1].map(|i| pair[i].seen.get(last)) else {
-                    return false;
-                };
-                (0..2).any(|k| (a[k] - b[k]).abs() > LONGEST * extent[k])
-            })
+            let pairs = nodes.windows(2).filter_map(|pair| {
+                let [a, b] = [pair[0].seen.get(last)?, pair[1].seen.get(last)?];
+                let part = |k: usize| (a[k] - b[k]).abs() / (LONGEST * extent[k]);
+                Some(part(0).max(part(1)))
+            });
+            pairs.fold(0.0, f64::max)
         };
-        let cut = |(k, part): (usize, &Part)| part.error > TOLERANCE * size || long(k);
-        let known = |(k, part): (usize, &Part)| part.error <= UNKNOWN * size && !long(k);
-        (parts.iter().enumerate().map(cut).collect(), parts.iter().enumerate().all(known))
+        let room = self.panels() as f64 / MOST as f64;
+        let tolerance = TOLERANCE * math::powf(UNKNOWN / TOLERANCE, math::powi(room, 4));
+        let want = |(k, part): (usize, &Part)| (part.error / (tolerance * size)).max(length(k));
+        let known = |(k, part): (usize, &Part)| part.error <= UNKNOWN * size && length(k) <= 1.0;
+        (parts.iter().enumerate().map(want).collect(), parts.iter().enumerate().all(known))
     }
 
     /// The extent of the curve in a picture.
@@ -172,26 +176,22 @@ impl ClosedCurve {
         })
     }
 
-    /// The nodes that cut these panels, as far as there is room: one between each two.
-    fn between(&self, cut: &[bool], start: &dyn Fn(f64) -> Option<State>) -> Vec<Node> {
-        let mut room = MOST - self.panels().min(MOST);
-        let mut added = Vec::new();
-        for panel in (0..self.panels()).filter(|&panel| cut[panel]) {
-            if room == 0 {
-                break;
-            }
+    /// The nodes that cut the panels that want it, one between each two; those that want it most first, as far as there
+    /// is room.
+    fn between(&self, want: &[f64], start: &dyn Fn(f64) -> Option<State>) -> Vec<Node> {
+        let mut cut: Vec<usize> = (0..want.len()).filter(|&panel| want[panel] > 1.0).collect();
+        cut.sort_by(|a, b| want[*b].total_cmp(&want[*a]));
+        let halves = |panel: usize| {
             let ends = self.panel(panel).map(|node| node.s);
             let middle = |i: usize| {
                 let to = if ends[i + 1] > ends[i] { ends[i + 1] } else { 1.0 };
                 let s = f64::midpoint(ends[i], to);
                 (s > ends[i] && s < to).then(|| node(s, start)).flatten()
             };
-            if let Some(nodes) = (0..INTERVALS).map(middle).collect::<Option<Vec<_>>>() {
-                added.extend(nodes);
-                room -= 1;
-            }
-        }
-        added
+            (0..INTERVALS).map(middle).collect::<Option<Vec<_>>>()
+        };
+        let room = MOST.saturating_sub(self.panels());
+        cut.into_iter().filter_map(halves).take(room).flatten().collect()
     }
 
     /// The part of the integral along a panel; `None` where a node was lost.
@@ -231,11 +231,22 @@ impl ClosedCurve {
         })
     }
 
-    /// The curve in the plane of the picture at one of the last times, from its first point to its first point.
+    /// The curve in the plane of the picture at one of the last times, from its first point to its first point: where a
+    /// start was lost, and between two that are too far apart to be joined, one that is no number.
     pub fn points(&self, time: usize) -> Vec<[f64; 2]> {
         let lost = [f64::NAN; 2];
         let at = |node: &Node| node.seen.get(time).map_or(lost, |row| [row[0], row[1]]);
-        self.nodes.iter().chain(self.nodes.first()).map(at).collect()
+        let longest = self.extent(time).map(|extent| LONGEST * extent);
+        let mut points: Vec<[f64; 2]> = Vec::with_capacity(self.nodes.len() + 1);
+        for here in self.nodes.iter().chain(self.nodes.first()).map(at) {
+            if let Some(last) = points.last()
+                && (0..2).any(|k| (here[k] - last[k]).abs() > longest[k])
+            {
+                points.push(lost);
+            }
+            points.push(here);
+        }
+        points
     }
 
     /// The number of starts.

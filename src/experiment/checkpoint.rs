@@ -256,7 +256,7 @@ impl Experiment {
                 Ok(()) => self.restore_past(checkpoint.past.as_ref(), present),
                 Err(why) => {
                     self.restart();
-                    self.tell(format!("the motion begins anew: {why}"));
+                    self.tell(format!("the motion starts again: {why}"));
                 }
             }
         }

@@ -41,7 +41,7 @@ impl Experiment {
         }
         if self.system().constraints() > 0 {
             return self.tell(
-                "a neighbour takes independent coordinates: constraints tie these together"
+                "a neighbour needs independent coordinates: constraints tie these together"
                     .to_owned(),
             );
         }
@@ -86,7 +86,9 @@ impl Experiment {
             return None;
         }
         let Some(number) = self.companions.number() else {
-            self.tell(format!("{MOST_COMPANIONS} motions beside the main one are the most"));
+            self.tell(format!(
+                "there can be at most {MOST_COMPANIONS} motions beside the main one"
+            ));
             return None;
         };
         self.name_variables();

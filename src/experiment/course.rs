@@ -427,7 +427,7 @@ impl Experiment {
             }
             OccurrenceKind::Release(constraint) => {
                 let name = &self.model.constraints[*constraint].name;
-                format!("{lead}: the constraint {name} holds no longer")
+                format!("{lead}: the constraint {name} no longer holds")
             }
             OccurrenceKind::Impulse { .. } => {
                 let before = self.motion.values_before()?;

@@ -33,7 +33,9 @@ impl Experiment {
             Command::Step(count) => self.step(count),
             Command::StepBack(count) => self.step_back(count),
             Command::Speed(speed) if speed > 0.0 => self.setup.speed = speed,
-            Command::Speed(speed) => self.tell(format!("a speed is above zero; {speed} is not")),
+            Command::Speed(speed) => {
+                self.tell(format!("a speed must be above zero; {speed} is not"));
+            }
             Command::Parameter { index, value } => self.change_parameter(index, value),
             Command::Initial { index, value } => self.change_initial(index, value),
             Command::Start(overrides) => {
@@ -163,7 +165,7 @@ impl Experiment {
 
     fn change_step(&mut self, step: f64) {
         if !(step > 0.0 && step.is_finite()) {
-            return self.tell(format!("a step is above zero; {step} is not"));
+            return self.tell(format!("a step must be above zero; {step} is not"));
         }
         if self.motion.method().stepping == Stepping::Adaptive {
             let name = self.motion.method().name;
@@ -175,7 +177,8 @@ impl Experiment {
 
     fn change_tolerance(&mut self, tolerance: f64) {
         if !(tolerance > 0.0 && tolerance < 1.0) {
-            return self.tell(format!("a tolerance lies between 0 and 1; {tolerance} does not"));
+            return self
+                .tell(format!("a tolerance must lie between 0 and 1; {tolerance} does not"));
         }
         if self.motion.method().stepping == Stepping::Fixed {
             let name = self.motion.method().name;
@@ -196,8 +199,8 @@ impl Experiment {
     /// Continues from the current state with another method. The gauges take a new reference,
     /// because earlier drift is not due to the new method.
     fn change_method(&mut self, method: &'static Method, settings: Settings) {
-        if let Err(refusal) = self.motion.change_method(method, settings) {
-            return self.tell(MethodNotFound::from(refusal).to_string());
+        if let Err(error) = self.motion.change_method(method, settings) {
+            return self.tell(MethodNotFound::from(error).to_string());
         }
         self.setup.settings = settings;
         method.name.clone_into(&mut self.setup.method);

@@ -34,7 +34,7 @@ impl Export {
         let begun = checkpoint.present.is_some();
         let all_active = snapshot.released.is_empty();
         if !all_active {
-            missing.push("A constraint was let go, so the file begins at the start.".to_owned());
+            missing.push("A constraint was released, so the file begins at the start.".to_owned());
         }
         if begun && all_active && model.impulses.iter().any(|impulse| impulse.period.is_some()) {
             missing.push("Impulses that come again and again count from the new start.".to_owned());

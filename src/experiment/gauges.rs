@@ -73,10 +73,10 @@ impl Gauges {
             let law = EnergyLaw::of(model, equations);
             let kind = ChannelKind::Energy;
             add("energy", law.cause, Some(law.rate), kind, energy, equations.energy);
-            let reason = "E less the work done on it".to_owned();
+            let reason = "E − work done on it".to_owned();
             add(LEDGER, reason, None, ChannelKind::Ledger, energy, equations.energy);
         } else if !model.impulses.is_empty() {
-            let reason = "E less what the impulses gave".to_owned();
+            let reason = "E − impulse work".to_owned();
             add(LEDGER, reason, None, ChannelKind::Ledger, energy, equations.energy);
         }
         for (i, (name, casimir, law)) in changing_casimirs(model, equations) {

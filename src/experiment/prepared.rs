@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::{Experiment, Setup};
 use crate::cancel::Cancel;
-use crate::claims::flaws;
+use crate::claims::structure_diagnostics;
 use crate::diagnostic::{Diagnostic, Document};
 use crate::mechanics::{self, Equations, NoClosedForm};
 use crate::model::{Channel, Model};
@@ -34,8 +34,8 @@ impl Derived {
     }
 
     /// The errors in its brackets and Casimirs. With any of them the system has no motion.
-    pub fn flaws(&self) -> Vec<Diagnostic> {
-        flaws(&self.model, &self.equations)
+    pub fn diagnostics(&self) -> Vec<Diagnostic> {
+        structure_diagnostics(&self.model, &self.equations)
     }
 
     /// Compiles the system, with these expressions as further columns.
@@ -116,7 +116,7 @@ impl Prepared {
         stop()?;
         let derived = Derived::of(model).map_err(|error| why(&error))?;
         stop()?;
-        let mistakes = derived.flaws();
+        let mistakes = derived.diagnostics();
         if !mistakes.is_empty() {
             return Err(report(mistakes));
         }

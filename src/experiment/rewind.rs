@@ -43,10 +43,14 @@ impl Experiment {
                 return;
             }
             Ok(Some(first)) if first.is_finite() => {
-                return self
-                    .tell(format!("nothing before t = {} is known any more", short(sign * first)));
+                return self.tell(format!(
+                    "the motion before t = {} is no longer recorded",
+                    short(sign * first)
+                ));
             }
-            Ok(Some(_)) => return self.tell("nothing before this is known any more".to_owned()),
+            Ok(Some(_)) => {
+                return self.tell("the motion before this is no longer recorded".to_owned());
+            }
             Ok(None) => {}
         }
         self.fault = None;

@@ -30,7 +30,7 @@ impl Experiment {
         }
         if sign * time < sign * from {
             let side = if sign < 0.0 { "after" } else { "before" };
-            self.tell(format!("nothing {side} t = {} is known any more", short(from)));
+            self.tell(format!("the motion {side} t = {} is no longer recorded", short(from)));
         }
         let time = if sign * time < sign * from { from } else { time };
         let (horizon, start) = (HORIZON * self.setup.spacing, self.schedule_start());

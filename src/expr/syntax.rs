@@ -215,7 +215,7 @@ fn not_a_product(left: &Syntax, right: &Syntax, names: &dyn Resolve) -> Option<S
     let span = Span { start: left.span.start, end: right.span.end };
     let message = format!("`{shown}(...)` can be read as a product and as a function");
     Some(SyntaxError::new(span, message).with_help(format!(
-        "write `{shown}*(...)` for the product; `{shown}` is no function: what it depends on is not written, `{shown}` alone stands for its value"
+        "write `{shown}*(...)` for the product; `{shown}` is not a function: what it depends on is not written, `{shown}` alone stands for its value"
     )))
 }
 

@@ -12,6 +12,36 @@ impl Pool {
     pub fn unicode(&self, e: Expr) -> String {
         self.in_textbook_form(e, |pool, e| Printer { pool, style: &Unicode }.piece(e).text)
     }
+
+    /// A text from a file with its names as they are shown and a minus sign between them, otherwise as it is:
+    /// `theta1 - theta2` → `θ₁ − θ₂`.
+    pub fn with_shown_names(&self, text: &str) -> String {
+        let of_name = |c: char| c.is_alphanumeric() || c == '_';
+        let mut shown = String::new();
+        let mut rest = text;
+        while let Some(first) = rest.chars().next() {
+            let letters = rest.find(|c| !of_name(c)).unwrap_or(rest.len());
+            let primes = rest[letters..].len() - rest[letters..].trim_start_matches('\'').len();
+            let (word, after) = match letters {
+                0 => rest.split_at(first.len_utf8()),
+                _ => rest.split_at(letters + primes),
+            };
+            let exponent = shown.ends_with(['e', 'E']) && last_is_number(&shown);
+            match (first, self.find_symbol(word)) {
+                ('-', _) if !exponent => shown.push('−'),
+                (_, Some(symbol)) => shown.push_str(&self.symbol_info(symbol).unicode),
+                (_, None) => shown.push_str(word),
+            }
+            rest = after;
+        }
+        shown
+    }
+}
+
+/// Whether the last word of a text begins with a digit: `2*1e` of `2*1e-3`.
+fn last_is_number(text: &str) -> bool {
+    let word = text.rsplit(|c: char| !c.is_alphanumeric() && c != '_').next();
+    word.is_some_and(|word| word.starts_with(|c: char| c.is_ascii_digit()))
 }
 
 struct Unicode;

@@ -6,6 +6,7 @@
 
 mod constraint_watch;
 mod occurrence;
+mod singularity_record;
 
 use super::event_location::EventLocator;
 use super::impulse_schedule::ImpulseSchedule;
@@ -16,8 +17,8 @@ use crate::num::DoubleDouble;
 use crate::system::{
     Branch, ConstraintProjector, Form, MotionError, MotionErrorKind, State, System,
 };
-use constraint_watch::Watch;
 pub use occurrence::{Occurrence, OccurrenceKind};
+use singularity_record::SingularityRecord;
 
 /// How far a motion came.
 #[derive(Clone, PartialEq, Debug)]
@@ -61,7 +62,7 @@ pub struct Propagator {
     waiting: Option<LocatedEvent>,
     /// The accumulation detector of each event.
     accumulation: Vec<AccumulationDetector>,
-    watch: Watch,
+    watch: SingularityRecord,
     /// The branch of the velocities, if several belong to the momenta.
     branch: Option<Branch>,
     /// The number of changes of the enforced constraints among redundant ones.
@@ -103,7 +104,7 @@ impl Propagator {
             waiting: None,
             stalled: 0,
             accumulation: vec![AccumulationDetector::NONE; system.discontinuities().events.len()],
-            watch: Watch::default(),
+            watch: SingularityRecord::default(),
             branch: None,
             holdings: 0,
             ended: false,

@@ -278,6 +278,9 @@ impl Taylor {
                 }
             }
         }
+        if !rough && self.kinks.touch() {
+            return self.decide(choices, left);
+        }
         let kind = if rough { MotionErrorKind::Rough } else { MotionErrorKind::Sticks };
         Err(self.system.fault(kind, self.state.time, &self.state.values))
     }

@@ -65,7 +65,7 @@ pub fn rate_by_bracket(
 /// Returns an error if one of these is not known in closed form, or if the action occurs in it.
 pub fn in_phase_space(equations: &mut Equations, e: Expr) -> Result<Expr, NoClosedForm> {
     if equations.pool.depends(e, equations.symbols.action) {
-        let why = "the action is an integral along the motion, no function of its state";
+        let why = "the action is an integral along the motion, not a function of its state";
         return Err(NoClosedForm(why.to_owned()));
     }
     let auxiliary: Vec<Symbol> = equations
@@ -75,7 +75,7 @@ pub fn in_phase_space(equations: &mut Equations, e: Expr) -> Result<Expr, NoClos
         .flat_map(|auxiliary| auxiliary.symbols.clone())
         .collect();
     if equations.pool.depends_on_any(e, &auxiliary) {
-        let why = "what is carried along beside the motion is no function of its state";
+        let why = "what is carried along beside the motion is not a function of its state";
         return Err(NoClosedForm(why.to_owned()));
     }
     if !equations.is_lagrangian() {

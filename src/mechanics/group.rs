@@ -11,8 +11,8 @@ use std::collections::HashMap;
 
 use super::canonical::PhaseMap;
 use super::equations::{Equations, ImplicitMap, NoClosedForm};
-use super::flaw::StructureError;
 use super::isolate::Solution;
+use super::structure_error::StructureError;
 use crate::expr::{Expr, Symbol};
 use crate::model::{GeneratingType, Model, Transformation, TransformationLaw};
 
@@ -192,7 +192,7 @@ fn composition(
 
 /// The transformations of a file whose laws cannot be written down, and the events and surfaces of section on the new
 /// variables of one that is solved numerically.
-pub(super) fn flaws(model: &Model, equations: &Equations) -> Vec<StructureError> {
+pub(super) fn structure_errors(model: &Model, equations: &Equations) -> Vec<StructureError> {
     let laws = equations.supplements.transformation_laws.iter();
     let all = model.transformations.iter().zip(laws).filter_map(|(given, law)| {
         let why = law.as_ref().err()?;
@@ -221,7 +221,7 @@ fn unlocated(model: &Model, equations: &Equations) -> Vec<StructureError> {
             place: event.place.clone(),
             message: format!(
                 "zeros cannot be located on `{name}`: `{law}` has no closed form, so that its image is solved for at \
-                 single states and is no function along a step"
+                 single states and is not a function along a step"
             ),
             help: "write it in the old variables, which the relations of the transformation give along a level of \
                    the new ones, or write the transformation out as an explicit one"

@@ -110,7 +110,8 @@ impl PhaseMap {
             parts.push((weight, coefficient));
         }
         Err(NoClosedForm(
-            "∂(Q, P)/∂t is no polynomial in q and p, and its integral is not looked for".to_owned(),
+            "∂(Q, P)/∂t is not a polynomial in q and p, and its integral is not searched for"
+                .to_owned(),
         ))
     }
 }

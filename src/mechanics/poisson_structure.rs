@@ -8,9 +8,9 @@
 //! Integration*, § VII.2.
 
 use super::equations::Equations;
-use super::flaw::StructureError;
 use super::rigid_body;
 use super::sampling::{POINTS, TRIES};
+use super::structure_error::StructureError;
 use super::valuation::Valuation;
 use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Zero};
@@ -27,20 +27,21 @@ const LONGEST: u64 = 60;
 
 /// Finds what is false in the brackets and Casimirs of a Poisson system, meaningless in a body, or cannot be written down of
 /// transformations.
-pub fn flaws(model: &Model, equations: &Equations) -> Vec<StructureError> {
-    let mut flaws = rigid_body::flaws(model, &equations.pool, equations.supplements.body.as_ref());
-    flaws.extend(super::group::flaws(model, equations));
+pub fn structure_errors(model: &Model, equations: &Equations) -> Vec<StructureError> {
+    let mut structure_errors =
+        rigid_body::structure_errors(model, &equations.pool, equations.supplements.body.as_ref());
+    structure_errors.extend(super::group::structure_errors(model, equations));
     let Mechanics::Poisson { brackets, casimirs, place, .. } = &model.mechanics else {
-        return flaws;
+        return structure_errors;
     };
     let points: Vec<Valuation> =
         (0..TRIES).map(|n| Valuation::near_start(model, equations, n)).collect();
     let mut structure = Structure { model, equations: equations.clone(), brackets, points };
-    flaws.extend(structure.jacobi(place));
+    structure_errors.extend(structure.jacobi(place));
     for (name, casimir, place) in casimirs {
-        flaws.extend(structure.casimir(name, *casimir, place));
+        structure_errors.extend(structure.casimir(name, *casimir, place));
     }
-    flaws
+    structure_errors
 }
 
 /// The brackets being checked.

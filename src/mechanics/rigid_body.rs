@@ -9,7 +9,7 @@
 
 use nalgebra::{Matrix3, SymmetricEigen};
 
-use super::flaw::StructureError;
+use super::structure_error::StructureError;
 use super::valuation::Valuation;
 use crate::expr::{Expr, FunctionId, Pool, Symbol};
 use crate::model::{Body, Model, Piece, Point, Solid, Turn};
@@ -307,13 +307,21 @@ pub(super) fn attitude(pool: &mut Pool, angles: Point) -> Tensor {
 
 /// Finds what is physically meaningless in a body at the file's parameters: negative sizes, no
 /// mass, an axis without direction.
-pub(super) fn flaws(model: &Model, pool: &Pool, whole: Option<&RigidBody>) -> Vec<StructureError> {
+pub(super) fn structure_errors(
+    model: &Model,
+    pool: &Pool,
+    whole: Option<&RigidBody>,
+) -> Vec<StructureError> {
     let (Some(body), Some(whole)) = (&model.body, whole) else { return Vec::new() };
     let known = Valuation::of_parameters(model, &model.parameter_values());
     let value = |e: Expr| known.value(pool, e);
-    let mut flaws = Vec::new();
-    let mut flaw = |place: &crate::diagnostic::SourceRange, message: String, help: &str| {
-        flaws.push(StructureError { place: place.clone(), message, help: help.to_owned() });
+    let mut structure_errors = Vec::new();
+    let mut report = |place: &crate::diagnostic::SourceRange, message: String, help: &str| {
+        structure_errors.push(StructureError {
+            place: place.clone(),
+            message,
+            help: help.to_owned(),
+        });
     };
     for piece in &body.pieces {
         let sizes: Vec<Expr> = match piece.solid {
@@ -330,20 +338,20 @@ pub(super) fn flaws(model: &Model, pool: &Pool, whole: Option<&RigidBody>) -> Ve
         };
         if let Some(size) = sizes.into_iter().map(value).find(|size| *size < 0.0) {
             let message = format!("a size of this piece is {size}");
-            flaw(&piece.place, message, "sizes are not below zero; a hole has a negative mass");
+            report(&piece.place, message, "sizes are not below zero; a hole has a negative mass");
         }
         if let Turn::Axis { axis, .. } = piece.turn
             && axis.into_iter().all(|a| value(a) == 0.0)
         {
             let message = "the axis this piece is turned about has no length".to_owned();
-            flaw(&piece.place, message, "any vector but zero is an axis: [\"0\", \"0\", \"1\"]");
+            report(&piece.place, message, "any vector but zero is an axis: [\"0\", \"0\", \"1\"]");
         }
     }
     let mass = value(whole.mass);
     let greatest = body.pieces.iter().map(|piece| value(piece.mass).abs()).fold(0.0, f64::max);
     if mass.abs() <= 1e-14 * greatest || greatest == 0.0 {
         let message = "the masses of this body sum to 0".to_owned();
-        flaw(&body.place, message, "without mass there is no centre of mass");
+        report(&body.place, message, "without mass there is no centre of mass");
     }
-    flaws
+    structure_errors
 }

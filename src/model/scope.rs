@@ -188,8 +188,8 @@ impl Scope {
     }
 
     /// Why a kind of symbol may not be used here, or `None` if it may.
-    fn refusal(&self, kind: SymbolRole) -> Option<String> {
-        self.allowed.refusal(kind, &self.place)
+    fn objection(&self, kind: SymbolRole) -> Option<String> {
+        self.allowed.objection(kind, &self.place)
     }
 
     /// The first symbol in an expression that may not be used here.
@@ -203,11 +203,11 @@ impl Scope {
             None => pool
                 .symbols_of(e)
                 .into_iter()
-                .find(|s| kind(s).is_some_and(|k| self.refusal(k).is_some())),
+                .find(|s| kind(s).is_some_and(|k| self.objection(k).is_some())),
         };
         self.offenders.insert(e, found);
         let symbol = found?;
-        self.kinds.get(&symbol).and_then(|&k| self.refusal(k)).map(|why| (symbol, why))
+        self.kinds.get(&symbol).and_then(|&k| self.objection(k)).map(|why| (symbol, why))
     }
 
     fn unknown(&self, name: &str, primes: usize, span: Span) -> SyntaxError {
@@ -226,9 +226,11 @@ impl Scope {
             let word = known.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
             let moves = primes == 0 || matches!(meaning, Meaning::Position(_) | Meaning::Other(_));
             let open = match meaning {
-                Meaning::Symbol(s) => self.kinds.get(s).is_none_or(|&k| self.refusal(k).is_none()),
-                Meaning::Position(_) => self.refusal(SymbolRole::Position).is_none(),
-                Meaning::Other(_) => self.refusal(SymbolRole::Other).is_none(),
+                Meaning::Symbol(s) => {
+                    self.kinds.get(s).is_none_or(|&k| self.objection(k).is_none())
+                }
+                Meaning::Position(_) => self.objection(SymbolRole::Position).is_none(),
+                Meaning::Other(_) => self.objection(SymbolRole::Other).is_none(),
                 Meaning::Defined(_) => true,
                 Meaning::Later => false,
             };
@@ -316,9 +318,9 @@ impl Scope {
             let shown = format!("{name}{}", "'".repeat(primes));
             let used = &pool.symbol_info(symbol).name;
             let message = if matches!(meaning, Meaning::Defined(_)) {
-                format!("`{shown}` may not stand here: it uses `{used}`, and {why}")
+                format!("`{shown}` may not be used here: it uses `{used}`, and {why}")
             } else {
-                format!("`{shown}` may not stand here: {why}")
+                format!("`{shown}` may not be used here: {why}")
             };
             let error = SyntaxError::new(span, message);
             return Err(match (self.allowed, self.kinds.get(&symbol)) {

@@ -176,7 +176,7 @@ impl Check<'_> {
         let casimirs = draft.mechanics.iter().flat_map(|m| &m.casimirs);
         let casimirs = casimirs.map(|(name, _)| name.span()).collect();
         let poisson = draft.law() == Some(Law::Poisson);
-        let refusals = [
+        let errors = [
             named(coordinates, 64, if poisson { "variables" } else { "coordinates" }),
             named(parameters, 256, "parameters"),
             named(definitions, 1024, "definitions"),
@@ -201,8 +201,8 @@ impl Check<'_> {
             named(shapes, 1024, "shapes"),
         ];
         let mut beyond = false;
-        for refusal in refusals.into_iter().flatten() {
-            self.mistakes.push(refusal);
+        for mistake in errors.into_iter().flatten() {
+            self.mistakes.push(mistake);
             beyond = true;
         }
         beyond

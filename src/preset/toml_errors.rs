@@ -63,7 +63,7 @@ fn steering_value(value: &Spanned<DeValue<'_>>, mistakes: &mut Diagnostics) {
         DeValue::String(text) => {
             let layout = |c: char| matches!(c, '\n' | '\r' | '\t');
             if let Some(c) = text.chars().find(|&c| printable::is_steering(c) && !layout(c)) {
-                let message = format!("the character U+{:04X} may not stand in a text", c as u32);
+                let message = format!("the character U+{:04X} may not be used in a text", c as u32);
                 mistakes.push(Diagnostic::error(value.span(), message));
                 mistakes.lose_value(value.span());
             }
@@ -165,18 +165,18 @@ fn between_tokens(text: &str, error: &ParseError) -> Slip {
     let next = text.get(place.start..).and_then(|rest| rest.chars().next()).unwrap_or('\n');
     let message = match error.expected() {
         None => "tables and lists are nested too deep",
-        _ if expects("\n") => "nothing more may stand on this line",
+        _ if expects("\n") => "nothing more may follow on this line",
         Some(_) if ",=".contains(next) && !expects(&next.to_string()) => {
             return Slip::new(place, format!("one `{next}` too many"), Loses::Track);
         }
-        _ if expects("]]") => "before here a `]]` is missing",
+        _ if expects("]]") => "a `]]` is missing before this",
         _ if expects("=") => "a key is followed by `=` and its value",
         _ => match (opened, expects(",")) {
-            (Some("["), true) => "before here a `,` or `]` is missing",
-            (Some("{"), true) => "before here a `,` or `}` is missing",
-            (Some("["), _) => "before here a `]` is missing",
-            (Some("{"), _) => "before here a `}` is missing",
-            _ if expects("]") => "before here a `]` is missing",
+            (Some("["), true) => "a `,` or `]` is missing before this",
+            (Some("{"), true) => "a `,` or `}` is missing before this",
+            (Some("["), _) => "a `]` is missing before this",
+            (Some("{"), _) => "a `}` is missing before this",
+            _ if expects("]") => "a `]` is missing before this",
             _ => "this is not TOML",
         },
     };
@@ -202,7 +202,7 @@ fn in_plain_value(value: &str, place: SourceRange) -> Slip {
         Slip::new(place, "the first quote of this text is missing", loses)
     } else if !value.chars().all(numeric) || !value.contains(|c: char| c.is_ascii_digit()) {
         let help = format!("write \"{value}\"");
-        Slip::new(place, "text and expressions stand in quotes", loses).help(help)
+        Slip::new(place, "text and expressions are written in quotes", loses).help(help)
     } else if value.contains('_') {
         Slip::new(place, "in a number `_` stands between digits", loses)
     } else if digits.starts_with('0') && digits[1..].starts_with(|c: char| c.is_ascii_digit()) {

@@ -100,7 +100,7 @@ impl RecordedCast {
                 continue;
             }
             let (time, code, data) = serde_json::from_str::<(f64, String, Value)>(line)
-                .map_err(|why| wrong(number, format!("this is no event of a cast: {why}")))?;
+                .map_err(|why| wrong(number, format!("this is not an event of a cast: {why}")))?;
             let passed = if head.version == 2 { time - last } else { time };
             last = time;
             let passed = (passed.clamp(0.0, idle) * SECOND as f64).round() as Micros;
@@ -186,7 +186,7 @@ mod tests {
         check("{\"version\":3}", 1, "no size");
         check("{\"version\":2,\"width\":0,\"height\":24}", 1, "0x24");
         check("{\"version\":2,\"width\":1000000,\"height\":1000000}", 1, "1000000x1000000");
-        check(&format!("{head}[1.0, \"o\"]"), 2, "no event");
+        check(&format!("{head}[1.0, \"o\"]"), 2, "not an event");
         check(&format!("{head}\n[1.0, \"r\", \"99999x99999\"]"), 3, "99999x99999");
         check(&format!("{head}[1e300, \"o\", \"a\"]\n[2e300, \"o\", \"b\"]"), 3, "a day");
     }

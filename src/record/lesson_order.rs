@@ -67,7 +67,7 @@ pub(super) fn mistakes_in(script: &Script) -> Vec<Diagnostic> {
                 let below = script.steps.get(index + 1).map(|(_, step)| step);
                 if !matches!(below, Some(Step::Lesson(LessonStep::Solution(_)))) {
                     let help = "put `Solution KEY …` below it";
-                    wrong(place, "nobody knows whether this task can be done", help);
+                    wrong(place, "nothing shows that this task can be done", help);
                 }
             }
             LessonStep::Solution(_) => {

@@ -49,7 +49,7 @@ impl Lesson {
             },
             Stage::Said => "Enter goes on · q leaves",
             Stage::Ended => "Enter leaves",
-            Stage::Free => "the lab is yours · F9 goes on · q leaves",
+            Stage::Free => "the lab is yours · F9 continues · q leaves",
             Stage::Task { hint, .. } => match hint {
                 Some(_) => "the lab is yours · F9 hint · q leaves",
                 None => "the lab is yours · F9 skips this · q leaves",

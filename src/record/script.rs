@@ -400,7 +400,7 @@ impl Reading {
             self.mistakes.push(Diagnostic::error(end..end, message));
         }
         if self.mistakes.is_empty() && length.saturating_mul(script.head.fps.into()) < SECOND {
-            let message = "nothing is to be seen: no time passes in this script";
+            let message = "there is nothing to see: no time passes in this script";
             let help = "let it pass with `Wait 2s`";
             self.mistakes.push(Diagnostic::error(end..end, message).with_help(help));
         }

@@ -18,7 +18,9 @@ const LEAST: u32 = 1024;
 
 /// The error for an invalid bandwidth.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is no bandwidth: write bytes a second from 1k on, such as `16k` or `1M`, or `off`")]
+#[error(
+    "`{0}` is not a bandwidth: write bytes a second from 1k on, such as `16k` or `1M`, or `off`"
+)]
 pub struct BandwidthError(String);
 
 impl Bandwidth {

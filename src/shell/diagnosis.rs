@@ -35,7 +35,7 @@ pub fn diagnosis(variables: Variables<'_>, size: Option<(u16, u16)>) -> Vec<Find
     let set = |name: &str| variables(name).is_some_and(|value| !value.is_empty());
     let term = variables("TERM").filter(|term| !term.is_empty());
     let size = size.map_or_else(
-        || "standard output is no terminal".to_owned(),
+        || "standard output is not a terminal".to_owned(),
         |(columns, rows)| format!("{columns}x{rows}"),
     );
     let terminal = format!("{}, {size}", term.as_deref().unwrap_or("TERM is not set"));

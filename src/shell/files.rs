@@ -34,7 +34,7 @@ pub(super) fn save(place: &Path, text: &str, known: Option<&str>) -> Result<(), 
         }
     }
     if fs::metadata(place).is_ok_and(|about| about.permissions().readonly()) {
-        let message = format!("{} is read-only, and stays as it is", place.display());
+        let message = format!("{} is read-only and was left unchanged", place.display());
         return Err(SaveError::Refused(message));
     }
     atomic_file::write(place, text.as_bytes(), Durability::OnDisk)

@@ -21,7 +21,7 @@ use crate::record::{Lesson, Script, ScriptRunner, called};
 use crate::view::{Detail, RenderStyle};
 
 /// What is said when a demo is over.
-const LEADS_BACK: &str = " over: any key leads back ";
+const LEADS_BACK: &str = " over: any key returns ";
 
 /// The lesson with which everyone begins.
 const FIRST: &str = "tour";

@@ -69,7 +69,7 @@ pub fn run(request: &Request) -> Result<Ending, LabError> {
     let Left { recorded, kept } = session.left();
     match &ended {
         Ok(Ok(ending)) => info!("ends: {ending:?}"),
-        Ok(Err(refusal)) => error!("{refusal}"),
+        Ok(Err(error)) => error!("{error}"),
         Err(_) => error!("ends by a panic"),
     }
     if let Err(error) = &kept {

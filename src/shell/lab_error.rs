@@ -27,9 +27,9 @@ pub enum LabError {
     #[error(transparent)]
     LogError(#[from] LogError),
     /// The recording could not be saved at the end.
-    #[error("the recording is not whole: {}", printable::why(.0))]
+    #[error("the recording is incomplete: {}", printable::why(.0))]
     Unrecorded(std::io::Error),
     /// The system refuses something that the laboratory needs.
-    #[error("the laboratory cannot go on: {}", printable::why(.0))]
+    #[error("the laboratory cannot continue: {}", printable::why(.0))]
     System(#[from] std::io::Error),
 }

@@ -22,7 +22,7 @@ pub fn report_panics() -> Result<()> {
     let (report, errors) = HookBuilder::default()
         .theme(Theme::new())
         .panic_section(
-            "This is a defect of phaselab. What you did before it, and the lines above, help to mend it.",
+            "This is a bug in phaselab. A report of what you did before it, with the lines above, helps to fix it.",
         )
         .try_into_hooks()?;
     errors.install()?;

@@ -80,15 +80,15 @@ mod tests {
         let pipe = folder.path().join("pipe.toml");
         rustix::fs::mknodat(rustix::fs::CWD, &pipe, rustix::fs::FileType::Fifo, Mode::RUSR, 0)
             .expect("a pipe");
-        let refusal = |path: &Path| read(path, 10).expect_err("it is no file").to_string();
-        assert_eq!(refusal(&pipe), "it is a pipe, not a file");
-        assert_eq!(refusal(Path::new("/dev/zero")), "it is a device, not a file");
-        assert_eq!(refusal(folder.path()), "it is a folder, not a file");
+        let message = |path: &Path| read(path, 10).expect_err("it is no file").to_string();
+        assert_eq!(message(&pipe), "it is a pipe, not a file");
+        assert_eq!(message(Path::new("/dev/zero")), "it is a device, not a file");
+        assert_eq!(message(folder.path()), "it is a folder, not a file");
         let lock = open_or_make(&pipe).expect_err("no lock").to_string();
         assert_eq!(lock, "it is a pipe, not a file");
         let link = folder.path().join("link.toml");
         std::os::unix::fs::symlink("/dev/zero", &link).expect("a link");
-        assert_eq!(refusal(&link), "it is a device, not a file");
+        assert_eq!(message(&link), "it is a device, not a file");
     }
 
     #[test]

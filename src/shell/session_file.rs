@@ -46,7 +46,7 @@ pub enum SessionError {
     },
     /// It was written by a newer version of the program.
     #[error(
-        "{} is a session of form {found}, of a newer phaselab; this one reads form {} and older",
+        "{} is a session in format {found}, of a newer phaselab; this one reads format {} and older",
         .path.display(), Saved::VERSION
     )]
     Newer {
@@ -56,7 +56,7 @@ pub enum SessionError {
         found: i64,
     },
     /// It is not a session.
-    #[error("{} is no session:\n{reason}", .path.display())]
+    #[error("{} is not a session:\n{reason}", .path.display())]
     Malformed {
         /// The file.
         path: PathBuf,
@@ -124,10 +124,10 @@ impl SessionError {
                 format!("cannot read {}: {}", path.display(), printable::why(reason))
             }
             Self::Newer { path, .. } => {
-                format!("{} is of a newer phaselab and stays as it is", path.display())
+                format!("{} is of a newer phaselab and was left unchanged", path.display())
             }
             Self::Malformed { path, .. } => {
-                format!("{} cannot be understood and stays as it is", path.display())
+                format!("{} cannot be understood and was left unchanged", path.display())
             }
         }
     }

@@ -503,9 +503,9 @@ mod tests {
             read_from(&path).expect_err("it is wrong").to_string()
         };
         let newer = message("version = 2\nsomething = \"else\"\n");
-        assert!(newer.contains("form 2, of a newer phaselab"), "{newer}");
+        assert!(newer.contains("format 2, of a newer phaselab"), "{newer}");
         let malformed = message("version = 1\npage = \"nowhere\"\n");
-        assert!(malformed.contains("is no session:\n"), "{malformed}");
+        assert!(malformed.contains("is not a session:\n"), "{malformed}");
         assert!(message("version = ]\n").contains("line 1"));
         assert!(message(" \n").contains("it is empty"));
         let gone = read_from(&folder.path().join("other.toml")).expect_err("it is not there");

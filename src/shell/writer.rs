@@ -33,7 +33,7 @@ impl Writer {
         work: impl FnOnce() -> WriteReport + Send + 'static,
     ) -> Result<(), String> {
         if self.side.is_busy() {
-            return Err("A file is still being written; ask again when it is there.".to_owned());
+            return Err("A file is still being written; try again when it is done.".to_owned());
         }
         // A file is written once, although a job could be run again.
         let work = Mutex::new(Some(work));

@@ -45,6 +45,8 @@ pub enum MotionErrorKind {
     ConstraintParted(String),
     /// No state nearby satisfies this constraint.
     ConstraintLost(String),
+    /// The same after a step of fixed size, which may be too long.
+    ConstraintLostInStep(String),
     /// The initial values violate this constraint, by this part of the size of its terms.
     ConstraintMissed(String, f64),
     /// The given initial velocities and momenta contradict the constraints.
@@ -112,7 +114,7 @@ impl fmt::Display for MotionError {
                 "the constraint `{name}`, which repeated those before it where the motion began, \
                  contradicts them at t = {time}"
             )?,
-            MotionErrorKind::ConstraintLost(name) => {
+            MotionErrorKind::ConstraintLost(name) | MotionErrorKind::ConstraintLostInStep(name) => {
                 write!(f, "the constraint `{name}` cannot be kept at t = {time}")?;
             }
             MotionErrorKind::ConstraintMissed(name, part) => write!(
@@ -149,7 +151,7 @@ impl fmt::Display for MotionError {
             }
             MotionErrorKind::ClockStands(spacing) => write!(
                 f,
-                "the clock cannot go on from t = {time}: its digits are {} apart there",
+                "the clock cannot continue from t = {time}: its digits are {} apart there",
                 short(*spacing)
             )?,
             MotionErrorKind::NoInterval(name, interval) => {
@@ -199,6 +201,9 @@ impl fmt::Display for MotionError {
                 ": the motion began at a singular configuration of the constraints"
             }
             MotionErrorKind::ConstraintLost(_) => ": no configuration nearby meets it",
+            MotionErrorKind::ConstraintLostInStep(_) => {
+                ": no configuration near the end of the step meets it; try a smaller step"
+            }
             MotionErrorKind::ConstraintMissed(..)
             | MotionErrorKind::FreeVelocities(_)
             | MotionErrorKind::SeveralStarts(_)

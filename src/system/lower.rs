@@ -204,7 +204,7 @@ impl<'a> Lowering<'a> {
                 (_, false) => self.program.body.push(r as u32),
             }
         }
-        let guards = self.program.body.iter().filter_map(|&r| guard(&self.program.ops, r));
+        let guards = self.program.body.iter().filter_map(|&r| guard(&self.program, r));
         self.program.guards = guards.collect();
         Ok(Arc::new(self.program))
     }
@@ -292,11 +292,15 @@ impl<'a> Lowering<'a> {
     }
 }
 
-/// The guard of an operation, if it needs one.
-fn guard(ops: &[Op], r: Register) -> Option<Guard> {
-    match ops[r as usize] {
+/// The guard of an operation, if it needs one. No motion continues through the zero of an argument whose power is the
+/// inverse or a higher one: it meets a pole, or passes it closely.
+fn guard(program: &Program, r: Register) -> Option<Guard> {
+    match program.ops[r as usize] {
         Op::Root(under) => Some(Guard { value: r, under: Some(under), passes: true }),
-        Op::Power(under, _) => Some(Guard { value: r, under: Some(under), passes: false }),
+        Op::Power(under, exponent) => {
+            let is_pole = program.constants[exponent as usize].high <= -1.0;
+            Some(Guard { value: r, under: (!is_pole).then_some(under), passes: false })
+        }
         Op::Call(FunctionId::Asin | FunctionId::Acos, _) => {
             Some(Guard { value: r + 1, under: None, passes: true })
         }

@@ -53,11 +53,12 @@ impl ObservableList {
             list.add(ChannelKind::Observable(i), &o.name, &o.name, o.expression);
         }
         for (i, c) in extra.iter().enumerate() {
-            list.add(ChannelKind::Extra(i), &c.written, &c.written, c.expression);
+            let shown = model.pool.with_shown_names(&c.written);
+            list.add(ChannelKind::Extra(i), &c.written, &shown, c.expression);
         }
         list.columns = list.channels.len();
         if equations.energy_rate != Expr::ZERO || !model.impulses.is_empty() {
-            list.push(ChannelKind::Ledger, "energy ledger", "energy ledger", None);
+            list.push(ChannelKind::Ledger, "energy ledger", "energy balance", None);
         }
         for (i, c) in equations.conserved.iter().enumerate() {
             let mut momenta = model.coordinates.iter().map(|q| model.pool.symbol_info(q.momentum));
@@ -84,8 +85,8 @@ impl ObservableList {
             for c in view.axes.iter().flatten() {
                 list.add_hidden("", c.expression);
                 let symbol = model.pool.as_symbol(c.expression);
-                let shown = symbol.map(|s| model.pool.symbol_info(s).unicode.as_str());
-                list.name(c, shown.unwrap_or(&c.written));
+                let shown = symbol.map(|s| model.pool.symbol_info(s).unicode.clone());
+                list.name(c, &shown.unwrap_or_else(|| model.pool.with_shown_names(&c.written)));
             }
         }
         let own = model.views.iter().flat_map(|view| view.shapes.iter().flatten());

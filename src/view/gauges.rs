@@ -66,7 +66,7 @@ impl SingleRow {
 /// Draws the gauges around the selected one: two rows for each if there is room, else one.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], selected: Option<usize>) {
     if gauges.is_empty() {
-        canvas.left(row(area, 0), Role::Dim, "  nothing here is conserved");
+        canvas.left(row(area, 0), Role::Dim, "  nothing is conserved here");
         return;
     }
     let (area, below) = match selected.and_then(|index| gauges.get(index)) {
@@ -185,7 +185,7 @@ pub(super) fn departed(snapshot: &Snapshot, glyphs: Glyphs) -> Option<(Role, Str
 /// A sentence that explains a verdict.
 fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
     match verdict {
-        Verdict::Open => "too short a motion to tell".to_owned(),
+        Verdict::Open => "the motion is too short to tell".to_owned(),
         Verdict::Exact(Growth::Level) => "at the rounding floor, and it stays there".to_owned(),
         Verdict::Exact(Growth::Root) => {
             "at the rounding floor, growing like √t: as good as rounding allows".to_owned()
@@ -205,9 +205,13 @@ fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
     }
 }
 
-/// Draws the name, the reason for its conservation and, at the right, the verdict.
+/// Draws the name, the reason for its conservation and, at the right, the verdict: in a word where the name leaves no room
+/// for more.
 fn name_and_reason(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, here: bool) {
-    let full = area.width >= HEADED - 3;
+    let name_width = canvas.look.glyphs.pick(&gauge.shown, &gauge.name).width();
+    let sign = if given_by_impulses(gauge).is_some() { 2 } else { 0 };
+    let fits = name_width + 1 + usize::from(IN_FULL + sign) <= area.width.into();
+    let full = area.width >= HEADED - 3 && fits;
     let words = if full { in_full(&gauge.verdict) } else { word(&gauge.verdict) };
     let room = if full { IN_FULL + 2 } else { VERDICT };
     let used = verdict(canvas, columns(area, area.width.saturating_sub(room), room), gauge, words);

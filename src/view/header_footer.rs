@@ -15,7 +15,7 @@ use super::theme::Role;
 use super::timeline;
 use super::values::typing;
 use super::wrap::words_in;
-use crate::app::keymap::KEYS;
+use crate::app::keymap::{KEYS, Place};
 use crate::app::{Action, App, Field, HitTarget, Lab, Overlay, Page, Pane, Purpose};
 use crate::experiment::{Snapshot, Status};
 
@@ -37,18 +37,29 @@ pub(super) fn header(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         (_, Page::Picker) | (None, _) => "a laboratory for analytical mechanics",
         (Some(lab), _) => &lab.loaded.model.info.title,
     };
-    let tabs =
-        if app.page == Page::Picker || app.lab.is_none() { Vec::new() } else { tabs(canvas, app) };
-    let wide: usize = tabs.iter().map(|(text, _)| text.width()).sum();
-    let room = area.width.saturating_sub(wide as u16 + 2);
-    // The pages have priority over the program's name.
-    let named = room >= NAME.len() as u16 || usize::from(area.width) <= wide;
-    let mut used = if named { canvas.left(area, Role::Accent, NAME) } else { 0 };
-    if room > used + 10 {
+    let tabs = |gap: &str| {
+        let none = app.page == Page::Picker || app.lab.is_none();
+        if none { Vec::new() } else { tabs(canvas, app, gap) }
+    };
+    let width = |tabs: &[Span]| tabs.iter().map(|(text, _)| text.width()).sum::<usize>();
+    let fits = |tabs: &[Span], others: usize| others + 2 + width(tabs) <= usize::from(area.width);
+    // The title has priority over the gaps between the pages and over the program's name.
+    let both = NAME.len() + 2 + title.width();
+    let wide_tabs = tabs("   ");
+    let tabs = if fits(&wide_tabs, both) { wide_tabs } else { tabs("  ") };
+    let wide = width(&tabs);
+    let paged = usize::from(area.width) > wide;
+    let room = if paged { area.width.saturating_sub(wide as u16 + 2) } else { area.width };
+    let alone = !tabs.is_empty() && both > usize::from(room) && room > 12;
+    let mut used = 0;
+    if !alone && room >= NAME.len() as u16 {
+        used = canvas.left(area, Role::Accent, NAME);
         used += canvas.left(columns(area, used, 2), Role::Dim, "  ");
+    }
+    if room > used + 8 {
         canvas.left(columns(area, used, room - used), Role::Title, title);
     }
-    if usize::from(area.width) > wide {
+    if paged {
         let mut from = area.width - wide as u16;
         canvas.spans(columns(area, from, area.width), &tabs);
         // Each tab is a key and a name.
@@ -60,11 +71,11 @@ pub(super) fn header(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     }
 }
 
-fn tabs(canvas: &Canvas<'_>, app: &App) -> Vec<Span> {
+fn tabs(canvas: &Canvas<'_>, app: &App, gap: &str) -> Vec<Span> {
     let mut spans = Vec::new();
     for (index, (key, name, page)) in PAGES.iter().enumerate() {
         let here = *page == app.page;
-        let gap = if index == 0 { "" } else { "   " };
+        let gap = if index == 0 { "" } else { gap };
         spans.push(canvas.span(Role::Accent, format!("{gap}{key} ")));
         spans.push(canvas.span(if here { Role::Title } else { Role::Dim }, *name));
     }
@@ -301,6 +312,7 @@ struct Hint {
 
 /// The most useful keys in the current context, innermost first; help and quit come last.
 fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
+    let editing = app.places().contains(&Place::Workbench);
     let rows = app.places().iter().flat_map(|place| {
         KEYS.iter().filter(move |row| {
             row.place == *place && !row.hint.is_empty() && app.offers(row.action)
@@ -309,7 +321,10 @@ fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
     let hint = |row: &crate::app::keymap::Binding| {
         let keys = keys(row, canvas.look);
         let first = keys.split(' ').next().unwrap_or_default().to_owned();
-        let word = canvas.span(Role::Dim, format!(" {}", row.hint));
+        // The editor keeps its text when it is left.
+        let closes = editing && row.action == Action::Back;
+        let word = if closes { "close" } else { row.hint };
+        let word = canvas.span(Role::Dim, format!(" {word}"));
         Hint { spans: vec![canvas.span(Role::Accent, first), word], action: row.action }
     };
     rows.map(hint).collect()
@@ -324,7 +339,7 @@ fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &Field) {
     let glyphs = canvas.look.glyphs;
     let name = match (field.purpose, &facts) {
         (Purpose::Flow(_) | Purpose::SymmetryFlow(_), _) => {
-            "how far, ε; less than zero leads back".to_owned()
+            "how far, ε; a negative value goes back".to_owned()
         }
         (Purpose::Step, _) => "step".to_owned(),
         (Purpose::Tolerance, _) => "tolerance".to_owned(),
@@ -338,7 +353,7 @@ fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &Field) {
     let (role, text) = match (&field.mistake, facts) {
         (Some(mistake), _) => (Role::Bad, mistake.clone()),
         (None, Some(facts)) => (Role::Dim, format!("{} {}", facts.unit, facts.about)),
-        (None, None) => (Role::Dim, "Enter accepts, Esc leaves it as it was".to_owned()),
+        (None, None) => (Role::Dim, "Enter accepts, Esc cancels".to_owned()),
     };
     canvas.left(rest, role, &text);
 }

@@ -256,6 +256,6 @@ fn stopped(canvas: &mut Canvas<'_>, area: Rect, fault: &Failure) {
     for (index, line) in lines.iter().enumerate() {
         canvas.left(row(inner, index), Role::Text, line);
     }
-    let keys = "r back to the start   u take the last change back";
+    let keys = "r back to the start   u undo the last change";
     canvas.left(row(inner, lines.len() + 1), Role::Dim, keys);
 }

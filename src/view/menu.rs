@@ -67,7 +67,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
         canvas.left(columns(row(list, 0), 2, list.width), Role::Dim, "no match");
     }
     if let Some((_, item)) = menu.current() {
-        let (role, text) = match &item.refusal {
+        let (role, text) = match &item.unavailable {
             Some(reason) => (Role::Warn, format!("{}: {reason}", capitalised(refused(item)))),
             None => (Role::Text, item.about.clone()),
         };
@@ -142,7 +142,7 @@ impl MenuColumns {
 
 /// Draws a row: the label with the matching letters highlighted, the note or the reason it is disabled, and the keys.
 fn line(canvas: &mut Canvas<'_>, area: Rect, (item, fit): (&Item, &Fit), grid: &MenuColumns) {
-    let role = if item.refusal.is_some() { Role::Dim } else { Role::Text };
+    let role = if item.unavailable.is_some() { Role::Dim } else { Role::Text };
     let label = found_in(canvas, &item.label, (fit, role));
     let used = canvas.spans(columns(area, 2, grid.room(canvas, item)), &label);
     canvas.right(
@@ -154,7 +154,7 @@ fn line(canvas: &mut Canvas<'_>, area: Rect, (item, fit): (&Item, &Fit), grid: &
     let from = 2 + grid.label + GAP;
     let beside = if used > grid.label { 0 } else { area.width };
     let room = beside.saturating_sub(from + keys);
-    let note = if item.refusal.is_some() { refused(item) } else { &item.about };
+    let note = if item.unavailable.is_some() { refused(item) } else { &item.about };
     if room >= LEAST_NOTE {
         canvas.left(columns(area, from, room), Role::Dim, note);
     }

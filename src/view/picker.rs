@@ -51,7 +51,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         let sentence = match app.picker.selected_above() {
             Some(Above::Session) => {
                 let open = app.picker.session().map_or("it", |session| session.open.as_str());
-                format!("Enter takes up {open} where you left it.")
+                format!("Enter continues {open} where you left off.")
             }
             Some(Above::Guides) => guided(app),
             Some(Above::NewSystem) => "Enter opens the editor with a small system to begin from: change its \
@@ -182,7 +182,7 @@ fn guided(app: &App) -> String {
 fn continuation(canvas: &Canvas<'_>, picker: &Picker, session: &Saved, width: usize) -> String {
     let title = canvas.text(&picker.title_of(session));
     let Some(present) = &session.moment.present else { return format!("Continue: {title}") };
-    let time = brief(present.time, 4, canvas.look.glyphs);
+    let time = brief(present.time, 2, canvas.look.glyphs);
     let unit = canvas.text(&session.time_unit);
     let time = format!(", t = {time} {unit}").trim_end().to_owned();
     // Of a long title the beginning is enough; the time says which motion it is.
@@ -243,8 +243,8 @@ fn preview(canvas: &mut Canvas<'_>, area: Rect, app: &App, entry: &Entry) {
     let lab = app.lab.as_ref().filter(|lab| lab.loaded.name == entry.name);
     let Some((q, lab)) = lab.and_then(|lab| Some((Quantities::of(lab, canvas.look)?, lab))) else {
         let message = match app.loading() {
-            Some(name) if name == entry.name => "Being loaded; Esc stops it.".to_owned(),
-            Some(name) => format!("{name} is being loaded; Esc stops it."),
+            Some(name) if name == entry.name => "Loading; Esc cancels.".to_owned(),
+            Some(name) => format!("Loading {name}; Esc cancels."),
             None => "…".to_owned(),
         };
         let message = canvas.text(&message);

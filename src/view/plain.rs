@@ -91,12 +91,12 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
 fn notifications(snapshot: &Snapshot, q: &Quantities<'_>, write: &mut impl FnMut(String)) {
     let notices: Vec<String> = snapshot.notices.iter().rev().cloned().collect();
     if !notices.is_empty() {
-        write("Messages, the newest first:".to_owned());
+        write("Messages (newest first):".to_owned());
         notices.into_iter().for_each(&mut *write);
     }
     let happened = snapshot.occurrences.count();
     if happened > 0 {
-        write(format!("Happened, {happened}; the newest first:"));
+        write(format!("Events, {happened} (newest first):"));
         for occurrence in snapshot.occurrences.iter().rev().take(MOST) {
             write(format!(
                 "{} at t = {}",

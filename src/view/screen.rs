@@ -152,7 +152,7 @@ fn text(canvas: &mut Canvas<'_>, area: Rect, title: &str, page: TextPage, scroll
 /// Draws the message for a screen that is too small for anything else.
 fn too_small(canvas: &mut Canvas<'_>, area: Rect) {
     let needed = format!(
-        "phaselab needs {}x{} characters, here are {}x{}; q leaves it",
+        "phaselab needs {}x{} characters, this window has {}x{}; q quits",
         LEAST.0, LEAST.1, area.width, area.height
     );
     for (index, line) in wrap::words(&needed, area.width.into()).iter().enumerate() {

@@ -19,6 +19,7 @@ use super::kept::{self, Kept, Track, TrailKey};
 use super::plot::{Ages, Camera, DepthBuffer, Frame, Marker, Pen, Raster};
 use super::quantity::{Quantities, Source};
 use super::theme::Role;
+use crate::expr::Symbol;
 use crate::instrument::CameraPose;
 use crate::mechanics::Apparent;
 use crate::model::{Point, Shape};
@@ -100,6 +101,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     canvas.kept = kept;
     let seen = eye.frame.and_then(|frame| q.lab.loaded.equations.supplements.frames.get(frame));
     let forces = artist.apparent(seen.map_or(&[], Vec::as_slice));
+    let mechanics = artist.mechanics();
     artist.raster.draw(canvas.buffer);
     for (tip, label) in std::mem::take(&mut artist.labels) {
         let Some(at) = artist.frame.cell(tip) else { continue };
@@ -112,7 +114,9 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         }
         canvas.write(Position { x, y }, area.right() - x, &label, canvas.style(Role::Accent));
     }
-    legend(canvas, area, &forces);
+    let mut lines = annotation::forces(canvas, &forces);
+    lines.extend(mechanics.into_iter().flat_map(|both| annotation::mechanics(canvas, both)));
+    legend(canvas, area, &lines);
     if eye.pitch < std::f64::consts::FRAC_PI_2 {
         compass(canvas, area, &camera);
     }
@@ -208,7 +212,8 @@ impl ScenePainter<'_> {
                 let pen = Pen::new(theme[Role::Accent], SOLID);
                 self.arrow(foot, along, &pen);
                 let tip = [0, 1, 2].map(|k| foot[k] + along[k]);
-                if !label.is_empty() && !self.depth.hides_point(self.camera.project(tip)) {
+                let some = !label.is_empty() && along != [0.0; 3];
+                if some && !self.depth.hides_point(self.camera.project(tip)) {
                     let tip = self.flat(tip);
                     self.labels.push((tip, self.q.look.glyphs.text(label).into_owned()));
                 }
@@ -438,6 +443,23 @@ impl ScenePainter<'_> {
     /// where it is, such as a sun, then the traces of other points.
     fn colour(&self, point: &Point) -> usize {
         colours::colour(self.q, &self.colours, point)
+    }
+
+    /// The colours of the traces of the right mechanics and of the wrong one beside it, where both leave one.
+    fn mechanics(&self) -> Option<[usize; 2]> {
+        let other = &self.q.lab.loaded.model.comparison.as_ref()?.symbols;
+        let other: Vec<Symbol> = other.iter().flat_map(|&(place, rate)| [place, rate]).collect();
+        let pool = &self.q.lab.loaded.equations.pool;
+        let trace = |wrong: bool| {
+            self.q.lab.shapes(self.eye).find_map(|(shape, _)| match shape {
+                Shape::Trace { at } => {
+                    let is_wrong = at.iter().any(|&e| pool.depends_on_any(e, &other));
+                    (is_wrong == wrong).then(|| self.colour(at))
+                }
+                _ => None,
+            })
+        };
+        Some([trace(false)?, trace(true)?])
     }
 
     /// Draws the pieces of the model's body and its principal axes, with its centre of mass at a point.

@@ -293,10 +293,24 @@ fn value(
     let number = canvas.span(Role::Accent, format!("{}{value}", before(value)));
     let unit = canvas.span(Role::Dim, format!(" {unit}"));
     let tail: usize = unit.0.width() + rest.iter().map(|(text, _)| text.width()).sum::<usize>();
-    if 2 + NAME + NUMBER + tail <= width || 2 + NAME + NUMBER + MARGIN <= width {
+    let beside = 2 + NAME + NUMBER;
+    if beside + tail <= width || beside + MARGIN <= width {
         let gap = " ".repeat((NAME + 2).saturating_sub(name.width()));
         let head = canvas.span(Role::Text, format!("{name}{gap}"));
-        return vec![[vec![head, number, unit], rest].concat()];
+        let mut used = beside + unit.0.width();
+        let mut lines = vec![vec![head, number, unit]];
+        // What has no room stands below, whole.
+        for (text, style) in rest {
+            if lines.len() == 1 && used + text.trim_end().width() <= width {
+                used += text.width();
+                lines[0].push((text, style));
+                continue;
+            }
+            let indent = " ".repeat(beside + 3);
+            let wrapped = words(text.trim(), width.saturating_sub(indent.width()));
+            lines.extend(wrapped.iter().map(|line| vec![(format!("{indent}{line}"), style)]));
+        }
+        return lines;
     }
     // The numbers are aligned here too.
     let column = width.saturating_sub(NUMBER + MARGIN);

@@ -61,18 +61,18 @@ fn lines(canvas: &mut Canvas<'_>, area: Rect, sheet: &SourceBuffer) -> Drawn {
     let glyphs = canvas.look.glyphs;
     for (index, line) in all.iter().enumerate().skip(first).take(area.height.into()) {
         let at = row(area, index - first);
-        let flaws: Vec<&BufferDiagnostic> =
-            sheet.flaws.iter().filter(|f| f.from.row == index).collect();
+        let diagnostics: Vec<&BufferDiagnostic> =
+            sheet.diagnostics.iter().filter(|f| f.from.row == index).collect();
         let here = sheet.editor.cursor().row == index;
-        if let Some(flaw) = flaws.first() {
-            let role = if flaw.warning { Role::Warn } else { Role::Bad };
+        if let Some(diagnostic) = diagnostics.first() {
+            let role = if diagnostic.warning { Role::Warn } else { Role::Bad };
             canvas.left(columns(at, 0, 1), role, glyphs.pick("✗", "x"));
         }
         let role = if here { Role::Accent } else { Role::Dim };
         canvas.right(columns(at, 1, digits), role, &(index + 1).to_string());
         // Only the line of the cursor scrolls sideways.
         let from = if here { from } else { 0 };
-        write(canvas, row(body, index - first), (index, line), from, &flaws, sheet);
+        write(canvas, row(body, index - first), (index, line), from, &diagnostics, sheet);
     }
     Drawn { rows: area.height, columns: wide, ..Drawn::default() }
 }
@@ -83,7 +83,7 @@ fn write(
     at: Rect,
     (index, line): (usize, &str),
     from: usize,
-    flaws: &[&BufferDiagnostic],
+    diagnostics: &[&BufferDiagnostic],
     sheet: &SourceBuffer,
 ) {
     let selection = sheet.editor.selection();
@@ -105,8 +105,8 @@ fn write(
         let caret = Caret { row: index, column };
         let role = if comment.is_some_and(|start| column >= start) { Role::Dim } else { plain };
         let mut style = canvas.style(role);
-        if let Some(flaw) = flaws.iter().find(|flaw| covers(flaw, caret)) {
-            let role = if flaw.warning { Role::Warn } else { Role::Bad };
+        if let Some(diagnostic) = diagnostics.iter().find(|diagnostic| covers(diagnostic, caret)) {
+            let role = if diagnostic.warning { Role::Warn } else { Role::Bad };
             style = canvas.style(role).add_modifier(Modifier::UNDERLINED);
         }
         if selection.is_some_and(|(from, to)| from <= caret && caret < to) {
@@ -162,8 +162,8 @@ fn in_sight(canvas: &Canvas<'_>, sheet: &SourceBuffer, from: usize, wide: u16) -
 }
 
 /// Whether a diagnostic underlines this position; an empty one covers one character.
-fn covers(flaw: &BufferDiagnostic, caret: Caret) -> bool {
-    caret == flaw.from || flaw.from <= caret && caret < flaw.to
+fn covers(diagnostic: &BufferDiagnostic, caret: Caret) -> bool {
+    caret == diagnostic.from || diagnostic.from <= caret && caret < diagnostic.to
 }
 
 /// The column at which a line's comment begins; quoted text is skipped.
@@ -196,7 +196,7 @@ fn foot(
         SheetState::Runs(Some(took)) => {
             let time = took.as_secs_f64() * 1e3;
             let time = if time < 10.0 { format!("{time:.1}") } else { format!("{time:.0}") };
-            (Role::Good, format!("No errors: rebuilt in {time} ms, the motion goes on."))
+            (Role::Good, format!("No errors: rebuilt in {time} ms; the motion continues."))
         }
         SheetState::Changed if sheet.is_long_checked() => {
             (Role::Dim, "Checking takes long; Esc stops it.".to_owned())
@@ -223,14 +223,14 @@ fn foot(
         None => usize::from(canvas.left(row(area, 0), role, &text) > 0),
     };
     let area = Rect { y: area.y + used as u16, height: area.height - used as u16, ..area };
-    let Some(flaw) = sheet.flaw() else { return };
-    let (row_of, column) = (flaw.from.row + 1, flaw.from.column + 1);
-    let text = format!("{row_of}:{column} {}", flaw.message);
-    let help = flaw.help.as_ref().map(|help| format!("help: {help}"));
+    let Some(diagnostic) = sheet.diagnostic() else { return };
+    let (row_of, column) = (diagnostic.from.row + 1, diagnostic.from.column + 1);
+    let text = format!("{row_of}:{column} {}", diagnostic.message);
+    let help = diagnostic.help.as_ref().map(|help| format!("help: {help}"));
     let width = usize::from(area.width);
     let message = words(&canvas.text(&text), width);
     let help = help.map_or_else(Vec::new, |help| words(&canvas.text(&help), width));
-    let role = if flaw.warning { Role::Warn } else { Role::Text };
+    let role = if diagnostic.warning { Role::Warn } else { Role::Text };
     // If both are long, one row is reserved for the help.
     let room = usize::from(area.height).saturating_sub(usize::from(!help.is_empty()));
     let shown = message.iter().take(room).map(|line| (role, line));

@@ -189,7 +189,7 @@ impl WorkerLoop<'_> {
             .or_else(|| panic.downcast_ref::<&str>().copied())
             .unwrap_or("no reason given");
         let message = format!(
-            "the integrator stopped by a defect of the program ({reason}); load the system again"
+            "the integrator was stopped by a bug in phaselab ({reason}); load the system again"
         );
         let status = Status::Failed(Failure { time: last.time, message });
         self.slot.store(Some(Arc::new(Snapshot { status, ..last })));

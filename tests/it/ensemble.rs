@@ -108,6 +108,28 @@ fn a_pendulum_stretches_a_curve_and_keeps_its_area() {
 }
 
 #[test]
+fn starts_are_put_where_they_are_needed_most() {
+    // carried in parts, as the lab does: neighbours at the saddle part like e^t, so that at t = 20 the starts there lie
+    // 10⁻⁹ apart, and at t = 40 no two numbers are close enough
+    let ready = oscillator("-cos(q)", "0");
+    for centre in [[2.0, 0.6], [1.0, 1.5]] {
+        let start = circle(&ready, centre, 0.5);
+        let scales = [TAU, f64::INFINITY];
+        let mut curve = ClosedCurve::new(&start, channels(&ready), scales).unwrap();
+        for part in 1..=8 {
+            curve.carry(&flow(&ready), &[5.0 * f64::from(part)], &start).unwrap();
+            let found = curve.circulation(0);
+            if part <= 4 {
+                let found = found.unwrap();
+                assert!(found.error < 1e-4, "{found:?}");
+                assert!((found.value + PI * 0.25).abs() < found.error, "{found:?}");
+            }
+        }
+        assert_eq!(curve.circulation(0), None);
+    }
+}
+
+#[test]
 fn friction_shrinks_areas_at_its_rate_and_at_no_other() {
     let ready = oscillator("-cos(q)", "1/2*c*q'^2");
     let times = [0.0, 2.0, 12.0];
@@ -150,6 +172,25 @@ fn where_a_start_is_lost_no_area_is_told() {
     assert!(curve.points(1).iter().any(|at| at[0].is_nan()));
 }
 
+#[test]
+fn points_too_far_apart_are_not_joined() {
+    // a driven double well is chaotic: after ten periods the circle is everywhere
+    let ready = oscillator("q^4/4 - q^2/2 - 0.3*q*cos(t)", "0");
+    let curve = carried(&ready, [0.0, 0.0], 0.5, &[60.0]);
+    assert!(curve.circulation(0).is_none());
+    let points = curve.points(0);
+    let number = |at: &[f64; 2]| at[0].is_finite();
+    let all: Vec<[f64; 2]> = points.iter().copied().filter(number).collect();
+    assert_eq!(all.len(), curve.len() + 1, "all starts got there");
+    assert!(points.len() > all.len(), "some are not joined");
+    for k in 0..2 {
+        let seen = || all.iter().map(|at| at[k]);
+        let (lo, hi) = (seen().fold(0.0, f64::min), seen().fold(0.0, f64::max));
+        let mut joined = points.windows(2).filter(|pair| pair.iter().all(number));
+        assert!(joined.all(|pair| (pair[1][k] - pair[0][k]).abs() <= 0.05 * (hi - lo)));
+    }
+}
+
 /// The rate in some states of a file.
 fn rate(text: &str) -> Option<f64> {
     let ready = prepared(text);
@@ -185,6 +226,21 @@ fn the_rate_is_one_number_or_none() {
     let one_pair = rate(&one("1/2*0.6*x'^2")).unwrap();
     assert!((one_pair + 0.2).abs() < 1e-14, "{one_pair}");
     assert_eq!(rate(&one("1/2*0.6*(x^2 - 1)*x'^2")), None, "it depends on the place");
+    let driven = |friction: &str| {
+        rate(&format!(
+            "title = \"driven\"\n[coordinates]\nx = {{ initial = 1.0 }}\n[lagrangian]\n\
+             L = \"1/2*3*x'^2 - x^4\"\nforces = {{ x = \"cos(2*t) - {friction}*x'\" }}\n"
+        ))
+    };
+    let steady = driven("0.6").unwrap();
+    assert!((steady + 0.2).abs() < 1e-14, "{steady}");
+    assert_eq!(driven("0.6*(1 + 0.5*sin(2*t))"), None, "it depends on the time");
+    assert_eq!(
+        driven("0.6*(1 + 0.5*sin(10*t))"),
+        None,
+        "it depends on the time, five times as fast"
+    );
+    assert_eq!(driven("0.6*exp(-t)"), None, "it has no period");
 }
 
 /// Runs all jobs that are asked for, and those that follow.

@@ -343,3 +343,57 @@ fn gauges_look_at_steps_in_which_an_event_is_sought_piece_by_piece() {
         assert!(drift < 100.0 * tolerance, "{tolerance:e}: {drift:e}");
     }
 }
+
+/// A fixed step so long that the state at its end is far from what the constraint allows: the step is to blame, which is
+/// said; by adaptive steps the same motion goes as far as it is asked to.
+#[test]
+fn a_constraint_that_is_lost_in_a_long_step_asks_for_a_smaller_one() {
+    let text = "[coordinates]\nu = { initial = -0.32328956686350335, velocity = -1.045661596894593 }\n\
+                v = { initial = 0.9463000876874145, velocity = -0.3572349713841712 }\n[lagrangian]\n\
+                L = \"0.5*u'^2 + 0.5*v'^2 - 3.0*exp(5.0*(v + 5.0))\"\n\
+                [[constraints]]\nname = \"held\"\nexpression = \"u^2 + v^2 - 1\"\n";
+    let message = fault(by("rk4", Some(0.01), text), 1.0);
+    assert!(message.contains("the constraint `held` cannot be kept at t = 0.01"), "{message}");
+    assert!(message.contains("try a smaller step"), "{message}");
+    let mut adaptive = file(text);
+    run(&mut adaptive, 1e-6);
+    let (u, v) = (value(&adaptive, "u"), value(&adaptive, "v"));
+    assert!((u * u + v * v - 1.0).abs() < 1e-14, "{u} {v}");
+}
+
+/// A motion that returns to a kink at rest only touches it: with what velocity it arrives is a matter of rounding, which
+/// may count on one side and not on the other.
+#[test]
+fn a_kink_that_is_touched_at_rest_is_left_again() {
+    let held = |law: &str| {
+        format!(
+            "[coordinates]\nx = {{ initial = 1, velocity = 0 }}\ny = {{ initial = 0, velocity = 0 }}\n\
+             [lagrangian]\nL = \"{law}\"\n[[constraints]]\nname = \"held\"\nexpression = \"x^2 + y^2 - 1\"\n"
+        )
+    };
+    let smooth = "0.4625*x'^2 + 1.2895*y'^2 + 0.022*x*y' - (0.825/(1.0 + exp(-y)) + 0.742*abs(y)^3 + (x/2.02)^20)";
+    let equal = "1.2895*x'^2 + 1.2895*y'^2 - (0.206*y + 0.742*abs(y)^3)";
+    for law in [smooth, equal] {
+        let mut experiment = file(&held(law));
+        run(&mut experiment, 100.0);
+        let gauge = &experiment.snapshot().gauges[0];
+        assert!(gauge.name == "energy" && gauge.max_drift < 1e-12, "{law}: {:e}", gauge.max_drift);
+    }
+}
+
+/// A square touches zero where its root passes it: there are two kinks at one place, of v and of v', and over the moment
+/// between them the direction is still that of the whole step.
+#[test]
+fn two_kinks_at_one_place_are_passed_together() {
+    let text = "[coordinates]\nu = { initial = 1.175, velocity = 1.117 }\n\
+                v = { initial = 1.3184968750000001, velocity = 2.50682725 }\n[lagrangian]\n\
+                L = \"0.5*(2 + sin(v))*u'^2 + 0.6225*v'^2 + 0.0265*v'^4 - 0.47*max(0, v)^2\"\n\
+                forces = { u = \"-0.296*v'*abs(v')\" }\n\
+                [[constraints]]\nname = \"held\"\nexpression = \"v - 0.955*u^2\"\n";
+    let mut taylor = file(text);
+    run(&mut taylor, 7.0);
+    let mut other = by("dop853", None, text);
+    run(&mut other, 7.0);
+    let off = value(&taylor, "u") - value(&other, "u");
+    assert!(off.abs() < 1e-6, "{off:e}");
+}

@@ -122,8 +122,7 @@ fn what_could_be_read_in_two_ways_is_refused_with_both() {
         ],
     );
     check("2½", &["two numbers stand side by side; write `2*½` or `2 + ½`"]);
-    let function =
-        "; `x` is no function: what it depends on is not written, `x` alone stands for its value";
+    let function = "; `x` is not a function: what it depends on is not written, `x` alone stands for its value";
     check(
         "x(m + 1)",
         &[&format!(
@@ -282,4 +281,22 @@ L = "1/2*(m + M)*(x1'^2 + x2'^2 + l^2*theta'^2) - m*g*a*cos(theta)"
     check("m*sin(theta)^2 + M", "M + m sin² θ", r"M + m \sin^{2} \theta");
     check("-(-x1 - a)", "x₁ + a", "x_{1} + a");
     assert!(differ.is_empty(), "{}", differ.join("\n"));
+}
+
+#[test]
+fn a_text_of_a_file_is_shown_with_the_names_of_the_screen() {
+    let model = model();
+    for (text, shown) in [
+        ("theta - x1", "θ − x₁"),
+        ("omega0/m", "φ̇₀/m"),
+        ("theta'*x1'", "θ\u{307}*ẋ₁"),
+        ("1e-3*x1", "1e-3*x₁"),
+        ("x1e-3", "x1e−3"),
+        ("Vmax - sin(theta)", "Vmax − sin(θ)"),
+        ("energy of running", "energy of running"),
+        ("ψ'", "ψ'"),
+        ("", ""),
+    ] {
+        assert_eq!(model.pool.with_shown_names(text), shown, "{text}");
+    }
 }

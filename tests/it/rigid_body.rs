@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
-use phaselab::claims::flaws;
+use phaselab::claims::structure_diagnostics;
 use phaselab::expr::{Expr, Pool, Zero};
 use phaselab::integrate::{Settings, method_named};
 use phaselab::mechanics::{self, COMPONENTS, Class, body_constants, principal};
@@ -348,7 +348,7 @@ fn senseless_bodies_are_refused_at_their_place() {
     let told = |pieces: &[Written<'_>]| {
         let model = with_body(names(&["x"], &[]), pieces);
         let equations = mechanics::derive(&model).expect("derivable");
-        let found = flaws(&model, &equations).into_iter();
+        let found = structure_diagnostics(&model, &equations).into_iter();
         found.map(|m| (m.place, m.message)).collect::<Vec<_>>()
     };
     let ball = ("sphere", ["0.5", "0", "0"], "1", ["0"; 3], Turned::Not);

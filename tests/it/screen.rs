@@ -2,11 +2,11 @@
 
 mod cells;
 mod golden;
+mod hit_test;
 mod motion;
 mod panes;
 mod plain;
 mod purity;
-mod spots;
 mod workbench;
 
 use phaselab::app::{App, Drawn};

@@ -1,7 +1,7 @@
 //! Checks before the first row that the resolution of the time is sufficient for the steps of a run
 //! up to its end.
 //!
-//! In: an experiment at its start, the end. Out: a refusal, if a run would never end. Never here:
+//! In: an experiment at its start, the end. Out: an error, if a run would never end. Never here:
 //! rows.
 
 use super::times::Times;

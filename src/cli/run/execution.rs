@@ -61,8 +61,7 @@ impl Table {
     fn end_within_a_step(&self, interrupt: &Interrupt) {
         // rows that are locked are being written and must be left alone
         let Some(rows) = self.0.try_lock().ok().and_then(|mut rows| rows.take()) else { return };
-        let message =
-            "stopped by a signal within a step; what should be constant was not looked at";
+        let message = "stopped by a signal within a step; the invariants were not checked";
         let closing = Closing {
             invariants: Vec::new(),
             events: Events::unknown(),

@@ -131,7 +131,7 @@ impl Journal {
                 return Err(CommandError::WrongUse(message));
             }
             if !resume {
-                let message = format!("{name} has an unfinished sweep; --resume goes on with it");
+                let message = format!("{name} has an unfinished sweep; --resume continues it");
                 return Err(CommandError::WrongUse(message));
             }
         }

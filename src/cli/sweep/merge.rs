@@ -69,7 +69,7 @@ fn read(path: &Path) -> Result<Part, CommandError> {
     let text = fs::read_to_string(path).map_err(|error| CommandError::reading(path, &error))?;
     let no_shard = || {
         let path = printable::path(path);
-        CommandError::WrongUse(format!("{path} is no complete shard of a sweep"))
+        CommandError::WrongUse(format!("{path} is not a complete shard of a sweep"))
     };
     let (mut head, mut identity) = (Vec::new(), None);
     let mut lines = text.lines();

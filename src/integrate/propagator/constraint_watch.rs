@@ -7,6 +7,7 @@
 //! enforced.
 
 use super::Propagator;
+use super::singularity_record::SingularityRecord;
 use crate::integrate::{Settings, Stepper, Stepping, method_named};
 use crate::num::math;
 use crate::system::{
@@ -45,22 +46,6 @@ const NEGLIGIBLE: f64 = 1e-6;
 /// The number of step sizes tried, each a tenth of the one before.
 const STEPS_TRIED: u32 = 3;
 
-/// The data recorded to detect singular configurations of one motion.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Watch {
-    /// The time of the last sample, and its directions.
-    seen: Option<(f64, Directions)>,
-    /// Passages before the end of the last step that the current state has not reached.
-    ahead: Vec<f64>,
-    passed: u64,
-    first: Option<f64>,
-    /// A state before steps became much shorter, and the step there.
-    regular: Option<State>,
-    regular_step: f64,
-    /// The state at which it last began or continued.
-    begun: Option<State>,
-}
-
 impl Propagator {
     /// The number of singular configurations passed, and the time of the first.
     pub fn singular_passages(&self) -> (u64, Option<f64>) {
@@ -85,7 +70,7 @@ impl Propagator {
     /// than those before.
     pub(super) fn note_regular(&mut self) {
         let (begin, end) = self.stepper.interval();
-        let Watch { regular, regular_step, .. } = &mut self.watch;
+        let SingularityRecord { regular, regular_step, .. } = &mut self.watch;
         let step = (end - begin).abs();
         if step >= REGULAR * *regular_step {
             let state = self.stepper.state();
@@ -104,7 +89,7 @@ impl Propagator {
         if state.form != Form::Velocity {
             return;
         }
-        let Watch { seen, ahead, .. } = &mut self.watch;
+        let SingularityRecord { seen, ahead, .. } = &mut self.watch;
         let like = seen.as_ref().map(|(_, directions)| directions);
         let Some(here) = projector.directions(state, like) else { return };
         if let Some((_, before)) = seen {
@@ -120,7 +105,7 @@ impl Propagator {
 
     /// Records the passages before a time that the motion has reached.
     pub(super) fn note_passages(&mut self, time: f64) {
-        let Watch { ahead, passed, first, .. } = &mut self.watch;
+        let SingularityRecord { ahead, passed, first, .. } = &mut self.watch;
         ahead.retain(|&passage| {
             if passage <= time {
                 *passed += 1;
@@ -132,7 +117,7 @@ impl Propagator {
 
     /// Forgets the passages.
     pub(super) fn forget_passages(&mut self) {
-        self.watch = Watch::default();
+        self.watch = SingularityRecord::default();
     }
 
     /// Explains an error: one caused by a singular configuration is reported as such, and one at a
@@ -172,12 +157,17 @@ impl Propagator {
                 kind: MotionErrorKind::Passable(Box::new(fault.kind), passage),
                 ..fault
             },
-            None => match fault.kind {
-                MotionErrorKind::NotFinite(name) if self.method.stepping == Stepping::Fixed => {
-                    MotionError { kind: MotionErrorKind::NotFiniteInStep(name), ..fault }
-                }
-                _ => fault,
-            },
+            None if self.method.stepping == Stepping::Fixed => {
+                let kind = match fault.kind {
+                    MotionErrorKind::NotFinite(name) => MotionErrorKind::NotFiniteInStep(name),
+                    MotionErrorKind::ConstraintLost(name) => {
+                        MotionErrorKind::ConstraintLostInStep(name)
+                    }
+                    kind => kind,
+                };
+                MotionError { kind, ..fault }
+            }
+            None => fault,
         }
     }
 

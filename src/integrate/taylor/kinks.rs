@@ -14,14 +14,21 @@ use crate::system::{ExactRates, MotionError, Series, Side, State};
 /// Switches whose crossings differ by less than this part of a step cross together.
 const TOGETHER: f64 = 1e-12;
 
-/// A term smaller than this part of the largest is ignored in choosing a direction.
+/// A term smaller than this part of the largest is ignored in choosing a direction, …
 const SIGNIFICANT: f64 = 1e-9;
+
+/// … and one smaller than this part where that leaves no direction: a motion that only touches the surface arrives with a
+/// velocity of such a size, which may matter on one side, over the step there, and not on the other.
+const TOUCHED: f64 = 1e-8;
 
 /// The maximal number of simultaneous switches that are tried in every combination.
 const COMBINED: usize = 5;
 
 /// The maximal number of surfaces met at the same time; beyond it the motion counts as stuck.
 const PATIENCE: u32 = 64;
+
+/// After so many steps in a row that do not advance the time the surface counts as touched only.
+const STALLS: u32 = 8;
 
 /// The position of the motion relative to its switching surfaces.
 #[derive(Clone, Debug, Default)]
@@ -30,6 +37,8 @@ pub(super) struct Kinks {
     on_surface: Vec<usize>,
     /// The number of steps in a row that ended on a surface without advancing the time.
     stalled: u32,
+    /// Whether the surface is only touched.
+    touched: bool,
 }
 
 /// A surface met within a step.
@@ -99,17 +108,28 @@ impl Kinks {
         }
     }
 
+    /// From here on the motion counts as touching its surface only, until it moves. Returns whether that is new.
+    pub(super) fn touch(&mut self) -> bool {
+        !std::mem::replace(&mut self.touched, true)
+    }
+
+    fn significant(&self) -> f64 {
+        if self.touched { TOUCHED } else { SIGNIFICANT }
+    }
+
     /// Whether the motion moves to the chosen sides; `step` is how far the series is valid.
     pub(super) fn leads_on(&self, series: &Series, step: f64) -> bool {
         let reach = (step / series.scale().abs()).min(1.0);
-        self.on_surface.iter().all(|&i| leads_on(series, i, reach))
+        self.on_surface.iter().all(|&i| leads_on(series, i, reach, self.significant()))
     }
 
     /// The first surface that the series meets before `end`, in its unit of time.
     pub(super) fn first(&self, series: &Series, end: f64) -> Option<Crossing> {
+        // what matters to a direction is decided over as long a time as where the direction is chosen
+        let reach = end.min(1.0);
         let met = |i: usize, end: f64| match series.sides()[i] {
             Side::Between => leaves_weight(series.weight(i), end),
-            side => self.leaves_side(i, series.switch(i), side, end),
+            side => self.leaves_side(i, series.switch(i), side, (end, reach)),
         };
         let mut earliest: Option<(f64, usize)> = None;
         for i in 0..series.switches() {
@@ -140,6 +160,7 @@ impl Kinks {
     ) -> bool {
         let moved = state.exact_time() != series.time();
         self.stalled = if moved { 0 } else { self.stalled + 1 };
+        self.touched = !moved && (self.touched || self.stalled >= STALLS);
         self.on_surface = crossing.map_or(Vec::new(), |crossing| crossing.switches);
         for &i in &self.on_surface {
             // a number of the state that has reached zero is zero, not a rounding error
@@ -151,10 +172,20 @@ impl Kinks {
     }
 
     /// The point where a switch leaves its side. If the step begins on its surface, the switch
-    /// begins with its first significant term, whatever rounding makes of those before it.
-    fn leaves_side(&self, i: usize, switch: &[f64], side: Side, end: f64) -> Option<f64> {
+    /// begins with its first term that is significant over the time `reach`, whatever rounding makes of those before it.
+    fn leaves_side(
+        &self,
+        i: usize,
+        switch: &[f64],
+        side: Side,
+        (end, reach): (f64, f64),
+    ) -> Option<f64> {
         let sign = if side == Side::Negative { -1.0 } else { 1.0 };
-        let from = if self.on_surface.contains(&i) { first_that_matters(switch, end)? } else { 0 };
+        let from = if self.on_surface.contains(&i) {
+            first_that_matters(switch, reach, self.significant())?
+        } else {
+            0
+        };
         let mut signed = [0.0; 64];
         let signed = &mut signed[..switch.len() - from];
         for (c, x) in signed.iter_mut().zip(&switch[from..]) {
@@ -185,24 +216,24 @@ impl Kinks {
 
 /// Whether the motion moves to the chosen side of a surface, that is whether the first significant
 /// term of the switch has that sign.
-fn leads_on(series: &Series, i: usize, reach: f64) -> bool {
+fn leads_on(series: &Series, i: usize, reach: f64, significant: f64) -> bool {
     let sign = match series.sides()[i] {
         Side::Between => return series.weight(i)[0].abs() <= 1.0 + 1e-12,
         Side::Positive => 1.0,
         Side::Negative => -1.0,
     };
     let switch = series.switch(i);
-    first_that_matters(switch, reach).is_none_or(|k| sign * switch[k] > 0.0)
+    first_that_matters(switch, reach, significant).is_none_or(|k| sign * switch[k] > 0.0)
 }
 
 /// The first term beyond the constant one that is not negligible relative to the largest at a time.
-fn first_that_matters(switch: &[f64], time: f64) -> Option<usize> {
+fn first_that_matters(switch: &[f64], time: f64, significant: f64) -> Option<usize> {
     let terms = || {
         let powers = std::iter::successors(Some(time), |x| Some(x * time));
         switch.iter().enumerate().skip(1).zip(powers).map(|((k, c), x)| (k, (c * x).abs()))
     };
     let largest = terms().fold(0.0_f64, |m, (_, term)| m.max(term));
-    terms().find(|(_, term)| *term > SIGNIFICANT * largest).map(|(k, _)| k)
+    terms().find(|(_, term)| *term > significant * largest).map(|(k, _)| k)
 }
 
 /// The point where a weight leaves [−1, 1]. One that begins at the edge may leave at once.
@@ -263,10 +294,10 @@ mod tests {
 
     #[test]
     fn a_direction_is_reported_by_a_term_above_a_billionth() {
-        assert_eq!(first_that_matters(&[0.0, 2e-9, 1.0], 1.0), Some(1));
-        assert_eq!(first_that_matters(&[0.0, 0.5e-9, 1.0], 1.0), Some(2));
+        assert_eq!(first_that_matters(&[0.0, 2e-9, 1.0], 1.0, SIGNIFICANT), Some(1));
+        assert_eq!(first_that_matters(&[0.0, 0.5e-9, 1.0], 1.0, SIGNIFICANT), Some(2));
         // in the unit of the time in question
-        assert_eq!(first_that_matters(&[0.0, 0.5e-9, 1.0], 0.1), Some(1));
+        assert_eq!(first_that_matters(&[0.0, 0.5e-9, 1.0], 0.1, SIGNIFICANT), Some(1));
     }
 
     #[test]

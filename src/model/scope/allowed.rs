@@ -56,7 +56,7 @@ pub(super) enum SymbolRole {
 impl Allowed {
     /// Why a place, which messages call `place`, may not use a kind of quantity, or `None` if it
     /// may.
-    pub(super) fn refusal(self, kind: SymbolRole, place: &str) -> Option<String> {
+    pub(super) fn objection(self, kind: SymbolRole, place: &str) -> Option<String> {
         use Allowed::{
             Bracket, Casimir, Configuration, Event, Hamiltonian, Lagrangian, Observable,
             Parameters, Pieces, Poisson, Transformation,

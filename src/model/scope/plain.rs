@@ -37,7 +37,7 @@ impl Scope {
         // where one of them may not stand, the other is meant
         let open = |name: &&String| match self.names.get(name.trim_end_matches('\'')) {
             Some(Meaning::Symbol(s)) => {
-                self.kinds.get(s).is_none_or(|&k| self.refusal(k).is_none())
+                self.kinds.get(s).is_none_or(|&k| self.objection(k).is_none())
             }
             _ => true,
         };

@@ -176,7 +176,7 @@ fn shown<'t>(
     match text.get_ref().chars().find(|&c| is_steering(c) && !allowed(c)) {
         None => Some(text.get_ref()),
         Some(c) => {
-            let message = format!("the character U+{:04X} may not stand in a text", c as u32);
+            let message = format!("the character U+{:04X} may not be used in a text", c as u32);
             let help = match c {
                 '\n' | '\r' => Some("this text stands on one line; \"notes\" may be longer"),
                 '\t' => Some("use spaces"),

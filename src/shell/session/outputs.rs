@@ -28,7 +28,7 @@ impl Session {
     /// Exports the current state as a system file.
     pub(super) fn export(&mut self) {
         let Some((loaded, snapshot)) = self.seen() else {
-            return self.report(Err("There is no motion here to write down.".to_owned()));
+            return self.report(Err("There is no motion here to save.".to_owned()));
         };
         self.write_file(move || {
             let Loaded { name, document, model, system, .. } = &loaded;
@@ -99,7 +99,7 @@ impl Session {
     /// Saves a table of the recorded motion.
     pub(super) fn data(&mut self) {
         let Some((loaded, snapshot)) = self.seen() else {
-            return self.report(Err("There is no motion here to write down.".to_owned()));
+            return self.report(Err("There is no motion here to save.".to_owned()));
         };
         self.write_file(move || {
             let mut table = Vec::new();

@@ -24,7 +24,6 @@ use crate::view::glyphs::Glyphs;
 use crate::view::theme::{Dash, Shade};
 pub use kept_trail::{Ages, KeptTrail};
 use letter::letter;
-use polyline::Polyline;
 
 /// The most cells drawn in a row or column; no terminal has more.
 const MOST_CELLS: u16 = 1024;
@@ -172,57 +171,6 @@ impl Raster {
     /// Sets one dot; a dot outside the raster is ignored.
     pub fn dot(&mut self, dot: [i32; 2], pen: &Pen) {
         self.ink(dot, pen, None);
-    }
-
-    /// Draws a straight line between two points of the frame, clipped.
-    pub fn line(&mut self, frame: &Frame, a: [f64; 2], b: [f64; 2], pen: &Pen) {
-        self.polyline(frame, [a, b], pen);
-    }
-
-    /// Draws a line through points. It is broken at points without a position (NaN) and where it wraps around an axis.
-    pub fn polyline(
-        &mut self,
-        frame: &Frame,
-        points: impl IntoIterator<Item = [f64; 2]>,
-        pen: &Pen,
-    ) {
-        let mut hand = Polyline::new(self, frame);
-        for point in points {
-            hand.to(point, pen);
-        }
-        hand.rest();
-    }
-
-    /// Draws a line through points, each with the number of the pen that leads to it.
-    pub fn polyline_in(
-        &mut self,
-        frame: &Frame,
-        points: impl IntoIterator<Item = ([f64; 2], usize)>,
-        pens: &[Pen],
-    ) {
-        let mut hand = Polyline::new(self, frame);
-        for (point, pen) in points {
-            if let Some(pen) = pens.get(pen) {
-                hand.to(point, pen);
-            }
-        }
-        hand.rest();
-    }
-
-    /// Draws a fading trail, oldest point first: the points are divided among the steps of a ramp.
-    pub fn trail(&mut self, frame: &Frame, points: &[[f64; 2]], ramp: &[Shade], layer: u8) {
-        if ramp.is_empty() {
-            return;
-        }
-        let pens: Vec<Pen> =
-            ramp.iter().enumerate().map(|(age, shade)| Pen::aged(*shade, layer, age)).collect();
-        let mut hand = Polyline::new(self, frame);
-        for (index, point) in points.iter().enumerate() {
-            let age = ((index + 1) * ramp.len()).div_ceil(points.len()) - 1;
-            hand.fade(age, ramp.len());
-            hand.to(*point, &pens[age]);
-        }
-        hand.rest();
     }
 
     /// Draws single dots.

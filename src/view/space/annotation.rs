@@ -1,4 +1,5 @@
-//! What is written and drawn beside the picture in space: the directions of the axes, the names of apparent forces.
+//! What is written and drawn beside the picture in space: the directions of the axes, the names of apparent forces and of
+//! two mechanics side by side.
 //!
 //! In: the camera, the forces present. Out: cells. Never here: the shapes.
 
@@ -37,16 +38,29 @@ pub(super) fn compass(canvas: &mut Canvas<'_>, area: Rect, camera: &Camera) {
     }
 }
 
-/// Draws the names of the apparent forces in their colours in the upper left corner.
-pub(super) fn legend(canvas: &mut Canvas<'_>, area: Rect, forces: &[usize]) {
+/// A line of a legend: its sign and name, and the curve whose colour it has.
+pub(super) type LegendLine = (String, usize);
+
+/// The names of these apparent forces.
+pub(super) fn forces(canvas: &Canvas<'_>, forces: &[usize]) -> Vec<LegendLine> {
+    let arrow = canvas.look.glyphs.pick("→", "->");
+    forces.iter().map(|&force| (format!("{arrow} {}", FORCES[force]), force + 1)).collect()
+}
+
+/// The names of the right mechanics and of the wrong one beside it, whose traces have these colours.
+pub(super) fn mechanics(canvas: &Canvas<'_>, [right, wrong]: [usize; 2]) -> Vec<LegendLine> {
+    let sign = canvas.look.glyphs.pick("━", "-");
+    vec![(format!("{sign} right mechanics"), right), (format!("{sign} wrong mechanics"), wrong)]
+}
+
+/// Draws a legend in the upper left corner.
+pub(super) fn legend(canvas: &mut Canvas<'_>, area: Rect, lines: &[LegendLine]) {
     if area.width < 24 || usize::from(area.height) < 8 {
         return;
     }
-    let arrow = canvas.look.glyphs.pick("→", "->");
-    for (index, force) in forces.iter().enumerate() {
-        let text = format!("{arrow} {}", FORCES[*force]);
+    for (index, (text, curve)) in lines.iter().enumerate() {
         let at = row(area, index);
-        let style = canvas.look.theme.curve(force + 1);
-        canvas.write(at.as_position(), at.width, &text, style);
+        let style = canvas.look.theme.curve(*curve);
+        canvas.write(at.as_position(), at.width, text, style);
     }
 }

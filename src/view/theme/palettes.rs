@@ -167,7 +167,7 @@ const CONTRAST: Palette = Palette {
 /// Verdicts in blue, yellow and vermilion; nothing depends on distinguishing red from green.
 const COLOUR_BLIND: Palette = Palette {
     name: "colour-blind",
-    about: "told apart by people who confuse red and green",
+    about: "safe for red-green colour blindness",
     background: Rgb(0x14, 0x16, 0x1c),
     foreground: Rgb(0xff, 0xff, 0xff),
     roles: [

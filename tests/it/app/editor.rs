@@ -26,8 +26,8 @@ fn check(before: &str, keys: &str, after: &str) {
 fn at(marked: &str) -> Editor {
     let byte = marked.find('|').expect("a cursor");
     let mut editor = Editor::new(&marked.replace('|', ""), LIMIT);
-    let spot = editor.spot(byte);
-    editor.go(spot);
+    let caret = editor.caret_at(byte);
+    editor.go(caret);
     editor
 }
 
@@ -104,8 +104,8 @@ fn words_are_found_from_the_cursor_on_and_round_again() {
         assert!(editor.find("mass"));
         places.push(editor.selection().expect("it is selected").0);
     }
-    let spot = |row, column| Caret { row, column };
-    assert_eq!(places, [spot(0, 0), spot(2, 0), spot(0, 0)]);
+    let caret = |row, column| Caret { row, column };
+    assert_eq!(places, [caret(0, 0), caret(2, 0), caret(0, 0)]);
     assert!(!editor.find("gravity"));
     assert!(!editor.find(""));
 }
@@ -124,9 +124,9 @@ fn pasted_text_brings_no_steering_and_no_more_than_there_is_room_for() {
 #[test]
 fn places_of_bytes_are_places_of_characters() {
     let editor = Editor::new("θ = 1\r\nφ = 2\r\n", LIMIT);
-    assert_eq!(editor.spot(2), Caret { row: 0, column: 1 });
-    assert_eq!(editor.spot("θ = 1\r\nφ".len()), Caret { row: 1, column: 1 });
-    assert_eq!(editor.spot(1000), Caret { row: 2, column: 0 });
+    assert_eq!(editor.caret_at(2), Caret { row: 0, column: 1 });
+    assert_eq!(editor.caret_at("θ = 1\r\nφ".len()), Caret { row: 1, column: 1 });
+    assert_eq!(editor.caret_at(1000), Caret { row: 2, column: 0 });
 }
 
 const KEYS: [&str; 22] = [

@@ -274,7 +274,7 @@ fn the_palette_lists_every_row_and_does_what_its_key_does() {
                 let near = matches!(item.choice, Choice::ActionAt(..));
                 let here = places.contains(&row.place) || near;
                 assert_eq!(near, !places.contains(&row.place) && app.nearest(row.place).is_some());
-                assert!(item.refusal.is_none() == (here && app.offers(row.action)), "{item:?}");
+                assert!(item.unavailable.is_none() == (here && app.offers(row.action)), "{item:?}");
                 let mut open = open.clone();
                 if let Some(Overlay::Menu(menu)) = &mut open.overlay {
                     menu.selected = line;
@@ -282,7 +282,7 @@ fn the_palette_lists_every_row_and_does_what_its_key_does() {
                 if !here || !app.offers(row.action) {
                     press(&mut open, "Enter");
                     let told = open.notice.map(|notice| notice.text).unwrap_or_default();
-                    assert!(told.contains(item.refusal.as_ref().unwrap()), "{told}");
+                    assert!(told.contains(item.unavailable.as_ref().unwrap()), "{told}");
                     continue;
                 }
                 if near {
@@ -387,7 +387,7 @@ fn the_palette_acts_on_the_nearest_pane() {
         let mut app = in_lab();
         press(&mut app, begin);
         press(&mut app, ":");
-        app.update(Event::Paste("put a cursor".to_owned()));
+        app.update(Event::Paste("show or hide a cursor".to_owned()));
         press(&mut app, "Enter");
         let lab = app.lab.as_ref().unwrap();
         assert_eq!((app.page, lab.focus), (Page::Lab, Pane::Plot(1)), "{begin}");
@@ -404,7 +404,7 @@ fn the_palette_acts_on_the_nearest_pane() {
     assert_eq!(app.lab.as_ref().unwrap().focus, Pane::Plot(0));
     let mut app = in_lab();
     press(&mut app, "Tab Tab Tab Tab Tab Tab Tab :");
-    app.update(Event::Paste("put a cursor".to_owned()));
+    app.update(Event::Paste("show or hide a cursor".to_owned()));
     press(&mut app, "Enter");
     assert_eq!(app.lab.as_ref().unwrap().focus, Pane::Plot(3), "the one focused last");
     // Among the systems there is no pane.

@@ -39,10 +39,10 @@ fn a_typed_value_may_be_any_expression_in_parameters() {
 #[test]
 fn a_bad_value_is_reported_and_nothing_is_lost() {
     for (text, told) in [
-        ("2x", "`2x` is no number"),
-        ("", "is no number"),
-        ("theta", "is no number"),
-        ("1/0", "is no number"),
+        ("2x", "`2x` is not a number"),
+        ("", "is not a number"),
+        ("theta", "is not a number"),
+        ("1/0", "is not a number"),
         ("ln(-1)", "has no finite value"),
         ("1,5", "a decimal fraction is written with a point"),
     ] {

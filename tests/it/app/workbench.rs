@@ -108,22 +108,28 @@ fn mistakes_stand_in_their_places_until_the_text_is_right_again() {
     let mut app = edited();
     replace(&mut app, "cos(theta)", "cos(thet)");
     assert_eq!(rest(&mut app), [], "the old system goes on");
-    let flaw = sheet(&app).flaw().expect("a mistake").clone();
-    let line = &sheet(&app).editor.lines()[flaw.from.row];
-    let word: String =
-        line.chars().skip(flaw.from.column).take(flaw.to.column - flaw.from.column).collect();
+    let diagnostic = sheet(&app).diagnostic().expect("a mistake").clone();
+    let line = &sheet(&app).editor.lines()[diagnostic.from.row];
+    let word: String = line
+        .chars()
+        .skip(diagnostic.from.column)
+        .take(diagnostic.to.column - diagnostic.from.column)
+        .collect();
     assert_eq!((word.as_str(), sheet(&app).state), ("thet", SheetState::Wrong));
-    assert!(flaw.help.as_deref().is_some_and(|help| help.contains("theta")), "{flaw:?}");
+    assert!(
+        diagnostic.help.as_deref().is_some_and(|help| help.contains("theta")),
+        "{diagnostic:?}"
+    );
     // while the editor is closed, a line reports it
     press(&mut app, "Esc");
     let banner = app.banner().expect("a banner");
     assert!(banner.contains("pendulum.toml:") && banner.contains("thet"), "{banner}");
     press(&mut app, "E Ctrl-Home Ctrl-n");
-    assert_eq!(sheet(&app).editor.cursor(), flaw.from);
+    assert_eq!(sheet(&app).editor.cursor(), diagnostic.from);
     press(&mut app, "Ctrl-u");
     let effects = rest(&mut app);
     assert!(matches!(effects.as_slice(), [Effect::Tell(Command::TakeUp(_))]), "{effects:?}");
-    assert_eq!(sheet(&app).flaws, []);
+    assert_eq!(sheet(&app).diagnostics, []);
     assert_eq!(app.banner(), None);
 }
 
@@ -133,7 +139,8 @@ fn next_and_previous_go_round_all_mistakes() {
     app.update(Event::Paste("oops = 1\n".to_owned()));
     replace(&mut app, "cos(theta)", "cos(thet)");
     rest(&mut app);
-    let rows: Vec<usize> = sheet(&app).flaws.iter().map(|flaw| flaw.from.row).collect();
+    let rows: Vec<usize> =
+        sheet(&app).diagnostics.iter().map(|diagnostic| diagnostic.from.row).collect();
     assert_eq!((rows.len(), rows[0]), (2, 0));
     press(&mut app, "Ctrl-Home Ctrl-n");
     assert_eq!(sheet(&app).editor.cursor().row, rows[1]);
@@ -151,7 +158,7 @@ fn an_answer_to_an_older_text_shows_no_mistakes() {
     let answer = checked(&app, &effects[0]);
     press(&mut app, "Backspace");
     app.update(answer);
-    assert_eq!(sheet(&app).flaws, []);
+    assert_eq!(sheet(&app).diagnostics, []);
     assert_eq!(rest(&mut app).len(), 1);
 }
 
@@ -214,7 +221,7 @@ fn an_answer_that_comes_late_never_reaches_another_system() {
     let Event::Checked(old) = &late else { panic!("{late:?}") };
     assert!(!app.awaits(old.ticket));
     app.update(late);
-    assert_eq!((sheet(&app).flaws.len(), sheet(&app).state), (0, SheetState::Changed));
+    assert_eq!((sheet(&app).diagnostics.len(), sheet(&app).state), (0, SheetState::Changed));
     // its own answer is still to come
     let own = checked(&app, &asked[0]);
     app.update(own);
@@ -224,7 +231,7 @@ fn an_answer_that_comes_late_never_reaches_another_system() {
     press(&mut app, "E Ctrl-Home");
     assert!(sheet(&app).is_modified());
     rest(&mut app);
-    assert_eq!(sheet(&app).flaws.len(), 1);
+    assert_eq!(sheet(&app).diagnostics.len(), 1);
 }
 
 #[test]
@@ -251,7 +258,7 @@ fn a_name_that_is_taken_is_asked_for_again() {
     let mut app = edited();
     press(&mut app, "Ctrl-s Enter");
     app.update(Event::FileSaved(Err(SaveError::Exists(PathBuf::from("mine.toml")))));
-    assert!(app.notice.as_ref().unwrap().text.contains("exists already"));
+    assert!(app.notice.as_ref().unwrap().text.contains("already exists"));
     assert!(sheet(&app).asking.is_some());
     press(&mut app, "Esc");
     assert!(sheet(&app).asking.is_none(), "Esc leaves the question, not the text");
@@ -400,7 +407,7 @@ fn without_resuming_the_file_runs_and_the_text_waits_for_its_editor() {
     press(&mut app, "# Enter");
     let (mut again, effects) = started_again(&app, false);
     assert_eq!(effects, [Effect::Tell(Command::Play)]);
-    assert!(again.notice.as_ref().unwrap().text.contains("E goes to them"));
+    assert!(again.notice.as_ref().unwrap().text.contains("E shows them"));
     assert_eq!(again.update(Event::Tick(Duration::from_secs(1))), []);
     assert_eq!(again.unsaved(), app.unsaved(), "it is kept on");
     // the file is watched, not the text
@@ -461,7 +468,7 @@ fn a_text_that_would_be_lost_is_not_lost_at_the_first_q() {
     kept.workbench.keeps = true;
     assert_eq!(press(&mut kept, "q"), [Effect::Quit]);
     assert_eq!(press(&mut kept, "Esc Esc q"), [Effect::Quit], "also from the list of systems");
-    let lost = "has changes that are not saved; quit again to lose them.";
+    let lost = "has unsaved changes; quit again to discard them.";
     for keys in ["q", "Esc q"] {
         let mut app = app.clone();
         assert_eq!(press(&mut app, keys), []);
@@ -543,11 +550,11 @@ fn what_becomes_of_a_watched_file_is_reported() {
     let told = |app: &App| app.notice.clone().map(|notice| notice.text).unwrap_or_default();
     let text = app.lab.as_ref().unwrap().loaded.document.text.clone();
     app.update(Event::FileThere(false));
-    assert_eq!(told(&app), "./my.toml is no longer there; what it held goes on.");
+    assert_eq!(told(&app), "./my.toml no longer exists; its last valid version keeps running.");
     app.update(Event::FileThere(true));
     app.update(file(&text));
     assert_eq!(told(&app), "./my.toml is there again.");
     app.update(file(&text.replace("9.81", "1.62")));
     rest(&mut app);
-    assert_eq!(told(&app), "./my.toml: rebuilt in 7 ms; the motion goes on.");
+    assert_eq!(told(&app), "./my.toml: rebuilt in 7 ms; the motion continues.");
 }

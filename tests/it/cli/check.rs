@@ -31,7 +31,7 @@ fn a_file_with_mistakes_is_neither_run_nor_derived() {
     let wrong = PENDULUM.replace("theta'^2", "theta''^2");
     for command in ["run", "derive"] {
         with_file(&wrong, &[command, "system.toml"])
-            .fails(65, &["system.toml:12:12", "`theta''` may not stand here"]);
+            .fails(65, &["system.toml:12:12", "`theta''` may not be used here"]);
     }
 }
 
@@ -221,7 +221,7 @@ fn a_claim_has_a_budget() {
 #[test]
 fn a_root_that_is_squared_away_is_reported() {
     let file = one("x = { initial = 1 }", "[lagrangian]\nL = \"1/2*x'^2 - (1 + sqrt(x)^2)\"");
-    let said = "`x` stands under a root that is squared away";
+    let said = "`x` is under a root that is squared away";
     with_file(&file, &["check", "system.toml"]).says(said);
     with_file(&file, &["derive", "system.toml"]).says("x ≥ 0");
     let kept = file.replace("(1 + sqrt(x)^2)", "(sqrt(x) + sqrt(x)^2)");

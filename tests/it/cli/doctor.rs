@@ -12,7 +12,7 @@ fn the_doctor_says_what_was_found_and_why() {
     ]))
     .success();
     for (what, found) in [
-        ("terminal", "standard output is no terminal"),
+        ("terminal", "standard output is not a terminal"),
         ("color", "TERM=xterm-256color"),
         ("glyphs", "LANG=C.UTF-8"),
         ("fps", "15"),
@@ -29,7 +29,7 @@ fn the_doctor_says_what_was_found_and_why() {
 #[test]
 fn the_card_shows_every_set_of_glyphs_also_in_a_pipe() {
     let card = phaselab(&["doctor", "--glyphs"]).success();
-    assert!(card.starts_with("This is no terminal"), "{card}");
+    assert!(card.starts_with("This is not a terminal"), "{card}");
     assert!(!card.contains('\u{1b}'), "{card}");
     for (name, sign) in [
         ("braille   |", '⣿'),
@@ -52,5 +52,5 @@ fn the_card_shows_every_set_of_glyphs_also_in_a_pipe() {
     let home = tempfile::tempdir().expect("a temporary folder");
     let plain = done(program(home.path()).args(["doctor", "--glyphs"]).env("LANG", "C")).success();
     assert!(plain.contains("The locale is not UTF-8"), "{plain}");
-    assert!(plain.contains("ascii is taken here"), "{plain}");
+    assert!(plain.contains("The default here is ascii"), "{plain}");
 }

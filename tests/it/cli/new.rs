@@ -14,7 +14,7 @@ fn a_new_file_runs_and_is_never_written_over() {
     let run = |words: &[&str]| done(program(home.path()).args(words));
     let first = run(&["new", "cart"]);
     assert_eq!((first.code, first.stderr.as_str()), (0, ""));
-    assert_eq!(first.stdout, "cart.toml is written; open it: phaselab ./cart.toml\n");
+    assert_eq!(first.stdout, "cart.toml was written; open it with phaselab ./cart.toml\n");
     let path = home.path().join("cart.toml");
     assert_eq!(fs::read_to_string(&path).unwrap(), template());
     assert_eq!(run(&["check", "cart.toml"]).code, 0);
@@ -23,7 +23,11 @@ fn a_new_file_runs_and_is_never_written_over() {
     fs::write(&path, "mine").unwrap();
     let again = run(&["new", "cart.toml"]);
     assert_eq!((again.code, again.stdout.as_str()), (2, ""));
-    assert!(again.stderr.contains("cart.toml exists and is not written over"), "{}", again.stderr);
+    assert!(
+        again.stderr.contains("cart.toml already exists and was not overwritten"),
+        "{}",
+        again.stderr
+    );
     assert_eq!(fs::read_to_string(&path).unwrap(), "mine");
     assert_eq!(run(&["new", "nowhere/cart"]).code, 74);
     assert_eq!(run(&["new", ".."]).code, 2);

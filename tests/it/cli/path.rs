@@ -199,7 +199,7 @@ fn a_motion_makes_the_abbreviated_action_stationary() {
     let found = path(PLANE, &[&far[..], &vary[..]].concat());
     assert!(found["varied"][0]["abbreviated"].is_null() && found["varied"][0]["action"].is_f64());
     let text = with_file(PLANE, &[&["path", "system.toml"], &far[..], &vary[..]].concat());
-    assert!(text.success().contains("the way leaves the region that its energy allows"));
+    assert!(text.success().contains("the path leaves the region that its energy allows"));
 }
 
 /// In phase space q and p are varied independently: along p the action of an oscillator is greatest.

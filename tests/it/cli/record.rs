@@ -109,7 +109,7 @@ fn what_is_played_is_a_cast_or_a_script() {
         65,
         "it.cast: line 1: casts of version 2 and 3",
     );
-    check(&format!("{head}nonsense"), 65, "it.cast: line 2: this is no event");
+    check(&format!("{head}nonsense"), 65, "it.cast: line 2: this is not an event");
     check("Wiat 1s", 65, "did you mean `Wait`?");
     check("Wait 1s", 65, "does not say which system");
     // everything is correct, but there is no terminal

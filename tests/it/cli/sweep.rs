@@ -162,7 +162,7 @@ fn the_bytes_are_the_same_for_any_number_of_threads_and_shards() {
     assert_eq!(merge(&all).success(), whole);
     merge(&all[1..]).fails(2, &["shard 5 of 5 is missing"]);
     merge(&[&all[..], &["2.csv"]].concat()).fails(2, &["the same shard"]);
-    merge(&["whole.csv"]).fails(2, &["no complete shard"]);
+    merge(&["whole.csv"]).fails(2, &["not a complete shard"]);
     in_folder(
         home.path(),
         &["henon-heiles", "--grid=y=0:1:4", "--until=3", "--shard=1/5", "-o", "other.csv"],

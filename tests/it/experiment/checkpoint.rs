@@ -225,7 +225,7 @@ fn a_constraint_that_the_state_misses_begins_anew_and_says_why() {
     });
     assert_eq!(taken.time(), 0.0);
     let notices = taken.snapshot().notices;
-    assert!(notices.iter().any(|n| n.starts_with("the motion begins anew: ")), "{notices:?}");
+    assert!(notices.iter().any(|n| n.starts_with("the motion starts again: ")), "{notices:?}");
 }
 
 #[test]

@@ -164,7 +164,7 @@ fn more_than_the_most_and_neighbours_under_constraints_are_refused_in_words() {
     }
     let seen = experiment.snapshot();
     assert_eq!(seen.companions.len(), MOST_COMPANIONS);
-    assert_eq!(seen.notices.last().unwrap(), "6 motions beside the main one are the most");
+    assert_eq!(seen.notices.last().unwrap(), "there can be at most 6 motions beside the main one");
     let numbers: Vec<usize> = seen.companions.iter().map(|one| one.number).collect();
     assert_eq!(numbers, [1, 2, 3, 4, 5, 6]);
     let mut held = shipped("rolling-coin");

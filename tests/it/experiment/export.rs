@@ -101,7 +101,7 @@ fn what_a_file_cannot_say_is_reported() {
         sphere.advance(sphere.time() + 0.01, PLENTY);
     }
     let export = exported(&document, &sphere);
-    assert_eq!(export.missing, ["A constraint was let go, so the file begins at the start."]);
+    assert_eq!(export.missing, ["A constraint was released, so the file begins at the start."]);
     assert_eq!(opened(&Document::new("sphere.toml", export.text)).time(), 0.0);
 }
 

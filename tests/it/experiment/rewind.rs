@@ -122,7 +122,7 @@ fn what_came_before_another_law_is_not_gone_back_to() {
     experiment.execute(Command::StepBack(1));
     assert_eq!((experiment.time(), experiment.values()), (2.01, &values[..]));
     let said = experiment.snapshot().notices.last().unwrap().clone();
-    assert_eq!(said, "nothing before t = 2 is known any more");
+    assert_eq!(said, "the motion before t = 2 is no longer recorded");
     run(&mut experiment, 2.1);
     experiment.execute(Command::StepBack(1));
     assert!(experiment.time() < 2.1 && experiment.time() > 2.0);

@@ -84,7 +84,7 @@ fn what_is_not_known_any_more_is_said_and_the_first_time_that_is_shown() {
     experiment.execute(Command::LookAt(1.0));
     let seen = experiment.snapshot();
     assert_eq!((seen.time, seen.recorded.from), (2.0, 2.0));
-    assert_eq!(seen.notices.last().unwrap(), "nothing before t = 2 is known any more");
+    assert_eq!(seen.notices.last().unwrap(), "the motion before t = 2 is no longer recorded");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! A table that is not a Poisson structure is refused with the triple that fails; a false Casimir is refused too.
 
-use phaselab::claims::{false_claims, flaws};
+use phaselab::claims::{false_claims, structure_diagnostics};
 use phaselab::{mechanics, preset};
 
 use super::{BODY, LOTKA_VOLTERRA, TOP};
@@ -9,7 +9,7 @@ use super::{BODY, LOTKA_VOLTERRA, TOP};
 fn told(text: &str) -> Vec<String> {
     let model = preset::read(text).unwrap_or_else(|mistakes| panic!("{mistakes:?}")).model;
     let equations = mechanics::derive(&model).expect("derivable");
-    let found = flaws(&model, &equations);
+    let found = structure_diagnostics(&model, &equations);
     let claims = false_claims(&model, &equations);
     assert_eq!(found.is_empty(), claims.is_empty(), "{claims:?}");
     let line = |m: &phaselab::diagnostic::Diagnostic| {

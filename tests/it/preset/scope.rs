@@ -40,10 +40,10 @@ fn each_place_says_what_it_may_not_use() {
         "the Lagrangian",
         "x''*p_x + action",
         &[
-            "0..3 `x''` may not stand here: the Lagrangian is a function of q, q' and t",
-            "4..7 `p_x` may not stand here: the Lagrangian is a function of q, q' and t; write it \
+            "0..3 `x''` may not be used here: the Lagrangian is a function of q, q' and t",
+            "4..7 `p_x` may not be used here: the Lagrangian is a function of q, q' and t; write it \
              in velocities, or give the law in [hamiltonian]",
-            "10..16 `action` may not stand here: the Lagrangian stands before energy and action, \
+            "10..16 `action` may not be used here: the Lagrangian stands before energy and action, \
              which follow from it",
         ],
     );
@@ -51,7 +51,7 @@ fn each_place_says_what_it_may_not_use() {
         Hamiltonian,
         "a force",
         "2*M",
-        &["2..3 `M` may not stand here: it uses `x'`, and a force is a function of q, p and t; \
+        &["2..3 `M` may not be used here: it uses `x'`, and a force is a function of q, p and t; \
            write it in momenta, or give the law in [lagrangian]"],
     );
     check(
@@ -59,9 +59,9 @@ fn each_place_says_what_it_may_not_use() {
         "an initial value",
         "V + t",
         &[
-            "0..1 `V` may not stand here: it uses `x`, and an initial value is made of parameters \
+            "0..1 `V` may not be used here: it uses `x`, and an initial value is made of parameters \
              only",
-            "4..5 `t` may not stand here: an initial value is made of parameters only",
+            "4..5 `t` may not be used here: an initial value is made of parameters only",
         ],
     );
 }

@@ -167,7 +167,7 @@ fn what_is_false_is_a_mistake() {
     check("Predict \"?\" r within 0\nWait 3s\nOutcome\n", "nobody predicts a number exactly");
     check("Predict \"?\" r within 1\nWait 3s\n", "is never shown");
     check("Wait 1s\nOutcome\n", "no question waits");
-    check("Task \"t\" until e < 0.5\nWait 1s\n", "nobody knows");
+    check("Task \"t\" until e < 0.5\nWait 1s\n", "nothing shows");
     check("Task \"t\" until e < 0.7\nSolution r\nWait 1s\n", "done before it begins");
     check("Task \"t\" until e < 0.5\nSolution r\nWait 1s\n", "the solution does not do this");
     check("Wait 1s\n", "this is a demo");

@@ -77,7 +77,9 @@ fn mistakes_stand_in_their_places() {
     check("Press Tab", &[]);
     check(
         "Set l = 2",
-        &["1:10 nothing is to be seen: no time passes in this script; let it pass with `Wait 2s`"],
+        &[
+            "1:10 there is nothing to see: no time passes in this script; let it pass with `Wait 2s`",
+        ],
     );
     check("Set l 2\nWait 1s", &["1:8 here `=` is missing"]);
     check(

@@ -57,7 +57,7 @@ fn the_help_begins_here_and_is_searched() {
     assert!(left.0 < 20 && right.0 > 90, "{left:?} {right:?}");
     press(&mut app, "/ c u r s o r Space r e a d s");
     let buffer = screen(&app, &rich(), (80, 24));
-    assert!(find(&buffer, "put a cursor on the plot").is_some(), "{:#?}", rows(&buffer));
+    assert!(find(&buffer, "show or hide a cursor").is_some(), "{:#?}", rows(&buffer));
     assert!(find(&buffer, "stretch the horizontal").is_none());
     press(&mut app, "x x x");
     assert!(find(&screen(&app, &rich(), (80, 24)), "No match").is_some());
@@ -307,7 +307,7 @@ fn a_mistake_in_a_field_is_read_beside_it() {
     press(&mut app, "Enter Ctrl-u 2 x Enter");
     let look = rich();
     let buffer = screen(&app, &look, (120, 40));
-    let at = find(&buffer, "`2x` is no number").unwrap();
+    let at = find(&buffer, "`2x` is not a number").unwrap();
     assert_eq!(buffer[at].fg, look.theme[Role::Bad].fg.unwrap());
     assert!(find(&buffer, "m = 2x").is_some(), "what was typed is still there");
 }
@@ -848,6 +848,40 @@ fn the_palette_names_keys_and_says_what_it_had_to_cut() {
 }
 
 #[test]
+fn two_mechanics_side_by_side_are_called_right_and_wrong() {
+    let shown = |name: &str| {
+        let loaded = loaded(name, 1);
+        let seen = snapshot(&loaded, 1.0);
+        let (mut app, _) = App::new(crate::hand::catalog(), Some(name));
+        app.update(Event::Loaded(Ok(loaded)));
+        app.update(Event::Snapshot(Arc::new(seen)));
+        screen(&app, &rich(), (120, 40))
+    };
+    for name in ["rolling-disc", "knife-edge"] {
+        let buffer = shown(name);
+        let [right, wrong] = ["right", "wrong"].map(|which| {
+            let at = find(&buffer, &format!("━ {which} mechanics")).expect(which);
+            buffer[at].fg
+        });
+        assert_ne!(right, wrong, "{name}: each has the colour of its trace");
+    }
+    assert!(find(&shown("pendulum"), "mechanics ").is_none());
+}
+
+#[test]
+fn a_verdict_is_short_where_the_name_of_the_gauge_is_long() {
+    let mut app = in_lab();
+    let mut seen = snapshot(&pendulum(), 2.0);
+    let named = |name: &str| gauge(name, name, 1.0, Verdict::Exact(Growth::Level));
+    seen.gauges = vec![named("area"), named("weight less tension")].into();
+    app.update(Event::Snapshot(Arc::new(seen)));
+    let text = rows(&screen(&app, &rich(), (120, 40)));
+    let row = |name: &str| text.iter().find(|row| row.contains(name)).unwrap();
+    assert!(row(" area ").contains("conserved (exact)"), "{text:#?}");
+    assert!(row("weight less tension ").contains(" exact "), "{text:#?}");
+}
+
+#[test]
 fn a_gauge_says_in_full_why_it_is_watched() {
     let mut app = in_lab();
     let why = "[G, H] + ∂G/∂t = 0, proved by the canonical bracket";
@@ -897,7 +931,9 @@ fn names_are_whole_or_not_there_and_cuts_are_marked() {
     for width in 40..120 {
         let head = rows(&screen(&in_lab(), &rich(), (width, 20)))[0].clone();
         let name = head.split_whitespace().next().unwrap();
-        assert!(name == "phaselab" || name == "1", "{width}: {head}");
+        assert!(["phaselab", "Simple", "1"].contains(&name), "{width}: {head}");
+        let cut = ["Simpl…", "Simpl ", "Lab…", "Equation…"];
+        assert!(cut.iter().all(|cut| !head.contains(cut)), "{width}: {head}");
     }
     // The longest meaning of a parameter, in fewer rows than it needs.
     let loaded = loaded("heavy-top", 1);

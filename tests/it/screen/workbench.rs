@@ -69,7 +69,7 @@ fn a_mistake_is_underlined_marked_and_told_below() {
     let sheet = app.workbench.top_mut().unwrap();
     let (from, to) = (Caret { row: 2, column: 10 }, Caret { row: 2, column: 13 });
     let (message, help) = ("it is not so".to_owned(), Some("write it so".to_owned()));
-    sheet.flaws = vec![BufferDiagnostic { from, to, warning: false, message, help }];
+    sheet.diagnostics = vec![BufferDiagnostic { from, to, warning: false, message, help }];
     sheet.state = SheetState::Wrong;
     for (look, mark) in [(rich(), "✗"), (plain(), "x")] {
         let buffer = screen(&app, &look, (80, 24));

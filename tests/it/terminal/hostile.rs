@@ -250,12 +250,12 @@ fn what_is_no_longer_loaded_or_checked_leaves_no_thread() {
     let place = folder.path().join("heavy.toml");
     fs::write(&place, heavy()).expect("written");
     let mut lab = Setup::new(PROGRAM, &[]).argument(&place).size(120, 40).start();
-    lab.shows("Esc stops it");
+    lab.shows("Esc cancels");
     // a thread has its name a moment after it was begun
     lab.until("it is being loaded", |lab| threads(lab).iter().any(|name| name.trim() == "loader"));
     std::thread::sleep(Duration::from_millis(500));
     lab.press("\x1b");
-    lab.shows("no longer being loaded");
+    lab.shows("was cancelled");
     lab.until("its thread has ended", |lab| {
         threads(lab).iter().all(|name| name.trim() != "loader")
     });
@@ -280,7 +280,7 @@ fn a_signal_while_something_is_loaded_ends_it() {
     fs::write(&place, heavy()).expect("written");
     for key in [None, Some("\x03"), Some("q")] {
         let mut lab = Setup::new(PROGRAM, &[]).argument(&place).size(120, 40).start();
-        lab.shows("Esc stops it");
+        lab.shows("Esc cancels");
         match key {
             None => lab.signal(rustix::process::Signal::TERM),
             Some(key) => lab.press(key),
@@ -296,7 +296,7 @@ fn a_right_text_is_taken_although_a_heavy_one_is_being_loaded() {
     let place = folder.path().join("own.toml");
     fs::write(&place, heavy()).expect("written");
     let mut lab = Setup::new(PROGRAM, &["--watch"]).argument(&place).size(120, 40).start();
-    lab.shows("Esc stops it");
+    lab.shows("Esc cancels");
     fs::write(&place, RIGHT).expect("written");
     lab.shows("running");
     // and the same once it runs
@@ -317,7 +317,7 @@ fn a_file_that_becomes_a_pipe_freezes_nothing() {
     lab.shows("running");
     fs::remove_file(&place).expect("it goes");
     mknodat(CWD, &place, FileType::Fifo, Mode::RUSR | Mode::WUSR, 0).expect("a pipe");
-    lab.shows("no longer there");
+    lab.shows("no longer exists");
     lab.press(" ");
     lab.shows("paused");
     // failures to save it and to read it again are reported with their reason

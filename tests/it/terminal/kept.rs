@@ -119,7 +119,8 @@ fn a_session_that_cannot_be_resumed_is_reported_before_the_screen_is_touched() {
     assert_eq!(none.ends().0, 2);
     assert!(none.sent().contains("there is no session to resume"), "{}", none.sent());
     fs::create_dir_all(state.path().join("phaselab")).expect("a folder");
-    for (text, message) in [("version = 9\n", "newer phaselab"), ("version = ]\n", "is no session")]
+    for (text, message) in
+        [("version = 9\n", "newer phaselab"), ("version = ]\n", "is not a session")]
     {
         fs::write(file(state.path()), text).expect("it is written");
         let mut lab = lab(&["--resume"], state.path());
@@ -182,7 +183,7 @@ fn what_is_typed_in_a_second_program_outlives_a_signal() {
     std::os::unix::fs::symlink(&place, &link).expect("a link");
     for spelled in [folder.path().join("./own.toml"), link] {
         let mut again = lab(&[spelled.to_str().expect("text")], state.path());
-        again.shows("E goes to them");
+        again.shows("E shows them");
         again.press("E");
         again.shows("# mine");
         again.signal(Signal::TERM);
@@ -238,8 +239,8 @@ fn edited(state: &Path, place: &Path) -> Session {
     lab.press("# mine\r");
     lab.shows("rebuilt in");
     lab.press("\x1b");
-    lab.shows("E goes back to it");
-    lab.until("the editor is closed", |lab| !lab.text().contains("Esc leave"));
+    lab.shows("E returns to it");
+    lab.until("the editor is closed", |lab| !lab.text().contains("Esc close"));
     lab
 }
 
@@ -264,7 +265,7 @@ fn a_text_that_is_not_saved_is_kept_on_every_way_out() {
     assert!(kept().contains("# mine"));
     // it is restored when its system is opened again, however the program then ends
     let mut again = lab(&[place.to_str().expect("text")], state.path());
-    again.shows("E goes to them");
+    again.shows("E shows them");
     again.press("E");
     again.shows("# mine");
     again.press("# more\r");
@@ -275,7 +276,7 @@ fn a_text_that_is_not_saved_is_kept_on_every_way_out() {
     assert!(kept().contains("# more") && kept().contains("# mine"), "{}", kept());
     // also if the terminal is closed, and if the session is resumed
     let mut resumed = lab(&["--resume"], state.path());
-    resumed.shows("E goes to them");
+    resumed.shows("E shows them");
     resumed.press("E");
     resumed.shows("rebuilt in");
     resumed.press("# last\r");
@@ -284,13 +285,13 @@ fn a_text_that_is_not_saved_is_kept_on_every_way_out() {
     assert!(kept().contains("# last") && kept().contains("# mine"), "{}", kept());
     // what is in the file need not be in the session
     let mut saved = lab(&["--resume"], state.path());
-    saved.shows("E goes to them");
+    saved.shows("E shows them");
     saved.press("E");
     saved.shows("rebuilt in");
     saved.press("\x13");
     saved.shows("Saved: ");
     saved.press("\x1b");
-    saved.until("the editor is closed", |lab| !lab.text().contains("Esc leave"));
+    saved.until("the editor is closed", |lab| !lab.text().contains("Esc close"));
     saved.press("q");
     assert_eq!(saved.ends().0, 0);
     assert!(!texts.exists());
@@ -305,7 +306,7 @@ fn a_text_that_cannot_be_kept_is_not_lost_at_the_first_q() {
     fs::remove_dir_all(&place).expect("it is there");
     fs::write(&place, "in the way").expect("it is written");
     lab.press("q");
-    lab.shows("quit again to lose them");
+    lab.shows("quit again to discard them");
     lab.press("q");
     assert_eq!(lab.ends().0, 74);
     lab.assert_restored();

@@ -55,7 +55,7 @@ fn quits_from_bench(mut lab: Session, place: &Path) {
     let saved = fs::read_to_string(place).expect("it is there");
     assert_eq!(saved, FILE.replace("k = 4.0", "k = 9.0"));
     lab.press("\x1b");
-    lab.until("the editor is closed", |lab| !lab.text().contains("Esc leave"));
+    lab.until("the editor is closed", |lab| !lab.text().contains("Esc close"));
     lab.shows("running");
     quits(lab);
 }
@@ -72,10 +72,12 @@ fn a_file_saved_elsewhere_is_taken_up_and_mistakes_do_not_stop_the_motion() {
     fs::write(&place, right).expect("it can be written");
     lab.shows("Another name");
     lab.shows("rebuilt in");
-    lab.until("the mistake is forgotten", |lab| !lab.text().contains("what was right goes on"));
+    lab.until("the mistake is forgotten", |lab| {
+        !lab.text().contains("still running the last valid version")
+    });
     let text = fs::read_to_string(&place).expect("it is there");
     fs::remove_file(&place).expect("it goes");
-    lab.shows("is no longer there");
+    lab.shows("no longer exists");
     fs::write(&place, text).expect("it can be written");
     lab.shows("is there again");
     quits(lab);
@@ -125,7 +127,7 @@ fn a_long_paste_is_taken_into_the_text() {
     lab.press("\x1b[201~");
     lab.shows("too long");
     lab.press("\x1b");
-    lab.until("the editor is closed", |lab| !lab.text().contains("Esc leave"));
+    lab.until("the editor is closed", |lab| !lab.text().contains("Esc close"));
     lab.press("q");
     assert_eq!(lab.ends().0, 0);
 }

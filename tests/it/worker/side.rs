@@ -85,7 +85,7 @@ fn progress_never_becomes_less() {
 fn a_panic_on_the_side_is_reported() {
     let mut side: Side<()> = Side::new("test");
     side.begin(1, Job::new("the search", |_| panic!("there is a hole")));
-    let told = "the search stopped by a defect of the program: there is a hole".to_owned();
+    let told = "the search stopped by a bug in phaselab: there is a hole".to_owned();
     assert_eq!(until(|| side.take()), (1, Outcome::Failed(told)));
     // and another job can begin
     side.begin(2, Job::new("nothing", |_| ()));

@@ -7,12 +7,66 @@ use super::letter::faded;
 use super::{Pen, Raster};
 use crate::view::glyphs::Glyphs;
 use crate::view::plot::scale::Frame;
+use crate::view::theme::Shade;
 
 /// The coverage below which a line is shading and, in ASCII, drawn as single dots.
 const FAINT: f64 = 0.3;
 
+impl Raster {
+    /// Draws a straight line between two points of the frame, clipped.
+    pub fn line(&mut self, frame: &Frame, a: [f64; 2], b: [f64; 2], pen: &Pen) {
+        self.polyline(frame, [a, b], pen);
+    }
+
+    /// Draws a line through points. It is broken at points without a position (NaN) and where it wraps around an axis.
+    pub fn polyline(
+        &mut self,
+        frame: &Frame,
+        points: impl IntoIterator<Item = [f64; 2]>,
+        pen: &Pen,
+    ) {
+        let mut line = Polyline::new(self, frame);
+        for point in points {
+            line.to(point, pen);
+        }
+        line.rest();
+    }
+
+    /// Draws a line through points, each with the number of the pen that leads to it.
+    pub fn polyline_in(
+        &mut self,
+        frame: &Frame,
+        points: impl IntoIterator<Item = ([f64; 2], usize)>,
+        pens: &[Pen],
+    ) {
+        let mut line = Polyline::new(self, frame);
+        for (point, pen) in points {
+            if let Some(pen) = pens.get(pen) {
+                line.to(point, pen);
+            }
+        }
+        line.rest();
+    }
+
+    /// Draws a fading trail, oldest point first: the points are divided among the steps of a ramp.
+    pub fn trail(&mut self, frame: &Frame, points: &[[f64; 2]], ramp: &[Shade], layer: u8) {
+        if ramp.is_empty() {
+            return;
+        }
+        let pens: Vec<Pen> =
+            ramp.iter().enumerate().map(|(age, shade)| Pen::aged(*shade, layer, age)).collect();
+        let mut line = Polyline::new(self, frame);
+        for (index, point) in points.iter().enumerate() {
+            let age = ((index + 1) * ramp.len()).div_ceil(points.len()) - 1;
+            line.fade(age, ramp.len());
+            line.to(*point, &pens[age]);
+        }
+        line.rest();
+    }
+}
+
 /// Draws a line through points in data coordinates; [`Polyline::rest`] ends it.
-pub(super) struct Polyline<'a, 'p> {
+struct Polyline<'a, 'p> {
     raster: &'a mut Raster,
     course: Course<DotStyle<'p>>,
     /// The age and the number of ages of a trail, which choose the character in ASCII.
@@ -21,18 +75,18 @@ pub(super) struct Polyline<'a, 'p> {
 
 impl<'a, 'p> Polyline<'a, 'p> {
     /// Creates a polyline without points.
-    pub(super) fn new(raster: &'a mut Raster, frame: &Frame) -> Self {
+    fn new(raster: &'a mut Raster, frame: &Frame) -> Self {
         let course = Course::new(frame, raster.size());
         Self { raster, course, fading: None }
     }
 
     /// Sets the age of the following part of the line, one of `ages` steps.
-    pub(super) fn fade(&mut self, age: usize, ages: usize) {
+    fn fade(&mut self, age: usize, ages: usize) {
         self.fading = Some((age, ages));
     }
 
     /// Continues the line to a point.
-    pub(super) fn to(&mut self, point: [f64; 2], pen: &'p Pen) {
+    fn to(&mut self, point: [f64; 2], pen: &'p Pen) {
         let sign = self.sign(pen);
         // Lines of characters are drawn cell by cell.
         let grid = if sign.is_some() { self.raster.cell() } else { [1, 1] };
@@ -43,7 +97,7 @@ impl<'a, 'p> Polyline<'a, 'p> {
     }
 
     /// Ends the line; a line of one point is a dot.
-    pub(super) fn rest(&mut self) {
+    fn rest(&mut self) {
         let raster = &mut *self.raster;
         self.course.rest(&mut |dot, inked| inked.put(raster, dot));
     }

@@ -31,12 +31,12 @@ fn all(app: &App, (width, height): (u16, u16)) -> Vec<((u16, u16), HitTarget)> {
 
 /// The positions of a target.
 fn places(app: &App, size: (u16, u16), is: impl Fn(&HitTarget) -> bool) -> Vec<(u16, u16)> {
-    all(app, size).into_iter().filter(|(_, spot)| is(spot)).map(|(place, _)| place).collect()
+    all(app, size).into_iter().filter(|(_, target)| is(target)).map(|(place, _)| place).collect()
 }
 
 fn act(real: &mut Real, size: (u16, u16), act: MouseEventKind, place: (u16, u16)) {
-    let Some(spot) = at(&real.app, size, place) else { return };
-    let effects = real.app.update(Event::Mouse(act, spot));
+    let Some(target) = at(&real.app, size, place) else { return };
+    let effects = real.app.update(Event::Mouse(act, target));
     real.execute(effects);
     real.look();
 }
@@ -63,10 +63,10 @@ fn every_line_of_a_list_is_where_it_is_drawn() {
         let buffer = screen(&app, &rich(), size);
         let text = rows(&buffer);
         let mut seen = Vec::new();
-        for (place, spot) in all(&app, size) {
+        for (place, target) in all(&app, size) {
             let row = &text[usize::from(place.1)];
-            let named = |name: &str| assert!(row.contains(name), "{spot:?} at {place:?}: {row}");
-            match spot {
+            let named = |name: &str| assert!(row.contains(name), "{target:?} at {place:?}: {row}");
+            match target {
                 HitTarget::Value(target) | HitTarget::Bar { target, .. } => {
                     let shown = app.lab.as_ref().unwrap().value_info(target).unwrap().shown;
                     named(&rich().glyphs.text(&shown));
@@ -80,7 +80,7 @@ fn every_line_of_a_list_is_where_it_is_drawn() {
                 }
                 _ => {}
             }
-            let kind = format!("{spot:?}").split([' ', '(']).next().unwrap().to_owned();
+            let kind = format!("{target:?}").split([' ', '(']).next().unwrap().to_owned();
             if !seen.contains(&kind) {
                 seen.push(kind);
             }
@@ -100,7 +100,7 @@ fn every_pane_answers_in_its_own_frame() {
         for _ in &panes {
             press(&mut app, "Tab");
             let focus = app.lab.as_ref().unwrap().focus;
-            let belongs = |spot: &HitTarget| match *spot {
+            let belongs = |target: &HitTarget| match *target {
                 HitTarget::Pane(pane) => pane == focus,
                 HitTarget::Plot { index, .. } | HitTarget::Space { index, .. } => {
                     focus == Pane::Plot(index)
@@ -112,7 +112,7 @@ fn every_pane_answers_in_its_own_frame() {
                 _ => false,
             };
             let found = all(&app, size);
-            let cells = found.iter().filter(|(_, spot)| belongs(spot)).count();
+            let cells = found.iter().filter(|(_, target)| belongs(target)).count();
             assert!(cells >= 6, "{focus:?} at {size:?}: {cells} of {}", found.len());
         }
     }
@@ -123,18 +123,20 @@ fn the_coordinates_of_a_place_are_those_of_the_axes() {
     // The cursor and the mouse read the same in a cell, to half a dot of eight.
     for size in [(80, 24), (120, 40), (200, 60)] {
         let app = in_lab();
-        for (place, spot) in all(&app, size) {
-            let HitTarget::Plot { index, place: [x, y], at: coordinates } = spot else { continue };
+        for (place, target) in all(&app, size) {
+            let HitTarget::Plot { index, place: [x, y], at: coordinates } = target else {
+                continue;
+            };
             if place.0 % 7 != 0 || place.1 % 3 != 0 {
                 continue;
             }
-            assert!((0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y), "{spot:?}");
+            assert!((0.0..=1.0).contains(&x) && (0.0..=1.0).contains(&y), "{target:?}");
             let mut marked = app.clone();
             let lab = marked.lab.as_mut().unwrap();
             let viewport = lab.plots[index].viewport_mut().expect("it has axes");
             viewport.cursor = Some([x, y]);
             let buffer = screen(&marked, &rich(), size);
-            assert_eq!(buffer[place].symbol(), "┼", "{spot:?} at {place:?}");
+            assert_eq!(buffer[place].symbol(), "┼", "{target:?} at {place:?}");
             // The reading in the corner agrees, in all its digits, with the mouse.
             let reading: String = rows(&buffer).concat();
             let [x, y] =
@@ -152,7 +154,7 @@ fn a_click_throws_the_pendulum_to_another_beginning() {
     let start = real.seen().initial.clone();
     let spots = all(&real.app, size);
     let pick = |want: [f64; 2]| {
-        let far = |spot: &HitTarget| match spot {
+        let far = |target: &HitTarget| match target {
             HitTarget::Plot { index: 1, at, .. } => {
                 (at[0] - want[0]).abs() + (at[1] - want[1]).abs()
             }
@@ -160,8 +162,8 @@ fn a_click_throws_the_pendulum_to_another_beginning() {
         };
         spots.iter().min_by(|a, b| far(&a.1).total_cmp(&far(&b.1))).copied().unwrap()
     };
-    let (place, spot) = pick([-1.0, 2.0]);
-    let HitTarget::Plot { at: [theta, momentum], .. } = spot else { panic!("{spot:?}") };
+    let (place, target) = pick([-1.0, 2.0]);
+    let HitTarget::Plot { at: [theta, momentum], .. } = target else { panic!("{target:?}") };
     click(&mut real, size, place);
     assert_eq!(real.seen().time, 0.0, "it begins anew");
     assert_eq!(real.seen().initial[0].to_bits(), theta.to_bits());
@@ -180,8 +182,8 @@ fn a_click_in_another_plot_reads_the_coordinates() {
     let mut real = Real::of("pendulum");
     real.run(100);
     let spots = all(&real.app, size);
-    let time = |spot: &HitTarget| matches!(spot, HitTarget::Plot { index: 2, .. });
-    let inside: Vec<_> = spots.iter().filter(|(_, spot)| time(spot)).collect();
+    let time = |target: &HitTarget| matches!(target, HitTarget::Plot { index: 2, .. });
+    let inside: Vec<_> = spots.iter().filter(|(_, target)| time(target)).collect();
     let (place, _) = *inside[inside.len() / 2];
     click(&mut real, size, place);
     let buffer = screen(&real.app, &rich(), size);
@@ -194,8 +196,8 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
     let size = (120, 40);
     let mut real = Real::of("pendulum");
     let before = real.seen().parameters.clone();
-    let bar = places(&real.app, size, |spot| {
-        matches!(spot, HitTarget::Bar { target: ValueId::Parameter(1), .. })
+    let bar = places(&real.app, size, |target| {
+        matches!(target, HitTarget::Bar { target: ValueId::Parameter(1), .. })
     });
     assert!(bar.len() > 8, "{bar:?}");
     act(&mut real, size, Down(Left), bar[2]);
@@ -220,11 +222,11 @@ fn a_bar_is_dragged_and_taken_back_in_one_step() {
 
 /// A position in the middle of a picture.
 fn inside(app: &App, size: (u16, u16), picture: usize) -> (u16, u16) {
-    let here = |spot: &HitTarget| match *spot {
+    let here = |target: &HitTarget| match *target {
         HitTarget::Plot { index, .. } | HitTarget::Space { index, .. } => index == picture,
         _ => false,
     };
-    let places: Vec<_> = all(app, size).into_iter().filter(|(_, spot)| here(spot)).collect();
+    let places: Vec<_> = all(app, size).into_iter().filter(|(_, target)| here(target)).collect();
     places[places.len() / 2].0
 }
 
@@ -336,7 +338,7 @@ fn a_value_is_selected_by_one_click_and_typed_by_two() {
     let size = (120, 40);
     let mut real = Real::of("pendulum");
     let value = HitTarget::Value(ValueId::Parameter(2));
-    let place = places(&real.app, size, |spot| *spot == value)[0];
+    let place = places(&real.app, size, |target| *target == value)[0];
     click(&mut real, size, place);
     assert_eq!(real.lab().selected(), Some(ValueId::Parameter(2)));
     assert!(real.app.overlay.is_none());
@@ -350,22 +352,22 @@ fn the_wheel_scrolls_text_and_lists() {
     press(&mut app, "2");
     let (_, drawn) = super::drawn(&app, &rich(), (80, 16));
     app.update(Event::Drawn(drawn));
-    let spot = at(&app, (80, 16), (20, 8)).unwrap();
-    assert_eq!(spot, HitTarget::Text);
-    app.update(Event::Mouse(ScrollDown, spot));
+    let target = at(&app, (80, 16), (20, 8)).unwrap();
+    assert_eq!(target, HitTarget::Text);
+    app.update(Event::Mouse(ScrollDown, target));
     assert!(app.scroll > 0 && app.scroll <= 3, "{}", app.scroll);
-    app.update(Event::Mouse(ScrollUp, spot));
+    app.update(Event::Mouse(ScrollUp, target));
     assert_eq!(app.scroll, 0);
 
     let mut app = at_picker();
     let before = app.picker.selected;
-    let spot = at(&app, (80, 24), (6, 12)).unwrap();
-    app.update(Event::Mouse(ScrollUp, spot));
+    let target = at(&app, (80, 24), (6, 12)).unwrap();
+    app.update(Event::Mouse(ScrollUp, target));
     assert_eq!(app.picker.selected, before - 1);
     let systems: Vec<usize> = all(&app, (80, 24))
         .into_iter()
         .filter_map(
-            |(_, spot)| if let HitTarget::System(place) = spot { Some(place) } else { None },
+            |(_, target)| if let HitTarget::System(place) = target { Some(place) } else { None },
         )
         .collect();
     let other = systems.into_iter().find(|place| *place != app.picker.selected).unwrap();
@@ -374,9 +376,9 @@ fn the_wheel_scrolls_text_and_lists() {
 
     let mut app = in_lab();
     press(&mut app, ":");
-    let spot = at(&app, (80, 24), (20, 8)).unwrap();
-    assert!(matches!(spot, HitTarget::Line(_)), "{spot:?}");
-    app.update(Event::Mouse(ScrollDown, spot));
+    let target = at(&app, (80, 24), (20, 8)).unwrap();
+    assert!(matches!(target, HitTarget::Line(_)), "{target:?}");
+    app.update(Event::Mouse(ScrollDown, target));
     let Some(Overlay::Menu(menu)) = &app.overlay else { panic!("the palette is gone") };
     assert_eq!(menu.selected, 1);
 }
@@ -395,9 +397,9 @@ fn nothing_is_under_a_place_that_shows_nothing() {
     assert_eq!(at(&app, (80, 24), (5, 5)), None);
     let effects = app.update(Event::Mouse(Drag(Left), HitTarget::Text));
     assert!(effects.is_empty());
-    let spot = HitTarget::Bar { target: ValueId::Parameter(99), value: f64::NAN };
+    let target = HitTarget::Bar { target: ValueId::Parameter(99), value: f64::NAN };
     for act in [Down(Left), Drag(Left), Up(Left), ScrollDown] {
-        let effects = app.update(Event::Mouse(act, spot));
+        let effects = app.update(Event::Mouse(act, target));
         let harmless = |e: &phaselab::app::Effect| {
             !matches!(e, phaselab::app::Effect::Tell(Command::Parameter { .. }))
         };
@@ -409,7 +411,7 @@ fn nothing_is_under_a_place_that_shows_nothing() {
 fn what_is_held_is_let_go_when_the_keys_lead_elsewhere() {
     let size = (120, 40);
     let mut real = Real::of("pendulum");
-    let bar = places(&real.app, size, |spot| matches!(spot, HitTarget::Bar { .. }));
+    let bar = places(&real.app, size, |target| matches!(target, HitTarget::Bar { .. }));
     act(&mut real, size, Down(Left), bar[0]);
     assert!(real.app.hold.is_some());
     real.press("2");

@@ -1,0 +1,21 @@
+//! What is recorded along a motion to detect singular configurations of its constraints.
+//!
+//! In: samples and states. Out: what the detection compares. Never here: the detection.
+
+use crate::system::{Directions, State};
+
+/// The data recorded to detect singular configurations of one motion.
+#[derive(Clone, Debug, Default)]
+pub(super) struct SingularityRecord {
+    /// The time of the last sample, and its directions.
+    pub(super) seen: Option<(f64, Directions)>,
+    /// Passages before the end of the last step that the current state has not reached.
+    pub(super) ahead: Vec<f64>,
+    pub(super) passed: u64,
+    pub(super) first: Option<f64>,
+    /// A state before steps became much shorter, and the step there.
+    pub(super) regular: Option<State>,
+    pub(super) regular_step: f64,
+    /// The state at which it last began or continued.
+    pub(super) begun: Option<State>,
+}
