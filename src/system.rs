@@ -8,6 +8,7 @@
 
 mod attitude;
 mod batch_series;
+mod batch_terms;
 mod branch;
 mod channel;
 mod compiled;
@@ -51,6 +52,7 @@ mod value;
 mod variational;
 
 pub use batch_series::BatchSeries;
+pub use batch_terms::BatchTerms;
 pub use branch::Branch;
 pub use channel::{Channel, ChannelKind};
 pub use compiled::{CompileError, System};

@@ -156,7 +156,7 @@ impl Taylor {
             let reason = format!("the tolerance {tolerance:e} is not between 1e-30 and 1");
             return Err(MethodError { method: METHOD.name, reason });
         }
-        let order = step_size::order_for(tolerance);
+        let order = step_size::order_for(tolerance, system.degrees());
         let exact = if tolerance < EXACT_BELOW { EXACT_ORDERS } else { 0 };
         let state = State::new(0.0, system.form(), vec![0.0; system.state_len()]);
         let series = system.series(order, exact);

@@ -363,6 +363,11 @@ impl System {
         TermWatch::new(self.clone(), &self.shared.terms, parameters)
     }
 
+    /// The program of these terms.
+    pub(super) fn terms_of_native_states(&self) -> &Arc<Program> {
+        self.shared.terms.native()
+    }
+
     pub(super) fn constrained(&self) -> Option<&Constrained> {
         self.shared.constraints.as_ref()
     }

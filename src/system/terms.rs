@@ -122,6 +122,13 @@ impl Quantities {
     }
 }
 
+impl Terms {
+    /// The program of the terms as functions of a state in the native form, action and work.
+    pub(super) fn native(&self) -> &Arc<Program> {
+        &self.native
+    }
+}
+
 /// Evaluates the quantities of one system's states at one set of parameters. It owns its registers.
 #[derive(Clone, Debug)]
 pub struct TermWatch {
@@ -195,6 +202,13 @@ impl TermWatch {
         self.outputs.clear();
         self.outputs.extend(terms.outputs());
         looked
+    }
+
+    /// Takes the terms of a state, and the work done, that were evaluated elsewhere.
+    pub fn take(&mut self, terms: impl Iterator<Item = f64>, work: f64) {
+        self.outputs.clear();
+        self.outputs.extend(terms);
+        self.work = work;
     }
 
     fn take_in(&mut self, state: &State) {
