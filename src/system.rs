@@ -15,6 +15,8 @@ mod compiled;
 mod conditions;
 mod consistent_initial;
 mod constrained;
+mod constraint_programs;
+mod constraint_span;
 mod conversion;
 mod discontinuities;
 mod error;

@@ -3,7 +3,8 @@
 //! In: a model with constraints. Out: their programs, and the active set where the file's motion begins. Never here: the
 //! states of a motion.
 
-use super::conditions::{Conditions, Programs};
+use super::conditions::Conditions;
+use super::constraint_programs::ConstraintPrograms;
 use super::inertia::Inertia;
 use super::kkt::ConstraintSystem;
 use super::rhs::ProgramBuilder;
@@ -15,7 +16,7 @@ use crate::num::DoubleDouble;
 /// What is known of the constraints before any state.
 #[derive(Clone, Debug)]
 pub(super) struct Constrained {
-    pub(super) programs: Programs,
+    pub(super) programs: ConstraintPrograms,
     pub(super) names: Vec<String>,
     /// Whether any constraint involves each coordinate's velocity.
     pub(super) touched: Vec<bool>,
@@ -54,7 +55,7 @@ impl Constrained {
             builder.kkt = ConstraintSystem::of(&mut builder.pool, builder.equations, false, false);
             return Ok(None);
         }
-        let programs = Programs::of(builder)?;
+        let programs = ConstraintPrograms::of(builder)?;
         let enforced = independent_at_start(model, builder, &programs, inertia)?;
         let redundant = enforced.contains(&false);
         let released = model.events.iter().any(|e| matches!(e.action, Action::Release(_)));
@@ -79,7 +80,7 @@ impl Constrained {
 fn independent_at_start(
     model: &Model,
     builder: &mut ProgramBuilder<'_>,
-    programs: &Programs,
+    programs: &ConstraintPrograms,
     inertia: Option<&Inertia>,
 ) -> Result<Vec<bool>, Symbol> {
     let count = builder.equations.constraints.len();

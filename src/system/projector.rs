@@ -4,8 +4,9 @@
 //! are enforced, and the constraint forces along the motion, which are outputs of the programs.
 
 use super::active_set::ActiveSet;
-use super::conditions::{Conditions, ConstraintSpan};
+use super::conditions::Conditions;
 use super::consistent_initial;
+use super::constraint_span::ConstraintSpan;
 use super::error::{MotionError, MotionErrorKind};
 use super::projection::{Projection, ProjectionError};
 use super::value::Evaluator;
