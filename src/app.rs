@@ -37,6 +37,7 @@ mod mend;
 mod menu;
 mod nearest;
 mod notification;
+mod open;
 mod page;
 mod palette;
 mod pane;

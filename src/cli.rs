@@ -40,6 +40,7 @@ mod open;
 mod orbit;
 mod output;
 mod path;
+mod path_function;
 mod play;
 mod record;
 mod report;

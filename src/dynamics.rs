@@ -8,6 +8,7 @@ mod action;
 mod carrier;
 mod conformal;
 mod conjugate;
+mod continuation;
 mod drive;
 mod driven_orbit;
 mod equilibria;
@@ -35,12 +36,13 @@ pub use action::{Lagrangian, Path};
 pub use carrier::Carrier;
 pub use conformal::conformal_rate;
 pub use conjugate::conjugate_points;
+pub use continuation::family;
 pub use driven_orbit::driven_orbit;
 pub use equilibria::{
     Equilibria, Equilibrium, Kind, Mode, equilibria, equilibria_watched, with_virtual_work,
 };
 pub use error::DynamicsError;
-pub use family::{Along, Bifurcation, Family, Member, family};
+pub use family::{Along, Bifurcation, Family, Member};
 pub use flow_map::{FlowMap, flow_map};
 pub use gali::{Gali, gali};
 pub use lyapunov::{Chaos, Lyapunov, lyapunov};

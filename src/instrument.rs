@@ -6,6 +6,7 @@
 //! colours (`view` draws any picture), keys, threads.
 
 mod action;
+mod answer;
 mod conditions;
 mod diagram;
 mod ensemble;
@@ -33,16 +34,16 @@ mod time;
 mod transformation;
 mod varied;
 
+pub use answer::{Answer, Need};
 pub use equilibria::{
     FoundEquilibria, described, described_mode, displaced, equilibria_search, start_along,
     start_at, value_at,
 };
 pub use exponents::largest_exponent;
-pub use kind::{Answer, Axis, Instrument, Measure, Need, NoStart, Offer};
+pub use kind::{Axis, Columns, Instrument, Measure, NoStart, Offer, Plot};
 pub use picture::{
     Across, Entry, Field, Heading, Ink, Layer, Level, Picture, Sign, Stroke, Upwards,
 };
-pub use plot::{Columns, Plot};
 pub use potential::Along;
 pub use present::{Physics, Present, Returned};
 pub use saved::{Quantity, SavedPlot, SavedVariations};

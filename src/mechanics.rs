@@ -15,6 +15,7 @@ mod domain;
 mod equations;
 mod frames;
 mod frobenius;
+mod further;
 mod gauge;
 mod generating;
 mod generator;
@@ -22,6 +23,7 @@ mod group;
 mod hamilton;
 mod hamilton_jacobi;
 mod implicit_map;
+mod impulse_change;
 mod invariants;
 mod isolate;
 mod lagrange;
@@ -34,6 +36,7 @@ mod observe;
 mod poisson;
 mod poisson_structure;
 mod potential;
+mod rate_of_change;
 mod rearrange;
 mod report;
 mod restricted;
@@ -59,19 +62,21 @@ pub use equations::{
     CoordinateSymbols, Equations, Flow, ImplicitMap, NoClosedForm, Reason, Separable, Supplements,
     Vakonomic,
 };
+pub use further::{Further, GeneratorReport, TransformationReport};
 pub use gauge::Gauge;
 pub use generating::GeneratingFunction;
 pub use generator::{GeneratorFlow, flow_of};
 pub use group::{phase_maps, relations_of};
 pub use hamilton_jacobi::HamiltonJacobi;
 pub use implicit_map::guesses;
-pub use invariants::{casimir_rate, is_changed_by_impulse};
+pub use impulse_change::is_changed_by_impulse;
+pub use invariants::casimir_rate;
 pub use latex::latex;
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
 pub use poisson_structure::structure_errors;
 pub use report::{
-    BodyNumbers, BodyReport, ConservedReport, Constant, Constrained, Further, GeneratorReport,
-    ImpulseReport, Left, Line, Reaction, Report, TransformationReport,
+    BodyNumbers, BodyReport, ConservedReport, Constant, Constrained, ImpulseReport, Left, Line,
+    Reaction, Report,
 };
 pub use rigid_body::{
     COMPONENTS, RigidBody, Tensor, body_constants, body_values, matrix, principal,

@@ -6,6 +6,7 @@
 //! computes the observables of a state ([`System::observer`]) and gives the steppers of `integrate`
 //! their equations of motion. Never here: steps in time, files, symbols after compiling.
 
+mod active_set;
 mod attitude;
 mod batch_series;
 mod batch_terms;
@@ -15,13 +16,18 @@ mod compiled;
 mod conditions;
 mod consistent_initial;
 mod constrained;
+mod constraint_programs;
+mod constraint_span;
 mod conversion;
 mod discontinuities;
 mod error;
+mod error_report;
+mod event_functions;
 mod exact;
 mod expansion;
 mod growth;
 mod image;
+mod impulse;
 mod inertia;
 mod jet;
 mod kink_sides;
@@ -34,6 +40,7 @@ mod observe;
 mod parametric_power;
 mod program;
 mod projection;
+mod projector;
 mod rates;
 mod resolution;
 mod rhs;
@@ -45,6 +52,7 @@ mod solve;
 mod split_step;
 mod state;
 mod tangent;
+mod term_watch;
 mod terms;
 mod underflow;
 mod valuation;
@@ -56,20 +64,20 @@ pub use batch_terms::BatchTerms;
 pub use branch::Branch;
 pub use channel::{Channel, ChannelKind};
 pub use compiled::{CompileError, System};
-pub use constrained::{ConstraintProjector, Directions};
-pub use discontinuities::{
-    CompiledEvent, CompiledImpulse, Discontinuities, EventFunctions, ImpulseOutcome, Schedule,
-};
+pub use discontinuities::{CompiledEvent, CompiledImpulse, Discontinuities};
 pub use error::{MotionError, MotionErrorKind, Passage};
+pub use event_functions::EventFunctions;
 pub use exact::ExactRates;
+pub use impulse::{ImpulseOutcome, Schedule};
 pub use jet::{Jet, Side};
 pub use kink_sides::KinkSides;
 pub use observe::Observer;
 pub use program::{Program, Singular};
+pub use projector::{ConstraintProjector, Directions};
 pub use rates::Rates;
 pub use saltation::Saltation;
 pub use series::Series;
 pub use split_step::SplitStep;
 pub use state::{Form, InitialOverride, State};
-pub use terms::{TermSums, TermWatch};
+pub use term_watch::{TermSums, TermWatch};
 pub use value::Evaluator;

@@ -2,19 +2,13 @@
 //!
 //! In: an [`Action`]. Out: the changed state and the effects. Never here: keys; the contents of pop-up lists.
 
-use super::field::Field;
 use super::keymap::Place;
 use super::speed::{faster, slower};
 use super::{
-    Above, Action, App, Asker, Direction, Effect, Notification, Overlay, Page, Pane, Prompt,
-    Purpose,
+    Action, App, Asker, Direction, Effect, Notification, Overlay, Page, Pane, Prompt, Purpose,
 };
 use crate::experiment::{Command, Status};
 use crate::instrument::{Plot, Sight, Viewport};
-use crate::integrate::{METHODS, Stepping};
-
-/// How far a flow leads where nothing else is typed.
-const FLOW: f64 = 0.1;
 
 /// What the first Esc in the lab says.
 const LEAVING: &str = "Esc again for the list of systems.";
@@ -415,74 +409,4 @@ impl App {
         let text = pages.iter().any(|place| places.contains(place));
         if text { isize::from(self.drawn.rows.saturating_sub(2).max(1) as i16) } else { 10 }
     }
-
-    pub(super) fn open_selected(&mut self) -> Vec<Effect> {
-        if let Some(session) = self.picker.selected_session().cloned() {
-            return self.continue_session(session);
-        }
-        match self.picker.selected_above() {
-            Some(Above::Guides) => return self.open_guides(),
-            Some(Above::NewSystem) => return self.new_system(),
-            Some(Above::Session) | None => {}
-        }
-        let Some(name) = self.picker.take() else {
-            return self.notify("No system fits this search.");
-        };
-        if let Some(failure) = self.picker.failure.clone().filter(|f| f.name == name) {
-            self.scroll = 0;
-            self.overlay = Some(Overlay::Message(failure));
-            return Vec::new();
-        }
-        let here = self.lab.as_ref().is_some_and(|lab| lab.loaded.name == name);
-        let later = self.asked.as_ref().is_some_and(|(asked, _)| *asked != name);
-        if here && !later {
-            self.go(Page::Lab);
-            return vec![Effect::Tell(Command::Reset), Effect::Tell(Command::Play)];
-        }
-        if let Some((asked, open)) = &mut self.asked
-            && *asked == name
-        {
-            *open = true;
-            return Vec::new();
-        }
-        vec![self.ask(name, true)]
-    }
-
-    pub(super) fn open_field(&mut self, purpose: Purpose) -> Vec<Effect> {
-        let Some(lab) = &self.lab else { return Vec::new() };
-        let method = lab.snapshot.as_ref().map(|s| &s.method);
-        let idle = lab.method().and_then(|name| idle(purpose, name));
-        if let Some(sentence) = idle {
-            return self.notify(sentence);
-        }
-        let now = match purpose {
-            Purpose::Value(target) => lab.value(target),
-            Purpose::Flow(_) | Purpose::SymmetryFlow(_) => Some(FLOW),
-            Purpose::Step => method.map(|m| m.step),
-            Purpose::Tolerance => method.and_then(|m| m.tolerance),
-        };
-        self.overlay =
-            Some(Overlay::Field(Field::new(purpose, now.map_or_else(String::new, written))));
-        Vec::new()
-    }
-}
-
-/// Returns why a method has no use for this setting, or `None` if it has.
-fn idle(purpose: Purpose, method: &str) -> Option<String> {
-    let stepping = METHODS.iter().find(|m| m.name == method)?.stepping;
-    match (purpose, stepping) {
-        (Purpose::Step, Stepping::Adaptive) => {
-            Some(format!("{method} chooses its steps itself; its tolerance is set by a."))
-        }
-        (Purpose::Tolerance, Stepping::Fixed) => {
-            Some(format!("{method} has no tolerance; its step is set by s."))
-        }
-        _ => None,
-    }
-}
-
-/// Formats a number for typing: short, without loss.
-fn written(value: f64) -> String {
-    let plain = value.to_string();
-    if plain.len() <= 12 { plain } else { format!("{value:e}").replace("e0", "") }
 }

@@ -12,6 +12,7 @@ use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::motion_options::{Laid, MotionOptions};
 use super::output::Output;
+use super::path_function::{PathFunctions, is_momentum, of_coordinates};
 use super::{stderr, study};
 use crate::dynamics::{
     DynamicsError, Hamiltonian, Lagrangian, PathKind, PhaseSpace, abbreviated_action,
@@ -19,7 +20,7 @@ use crate::dynamics::{
 };
 use crate::expr::Expr;
 use crate::mechanics::{Equations, Valuation, body_constants};
-use crate::model::{Allowed, Model, Scope};
+use crate::model::Model;
 use crate::printable;
 use crate::system::InitialOverride;
 
@@ -117,11 +118,6 @@ struct VariedPath {
     abbreviated: Result<f64, String>,
 }
 
-/// Functions of the time, one for each coordinate, with their first two derivatives.
-struct Written {
-    values: [Vec<Expr>; 3],
-}
-
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let duration = arguments.duration;
     if duration <= 0.0 {
@@ -141,7 +137,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let mut lagrangian =
         Lagrangian::of(model, &mut equations, &parameters).map_err(study::failed)?;
     let read = |equations: &mut Equations, given: &[Assignment], option: &str| {
-        Written::read(model, equations, given, option)
+        PathFunctions::read(model, equations, given, option)
     };
     let along = read(&mut equations, &arguments.along, "--along")?;
     let near = read(&mut equations, &arguments.near, "--near")?;
@@ -158,11 +154,11 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     };
     interrupt.ends_by_itself(|| ());
     let time = model.symbols.time;
-    let at = |equations: &Equations, written: &Written, t: f64, order: usize| -> Vec<f64> {
+    let at = |equations: &Equations, written: &PathFunctions, t: f64, order: usize| -> Vec<f64> {
         let point = constants.clone().with([(time, t)]);
         written.values[order].iter().map(|&e| point.value(&equations.pool, e)).collect()
     };
-    let pair = |equations: &Equations, written: &Written, t: f64| {
+    let pair = |equations: &Equations, written: &PathFunctions, t: f64| {
         [at(equations, written, t, 0), at(equations, written, t, 1)].concat()
     };
     let mut solved = None;
@@ -262,78 +258,6 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     crowd::write(out, &found.written(arguments.format, &laid), interrupt)
 }
 
-impl Written {
-    /// Reads functions of the time, one for each coordinate; `None` if there are none.
-    fn read(
-        model: &Model,
-        equations: &mut Equations,
-        given: &[Assignment],
-        option: &str,
-    ) -> Result<Option<Written>, CommandError> {
-        if given.is_empty() {
-            return Ok(None);
-        }
-        let wrong = |why: String| CommandError::WrongUse(format!("{option}: {why}"));
-        let mut first: Vec<Option<Expr>> = vec![None; model.coordinates.len()];
-        for assignment in given {
-            let (name, text) = (assignment.name(), assignment.text());
-            let Some(i) = model.coordinate(name) else {
-                let names: Vec<&str> = model.coordinates.iter().map(|c| c.name.as_str()).collect();
-                let name = printable::quoted(name);
-                return Err(wrong(format!(
-                    "there is no coordinate `{name}`; there are {}",
-                    names.join(", ")
-                )));
-            };
-            if first[i].is_some() {
-                return Err(wrong(format!("`{name}` is given twice: keep one of them")));
-            }
-            let mut scope = Scope::new(model, Allowed::Configuration, "a path");
-            let read = scope.read(&mut equations.pool, text);
-            let mistake = scope.mistakes.first().map(|mistake| mistake.message.clone());
-            let e = read.ok_or_else(|| {
-                let why = mistake.unwrap_or_else(|| "it cannot be read".to_owned());
-                wrong(format!("{}: {}", printable::quoted(text), printable::line(&why)))
-            })?;
-            let moving: Vec<_> = model.coordinates.iter().map(|c| c.position).collect();
-            if equations.pool.depends_on_any(e, &moving) {
-                let why = "a path is a function of t and parameters";
-                return Err(wrong(format!("{}: {why}", printable::quoted(text))));
-            }
-            first[i] = Some(e);
-        }
-        if option != "--vary"
-            && let Some(i) = first.iter().position(Option::is_none)
-        {
-            return Err(wrong(format!("`{}` is missing", model.coordinates[i].name)));
-        }
-        // what is not varied stays
-        let first: Vec<Expr> = first.into_iter().map(|e| e.unwrap_or(Expr::ZERO)).collect();
-        let pool = &mut equations.pool;
-        let slope = |pool: &mut crate::expr::Pool, all: &[Expr]| -> Vec<Expr> {
-            all.iter().map(|&e| pool.derivative(e, model.symbols.time)).collect()
-        };
-        let second = slope(pool, &first);
-        let third = slope(pool, &second);
-        Ok(Some(Written { values: [first, second, third] }))
-    }
-}
-
-/// Whether a name is that of a momentum.
-fn is_momentum(model: &Model, name: &str) -> bool {
-    name.strip_prefix("p_")
-        .is_some_and(|of| model.coordinate(name).is_none() && model.coordinate(of).is_some())
-}
-
-/// The same with the names of the coordinates that momenta belong to.
-fn of_coordinates(momenta: &[Assignment]) -> Vec<Assignment> {
-    let renamed = |one: &Assignment| {
-        let of = one.name().strip_prefix("p_").unwrap_or(one.name());
-        Assignment::of(of, one.text())
-    };
-    momenta.iter().map(renamed).collect()
-}
-
 /// Both ends of the path.
 fn ends(arguments: &Arguments, laid: &Laid) -> Result<[Vec<f64>; 2], CommandError> {
     let (model, parameters) = (&*laid.model, &laid.start.parameters);
@@ -368,7 +292,7 @@ fn ends(arguments: &Arguments, laid: &Laid) -> Result<[Vec<f64>; 2], CommandErro
 fn stationary(
     model: &Model,
     equations: &mut Equations,
-    along: &Written,
+    along: &PathFunctions,
     constants: &Valuation,
     duration: f64,
 ) -> bool {

@@ -11,16 +11,15 @@ use super::event_log::EventLog;
 use super::gauges::{Gauges, Present};
 use super::observed_motion::ObservedMotion;
 use super::recorder::Recorder;
+use super::row_spacing::RowSpacing;
 use super::scrubbed::Scrubbed;
 use super::setup::{MethodNotFound, Setup, choose_method};
 use super::snapshot::{Failure, Gauge, MethodFact, Recorded, Snapshot, Status};
 use crate::analysis::CrossingLog;
 use crate::cancel::Cancel;
-use crate::integrate::Stepping;
 use crate::integrate::{Occurrence, OccurrenceKind, Reached};
 use crate::mechanics::{Equations, Valuation};
 use crate::model::Model;
-use crate::num::math;
 use crate::num::short;
 use crate::system::{self, State, System};
 
@@ -54,15 +53,12 @@ pub struct Experiment {
     /// The motions beside this one.
     pub(super) companions: Companions,
     /// The names of occurrences that have been reported.
-    reported_names: Vec<String>,
+    pub(super) reported_names: Vec<String>,
     /// The event that ended the motion.
     pub(super) ended: Option<String>,
     /// Whether the motion was resumed from a checkpoint.
     pub(super) taken_up: bool,
-    /// The rows recorded since the last frame.
-    rows: u64,
-    /// How many times farther apart rows are at an unlimited speed than a smooth curve needs; a power of two.
-    sparseness: f64,
+    row_spacing: RowSpacing,
 }
 
 /// How far an advance came.
@@ -113,8 +109,7 @@ impl Experiment {
             reported_names: Vec::new(),
             ended: None,
             taken_up: false,
-            rows: 0,
-            sparseness: 1.0,
+            row_spacing: RowSpacing::default(),
             setup,
         };
         experiment.restart();
@@ -271,13 +266,7 @@ impl Experiment {
     /// A frame has shown what was recorded. At an unlimited speed the next rows are so far apart that a frame receives
     /// no more of them than it can show.
     pub fn shown(&mut self) {
-        let rows = std::mem::take(&mut self.rows);
-        self.sparseness = match rows {
-            _ if self.setup.speed.is_finite() => 1.0,
-            0..FEWEST_ROWS => (self.sparseness / 2.0).max(1.0),
-            FEWEST_ROWS..MOST_ROWS => self.sparseness,
-            _ => (self.sparseness * 2.0).min(SPARSEST),
-        };
+        self.row_spacing.frame_shown(self.setup.speed);
     }
 
     /// Takes a snapshot of the current state.
@@ -415,51 +404,9 @@ impl Experiment {
         }
     }
 
-    /// Records an occurrence: rows of the trail before and after it, and gauges that continue from the state after an
-    /// impulse. Returns a sentence about it.
-    pub(super) fn note(
-        &mut self,
-        mut occurrence: Occurrence,
-    ) -> Result<String, system::MotionError> {
-        let clock = occurrence.time;
-        occurrence.time = self.motion.sign() * clock;
-        let lead = format!("{} at t = {}", occurrence.name, short(occurrence.time));
-        let sentence = match &occurrence.kind {
-            OccurrenceKind::Mark | OccurrenceKind::Crossing(_) => lead,
-            OccurrenceKind::Stop => {
-                self.ended = Some(occurrence.name.clone());
-                format!("{lead}: the motion ends")
-            }
-            OccurrenceKind::Release(constraint) => {
-                let name = &self.model.constraints[*constraint].name;
-                format!("{lead}: the constraint {name} no longer holds")
-            }
-            OccurrenceKind::Impulse { .. } => {
-                let before = self.motion.values_before()?;
-                self.recorder.insert(clock, &before);
-                let after = self.motion.values();
-                self.gauges.shift(&before, after);
-                let given = self.energy_of(after) - self.energy_of(&before);
-                let sign = if given < 0.0 { '−' } else { '+' };
-                format!("{lead}: energy {sign}{}", short(given.abs()))
-            }
-        };
-        self.recorder.insert(clock, self.motion.values());
-        self.occurrences.push(occurrence);
-        Ok(sentence)
-    }
-
-    /// Reports an automatic occurrence; a repeated one is reported only the first time.
-    fn report_once(&mut self, name: String, sentence: String) {
-        if !self.reported_names.contains(&name) {
-            self.reported_names.push(name);
-            self.tell(sentence);
-        }
-    }
-
     /// Records the current values as the row that is due.
     pub(super) fn record(&mut self) {
-        self.rows += 1;
+        self.row_spacing.row_recorded();
         // what was lost between two rows, as an image at a caustic, is not joined
         if let Some(values) = self.motion.parting() {
             self.recorder.insert(self.motion.clock(), &values);
@@ -469,27 +416,10 @@ impl Experiment {
             self.companions.expect(self.motion.time(), self.motion.values());
         }
         self.compare_with_echo();
-        self.recorder.set_spacing(self.spacing());
+        let spacing = self.row_spacing.to_next(&self.setup, &self.motion);
+        self.recorder.set_spacing(spacing);
         let dense = self.recorder.spacing() <= self.motion.step_size().abs();
         self.gauge(|gauges, now| gauges.sample(now, dense));
-    }
-
-    /// The time to the next row. It is short enough for a smooth curve, as estimated from the method's step, but not
-    /// shorter than the setup's spacing, and not so long that the trail lags behind at the current speed.
-    fn spacing(&self) -> f64 {
-        let sparseness = if self.setup.speed.is_finite() { 1.0 } else { self.sparseness };
-        let least = self.setup.spacing * sparseness;
-        let per_step = match self.motion.method().stepping {
-            Stepping::Adaptive => ROWS_PER_LONG_STEP,
-            Stepping::Fixed => 1.0,
-        };
-        let smooth = self.motion.step_size().abs() / per_step * sparseness;
-        let most = least.max(self.setup.speed * LONGEST_LAG);
-        if smooth <= least {
-            return least;
-        }
-        // a power of two, so that it does not change with every step
-        (least * math::exp2(math::log2(smooth / least).floor())).min(most)
     }
 
     /// Passes the current values to the gauges.
@@ -525,17 +455,3 @@ pub(super) const HORIZON: f64 = 4096.0;
 
 /// The greatest ratio of a step to the previous one.
 const GROWTH: f64 = 8.0;
-
-/// A step of a high-order method covers about a sixth of an oscillation.
-const ROWS_PER_LONG_STEP: f64 = 32.0;
-
-/// The number of rows in a frame, at an unlimited speed, beyond which they are recorded farther apart, and below which
-/// closer together: a quarter of the rows that are kept in full, and an eighth of that.
-const MOST_ROWS: u64 = 2048;
-const FEWEST_ROWS: u64 = MOST_ROWS / 8;
-
-/// The greatest sparseness of rows.
-const SPARSEST: f64 = 65_536.0;
-
-/// The longest time between two rows, in seconds of wall time: one frame.
-const LONGEST_LAG: f64 = 1.0 / 60.0;

@@ -4,16 +4,17 @@
 //! commands.
 
 use super::gauges::{Gauges, Present};
-use super::step_log::{LoggedState, StepLog};
+use super::step_log::StepLog;
+use super::step_sampler::StepSampler;
 use crate::integrate::{
     self, Method, MethodError, Occurrence, OccurrenceKind, Reached, Settings, Stepping, Unstable,
 };
 use crate::mechanics::Valuation;
-use crate::system::{MotionError, Observer, State, System, TermWatch};
+use crate::system::{MotionError, Observer, State, System};
 
 /// A motion in progress, with its observer.
 pub(super) struct ObservedMotion {
-    inner: integrate::Propagator,
+    pub(super) inner: integrate::Propagator,
     observer: Observer,
     values: Vec<f64>,
     /// The channels that had no value at some state that was observed since the last row.
@@ -21,64 +22,18 @@ pub(super) struct ObservedMotion {
     residuals: Vec<[f64; 2]>,
     /// The motion's count of constraint changes when the observer was made.
     holdings: u64,
-    watch: StepSampler,
+    pub(super) watch: StepSampler,
     /// The states between the steps so far.
-    log: StepLog,
+    pub(super) log: StepLog,
     /// −1 if the system is run backwards, so that the clock of its states is −t; otherwise 1.
-    sign: f64,
-}
-
-/// Samples the motion after every step.
-struct StepSampler {
-    terms: TermWatch,
-    /// When the channels are to be sampled next.
-    next: f64,
-    /// Whether the end of the last step is still to be sampled.
-    pending: bool,
-    /// A number in (0, 1) that never repeats, so that the sampling times do not resonate with any period.
-    golden: f64,
-    /// An intermediate state and its channels.
-    state: State,
-    values: Vec<f64>,
-}
-
-impl StepSampler {
-    fn of(system: &System, parameters: &[f64]) -> StepSampler {
-        StepSampler {
-            terms: system.term_watch(parameters),
-            next: f64::NEG_INFINITY,
-            pending: false,
-            golden: 0.5,
-            state: State::new(0.0, system.form(), Vec::new()),
-            values: vec![f64::NAN; system.channels().len()],
-        }
-    }
-
-    /// The next number of Weyl's sequence: the multiples of the golden ratio are spread as evenly as possible.
-    fn next_weyl(&mut self) -> f64 {
-        self.golden = (self.golden + GOLDEN).fract();
-        self.golden
-    }
-}
-
-/// The step before a time in the past of a motion, from which it is taken again.
-pub(super) struct KnownStep {
-    state: State,
-    steps: u64,
-    /// The size of a fixed step.
-    step: f64,
-    released: Vec<usize>,
-    start: f64,
+    pub(super) sign: f64,
 }
 
 /// One of so many equal steps is logged.
-const EQUAL_STEPS: u64 = 8;
+pub(super) const EQUAL_STEPS: u64 = 8;
 
 /// A method whose dense output is as accurate as its steps is looked at inside one of so many steps.
 const LOOKED_INSIDE: u64 = 4;
-
-/// The fractional part of the golden ratio.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 impl ObservedMotion {
     /// A motion that has yet to [begin](ObservedMotion::begin).
@@ -269,90 +224,6 @@ impl ObservedMotion {
         }
     }
 
-    /// Takes the motion back to a time on the way. If that is no longer known, it stays where it is, and the result is
-    /// the first time that is, or NaN.
-    pub(super) fn back_to(
-        &mut self,
-        (time, limit): (f64, f64),
-        start: f64,
-    ) -> Result<Option<f64>, MotionError> {
-        let first = self.log.first().unwrap_or(f64::NAN);
-        let Some(known) = self.log.back_to(time) else { return Ok(Some(first)) };
-        let released = self.released();
-        self.inner.go_back(&known.state, start, &released)?;
-        self.watch.pending = false;
-        self.inner.set_steps(known.steps);
-        self.take_observer();
-        // what was seen of each step counts only once
-        let mut budget = EQUAL_STEPS * 1000;
-        while let Reached::Happened(occurrence) = self.inner.reach(time, limit, &mut budget)? {
-            if matches!(occurrence.kind, OccurrenceKind::Impulse { .. }) {
-                self.log.note_impulse();
-            }
-        }
-        self.look()?;
-        Ok(None)
-    }
-
-    /// The indices of the released constraints.
-    pub(super) fn released(&self) -> Vec<usize> {
-        let system = self.inner.system();
-        (0..system.constraints()).filter(|&k| system.is_released(k)).collect()
-    }
-
-    /// The first reading of its clock that can be looked back to.
-    pub(super) fn known_from(&self) -> Option<f64> {
-        self.log.first()
-    }
-
-    /// Looks at a time in the past of a motion that began at `start` of its clock, and forgets nothing: what is known of
-    /// later times can be looked at again. No new step reaches further than `horizon` beyond that time. Returns whether
-    /// that time is known.
-    pub(super) fn look_back(&mut self, time: f64, horizon: f64, start: f64) -> bool {
-        let clock = self.sign * time;
-        let (begin, end) = self.inner.undisturbed();
-        if !(begin <= clock && clock <= end && begin < end) {
-            let Some(known) = self.known_at(time, start) else { return false };
-            if self.begin_at(&known).is_err() {
-                return false;
-            }
-        }
-        self.go_on_to(clock, horizon)
-    }
-
-    /// What is needed to look at a time in the past of a motion that began at `start` of its clock.
-    pub(super) fn known_at(&self, time: f64, start: f64) -> Option<KnownStep> {
-        let LoggedState { state, steps, .. } = self.log.at(self.sign * time)?.clone();
-        let (step, released) = (self.inner.step_size().abs(), self.released());
-        Some(KnownStep { state, steps, step, released, start })
-    }
-
-    /// Goes to where another motion of the same system was at a time. Returns whether it came there.
-    pub(super) fn look_at(&mut self, time: f64, known: &KnownStep, horizon: f64) -> bool {
-        self.begin_at(known).is_ok() && self.go_on_to(self.sign * time, horizon)
-    }
-
-    fn begin_at(&mut self, known: &KnownStep) -> Result<(), MotionError> {
-        let KnownStep { state, steps, step, released, start } = known;
-        self.inner.restore_with_step(state, *step, (*start, released))?;
-        self.inner.set_steps(*steps);
-        self.watch.pending = false;
-        self.take_observer();
-        Ok(())
-    }
-
-    /// Goes on to a reading of the clock. Returns whether it came there.
-    fn go_on_to(&mut self, clock: f64, horizon: f64) -> bool {
-        let mut budget = EQUAL_STEPS * 1000;
-        loop {
-            match self.inner.reach(clock, clock + horizon, &mut budget) {
-                Ok(Reached::Happened(_)) => {}
-                Ok(Reached::There) => return self.look().is_ok(),
-                Ok(Reached::Underway | Reached::Ended) | Err(_) => return false,
-            }
-        }
-    }
-
     /// The number of impulses so far.
     pub(super) fn impulses(&self) -> u64 {
         self.log.impulses()
@@ -382,7 +253,7 @@ impl ObservedMotion {
     }
 
     /// Makes an observer with the currently active constraints.
-    fn take_observer(&mut self) {
+    pub(super) fn take_observer(&mut self) {
         let parameters = self.observer.parameters().to_vec();
         self.observer = self.inner.system().observer(&parameters);
     }
@@ -393,7 +264,7 @@ impl ObservedMotion {
         self.look()
     }
 
-    fn look(&mut self) -> Result<(), MotionError> {
+    pub(super) fn look(&mut self) -> Result<(), MotionError> {
         self.residuals = self.inner.residuals();
         if self.holdings != self.inner.holdings() {
             self.holdings = self.inner.holdings();

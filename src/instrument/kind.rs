@@ -1,16 +1,34 @@
-//! What all kinds of plots and instruments have in common: the trait, its axes, choices, measures and answers.
+//! What all kinds of plots and instruments have in common: the trait, its axes, choices and measures, and the contents of
+//! a pane, which are of a kind.
 //!
 //! In: a model and the current state. Out: words, pictures as data, jobs. Never here: the list of kinds, or what a single
 //! one does.
 
-use std::any::Any;
 use std::fmt;
-use std::sync::Arc;
 
-use super::{Across, Columns, Heading, Physics, Picture, Plot, Present, Seed};
-use crate::job::Job;
+use super::{Across, Answer, Heading, Need, Physics, Picture, Present, Seed, Sight};
 use crate::model::{Variation, View};
 use crate::system::InitialOverride;
+
+/// The channels of each axis, in the order of the axes.
+pub type Columns = Vec<Vec<usize>>;
+
+/// The contents of a pane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plot {
+    /// The kind.
+    pub kind: &'static dyn Instrument,
+    /// The channels chosen for its axes.
+    pub columns: Columns,
+    /// The view of the file that it shows, if nothing is chosen.
+    pub view: Option<usize>,
+    /// What it runs over, in the order of the axes.
+    pub over: Vec<Variation>,
+    /// The camera or the window.
+    pub sight: Sight,
+    /// The orbits added to a section.
+    pub seeds: Vec<Seed>,
+}
 
 /// A kind of plot: one row of [`INSTRUMENTS`](super::INSTRUMENTS). Common behaviour has defaults.
 pub trait Instrument: Sync {
@@ -215,48 +233,6 @@ pub struct Measure {
     pub about: &'static str,
     /// Its value, or `None` if it has none.
     pub value: fn(&Plot, &Present<'_>, Option<&Answer>) -> Option<f64>,
-}
-
-/// The result of an instrument's job. Only the instrument's own file knows the type.
-#[derive(Clone)]
-pub struct Answer(Arc<dyn Any + Send + Sync>);
-
-/// The job that a picture needs.
-#[derive(Debug)]
-pub enum Need {
-    /// No job is needed; an earlier result is dropped.
-    Nothing,
-    /// The last result is still valid.
-    Held,
-    /// This job is needed. The last result stays until it has finished.
-    Job(Job<Answer>),
-    /// This job adds to the picture and may take long: where there is no background it is left out.
-    Addition(Job<Answer>),
-}
-
-impl Answer {
-    /// Wraps a result.
-    pub fn new(result: impl Any + Send + Sync) -> Self {
-        Self(Arc::new(result))
-    }
-
-    /// The result, if it is of this type.
-    pub fn of<T: Any>(&self) -> Option<&T> {
-        self.0.downcast_ref()
-    }
-}
-
-impl fmt::Debug for Answer {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Answer")
-    }
-}
-
-/// Results are equal if they are the same allocation.
-impl PartialEq for Answer {
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.0, &other.0)
-    }
 }
 
 impl fmt::Debug for dyn Instrument {

@@ -1,4 +1,4 @@
-//! The contents of a pane: a kind, the quantities chosen for it, and its camera or window.
+//! What is done with the contents of a pane: plots of views, words, titles, moves of the camera or window.
 //!
 //! In: a kind, views of a file, choices, moves. Out: [`Plot`]s. Never here: what a single kind shows, which kinds there
 //! are, what a session saves.
@@ -6,31 +6,11 @@
 use std::f64::consts::PI;
 
 use super::{
-    Answer, CameraPose, Entry, Heading, Instrument, MOST_SEEDS, Physics, Present, Seed, Sight,
-    Viewport,
+    Answer, CameraPose, Columns, Entry, Heading, Instrument, MOST_SEEDS, Physics, Plot, Present,
+    Seed, Sight, Viewport,
 };
-use crate::model::{Model, Variation, View};
+use crate::model::{Model, View};
 use crate::system::ChannelKind;
-
-/// The channels of each axis, in the order of the axes.
-pub type Columns = Vec<Vec<usize>>;
-
-/// The contents of a pane.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Plot {
-    /// The kind.
-    pub kind: &'static dyn Instrument,
-    /// The channels chosen for its axes.
-    pub columns: Columns,
-    /// The view of the file that it shows, if nothing is chosen.
-    pub view: Option<usize>,
-    /// What it runs over, in the order of the axes.
-    pub over: Vec<Variation>,
-    /// The camera or the window.
-    pub sight: Sight,
-    /// The orbits added to a section.
-    pub seeds: Vec<Seed>,
-}
 
 impl Plot {
     /// Creates a plot with the initial camera or window.

@@ -3,8 +3,9 @@
 //! In: generators and degrees. Out: columns, and their values and rates at points. Never here: what is done with them.
 
 use super::atoms::Atoms;
-use super::evaluator::{Evaluator, Random};
+use super::evaluator::Evaluator;
 use super::law::Drawn;
+use super::random::Random;
 use crate::expr::{Expr, Pool};
 use crate::num::{Number, PrimeField, Residue};
 

@@ -6,9 +6,9 @@
 
 use std::collections::BTreeMap;
 
-use super::evaluator::terms;
 use super::law::Law;
 use super::reflection::{self, Reflection};
+use super::units::terms;
 use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
 use crate::num::Number;
 

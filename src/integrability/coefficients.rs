@@ -8,10 +8,11 @@ use rustc_hash::FxHashMap;
 use super::ansatz::Ansatz;
 use super::atoms::Atoms;
 use super::echelon::Echelon;
-use super::evaluator::{Evaluator, Random};
+use super::evaluator::Evaluator;
 use super::formula::cleared;
 use super::law::Law;
 use super::level::Ground;
+use super::random::Random;
 use crate::expr::{Expr, Pool, Symbol};
 use crate::num::{Number, PrimeField, Residue, rational};
 

@@ -11,35 +11,11 @@
 
 use rustc_hash::FxHashMap;
 
+use super::radicals::Radicals;
+use super::random::Random;
+use super::units::{Units, Unsupported, least_common};
 use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
 use crate::num::{Number, PrimeField, Residue};
-
-/// Random residues.
-#[derive(Clone, Debug)]
-pub(super) struct Random(u64);
-
-impl Random {
-    pub(super) fn new(seed: u64) -> Random {
-        Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ 0xD1B5_4A32_D192_ED03)
-    }
-
-    pub(super) fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut x = self.0;
-        x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        x ^ (x >> 31)
-    }
-
-    pub(super) fn residue(&mut self, field: &PrimeField) -> Residue {
-        field.residue(self.next())
-    }
-}
-
-/// Why a law cannot be evaluated over a prime field.
-#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct Unsupported(pub String);
 
 /// One node in terms of those before it.
 #[derive(Clone, Debug)]
@@ -91,124 +67,6 @@ pub(super) struct Point {
     /// cos for sin, cosh for sinh, and the reverse.
     companions: Vec<Residue>,
 }
-
-/// The units of which arguments are made: each term with the least common denominator of its coefficients.
-#[derive(Default)]
-struct Units {
-    denominators: FxHashMap<Expr, i64>,
-    order: Vec<Expr>,
-}
-
-impl Units {
-    fn collect(&mut self, pool: &mut Pool, argument: Expr) -> Result<(), Unsupported> {
-        for (c, term) in terms(pool, argument) {
-            let Number::Rational(_, d) = c else {
-                return Err(Unsupported(
-                    "a coefficient in an angle or exponent is not a fraction".into(),
-                ));
-            };
-            let known = self.denominators.entry(term).or_insert_with(|| {
-                self.order.push(term);
-                1
-            });
-            *known = least_common(*known, d);
-        }
-        Ok(())
-    }
-
-    fn parts(&self, pool: &mut Pool, argument: Expr) -> Vec<(usize, i64)> {
-        let multiple = |(c, term): (Number, Expr)| {
-            let unit = self.order.iter().position(|&t| t == term)?;
-            let Number::Rational(n, d) = c else { return None };
-            Some((unit, n * (self.denominators[&term] / d)))
-        };
-        terms(pool, argument).into_iter().filter_map(multiple).collect()
-    }
-}
-
-fn least_common(a: i64, b: i64) -> i64 {
-    let (mut x, mut y) = (a, b);
-    while y != 0 {
-        (x, y) = (y, x % y);
-    }
-    a / x * b
-}
-
-/// An argument as a sum of multiples of terms without coefficient.
-pub(super) fn terms(pool: &mut Pool, e: Expr) -> Vec<(Number, Expr)> {
-    let mut all = Vec::new();
-    for (c, term) in pool.summands(e) {
-        match pool.node(term) {
-            // a constant that is no short fraction is a unit of its own
-            Node::Number(n) => match c * *n {
-                whole @ Number::Rational(..) => all.push((whole, Expr::ONE)),
-                real @ Number::Real(_) => all.push((Number::ONE, pool.number(real))),
-            },
-            Node::Product(k, _) => {
-                let k = *k;
-                all.push((c * k, pool.scale(k.recip(), term)));
-            }
-            _ => all.push((c, term)),
-        }
-    }
-    all
-}
-
-/// The numbers of which square roots are taken.
-#[derive(Clone, Debug, Default)]
-struct Radicals {
-    /// Square-free and without common factors; none where there are other roots of numbers.
-    numbers: Vec<i64>,
-    /// The position among them for each node under a root.
-    of: FxHashMap<usize, usize>,
-    /// Which roots are the negative ones, a bit for each.
-    negative: u32,
-}
-
-impl Radicals {
-    fn new(pool: &Pool, orders: &FxHashMap<Expr, u64>, index: &FxHashMap<Expr, usize>) -> Radicals {
-        let mut radicals = Radicals::default();
-        for (base, order) in orders.iter().filter(|(_, order)| **order > 1) {
-            let Node::Number(number) = *pool.node(*base) else { continue };
-            let Some(free) = square_free(number).filter(|_| *order == 2) else {
-                return Radicals::default();
-            };
-            let known = radicals.numbers.iter().position(|&known| known == free);
-            let k = known.unwrap_or_else(|| {
-                radicals.numbers.push(free);
-                radicals.numbers.len() - 1
-            });
-            radicals.of.insert(index[base], k);
-        }
-        let all = &radicals.numbers;
-        let divisor = |a: i64, b: i64| a / (least_common(a, b) / b);
-        let coprime = (0..all.len()).all(|i| (0..i).all(|j| divisor(all[i], all[j]) == 1));
-        if coprime && all.len() <= MOST_RADICALS { radicals } else { Radicals::default() }
-    }
-}
-
-/// The square-free part of the product of numerator and denominator of a positive fraction.
-fn square_free(number: Number) -> Option<i64> {
-    let Number::Rational(n, d) = number else { return None };
-    let mut free = n.checked_mul(d).filter(|free| *free > 1)?;
-    let mut k = 2_i64;
-    while k.checked_mul(k).is_some_and(|square| square <= free) {
-        if k > LARGEST_FACTOR {
-            return None;
-        }
-        while free % (k * k) == 0 {
-            free /= k * k;
-        }
-        k += 1;
-    }
-    Some(free)
-}
-
-/// The largest factor that is looked for in a number under a root.
-const LARGEST_FACTOR: i64 = 10_000;
-
-/// The largest number of different square roots of numbers.
-const MOST_RADICALS: usize = 3;
 
 impl Evaluator {
     /// Compiles expressions. Functions of what does not contain the `moving` symbols have the same value at every

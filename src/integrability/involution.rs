@@ -14,8 +14,9 @@ use rustc_hash::FxHashMap;
 
 use super::ansatz::orders;
 use super::echelon::{Echelon, reduced};
-use super::evaluator::{Evaluator, Random};
+use super::evaluator::Evaluator;
 use super::law::{self, Law};
+use super::random::Random;
 use super::vanishing::vanishes;
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::Equations;

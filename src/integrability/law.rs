@@ -9,7 +9,8 @@ use std::collections::HashMap;
 use rustc_hash::FxHashMap;
 
 use super::echelon::{Echelon, solve};
-use super::evaluator::{Evaluator, Point, Random, Rates};
+use super::evaluator::{Evaluator, Point, Rates};
+use super::random::Random;
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{Equations, Flow, body_values};
 use crate::model::Model;

@@ -14,8 +14,9 @@ use rustc_hash::FxHashMap;
 use super::ansatz::{Ansatz, orders};
 use super::atoms::Atoms;
 use super::echelon::{Echelon, reduced};
-use super::evaluator::{Evaluator, Random};
+use super::evaluator::Evaluator;
 use super::law::{Drawn, Law};
+use super::random::Random;
 use crate::expr::{Expr, Symbol};
 use crate::num::{PrimeField, Residue};
 

@@ -13,14 +13,17 @@ use rustc_hash::FxHashMap;
 
 use super::ansatz::orders;
 use super::echelon::{Echelon, reduced};
-use super::evaluator::{Evaluator, Random, Unsupported};
+use super::evaluator::Evaluator;
+use super::explicit_motion::{ExplicitMotion, accelerations};
 use super::formula::{cleared, content};
 use super::law;
 use super::naming::name_of;
 use super::noether::{DEGREE, MOST, SPARE, Symmetries, words};
+use super::random::Random;
 use super::transformations::{generators_of, products};
-use crate::expr::{Expr, Pool, Symbol, Zero};
-use crate::mechanics::{Equations, Flow};
+use super::units::Unsupported;
+use crate::expr::{Expr, Pool, Symbol};
+use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::num::{Number, PRIMES, PrimeField, Residue, rational};
 
@@ -105,7 +108,7 @@ pub fn point_symmetries(
         .map(|s| (s.time, s.coordinates.clone()))
         .collect();
     let mut problem = Problem {
-        motion: Motion::of(pool, time, positions, velocities, here.clone()),
+        motion: ExplicitMotion::of(pool, time, positions, velocities, here.clone()),
         monomials,
         field: PrimeField::nth(0),
         overgeneral: false,
@@ -113,8 +116,8 @@ pub fn point_symmetries(
     let solved = problem.solve(pool, &first, is_over)?;
     let motion = problem.motion.clone();
     let named = (symbolic != here).then(|| {
-        let Motion { time, positions, velocities, .. } = motion.clone();
-        Motion::of(pool, time, positions, velocities, symbolic)
+        let ExplicitMotion { time, positions, velocities, .. } = motion.clone();
+        ExplicitMotion::of(pool, time, positions, velocities, symbolic)
     });
     let mut complete = !problem.overgeneral;
     let mut found = Vec::new();
@@ -161,125 +164,9 @@ pub fn point_symmetries(
     Ok(PointSymmetries { found, searched, complete })
 }
 
-/// q̈ as a function of (q, q̇, t).
-pub(super) fn accelerations(equations: &mut Equations) -> Result<Vec<Expr>, Unsupported> {
-    let unknown = |why: String| Unsupported(format!("the accelerations are not known: {why}"));
-    match equations.flow.clone() {
-        Flow::Lagrange { .. } => equations.solved().clone().map_err(|why| unknown(why.0)),
-        Flow::Poisson { .. } => {
-            Err(Unsupported("a Poisson system has no accelerations".to_owned()))
-        }
-        Flow::Hamilton { velocities, momentum_rates } => {
-            let lagrangian = equations.lagrangian().clone().map_err(|why| unknown(why.0))?;
-            let coordinates = equations.coordinates.clone();
-            let pool = &mut equations.pool;
-            let mut along = vec![(equations.symbols.time, Expr::ONE)];
-            let mut momenta = HashMap::new();
-            for ((c, &v), &rate) in coordinates.iter().zip(&velocities).zip(&momentum_rates) {
-                along.extend([(c.position, v), (c.momentum, rate)]);
-                momenta.insert(c.momentum, pool.derivative(lagrangian, c.velocity));
-            }
-            let solved = velocities.iter().map(|&v| {
-                let rate = pool.derivation(v, &along);
-                let rate = pool.substitute(rate, &momenta);
-                pool.simplify(rate)
-            });
-            Ok(solved.collect())
-        }
-    }
-}
-
-/// Equations of motion solved for the accelerations.
-#[derive(Clone)]
-struct Motion {
-    time: Symbol,
-    positions: Vec<Symbol>,
-    velocities: Vec<Symbol>,
-    accelerations: Vec<Expr>,
-    /// Of each acceleration its slopes by t, q and q̇.
-    slopes: Vec<(Expr, Vec<Expr>, Vec<Expr>)>,
-}
-
-impl Motion {
-    fn of(
-        pool: &mut Pool,
-        time: Symbol,
-        positions: Vec<Symbol>,
-        velocities: Vec<Symbol>,
-        accelerations: Vec<Expr>,
-    ) -> Motion {
-        let mut slopes = Vec::new();
-        for &f in &accelerations {
-            let by_time = pool.derivative(f, time);
-            let by_position = positions.iter().map(|&q| pool.derivative(f, q)).collect();
-            let by_velocity = velocities.iter().map(|&v| pool.derivative(f, v)).collect();
-            slopes.push((by_time, by_position, by_velocity));
-        }
-        Motion { time, positions, velocities, accelerations, slopes }
-    }
-
-    /// D of functions of (q, t).
-    fn first(&self, pool: &mut Pool) -> Vec<(Symbol, Expr)> {
-        let mut seeds = vec![(self.time, Expr::ONE)];
-        let both = self.positions.iter().zip(&self.velocities);
-        seeds.extend(both.map(|(&q, &v)| (q, pool.variable(v))));
-        seeds
-    }
-
-    /// D along the motion.
-    fn along(&self, pool: &mut Pool) -> Vec<(Symbol, Expr)> {
-        let mut seeds = self.first(pool);
-        seeds.extend(self.velocities.iter().copied().zip(self.accelerations.iter().copied()));
-        seeds
-    }
-
-    /// D ξ and the η^{i(1)}.
-    fn prolonged(&self, pool: &mut Pool, xi: Expr, eta: &[Expr]) -> (Expr, Vec<Expr>) {
-        let seeds = self.first(pool);
-        let rate = pool.derivation(xi, &seeds);
-        let mut all = Vec::new();
-        for (&e, &v) in eta.iter().zip(&self.velocities) {
-            let moved = pool.derivation(e, &seeds);
-            let v = pool.variable(v);
-            let carried = pool.mul(v, rate);
-            all.push(pool.sub(moved, carried));
-        }
-        (rate, all)
-    }
-
-    /// Whether the second prolongation is proved to leave q̈ = F as it is.
-    fn is_symmetry(&self, pool: &mut Pool, xi: Expr, eta: &[Expr]) -> bool {
-        let (rate, first) = self.prolonged(pool, xi, eta);
-        let seeds = self.along(pool);
-        (0..eta.len()).all(|i| {
-            let (by_time, by_position, by_velocity) = &self.slopes[i];
-            let moved = pool.derivation(first[i], &seeds);
-            let carried = pool.mul(self.accelerations[i], rate);
-            let mut terms = vec![pool.neg(moved), carried, pool.mul(xi, *by_time)];
-            for j in 0..eta.len() {
-                terms.push(pool.mul(eta[j], by_position[j]));
-                terms.push(pool.mul(first[j], by_velocity[j]));
-            }
-            let condition = pool.sum(&terms);
-            pool.is_zero(condition) == Zero::Proved
-        })
-    }
-
-    /// X⁽¹⁾L + L Dξ.
-    fn change_of(&self, pool: &mut Pool, lagrangian: Expr, xi: Expr, eta: &[Expr]) -> Expr {
-        let (rate, first) = self.prolonged(pool, xi, eta);
-        let mut seeds = vec![(self.time, xi)];
-        seeds.extend(self.positions.iter().copied().zip(eta.iter().copied()));
-        seeds.extend(self.velocities.iter().copied().zip(first));
-        let moved = pool.derivation(lagrangian, &seeds);
-        let stretched = pool.mul(lagrangian, rate);
-        pool.add(moved, stretched)
-    }
-}
-
 /// The condition on the coefficients of ξ and η.
 struct Problem {
-    motion: Motion,
+    motion: ExplicitMotion,
     monomials: Vec<Expr>,
     field: PrimeField,
     overgeneral: bool,
@@ -486,7 +373,12 @@ impl Problem {
 }
 
 /// The exponents of a scaling of time and coordinates, t first.
-fn scaling(pool: &mut Pool, motion: &Motion, xi: Expr, eta: &[Expr]) -> Option<Vec<Number>> {
+fn scaling(
+    pool: &mut Pool,
+    motion: &ExplicitMotion,
+    xi: Expr,
+    eta: &[Expr],
+) -> Option<Vec<Number>> {
     let mut exponents = Vec::new();
     for (&s, &e) in
         [&motion.time].into_iter().chain(&motion.positions).zip([&xi].into_iter().chain(eta))

@@ -13,11 +13,13 @@ use rustc_hash::FxHashMap;
 
 use super::ansatz::orders;
 use super::echelon::{Echelon, reduced};
-use super::evaluator::{Evaluator, Random, Unsupported};
+use super::evaluator::Evaluator;
 use super::formula::{cleared, content};
 use super::law;
 use super::naming::name_of;
+use super::random::Random;
 use super::transformations::{generators_of, products};
+use super::units::Unsupported;
 use crate::expr::{Expr, Node, Pool, Symbol, Zero};
 use crate::mechanics::{Equations, is_changed_by_impulse};
 use crate::model::Model;

@@ -11,8 +11,8 @@ use rustc_hash::FxHashMap;
 use super::ansatz::Ansatz;
 use super::atoms::Atoms;
 use super::coefficients::{SPARE_BITS, exact, only};
-use super::evaluator::Random;
 use super::level::Ground;
+use super::random::Random;
 use crate::expr::{Expr, Pool};
 use crate::num::{Number, Residue, rational};
 

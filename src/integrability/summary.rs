@@ -2,7 +2,7 @@
 //!
 //! In: what a search found, and its relations. Out: a line. Never here: the search.
 
-use super::search::{Invariants, Proof};
+use super::invariants::{Invariants, Proof};
 use super::verdict::Relations;
 
 /// The verdict in a line.

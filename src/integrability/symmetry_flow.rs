@@ -7,8 +7,8 @@
 
 use std::collections::HashMap;
 
-use super::evaluator::Unsupported;
-use super::lie::accelerations;
+use super::explicit_motion::accelerations;
+use super::units::Unsupported;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, derive_for_motion};
 use crate::model::{Coordinate, Mechanics, Model};

@@ -5,9 +5,9 @@
 
 use std::collections::HashMap;
 
+use super::invariants::{Invariants, Proof};
 use super::involution::{self, Commuting, Given};
 use super::law;
-use super::search::{Invariants, Proof};
 use super::vanishing::vanishes;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, bracket};

@@ -3,7 +3,8 @@
 //! In: a report. Out: an `align*` environment, with the title in a comment above it. Never here: files, a clipboard.
 
 use super::Holonomy;
-use super::report::{Further, Left, Line, Report};
+use super::further::Further;
+use super::report::{Left, Line, Report};
 use crate::expr::Symbol;
 
 /// Writes the report as a fragment for LaTeX.

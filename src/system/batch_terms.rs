@@ -30,7 +30,7 @@ impl System {
     /// The terms of the conserved quantities of several orbits, whose states have the native form;
     /// `None` where they have to be evaluated one by one.
     pub fn batch_terms(&self) -> Option<BatchTerms> {
-        let program = self.terms_of_native_states();
+        let program = &self.terms().native;
         let alone = |&r: &u32| {
             let op = program.ops[r as usize];
             matches!(op, Op::Solve(_) | Op::Select { .. } | Op::ParametricPower(..))

@@ -2,19 +2,19 @@
 
 use std::sync::Arc;
 
+use super::active_set::{ActiveSet, Constrained};
 use super::consistent_initial::KnownVelocity;
-use super::constrained::{ActiveSet, Constrained};
 use super::error::{MotionError, MotionErrorKind};
 use super::inertia::Inertia;
 use super::kkt::ConstraintSystem;
-use super::legendre::{self, Legendre, LegendreError};
+use super::legendre::{self, Legendre};
 use super::observables::{ObservableList, Observables};
-use super::program::{Program, Singular};
+use super::program::Program;
 use super::rhs::{MotionPrograms, ProgramBuilder, Quadratures, Tangents};
 use super::separability::NotSeparable;
-use super::terms::{Quantities, TermWatch, Terms};
+use super::terms::{Quantities, Terms};
 use super::value::Evaluator;
-use super::{Channel, Discontinuities, Form, Observer, State};
+use super::{Channel, Discontinuities, Form, State};
 use crate::cancel::Cancel;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::Equations;
@@ -353,19 +353,8 @@ impl System {
         &self.shared.discontinuities
     }
 
-    /// Returns an observer of this system's states.
-    pub fn observer(&self, parameters: &[f64]) -> Observer {
-        Observer::new(self.clone(), parameters)
-    }
-
-    /// Returns an evaluator of the terms of the conserved quantities at these parameters.
-    pub fn term_watch(&self, parameters: &[f64]) -> TermWatch {
-        TermWatch::new(self.clone(), &self.shared.terms, parameters)
-    }
-
-    /// The program of these terms.
-    pub(super) fn terms_of_native_states(&self) -> &Arc<Program> {
-        self.shared.terms.native()
+    pub(super) fn terms(&self) -> &Terms {
+        &self.shared.terms
     }
 
     pub(super) fn constrained(&self) -> Option<&Constrained> {
@@ -457,93 +446,5 @@ impl System {
             state.set(i, x);
         }
         state
-    }
-
-    /// Returns an error if a number of a state is not finite.
-    pub fn check_finite(&self, state: &State) -> Result<(), MotionError> {
-        match state.values.iter().position(|x| !x.is_finite()) {
-            None => Ok(()),
-            Some(i) => {
-                let name = MotionErrorKind::NotFinite(self.name_of(i, state.form));
-                Err(self.fault(name, state.time, &state.values))
-            }
-        }
-    }
-
-    /// The display name of a number of a state.
-    fn name_of(&self, i: usize, form: Form) -> String {
-        let n = self.degrees();
-        let channel = match form {
-            Form::Momentum if i >= n => i + n,
-            _ => i,
-        };
-        if i < self.moving() {
-            self.channels()[channel].shown.clone()
-        } else if (self.motion_len()..self.driven_len()).contains(&i) {
-            "a derivative of the motion".to_owned()
-        } else {
-            "an integral".to_owned()
-        }
-    }
-
-    /// An error at a state, reported with its coordinates.
-    pub fn fault(&self, kind: MotionErrorKind, time: f64, values: &[f64]) -> MotionError {
-        let named = self.channels().iter().zip(values).take(self.degrees().min(4));
-        let place = named.map(|(c, &x)| (c.shown.clone(), x)).filter(|(_, x)| x.is_finite());
-        MotionError { time, kind, place: place.collect() }
-    }
-
-    /// The error for a singular matrix, reported with the coordinates the matrix depends on.
-    pub(super) fn singular(
-        &self,
-        program: &Program,
-        singular: Singular,
-        time: f64,
-        values: &[f64],
-    ) -> MotionError {
-        let named = program.inputs_of(singular).iter().filter(|&&i| i < self.degrees());
-        let place = named.map(|&i| (self.channels()[i].shown.clone(), values[i]));
-        let is_constrained = self.constraints() > 0;
-        let kind = if is_constrained {
-            MotionErrorKind::SingularConstraints(None)
-        } else {
-            MotionErrorKind::SingularMass
-        };
-        MotionError { time, kind, place: place.take(4).collect() }
-    }
-
-    /// The error for given momenta (or velocities) that do not determine the initial rates.
-    pub(super) fn several(
-        &self,
-        time: f64,
-        solutions: &[Vec<DoubleDouble>],
-        targets: &[Option<DoubleDouble>],
-    ) -> MotionError {
-        let n = self.degrees();
-        let unknown: Vec<usize> = (0..n).filter(|&i| targets[i].is_some()).collect();
-        let first = if self.form() == Form::Momentum { 2 * n } else { n };
-        let described = |solution: &Vec<DoubleDouble>| {
-            let rate = |&i: &usize| {
-                format!("{} = {}", self.channels()[first + i].name, solution[n + i].high)
-            };
-            unknown.iter().map(rate).collect::<Vec<_>>().join(", ")
-        };
-        let kind = MotionErrorKind::SeveralStarts(solutions.iter().map(described).collect());
-        MotionError { time, kind, place: Vec::new() }
-    }
-
-    /// The error for a relation between velocities and momenta that could not be solved.
-    pub(super) fn unsolved(
-        &self,
-        why: LegendreError,
-        time: f64,
-        numbers: &[DoubleDouble],
-    ) -> MotionError {
-        let kind = match why {
-            LegendreError::Singular => MotionErrorKind::SingularMass,
-            LegendreError::NotConverging => MotionErrorKind::NoVelocities,
-        };
-        let values: Vec<f64> = numbers.iter().map(|x| x.high).collect();
-        self.fault(kind, time, &values)
     }
 }

@@ -8,13 +8,11 @@
 
 use std::sync::Arc;
 
-use super::program::Program;
-use super::rhs::ProgramBuilder;
+use super::constraint_programs::ConstraintPrograms;
+use super::constraint_span::{Basis, ConstraintSpan, norm};
 use super::solve::Factored;
 use super::value::Evaluator;
-use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
-use crate::mechanics::Holonomy;
-use crate::num::{DoubleDouble, Number};
+use crate::num::DoubleDouble;
 
 /// A row counts as dependent if its component orthogonal to the rows before it is smaller than
 /// this, relative to the row.
@@ -30,97 +28,6 @@ const SCALINGS: usize = 3;
 /// The relative error of an initial value or a parameter that was rounded to an `f64` a few times
 /// between the file or the command line and here.
 const ROUNDING_OF_INPUTS: f64 = 4.0 * f64::EPSILON;
-
-/// The programs of the constraints, as functions of (q, t).
-#[derive(Clone, Debug)]
-pub(super) struct Programs {
-    /// A, A₀, f and g of each constraint.
-    values: Arc<Program>,
-    /// For each of these values the size of its terms, then its sensitivity to its inputs, Σ |s
-    /// ∂/∂s|.
-    sizes: Arc<Program>,
-    /// The constraints on the velocities that have an f.
-    integrated: Vec<bool>,
-}
-
-impl Programs {
-    pub(super) fn of(builder: &mut ProgramBuilder<'_>) -> Result<Programs, Symbol> {
-        let mut values = Vec::new();
-        let mut integrated = Vec::new();
-        for (k, row) in builder.equations.constraints.iter().enumerate() {
-            values.extend_from_slice(&row.row);
-            values.push(row.rate);
-            let known = integral(builder, k);
-            integrated.push(known.is_some());
-            let (f, g) = known.unwrap_or((row.position.unwrap_or(Expr::ZERO), Expr::ONE));
-            values.extend([f, g]);
-        }
-        let pool = &mut builder.pool;
-        let sizes = values.iter().flat_map(|&e| [pool.magnitude(e), pool.size_of_inputs(e)]);
-        let sizes: Vec<Expr> = sizes.collect();
-        let (values, sizes) = (program(builder, &values)?, program(builder, &sizes)?);
-        Ok(Programs { values, sizes, integrated })
-    }
-}
-
-/// f and g of a constraint on the velocities that is holonomic by itself, whatever the parameters.
-fn integral(builder: &mut ProgramBuilder<'_>, k: usize) -> Option<(Expr, Expr)> {
-    let equations = builder.equations;
-    let Holonomy::Holonomic { constant: Some(f), together: false, at_these_parameters: false } =
-        *equations.supplements.holonomy.get(k)?
-    else {
-        return None;
-    };
-    let pool = &mut builder.pool;
-    let mut moving: Vec<Symbol> = equations.coordinates.iter().map(|c| c.position).collect();
-    moving.push(equations.symbols.time);
-    if !is_entire(pool, f, &moving) {
-        return None;
-    }
-    let (mut along, mut square) = (Vec::new(), Vec::new());
-    for (c, &a) in equations.coordinates.iter().zip(&equations.constraints[k].row) {
-        let slope = pool.derivative(f, c.position);
-        along.push(pool.mul(slope, a));
-        square.push(pool.powi(a, 2));
-    }
-    let (along, square) = (pool.sum(&along), pool.sum(&square));
-    let g = pool.div(along, square);
-    Some((f, pool.simplify(g)))
-}
-
-/// Whether an expression is smooth everywhere and has one value: an angle of a point jumps, and a
-/// quotient has a pole, where the constraint on the velocities has neither.
-fn is_entire(pool: &Pool, f: Expr, moving: &[Symbol]) -> bool {
-    let varies = |e: Expr| pool.depends_on_any(e, moving);
-    pool.reachable(&[f]).into_iter().filter(|&e| varies(e)).all(|e| match pool.node(e) {
-        Node::Product(_, factors) => {
-            let whole = |n: Number| n.as_integer().is_some_and(|n| n >= 0);
-            factors.iter().all(|&(base, n)| !varies(base) || whole(n))
-        }
-        Node::Call(function, _) => matches!(
-            function,
-            FunctionId::Sin
-                | FunctionId::Cos
-                | FunctionId::Exp
-                | FunctionId::Sinh
-                | FunctionId::Cosh
-                | FunctionId::Tanh
-        ),
-        Node::Power(..) => false,
-        Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Sum(..) => true,
-    })
-}
-
-fn program(builder: &mut ProgramBuilder<'_>, outputs: &[Expr]) -> Result<Arc<Program>, Symbol> {
-    let equations = builder.equations;
-    let mut lowering = builder.lowering();
-    for c in &equations.coordinates {
-        let register = lowering.input();
-        lowering.bind(c.position, register);
-    }
-    let outputs = lowering.lower_all(outputs);
-    lowering.finish(outputs)
-}
 
 /// A residual, and the sizes it is measured by.
 #[derive(Clone, Copy, Debug)]
@@ -162,7 +69,7 @@ pub(super) struct Conditions {
 }
 
 impl Conditions {
-    pub(super) fn new(programs: &Programs, count: usize) -> Conditions {
+    pub(super) fn new(programs: &ConstraintPrograms, count: usize) -> Conditions {
         let degrees = programs.values.inputs();
         Conditions {
             values: Evaluator::new(Arc::clone(&programs.values)),
@@ -415,94 +322,4 @@ impl Conditions {
         }
         units
     }
-}
-
-/// Rows orthonormalised one after the other.
-#[derive(Clone, Debug)]
-struct Basis {
-    rows: Vec<Vec<f64>>,
-    /// The volume spanned by the rows before normalisation.
-    volume: f64,
-}
-
-impl Basis {
-    /// Adds a row. Returns the sine of its angle to the span of those before it, or `None` if the
-    /// row vanishes.
-    fn add(&mut self, mut rest: Vec<f64>) -> Option<f64> {
-        let size = norm(&rest);
-        if size == 0.0 || !size.is_finite() {
-            self.rows.push(vec![0.0; rest.len()]);
-            return None;
-        }
-        for x in &mut rest {
-            *x /= size;
-        }
-        // two passes are enough (Golub & Van Loan, Matrix Computations, 5.2.9)
-        for other in self.rows.iter().chain(&self.rows) {
-            let part: f64 = rest.iter().zip(other).map(|(x, y)| x * y).sum();
-            rest.iter_mut().zip(other).for_each(|(x, y)| *x -= part * y);
-        }
-        let left = norm(&rest);
-        self.volume *= size * left;
-        let scale = if left > 0.0 { 1.0 / left } else { 0.0 };
-        self.rows.push(rest.iter().map(|x| x * scale).collect());
-        Some(left)
-    }
-
-    fn drop_last(&mut self) {
-        self.rows.pop();
-    }
-}
-
-/// The space spanned by the rows of constraints, with its orientation.
-#[derive(Clone, PartialEq, Debug)]
-pub(super) struct ConstraintSpan {
-    /// Orthonormal rows, with the orientation of the constraints' own rows.
-    rows: Vec<Vec<f64>>,
-    /// The volume spanned by the constraints' own rows.
-    volume: f64,
-    units: Vec<f64>,
-}
-
-impl ConstraintSpan {
-    /// The units of the coordinates the span was computed in.
-    pub(super) fn units(&self) -> &[f64] {
-        &self.units
-    }
-
-    /// The volume that the rows of the constraints span, in these units.
-    pub(super) fn volume(&self) -> f64 {
-        self.volume
-    }
-
-    /// The cosine of the angle between two such spaces: 1 if they are equal, −1 if they are equal
-    /// with the opposite orientation. It is the determinant of the rows' inner products.
-    pub(super) fn cosine(&self, other: &ConstraintSpan) -> f64 {
-        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-        let mut matrix: Vec<Vec<f64>> =
-            self.rows.iter().map(|a| other.rows.iter().map(|b| product(a, b)).collect()).collect();
-        let n = matrix.len();
-        let mut determinant = 1.0;
-        for k in 0..n {
-            let largest = (k..n).max_by(|&a, &b| matrix[a][k].abs().total_cmp(&matrix[b][k].abs()));
-            let Some(best) = largest.filter(|&best| matrix[best][k] != 0.0) else { return 0.0 };
-            if best != k {
-                matrix.swap(best, k);
-                determinant = -determinant;
-            }
-            determinant *= matrix[k][k];
-            for i in k + 1..n {
-                let factor = matrix[i][k] / matrix[k][k];
-                for j in k..n {
-                    let product = factor * matrix[k][j];
-                    matrix[i][j] -= product;
-                }
-            }
-        }
-        determinant
-    }
-}
-
-fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

@@ -1,115 +1,16 @@
-//! The constraints of a compiled system: which are enforced, and states that satisfy them.
+//! A system under constraints: which of them are enforced, consistent initial states, and impulses.
 //!
-//! In: states, impulses, requests to release a constraint. Out: states on the constraints,
-//! reactions, residuals. Never here: the constraint forces along the motion, which are outputs of
-//! the programs.
+//! In: states, impulses, requests to release a constraint. Out: systems with another active set, states on the
+//! constraints, reactions. Never here: how a state is projected.
 
-use super::conditions::{Conditions, ConstraintSpan, Programs};
+use super::active_set::ActiveSet;
+use super::conditions::Conditions;
 use super::consistent_initial::{self, InconsistentStart, KnownVelocity};
 use super::error::{MotionError, MotionErrorKind};
-use super::inertia::Inertia;
-use super::kkt::ConstraintSystem;
-use super::projection::{Projection, ProjectionError};
-use super::rhs::ProgramBuilder;
+use super::projection::ProjectionError;
 use super::value::Evaluator;
 use super::{Form, State, System};
-use crate::expr::{Expr, Symbol};
-use crate::model::{Action, Model};
 use crate::num::DoubleDouble;
-
-/// What is known of the constraints before any state.
-#[derive(Clone, Debug)]
-pub(super) struct Constrained {
-    programs: Programs,
-    pub(super) names: Vec<String>,
-    /// Whether any constraint involves each coordinate's velocity.
-    touched: Vec<bool>,
-    /// Whether the programs take two switches for each constraint.
-    pub(super) switched: bool,
-}
-
-/// Which constraints are enforced.
-#[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub(super) struct ActiveSet {
-    /// The constraints that have not been released.
-    active: Vec<bool>,
-    /// The active constraints whose multipliers are solved for. The others depend on these.
-    enforced: Vec<bool>,
-}
-
-impl ActiveSet {
-    /// The switches of the programs: enforced and active, for each constraint.
-    pub(super) fn switches(&self, count: usize) -> impl Iterator<Item = DoubleDouble> {
-        let number = |on: bool| if on { DoubleDouble::ONE } else { DoubleDouble::ZERO };
-        (0..count).flat_map(move |k| [number(self.enforced[k]), number(self.active[k])])
-    }
-}
-
-impl Constrained {
-    /// Evaluates the constraints at the file's initial state and makes `builder` write their
-    /// multipliers accordingly.
-    pub(super) fn of(
-        model: &Model,
-        builder: &mut ProgramBuilder<'_>,
-        inertia: Option<&Inertia>,
-    ) -> Result<Option<(Constrained, ActiveSet)>, Symbol> {
-        let rows = &builder.equations.constraints;
-        if rows.is_empty() {
-            // the mass matrix alone
-            builder.kkt = ConstraintSystem::of(&mut builder.pool, builder.equations, false, false);
-            return Ok(None);
-        }
-        let programs = Programs::of(builder)?;
-        let enforced = independent_at_start(model, builder, &programs, inertia)?;
-        let redundant = enforced.contains(&false);
-        let released = model.events.iter().any(|e| matches!(e.action, Action::Release(_)));
-        let switched = redundant || released;
-        let kkt = ConstraintSystem::of(&mut builder.pool, builder.equations, switched, redundant);
-        builder.parameters.extend(kkt.switches.iter().flat_map(|s| [s.held, s.active]));
-        builder.kkt = kkt;
-        let constrained = Constrained {
-            programs,
-            touched: (0..model.coordinates.len())
-                .map(|i| rows.iter().any(|row| row.row[i] != Expr::ZERO))
-                .collect(),
-            names: rows.iter().map(|row| row.name.clone()).collect(),
-            switched,
-        };
-        let active = vec![true; rows.len()];
-        Ok(Some((constrained, ActiveSet { active, enforced })))
-    }
-}
-
-/// Returns which constraints are independent of those before them at the file's initial state.
-fn independent_at_start(
-    model: &Model,
-    builder: &mut ProgramBuilder<'_>,
-    programs: &Programs,
-    inertia: Option<&Inertia>,
-) -> Result<Vec<bool>, Symbol> {
-    let count = builder.equations.constraints.len();
-    let mut lowering = builder.lowering();
-    let outputs = model.coordinates.iter().map(|c| lowering.lower(c.initial)).collect();
-    let start = lowering.finish(outputs)?;
-    let mut parameters: Vec<DoubleDouble> =
-        model.parameters.iter().map(|p| DoubleDouble::written(p.value)).collect();
-    if let Some(inertia) = inertia {
-        parameters.extend(inertia.values(&parameters));
-    }
-    let mut values: Evaluator<DoubleDouble> = Evaluator::new(start);
-    values.set_parameters(&parameters);
-    let positions: Vec<DoubleDouble> =
-        (0..model.coordinates.len()).map(|i| values.output(i)).collect();
-    let mut conditions = Conditions::new(programs, count);
-    conditions.set_parameters(&parameters);
-    conditions.look(DoubleDouble::written(model.run.start), &positions);
-    Ok(conditions.independent(&vec![true; count]))
-}
-
-/// Where the sine between the constraints' directions is smaller than this, a failure is attributed
-/// to a singular configuration nearby: near a regular one corrections converge from much farther
-/// away.
-const NEARLY_SINGULAR: f64 = 1e-3;
 
 /// If the orthogonal components of the enforced rows fall below this, another choice among the
 /// redundant constraints is tried …
@@ -117,122 +18,6 @@ const DEPENDENT: f64 = 0.03;
 
 /// … and taken if its components are larger by this factor.
 const GAINED: f64 = 4.0;
-
-/// The space of the constraints' directions at a state, with its orientation.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Directions(ConstraintSpan);
-
-impl Directions {
-    /// The cosine of the angle between two spaces of directions. It changes smoothly along a
-    /// motion, and jumps from 1 to −1 where the motion passes a singular configuration.
-    pub fn cosine(&self, other: &Directions) -> f64 {
-        self.0.cosine(&other.0)
-    }
-}
-
-/// Projects the states of one system onto its constraints, at one set of parameters. It owns its
-/// registers.
-#[derive(Clone, Debug)]
-pub struct ConstraintProjector {
-    system: System,
-    projection: Projection,
-    numbers: Vec<DoubleDouble>,
-}
-
-impl ConstraintProjector {
-    /// Sets the parameters.
-    pub fn set_parameters(&mut self, parameters: &[f64]) {
-        self.projection.set_parameters(&self.system.inputs(parameters));
-    }
-
-    /// Takes what the constraints on the velocities keep constant from a state where a motion begins
-    /// or goes on.
-    pub fn take_levels(&mut self, state: &State) {
-        self.load(state);
-        let conditions = self.projection.conditions();
-        conditions.look(state.exact_time(), &self.numbers);
-        conditions.take_levels();
-    }
-
-    fn load(&mut self, state: &State) {
-        for (i, x) in self.numbers.iter_mut().enumerate() {
-            *x = state.exact(i);
-        }
-    }
-
-    /// Moves a state (q, q̇) back onto the constraints by the least amount, measured by the mass
-    /// matrix.
-    ///
-    /// # Errors
-    /// Returns an error if no state nearby satisfies them, or if their directions are dependent.
-    pub fn project(&mut self, state: &mut State) -> Result<(), MotionError> {
-        self.load(state);
-        let outcome = self.projection.project(state.exact_time(), &mut self.numbers);
-        if let Err(why) = outcome {
-            let singular = self.is_nearly_singular(state, None);
-            let why = if singular { ProjectionError::Singular } else { why };
-            return Err(self.system.lost(why, state));
-        }
-        // a constraint that was redundant at the start may have come to contradict the others
-        let ActiveSet { active, enforced } = self.system.holding();
-        let conditions = self.projection.conditions();
-        let velocities = &self.numbers[self.system.degrees()..];
-        for k in (0..active.len()).filter(|&k| active[k] && !enforced[k]) {
-            let off = conditions.position(k).relative();
-            let off = off.max(conditions.velocity(k, velocities).relative());
-            if off.is_nan() || off > consistent_initial::GIVEN_WITHIN {
-                return Err(self.system.lost(ProjectionError::Parted(k), state));
-            }
-        }
-        for (i, &x) in self.numbers.iter().enumerate() {
-            state.set(i, x);
-        }
-        Ok(())
-    }
-
-    /// Whether a state lies at or near a singular configuration of the constraints: their
-    /// directions are nearly dependent, or one nearly vanishes relative to its size at another
-    /// state.
-    pub fn is_nearly_singular(&mut self, state: &State, beside: Option<&State>) -> bool {
-        let beside = beside.and_then(|beside| self.directions(beside, None));
-        let Some(here) = self.directions(state, beside.as_ref()) else { return true };
-        let shrunk = |beside: Directions| here.0.volume() < NEARLY_SINGULAR * beside.0.volume();
-        let enforced = self.system.holding().enforced.clone();
-        self.projection.conditions().independence(&enforced) < NEARLY_SINGULAR
-            || beside.is_some_and(shrunk)
-    }
-
-    /// The directions of the constraints at a state, in the units of `like` if it is given. Returns
-    /// `None` at a singular configuration.
-    pub fn directions(&mut self, state: &State, like: Option<&Directions>) -> Option<Directions> {
-        self.load(state);
-        let enforced = self.system.holding().enforced.clone();
-        let conditions = self.projection.conditions();
-        conditions.look(state.exact_time(), &self.numbers);
-        let units = like.map(|like| like.0.units());
-        conditions.span(&enforced, units).map(Directions)
-    }
-
-    /// The residuals of each constraint at a state (q, q̇), relative to the size of its terms: of
-    /// f(q, t) if it is holonomic (else zero), and of A q̇ + A₀. Released constraints count as
-    /// zero.
-    pub fn residuals(&mut self, state: &State) -> Vec<[f64; 2]> {
-        self.load(state);
-        let n = self.system.degrees();
-        let active = self.system.holding().active.clone();
-        let conditions = self.projection.conditions();
-        conditions.look(state.exact_time(), &self.numbers);
-        let residual = |k: usize| {
-            if active[k] {
-                let position = conditions.position(k).relative();
-                [position, conditions.velocity(k, &self.numbers[n..2 * n]).relative()]
-            } else {
-                [0.0; 2]
-            }
-        };
-        (0..active.len()).map(residual).collect()
-    }
-}
 
 impl System {
     /// The number of constraints.
@@ -302,17 +87,6 @@ impl System {
         let positions: Vec<DoubleDouble> = (0..self.degrees()).map(|i| state.exact(i)).collect();
         conditions.look(state.exact_time(), &positions);
         Some(conditions)
-    }
-
-    /// The projector onto the constraints, or `None` if there are none.
-    pub fn projector(&self, parameters: &[f64]) -> Option<ConstraintProjector> {
-        let conditions = Conditions::new(&self.constrained()?.programs, self.constraints());
-        let momenta = Evaluator::new(self.legendre_program());
-        let projection = Projection::new(conditions, momenta, &self.holding().enforced);
-        let numbers = vec![DoubleDouble::ZERO; self.moving()];
-        let mut projector = ConstraintProjector { system: self.clone(), projection, numbers };
-        projector.set_parameters(parameters);
-        Some(projector)
     }
 
     /// A₀ of each constraint at a state.
@@ -407,20 +181,5 @@ impl System {
             projector.project(&mut state)?;
         }
         Ok(state)
-    }
-
-    fn lost(&self, why: ProjectionError, state: &State) -> MotionError {
-        let kind = match (why, self.constrained()) {
-            (ProjectionError::Lost(k), Some(c)) => {
-                MotionErrorKind::ConstraintLost(c.names[k].clone())
-            }
-            (ProjectionError::Parted(k), Some(c)) => {
-                MotionErrorKind::ConstraintParted(c.names[k].clone())
-            }
-            (ProjectionError::Singular, _) | (_, None) => {
-                MotionErrorKind::SingularConstraints(None)
-            }
-        };
-        self.fault(kind, state.time, &state.values)
     }
 }

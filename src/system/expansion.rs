@@ -10,11 +10,8 @@ use std::sync::Arc;
 
 use super::System;
 use super::jet::{Jet, Side};
-use super::observables;
 use super::program::Program;
-use super::rhs::ProgramBuilder;
 use super::series::Series;
-use crate::expr::{Expr, FunctionId, Node, Symbol};
 use crate::num::{DoubleDouble, math};
 
 /// The number of last orders that enter the estimate: those of even and of odd functions vanish in
@@ -26,27 +23,6 @@ const FARTHEST_ARGUMENT: f64 = 3.0;
 
 /// … or by this part of itself: far out in the tail nothing happens.
 const PART_OF_ARGUMENT: f64 = 0.5;
-
-/// The program of the functions that are expanded: those of the events, then the arguments of the
-/// exponentials in them, which may underflow far away but not nearby.
-pub(super) fn program(
-    builder: &mut ProgramBuilder<'_>,
-    functions: &[Option<Expr>],
-) -> Result<Arc<Program>, Symbol> {
-    let given: Vec<Expr> = functions.iter().flatten().copied().collect();
-    let mut all = functions.to_vec();
-    for part in builder.pool.reachable(&given) {
-        match builder.pool.node(part) {
-            Node::Call(
-                FunctionId::Exp | FunctionId::Tanh | FunctionId::Sinh | FunctionId::Cosh,
-                arguments,
-            ) => all.extend(arguments.iter().map(|&u| Some(u))),
-            Node::Power(_, exponent) => all.push(Some(*exponent)),
-            _ => {}
-        }
-    }
-    observables::program(builder, &all)
-}
 
 /// The series of the functions, up to one order.
 #[derive(Clone, Debug)]

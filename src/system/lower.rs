@@ -292,6 +292,28 @@ impl<'a> Lowering<'a> {
     }
 }
 
+impl Program {
+    /// Compiles expressions of a pool, as functions of parameters, time and inputs.
+    ///
+    /// # Errors
+    /// Returns the first symbol that is none of these.
+    pub fn compile(
+        pool: &mut Pool,
+        parameters: &[Symbol],
+        time: Symbol,
+        inputs: &[Symbol],
+        outputs: &[Expr],
+    ) -> Result<Arc<Program>, Symbol> {
+        let mut lowering = Lowering::new(pool, parameters, time);
+        for &symbol in inputs {
+            let register = lowering.input();
+            lowering.bind(symbol, register);
+        }
+        let outputs = lowering.lower_all(outputs);
+        lowering.finish(outputs)
+    }
+}
+
 /// The guard of an operation, if it needs one. No motion continues through the zero of an argument whose power is the
 /// inverse or a higher one: it meets a pole, or passes it closely.
 fn guard(program: &Program, r: Register) -> Option<Guard> {

@@ -28,7 +28,7 @@ pub struct Observer {
 }
 
 impl Observer {
-    pub(super) fn new(system: System, parameters: &[f64]) -> Observer {
+    fn new(system: System, parameters: &[f64]) -> Observer {
         let watch = system.watch();
         let images: Vec<Image> = watch.images.iter().map(Image::new).collect();
         let inputs = system.motion_len() + 2 + images.iter().map(Image::len).sum::<usize>();
@@ -173,5 +173,12 @@ impl Observer {
         }
         self.energy.evaluate(time, &[position, state[1].high]).ok()?;
         Some(self.energy.output(0))
+    }
+}
+
+impl System {
+    /// Returns an observer of this system's states.
+    pub fn observer(&self, parameters: &[f64]) -> Observer {
+        Observer::new(self.clone(), parameters)
     }
 }

@@ -2,10 +2,7 @@
 //! register and reads earlier ones only. Two evaluators run it: [`Evaluator`](super::Evaluator) and
 //! [`Jet`](super::Jet).
 
-use std::sync::Arc;
-
-use super::lower::Lowering;
-use crate::expr::{Expr, FunctionId, Pool, Symbol};
+use crate::expr::FunctionId;
 use crate::num::DoubleDouble;
 
 /// The index of a number in a program, which is that of the operation that writes it.
@@ -119,26 +116,6 @@ pub struct Singular {
 }
 
 impl Program {
-    /// Compiles expressions of a pool, as functions of parameters, time and inputs.
-    ///
-    /// # Errors
-    /// Returns the first symbol that is none of these.
-    pub fn compile(
-        pool: &mut Pool,
-        parameters: &[Symbol],
-        time: Symbol,
-        inputs: &[Symbol],
-        outputs: &[Expr],
-    ) -> Result<Arc<Program>, Symbol> {
-        let mut lowering = Lowering::new(pool, parameters, time);
-        for &symbol in inputs {
-            let register = lowering.input();
-            lowering.bind(symbol, register);
-        }
-        let outputs = lowering.lower_all(outputs);
-        lowering.finish(outputs)
-    }
-
     /// The number of outputs.
     pub fn outputs(&self) -> usize {
         self.outputs.len()

@@ -3,6 +3,7 @@
 //! In: shapes, channels, the camera. Out: cells. Never here: the meaning of the shapes.
 
 mod annotation;
+mod arrow;
 mod body;
 mod circle;
 mod colours;
@@ -10,6 +11,7 @@ mod reference_frame;
 mod rod;
 mod scene;
 mod solid;
+mod surface;
 
 use ratatui::layout::{Position, Rect};
 
@@ -21,7 +23,6 @@ use super::quantity::{Quantities, Source};
 use super::theme::Role;
 use crate::expr::Symbol;
 use crate::instrument::CameraPose;
-use crate::mechanics::Apparent;
 use crate::model::{Point, Shape};
 use crate::num::math;
 use annotation::{compass, legend};
@@ -29,7 +30,6 @@ use body::Outline;
 use colours::colours;
 use reference_frame::ReferenceFrame;
 use scene::Scene;
-use solid::Solid;
 
 /// The layers of the picture, from the lowest.
 const SURFACE: u8 = 0;
@@ -40,15 +40,6 @@ const BODY: u8 = 4;
 
 /// The number of steps in which lines become dimmer with their distance.
 const DISTANCES: usize = 4;
-
-/// The share of a surface's dots that are drawn in the shade, and in full light: of spheres, on which curves are drawn,
-/// of other solids, and of masses.
-const SPHERE: [f64; 2] = [0.06, 0.55];
-const OPAQUE: [f64; 2] = [0.2, 0.9];
-const WHOLE: [f64; 2] = [1.0, 1.0];
-
-/// The length of the longest apparent force so far, as a fraction of the picture.
-const LONGEST: f64 = 0.25;
 
 /// Draws the picture inside the frame.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye: &CameraPose) {
@@ -265,44 +256,6 @@ impl ScenePainter<'_> {
             .map_or(v, |reference_frame| reference_frame.direction(&self.q.snapshot.values, v))
     }
 
-    /// Draws the apparent forces on the frame's particles, and returns which of them are present.
-    fn apparent(&mut self, seen: &[Apparent]) -> Vec<usize> {
-        let forces = |a: &Apparent| [a.centrifugal, a.coriolis, a.euler, a.dragging];
-        let greatest = |vector: &Point| {
-            let most = vector.map(|e| match self.q.place(e) {
-                Source::Number(number) => number.abs(),
-                Source::Channel(channel) => {
-                    let (lo, hi) = self.q.bounds(channel);
-                    lo.abs().max(hi.abs())
-                }
-            });
-            most.iter().map(|v| v * v).sum::<f64>().sqrt()
-        };
-        let all = seen.iter().flat_map(|a| forces(a).map(|vector| greatest(&vector)));
-        let largest = all.filter(|v| v.is_finite()).fold(0.0, f64::max);
-        let (x, y) = (self.frame.x, self.frame.y);
-        let scale = LONGEST * (x.hi - x.lo).abs().min((y.hi - y.lo).abs()) / largest;
-        let mut named = Vec::new();
-        if largest == 0.0 {
-            return named;
-        }
-        for particle in seen {
-            let at = particle.at.map(|e| self.q.number(e));
-            for (index, vector) in forces(particle).iter().enumerate() {
-                if greatest(vector) > 0.0 {
-                    let along = vector.map(|e| scale * self.q.number(e));
-                    let pen = Pen::new(self.q.look.theme.curve(index + 1), SOLID);
-                    self.arrow(at, along, &pen);
-                    if !named.contains(&index) {
-                        named.push(index);
-                    }
-                }
-            }
-        }
-        named.sort_unstable();
-        named
-    }
-
     fn flat(&self, point: [f64; 3]) -> [f64; 2] {
         let [right, up, _] = self.camera.project(point);
         [right, up]
@@ -331,62 +284,6 @@ impl ScenePainter<'_> {
         });
         let line: Vec<_> = line.collect();
         self.raster.polyline_in(&self.frame, line, &pens);
-    }
-
-    /// Adds the surfaces of a shape to what hides others.
-    fn surfaces(&mut self, shape: &Shape) {
-        if self.range.is_none() && !matches!(shape, Shape::Disc { .. }) {
-            return;
-        }
-        let theme = &self.q.look.theme;
-        let faint = (Pen::new(theme[Role::Level], SURFACE), OPAQUE);
-        let (pen, solids) = match shape {
-            Shape::Disc { centre, radius, normal } => {
-                let (centre, normal) = (self.point(centre), self.direction(normal));
-                let rim = circle::circle(centre, self.q.number(*radius), normal);
-                (faint, vec![Solid::Face(rim)])
-            }
-            Shape::Cone { tip, base, radius } => {
-                let (tip, base) = (self.point(tip), self.point(base));
-                (faint, solid::cone(tip, base, self.q.number(*radius)))
-            }
-            Shape::Sphere { centre, radius } => (
-                (faint.0, SPHERE),
-                vec![Solid::Ball(self.point(centre), self.q.number(*radius).abs())],
-            ),
-            Shape::Mass { at, radius: Some(radius) } => {
-                let radius = self.q.number(*radius).abs();
-                if self.cells(radius).is_none() {
-                    return;
-                }
-                let style = theme.curve(self.colour(at));
-                ((Pen::new(style, BODY), WHOLE), vec![Solid::Ball(self.point(at), radius)])
-            }
-            Shape::Body { at } => {
-                let Some(outline) = Outline::of(self.q) else { return };
-                let centre = self.q.point(at);
-                let solids = outline.surfaces.into_iter();
-                (faint, solids.map(|solid| solid.moved(|own| self.place(centre, own))).collect())
-            }
-            _ => return,
-        };
-        let (number, projection) = (self.surfaces.len(), self.camera.projection());
-        self.surfaces.push(pen);
-        for solid in solids {
-            match solid.moved(|point| projection.of(point)) {
-                Solid::Face(corners) => self.depth.face(&corners, number),
-                Solid::Ball(centre, radius) => self.depth.ball(centre, radius, number),
-            }
-        }
-    }
-
-    /// Fills the surfaces, each dot with the nearest one.
-    fn fill(&mut self) {
-        for (dot, covered) in self.depth.dots() {
-            let Some((pen, [shade, light])) = self.surfaces.get(covered.surface) else { continue };
-            let coverage = shade + (light - shade) * covered.light * covered.light;
-            self.raster.dot(dot, &pen.covering(coverage));
-        }
     }
 
     /// A radius in cells, if it is large enough to be drawn.
@@ -511,18 +408,5 @@ impl ScenePainter<'_> {
         let since = kept::since(rows, ramp.len());
         let ages = Ages { since: &since, ramp, layer: TRACK, behind: Some((&self.depth, near)) };
         drawn.draw(&mut self.raster, ages, present);
-    }
-
-    /// Draws a shaft with a head of two strokes, an eighth of its length.
-    fn arrow(&mut self, foot: [f64; 3], along: [f64; 3], pen: &Pen) {
-        let tip = [0, 1, 2].map(|k| foot[k] + along[k]);
-        let (a, b) = (self.flat(foot), self.flat(tip));
-        let back = [(a[0] - b[0]) / 8.0, (a[1] - b[1]) / 8.0];
-        let wing = |side: f64| [b[0] + back[0] - side * back[1], b[1] + back[1] + side * back[0]];
-        self.curve(&[foot, tip], pen);
-        if self.depth.hides_point(self.camera.project(tip)) {
-            return;
-        }
-        self.raster.polyline(&self.frame, [wing(0.7), b, wing(-0.7)], pen);
     }
 }

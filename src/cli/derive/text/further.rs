@@ -1,0 +1,140 @@
+//! The part of the report that takes longer to find, as text: observables that change, transformations, generators, the
+//! Hamilton–Jacobi equation.
+//!
+//! In: [`Further`]. Out: lines of the report. Never here: what is known of a law at once.
+
+use super::TextReport;
+use crate::mechanics::{Class, Classed, Further};
+
+impl TextReport<'_> {
+    /// The observables that are not conserved, with their rates.
+    pub(super) fn changing(&mut self, classes: &[Classed]) {
+        let unknown = classes.iter().filter(|c| c.class == Class::Unknown);
+        let unknown: Vec<String> = unknown
+            .map(|c| {
+                let name = self.words(&c.name);
+                match &c.rate {
+                    Ok(rate) => format!("  d({name})/dt = {}", self.math(*rate)),
+                    Err(why) => format!("  {name}   ({})", self.words(&why.0)),
+                }
+            })
+            .collect();
+        let here = classes.iter().filter(|c| c.class == Class::AtTheseParameters);
+        let here: Vec<String> = here
+            .map(|c| {
+                let name = self.words(&c.name);
+                match &c.rate {
+                    Ok(rate) => format!("  {name}, for d({name})/dt = {}", self.math(*rate)),
+                    Err(_) => format!("  {name}"),
+                }
+            })
+            .collect();
+        let changing = classes.iter().filter(|c| c.class == Class::Changing);
+        let rows: Vec<String> = changing
+            .map(|c| {
+                let name = self.words(&c.name);
+                match &c.rate {
+                    Ok(rate) => format!("  d({name})/dt = {}", self.math(*rate)),
+                    Err(why) => format!("  {name}   ({}; {})", c.class, self.words(&why.0)),
+                }
+            })
+            .collect();
+        let rounded = classes.iter().filter(|c| c.class == Class::Numerically && c.rate.is_err());
+        let rounded: Vec<String> =
+            rounded.map(|c| format!("  {}   ({})", self.words(&c.name), c.class)).collect();
+        let sections = [
+            ("Conserved to rounding", rounded),
+            ("Conserved at the file's values of the parameters", here),
+            ("Not conserved", rows),
+            ("Not known to be conserved or not", unknown),
+        ];
+        for (title, rows) in sections {
+            if !rows.is_empty() {
+                self.heading(title);
+                for row in &rows {
+                    self.line(row);
+                }
+            }
+        }
+    }
+
+    /// Each transformation: the map, whether it is canonical, and K.
+    pub(super) fn transformations(&mut self, further: &Further) {
+        for known in &further.transformations {
+            let name = self.words(&known.map.name);
+            let verdict = &known.verdict;
+            let residual = verdict.residual.map_or_else(String::new, |residual| {
+                format!("; residual {residual:.1e} at points near the start")
+            });
+            let judged = match (verdict.canonical, verdict.proved) {
+                (true, true) => format!("canonical, proved{residual}"),
+                (true, false) => format!("canonical to rounding{residual}"),
+                (false, _) => format!("not canonical{residual}"),
+            };
+            self.heading(&format!("Transformation {name}: {}", self.words(&judged)));
+            for (s, e) in known.map.forwards.iter().flatten() {
+                let line = format!("  {} = {}", self.symbol(*s), self.math(*e));
+                self.line(&line);
+            }
+            if known.map.forwards.is_none() {
+                self.line("  the new variables are not known in closed form");
+            }
+            if let Some(why) = &verdict.why {
+                self.line(&format!("  {}", self.words(why)));
+            }
+            if let Some(valence) = verdict.valence {
+                self.line(&format!("  a scale transformation of valence {}", self.math(valence)));
+            }
+            for one in &known.functions {
+                let name = one.name();
+                let words = match &one.function {
+                    Ok(e) if one.proved => format!("{} = {}", name, self.math(*e)),
+                    Ok(e) => format!("{} = {}   (near the start)", name, self.math(*e)),
+                    Err(why) => format!("{}: none; {}", name, self.words(&why.to_string())),
+                };
+                self.line(&format!("  {words}"));
+            }
+            match &known.hamiltonian {
+                Ok(e) => self.line(&format!("  K = {}", self.math(*e))),
+                Err(why) if verdict.canonical => {
+                    self.line(&format!("  K: {}", self.words(&why.to_string())));
+                }
+                Err(_) => {}
+            }
+        }
+    }
+
+    /// Each generator G with [H, G].
+    pub(super) fn generators(&mut self, further: &Further) {
+        if further.generators.is_empty() {
+            return;
+        }
+        self.heading("Generators");
+        for known in &further.generators {
+            let bracket = match &known.bracket {
+                Ok(e) => self.math(*e),
+                Err(_) => "not known in closed form".to_owned(),
+            };
+            let kept = if known.conserved { "conserved" } else { "not conserved" };
+            let (name, e) = (self.words(&known.name), self.math(known.expression));
+            self.line(&format!("  {name}: G = {e}, [H, G] = {bracket}   ({kept})"));
+        }
+    }
+
+    pub(super) fn hamilton_jacobi(&mut self, further: &Further) {
+        let Some(known) = &further.hamilton_jacobi else { return };
+        let model = self.report.model;
+        let complete = if known.complete { "complete" } else { "not complete" };
+        self.heading(&format!("Integral of the Hamilton-Jacobi equation: {complete}"));
+        if let Some(why) = &known.why {
+            self.line(&format!("  {}", self.words(why)));
+        }
+        for (c, &e) in model.coordinates.iter().zip(&known.momenta) {
+            self.line(&format!("  {} = {}", self.symbol(c.momentum), self.math(e)));
+        }
+        let constants = model.complete_integral.iter().flat_map(|s| &s.constants);
+        for (c, &e) in constants.zip(&known.beta) {
+            self.line(&format!("  {} = {}", self.symbol(c.conjugate), self.math(e)));
+        }
+    }
+}

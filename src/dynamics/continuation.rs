@@ -1,0 +1,472 @@
+//! Families of periodic orbits, followed by pseudo-arclength.
+//!
+//! In: a periodic orbit, and what changes along its family: the energy, the period, or a parameter.
+//! Out: the orbits at given values, in their order along the family, and between them the folds,
+//! where the family turns back, and the bifurcations, where a multiplier passes 1 or −1. Never
+//! here: how one orbit is closed.
+//!
+//! Source: H. B. Keller, Lectures on Numerical Methods in Bifurcation Problems, Springer 1987; the
+//! bifurcations of orbits: K. R. Meyer, Trans. Amer. Math. Soc. 149 (1970) 95.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::error::DynamicsError;
+use super::family::{Along, Bifurcation, Family, Member};
+use super::linear;
+use super::orbit::{Fixed, Newton, Orbit};
+use super::orbit_units::OrbitUnits;
+use super::phase_space::PhaseSpace;
+use crate::integrate::{Method, Settings};
+use crate::num::DoubleDouble;
+use crate::system::State;
+
+/// The most steps in one direction.
+const STEPS: usize = 300;
+
+/// The largest step, and the least that is tried, in the size of an orbit.
+const LARGEST: f64 = 0.1;
+const LEAST: f64 = 1e-6;
+
+/// The most corrections of one step.
+const CORRECTIONS: usize = 8;
+
+/// A point counts as on the family when it closes up to this part of its size.
+const CLOSED: f64 = 1e-11;
+
+/// The halvings that locate a bifurcation.
+const HALVINGS: usize = 30;
+
+/// A change of a parameter for its difference.
+const DIFFERENCE: f64 = 1e-5;
+
+/// A point of a family.
+#[derive(Clone)]
+struct FamilyPoint {
+    state: State,
+    period: f64,
+    parameter: f64,
+    /// The direction of the family, in (z, T, μ), for a step onwards.
+    tangent: DVector<f64>,
+    value: f64,
+    orbit: Orbit,
+}
+
+impl FamilyPoint {
+    /// What changes its sign at a period doubling: Π (μᵢ + 1) of the transverse multipliers.
+    fn doubling(&self) -> f64 {
+        let n = self.orbit.transverse.nrows();
+        (&self.orbit.transverse + DMatrix::identity(n, n)).determinant()
+    }
+
+    /// What changes its sign where a multiplier passes 1: Π (μᵢ − 1).
+    fn unit(&self) -> f64 {
+        let n = self.orbit.transverse.nrows();
+        (&self.orbit.transverse - DMatrix::identity(n, n)).determinant()
+    }
+}
+
+/// Follows the family of an orbit in both directions, as far as its values lie between the first
+/// and the last of `values`.
+///
+/// # Errors
+/// Returns an error if the family has no such values.
+pub fn family(
+    space: &PhaseSpace,
+    method: (&'static Method, Settings),
+    orbit: &Orbit,
+    (along, fixed): (Along, Fixed),
+    values: &[f64],
+) -> Result<Family, DynamicsError> {
+    let conserved = space.is_autonomous() && space.is_hamiltonian();
+    if !matches!(along, Along::Parameter(_)) && !conserved {
+        return Err(DynamicsError::Unsuited(
+            "without a conserved energy orbits are isolated: name a parameter that changes along \
+             their family"
+                .to_owned(),
+        ));
+    }
+    let continuation = Continuation { space, method, along, fixed, values };
+    let first = continuation.first(orbit)?;
+    let mut family = Family { members: Vec::new(), ended: Vec::new(), cancelled: false };
+    let (low, high) = continuation.range();
+    // backwards first, so that the members follow each other
+    let mut backwards = first.clone();
+    backwards.tangent.neg_mut();
+    let mut sides = [Vec::new(), Vec::new()];
+    for (side, begin) in sides.iter_mut().zip([backwards, first.clone()]) {
+        match continuation.follow(&begin, side) {
+            Ok(None) => {}
+            Ok(Some(why)) => family.ended.push(why),
+            Err(error) if error.is_cancelled() => {
+                family.cancelled = true;
+                break;
+            }
+            Err(error) => family.ended.push(error.to_string()),
+        }
+    }
+    let [before, after] = sides;
+    family.members.extend(before.into_iter().rev());
+    if values.contains(&first.value) && (low..=high).contains(&first.value) {
+        family.members.push(Member { value: first.value, orbit: first.orbit, bifurcation: None });
+    }
+    family.members.extend(after);
+    Ok(family)
+}
+
+struct Continuation<'a> {
+    space: &'a PhaseSpace,
+    method: (&'static Method, Settings),
+    along: Along,
+    fixed: Fixed,
+    values: &'a [f64],
+}
+
+impl Continuation<'_> {
+    fn range(&self) -> (f64, f64) {
+        let low = self.values.iter().copied().fold(f64::INFINITY, f64::min);
+        (low, self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max))
+    }
+
+    /// The space at a value of the parameter.
+    fn space_at(&self, parameter: f64) -> PhaseSpace {
+        match self.along {
+            Along::Parameter(index) => {
+                let mut parameters = self.space.parameters().to_vec();
+                parameters[index] = parameter;
+                self.space.at_parameters(&parameters)
+            }
+            Along::Energy | Along::Period => self.space.clone(),
+        }
+    }
+
+    fn parameter(&self) -> f64 {
+        match self.along {
+            Along::Parameter(index) => self.space.parameters()[index],
+            Along::Energy | Along::Period => 0.0,
+        }
+    }
+
+    /// What is held fixed beside what changes.
+    fn held(&self) -> Fixed {
+        match self.along {
+            Along::Parameter(_) => self.fixed,
+            Along::Energy | Along::Period => Fixed::Nothing,
+        }
+    }
+
+    fn value_of(&self, orbit: &Orbit, parameter: f64) -> f64 {
+        match self.along {
+            Along::Energy => orbit.energy,
+            Along::Period => orbit.period,
+            Along::Parameter(_) => parameter,
+        }
+    }
+
+    fn first(&self, orbit: &Orbit) -> Result<FamilyPoint, DynamicsError> {
+        let parameter = self.parameter();
+        let mut point = FamilyPoint {
+            state: orbit.state.clone(),
+            period: orbit.period,
+            parameter,
+            tangent: DVector::zeros(self.space.dimension() + 2),
+            value: self.value_of(orbit, parameter),
+            orbit: orbit.clone(),
+        };
+        let (low, high) = self.range();
+        // the value grows along the tangent
+        point.tangent = self.direction(&point, None)?;
+        if point.value > high || point.value < low {
+            let slope = self.slope(&point)?;
+            let wanted = if point.value > high { -1.0 } else { 1.0 };
+            if slope * wanted < 0.0 {
+                point.tangent.neg_mut();
+            }
+        }
+        Ok(point)
+    }
+
+    /// The equations of an orbit of the family, in the units of the file.
+    fn newton<'s>(&self, space: &'s PhaseSpace) -> Newton<'s> {
+        let units = OrbitUnits::of_file(space.dimension());
+        Newton { space, method: self.method, fixed: self.held(), units }
+    }
+
+    /// The residual of the orbit's equations at (z, T, μ), and their derivatives.
+    fn equations(
+        &self,
+        state: &State,
+        period: f64,
+        parameter: f64,
+    ) -> Result<(DVector<f64>, DMatrix<f64>, f64), DynamicsError> {
+        let n = self.space.dimension();
+        let space = self.space_at(parameter);
+        let newton = self.newton(&space);
+        let look = newton.look(state, period)?;
+        let (matrix, right) = newton.equations(&look);
+        let mut full = DMatrix::zeros(n + 2, n + 2);
+        full.view_mut((0, 0), (n + 2, n + 1)).copy_from(&matrix);
+        if let Along::Parameter(_) = self.along {
+            let step = DIFFERENCE * parameter.abs().max(1e-2);
+            let at = |parameter: f64| -> Result<DVector<f64>, DynamicsError> {
+                let space = self.space_at(parameter);
+                let newton = self.newton(&space);
+                Ok(newton.missed(&newton.look(state, period)?))
+            };
+            let slope = (at(parameter + step)? - at(parameter - step)?) / (2.0 * step);
+            full.view_mut((0, n + 1), (n + 2, 1)).copy_from(&slope);
+        }
+        Ok((right, full, look.size))
+    }
+
+    /// The unit direction of the family at a point, along `before` if that is given.
+    fn direction(
+        &self,
+        point: &FamilyPoint,
+        before: Option<&DVector<f64>>,
+    ) -> Result<DVector<f64>, DynamicsError> {
+        let n = self.space.dimension();
+        let (_, matrix, _) = self.equations(&point.state, point.period, point.parameter)?;
+        // the last column does not exist where no parameter changes
+        let kept = if matches!(self.along, Along::Parameter(_)) { n + 2 } else { n + 1 };
+        let matrix = matrix.columns(0, kept).into_owned();
+        let kernel = linear::kernel(&matrix, 1e-7);
+        let guide = match before {
+            Some(before) => before.rows(0, kept).into_owned(),
+            None => {
+                let mut guide = DVector::zeros(kept);
+                match self.along {
+                    Along::Parameter(_) => guide[n + 1] = 1.0,
+                    Along::Period => guide[n] = 1.0,
+                    Along::Energy => {
+                        let gradient = self.gradient(point)?;
+                        guide.rows_mut(0, n).copy_from(&gradient);
+                    }
+                }
+                guide
+            }
+        };
+        let mut direction = DVector::zeros(kept);
+        for vector in &kernel {
+            direction.axpy(vector.dot(&guide), vector, 1.0);
+        }
+        let Some(unit) = direction.try_normalize(1e-9 * guide.norm()) else {
+            return Err(DynamicsError::Unsuited(
+                "the family cannot be followed from this orbit: it turns back right here"
+                    .to_owned(),
+            ));
+        };
+        Ok(unit.resize_vertically(n + 2, 0.0))
+    }
+
+    /// ∇H = −𝕁 f.
+    fn gradient(&self, point: &FamilyPoint) -> Result<DVector<f64>, DynamicsError> {
+        let mut field = self.space_at(point.parameter).vector_field();
+        field.evaluate(point.state.time, self.space.variables(&point.state))?;
+        let rate = field.rate();
+        let half = rate.len() / 2;
+        Ok(DVector::from_fn(
+            rate.len(),
+            |i, _| {
+                if i < half { -rate[half + i] } else { rate[i - half] }
+            },
+        ))
+    }
+
+    /// How fast the value grows along the tangent.
+    fn slope(&self, point: &FamilyPoint) -> Result<f64, DynamicsError> {
+        let n = self.space.dimension();
+        Ok(match self.along {
+            Along::Parameter(_) => point.tangent[n + 1],
+            Along::Period => point.tangent[n],
+            Along::Energy => self.gradient(point)?.dot(&point.tangent.rows(0, n)),
+        })
+    }
+
+    /// The point of the family a step onwards.
+    fn onwards(
+        &self,
+        from: &FamilyPoint,
+        step: f64,
+    ) -> Result<Option<(FamilyPoint, usize)>, DynamicsError> {
+        let n = self.space.dimension();
+        let moved = |state: &State, by: &DVector<f64>| {
+            let mut there = state.clone();
+            for i in 0..n {
+                there.set(i, state.exact(i) + DoubleDouble::from(by[i]));
+            }
+            there
+        };
+        let by = &from.tangent * step;
+        let mut state = moved(&from.state, &by);
+        let (mut period, mut parameter) = (from.period + by[n], from.parameter + by[n + 1]);
+        for count in 0..CORRECTIONS {
+            if period <= 0.0 {
+                return Ok(None);
+            }
+            let found = self.equations(&state, period, parameter);
+            let (missing, matrix, size) = match found {
+                Ok(found) => found,
+                Err(error) if error.is_cancelled() => return Err(error),
+                Err(_) => return Ok(None),
+            };
+            if missing.norm() <= CLOSED * size {
+                let Some(point) = self.point(from, state, period, parameter)? else {
+                    return Ok(None);
+                };
+                return Ok(Some((point, count)));
+            }
+            // across the family only
+            let mut all = DMatrix::zeros(n + 3, n + 2);
+            all.view_mut((0, 0), (n + 2, n + 2)).copy_from(&matrix);
+            all.view_mut((n + 2, 0), (1, n + 2)).copy_from(&from.tangent.transpose());
+            let right = missing.clone().resize_vertically(n + 3, 0.0);
+            let cut = 1e-10 * matrix.amax() + 1e-4 * missing.norm();
+            let Some(change) = linear::least_squares(&all, &right, cut) else { return Ok(None) };
+            state = moved(&state, &change);
+            period += change[n];
+            parameter += change[n + 1];
+        }
+        Ok(None)
+    }
+
+    fn point(
+        &self,
+        from: &FamilyPoint,
+        state: State,
+        period: f64,
+        parameter: f64,
+    ) -> Result<Option<FamilyPoint>, DynamicsError> {
+        let space = self.space_at(parameter);
+        let newton = self.newton(&space);
+        let orbit = newton.at(&state, period)?;
+        let tangent = from.tangent.clone();
+        let value = self.value_of(&orbit, parameter);
+        let mut point = FamilyPoint { state, period, parameter, tangent, value, orbit };
+        point.tangent = self.direction(&point, Some(&from.tangent))?;
+        Ok(Some(point))
+    }
+
+    /// Follows the family along its tangent and collects its members. Returns why it ends before
+    /// the values do.
+    fn follow(
+        &self,
+        begin: &FamilyPoint,
+        members: &mut Vec<Member>,
+    ) -> Result<Option<String>, DynamicsError> {
+        let (low, high) = self.range();
+        let mut here = begin.clone();
+        let size = self.space.variables(&here.state).iter().fold(0.1, |m: f64, x| m.max(x.abs()));
+        let mut step = 0.02 * size;
+        for _ in 0..STEPS {
+            let leaves = if here.value > high {
+                self.slope(&here)? > 0.0
+            } else {
+                here.value < low && self.slope(&here)? < 0.0
+            };
+            if leaves {
+                return Ok(None);
+            }
+            let Some((next, count)) = self.onwards(&here, step)? else {
+                step *= 0.5;
+                if step < LEAST * size {
+                    return Ok(Some(format!("the family was lost at {}", here.value)));
+                }
+                continue;
+            };
+            self.between(&here, &next, step, members)?;
+            if count <= 3 {
+                step = (1.5 * step).min(LARGEST * size);
+            }
+            here = next;
+        }
+        Ok(Some(format!("the family continues beyond {}, after {STEPS} steps", here.value)))
+    }
+
+    /// Collects the members between two points, in their order.
+    fn between(
+        &self,
+        from: &FamilyPoint,
+        to: &FamilyPoint,
+        step: f64,
+        members: &mut Vec<Member>,
+    ) -> Result<(), DynamicsError> {
+        let (low, high) = self.range();
+        let mut found: Vec<(f64, Member)> = Vec::new();
+        let [before, after] = [self.slope(from)?, self.slope(to)?];
+        let folds = (before < 0.0) != (after < 0.0);
+        let mut specials: Vec<(
+            Bifurcation,
+            Box<dyn Fn(&FamilyPoint) -> Result<f64, DynamicsError> + '_>,
+        )> = Vec::new();
+        if folds {
+            specials.push((Bifurcation::Fold, Box::new(|point: &FamilyPoint| self.slope(point))));
+        }
+        if (from.doubling() < 0.0) != (to.doubling() < 0.0) {
+            specials.push((
+                Bifurcation::PeriodDoubling,
+                Box::new(|point: &FamilyPoint| Ok(point.doubling())),
+            ));
+        }
+        if !folds && (from.unit() < 0.0) != (to.unit() < 0.0) {
+            specials
+                .push((Bifurcation::Branching, Box::new(|point: &FamilyPoint| Ok(point.unit()))));
+        }
+        for (kind, test) in specials {
+            let (mut a, mut b) = (0.0, step);
+            let below = test(from)? < 0.0;
+            let mut last = None;
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (a + b);
+                let Some((point, _)) = self.onwards(from, middle)? else { break };
+                if (test(&point)? < 0.0) == below {
+                    a = middle;
+                } else {
+                    b = middle;
+                }
+                last = Some((middle, point));
+            }
+            if let Some((part, point)) = last
+                && (low..=high).contains(&point.value)
+            {
+                let member =
+                    Member { value: point.value, orbit: point.orbit, bifurcation: Some(kind) };
+                found.push((part, member));
+            }
+        }
+        for &value in self.values {
+            if (from.value < value) == (to.value < value) || from.value == value {
+                continue;
+            }
+            let (mut a, mut b) = (0.0, step);
+            let (mut fa, mut fb) = (from.value - value, to.value - value);
+            let mut last = (step, to.clone());
+            // the rule of false position, with the weight of an end that stays halved
+            for _ in 0..30 {
+                if fb == 0.0 {
+                    break;
+                }
+                let middle = a + (b - a) * fa / (fa - fb);
+                let Some((point, _)) = self.onwards(from, middle)? else { break };
+                let off = point.value - value;
+                last = (middle, point);
+                if off.abs() <= 1e-12 * value.abs().max(1e-2) {
+                    break;
+                }
+                if (off < 0.0) == (fb < 0.0) {
+                    (b, fb, fa) = (middle, off, 0.5 * fa);
+                } else {
+                    (a, fa, fb) = (middle, off, 0.5 * fb);
+                }
+            }
+            let (part, point) = last;
+            // a member that was not found is left out
+            if (point.value - value).abs() > 1e-9 * value.abs().max(1e-2) {
+                continue;
+            }
+            found.push((part, Member { value, orbit: point.orbit, bifurcation: None }));
+        }
+        found.sort_by(|x, y| x.0.total_cmp(&y.0));
+        members.extend(found.into_iter().map(|(_, member)| member));
+        Ok(())
+    }
+}

@@ -1,0 +1,52 @@
+//! What is recorded of an occurrence, and the sentence that reports it.
+//!
+//! In: an occurrence of the motion. Out: rows of the trail, an entry of the log, a notice. Never here: when it occurs.
+
+use super::course::Experiment;
+use crate::integrate::{Occurrence, OccurrenceKind};
+use crate::num::short;
+use crate::system;
+
+impl Experiment {
+    /// Records an occurrence: rows of the trail before and after it, and gauges that continue from the state after an
+    /// impulse. Returns a sentence about it.
+    pub(super) fn note(
+        &mut self,
+        mut occurrence: Occurrence,
+    ) -> Result<String, system::MotionError> {
+        let clock = occurrence.time;
+        occurrence.time = self.motion.sign() * clock;
+        let lead = format!("{} at t = {}", occurrence.name, short(occurrence.time));
+        let sentence = match &occurrence.kind {
+            OccurrenceKind::Mark | OccurrenceKind::Crossing(_) => lead,
+            OccurrenceKind::Stop => {
+                self.ended = Some(occurrence.name.clone());
+                format!("{lead}: the motion ends")
+            }
+            OccurrenceKind::Release(constraint) => {
+                let name = &self.model.constraints[*constraint].name;
+                format!("{lead}: the constraint {name} no longer holds")
+            }
+            OccurrenceKind::Impulse { .. } => {
+                let before = self.motion.values_before()?;
+                self.recorder.insert(clock, &before);
+                let after = self.motion.values();
+                self.gauges.shift(&before, after);
+                let given = self.energy_of(after) - self.energy_of(&before);
+                let sign = if given < 0.0 { '−' } else { '+' };
+                format!("{lead}: energy {sign}{}", short(given.abs()))
+            }
+        };
+        self.recorder.insert(clock, self.motion.values());
+        self.occurrences.push(occurrence);
+        Ok(sentence)
+    }
+
+    /// Reports an automatic occurrence; a repeated one is reported only the first time.
+    pub(super) fn report_once(&mut self, name: String, sentence: String) {
+        if !self.reported_names.contains(&name) {
+            self.reported_names.push(name);
+            self.tell(sentence);
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! The past of a motion: steps taken again from the states that were logged between them.
+//!
+//! In: times on the way. Out: the motion there. Never here: which time is looked at.
+
+use super::observed_motion::{EQUAL_STEPS, ObservedMotion};
+use super::step_log::LoggedState;
+use crate::integrate::{OccurrenceKind, Reached};
+use crate::system::{MotionError, State};
+
+/// The step before a time in the past of a motion, from which it is taken again.
+pub(super) struct KnownStep {
+    state: State,
+    steps: u64,
+    /// The size of a fixed step.
+    step: f64,
+    released: Vec<usize>,
+    start: f64,
+}
+
+impl ObservedMotion {
+    /// Takes the motion back to a time on the way. If that is no longer known, it stays where it is, and the result is
+    /// the first time that is, or NaN.
+    pub(super) fn back_to(
+        &mut self,
+        (time, limit): (f64, f64),
+        start: f64,
+    ) -> Result<Option<f64>, MotionError> {
+        let first = self.log.first().unwrap_or(f64::NAN);
+        let Some(known) = self.log.back_to(time) else { return Ok(Some(first)) };
+        let released = self.released();
+        self.inner.go_back(&known.state, start, &released)?;
+        self.watch.pending = false;
+        self.inner.set_steps(known.steps);
+        self.take_observer();
+        // what was seen of each step counts only once
+        let mut budget = EQUAL_STEPS * 1000;
+        while let Reached::Happened(occurrence) = self.inner.reach(time, limit, &mut budget)? {
+            if matches!(occurrence.kind, OccurrenceKind::Impulse { .. }) {
+                self.log.note_impulse();
+            }
+        }
+        self.look()?;
+        Ok(None)
+    }
+
+    /// The indices of the released constraints.
+    pub(super) fn released(&self) -> Vec<usize> {
+        let system = self.inner.system();
+        (0..system.constraints()).filter(|&k| system.is_released(k)).collect()
+    }
+
+    /// The first reading of its clock that can be looked back to.
+    pub(super) fn known_from(&self) -> Option<f64> {
+        self.log.first()
+    }
+
+    /// Looks at a time in the past of a motion that began at `start` of its clock, and forgets nothing: what is known of
+    /// later times can be looked at again. No new step reaches further than `horizon` beyond that time. Returns whether
+    /// that time is known.
+    pub(super) fn look_back(&mut self, time: f64, horizon: f64, start: f64) -> bool {
+        let clock = self.sign * time;
+        let (begin, end) = self.inner.undisturbed();
+        if !(begin <= clock && clock <= end && begin < end) {
+            let Some(known) = self.known_at(time, start) else { return false };
+            if self.begin_at(&known).is_err() {
+                return false;
+            }
+        }
+        self.go_on_to(clock, horizon)
+    }
+
+    /// What is needed to look at a time in the past of a motion that began at `start` of its clock.
+    pub(super) fn known_at(&self, time: f64, start: f64) -> Option<KnownStep> {
+        let LoggedState { state, steps, .. } = self.log.at(self.sign * time)?.clone();
+        let (step, released) = (self.inner.step_size().abs(), self.released());
+        Some(KnownStep { state, steps, step, released, start })
+    }
+
+    /// Goes to where another motion of the same system was at a time. Returns whether it came there.
+    pub(super) fn look_at(&mut self, time: f64, known: &KnownStep, horizon: f64) -> bool {
+        self.begin_at(known).is_ok() && self.go_on_to(self.sign * time, horizon)
+    }
+
+    fn begin_at(&mut self, known: &KnownStep) -> Result<(), MotionError> {
+        let KnownStep { state, steps, step, released, start } = known;
+        self.inner.restore_with_step(state, *step, (*start, released))?;
+        self.inner.set_steps(*steps);
+        self.watch.pending = false;
+        self.take_observer();
+        Ok(())
+    }
+
+    /// Goes on to a reading of the clock. Returns whether it came there.
+    fn go_on_to(&mut self, clock: f64, horizon: f64) -> bool {
+        let mut budget = EQUAL_STEPS * 1000;
+        loop {
+            match self.inner.reach(clock, clock + horizon, &mut budget) {
+                Ok(Reached::Happened(_)) => {}
+                Ok(Reached::There) => return self.look().is_ok(),
+                Ok(Reached::Underway | Reached::Ended) | Err(_) => return false,
+            }
+        }
+    }
+}

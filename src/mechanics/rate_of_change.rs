@@ -1,0 +1,275 @@
+//! The rate of change of an observable along the motion, and whether it vanishes.
+//!
+//! In: an observable. Out: its rate as a function of the state, whether it is conserved, whether it may jump. Never here:
+//! which observables are looked at.
+//! Source: *The Principles of Dynamics*, §§ 1.4.2, 3.2.3.
+
+use std::collections::HashMap;
+
+use super::equations::{Equations, Flow};
+use crate::expr::{Expr, FunctionId, Node, Pool, Symbol, Zero};
+use crate::num::Number;
+
+/// Whether two expressions as they stand are multiples of each other.
+fn is_multiple(pool: &Pool, a: Expr, b: Expr) -> bool {
+    let (Node::Sum(c, terms), Node::Sum(d, others)) = (pool.node(a), pool.node(b)) else {
+        return a == b;
+    };
+    let Some(ratio) = terms.first().zip(others.first()).map(|(a, b)| a.0 * b.0.recip()) else {
+        return a == b;
+    };
+    // numbers that are no rationals of 64 bits were rounded on their way into each sum
+    let same = |m: Number, n: Number| {
+        m == n || (m.value() - n.value()).abs() <= 8.0 * f64::EPSILON * m.value().abs()
+    };
+    let pairs = || terms.iter().zip(others);
+    terms.len() == others.len()
+        && same(*c, ratio * *d)
+        && pairs().all(|(&(m, a), &(n, b))| a == b && same(m, ratio * n))
+}
+
+/// Whether a product has the factors of an expression, so that it vanishes where that does; what does not depend on the
+/// `moving` symbols never does.
+fn has_factors_of(pool: &Pool, factors: &[(Expr, Number)], of: Expr, moving: &[Symbol]) -> bool {
+    let among = |wanted: Expr, power: Number| {
+        let enough = |n: Number| n.value() >= power.value();
+        factors.iter().any(|&(e, n)| enough(n) && is_multiple(pool, e, wanted))
+    };
+    match pool.node(of) {
+        Node::Product(_, parts) => {
+            let mut varying = parts.iter().filter(|(e, _)| pool.depends_on_any(*e, moving));
+            varying.all(|&(e, n)| n.value() > 0.0 && among(e, n)) || among(of, Number::ONE)
+        }
+        _ => among(of, Number::ONE),
+    }
+}
+
+/// How it is known that a quantity is conserved.
+pub(super) enum ConservedBy {
+    /// Its rate is proved to vanish.
+    Always,
+    /// Its rate is proved to vanish where the constraints are satisfied.
+    OnConstraints,
+    /// Its rate is zero to rounding.
+    ByValues,
+}
+
+impl Equations {
+    /// How it is known that an observable is conserved, or `None` if it is not. If constraints may
+    /// be `released`, only what holds for any constraint forces counts.
+    pub(super) fn knowledge_of(&mut self, observable: Expr, released: bool) -> Option<ConservedBy> {
+        if self.may_jump(observable) {
+            return None;
+        }
+        if let Some(rate) = self.rate_by_momenta(observable)
+            && self.pool.is_zero(rate) == Zero::Proved
+        {
+            return Some(ConservedBy::Always);
+        }
+        if self.constraints.is_empty() {
+            return match self.is_conserved(observable)? {
+                Zero::Proved => Some(ConservedBy::Always),
+                Zero::Numerically => Some(ConservedBy::ByValues),
+                Zero::Unknown | Zero::No => None,
+            };
+        }
+        if released {
+            return None;
+        }
+        let rate = self.rate_of(observable)?;
+        match self.pool.is_zero(rate) {
+            Zero::Proved => Some(ConservedBy::OnConstraints),
+            Zero::Numerically => Some(ConservedBy::ByValues),
+            Zero::Unknown | Zero::No => {
+                self.vanishes_on_constraints(rate).then_some(ConservedBy::OnConstraints)
+            }
+        }
+    }
+
+    /// Returns whether dG/dt = 0 along the motion, for G written as an observable is, or `None` if
+    /// the rate is not known in closed form.
+    pub fn is_conserved(&mut self, observable: Expr) -> Option<Zero> {
+        if self.may_jump(observable) {
+            return Some(Zero::Unknown);
+        }
+        if let Some(rate) = self.rate_by_momenta(observable)
+            && self.pool.is_zero(rate) == Zero::Proved
+        {
+            return Some(Zero::Proved);
+        }
+        let rate = self.rate_of(observable)?;
+        match self.pool.is_zero(rate) {
+            Zero::Unknown | Zero::No if self.vanishes_on_constraints(rate) => Some(Zero::Proved),
+            zero => Some(zero),
+        }
+    }
+
+    /// Returns whether an observable may jump, so that its rate is not the whole answer: the
+    /// observable, or the law by which it is conserved, contains a sign or an angle of something
+    /// that is not constant, or a quotient that is a sign in disguise, as x/√(x²) and x/|x|.
+    pub(super) fn may_jump(&mut self, observable: Expr) -> bool {
+        if self.law_jumps() {
+            return true;
+        }
+        let opened = self.open(observable);
+        let arguments: Vec<Expr> = self
+            .pool
+            .reachable(&[opened])
+            .into_iter()
+            .flat_map(|part| match self.pool.node(part) {
+                Node::Call(FunctionId::Sign | FunctionId::Atan2, arguments) => arguments.to_vec(),
+                _ => self.steep_divisors(part),
+            })
+            .collect();
+        let jumps = arguments.into_iter().any(|argument| {
+            let rate = self.rate_of(argument);
+            rate.is_none_or(|rate| self.pool.is_zero(rate) != Zero::Proved)
+        });
+        jumps || self.may_jump_on_constraints(opened)
+    }
+
+    /// Divisors that vanish on a surface at which the quotient may have another limit on each side without a pole: the
+    /// quotient has kinks, or the divisor stands under a root that has one, or in an arctangent.
+    fn steep_divisors(&self, part: Expr) -> Vec<Expr> {
+        let pool = &self.pool;
+        let moving = self.moving();
+        let has_kink = |e: Expr| {
+            pool.reachable(&[e]).into_iter().any(|part| match pool.node(part) {
+                // |u| is also e^{½ ln u²}
+                Node::Call(FunctionId::Ln, u) => pool.touches_zero(u[0], &moving),
+                Node::Call(function, _) => matches!(
+                    function,
+                    FunctionId::Abs | FunctionId::Max | FunctionId::Min | FunctionId::Sign
+                ),
+                Node::Product(_, factors) => {
+                    let mut factors = factors.iter();
+                    factors.any(|(e, n)| n.as_integer().is_none() && pool.touches_zero(*e, &moving))
+                }
+                _ => false,
+            })
+        };
+        match pool.node(part) {
+            Node::Call(FunctionId::Atan, argument) => {
+                let mut steep = Vec::new();
+                for part in pool.reachable(argument) {
+                    // a tangent has poles
+                    if let Node::Call(FunctionId::Tan | FunctionId::Cot, angle) = pool.node(part) {
+                        steep.extend(angle.iter().filter(|&&e| pool.depends_on_any(e, &moving)));
+                    }
+                    let below = self.divisors(part).into_iter().map(|(e, _)| e);
+                    steep.extend(below.filter(|&e| pool.vanishes(e, &moving)));
+                }
+                steep
+            }
+            _ => {
+                let below = self.divisors(part);
+                let kinked = !below.is_empty() && has_kink(part);
+                below
+                    .into_iter()
+                    .filter(|&(e, root)| {
+                        root && pool.touches_zero(e, &moving) || kinked && pool.vanishes(e, &moving)
+                    })
+                    .map(|(e, _)| e)
+                    .collect()
+            }
+        }
+    }
+
+    /// The time, coordinates, velocities and momenta.
+    pub(super) fn moving(&self) -> Vec<Symbol> {
+        let mut moving = vec![self.symbols.time];
+        moving.extend(self.coordinates.iter().flat_map(|c| [c.position, c.velocity, c.momentum]));
+        moving
+    }
+
+    /// Returns whether L (or H) has a step, where the force is an impulse that no derivative shows.
+    pub fn law_jumps(&self) -> bool {
+        let moving = self.moving();
+        let pool = &self.pool;
+        let steps = |e: Expr| match pool.node(e) {
+            Node::Call(FunctionId::Sign, argument) => {
+                pool.depends_on_any(e, &moving).then_some(argument[0])
+            }
+            _ => None,
+        };
+        let jumps = |e: Expr| {
+            let node = pool.node(e);
+            node.parts().into_iter().filter_map(steps).any(|argument| match node {
+                // u sign(c u) = ±|u|
+                Node::Product(_, factors) => !has_factors_of(pool, factors, argument, &moving),
+                _ => true,
+            })
+        };
+        steps(self.law).is_some() || pool.reachable(&[self.law]).into_iter().any(jumps)
+    }
+
+    /// dG/dt of a function of q, p, t and the energy of a Lagrangian system, in the symbols of q,
+    /// q̇, p, t and λ. It uses ṗ and Ė directly, so no acceleration has to be solved for. Returns
+    /// `None` for any other function.
+    fn rate_by_momenta(&mut self, observable: Expr) -> Option<Expr> {
+        let Flow::Lagrange { momentum_rates, .. } = &self.flow else { return None };
+        let momentum_rates = momentum_rates.clone();
+        let map = self.attitude_map();
+        let g = self.pool.substitute(observable, &map);
+        let fast = self.coordinates.iter().flat_map(|c| [c.velocity, c.acceleration]);
+        let others = self.constraints.iter().map(|c| c.multiplier);
+        let auxiliary =
+            self.supplements.auxiliary.iter().flat_map(|auxiliary| auxiliary.symbols.clone());
+        let others: Vec<Symbol> =
+            fast.chain(others).chain(auxiliary).chain([self.symbols.action]).collect();
+        if self.pool.depends_on_any(g, &others) {
+            return None;
+        }
+        let mut seeds =
+            vec![(self.symbols.time, Expr::ONE), (self.symbols.energy, self.energy_rate)];
+        for (c, &rate) in self.coordinates.clone().iter().zip(&momentum_rates) {
+            seeds.push((c.position, self.pool.variable(c.velocity)));
+            seeds.push((c.momentum, rate));
+        }
+        let rate = self.pool.derivation(g, &seeds);
+        let mut opened: HashMap<Symbol, Expr> =
+            self.coordinates.iter().map(|c| c.momentum).zip(self.momenta.clone()).collect();
+        opened.insert(self.symbols.energy, self.energy);
+        Some(self.pool.substitute(rate, &opened))
+    }
+
+    /// dG/dt along the motion, in the variables of the state. Returns `None` if the accelerations
+    /// are not known in closed form or G contains the action.
+    pub fn rate_of(&mut self, observable: Expr) -> Option<Expr> {
+        if let Some(rate) = self.rate_by_momenta(observable) {
+            // the multipliers, if any, as functions of the state
+            let multipliers: Vec<Symbol> = self.constraints.iter().map(|c| c.multiplier).collect();
+            if !self.pool.depends_on_any(rate, &multipliers) {
+                return Some(rate);
+            }
+            if self.multipliers().is_ok() {
+                return Some(self.open(rate));
+            }
+        }
+        let g = self.open(observable);
+        let solved = self.solved().clone().ok()?;
+        let accelerations = self.coordinates.iter().map(|c| c.acceleration);
+        let multipliers = self.constraints.iter().map(|c| c.multiplier);
+        let unknown: Vec<Symbol> =
+            accelerations.chain(multipliers).chain([self.symbols.action]).collect();
+        if self.pool.depends_on_any(g, &unknown) {
+            return None;
+        }
+        let mut seeds = self.along_the_flow();
+        for auxiliary in &self.supplements.auxiliary {
+            if auxiliary.rates.plain.len() == auxiliary.symbols.len() {
+                seeds.extend(auxiliary.symbols.iter().copied().zip(auxiliary.rates.plain.clone()));
+            } else if self.pool.depends_on_any(g, &auxiliary.symbols) {
+                return None;
+            }
+        }
+        if self.is_lagrangian() {
+            for (c, &acceleration) in self.coordinates.clone().iter().zip(&solved) {
+                let velocity = self.pool.variable(c.velocity);
+                seeds.push((c.position, velocity));
+                seeds.push((c.velocity, acceleration));
+            }
+        }
+        Some(self.pool.derivation(g, &seeds))
+    }
+}

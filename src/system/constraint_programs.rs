@@ -1,0 +1,103 @@
+//! The constraints compiled: their rows, their functions, and the sizes that residuals are measured by.
+//!
+//! In: the constraints of the equations. Out: programs of (q, t). A constraint on the velocities that is holonomic has an
+//! f too: df = g ω. Never here: states.
+
+use std::sync::Arc;
+
+use super::program::Program;
+use super::rhs::ProgramBuilder;
+use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
+use crate::mechanics::Holonomy;
+use crate::num::Number;
+
+/// The programs of the constraints, as functions of (q, t).
+#[derive(Clone, Debug)]
+pub(super) struct ConstraintPrograms {
+    /// A, A₀, f and g of each constraint.
+    pub(super) values: Arc<Program>,
+    /// For each of these values the size of its terms, then its sensitivity to its inputs, Σ |s
+    /// ∂/∂s|.
+    pub(super) sizes: Arc<Program>,
+    /// The constraints on the velocities that have an f.
+    pub(super) integrated: Vec<bool>,
+}
+
+impl ConstraintPrograms {
+    pub(super) fn of(builder: &mut ProgramBuilder<'_>) -> Result<ConstraintPrograms, Symbol> {
+        let mut values = Vec::new();
+        let mut integrated = Vec::new();
+        for (k, row) in builder.equations.constraints.iter().enumerate() {
+            values.extend_from_slice(&row.row);
+            values.push(row.rate);
+            let known = integral(builder, k);
+            integrated.push(known.is_some());
+            let (f, g) = known.unwrap_or((row.position.unwrap_or(Expr::ZERO), Expr::ONE));
+            values.extend([f, g]);
+        }
+        let pool = &mut builder.pool;
+        let sizes = values.iter().flat_map(|&e| [pool.magnitude(e), pool.size_of_inputs(e)]);
+        let sizes: Vec<Expr> = sizes.collect();
+        let (values, sizes) = (program(builder, &values)?, program(builder, &sizes)?);
+        Ok(ConstraintPrograms { values, sizes, integrated })
+    }
+}
+
+/// f and g of a constraint on the velocities that is holonomic by itself, whatever the parameters.
+fn integral(builder: &mut ProgramBuilder<'_>, k: usize) -> Option<(Expr, Expr)> {
+    let equations = builder.equations;
+    let Holonomy::Holonomic { constant: Some(f), together: false, at_these_parameters: false } =
+        *equations.supplements.holonomy.get(k)?
+    else {
+        return None;
+    };
+    let pool = &mut builder.pool;
+    let mut moving: Vec<Symbol> = equations.coordinates.iter().map(|c| c.position).collect();
+    moving.push(equations.symbols.time);
+    if !is_entire(pool, f, &moving) {
+        return None;
+    }
+    let (mut along, mut square) = (Vec::new(), Vec::new());
+    for (c, &a) in equations.coordinates.iter().zip(&equations.constraints[k].row) {
+        let slope = pool.derivative(f, c.position);
+        along.push(pool.mul(slope, a));
+        square.push(pool.powi(a, 2));
+    }
+    let (along, square) = (pool.sum(&along), pool.sum(&square));
+    let g = pool.div(along, square);
+    Some((f, pool.simplify(g)))
+}
+
+/// Whether an expression is smooth everywhere and has one value: an angle of a point jumps, and a
+/// quotient has a pole, where the constraint on the velocities has neither.
+fn is_entire(pool: &Pool, f: Expr, moving: &[Symbol]) -> bool {
+    let varies = |e: Expr| pool.depends_on_any(e, moving);
+    pool.reachable(&[f]).into_iter().filter(|&e| varies(e)).all(|e| match pool.node(e) {
+        Node::Product(_, factors) => {
+            let whole = |n: Number| n.as_integer().is_some_and(|n| n >= 0);
+            factors.iter().all(|&(base, n)| !varies(base) || whole(n))
+        }
+        Node::Call(function, _) => matches!(
+            function,
+            FunctionId::Sin
+                | FunctionId::Cos
+                | FunctionId::Exp
+                | FunctionId::Sinh
+                | FunctionId::Cosh
+                | FunctionId::Tanh
+        ),
+        Node::Power(..) => false,
+        Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Sum(..) => true,
+    })
+}
+
+fn program(builder: &mut ProgramBuilder<'_>, outputs: &[Expr]) -> Result<Arc<Program>, Symbol> {
+    let equations = builder.equations;
+    let mut lowering = builder.lowering();
+    for c in &equations.coordinates {
+        let register = lowering.input();
+        lowering.bind(c.position, register);
+    }
+    let outputs = lowering.lower_all(outputs);
+    lowering.finish(outputs)
+}

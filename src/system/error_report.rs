@@ -1,0 +1,99 @@
+//! The errors of a system's motion, in the names of its file and with the place where they occur.
+//!
+//! In: what failed, and the numbers of the state. Out: a [`MotionError`]. Never here: what is done about it.
+
+use super::error::{MotionError, MotionErrorKind};
+use super::legendre::LegendreError;
+use super::program::{Program, Singular};
+use super::{Form, State, System};
+use crate::num::DoubleDouble;
+
+impl System {
+    /// Returns an error if a number of a state is not finite.
+    pub fn check_finite(&self, state: &State) -> Result<(), MotionError> {
+        match state.values.iter().position(|x| !x.is_finite()) {
+            None => Ok(()),
+            Some(i) => {
+                let name = MotionErrorKind::NotFinite(self.name_of(i, state.form));
+                Err(self.fault(name, state.time, &state.values))
+            }
+        }
+    }
+
+    /// The display name of a number of a state.
+    fn name_of(&self, i: usize, form: Form) -> String {
+        let n = self.degrees();
+        let channel = match form {
+            Form::Momentum if i >= n => i + n,
+            _ => i,
+        };
+        if i < self.moving() {
+            self.channels()[channel].shown.clone()
+        } else if (self.motion_len()..self.driven_len()).contains(&i) {
+            "a derivative of the motion".to_owned()
+        } else {
+            "an integral".to_owned()
+        }
+    }
+
+    /// An error at a state, reported with its coordinates.
+    pub fn fault(&self, kind: MotionErrorKind, time: f64, values: &[f64]) -> MotionError {
+        let named = self.channels().iter().zip(values).take(self.degrees().min(4));
+        let place = named.map(|(c, &x)| (c.shown.clone(), x)).filter(|(_, x)| x.is_finite());
+        MotionError { time, kind, place: place.collect() }
+    }
+
+    /// The error for a singular matrix, reported with the coordinates the matrix depends on.
+    pub(super) fn singular(
+        &self,
+        program: &Program,
+        singular: Singular,
+        time: f64,
+        values: &[f64],
+    ) -> MotionError {
+        let named = program.inputs_of(singular).iter().filter(|&&i| i < self.degrees());
+        let place = named.map(|&i| (self.channels()[i].shown.clone(), values[i]));
+        let is_constrained = self.constraints() > 0;
+        let kind = if is_constrained {
+            MotionErrorKind::SingularConstraints(None)
+        } else {
+            MotionErrorKind::SingularMass
+        };
+        MotionError { time, kind, place: place.take(4).collect() }
+    }
+
+    /// The error for given momenta (or velocities) that do not determine the initial rates.
+    pub(super) fn several(
+        &self,
+        time: f64,
+        solutions: &[Vec<DoubleDouble>],
+        targets: &[Option<DoubleDouble>],
+    ) -> MotionError {
+        let n = self.degrees();
+        let unknown: Vec<usize> = (0..n).filter(|&i| targets[i].is_some()).collect();
+        let first = if self.form() == Form::Momentum { 2 * n } else { n };
+        let described = |solution: &Vec<DoubleDouble>| {
+            let rate = |&i: &usize| {
+                format!("{} = {}", self.channels()[first + i].name, solution[n + i].high)
+            };
+            unknown.iter().map(rate).collect::<Vec<_>>().join(", ")
+        };
+        let kind = MotionErrorKind::SeveralStarts(solutions.iter().map(described).collect());
+        MotionError { time, kind, place: Vec::new() }
+    }
+
+    /// The error for a relation between velocities and momenta that could not be solved.
+    pub(super) fn unsolved(
+        &self,
+        why: LegendreError,
+        time: f64,
+        numbers: &[DoubleDouble],
+    ) -> MotionError {
+        let kind = match why {
+            LegendreError::Singular => MotionErrorKind::SingularMass,
+            LegendreError::NotConverging => MotionErrorKind::NoVelocities,
+        };
+        let values: Vec<f64> = numbers.iter().map(|x| x.high).collect();
+        self.fault(kind, time, &values)
+    }
+}

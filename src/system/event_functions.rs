@@ -1,0 +1,176 @@
+//! The values of the events' functions at a state, and their series along a step.
+//!
+//! In: states of one system, or the series of a step. Out: values of `when`, and coefficients. Never here: how zeros are
+//! found, and what follows from them.
+
+use std::sync::Arc;
+
+use super::discontinuities::CompiledEvent;
+use super::expansion::Expansion;
+use super::resolution::Resolution;
+use super::series::Series;
+use super::value::Evaluator;
+use super::{MotionError, State, System};
+use crate::model::Action;
+use crate::num::DoubleDouble;
+
+/// Evaluates the events' functions of one system at one set of parameters.
+#[derive(Clone, Debug)]
+pub struct EventFunctions {
+    system: System,
+    parameters: Vec<f64>,
+    quick: Evaluator<f64>,
+    exact: Evaluator<DoubleDouble>,
+    resolution: Resolution,
+    /// Expands the functions along a step whose series is known. Created at the first such step.
+    expansion: Option<Expansion>,
+    rounded: Vec<f64>,
+    inputs: Vec<DoubleDouble>,
+    /// The last state evaluated, in the native form, if momenta alone do not determine it.
+    near: Option<State>,
+}
+
+impl EventFunctions {
+    /// Sets the parameters.
+    pub fn set_parameters(&mut self, parameters: &[f64]) {
+        self.parameters.clear();
+        self.parameters.extend_from_slice(parameters);
+        let inputs = self.system.inputs(parameters);
+        self.quick.set_parameters(&inputs);
+        self.exact.set_parameters(&inputs);
+        self.resolution.set_parameters(&inputs);
+        self.expansion = None;
+    }
+
+    /// Expands the functions along a step whose series is known, about a time `x` after the series'
+    /// origin, in its unit. Returns how far beyond it, up to `whole`, the expansions represent the
+    /// functions up to a part `cut_off` of their size, or `None` if there are none.
+    pub fn expand(&mut self, series: &Series, x: f64, (cut_off, whole): (f64, f64)) -> Option<f64> {
+        let order = series.order();
+        let (system, parameters) = (&self.system, &self.parameters);
+        let expansion = self.expansion.take().filter(|known| known.order() == order);
+        let expansion = self.expansion.insert(expansion.unwrap_or_else(|| {
+            let discontinuities = system.discontinuities();
+            let (program, functions) =
+                (Arc::clone(&discontinuities.variation), discontinuities.events.len());
+            let mut new = Expansion::new(system, program, functions, order);
+            new.set_parameters(&system.inputs(parameters));
+            new
+        }));
+        if !expansion.about(series, x) {
+            return None;
+        }
+        Some(expansion.reach(cut_off, whole)).filter(|reach| !reach.is_nan())
+    }
+
+    /// The coefficients of an event's function from the last [expansion](EventFunctions::expand).
+    pub fn expanded(&self, event: usize) -> Vec<f64> {
+        self.expansion.as_ref().map_or_else(Vec::new, |known| known.function(event).to_vec())
+    }
+
+    /// The coefficients of the switches of the expanded functions.
+    pub fn expanded_switches(&self) -> impl Iterator<Item = &[f64]> {
+        self.expansion.iter().flat_map(Expansion::switches)
+    }
+
+    /// The time after a state over which the functions are simple enough that samples at the ends,
+    /// and at the points where these do not predict them, detect every turning point. It is
+    /// infinite for polynomials, and `None` if it cannot be estimated. `near` is a time comparable
+    /// to the time scale of the motion.
+    pub fn resolved(&mut self, state: &State, near: f64) -> Option<f64> {
+        let form = self.system.form();
+        if state.form == form {
+            return self.resolution.after(state, near);
+        }
+        let own = self.system.convert(state, form, &self.parameters).ok()?;
+        self.resolution.after(&own, near)
+    }
+
+    /// Sets the inputs from a state, which may have either form.
+    fn take_in(&mut self, state: &State) -> Result<(), MotionError> {
+        let form = self.system.form();
+        if state.form == form {
+            self.system.inputs_of(state, &mut self.inputs);
+        } else {
+            let own = match &self.near {
+                Some(near) => self.system.convert_near(state, near, &self.parameters)?,
+                None => self.system.convert(state, form, &self.parameters)?,
+            };
+            self.system.inputs_of(&own, &mut self.inputs);
+            self.near = Some(own).filter(|_| self.system.has_branches());
+        }
+        Ok(())
+    }
+
+    /// Evaluates every event's function at a state.
+    pub fn look(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
+        self.take_in(state)?;
+        for (rounded, x) in self.rounded.iter_mut().zip(&self.inputs) {
+            *rounded = x.high;
+        }
+        let found = self.quick.evaluate(state.time, &self.rounded);
+        found.map_err(|why| {
+            let program = &self.system.discontinuities().when;
+            self.system.singular(program, why, state.time, &state.values)
+        })?;
+        for (i, x) in out.iter_mut().enumerate() {
+            *x = self.quick.output(i);
+        }
+        Ok(())
+    }
+
+    /// The value of one event's function, in double-double.
+    pub fn exactly(&mut self, event: usize, state: &State) -> Result<DoubleDouble, MotionError> {
+        self.take_in(state)?;
+        let found = self.exact.evaluate(state.exact_time(), &self.inputs);
+        found.map_err(|why| {
+            let program = &self.system.discontinuities().when;
+            self.system.singular(program, why, state.time, &state.values)
+        })?;
+        Ok(self.exact.output(event))
+    }
+}
+
+impl System {
+    /// The same system for motions of which nobody asks when the events and crossings happen that
+    /// change nothing; they are located only where others are.
+    #[must_use]
+    pub fn without_marks(&self) -> System {
+        let mark =
+            |event: &CompiledEvent| matches!(event.action, Action::Mark | Action::Section(_));
+        let mut system = self.clone();
+        system.unmarked = self.discontinuities().events.iter().all(mark);
+        system
+    }
+
+    /// Whether there are events to be located.
+    pub(super) fn locates_events(&self) -> bool {
+        !self.unmarked && !self.discontinuities().events.is_empty()
+    }
+
+    /// Returns the evaluator of the events' functions, or `None` if there are no events.
+    pub fn event_functions(&self, parameters: &[f64]) -> Option<EventFunctions> {
+        if !self.locates_events() {
+            return None;
+        }
+        let program = &self.discontinuities().when;
+        let inputs = self.motion_len() + 2;
+        let mut event_functions = EventFunctions {
+            system: self.clone(),
+            parameters: parameters.to_vec(),
+            quick: Evaluator::new(Arc::clone(program)),
+            exact: Evaluator::new(Arc::clone(program)),
+            resolution: Resolution::new(
+                self,
+                Arc::clone(&self.discontinuities().variation),
+                self.discontinuities().events.len(),
+            ),
+            expansion: None,
+            rounded: vec![0.0; inputs],
+            inputs: vec![DoubleDouble::ZERO; inputs],
+            near: None,
+        };
+        event_functions.set_parameters(parameters);
+        Some(event_functions)
+    }
+}

@@ -1,0 +1,172 @@
+//! The conserved quantities of a system term by term, in `f64`: cheap enough to be evaluated after
+//! every step.
+//!
+//! In: the state of any method. Out: the value of each quantity, and the varying part of it: the
+//! amount by which its terms exceed their values at rest, and by which the latter have changed. A
+//! constant in the potential, or the origin of a coordinate, does not contribute to it. Never here:
+//! references, drifts, verdicts.
+
+use std::sync::Arc;
+
+use super::legendre::Legendre;
+use super::terms::{AtRest, OutputPlace, Terms};
+use super::value::Evaluator;
+use super::{State, System};
+use crate::num::DoubleDouble;
+
+/// Evaluates the quantities of one system's states at one set of parameters. It owns its registers.
+#[derive(Clone, Debug)]
+pub struct TermWatch {
+    system: System,
+    places: Arc<[Option<OutputPlace>]>,
+    native: Evaluator<f64>,
+    canonical: Option<Evaluator<f64>>,
+    legendre: Legendre,
+    inputs: Vec<f64>,
+    exact: Vec<DoubleDouble>,
+    /// The terms at the last state, some followed by their values at rest.
+    outputs: Vec<f64>,
+    /// If several velocities belong to a momentum: the last state evaluated, in the system's native
+    /// form.
+    near: Option<State>,
+    work: f64,
+}
+
+impl TermWatch {
+    fn new(system: System, terms: &Terms, parameters: &[f64]) -> TermWatch {
+        let inputs = system.motion_len() + 2;
+        let mut watch = TermWatch {
+            places: Arc::clone(&terms.places),
+            native: Evaluator::new(Arc::clone(&terms.native)),
+            canonical: terms.canonical.clone().map(Evaluator::new),
+            legendre: system.legendre(&system.inputs(parameters)),
+            inputs: vec![0.0; inputs],
+            exact: vec![DoubleDouble::ZERO; inputs],
+            outputs: Vec::new(),
+            near: None,
+            work: 0.0,
+            system,
+        };
+        watch.set_parameters(parameters);
+        watch
+    }
+
+    /// Sets the parameters.
+    pub fn set_parameters(&mut self, parameters: &[f64]) {
+        let parameters = self.system.inputs(parameters);
+        self.native.set_parameters(&parameters);
+        if let Some(canonical) = &mut self.canonical {
+            canonical.set_parameters(&parameters);
+        }
+        self.legendre.set_parameters(&parameters);
+    }
+
+    /// Evaluates a state. Returns `false` if that is not possible.
+    pub fn look(&mut self, state: &State) -> bool {
+        let native = state.form == self.system.form();
+        let at_canonical = !native && self.canonical.is_some();
+        if native || at_canonical {
+            self.take_in(state);
+            self.near = (native && self.system.has_branches()).then(|| state.clone());
+        } else {
+            let form = self.system.form();
+            let near = self.near.as_ref();
+            match self.system.convert_by(&mut self.legendre, state, form, near) {
+                Ok(state) => {
+                    self.take_in(&state);
+                    self.near = self.system.has_branches().then_some(state);
+                }
+                Err(_) => return false,
+            }
+        }
+        let terms = match &mut self.canonical {
+            Some(canonical) if at_canonical => canonical,
+            _ => &mut self.native,
+        };
+        let looked = terms.evaluate(state.time, &self.inputs).is_ok();
+        self.outputs.clear();
+        self.outputs.extend(terms.outputs());
+        looked
+    }
+
+    /// Takes the terms of a state, and the work done, that were evaluated elsewhere.
+    pub fn take(&mut self, terms: impl Iterator<Item = f64>, work: f64) {
+        self.outputs.clear();
+        self.outputs.extend(terms);
+        self.work = work;
+    }
+
+    fn take_in(&mut self, state: &State) {
+        self.system.inputs_of(state, &mut self.exact);
+        for (rounded, x) in self.inputs.iter_mut().zip(&self.exact) {
+            *rounded = x.high;
+        }
+        self.work = self.inputs[self.inputs.len() - 1];
+    }
+
+    /// The work done on the motion, if the state carries it.
+    pub fn work(&self) -> f64 {
+        self.work
+    }
+
+    /// Whether a quantity (0 for the energy, then the conserved quantities in order) can be
+    /// evaluated.
+    pub fn has(&self, quantity: usize) -> bool {
+        self.places.get(quantity).is_some_and(Option::is_some)
+    }
+
+    /// The terms of a quantity, each with its value at rest.
+    fn terms(&self, quantity: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let place = self.places.get(quantity).and_then(Option::as_ref);
+        let (first, terms) = place.map_or((0, &[][..]), |place| (place.first, &place.terms));
+        let mut outputs = self.outputs.get(first..).unwrap_or_default().iter();
+        terms.iter().map_while(move |rest| {
+            let term = *outputs.next()?;
+            Some(match rest {
+                AtRest::Same => (term, term),
+                AtRest::Nothing => (term, 0.0),
+                AtRest::Other => (term, *outputs.next()?),
+            })
+        })
+    }
+
+    /// The value of each term of a quantity at rest.
+    pub fn at_rest(&self, quantity: usize) -> Vec<f64> {
+        self.terms(quantity).map(|(_, rest)| rest).collect()
+    }
+
+    /// The sums over the terms of a quantity whose values at rest were these.
+    pub fn sums(&self, quantity: usize, were: &[f64]) -> TermSums {
+        let mut sums = TermSums { value: -0.0, size: -0.0, moving: -0.0 };
+        let mut were = were.iter();
+        for (term, rest) in self.terms(quantity) {
+            sums.value += term;
+            sums.size += term.abs();
+            if let Some(were) = were.next() {
+                let moved = (term - rest).abs() + (rest - were).abs();
+                sums.moving += if moved.is_finite() { moved } else { term.abs() };
+            }
+        }
+        sums
+    }
+}
+
+impl System {
+    /// Returns an evaluator of the terms of the conserved quantities at these parameters.
+    pub fn term_watch(&self, parameters: &[f64]) -> TermWatch {
+        TermWatch::new(self.clone(), self.terms(), parameters)
+    }
+}
+
+/// Sums over the terms of a quantity.
+#[derive(Clone, Copy, Debug)]
+pub struct TermSums {
+    /// Its value.
+    pub value: f64,
+    /// The size of the terms, to which its rounding errors are at least proportional.
+    pub size: f64,
+    /// The size of its varying part: the sum of the amounts by which the terms exceed their values
+    /// at rest, and by which the latter have changed. A term that has no value at rest counts
+    /// entirely.
+    pub moving: f64,
+}

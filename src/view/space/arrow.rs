@@ -1,0 +1,65 @@
+//! Arrows: the apparent forces in a frame of reference.
+//!
+//! In: the apparent forces on each particle. Out: lines. Never here: what they are called.
+
+use super::{SOLID, ScenePainter};
+use crate::mechanics::Apparent;
+use crate::model::Point;
+use crate::view::plot::Pen;
+use crate::view::quantity::Source;
+
+/// The length of the longest apparent force so far, as a fraction of the picture.
+const LONGEST: f64 = 0.25;
+
+impl ScenePainter<'_> {
+    /// Draws the apparent forces on the frame's particles, and returns which of them are present.
+    pub(super) fn apparent(&mut self, seen: &[Apparent]) -> Vec<usize> {
+        let forces = |a: &Apparent| [a.centrifugal, a.coriolis, a.euler, a.dragging];
+        let greatest = |vector: &Point| {
+            let most = vector.map(|e| match self.q.place(e) {
+                Source::Number(number) => number.abs(),
+                Source::Channel(channel) => {
+                    let (lo, hi) = self.q.bounds(channel);
+                    lo.abs().max(hi.abs())
+                }
+            });
+            most.iter().map(|v| v * v).sum::<f64>().sqrt()
+        };
+        let all = seen.iter().flat_map(|a| forces(a).map(|vector| greatest(&vector)));
+        let largest = all.filter(|v| v.is_finite()).fold(0.0, f64::max);
+        let (x, y) = (self.frame.x, self.frame.y);
+        let scale = LONGEST * (x.hi - x.lo).abs().min((y.hi - y.lo).abs()) / largest;
+        let mut named = Vec::new();
+        if largest == 0.0 {
+            return named;
+        }
+        for particle in seen {
+            let at = particle.at.map(|e| self.q.number(e));
+            for (index, vector) in forces(particle).iter().enumerate() {
+                if greatest(vector) > 0.0 {
+                    let along = vector.map(|e| scale * self.q.number(e));
+                    let pen = Pen::new(self.q.look.theme.curve(index + 1), SOLID);
+                    self.arrow(at, along, &pen);
+                    if !named.contains(&index) {
+                        named.push(index);
+                    }
+                }
+            }
+        }
+        named.sort_unstable();
+        named
+    }
+
+    /// Draws a shaft with a head of two strokes, an eighth of its length.
+    pub(super) fn arrow(&mut self, foot: [f64; 3], along: [f64; 3], pen: &Pen) {
+        let tip = [0, 1, 2].map(|k| foot[k] + along[k]);
+        let (a, b) = (self.flat(foot), self.flat(tip));
+        let back = [(a[0] - b[0]) / 8.0, (a[1] - b[1]) / 8.0];
+        let wing = |side: f64| [b[0] + back[0] - side * back[1], b[1] + back[1] + side * back[0]];
+        self.curve(&[foot, tip], pen);
+        if self.depth.hides_point(self.camera.project(tip)) {
+            return;
+        }
+        self.raster.polyline(&self.frame, [wing(0.7), b, wing(-0.7)], pen);
+    }
+}

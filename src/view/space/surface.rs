@@ -1,0 +1,74 @@
+//! The surfaces of shapes: what they hide, and their dots in light and shade.
+//!
+//! In: the shapes of a scene. Out: depths, dots. Never here: lines and masses.
+
+use super::body::Outline;
+use super::solid::{self, Solid};
+use super::{BODY, SURFACE, ScenePainter, circle};
+use crate::model::Shape;
+use crate::view::plot::Pen;
+use crate::view::theme::Role;
+
+/// The share of a surface's dots that are drawn in the shade, and in full light: of spheres, on which curves are drawn,
+/// of other solids, and of masses.
+const SPHERE: [f64; 2] = [0.06, 0.55];
+const OPAQUE: [f64; 2] = [0.2, 0.9];
+const WHOLE: [f64; 2] = [1.0, 1.0];
+
+impl ScenePainter<'_> {
+    /// Adds the surfaces of a shape to what hides others.
+    pub(super) fn surfaces(&mut self, shape: &Shape) {
+        if self.range.is_none() && !matches!(shape, Shape::Disc { .. }) {
+            return;
+        }
+        let theme = &self.q.look.theme;
+        let faint = (Pen::new(theme[Role::Level], SURFACE), OPAQUE);
+        let (pen, solids) = match shape {
+            Shape::Disc { centre, radius, normal } => {
+                let (centre, normal) = (self.point(centre), self.direction(normal));
+                let rim = circle::circle(centre, self.q.number(*radius), normal);
+                (faint, vec![Solid::Face(rim)])
+            }
+            Shape::Cone { tip, base, radius } => {
+                let (tip, base) = (self.point(tip), self.point(base));
+                (faint, solid::cone(tip, base, self.q.number(*radius)))
+            }
+            Shape::Sphere { centre, radius } => (
+                (faint.0, SPHERE),
+                vec![Solid::Ball(self.point(centre), self.q.number(*radius).abs())],
+            ),
+            Shape::Mass { at, radius: Some(radius) } => {
+                let radius = self.q.number(*radius).abs();
+                if self.cells(radius).is_none() {
+                    return;
+                }
+                let style = theme.curve(self.colour(at));
+                ((Pen::new(style, BODY), WHOLE), vec![Solid::Ball(self.point(at), radius)])
+            }
+            Shape::Body { at } => {
+                let Some(outline) = Outline::of(self.q) else { return };
+                let centre = self.q.point(at);
+                let solids = outline.surfaces.into_iter();
+                (faint, solids.map(|solid| solid.moved(|own| self.place(centre, own))).collect())
+            }
+            _ => return,
+        };
+        let (number, projection) = (self.surfaces.len(), self.camera.projection());
+        self.surfaces.push(pen);
+        for solid in solids {
+            match solid.moved(|point| projection.of(point)) {
+                Solid::Face(corners) => self.depth.face(&corners, number),
+                Solid::Ball(centre, radius) => self.depth.ball(centre, radius, number),
+            }
+        }
+    }
+
+    /// Fills the surfaces, each dot with the nearest one.
+    pub(super) fn fill(&mut self) {
+        for (dot, covered) in self.depth.dots() {
+            let Some((pen, [shade, light])) = self.surfaces.get(covered.surface) else { continue };
+            let coverage = shade + (light - shade) * covered.light * covered.light;
+            self.raster.dot(dot, &pen.covering(coverage));
+        }
+    }
+}
