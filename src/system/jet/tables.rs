@@ -11,7 +11,7 @@ use super::side::Side;
 use crate::num::{Analytic, Real};
 use crate::system::parametric_power;
 use crate::system::program::{Block, Op, Program, Register, Singular};
-use crate::system::schedule::{Denominator, Direct, Ends, Factor, Relation, Schedule, Step};
+use crate::system::schedule::{Denominator, Direct, Ends, Factor, Relation, Schedule, Sign, Step};
 use crate::system::solve::Factored;
 use crate::system::value::value_of;
 
@@ -222,6 +222,12 @@ impl<R: Coefficient> Tables<R> {
                         None => x,
                     };
                     (register, x)
+                }
+                Step::Integral { register, sign, slope, factor, product } => {
+                    let last = now[at(slope)].times::<FUSED>(values[at(factor)]) * k as f64;
+                    let sum = products[at(product)] + last;
+                    let sum = if sign == Sign::Minus { -sum } else { sum };
+                    (register, (R::ZERO + sum).over(k))
                 }
                 Step::Solve { .. } | Step::Alone(_) => return Some(*step),
             };
