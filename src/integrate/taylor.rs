@@ -48,7 +48,7 @@ pub(super) const METHOD: Method = Method {
     preserves: Preserves::Nothing,
     locates_kinks: true,
     needs: "",
-    about: "Power series in time, of an order that follows the tolerance (40 where none is given; 28 in large systems), \
+    about: "Power series in time, of an order that follows the tolerance (28 where none is given), \
             the lowest terms carried in double-double. Errors stay at the last digit shown, kinks \
             are located. Jorba & Zou, Experimental Mathematics 14 (2005) 99.",
     fits: |_| Ok(()),

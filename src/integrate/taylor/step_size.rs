@@ -8,6 +8,7 @@
 
 use std::ops::RangeInclusive;
 
+use super::EXACT_BELOW;
 use crate::expr::FunctionId;
 use crate::num::{Kernel, math, vectorized};
 use crate::system::Series;
@@ -48,10 +49,13 @@ pub(super) const FAINT: f64 = 1e-290;
 
 /// The order at which a tolerance costs least, for a motion of so many degrees of freedom. The step
 /// grows with the order. In large systems the work grows with its square (Jorba & Zou, proposition
-/// 3.2, find −½ ln ε + 1 if each order costs the same work); in small ones an order costs nearly the
-/// same whatever it is, and a step has a cost of its own.
+/// 3.2, find −½ ln ε + 1 if each order costs the same work); in small ones an order in `f64` costs
+/// nearly the same whatever it is, and a step has a cost of its own. In double-double it pays no more:
+/// in the longer steps of motions without singularities terms of high order, which are in `f64`, are
+/// larger than their sum.
 pub(super) fn order_for(tolerance: f64, degrees: usize) -> usize {
-    let part = if degrees > SMALL { 0.66 } else { 0.95 };
+    let long = tolerance >= EXACT_BELOW && degrees <= SMALL;
+    let part = if long { 0.8 } else { 0.66 };
     ((-math::ln(tolerance) * part).ceil() as usize).clamp(12, 44)
 }
 
