@@ -194,8 +194,10 @@ impl Kernel for States<'_> {
             std::array::from_fn(|lane| after[lane] * series.scale.0[lane].recip());
         let high = Batch(x.map(|x| x.high));
         for i in 0..series.origins.len() {
-            let above = series.builder.series(i)[1..].iter().rev();
-            let tail = above.fold(Batch::ZERO, |sum, &c| sum * high + c);
+            let mut tail = Batch::ZERO;
+            for &c in series.builder.series(i)[1..].iter().rev() {
+                tail = tail * high + c;
+            }
             let sums = plus_origin::<FUSED>(tail, high, &series.origins[i]);
             for (lane, out) in out.iter_mut().enumerate() {
                 let Some(out) = out else { continue };

@@ -70,16 +70,20 @@ impl BatchStepSize {
                     place.0[lane] = c.0[lane];
                 }
             }
-            shortest.take(&gathered[..length], motion, (logs, powers));
+            shortest.take(&gathered[..length], Batch::ZERO, motion, (logs, powers));
         }
         for i in 0..count {
-            let shorter = shortest.take(series.coefficients(i), motion, (logs, powers));
+            let mut known = Batch::ZERO;
+            for lane in 0..BATCH {
+                known.0[lane] = f64::from(least[lane] == i);
+            }
+            let shorter = shortest.take(series.coefficients(i), known, motion, (logs, powers));
             for (least, _) in least.iter_mut().zip(shorter).filter(|(_, shorter)| *shorter) {
                 *least = i;
             }
         }
         for i in count..series.len() {
-            shortest.take(series.coefficients(i), integrals, (logs, powers));
+            shortest.take(series.coefficients(i), Batch::ZERO, integrals, (logs, powers));
         }
         // zero times anything that is not finite is NaN
         shortest.step + shortest.finite
@@ -101,11 +105,13 @@ impl Shortest {
         Shortest { log: step, step, is_known: false, finite: Batch::ZERO }
     }
 
-    /// Takes another series into account. Returns in which lanes it allows less than those before.
+    /// Takes another series into account, which is not `known` already in some lanes (1, else 0).
+    /// Returns in which lanes it allows less than those before.
     #[inline(always)]
     fn take(
         &mut self,
         coefficients: &[Batch],
+        known: Batch,
         shares: &Shares,
         (logs, powers): (&mut [Batch; ROOM], &mut [Batch; ROOM]),
     ) -> [bool; BATCH] {
@@ -113,7 +119,7 @@ impl Shortest {
             self.finite = self.finite + *c * 0.0;
         }
         let mut shorter = [false; BATCH];
-        if self.is_known && passes(&shares.screen, coefficients, powers) {
+        if self.is_known && passes(&shares.screen, (coefficients, known), powers) {
             return shorter;
         }
         let found = of_one(coefficients, shares, self.log, logs);
@@ -135,9 +141,14 @@ impl Shortest {
     }
 }
 
-/// Whether a series allows a step in all lanes, whose powers these are. May be false where it does.
+/// Whether a series allows a step in all lanes where that is not known (1, else 0); the powers are
+/// those of the step. May be false where it does.
 #[inline(always)]
-fn passes(screen: &Screen, coefficients: &[Batch], powers: &[Batch; ROOM]) -> bool {
+fn passes(
+    screen: &Screen,
+    (coefficients, known): (&[Batch], Batch),
+    powers: &[Batch; ROOM],
+) -> bool {
     let mut low = [Batch::ZERO; 2 + FIRST];
     for ((low, c), power) in low.iter_mut().zip(coefficients).zip(powers) {
         let size = c.abs();
@@ -156,7 +167,7 @@ fn passes(screen: &Screen, coefficients: &[Batch], powers: &[Batch; ROOM]) -> bo
         // a coefficient that vanishes allows anything
         all = all * size.where_below(FAINT, Batch::ONE, passed);
     }
-    all.all_reach(Batch::ONE)
+    all.larger(known).all_reach(Batch::ONE)
 }
 
 /// The kernel of the rule.
