@@ -15,6 +15,7 @@ mod branches;
 mod collocation_step;
 mod kinks;
 mod steep;
+mod step_screen;
 mod step_size;
 mod sticking;
 

@@ -15,7 +15,9 @@ use super::program::{Program, Register};
 use super::state::State;
 use super::underflow;
 use crate::expr::FunctionId;
-use crate::num::{DoubleDouble, ExtendedRange, Kernel, Polynomial, polynomial, tails, vectorized};
+use crate::num::{
+    DoubleDouble, ExtendedRange, Kernel, Polynomial, all_finite, polynomial, tails, vectorized,
+};
 
 /// The series of all numbers of a state, in the native form of its system.
 #[derive(Clone, Debug)]
@@ -298,24 +300,9 @@ impl Kernel for Finite<'_> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> bool {
         let Finite(series) = self;
-        let all = (0..series.len()).fold(0.0, |sum, i| sum + zeros(series.coefficients(i)));
-        let switches = 0..series.switches();
-        switches.fold(all, |sum, i| sum + zeros(series.switch(i))) == 0.0
+        (0..series.len()).all(|i| all_finite(series.coefficients(i)))
+            && (0..series.switches()).all(|i| all_finite(series.switch(i)))
     }
-}
-
-/// Zero, or NaN where a number is not finite.
-#[inline(always)]
-fn zeros(numbers: &[f64]) -> f64 {
-    const LANES: usize = 4;
-    let (chunks, rest) = numbers.as_chunks::<LANES>();
-    let mut sums = [0.0; LANES];
-    for chunk in chunks {
-        for lane in 0..LANES {
-            sums[lane] += chunk[lane] * 0.0;
-        }
-    }
-    rest.iter().chain(&sums).fold(0.0, |sum, x| sum + x * 0.0)
 }
 
 /// The number of polynomials that are summed side by side.

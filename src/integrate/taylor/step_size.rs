@@ -9,8 +9,9 @@
 use std::ops::RangeInclusive;
 
 use super::EXACT_BELOW;
+use super::step_screen::Screen;
 use crate::expr::FunctionId;
-use crate::num::{Kernel, math, vectorized};
+use crate::num::{Kernel, all_finite, math, vectorized};
 use crate::system::Series;
 
 /// The part of the tolerance allowed for the last terms, which represent everything truncated.
@@ -19,10 +20,10 @@ const SHARE: f64 = 0.01;
 
 /// The number of last orders that enter. There are more than two, because symmetric motions have
 /// coefficients that vanish in a regular pattern.
-const LAST: usize = 4;
+pub(super) const LAST: usize = 4;
 
 /// The number of orders before these that also enter, with a larger tolerance.
-const BEFORE: usize = 6;
+pub(super) const BEFORE: usize = 6;
 const INDULGENCE: f64 = 1.5;
 
 /// The largest step as a part of the radius of convergence.
@@ -144,7 +145,7 @@ impl Shortest<'_> {
     /// if a coefficient is not finite.
     #[inline(always)]
     fn take<const FUSED: bool>(&mut self, coefficients: &[f64], shares: &Shares) -> Option<bool> {
-        if is_finite(coefficients) && shares.screen.passes(coefficients, &self.powers) {
+        if all_finite(coefficients) && shares.screen.passes(coefficients, &self.powers) {
             return Some(false);
         }
         let log = of_one::<FUSED>(coefficients, shares, self.log)?;
@@ -155,20 +156,6 @@ impl Shortest<'_> {
         }
         Some(shorter)
     }
-}
-
-/// Whether all numbers are finite.
-#[inline(always)]
-fn is_finite(numbers: &[f64]) -> bool {
-    let (chunks, rest) = numbers.as_chunks::<LANES>();
-    let mut sums = [0.0; LANES];
-    for chunk in chunks {
-        for lane in 0..LANES {
-            // zero, or NaN where it is not finite
-            sums[lane] += chunk[lane] * 0.0;
-        }
-    }
-    rest.iter().chain(&sums).all(|x| x.is_finite())
 }
 
 /// The kernel of the rule.
@@ -245,7 +232,7 @@ const RECIPROCALS: [f64; ROOM] = {
 };
 
 /// The number of logarithms taken together.
-const LANES: usize = 4;
+pub(super) const LANES: usize = 4;
 
 /// The number of lowest orders that are looked at first.
 pub(super) const FIRST: usize = 3;
@@ -257,86 +244,6 @@ pub(super) struct Shares {
     pub(super) log_part: f64,
     log_indulgence: f64,
     pub(super) screen: Screen,
-}
-
-/// Room for the last orders, in whole chunks.
-const WIDTH: usize = (LAST + BEFORE).next_multiple_of(LANES);
-
-/// A test by multiplications alone that a series allows a step: most series allow more than the one
-/// that allows the least, and need no logarithms.
-///
-/// With the terms a_j = |c_j| h^j at a step h, the bound of the j-th order on the k-th is no shorter
-/// than h where a_j times a constant is no less than a_k. The lowest orders mostly suffice.
-#[derive(Clone, Debug)]
-pub(super) struct Screen {
-    /// The first of the last orders, which lie side by side.
-    pub(super) first: usize,
-    /// The constants of the tolerance, for the j-th order.
-    pub(super) by_tolerance: [[f64; WIDTH]; FIRST],
-    /// Those of the radius of convergence, for the order j + 2; zero where that gives none.
-    pub(super) by_radius: [[f64; WIDTH]; FIRST],
-}
-
-/// The ratio by which terms must differ to do so beyond the errors of rough logarithms.
-const CLEARLY: f64 = 1.001;
-
-impl Screen {
-    fn new(order: usize, table: &[f64; ROOM], log_part: f64, log_indulgence: f64) -> Screen {
-        let mut screen = Screen {
-            first: *last_orders(order).start(),
-            by_tolerance: [[0.0; WIDTH]; FIRST],
-            by_radius: [[0.0; WIDTH]; FIRST],
-        };
-        for (lane, k) in last_orders(order).enumerate() {
-            let indulgence = indulgence_of(log_indulgence, k, order);
-            let constant =
-                |j: usize, log: f64| math::exp((k - j) as f64 * (log + indulgence)) / CLEARLY;
-            for j in 0..FIRST {
-                screen.by_tolerance[j][lane] = constant(j, table[j]);
-                let inner = j + 2 < k - 1;
-                screen.by_radius[j][lane] = if inner { constant(j + 2, log_part) } else { 0.0 };
-            }
-        }
-        screen
-    }
-
-    /// Whether a series allows a step, whose powers these are. May be false where it does.
-    #[inline(always)]
-    fn passes(&self, coefficients: &[f64], powers: &[f64; ROOM]) -> bool {
-        let mut own = [0.0; WIDTH];
-        for (own, c) in own.iter_mut().zip(&coefficients[self.first..]) {
-            *own = c.abs();
-        }
-        let low = |j: usize| {
-            let c = coefficients[j].abs();
-            if c < FAINT { 0.0 } else { c * powers[j] }
-        };
-        let (mut by_tolerance, mut by_radius) = ([0.0; WIDTH], [0.0; WIDTH]);
-        for j in 0..FIRST {
-            let (a, b) = (low(j), low(j + 2));
-            for lane in 0..WIDTH {
-                by_tolerance[lane] = larger(by_tolerance[lane], a * self.by_tolerance[j][lane]);
-                by_radius[lane] = larger(by_radius[lane], b * self.by_radius[j][lane]);
-            }
-        }
-        let mut all = true;
-        for lane in 0..WIDTH {
-            let term = own[lane] * powers[self.first + lane];
-            // a coefficient that vanishes allows anything
-            all &= ((by_tolerance[lane] > term) & (by_radius[lane] > term)) | (own[lane] < FAINT);
-        }
-        all
-    }
-
-    /// The powers of a step that are needed.
-    #[inline(always)]
-    fn powers(&self, h: f64) -> [f64; ROOM] {
-        let mut powers = [1.0; ROOM];
-        for k in 1..self.first + WIDTH {
-            powers[k] = powers[k - 1] * h;
-        }
-        powers
-    }
 }
 
 impl Shares {
@@ -370,7 +277,7 @@ impl Shares {
 
 /// By how much the logarithm of the step may be longer for the k-th of p orders.
 #[inline(always)]
-fn indulgence_of(log_indulgence: f64, k: usize, p: usize) -> f64 {
+pub(super) fn indulgence_of(log_indulgence: f64, k: usize, p: usize) -> f64 {
     if k + LAST <= p { log_indulgence } else { 0.0 }
 }
 
@@ -453,7 +360,7 @@ fn largest(logs: &[f64], own: f64, reciprocals: &[f64], shares: &[f64]) -> f64 {
 
 /// The larger of two numbers, the first if the second is NaN.
 #[inline(always)]
-fn larger(a: f64, b: f64) -> f64 {
+pub(super) fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
 
@@ -543,6 +450,41 @@ mod tests {
         assert!(longer > shorter);
         assert_eq!(of_one::<false>(&geometric(0.5), &shares, shorter), Some(shorter));
         assert_eq!(of_one::<false>(&geometric(3.0), &shares, longer), Some(shorter));
+    }
+
+    /// Series whose terms grow or shrink by a factor, with noise over many powers of ten, and zeros.
+    fn noisy(seed: u64) -> Vec<f64> {
+        let next =
+            |x: &u64| Some(x.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407));
+        let bits: Vec<u64> = std::iter::successors(Some(seed), next).skip(1).take(31).collect();
+        let unit = |i: usize| (bits[i] >> 11) as f64 / (1_u64 << 53) as f64;
+        let ratio = math::exp(4.0 * unit(30) - 2.0);
+        let term = |k: usize| {
+            let size = math::powi(ratio, k as i32) * math::exp(12.0 * unit(k) - 6.0);
+            if bits[k].is_multiple_of(7) { 0.0 } else { size }
+        };
+        (0..29).map(term).collect()
+    }
+
+    #[test]
+    fn what_the_screen_lets_pass_would_change_nothing() {
+        let shares = Shares::new(1e-17, 28);
+        let mut passed = 0;
+        for seed in 0..4000 {
+            let group: Vec<Vec<f64>> = (0..4).map(|i| noisy(4 * seed + i)).collect();
+            let mut with = Shortest::new(&shares.screen);
+            let mut without = f64::INFINITY;
+            for series in &group {
+                let shorter = with.take::<false>(series, &shares).expect("finite");
+                let found = of_one::<false>(series, &shares, without).expect("finite");
+                assert_eq!(shorter, found < without, "{series:?}");
+                without = found;
+                passed += usize::from(shares.screen.passes(series, &with.powers));
+            }
+            assert_eq!(with.log.to_bits(), without.to_bits());
+        }
+        // it is of use only if it lets most of those pass that allow more
+        assert!(passed > 6000, "{passed}");
     }
 
     #[test]
