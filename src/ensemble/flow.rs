@@ -80,7 +80,7 @@ impl SystemFlow {
     }
 
     /// Carries many states on all cores, several of them side by side where the system and the method
-    /// allow it, as each would be carried alone, to the last bit. `done` is told how many are there.
+    /// allow it, as each would be carried alone, to the last bit. `done` is called with the number of states carried so far.
     ///
     /// # Errors
     /// Returns an error if there are no threads.

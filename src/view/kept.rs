@@ -189,7 +189,7 @@ impl DrawnTrail {
 
     /// The number of rows after the last one drawn; `None` if these rows do not continue what is drawn.
     ///
-    /// The rows of one motion are told from those of another by their bits: the last drawn row must be among them, and
+    /// The rows of one motion are distinguished from those of another by their bits: the last drawn row must be among them, and
     /// the oldest must be the first one drawn or a later one.
     fn continuation(&self, rows: &Trail) -> Option<usize> {
         let (oldest, began) = (rows.row(0)?, self.first.first()?);

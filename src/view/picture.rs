@@ -109,7 +109,7 @@ fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<Span> {
             let style = pen(canvas, *ink, 0).style;
             vec![(format!("  {mark} "), style), canvas.span(Role::Dim, words)]
         }
-        Entry::Happenings => marks::legend(canvas, q),
+        Entry::Occurrences => marks::legend(canvas, q),
         Entry::Curve(index, channel) => key(canvas, q, *index, *channel),
     }
 }
