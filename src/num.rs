@@ -27,7 +27,7 @@ pub use double_double::DoubleDouble;
 pub use eigenvalues::eigenvalues;
 pub use extended_range::ExtendedRange;
 pub use format::{short, significant};
-pub use horner::{Polynomial, polynomial};
+pub use horner::{Polynomial, polynomial, tails};
 pub use instruction_set::{Kernel, vectorized};
 pub use number::Number;
 pub use prime_field::{PRIMES, PrimeField, Residue, Unreduced, rational};

@@ -9,6 +9,7 @@
 mod active_set;
 mod attitude;
 mod batch_series;
+mod batch_terms;
 mod branch;
 mod channel;
 mod compiled;
@@ -59,6 +60,7 @@ mod value;
 mod variational;
 
 pub use batch_series::BatchSeries;
+pub use batch_terms::BatchTerms;
 pub use branch::Branch;
 pub use channel::{Channel, ChannelKind};
 pub use compiled::{CompileError, System};

@@ -192,6 +192,7 @@ pub(super) fn perform(
     let mut experiment = Experiment::new(&model, &equations, &system, setup)
         .map_err(|why| CommandError::WrongUse(why.to_string()))?;
     clock::check(&system, method, &experiment, &times)?;
+    experiment.forget_past();
     if arguments.format == Format::Csv {
         experiment.only_count_occurrences();
     }

@@ -20,6 +20,9 @@ pub trait Follower {
     /// Puts an orbit into a lane.
     fn begin(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse;
 
+    /// Looks at all lanes after a step, before each orbit is looked at by itself.
+    fn look_at_all(&mut self, _batch: &BatchPropagator) {}
+
     /// Looks at an orbit after a step.
     fn look(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse;
 
@@ -54,6 +57,7 @@ pub fn side_by_side(
         if !batch.step(&limits) {
             return false;
         }
+        follower.look_at_all(batch);
         for (lane, place) in places.iter_mut().enumerate() {
             let Some(orbit) = *place else { continue };
             if batch.status(lane) == LaneStatus::Irregular {

@@ -235,6 +235,11 @@ impl Experiment {
         self.crossings.only_count();
     }
 
+    /// Remembers no states between steps from now on: the motion cannot be taken back.
+    pub fn forget_past(&mut self) {
+        self.motion.forget_past();
+    }
+
     /// A sentence about the singular configurations of the constraints that the motion has passed.
     pub fn singular_passages(&self) -> Option<String> {
         let (count, first) = self.motion.singular_passages();

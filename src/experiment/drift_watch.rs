@@ -64,6 +64,13 @@ impl DriftWatch {
         }
     }
 
+    /// Looks at the end of a step, whose terms and work were evaluated elsewhere.
+    pub fn step_with(&mut self, time: f64, terms: impl Iterator<Item = f64>, work: f64) {
+        self.steps += 1;
+        self.terms.take(terms, work);
+        self.gauges.step(time, self.steps, &self.terms, true);
+    }
+
     /// Ends at a state, and returns the value of every channel there and the greatest drift of the energy, or of the energy
     /// less the work done; NaN if neither is monitored.
     ///

@@ -32,6 +32,9 @@ pub(super) struct ObservedMotion {
 /// One of so many equal steps is logged.
 pub(super) const EQUAL_STEPS: u64 = 8;
 
+/// A method whose dense output is as accurate as its steps is looked at inside one of so many steps.
+const LOOKED_INSIDE: u64 = 4;
+
 impl ObservedMotion {
     /// A motion that has yet to [begin](ObservedMotion::begin).
     pub(super) fn new(
@@ -51,6 +54,11 @@ impl ObservedMotion {
             watch: StepSampler::of(system, parameters),
             log: StepLog::default(),
         })
+    }
+
+    /// Remembers no states between steps from now on: the motion cannot be taken back.
+    pub(super) fn forget_past(&mut self) {
+        self.log.turn_off();
     }
 
     /// Another motion of the same system, to be [looked with](ObservedMotion::look_at).
@@ -179,7 +187,8 @@ impl ObservedMotion {
             self.watch.next = end + spacing * (0.5 + self.watch.next_weyl());
         }
         // the state of a series is as accurate within a step as at its end
-        if new && sparse && self.inner.method().order.is_none() {
+        let inside = new && sparse && (due || steps.is_multiple_of(LOOKED_INSIDE));
+        if inside && self.inner.method().order.is_none() {
             let time = begin + self.watch.next_weyl() * (end - begin);
             let StepSampler { terms, state, values, .. } = &mut self.watch;
             if self.inner.anywhere_inside(time, state).is_ok() && terms.look(state) {

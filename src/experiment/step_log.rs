@@ -27,6 +27,8 @@ pub(super) struct LoggedState {
 #[derive(Debug, Default)]
 pub(super) struct StepLog {
     known: VecDeque<LoggedState>,
+    /// Whether nobody will take the motion back.
+    off: bool,
     /// The number of impulses so far.
     impulses: u64,
 }
@@ -37,16 +39,29 @@ impl StepLog {
         self.known.clear();
     }
 
+    /// Forgets everything, and what comes as well.
+    pub(super) fn turn_off(&mut self) {
+        self.known = VecDeque::new();
+        self.off = true;
+    }
+
     /// Adds the state at the end of a step.
     pub(super) fn push(&mut self, state: &State, steps: u64) {
-        if state.values.is_empty() {
+        if state.values.is_empty() || self.off {
             return;
         }
+        let impulses = self.impulses;
         let most = (NUMBERS / (2 * state.values.len())).clamp(64, STATES);
-        if self.known.len() >= most {
-            self.known.pop_front();
-        }
-        self.known.push_back(LoggedState { state: state.clone(), steps, impulses: self.impulses });
+        let oldest = if self.known.len() >= most { self.known.pop_front() } else { None };
+        let logged = match oldest {
+            // the oldest gives way to the newest
+            Some(mut oldest) => {
+                oldest.state.copy_from(state);
+                LoggedState { steps, impulses, ..oldest }
+            }
+            None => LoggedState { state: state.clone(), steps, impulses },
+        };
+        self.known.push_back(logged);
     }
 
     /// An impulse was applied.

@@ -21,7 +21,7 @@ mod sticking;
 pub(super) use batch::TaylorBatch;
 use collocation_step::CollocationStep;
 use kinks::Kinks;
-use step_size::StepSize;
+use step_size::{EXACT_BELOW, StepSize};
 use sticking::{Sticking, Still};
 
 use super::method::{Method, MethodError, Preserves, Settings, Stepping};
@@ -32,9 +32,6 @@ use crate::system::{ExactRates, Form, MotionError, MotionErrorKind, Series, Side
 /// The default tolerance. It is far below the last digit shown, so that the results carry the error
 /// of one rounding at the end and not of all on the way.
 const TOLERANCE: f64 = 1e-18;
-
-/// Below this tolerance the lowest orders are built in double-double.
-const EXACT_BELOW: f64 = 1e-16;
 
 /// The number of orders built in double-double: the part left to `f64` is a ten-thousandth of a
 /// step.
@@ -156,7 +153,7 @@ impl Taylor {
             let reason = format!("the tolerance {tolerance:e} is not between 1e-30 and 1");
             return Err(MethodError { method: METHOD.name, reason });
         }
-        let order = step_size::order_for(tolerance);
+        let order = step_size::order_for(tolerance, system.degrees());
         let exact = if tolerance < EXACT_BELOW { EXACT_ORDERS } else { 0 };
         let state = State::new(0.0, system.form(), vec![0.0; system.state_len()]);
         let series = system.series(order, exact);

@@ -66,6 +66,20 @@ impl Batch {
         lanes!(i => if self.0[i] == x { a.0[i] } else { b.0[i] })
     }
 
+    /// `a` where this is below `x`, else `b`.
+    #[inline(always)]
+    #[must_use]
+    pub fn where_below(self, x: f64, a: Batch, b: Batch) -> Batch {
+        lanes!(i => if self.0[i] < x { a.0[i] } else { b.0[i] })
+    }
+
+    /// One where this is above another number, else zero.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_above(self, other: Batch) -> Batch {
+        lanes!(i => if self.0[i] > other.0[i] { 1.0 } else { 0.0 })
+    }
+
     /// Whether no number is below that of another batch in its lane; NaN is.
     #[inline(always)]
     pub fn all_reach(self, other: Batch) -> bool {
@@ -74,6 +88,22 @@ impl Batch {
             all &= self.0[lane] >= other.0[lane];
         }
         all
+    }
+
+    /// The sum and its rounding error: [`DoubleDouble::sum`] in each lane.
+    #[inline(always)]
+    pub fn sum_with_error(self, other: Batch) -> (Batch, Batch) {
+        let sum = self + other;
+        let part = sum - self;
+        (sum, (self - (sum - part)) + (other - part))
+    }
+
+    /// The product and its rounding error: that of [`DoubleDouble`] in each lane.
+    #[inline(always)]
+    pub fn product_with_error<const FUSED: bool>(self, other: Batch) -> (Batch, Batch) {
+        let product = self * other;
+        let error = lanes!(i => DoubleDouble::product_by::<FUSED>(self.0[i], other.0[i]).low);
+        (product, error)
     }
 
     fn each(self, f: impl Fn(f64) -> f64) -> Batch {

@@ -67,7 +67,7 @@ impl<const N: usize> Vector<N> {
     }
 }
 
-/// Inner products of N pairs of series, the second of each read from its end.
+/// Inner products of N pairs of series of equal length, both read forwards.
 pub(super) struct InnerProducts<'a, T> {
     pub(super) left: &'a [T],
     pub(super) right: &'a [T],
@@ -81,15 +81,15 @@ impl<const N: usize> Kernel for InnerProducts<'_, [f64; N]> {
     fn run<const FUSED: bool>(self) -> [f64; N] {
         const APART: usize = 4;
         let (left, left_rest) = self.left.as_chunks::<APART>();
-        let (right_rest, right) = self.right.as_rchunks::<APART>();
+        let (right, right_rest) = self.right.as_chunks::<APART>();
         let mut sums = [Vector::ZERO; APART];
-        for (a, b) in left.iter().zip(right.iter().rev()) {
+        for (a, b) in left.iter().zip(right) {
             for i in 0..APART {
-                sums[i] = sums[i].plus(Vector(a[i]).times(Vector(b[APART - 1 - i])));
+                sums[i] = sums[i].plus(Vector(a[i]).times(Vector(b[i])));
             }
         }
         let mut rest = Vector::ZERO;
-        for (&a, &b) in left_rest.iter().zip(right_rest.iter().rev()) {
+        for (&a, &b) in left_rest.iter().zip(right_rest) {
             rest = rest.plus(Vector(a).times(Vector(b)));
         }
         sums[0].plus(sums[2]).plus(sums[1].plus(sums[3])).plus(rest).0
@@ -126,7 +126,7 @@ impl<const N: usize> Kernel for InnerProducts<'_, DoubleLanes<N>> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> [DoubleDouble; N] {
         let (mut sum, mut errors) = (Vector::ZERO, Vector::ZERO);
-        for (a, b) in self.left.iter().zip(self.right.iter().rev()) {
+        for (a, b) in self.left.iter().zip(self.right) {
             let (a_high, a_low) = (Vector(a.high), Vector(a.low));
             let (b_high, b_low) = (Vector(b.high), Vector(b.low));
             let product = a_high.times(b_high);
@@ -170,7 +170,7 @@ mod tests {
             let (wide, plain) = (vectorized(kernel()), run_plainly(kernel()));
             assert_eq!(wide.map(f64::to_bits), plain.map(f64::to_bits), "{n} terms");
             for lane in 0..LANES {
-                let direct: f64 = (0..n).map(|j| left[j][lane] * right[n - 1 - j][lane]).sum();
+                let direct: f64 = (0..n).map(|j| left[j][lane] * right[j][lane]).sum();
                 assert!((wide[lane] - direct).abs() < 1e-14, "{} {direct}", wide[lane]);
             }
         }
@@ -193,9 +193,8 @@ mod tests {
             let bits = |x: DoubleDouble| (x.high.to_bits(), x.low.to_bits());
             assert_eq!(wide.map(bits), plain.map(bits), "{n} terms");
             for lane in 0..LANES {
-                let direct = (0..n).fold(DoubleDouble::ZERO, |sum, j| {
-                    sum + left[j][lane] * right[n - 1 - j][lane]
-                });
+                let direct =
+                    (0..n).fold(DoubleDouble::ZERO, |sum, j| sum + left[j][lane] * right[j][lane]);
                 let off = wide[lane] - direct;
                 assert!(off.high.abs() < 1e-29, "{:?} {direct:?}", wide[lane]);
             }

@@ -230,7 +230,7 @@ impl Analytic for ExtendedRange {
         out: &mut [ExtendedRange],
     ) {
         for (lane, out) in out.iter_mut().enumerate() {
-            let pairs = left.iter().zip(right.iter().rev());
+            let pairs = left.iter().zip(right);
             *out = pairs.fold(ExtendedRange::ZERO, |sum, (a, b)| sum + a[lane] * b[lane]);
         }
     }

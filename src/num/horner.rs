@@ -23,12 +23,29 @@ pub struct Polynomial<'a> {
     pub x: DoubleDouble,
 }
 
+/// The sums of the terms after those of low order of several polynomials of the same length, each
+/// over the power of the first of them. None waits for another.
+#[inline(always)]
+pub fn tails<const N: usize>(high: [&[f64]; N], x: f64) -> [f64; N] {
+    let mut length = usize::MAX;
+    for lane in 0..N {
+        length = length.min(high[lane].len());
+    }
+    let mut sums = [0.0; N];
+    for j in (0..length).rev() {
+        for lane in 0..N {
+            sums[lane] = sums[lane] * x + high[lane][j];
+        }
+    }
+    sums
+}
+
 impl Polynomial<'_> {
     /// The sum of the terms after those of low order, over the power of the first of them.
     #[inline(always)]
     fn tail(&self) -> f64 {
-        let x = self.x.high;
-        self.high.iter().rev().fold(0.0, |sum, &c| sum * x + c)
+        let [tail] = tails([self.high], self.x.high);
+        tail
     }
 
     /// The polynomial, from that sum. `high` is read only where the argument is no `f64`.

@@ -59,7 +59,7 @@ pub trait Analytic:
     }
     /// Puts [`Analytic::SIDE`] numbers side by side.
     fn side_by_side(number: impl Fn(usize) -> Self) -> Self::Lanes;
-    /// Writes `Σ_{j<n} a_j b_{n−1−j}` of each lane, for series of length n. To be inlined into a
+    /// Writes `Σ_j a_j b_j` of each lane, for series of equal length. To be inlined into a
     /// [`Kernel`].
     fn inner_products<const FUSED: bool>(
         left: &[Self::Lanes],

@@ -12,7 +12,7 @@ use crate::integrate::{BatchPropagator, LaneStatus, Settings, method_named};
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::num::{BATCH, short};
-use crate::system::System;
+use crate::system::{BatchTerms, System};
 
 /// What all runs have in common.
 #[derive(Clone)]
@@ -94,6 +94,7 @@ impl RunPlan {
             return (!cancelled).then(|| RunOutcome::refused(&failure.message, columns));
         }
         experiment.only_count_occurrences();
+        experiment.forget_past();
         let (status, message) = loop {
             experiment.advance(end, STEPS_PER_LOOK);
             if self.system.cancel().is_cancelled() {
@@ -145,6 +146,7 @@ impl RunPlan {
             plan: self,
             runs,
             watches: std::array::from_fn(|_| watch.clone()),
+            terms: self.system.batch_terms(),
             alone: Vec::new(),
             done: &mut done,
         };
@@ -167,6 +169,8 @@ struct RunTogether<'a, D: FnMut(usize, RunOutcome)> {
     plan: &'a RunPlan,
     runs: &'a [(&'a Start, f64)],
     watches: [DriftWatch; BATCH],
+    /// The terms of all lanes, where they can be evaluated together.
+    terms: Option<BatchTerms>,
     /// Those that have to be followed alone.
     alone: Vec<usize>,
     done: &'a mut D,
@@ -182,16 +186,30 @@ impl<D: FnMut(usize, RunOutcome)> Follower for RunTogether<'_, D> {
                     && batch.begin(lane, &state, parameters) == LaneStatus::Underway
             });
         if regular {
+            if let Some(terms) = &mut self.terms {
+                terms.set_parameters(lane, parameters);
+            }
             return OrbitCourse::Until(end);
         }
         self.leave(orbit);
         OrbitCourse::Over
     }
 
+    fn look_at_all(&mut self, batch: &BatchPropagator) {
+        if let Some(terms) = &mut self.terms {
+            let underway = |lane| batch.status(lane) == LaneStatus::Underway;
+            terms.look(std::array::from_fn(|lane| underway(lane).then(|| batch.state(lane))));
+        }
+    }
+
     fn look(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
         let (_, end) = self.runs[orbit];
         let (state, watch) = (batch.state(lane), &mut self.watches[lane]);
-        watch.step(state);
+        let together = self.terms.as_ref();
+        match together.and_then(|terms| Some((terms.of_lane(lane)?, terms.work(lane)))) {
+            Some((terms, work)) => watch.step_with(state.time, terms, work),
+            None => watch.step(state),
+        }
         if state.time < end {
             return OrbitCourse::Until(end);
         }

@@ -159,6 +159,24 @@ impl BatchSeries {
     }
 }
 
+/// `tail · x + origin` in each lane, with twice the digits: what [`Polynomial`] has for a single term
+/// of low order.
+#[inline(always)]
+fn plus_origin<const FUSED: bool>(
+    tail: Batch,
+    x: Batch,
+    origin: &[DoubleDouble; BATCH],
+) -> (Batch, Batch) {
+    let (mut high, mut low) = (Batch::ZERO, Batch::ZERO);
+    for lane in 0..BATCH {
+        (high.0[lane], low.0[lane]) = (origin[lane].high, origin[lane].low);
+    }
+    let (product, lost) = tail.product_with_error::<FUSED>(x);
+    let (sum, left) = product.sum_with_error(high);
+    // the errors of the terms above are zero
+    sum.sum_with_error(Batch::ZERO * x + (lost + left + low))
+}
+
 /// The states of all lanes at times of their own.
 struct States<'a> {
     series: &'a mut BatchSeries,
@@ -178,11 +196,14 @@ impl Kernel for States<'_> {
         for i in 0..series.origins.len() {
             let above = series.builder.series(i)[1..].iter().rev();
             let tail = above.fold(Batch::ZERO, |sum, &c| sum * high + c);
+            let sums = plus_origin::<FUSED>(tail, high, &series.origins[i]);
             for (lane, out) in out.iter_mut().enumerate() {
                 let Some(out) = out else { continue };
-                if x[lane].low != 0.0 {
-                    series.gather(i, lane);
+                if x[lane].low == 0.0 {
+                    (out.values[i], out.carry[i]) = (sums.0.0[lane], sums.1.0[lane]);
+                    continue;
                 }
+                series.gather(i, lane);
                 let low = &series.origins[i][lane..=lane];
                 let polynomial = Polynomial { low, high: &series.gathered, x: x[lane] };
                 out.set(i, polynomial.with_tail::<FUSED>(tail.0[lane]));

@@ -100,9 +100,19 @@ impl<R: Coefficient> SeriesBuilder<R> {
         clock: Clock<R>,
     ) -> Result<(), Singular> {
         self.jet.take_in(&self.state, self.inputs, k);
+        self.continue_with::<FUSED>(k, clock)
+    }
+
+    /// The same where the inputs of order `k` are set.
+    #[inline(always)]
+    fn continue_with<const FUSED: bool>(
+        &mut self,
+        k: usize,
+        clock: Clock<R>,
+    ) -> Result<(), Singular> {
         self.jet.advance_with::<FUSED>(k, clock.time, clock.scale)?;
         let made = |x: R| x.scaled(clock.scale).over(k + 1);
-        self.jet.give_out(&mut self.state, k, made);
+        self.jet.give_out(&mut self.state, self.inputs, k, made);
         Ok(())
     }
 
@@ -275,11 +285,13 @@ impl<R: Coefficient> Kernel for Grow<'_, R> {
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> Result<(), Halt> {
-        for k in self.first..self.builder.order {
-            if self.cancel.is_cancelled() {
+        let Grow { builder, first, clock, cancel } = self;
+        builder.jet.take_in(&builder.state, builder.inputs, first);
+        for k in first..builder.order {
+            if cancel.is_cancelled() {
                 return Err(Halt::Cancelled);
             }
-            self.builder.extend_with::<FUSED>(k, self.clock)?;
+            builder.continue_with::<FUSED>(k, clock)?;
         }
         Ok(())
     }

@@ -8,6 +8,7 @@
 //! Rules: À. Jorba, M. Zou, Experimental Mathematics 14 (2005) 99, section 2.
 
 mod batch;
+mod operands;
 mod series_index;
 mod side;
 mod tables;
@@ -102,16 +103,32 @@ impl<R: Coefficient> Jet<R> {
     }
 
     /// Gives such series their coefficients of order `k + 1`, each made from that of order `k` of an
-    /// output.
+    /// output, and sets those of the first `count` inputs to them.
     #[inline(always)]
-    pub(super) fn give_out(&self, series: &mut [R], k: usize, made: impl Fn(R) -> R) {
-        let Tables { rows, stride, width, .. } = &self.tables;
-        let now = &rows[k * width..][..*width];
+    pub(super) fn give_out(
+        &mut self,
+        series: &mut [R],
+        count: usize,
+        k: usize,
+        made: impl Fn(R) -> R,
+    ) {
+        let Tables { rows, stride, width, .. } = &mut self.tables;
+        let (below, next) = rows.split_at_mut((k + 1) * *width);
+        let (now, next) = (&below[k * *width..], &mut next[..*width]);
+        let Program { inputs, outputs, .. } = &*self.program;
+        let (driving, others) = outputs.split_at(count.min(outputs.len()).min(inputs.len()));
+        // counted along, since to divide a table into chunks takes a division
         let mut place = k + 1;
-        for &register in &self.program.outputs {
-            let Some(next) = series.get_mut(place) else { break };
-            *next = made(now[register as usize]);
-            place += stride;
+        for (&output, &input) in driving.iter().zip(inputs) {
+            let coefficient = made(now[output as usize]);
+            next[input as usize] = coefficient;
+            series[place] = coefficient;
+            place += *stride;
+        }
+        for &output in others {
+            let Some(coefficient) = series.get_mut(place) else { break };
+            *coefficient = made(now[output as usize]);
+            place += *stride;
         }
     }
 

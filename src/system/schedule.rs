@@ -35,6 +35,17 @@ pub(super) enum Factor {
     Times(DoubleDouble),
 }
 
+impl Factor {
+    /// The sign that it is, if it is no more.
+    fn sign(self) -> Option<Sign> {
+        match self {
+            Factor::Plus => Some(Sign::Plus),
+            Factor::Minus => Some(Sign::Minus),
+            Factor::Times(_) => None,
+        }
+    }
+}
+
 /// What the inner product leaves out of a convolution at order k.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Ends {
@@ -90,6 +101,13 @@ pub(super) enum Direct {
     Slope(Factor, Register),
 }
 
+/// The sign of a term.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Sign {
+    Plus,
+    Minus,
+}
+
 /// One operation of the finishing pass.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Step {
@@ -118,6 +136,14 @@ pub(super) enum Step {
     Relation {
         register: Register,
         relation: u32,
+    },
+    /// A relation of frequent shape, `k f_k = ± Σ j a_j b_{k−j}`: f′ = ± a′ b, as sine and cosine are.
+    Integral {
+        register: Register,
+        sign: Sign,
+        slope: Register,
+        factor: Register,
+        product: u32,
     },
     /// The inner products are those of the varying entries of the matrix, row by row.
     Solve {
@@ -277,6 +303,13 @@ impl ScheduleWriter<'_> {
         vanishing: Option<Register>,
     ) -> Step {
         let schedule = &mut self.schedule;
+        let plain = (direct, denominator, vanishing);
+        if let ((Direct::None, Denominator::Order, None), [only]) = (plain, summands)
+            && let (Some(product), Ends::LastSlope(slope, factor)) = (only.product, only.ends)
+            && let Some(sign) = only.factor.sign()
+        {
+            return Step::Integral { register, sign, slope, factor, product };
+        }
         let (first, count) = (schedule.summands.len() as u32, summands.len() as u32);
         schedule.summands.extend_from_slice(summands);
         let relation = schedule.relations.len() as u32;

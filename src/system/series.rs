@@ -15,7 +15,7 @@ use super::program::{Program, Register};
 use super::state::State;
 use super::underflow;
 use crate::expr::FunctionId;
-use crate::num::{DoubleDouble, ExtendedRange, Kernel, Polynomial, polynomial, vectorized};
+use crate::num::{DoubleDouble, ExtendedRange, Kernel, Polynomial, polynomial, tails, vectorized};
 
 /// The series of all numbers of a state, in the native form of its system.
 #[derive(Clone, Debug)]
@@ -151,10 +151,7 @@ impl Series {
     }
 
     fn is_finite(&self) -> bool {
-        // all of them, several at once
-        let finite = |c: &[f64]| c.iter().fold(true, |finite, x| finite & x.is_finite());
-        (0..self.len()).all(|i| finite(self.coefficients(i)))
-            && (0..self.switches()).all(|i| finite(self.switch(i)))
+        vectorized(Finite(self))
     }
 
     fn underflows(&self) -> bool {
@@ -292,6 +289,38 @@ pub(super) fn unit_below(step: f64) -> f64 {
     f64::from_bits(exponent << 52).copysign(step)
 }
 
+/// Whether all coefficients of the state and of the switches are finite.
+struct Finite<'a>(&'a Series);
+
+impl Kernel for Finite<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> bool {
+        let Finite(series) = self;
+        let all = (0..series.len()).fold(0.0, |sum, i| sum + zeros(series.coefficients(i)));
+        let switches = 0..series.switches();
+        switches.fold(all, |sum, i| sum + zeros(series.switch(i))) == 0.0
+    }
+}
+
+/// Zero, or NaN where a number is not finite.
+#[inline(always)]
+fn zeros(numbers: &[f64]) -> f64 {
+    const LANES: usize = 4;
+    let (chunks, rest) = numbers.as_chunks::<LANES>();
+    let mut sums = [0.0; LANES];
+    for chunk in chunks {
+        for lane in 0..LANES {
+            sums[lane] += chunk[lane] * 0.0;
+        }
+    }
+    rest.iter().chain(&sums).fold(0.0, |sum, x| sum + x * 0.0)
+}
+
+/// The number of polynomials that are summed side by side.
+const TOGETHER: usize = 4;
+
 /// The polynomials of a state, at a time in the unit of the series.
 struct Sum<'a> {
     series: &'a Series,
@@ -305,10 +334,26 @@ impl Kernel for Sum<'_> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
         let Sum { series, x, out } = self;
-        for i in 0..series.origin.len() {
-            let low = series.low.as_ref().map_or(&series.origin[i..=i], |low| low.series(i));
-            let high = &series.high.series(i)[low.len()..];
-            out.set(i, Polynomial { low, high, x }.run::<FUSED>());
+        let count = series.origin.len();
+        let low = |i: usize| match &series.low {
+            Some(low) => low.series(i),
+            None => &series.origin[i..=i],
+        };
+        let first = low(0).len();
+        let high = |i: usize| &series.high.series(i)[first..];
+        for group in (0..count).step_by(TOGETHER) {
+            // the last group is filled up with its last number
+            let of = |lane: usize| (group + lane).min(count - 1);
+            let mut series = [high(group); TOGETHER];
+            for lane in 1..TOGETHER {
+                series[lane] = high(of(lane));
+            }
+            let tails = tails(series, x.high);
+            for (lane, &tail) in (0..count - group).zip(&tails) {
+                let i = group + lane;
+                let polynomial = Polynomial { low: low(i), high: series[lane], x };
+                out.set(i, polynomial.with_tail::<FUSED>(tail));
+            }
         }
     }
 }

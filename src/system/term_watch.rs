@@ -89,6 +89,13 @@ impl TermWatch {
         looked
     }
 
+    /// Takes the terms of a state, and the work done, that were evaluated elsewhere.
+    pub fn take(&mut self, terms: impl Iterator<Item = f64>, work: f64) {
+        self.outputs.clear();
+        self.outputs.extend(terms);
+        self.work = work;
+    }
+
     fn take_in(&mut self, state: &State) {
         self.system.inputs_of(state, &mut self.exact);
         for (rounded, x) in self.inputs.iter_mut().zip(&self.exact) {

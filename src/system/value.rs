@@ -170,6 +170,7 @@ impl<R: Real> Evaluator<R> {
 }
 
 /// Sets the register of an operation and that of its companion.
+#[inline(always)]
 fn run<R: Real>(program: &Program, registers: &mut [R], register: Register, op: Op) {
     let at = register as usize;
     if let Some((value, companion)) = value_of(program, op, |r| registers[r as usize]) {
@@ -182,7 +183,7 @@ fn run<R: Real>(program: &Program, registers: &mut [R], register: Register, op: 
 
 /// The value of an operation on registers with these values and, of a function, that of its
 /// companion in the next register. `None` for what is set elsewhere.
-#[inline]
+#[inline(always)]
 pub(super) fn value_of<R: Analytic>(
     program: &Program,
     op: Op,

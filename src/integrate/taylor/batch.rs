@@ -48,7 +48,7 @@ impl TaylorBatch {
         if method.name != METHOD.name || !(EXACT_BELOW..1.0).contains(&tolerance) {
             return None;
         }
-        let order = step_size::order_for(tolerance);
+        let order = step_size::order_for(tolerance, system.degrees());
         let series = system.batch_series(order)?;
         let lane = Lane {
             status: LaneStatus::Empty,

@@ -4,7 +4,8 @@
 //! finds for that orbit alone, to the last bit. Never here: the rule and its constants.
 
 use super::step_size::{
-    FARTHEST_ARGUMENT, FIRST, ROOM, Shares, last_orders, of_argument, reciprocal, rough_logarithms,
+    FAINT, FARTHEST_ARGUMENT, FIRST, ROOM, Screen, Shares, last_orders, of_argument, reciprocals,
+    rough_logarithms,
 };
 use crate::num::{Analytic, BATCH, Batch, Kernel, math, vectorized};
 use crate::system::BatchSeries;
@@ -14,9 +15,13 @@ use crate::system::BatchSeries;
 pub(super) struct BatchStepSize {
     motion: Shares,
     integrals: Shares,
-    /// The number whose series allowed the least last time, in any lane.
-    least: usize,
+    /// The number whose series allowed the least last time, in each lane.
+    least: [usize; BATCH],
+    /// Its series in each lane.
+    gathered: Box<[Batch; ROOM]>,
     logs: Box<[Batch; ROOM]>,
+    /// The powers of the shortest step so far.
+    powers: Box<[Batch; ROOM]>,
 }
 
 impl BatchStepSize {
@@ -24,8 +29,10 @@ impl BatchStepSize {
         BatchStepSize {
             motion: Shares::of_motion(tolerance, order),
             integrals: Shares::of_integrals(tolerance, order),
-            least: 0,
+            least: [0; BATCH],
+            gathered: Box::new([Batch::ZERO; ROOM]),
             logs: Box::new([Batch::ZERO; ROOM]),
+            powers: Box::new([Batch::ONE; ROOM]),
         }
     }
 
@@ -33,7 +40,6 @@ impl BatchStepSize {
     /// is not finite.
     pub(super) fn longest(&mut self, series: &BatchSeries) -> Batch {
         let mut shortest = vectorized(ByCoefficients { rule: self, series });
-        shortest.0 = shortest.0.map(math::exp);
         for (function, u) in series.arguments() {
             for lane in 0..BATCH {
                 let h = shortest.0[lane];
@@ -52,28 +58,105 @@ impl BatchStepSize {
 
     #[inline(always)]
     fn by_coefficients(&mut self, series: &BatchSeries) -> Batch {
-        let (motion, integrals) = (&self.motion, &self.integrals);
-        let mut shortest = Batch::splat(f64::INFINITY);
-        let mut finite = Batch::ZERO;
-        let mut least = self.least.min(series.inputs().saturating_sub(1));
-        let first = least;
-        let after = (0..series.inputs()).filter(|&i| i != first);
-        for i in std::iter::once(first).chain(after) {
-            let found =
-                of_one(series.coefficients(i), motion, shortest, &mut self.logs, &mut finite);
-            if found.0[0] < shortest.0[0] {
-                least = i;
+        let mut shortest = Shortest::new();
+        let BatchStepSize { motion, integrals, least, gathered, logs, powers } = self;
+        let count = series.inputs();
+        if count > 0 {
+            // mostly this shows that all numbers allow more
+            let length = series.coefficients(0).len();
+            for (lane, &number) in least.iter().enumerate() {
+                let coefficients = series.coefficients(number.min(count - 1));
+                for (place, c) in gathered.iter_mut().zip(coefficients) {
+                    place.0[lane] = c.0[lane];
+                }
             }
-            shortest = found;
+            shortest.take(&gathered[..length], motion, (logs, powers));
         }
-        for i in series.inputs()..series.len() {
-            let c = series.coefficients(i);
-            shortest = of_one(c, integrals, shortest, &mut self.logs, &mut finite);
+        for i in 0..count {
+            let shorter = shortest.take(series.coefficients(i), motion, (logs, powers));
+            for (least, _) in least.iter_mut().zip(shorter).filter(|(_, shorter)| *shorter) {
+                *least = i;
+            }
         }
-        self.least = least;
+        for i in count..series.len() {
+            shortest.take(series.coefficients(i), integrals, (logs, powers));
+        }
         // zero times anything that is not finite is NaN
-        shortest + finite
+        shortest.step + shortest.finite
     }
+}
+
+/// The shortest steps that some series allow.
+struct Shortest {
+    log: Batch,
+    step: Batch,
+    is_known: bool,
+    /// Zero, or NaN where a coefficient is not finite.
+    finite: Batch,
+}
+
+impl Shortest {
+    fn new() -> Shortest {
+        let step = Batch::splat(f64::INFINITY);
+        Shortest { log: step, step, is_known: false, finite: Batch::ZERO }
+    }
+
+    /// Takes another series into account. Returns in which lanes it allows less than those before.
+    #[inline(always)]
+    fn take(
+        &mut self,
+        coefficients: &[Batch],
+        shares: &Shares,
+        (logs, powers): (&mut [Batch; ROOM], &mut [Batch; ROOM]),
+    ) -> [bool; BATCH] {
+        for c in coefficients {
+            self.finite = self.finite + *c * 0.0;
+        }
+        let mut shorter = [false; BATCH];
+        if self.is_known && passes(&shares.screen, coefficients, powers) {
+            return shorter;
+        }
+        let found = of_one(coefficients, shares, self.log, logs);
+        for lane in 0..BATCH {
+            shorter[lane] = found.0[lane] < self.log.0[lane];
+            if shorter[lane] {
+                self.step.0[lane] = math::exp(found.0[lane]);
+            }
+        }
+        if !self.is_known || shorter != [false; BATCH] {
+            (self.log, self.is_known) = (found, true);
+            let mut power = Batch::ONE;
+            for place in &mut powers[..coefficients.len()] {
+                *place = power;
+                power = power * self.step;
+            }
+        }
+        shorter
+    }
+}
+
+/// Whether a series allows a step in all lanes, whose powers these are. May be false where it does.
+#[inline(always)]
+fn passes(screen: &Screen, coefficients: &[Batch], powers: &[Batch; ROOM]) -> bool {
+    let mut low = [Batch::ZERO; 2 + FIRST];
+    for ((low, c), power) in low.iter_mut().zip(coefficients).zip(powers) {
+        let size = c.abs();
+        *low = size.where_below(FAINT, Batch::ZERO, size * *power);
+    }
+    let mut all = Batch::ONE;
+    let last = coefficients[screen.first..].iter().zip(&powers[screen.first..]);
+    for (lane, (c, power)) in last.enumerate() {
+        let (mut by_tolerance, mut by_radius) = (Batch::ZERO, Batch::ZERO);
+        for j in 0..FIRST {
+            by_tolerance = by_tolerance.larger(low[j] * screen.by_tolerance[j][lane]);
+            by_radius = by_radius.larger(low[j + 2] * screen.by_radius[j][lane]);
+        }
+        let size = c.abs();
+        let passed = by_tolerance.smaller(by_radius).is_above(size * *power);
+        // a coefficient that vanishes allows anything
+        all = all * size.where_below(FAINT, Batch::ONE, passed);
+    }
+    all.all_reach(Batch::ONE)
 }
 
 /// The kernel of the rule.
@@ -91,44 +174,44 @@ impl Kernel for ByCoefficients<'_> {
     }
 }
 
-/// The logarithms of the steps that one series allows, or `shortest` where that is less. What is not
-/// finite makes `finite` NaN.
+/// The logarithms of the steps that one series allows, or `shortest` where that is less.
 #[inline(always)]
 fn of_one(
     coefficients: &[Batch],
     shares: &Shares,
     mut shortest: Batch,
     logs: &mut [Batch; ROOM],
-    finite: &mut Batch,
 ) -> Batch {
     const LEAST: Batch = Batch([f64::NEG_INFINITY; BATCH]);
     const MOST: Batch = Batch([f64::INFINITY; BATCH]);
     let p = coefficients.len() - 1;
     for (log, c) in logs.iter_mut().zip(coefficients) {
-        let size = c.abs();
-        *log = Batch(rough_logarithms(size.0));
-        *finite = *finite + size * 0.0;
+        *log = Batch(rough_logarithms(c.abs().0));
     }
     for k in last_orders(p).rev() {
-        let (own, indulgence) = (logs[k], shares.indulgence(k, p));
-        let (early, inner) = (FIRST.min(k), (2 + FIRST).min(k - 1));
-        let (mut most, mut radius) = (LEAST, LEAST);
-        for j in 0..early {
-            most = most.larger((logs[j] - own) * reciprocal(k - j) + shares.table[j]);
-        }
-        for j in 2..inner {
-            radius = radius.larger((logs[j] - own) * reciprocal(k - j));
-        }
+        let (below, own, indulgence) = (&logs[..k], logs[k], shares.indulgence(k, p));
+        let (reciprocals, table) = (&reciprocals(k)[..k], &shares.table[..k]);
+        let root = |j: usize| (below[j] - own) * reciprocals[j];
         // a coefficient that vanishes allows anything
         let allowed = |log: Batch| own.where_equal(f64::NEG_INFINITY, MOST, log + indulgence);
+        let (mut most, mut radius) = (LEAST, LEAST);
+        for j in 0..FIRST.min(k) {
+            most = most.larger(root(j) + table[j]);
+        }
+        for j in 2..(2 + FIRST).min(k - 1) {
+            radius = radius.larger(root(j));
+        }
         if allowed(most.smaller(radius + shares.log_part)).all_reach(shortest) {
             continue;
         }
-        for j in early..k {
-            most = most.larger((logs[j] - own) * reciprocal(k - j) + shares.table[j]);
+        // the bounds of the first terms are among the others
+        for j in (0..2).chain(k - 1..k) {
+            most = most.larger(root(j) + table[j]);
         }
-        for j in inner..k - 1 {
-            radius = radius.larger((logs[j] - own) * reciprocal(k - j));
+        for j in 2..k - 1 {
+            let root = root(j);
+            most = most.larger(root + table[j]);
+            radius = radius.larger(root);
         }
         let radius = radius + shares.log_part;
         let radius = radius.where_equal(f64::NEG_INFINITY, MOST, radius);

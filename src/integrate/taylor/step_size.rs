@@ -12,6 +12,9 @@ use crate::expr::FunctionId;
 use crate::num::{Kernel, math, vectorized};
 use crate::system::Series;
 
+/// Below this tolerance the lowest orders are built in double-double.
+pub(super) const EXACT_BELOW: f64 = 1e-16;
+
 /// The part of the tolerance allowed for the last terms, which represent everything truncated.
 /// Truncation errs in the same direction step by step, while rounding does not.
 const SHARE: f64 = 0.01;
@@ -44,14 +47,23 @@ const PART_OF_ARGUMENT: f64 = 0.5;
 
 /// A coefficient below this is an underflow: in a unit of time near the step its term is far below
 /// the last digit of anything.
-const FAINT: f64 = 1e-290;
+pub(super) const FAINT: f64 = 1e-290;
 
-/// The order at which a tolerance costs least: the step grows with the order, the work with its
-/// square (Jorba & Zou, proposition 3.2, find −½ ln ε + 1 if each order costs the same work; orders
-/// cost less here).
-pub(super) fn order_for(tolerance: f64) -> usize {
-    ((-math::ln(tolerance) * 0.66).ceil() as usize).clamp(12, 44)
+/// The order at which a tolerance costs least, for a motion of so many degrees of freedom. The step
+/// grows with the order. In large systems the work grows with its square (Jorba & Zou, proposition
+/// 3.2, find −½ ln ε + 1 if each order costs the same work); in small ones an order in `f64` costs
+/// nearly the same whatever it is, and a step has a cost of its own. In double-double it pays no more:
+/// in the longer steps of motions without singularities terms of high order, which are in `f64`, are
+/// larger than their sum.
+pub(super) fn order_for(tolerance: f64, degrees: usize) -> usize {
+    let long = tolerance >= EXACT_BELOW && degrees <= SMALL;
+    let part = if long { 0.8 } else { 0.66 };
+    ((-math::ln(tolerance) * part).ceil() as usize).clamp(12, 44)
 }
+
+/// With no more degrees of freedom than this the products of series are not most of the work
+/// (measured on chains of pendulums).
+const SMALL: usize = 6;
 
 /// Whether all rates of change are finite.
 pub(super) fn has_velocity(series: &Series) -> bool {
@@ -80,7 +92,7 @@ impl StepSize {
     /// The longest step that the tolerance allows, in the unit of the series; infinite for a
     /// polynomial. Returns `None` if a coefficient is not finite.
     pub(super) fn longest(&mut self, series: &Series) -> Option<f64> {
-        let mut shortest = math::exp(vectorized(ByCoefficients { rule: self, series })?);
+        let mut shortest = vectorized(ByCoefficients { rule: self, series })?;
         for (function, u) in series.arguments() {
             // most arguments are far from their bound, which is costly to compute
             let far = |k: usize, h: f64| u[k].abs() * h > FARTHEST_ARGUMENT;
@@ -92,28 +104,73 @@ impl StepSize {
         Some(shortest)
     }
 
-    /// The logarithm of the step that the coefficients allow.
+    /// The step that the coefficients allow.
     #[inline(always)]
     fn by_coefficients<const FUSED: bool>(&mut self, series: &Series) -> Option<f64> {
-        let mut shortest = f64::INFINITY;
-        if let Some(c) = numbers(series).nth(self.least) {
-            shortest = of_one::<FUSED>(c, &self.motion, shortest)?;
+        let StepSize { motion, integrals: spared, least } = self;
+        let mut shortest = Shortest::new(&motion.screen);
+        let first = *least;
+        if let Some(c) = numbers(series).nth(first) {
+            shortest.take::<FUSED>(c, motion)?;
         }
-        let least = self.least;
-        for (i, c) in numbers(series).enumerate().filter(|&(i, _)| i != least) {
-            let found = of_one::<FUSED>(c, &self.motion, shortest)?;
-            if found < shortest {
-                (shortest, self.least) = (found, i);
+        for (i, c) in numbers(series).enumerate().filter(|&(i, _)| i != first) {
+            if shortest.take::<FUSED>(c, motion)? {
+                *least = i;
             }
         }
         for i in 0..series.switches() {
-            shortest = of_one::<FUSED>(series.switch(i), &self.motion, shortest)?;
+            shortest.take::<FUSED>(series.switch(i), motion)?;
         }
         for c in integrals(series) {
-            shortest = of_one::<FUSED>(c, &self.integrals, shortest)?;
+            shortest.take::<FUSED>(c, spared)?;
         }
-        Some(shortest)
+        Some(shortest.step)
     }
+}
+
+/// The shortest step that some series allow, its logarithm, and its powers.
+struct Shortest<'a> {
+    log: f64,
+    step: f64,
+    powers: [f64; ROOM],
+    screen: &'a Screen,
+}
+
+impl Shortest<'_> {
+    #[inline(always)]
+    fn new(screen: &Screen) -> Shortest<'_> {
+        Shortest { log: f64::INFINITY, step: f64::INFINITY, powers: [f64::NAN; ROOM], screen }
+    }
+
+    /// Takes another series into account. Returns whether it allows less than those before; `None`
+    /// if a coefficient is not finite.
+    #[inline(always)]
+    fn take<const FUSED: bool>(&mut self, coefficients: &[f64], shares: &Shares) -> Option<bool> {
+        if is_finite(coefficients) && shares.screen.passes(coefficients, &self.powers) {
+            return Some(false);
+        }
+        let log = of_one::<FUSED>(coefficients, shares, self.log)?;
+        let shorter = log < self.log;
+        if shorter {
+            (self.log, self.step) = (log, math::exp(log));
+            self.powers = self.screen.powers(self.step);
+        }
+        Some(shorter)
+    }
+}
+
+/// Whether all numbers are finite.
+#[inline(always)]
+fn is_finite(numbers: &[f64]) -> bool {
+    let (chunks, rest) = numbers.as_chunks::<LANES>();
+    let mut sums = [0.0; LANES];
+    for chunk in chunks {
+        for lane in 0..LANES {
+            // zero, or NaN where it is not finite
+            sums[lane] += chunk[lane] * 0.0;
+        }
+    }
+    rest.iter().chain(&sums).all(|x| x.is_finite())
 }
 
 /// The kernel of the rule.
@@ -201,6 +258,87 @@ pub(super) struct Shares {
     pub(super) table: [f64; ROOM],
     pub(super) log_part: f64,
     log_indulgence: f64,
+    pub(super) screen: Screen,
+}
+
+/// Room for the last orders, in whole chunks.
+const WIDTH: usize = (LAST + BEFORE).next_multiple_of(LANES);
+
+/// A test by multiplications alone that a series allows a step: most series allow more than the one
+/// that allows the least, and need no logarithms.
+///
+/// With the terms a_j = |c_j| h^j at a step h, the bound of the j-th order on the k-th is no shorter
+/// than h where a_j times a constant is no less than a_k. The lowest orders mostly suffice.
+#[derive(Clone, Debug)]
+pub(super) struct Screen {
+    /// The first of the last orders, which lie side by side.
+    pub(super) first: usize,
+    /// The constants of the tolerance, for the j-th order.
+    pub(super) by_tolerance: [[f64; WIDTH]; FIRST],
+    /// Those of the radius of convergence, for the order j + 2; zero where that gives none.
+    pub(super) by_radius: [[f64; WIDTH]; FIRST],
+}
+
+/// The ratio by which terms must differ to do so beyond the errors of rough logarithms.
+const CLEARLY: f64 = 1.001;
+
+impl Screen {
+    fn new(order: usize, table: &[f64; ROOM], log_part: f64, log_indulgence: f64) -> Screen {
+        let mut screen = Screen {
+            first: *last_orders(order).start(),
+            by_tolerance: [[0.0; WIDTH]; FIRST],
+            by_radius: [[0.0; WIDTH]; FIRST],
+        };
+        for (lane, k) in last_orders(order).enumerate() {
+            let indulgence = indulgence_of(log_indulgence, k, order);
+            let constant =
+                |j: usize, log: f64| math::exp((k - j) as f64 * (log + indulgence)) / CLEARLY;
+            for j in 0..FIRST {
+                screen.by_tolerance[j][lane] = constant(j, table[j]);
+                let inner = j + 2 < k - 1;
+                screen.by_radius[j][lane] = if inner { constant(j + 2, log_part) } else { 0.0 };
+            }
+        }
+        screen
+    }
+
+    /// Whether a series allows a step, whose powers these are. May be false where it does.
+    #[inline(always)]
+    fn passes(&self, coefficients: &[f64], powers: &[f64; ROOM]) -> bool {
+        let mut own = [0.0; WIDTH];
+        for (own, c) in own.iter_mut().zip(&coefficients[self.first..]) {
+            *own = c.abs();
+        }
+        let low = |j: usize| {
+            let c = coefficients[j].abs();
+            if c < FAINT { 0.0 } else { c * powers[j] }
+        };
+        let (mut by_tolerance, mut by_radius) = ([0.0; WIDTH], [0.0; WIDTH]);
+        for j in 0..FIRST {
+            let (a, b) = (low(j), low(j + 2));
+            for lane in 0..WIDTH {
+                by_tolerance[lane] = larger(by_tolerance[lane], a * self.by_tolerance[j][lane]);
+                by_radius[lane] = larger(by_radius[lane], b * self.by_radius[j][lane]);
+            }
+        }
+        let mut all = true;
+        for lane in 0..WIDTH {
+            let term = own[lane] * powers[self.first + lane];
+            // a coefficient that vanishes allows anything
+            all &= ((by_tolerance[lane] > term) & (by_radius[lane] > term)) | (own[lane] < FAINT);
+        }
+        all
+    }
+
+    /// The powers of a step that are needed.
+    #[inline(always)]
+    fn powers(&self, h: f64) -> [f64; ROOM] {
+        let mut powers = [1.0; ROOM];
+        for k in 1..self.first + WIDTH {
+            powers[k] = powers[k - 1] * h;
+        }
+        powers
+    }
 }
 
 impl Shares {
@@ -217,7 +355,7 @@ impl Shares {
     /// By how much the logarithm of the step may be longer for the k-th of p orders.
     #[inline(always)]
     pub(super) fn indulgence(&self, k: usize, p: usize) -> f64 {
-        if k + LAST <= p { self.log_indulgence } else { 0.0 }
+        indulgence_of(self.log_indulgence, k, p)
     }
 
     fn new(tolerance: f64, order: usize) -> Shares {
@@ -226,8 +364,16 @@ impl Shares {
         for (share, reciprocal) in table.iter_mut().zip(&RECIPROCALS[ROOM - order..]) {
             *share = log * reciprocal;
         }
-        Shares { table, log_part: math::ln(PART_OF_RADIUS), log_indulgence: math::ln(INDULGENCE) }
+        let (log_part, log_indulgence) = (math::ln(PART_OF_RADIUS), math::ln(INDULGENCE));
+        let screen = Screen::new(order, &table, log_part, log_indulgence);
+        Shares { table, log_part, log_indulgence, screen }
     }
+}
+
+/// By how much the logarithm of the step may be longer for the k-th of p orders.
+#[inline(always)]
+fn indulgence_of(log_indulgence: f64, k: usize, p: usize) -> f64 {
+    if k + LAST <= p { log_indulgence } else { 0.0 }
 }
 
 /// The logarithm of the step that one series allows, or `shortest` if that is less; `None` if a
@@ -253,7 +399,7 @@ fn of_one<const FUSED: bool>(
             continue;
         }
         let indulgence = shares.indulgence(k, p);
-        let (logs, reciprocals) = (&logs[..k], &RECIPROCALS[ROOM - k..]);
+        let (logs, reciprocals) = (&logs[..k], reciprocals(k));
         let table = &shares.table[..k];
         let root = |j: usize| (logs[j] - own) * reciprocals[j];
         // each of these bounds what follows from all of them, to the last bit
@@ -281,10 +427,10 @@ pub(super) fn last_orders(p: usize) -> RangeInclusive<usize> {
     (p + 1).saturating_sub(LAST + BEFORE).max(3)..=p
 }
 
-/// The reciprocal of the difference of two orders.
+/// The reciprocals of k − j for j = 0, 1, …, k − 1.
 #[inline(always)]
-pub(super) fn reciprocal(n: usize) -> f64 {
-    RECIPROCALS[ROOM - n]
+pub(super) fn reciprocals(k: usize) -> &'static [f64] {
+    &RECIPROCALS[ROOM - k..]
 }
 
 /// Nothing to be added to any order.
@@ -308,6 +454,7 @@ fn largest(logs: &[f64], own: f64, reciprocals: &[f64], shares: &[f64]) -> f64 {
 }
 
 /// The larger of two numbers, the first if the second is NaN.
+#[inline(always)]
 fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }

@@ -5,12 +5,13 @@
 
 use std::sync::Arc;
 
+use super::operands::Operands;
 use super::series_index::SeriesIndex;
 use super::side::Side;
 use crate::num::{Analytic, Real};
 use crate::system::parametric_power;
 use crate::system::program::{Block, Op, Program, Register, Singular};
-use crate::system::schedule::{Denominator, Direct, Ends, Factor, Pair, Relation, Schedule, Step};
+use crate::system::schedule::{Denominator, Direct, Ends, Factor, Relation, Schedule, Sign, Step};
 use crate::system::solve::Factored;
 use crate::system::value::value_of;
 
@@ -67,13 +68,7 @@ pub struct Tables<R: Coefficient> {
     /// Those of the registers that are read as whole series, one register after another.
     pub(super) series: Vec<R>,
     pub(super) index: Arc<SeriesIndex>,
-    /// The pairs of the schedule, [`Analytic::SIDE`] of them side by side, and the coefficients of
-    /// their operands. The last ones may be filled up.
-    pairs: Vec<Pair>,
-    left: Vec<R::Lanes>,
-    right: Vec<R::Lanes>,
-    /// Their inner products at the present order.
-    products: Vec<R>,
+    operands: Operands<R>,
     /// The terms of the program's sums.
     terms: Vec<(Register, R)>,
     blocks: Vec<R::Factored>,
@@ -95,20 +90,13 @@ impl<R: Coefficient> Tables<R> {
         let (stride, width) = (order + 1, program.ops.len() + schedule.slopes.len());
         let blocks = program.blocks.iter().map(|block| R::Factored::new(block.size())).collect();
         let widest = program.blocks.iter().map(Block::size).max().unwrap_or(0);
-        let mut pairs = schedule.pairs.clone();
-        let filled = pairs.len().next_multiple_of(R::SIDE);
-        pairs.extend(pairs.last().copied().into_iter().cycle().take(filled - pairs.len()));
-        let groups = pairs.len() / R::SIDE;
         Tables {
             stride,
             width,
             rows: vec![R::ZERO; width * stride],
             series: vec![R::ZERO; index.registers.len() * stride],
             index,
-            left: vec![R::ZEROS; groups * stride],
-            right: vec![R::ZEROS; groups * stride],
-            products: vec![R::ZERO; pairs.len()],
-            pairs,
+            operands: Operands::new(&schedule.pairs, stride),
             terms: program
                 .terms
                 .iter()
@@ -124,14 +112,7 @@ impl<R: Coefficient> Tables<R> {
     /// Computes all inner products of order `k`.
     #[inline(always)]
     pub(super) fn multiply<const FUSED: bool>(&mut self, k: usize) {
-        // counted along, since to divide a table into chunks takes a division
-        let (left, right) = (&self.left[..], &self.right[..]);
-        let mut first = 1;
-        for products in self.products.chunks_exact_mut(R::SIDE) {
-            let last = first + k - 1;
-            R::inner_products::<FUSED>(&left[first..last], &right[first..last], products);
-            first += self.stride;
-        }
+        self.operands.multiply::<FUSED>(k);
     }
 
     /// Evaluates order 0.
@@ -206,7 +187,7 @@ impl<R: Coefficient> Tables<R> {
         let width = self.width;
         let (below, now) = self.rows.split_at_mut(k * width);
         let (values, now) = (&below[..width], &mut now[..width]);
-        let (products, terms) = (&self.products[..], &self.terms[..]);
+        let (products, terms) = (self.operands.products(), &self.terms[..]);
         let at = |r: Register| r as usize;
         for step in steps {
             let (register, x) = match *step {
@@ -242,6 +223,12 @@ impl<R: Coefficient> Tables<R> {
                     };
                     (register, x)
                 }
+                Step::Integral { register, sign, slope, factor, product } => {
+                    let last = now[at(slope)].times::<FUSED>(values[at(factor)]) * k as f64;
+                    let sum = products[at(product)] + last;
+                    let sum = if sign == Sign::Minus { -sum } else { sum };
+                    (register, (R::ZERO + sum).over(k))
+                }
                 Step::Solve { .. } | Step::Alone(_) => return Some(*step),
             };
             now[at(register)] = x;
@@ -255,12 +242,13 @@ impl<R: Coefficient> Tables<R> {
         let Block { matrix, right, .. } = &program.blocks[block];
         let (n, first) = (right.len(), register as usize);
         let (below, now) = self.rows.split_at_mut(k * self.width);
+        let products = self.operands.products();
         for (i, &right) in right.iter().enumerate() {
             let mut sum = now[right as usize];
             for (j, &entry) in matrix[i * n..][..n].iter().enumerate() {
                 if !program.fixed[entry as usize] {
                     let last = now[entry as usize] * below[first + j];
-                    sum = sum - (self.products[product] + last);
+                    sum = sum - (products[product] + last);
                     product += 1;
                 }
             }
@@ -279,14 +267,7 @@ impl<R: Coefficient> Tables<R> {
         for (slope, &r) in slopes.iter_mut().zip(&schedule.slopes) {
             *slope = registers[r as usize] * k as f64;
         }
-        let now = &now[..];
-        let (left, right) = (&mut self.left[..], &mut self.right[..]);
-        let mut place = k;
-        for pairs in self.pairs.chunks_exact(R::SIDE) {
-            left[place] = R::side_by_side(|lane| now[pairs[lane].left as usize]);
-            right[place] = R::side_by_side(|lane| now[pairs[lane].right as usize]);
-            place += self.stride;
-        }
+        self.operands.store(now, k);
     }
 
     /// Stores order `k` once more where whole series are read.
