@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use color_eyre::eyre::Result;
 use crossterm::event::{Event, KeyCode};
-use phaselab::shell::{Ending, LabError, Pace, Screen, ScreenRequest, perform, report_panics};
+use phaselab::shell::{Ending, FramePace, LabError, Screen, ScreenRequest, perform, report_panics};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Color, Modifier, Style};
@@ -119,7 +119,7 @@ fn main() -> Result<ExitCode> {
     report_panics()?;
     match perform(
         &mut Clock::default(),
-        Pace { frames: 30, bytes: None, synchronized: true, mouse: false },
+        FramePace { frames: 30, bytes: None, synchronized: true, mouse: false },
     ) {
         Ok(Ending::Quit) => Ok(ExitCode::SUCCESS),
         Ok(Ending::Gone) => Ok(ExitCode::from(129)),

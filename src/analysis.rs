@@ -13,7 +13,7 @@ mod verdict;
 
 pub use crossing_log::CrossingLog;
 pub use history::{History, Stretch};
-pub use inquiry::{Answer, Inquiry};
+pub use inquiry::{Inquiry, InquiryAnswer};
 pub use landscape::{Curve, Grid, Landscape, Plane};
-pub use separation::{Separation, Slope, distance};
+pub use separation::{DistanceHistory, Slope, distance};
 pub use verdict::{Growth, LEFT, LOST, Verdict, rounding_floor};

@@ -16,10 +16,10 @@ mod start;
 
 pub use closed_curve::{Circulation, ClosedCurve};
 pub use energy_shell::{EnergyShell, NotOnShell, Root};
-pub use flow::{Carried, Flow};
+pub use flow::{Carried, SystemFlow};
 pub use plane::{NotInPlane, SectionPlane};
 pub use pool::{PoolError, in_order};
 pub use region::{Region, spread};
 pub use section::{Crossings, OrbitStatus, SectionPlan, add_section, crossings, section_name};
-pub use side_by_side::{Course, Follower, side_by_side};
+pub use side_by_side::{Follower, OrbitCourse, side_by_side};
 pub use start::Start;

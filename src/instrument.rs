@@ -44,7 +44,7 @@ pub use kind::{Axis, Columns, Instrument, Measure, NoStart, Offer, Plot};
 pub use picture::{
     Across, Entry, Field, Heading, Ink, Layer, Level, Picture, Sign, Stroke, Upwards,
 };
-pub use potential::Along;
+pub use potential::PotentialView;
 pub use present::{Physics, Present, Returned};
 pub use saved::{Quantity, SavedPlot, SavedVariations};
 pub use seed::{MOST_SEEDS, Seed};

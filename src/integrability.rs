@@ -35,7 +35,7 @@ mod verdict;
 
 pub use invariants::{Constant, Invariants, Limits, Proof, Searched};
 pub use involution::Commuting;
-pub use known::Known;
+pub use known::KnownConstant;
 pub use law::is_hamiltonian;
 pub use lie::{PointSymmetries, PointSymmetry, point_symmetries};
 pub use noether::{Symmetries, Symmetry, symmetries};

@@ -63,7 +63,7 @@ pub use equations::{
     Vakonomic,
 };
 pub use further::{Further, GeneratorReport, TransformationReport};
-pub use gauge::Gauge;
+pub use gauge::GaugeDifference;
 pub use generating::GeneratingFunction;
 pub use generator::{GeneratorFlow, flow_of};
 pub use group::{phase_maps, relations_of};
@@ -75,8 +75,8 @@ pub use latex::latex;
 pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
 pub use poisson_structure::structure_errors;
 pub use report::{
-    BodyNumbers, BodyReport, ConservedReport, Constant, Constrained, ImpulseReport, Left, Line,
-    Reaction, Report,
+    BodyNumbers, BodyReport, ConservedKind, ConservedReport, ConstraintReport, ImpulseReport,
+    LeftSide, Line, Reaction, Report,
 };
 pub use rigid_body::{
     COMPONENTS, RigidBody, Tensor, body_constants, body_values, matrix, principal,

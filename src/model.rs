@@ -16,7 +16,9 @@ mod scope;
 mod transformation;
 mod unit;
 
-pub use body::{Attitude, AttitudeSource, Body, BodyNames, Comparison, Frame, Piece, Solid, Turn};
+pub use body::{
+    Attitude, AttitudeSource, Body, BodyNames, Comparison, Frame, Piece, PieceOrientation, Solid,
+};
 pub use claim::{
     Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedInvariants, ExpectedValue,
     Observable,
@@ -25,7 +27,7 @@ pub use constraint::{Constraint, multiplier_name};
 pub use coordinate::Coordinate;
 pub use description::{CommonSymbols, Info, Mechanics, Model, RunSettings};
 pub use occurrence::{Action, Direction, Event, Impulse};
-pub use parameter::{Parameter, Scale};
+pub use parameter::{Parameter, RangeSpacing};
 pub use picture::{Channel, Follow, Point, Shape, Variation, View};
 pub use ramp::{Ramp, RampRefused, Ramped, replace_by_ramps};
 pub use scope::{Allowed, Scope};

@@ -12,6 +12,6 @@ mod outcome;
 pub use actions::{
     ActionRow, ActionSystems, NoAction, RegionKind, action_between, action_row, cyclic_row,
 };
-pub use effective_potential::{EffectivePotential, Region};
-pub use measure::{MEASURES, Measure, MeasuredOrbit, Zeros, measure_named};
-pub use outcome::{Outcome, RunPlan};
+pub use effective_potential::{AllowedInterval, EffectivePotential};
+pub use measure::{MEASURES, MeasuredOrbit, OrbitMeasure, Zeros, measure_named};
+pub use outcome::{RunOutcome, RunPlan};

@@ -16,10 +16,11 @@ mod template;
 mod toml_errors;
 
 pub use catalog::{
-    Catalog, Entry, NotFound, Origin, demo, demos, find, find_beside, is_path, lesson, lessons,
+    Catalog, CatalogEntry, NotFound, PresetOrigin, demo, demos, find, find_beside, is_path, lesson,
+    lessons,
 };
 pub use read::{Checked, UNTITLED, read, read_with};
 pub use rewrite::{Beginning, Rewrite};
 pub use schema::reference;
-pub use settings::{Entry as Setting, Plain};
+pub use settings::{Plain, Setting};
 pub use template::template;

@@ -68,7 +68,7 @@ pub use discontinuities::{CompiledEvent, CompiledImpulse, Discontinuities};
 pub use error::{MotionError, MotionErrorKind, Passage};
 pub use event_functions::EventFunctions;
 pub use exact::ExactRates;
-pub use impulse::{ImpulseOutcome, Schedule};
+pub use impulse::{ImpulseOutcome, ImpulseTimes};
 pub use jet::{Jet, Side};
 pub use kink_sides::KinkSides;
 pub use observe::Observer;

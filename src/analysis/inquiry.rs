@@ -16,12 +16,12 @@ pub struct Inquiry {
     /// The equations, extended by the question.
     equations: Equations,
     /// The question and its answer.
-    pub answer: Answer,
+    pub answer: InquiryAnswer,
 }
 
 /// The answer to a question.
 #[derive(Clone, Debug)]
-pub enum Answer {
+pub enum InquiryAnswer {
     /// The bracket of two expressions.
     Bracket {
         /// The two expressions.
@@ -103,11 +103,10 @@ impl Inquiry {
     pub fn value(&self, at: &dyn Fn(Symbol) -> f64) -> Option<f64> {
         let of = |e: Expr| Some(self.equations.pool.evaluate(e, at)).filter(|v| v.is_finite());
         match &self.answer {
-            Answer::Bracket { bracket: Ok(e), .. } | Answer::Conservation { rate: Ok(e), .. } => {
-                of(*e)
-            }
-            Answer::Bracket { rule: Some(rule), .. } => rule.value(&self.equations, at),
-            Answer::Bracket { .. } | Answer::Conservation { .. } => None,
+            InquiryAnswer::Bracket { bracket: Ok(e), .. }
+            | InquiryAnswer::Conservation { rate: Ok(e), .. } => of(*e),
+            InquiryAnswer::Bracket { rule: Some(rule), .. } => rule.value(&self.equations, at),
+            InquiryAnswer::Bracket { .. } | InquiryAnswer::Conservation { .. } => None,
         }
     }
 }
@@ -169,17 +168,17 @@ fn read(
     Err(mistake)
 }
 
-fn bracket(model: &Model, equations: &mut Equations, sides: [Expr; 2]) -> Answer {
+fn bracket(model: &Model, equations: &mut Equations, sides: [Expr; 2]) -> InquiryAnswer {
     let [f, g] = sides;
     let bracket = mechanics::bracket(model, equations, f, g);
     let (recognised, rule) = match &bracket {
         Ok(e) => (mechanics::recognise(model, equations, *e), None),
         Err(_) => (None, ChainRule::of(equations, f, g).ok().map(Box::new)),
     };
-    Answer::Bracket { sides, bracket, recognised, rule }
+    InquiryAnswer::Bracket { sides, bracket, recognised, rule }
 }
 
-fn conservation(model: &Model, equations: &mut Equations, of: Expr) -> Answer {
+fn conservation(model: &Model, equations: &mut Equations, of: Expr) -> InquiryAnswer {
     // treated as if the file declared it
     let name = "what is asked".to_owned();
     let observable =
@@ -188,8 +187,10 @@ fn conservation(model: &Model, equations: &mut Equations, of: Expr) -> Answer {
     asked.observables = vec![observable];
     let classed = mechanics::classes(&asked, equations).pop();
     match classed {
-        Some(classed) => Answer::Conservation { of, class: classed.class, rate: classed.rate },
-        None => Answer::Conservation {
+        Some(classed) => {
+            InquiryAnswer::Conservation { of, class: classed.class, rate: classed.rate }
+        }
+        None => InquiryAnswer::Conservation {
             of,
             class: Class::Unknown,
             rate: Err(NoClosedForm("it could not be derived".to_owned())),
@@ -197,20 +198,23 @@ fn conservation(model: &Model, equations: &mut Equations, of: Expr) -> Answer {
     }
 }
 
-impl Answer {
+impl InquiryAnswer {
     /// Whether the bracket vanishes, or the expression is conserved, and how that is known.
     pub fn vanishes(&self) -> Zero {
         match self {
-            Answer::Bracket { recognised: Some(known), .. } if known.expression == Expr::ZERO => {
+            InquiryAnswer::Bracket { recognised: Some(known), .. }
+                if known.expression == Expr::ZERO =>
+            {
                 known.proof
             }
-            Answer::Bracket { .. } => Zero::No,
-            Answer::Conservation { class: Class::Proved, .. } => Zero::Proved,
-            Answer::Conservation { class: Class::Numerically, .. } => Zero::Numerically,
-            Answer::Conservation { class: Class::AtTheseParameters | Class::Unknown, .. } => {
-                Zero::Unknown
-            }
-            Answer::Conservation { class: Class::Changing, .. } => Zero::No,
+            InquiryAnswer::Bracket { .. } => Zero::No,
+            InquiryAnswer::Conservation { class: Class::Proved, .. } => Zero::Proved,
+            InquiryAnswer::Conservation { class: Class::Numerically, .. } => Zero::Numerically,
+            InquiryAnswer::Conservation {
+                class: Class::AtTheseParameters | Class::Unknown,
+                ..
+            } => Zero::Unknown,
+            InquiryAnswer::Conservation { class: Class::Changing, .. } => Zero::No,
         }
     }
 }

@@ -21,7 +21,7 @@ const FEWEST: usize = 8;
 
 /// The distance of two motions at past times.
 #[derive(Clone, Debug, Default)]
-pub struct Separation {
+pub struct DistanceHistory {
     /// Times and ln d, the oldest first.
     points: Vec<[f64; 2]>,
     /// One of so many points is kept.
@@ -61,7 +61,7 @@ pub fn distance(one: &[f64], other: &[f64], periods: &[Option<f64>]) -> f64 {
     square.sqrt()
 }
 
-impl Separation {
+impl DistanceHistory {
     /// Adds the variables of both motions at a time; `periods` are those of the variables.
     pub fn add(&mut self, time: f64, one: &[f64], other: &[f64], periods: &[Option<f64>]) {
         if self.bounds.len() != one.len() {
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn the_slope_of_exponential_growth_is_its_rate_and_stops_where_the_distance_is_large() {
-        let mut separation = Separation::default();
+        let mut separation = DistanceHistory::default();
         for k in 0..20_000 {
             let t = f64::from(k) * 0.01;
             // grows like e^{0.3t} up to the size of the motion, and then no more
@@ -151,7 +151,7 @@ mod tests {
 
     #[test]
     fn an_angle_takes_the_shorter_way_and_equal_motions_have_no_distance() {
-        let mut separation = Separation::default();
+        let mut separation = DistanceHistory::default();
         let turn = std::f64::consts::TAU;
         separation.add(0.0, &[3.1], &[-3.1], &[Some(turn)]);
         assert!((separation.points()[0][1] - math::ln(turn - 6.2)).abs() < 1e-13);

@@ -140,7 +140,7 @@ pub enum Action {
     /// Remove the orbits that were added to a section, and the past crossings of the motion.
     ClearOrbits,
     /// Move within the focused element.
-    Move(Direction),
+    Move(ArrowDirection),
     /// Go to the first line.
     First,
     /// Go to the last line.
@@ -163,9 +163,9 @@ pub enum Action {
     /// Export the current state as a system file.
     Export,
     /// Zoom in.
-    Closer(Axes),
+    Closer(AxisChoice),
     /// Zoom out.
-    Farther(Axes),
+    Farther(AxisChoice),
     /// Switch the vertical axis between logarithmic and linear.
     Log,
     /// Give both axes the same scale, or let the plot fill its pane again.
@@ -187,14 +187,14 @@ pub enum Action {
 /// A direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the four directions")]
-pub enum Direction {
+pub enum ArrowDirection {
     Up,
     Down,
     Left,
     Right,
 }
 
-impl Direction {
+impl ArrowDirection {
     /// Returns a unit step: to the right, and up.
     pub(super) fn step(self) -> [f64; 2] {
         match self {
@@ -209,13 +209,13 @@ impl Direction {
 /// The axes of a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "one axis, the other, or both")]
-pub enum Axes {
+pub enum AxisChoice {
     Both,
     Across,
     Upwards,
 }
 
-impl Axes {
+impl AxisChoice {
     /// Returns whether the horizontal axis is meant, and whether the vertical one is.
     pub(super) fn chosen(self) -> [bool; 2] {
         [self != Self::Upwards, self != Self::Across]

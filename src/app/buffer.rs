@@ -39,7 +39,7 @@ pub struct SourceBuffer {
     /// The diagnostics of the last check, in order.
     pub diagnostics: Vec<BufferDiagnostic>,
     /// Whether the text has been checked, and with what result.
-    pub state: State,
+    pub state: BufferState,
     /// The prompt below the text, if one is open.
     pub asking: Option<Asking>,
     /// The first row and column shown.
@@ -96,7 +96,7 @@ pub struct BufferDiagnostic {
 
 /// The state of a buffer's text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum State {
+pub enum BufferState {
     /// It is the running system's, built in this time if the time is known.
     Runs(Option<Duration>),
     /// It has changed and has not been checked yet.
@@ -135,7 +135,7 @@ impl SourceBuffer {
             text: text.clone(),
             of: text.clone(),
         };
-        let mut buffer = Self { state: State::Runs(None), ..Self::of_unsaved(known) };
+        let mut buffer = Self { state: BufferState::Runs(None), ..Self::of_unsaved(known) };
         // It opens at the law: L, H or the brackets.
         let law = buffer.editor.caret_at(loaded.model.law_place.start);
         buffer.editor.go(Caret { column: 0, ..law });
@@ -150,7 +150,7 @@ impl SourceBuffer {
             place: unsaved.place,
             editor: Editor::new(&unsaved.text, TEXT_LIMIT),
             diagnostics: Vec::new(),
-            state: State::Left,
+            state: BufferState::Left,
             asking: None,
             scroll: (0, 0),
             // A change of the file since then is noticed before it is overwritten.
@@ -232,7 +232,7 @@ impl SourceBuffer {
         self.revision += 1;
         self.rest = Some(REST);
         (self.half, self.unlooked) = (false, false);
-        self.state = State::Changed;
+        self.state = BufferState::Changed;
     }
 
     /// Registers a change that was not typed: the text is checked at the next opportunity.
@@ -246,7 +246,7 @@ impl SourceBuffer {
         (self.checking, self.rest, self.asking) = (None, None, None);
         (self.half, self.overrule) = (false, false);
         self.diagnostics.clear();
-        self.state = State::Left;
+        self.state = BufferState::Left;
     }
 
     /// Advances the time. Returns whether the text is to be checked now, replacing any older check.
@@ -293,7 +293,7 @@ impl SourceBuffer {
             (self.half, self.rest) = (false, Some(PATIENCE));
         } else {
             self.note(mistakes);
-            self.state = State::Wrong;
+            self.state = BufferState::Wrong;
         }
     }
 
@@ -301,7 +301,7 @@ impl SourceBuffer {
     pub(super) fn saved_as(&self) -> Option<String> {
         let shown = self.place.as_ref()?.display();
         let diagnostic = self.diagnostics.iter().find(|diagnostic| !diagnostic.warning);
-        let Some(diagnostic) = diagnostic.filter(|_| self.state == State::Wrong) else {
+        let Some(diagnostic) = diagnostic.filter(|_| self.state == BufferState::Wrong) else {
             return Some(format!("Saved: {shown}"));
         };
         let count = match self.mistakes() {

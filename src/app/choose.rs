@@ -3,7 +3,7 @@
 //! In: the loaded system, the table of methods, the table of keys. Out: menus, commands, changed plots.
 //! Never here: navigation within a list.
 
-use super::{App, Choice, Choosing, Effect, Field, Item, Lab, Menu, Overlay, Pane, Purpose};
+use super::{App, Choice, Choosing, Effect, InputField, Item, Lab, Menu, Overlay, Pane, Purpose};
 use crate::instrument::{Axis, Plot, offers};
 use crate::integrate::METHODS;
 
@@ -155,7 +155,7 @@ impl App {
         }
     }
 
-    fn accept_value(&mut self, mut field: Field) -> Vec<Effect> {
+    fn accept_value(&mut self, mut field: InputField) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let parameters = lab.snapshot.as_ref().map_or(Vec::new(), |s| s.parameters.to_vec());
         let value = match field.read(&lab.loaded.model, &parameters) {

@@ -12,10 +12,10 @@ use std::time::Duration;
 use crossterm::event::KeyEvent;
 use tui_input::Input;
 
-use super::buffer::{Asking, Found, SourceBuffer, State, Unsaved};
+use super::buffer::{Asking, BufferState, Found, SourceBuffer, Unsaved};
 use super::field::paste;
-use super::{App, Checked, EditCommand, Effect, Lab, Notification, Overlay, Page, SaveError};
-use crate::preset::{Origin, is_path};
+use super::{App, CheckedText, EditCommand, Effect, Lab, Notification, Overlay, Page, SaveError};
+use crate::preset::{PresetOrigin, is_path};
 
 impl App {
     /// Returns the buffer being edited, while the editor is open.
@@ -34,7 +34,7 @@ impl App {
             return self
                 .workbench
                 .top()
-                .filter(|buffer| self.page == Page::Lab && buffer.state != State::Left);
+                .filter(|buffer| self.page == Page::Lab && buffer.state != BufferState::Left);
         };
         self.workbench.of(&lab.loaded.name, self.file().as_deref())
     }
@@ -47,15 +47,16 @@ impl App {
         }
         let entry = self.picker.entries.iter().find(|entry| entry.name == *name)?;
         match &entry.origin {
-            Origin::User(path) => Some(path.clone()),
-            Origin::Shipped => None,
+            PresetOrigin::User(path) => Some(path.clone()),
+            PresetOrigin::Shipped => None,
         }
     }
 
     /// Returns a line about the file's mistakes while its editor is closed.
     pub fn banner(&self) -> Option<String> {
         let buffer = self.own_buffer().filter(|_| self.overlay.is_none())?;
-        let diagnostic = buffer.diagnostics.first().filter(|_| buffer.state == State::Wrong)?;
+        let diagnostic =
+            buffer.diagnostics.first().filter(|_| buffer.state == BufferState::Wrong)?;
         let (row, column) = (diagnostic.from.row + 1, diagnostic.from.column + 1);
         Some(format!(
             "{}:{row}:{column}: {}; still running the last valid version",
@@ -84,7 +85,7 @@ impl App {
     /// Returns the buffer of the system in the lab, as it was left.
     fn ready_buffer(&mut self) -> Option<&mut SourceBuffer> {
         if self.lab.is_none() {
-            return self.workbench.top_mut().filter(|buffer| buffer.state != State::Left);
+            return self.workbench.top_mut().filter(|buffer| buffer.state != BufferState::Left);
         }
         let place = self.file();
         Some(self.workbench.lay(&self.lab.as_ref()?.loaded, place))
@@ -295,9 +296,9 @@ impl App {
                     (buffer.name, buffer.title) = (name, shown.clone());
                     buffer.place = Some(place);
                 }
-                buffer.unlooked = buffer.state == State::Changed;
+                buffer.unlooked = buffer.state == BufferState::Changed;
                 match (buffer.saved_as(), buffer.state) {
-                    (Some(message), State::Wrong) => Notification::error(message),
+                    (Some(message), BufferState::Wrong) => Notification::error(message),
                     (message, _) => Notification::info(message.unwrap_or_default()),
                 }
             }
@@ -369,8 +370,8 @@ impl App {
     }
 
     /// Handles the result of a check; if the text is correct, its system is already running.
-    pub(super) fn checked(&mut self, checked: Checked) -> Vec<Effect> {
-        let Checked { ticket, outcome, took } = checked;
+    pub(super) fn checked(&mut self, checked: CheckedText) -> Vec<Effect> {
+        let CheckedText { ticket, outcome, took } = checked;
         let mends = self.mending.take().is_some();
         let Some(buffer) = self.buffer().filter(|buffer| buffer.awaits(ticket)) else {
             return Vec::new();
@@ -380,7 +381,7 @@ impl App {
             (Ok(loaded), found) => {
                 if let Found::Newest = found {
                     buffer.diagnostics.clear();
-                    buffer.state = State::Runs(Some(took));
+                    buffer.state = BufferState::Runs(Some(took));
                 }
                 let resumes = self.lab.as_ref().is_some_and(|lab| lab.awaited.is_some());
                 if !resumes && !matches!(self.overlay, Some(Overlay::Workbench)) {

@@ -39,7 +39,7 @@ pub enum Event {
     /// A frame has passed; this is the time since the last one.
     Tick(Duration),
     /// The result of [`Effect::Check`]; if the text is correct, its system is already running.
-    Checked(Box<Checked>),
+    Checked(Box<CheckedText>),
     /// A text was saved to this file, or could not be.
     FileSaved(Result<(PathBuf, String), SaveError>),
     /// The file of the system was read.
@@ -88,7 +88,7 @@ pub enum Effect {
     /// Export the current state as a system file; [`Event::Written`] answers.
     Export,
     /// Check a text and cancel the previous check; if the text is correct, its system replaces the one in the lab.
-    /// [`Event::Checked`] answers.
+    /// [`Event::CheckedText`] answers.
     Check {
         /// The number of the check, counted over all texts.
         ticket: u64,
@@ -153,7 +153,7 @@ pub enum Effect {
 
 /// The result of checking a text.
 #[derive(Clone, Debug)]
-pub struct Checked {
+pub struct CheckedText {
     /// The ticket of the check.
     pub ticket: u64,
     /// The system it describes, already running, or its mistakes.

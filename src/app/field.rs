@@ -33,7 +33,7 @@ pub enum Purpose {
 
 /// A field being typed in.
 #[derive(Clone, Debug)]
-pub struct Field {
+pub struct InputField {
     /// What the value is for.
     pub purpose: Purpose,
     /// What is typed so far, with the cursor.
@@ -44,7 +44,7 @@ pub struct Field {
     pub mistake: Option<String>,
 }
 
-impl Field {
+impl InputField {
     /// Creates a field with an initial text.
     pub fn new(purpose: Purpose, text: String) -> Self {
         let whole = !text.is_empty();
@@ -157,7 +157,7 @@ mod tests {
     use super::*;
 
     fn typed(text: &str, keys: &[KeyEvent]) -> String {
-        let mut field = Field::new(Purpose::Step, text.to_owned());
+        let mut field = InputField::new(Purpose::Step, text.to_owned());
         for key in keys {
             field.press(*key);
         }
@@ -175,7 +175,7 @@ mod tests {
         let [left, end] = [KeyCode::Left, KeyCode::End].map(KeyEvent::from);
         assert_eq!(typed("1.06", &[left, three]), "1.036");
         assert_eq!(typed("1.06", &[end, three]), "1.063");
-        let mut field = Field::new(Purpose::Step, "1.06".to_owned());
+        let mut field = InputField::new(Purpose::Step, "1.06".to_owned());
         assert!(field.paste("0.5") && field.paste("1"));
         assert_eq!(field.input.value(), "0.51");
     }

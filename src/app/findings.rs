@@ -47,12 +47,12 @@ pub struct Findings {
 
 /// The search of a lab.
 #[derive(Clone, Debug, Default)]
-pub struct Search {
+pub struct InvariantSearch {
     /// What was found, or why no search is made; for the parameters' values at that time.
     pub outcome: Option<(Vec<f64>, Result<Arc<Findings>, String>)>,
     /// Whether the table of brackets is open.
     pub brackets: bool,
-    pub(super) under_way: Option<UnderWay>,
+    pub(super) under_way: Option<SearchUnderWay>,
     /// How often more was asked for.
     pub(super) further: u32,
     /// Whether the last one was stopped by a person.
@@ -63,14 +63,14 @@ pub struct Search {
 
 /// A search that has not ended.
 #[derive(Clone, Debug)]
-pub(super) struct UnderWay {
+pub(super) struct SearchUnderWay {
     pub(super) ticket: u64,
     /// The parameters' values for which it is made.
     pub(super) at: Vec<f64>,
     pub(super) since: Duration,
 }
 
-impl Search {
+impl InvariantSearch {
     /// What is shown of a search that has taken a while.
     pub fn status(&self) -> Option<String> {
         let job = self.under_way.as_ref().filter(|job| job.since >= PATIENCE)?;

@@ -52,7 +52,7 @@ pub(super) struct Texts<'a> {
 
 /// How a line matches a query.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Fit {
+pub struct FuzzyMatch {
     /// The score; higher is better.
     pub score: u32,
     /// The indices of the matched letters of the label, in rising order.
@@ -66,8 +66,8 @@ impl Query {
     }
 
     /// Returns how a line matches, if each word occurs somewhere in its texts.
-    pub(super) fn fit(&mut self, texts: Texts<'_>) -> Option<Fit> {
-        let mut fit = Fit::default();
+    pub(super) fn fit(&mut self, texts: Texts<'_>) -> Option<FuzzyMatch> {
+        let mut fit = FuzzyMatch::default();
         for word in &self.words {
             let found = word.fit(texts, &mut self.matcher)?;
             fit.score += found.score;
@@ -87,24 +87,26 @@ impl Word {
     }
 
     /// Returns the word's score in these texts, and its letters in the label.
-    fn fit(&self, texts: Texts<'_>, matcher: &mut Matcher) -> Option<Fit> {
+    fn fit(&self, texts: Texts<'_>, matcher: &mut Matcher) -> Option<FuzzyMatch> {
         let label = self.named(texts.label, matcher);
         let names = texts.names.iter().filter_map(|name| {
             let score = self.named(name, matcher)?.score.saturating_sub(SECOND);
-            Some(Fit { score, messages: Vec::new() })
+            Some(FuzzyMatch { score, messages: Vec::new() })
         });
         // The label wins a tie, and its letters are highlighted even if another name fits better.
         let letters = label.as_ref().map(|fit| fit.messages.clone()).unwrap_or_default();
         let named = label.into_iter().chain(names);
         let best = named.reduce(|a, b| if b.score > a.score { b } else { a });
-        best.map(|fit| Fit { messages: letters, ..fit }).or_else(|| {
+        best.map(|fit| FuzzyMatch { messages: letters, ..fit }).or_else(|| {
             let described = texts.about.iter().filter_map(|text| self.described(text, matcher));
-            described.max().map(|score| Fit { score: score / DESCRIBED, messages: Vec::new() })
+            described
+                .max()
+                .map(|score| FuzzyMatch { score: score / DESCRIBED, messages: Vec::new() })
         })
     }
 
     /// Returns the word's score in a name, and the indices of its letters.
-    fn named(&self, text: &str, matcher: &mut Matcher) -> Option<Fit> {
+    fn named(&self, text: &str, matcher: &mut Matcher) -> Option<FuzzyMatch> {
         let (mut buffer, mut places) = (Vec::new(), Vec::new());
         let text = Utf32Str::new(text, &mut buffer);
         let score = u32::from(self.fuzzy.indices(text, matcher, &mut places)?);
@@ -124,7 +126,7 @@ impl Word {
         ];
         let more: u32 = more.into_iter().filter_map(|(is, more)| is.then_some(more)).sum();
         let messages = places.into_iter().map(|place| place as usize).collect();
-        Some(Fit { score: score + more, messages })
+        Some(FuzzyMatch { score: score + more, messages })
     }
 
     /// Returns the word's score in a description: three letters match anywhere, two only at the start of a word.
@@ -140,7 +142,7 @@ impl Word {
 mod tests {
     use super::*;
 
-    fn fit(query: &str, label: &str) -> Option<Fit> {
+    fn fit(query: &str, label: &str) -> Option<FuzzyMatch> {
         Query::new(query).fit(Texts { label, names: &["second"], about: &["about the line"] })
     }
 
@@ -157,7 +159,7 @@ mod tests {
         assert_eq!(messages("abo", "zoom"), Some(vec![]), "told of, not named");
         assert_eq!(messages("sec", "zoom"), Some(vec![]), "its second name");
         assert_eq!(messages("zoom xyz", "zoom"), None);
-        assert_eq!(fit("", "zoom"), Some(Fit::default()));
+        assert_eq!(fit("", "zoom"), Some(FuzzyMatch::default()));
     }
 
     #[test]

@@ -19,14 +19,14 @@ pub struct Guide {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GuideKind {
     /// A lesson, and how far it was taken.
-    Lesson(Taken),
+    Lesson(LessonTaken),
     /// A demo, which one watches.
     Demo,
 }
 
 /// How far a lesson was taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Taken {
+pub enum LessonTaken {
     /// Not begun.
     NotYet,
     /// Left on the way.
@@ -39,9 +39,9 @@ impl Guide {
     /// Returns what it is, and how far it was taken.
     pub(super) fn about(&self) -> String {
         let what = match self.kind {
-            GuideKind::Lesson(Taken::NotYet) => "lesson",
-            GuideKind::Lesson(Taken::Partly) => "lesson, begun",
-            GuideKind::Lesson(Taken::Whole) => "lesson, finished",
+            GuideKind::Lesson(LessonTaken::NotYet) => "lesson",
+            GuideKind::Lesson(LessonTaken::Partly) => "lesson, begun",
+            GuideKind::Lesson(LessonTaken::Whole) => "lesson, finished",
             GuideKind::Demo => "demo",
         };
         // The tour and other guides may be called like their system.

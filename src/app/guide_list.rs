@@ -4,7 +4,7 @@
 //! files.
 
 use super::{
-    App, Choice, Choosing, Effect, Guide, GuideKind, Item, Menu, Notification, Overlay, Taken,
+    App, Choice, Choosing, Effect, Guide, GuideKind, Item, LessonTaken, Menu, Notification, Overlay,
 };
 
 impl App {
@@ -14,7 +14,7 @@ impl App {
             GuideKind::Lesson(taken) => Some(taken),
             GuideKind::Demo => None,
         });
-        let finished = lessons.clone().filter(|taken| *taken == Taken::Whole);
+        let finished = lessons.clone().filter(|taken| *taken == LessonTaken::Whole);
         (finished.count(), lessons.count())
     }
 
@@ -27,8 +27,7 @@ impl App {
         if items.is_empty() {
             return self.notify("There are no lessons and demos here.");
         }
-        let open =
-            |guide: &Guide| matches!(guide.kind, GuideKind::Lesson(taken) if taken != Taken::Whole);
+        let open = |guide: &Guide| matches!(guide.kind, GuideKind::Lesson(taken) if taken != LessonTaken::Whole);
         let guides = &self.picker.guides;
         // A lesson and a demo may have the same name.
         let last = self.picker.last_guide.filter(|&last| last < guides.len());

@@ -84,7 +84,7 @@ impl Change {
 
 /// The changes made, and the changes undone.
 #[derive(Clone, Debug, Default)]
-pub(super) struct History {
+pub(super) struct UndoHistory {
     done: Vec<Change>,
     undone: Vec<Change>,
     since: Option<Duration>,
@@ -92,7 +92,7 @@ pub(super) struct History {
     begin_group: Option<usize>,
 }
 
-impl History {
+impl UndoHistory {
     /// Records a change made now.
     pub(super) fn note(&mut self, change: Change) {
         self.undone.clear();
@@ -151,7 +151,7 @@ mod tests {
 
     /// Returns how many undo entries result from two changes this many milliseconds apart.
     fn changes(milliseconds: u64) -> usize {
-        let mut history = History::default();
+        let mut history = UndoHistory::default();
         history.note(Change::Parameter { index: 0, numbers: [1.0, 2.0] });
         history.tick(Duration::from_millis(milliseconds));
         history.note(Change::Parameter { index: 0, numbers: [2.0, 3.0] });

@@ -5,7 +5,7 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use super::action::{Action, Axes, Direction};
+use super::action::{Action, ArrowDirection, AxisChoice};
 use super::{EditCommand, Page, key};
 
 /// A context in which a key is active.
@@ -217,8 +217,8 @@ pub const KEYS: &[Binding] = &[
     row(Place::Anywhere, &[plain(KeyCode::F(2))], Action::Guides, "", "lessons and demos: taken or watched here; q returns"),
     row(Place::Anywhere, &[ESC], Action::Back, "", "back: close or shrink; twice in the lab: the list of systems"),
 
-    row(Place::Picker, &[UP], Action::Move(Direction::Up), "", "the system above"),
-    row(Place::Picker, &[DOWN], Action::Move(Direction::Down), "choose", "the system below"),
+    row(Place::Picker, &[UP], Action::Move(ArrowDirection::Up), "", "the system above"),
+    row(Place::Picker, &[DOWN], Action::Move(ArrowDirection::Down), "choose", "the system below"),
     row(Place::Picker, &[PAGE_UP], Action::PageUp, "", "ten systems up"),
     row(Place::Picker, &[PAGE_DOWN], Action::PageDown, "", "ten systems down"),
     row(Place::Picker, &[HOME], Action::First, "", "the first system"),
@@ -228,8 +228,8 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Picker, &[ctrl('n')], Action::NewSystem, "new", "new system: a file of your own to begin from, in the editor; nothing is written until it is saved"),
 
-    row(Place::Search, &[UP], Action::Move(Direction::Up), "", "the match above"),
-    row(Place::Search, &[DOWN, TAB], Action::Move(Direction::Down), "choose", "the match below"),
+    row(Place::Search, &[UP], Action::Move(ArrowDirection::Up), "", "the match above"),
+    row(Place::Search, &[DOWN, TAB], Action::Move(ArrowDirection::Down), "choose", "the match below"),
     row(Place::Search, &[PAGE_UP], Action::PageUp, "", "ten matches up"),
     row(Place::Search, &[PAGE_DOWN], Action::PageDown, "", "ten matches down"),
     row(Place::Search, &[HOME], Action::First, "", "the first match"),
@@ -290,12 +290,12 @@ pub const KEYS: &[Binding] = &[
     row(Place::Lab, &[c('f')], Action::NextFrame, "frame", "view the motion in space from the next reference frame of the file, or from the axes again"),
     row(Place::Lab, &[c('z')], Action::Zoom, "zoom", "zoom: let the focused pane fill the page, or put it back"),
 
-    row(Place::Space, &[LEFT, c('h')], Action::Move(Direction::Left), "turn", "turn the picture to the left"),
-    row(Place::Space, &[RIGHT, c('l')], Action::Move(Direction::Right), "", "turn the picture to the right"),
-    row(Place::Space, &[UP, c('k')], Action::Move(Direction::Up), "", "look from higher up"),
-    row(Place::Space, &[DOWN, c('j')], Action::Move(Direction::Down), "", "look from lower down"),
-    row(Place::Space, &[c('+'), c('=')], Action::Closer(Axes::Both), "closer", "look closer"),
-    row(Place::Space, &[c('-')], Action::Farther(Axes::Both), "", "look from further away"),
+    row(Place::Space, &[LEFT, c('h')], Action::Move(ArrowDirection::Left), "turn", "turn the picture to the left"),
+    row(Place::Space, &[RIGHT, c('l')], Action::Move(ArrowDirection::Right), "", "turn the picture to the right"),
+    row(Place::Space, &[UP, c('k')], Action::Move(ArrowDirection::Up), "", "look from higher up"),
+    row(Place::Space, &[DOWN, c('j')], Action::Move(ArrowDirection::Down), "", "look from lower down"),
+    row(Place::Space, &[c('+'), c('=')], Action::Closer(AxisChoice::Both), "closer", "look closer"),
+    row(Place::Space, &[c('-')], Action::Farther(AxisChoice::Both), "", "look from further away"),
     row(Place::Space, &[HOME, c('0')], Action::Home, "", "the initial view"),
     row(Place::Space, &[ENTER, c('v')], Action::ChooseAxes, "axes", "choose what this pane shows"),
 
@@ -304,25 +304,25 @@ pub const KEYS: &[Binding] = &[
     row(Place::Plot, &[c('A'), shift(KeyCode::Enter)], Action::AddStart, "", "add a motion beside the others that begins at the cursor; so does Shift-click, or the right button"),
     row(Place::Plot, &[c('n')], Action::AddOrbits, "", "add orbits to a section: the one through the cursor, or some spread over what is seen; begin an ensemble there, once more over the shell of its energy"),
     row(Place::Plot, &[c('N')], Action::ClearOrbits, "", "clear a section: the orbits added to it, and the past crossings of the motion"),
-    row(Place::Plot, &[c('+'), c('=')], Action::Closer(Axes::Both), "closer", "look closer"),
-    row(Place::Plot, &[c('-')], Action::Farther(Axes::Both), "", "look from further away"),
-    row(Place::Plot, &[c('x')], Action::Closer(Axes::Across), "", "stretch the horizontal axis"),
-    row(Place::Plot, &[c('X')], Action::Farther(Axes::Across), "", "shrink the horizontal axis"),
-    row(Place::Plot, &[c('y')], Action::Closer(Axes::Upwards), "", "stretch the vertical axis"),
-    row(Place::Plot, &[c('Y')], Action::Farther(Axes::Upwards), "", "shrink the vertical axis"),
+    row(Place::Plot, &[c('+'), c('=')], Action::Closer(AxisChoice::Both), "closer", "look closer"),
+    row(Place::Plot, &[c('-')], Action::Farther(AxisChoice::Both), "", "look from further away"),
+    row(Place::Plot, &[c('x')], Action::Closer(AxisChoice::Across), "", "stretch the horizontal axis"),
+    row(Place::Plot, &[c('X')], Action::Farther(AxisChoice::Across), "", "shrink the horizontal axis"),
+    row(Place::Plot, &[c('y')], Action::Closer(AxisChoice::Upwards), "", "stretch the vertical axis"),
+    row(Place::Plot, &[c('Y')], Action::Farther(AxisChoice::Upwards), "", "shrink the vertical axis"),
     row(Place::Plot, &[c('g')], Action::Log, "", "make the vertical axis logarithmic, or linear again"),
     row(Place::Plot, &[c('o')], Action::Equal, "", "equal scales on both axes, or fill the pane again"),
     row(Place::Plot, &[c('Q')], Action::Active, "", "let a transformation move the point (the active view), or the coordinates again (the passive one)"),
     row(Place::Plot, &[c('H')], Action::ByChaos, "", "colour the orbits of a section by whether they are regular or chaotic, or each in its own colour"),
     row(Place::Plot, &[c('c')], Action::Cursor, "cursor", "show or hide a cursor on the plot that reads coordinates"),
-    row(Place::Plot, &[LEFT, c('h')], Action::Move(Direction::Left), "move", "move the window, or the cursor, to the left"),
-    row(Place::Plot, &[RIGHT, c('l')], Action::Move(Direction::Right), "", "move the window, or the cursor, to the right"),
-    row(Place::Plot, &[UP, c('k')], Action::Move(Direction::Up), "", "move the window, or the cursor, up"),
-    row(Place::Plot, &[DOWN, c('j')], Action::Move(Direction::Down), "", "move the window, or the cursor, down"),
+    row(Place::Plot, &[LEFT, c('h')], Action::Move(ArrowDirection::Left), "move", "move the window, or the cursor, to the left"),
+    row(Place::Plot, &[RIGHT, c('l')], Action::Move(ArrowDirection::Right), "", "move the window, or the cursor, to the right"),
+    row(Place::Plot, &[UP, c('k')], Action::Move(ArrowDirection::Up), "", "move the window, or the cursor, up"),
+    row(Place::Plot, &[DOWN, c('j')], Action::Move(ArrowDirection::Down), "", "move the window, or the cursor, down"),
     row(Place::Plot, &[HOME, c('0')], Action::Home, "", "the whole motion, as at the beginning"),
 
-    row(Place::Values, &[UP, c('k')], Action::Move(Direction::Up), "", "the value above"),
-    row(Place::Values, &[DOWN, c('j')], Action::Move(Direction::Down), "choose", "the value below"),
+    row(Place::Values, &[UP, c('k')], Action::Move(ArrowDirection::Up), "", "the value above"),
+    row(Place::Values, &[DOWN, c('j')], Action::Move(ArrowDirection::Down), "choose", "the value below"),
     row(Place::Values, &[PAGE_UP], Action::PageUp, "", "ten values up"),
     row(Place::Values, &[PAGE_DOWN], Action::PageDown, "", "ten values down"),
     row(Place::Values, &[HOME], Action::First, "", "the first value"),
@@ -335,15 +335,15 @@ pub const KEYS: &[Binding] = &[
     row(Place::Values, &[c('v')], Action::Diagram, "", "what becomes of the motion over the range of this parameter: where it crosses the surface of section (a bifurcation diagram), or its Lyapunov exponent"),
     row(Place::Values, &[BACKSPACE, DELETE], Action::Restore, "", "the value of the file"),
 
-    row(Place::Gauges, &[UP, c('k')], Action::Move(Direction::Up), "", "the gauge above"),
-    row(Place::Gauges, &[DOWN, c('j')], Action::Move(Direction::Down), "choose", "the gauge below"),
+    row(Place::Gauges, &[UP, c('k')], Action::Move(ArrowDirection::Up), "", "the gauge above"),
+    row(Place::Gauges, &[DOWN, c('j')], Action::Move(ArrowDirection::Down), "choose", "the gauge below"),
     row(Place::Gauges, &[PAGE_UP], Action::PageUp, "", "ten gauges up"),
     row(Place::Gauges, &[PAGE_DOWN], Action::PageDown, "", "ten gauges down"),
     row(Place::Gauges, &[HOME], Action::First, "", "the first gauge"),
     row(Place::Gauges, &[END], Action::Last, "", "the last gauge"),
 
-    row(Place::Law, &[UP, c('k')], Action::Move(Direction::Up), "", "a line up"),
-    row(Place::Law, &[DOWN, c('j')], Action::Move(Direction::Down), "scroll", "a line down"),
+    row(Place::Law, &[UP, c('k')], Action::Move(ArrowDirection::Up), "", "a line up"),
+    row(Place::Law, &[DOWN, c('j')], Action::Move(ArrowDirection::Down), "scroll", "a line down"),
     row(Place::Law, &[PAGE_UP], Action::PageUp, "", "ten lines up"),
     row(Place::Law, &[PAGE_DOWN], Action::PageDown, "", "ten lines down"),
     row(Place::Law, &[HOME], Action::First, "", "to the beginning"),
@@ -351,8 +351,8 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Equations, &[c('y')], Action::CopyLatex, "copy", "copy the equations as LaTeX, or write them into a file where the terminal has no clipboard"),
 
-    row(Place::Text, &[UP, c('k')], Action::Move(Direction::Up), "", "a line up"),
-    row(Place::Text, &[DOWN, c('j')], Action::Move(Direction::Down), "scroll", "a line down"),
+    row(Place::Text, &[UP, c('k')], Action::Move(ArrowDirection::Up), "", "a line up"),
+    row(Place::Text, &[DOWN, c('j')], Action::Move(ArrowDirection::Down), "scroll", "a line down"),
     row(Place::Text, &[PAGE_UP, c('b')], Action::PageUp, "", "a page up"),
     row(Place::Text, &[PAGE_DOWN, c('f')], Action::PageDown, "", "a page down"),
     row(Place::Text, &[HOME, c('g')], Action::First, "", "to the beginning"),
@@ -360,8 +360,8 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Help, &[c('/')], Action::Search, "search", "search these keys for words"),
 
-    row(Place::HelpSearch, &[UP], Action::Move(Direction::Up), "", "a line up"),
-    row(Place::HelpSearch, &[DOWN], Action::Move(Direction::Down), "scroll", "a line down"),
+    row(Place::HelpSearch, &[UP], Action::Move(ArrowDirection::Up), "", "a line up"),
+    row(Place::HelpSearch, &[DOWN], Action::Move(ArrowDirection::Down), "scroll", "a line down"),
     row(Place::HelpSearch, &[PAGE_UP], Action::PageUp, "", "a page up"),
     row(Place::HelpSearch, &[PAGE_DOWN], Action::PageDown, "", "a page down"),
     row(Place::HelpSearch, &[HOME], Action::First, "", "to the beginning"),
@@ -372,15 +372,15 @@ pub const KEYS: &[Binding] = &[
 
     row(Place::Plain, &[ENTER], Action::ReadAnew, "read", "read the current state"),
     row(Place::Plain, &[c('A')], Action::ReadOn, "by itself", "read the current state every two seconds, or only when asked"),
-    row(Place::Plain, &[UP, c('k')], Action::Move(Direction::Up), "", "the line above"),
-    row(Place::Plain, &[DOWN, c('j')], Action::Move(Direction::Down), "line", "the line below"),
+    row(Place::Plain, &[UP, c('k')], Action::Move(ArrowDirection::Up), "", "the line above"),
+    row(Place::Plain, &[DOWN, c('j')], Action::Move(ArrowDirection::Down), "line", "the line below"),
     row(Place::Plain, &[PAGE_UP], Action::PageUp, "", "a page up"),
     row(Place::Plain, &[PAGE_DOWN], Action::PageDown, "", "a page down"),
     row(Place::Plain, &[HOME, c('g')], Action::First, "", "the first line"),
     row(Place::Plain, &[END, c('G')], Action::Last, "", "the last line"),
 
-    row(Place::Menu, &[UP], Action::Move(Direction::Up), "", "the line above"),
-    row(Place::Menu, &[DOWN], Action::Move(Direction::Down), "choose", "the line below"),
+    row(Place::Menu, &[UP], Action::Move(ArrowDirection::Up), "", "the line above"),
+    row(Place::Menu, &[DOWN], Action::Move(ArrowDirection::Down), "choose", "the line below"),
     row(Place::Menu, &[PAGE_UP], Action::PageUp, "", "ten lines up"),
     row(Place::Menu, &[PAGE_DOWN], Action::PageDown, "", "ten lines down"),
     row(Place::Menu, &[HOME], Action::First, "", "the first line"),

@@ -7,9 +7,9 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::answers::{Answers, EquilibriaSearch, SymmetrySearch};
-use super::history::History;
+use super::history::UndoHistory;
 use super::pending::PendingChanges;
-use super::{DrawnPanes, LawInView, Loaded, Pane, Prediction, Search, Selection, ValueId};
+use super::{DrawnPanes, InvariantSearch, LawInView, Loaded, Pane, Prediction, Selection, ValueId};
 use crate::experiment::{Checkpoint, Snapshot, Status};
 use crate::expr::Zero;
 use crate::instrument::{CameraPose, Plot, Present};
@@ -45,7 +45,7 @@ pub struct Lab {
     /// The ticket of the job that finds the closed forms of the equations, once it was requested.
     pub(super) closed_forms_asked: Option<u64>,
     /// The search for constants of the motion.
-    pub search: Search,
+    pub search: InvariantSearch,
     /// The flow that is being followed.
     pub(super) flow: Option<u64>,
     pub(super) symmetries: SymmetrySearch,
@@ -56,7 +56,7 @@ pub struct Lab {
     /// The speed requested and not yet confirmed.
     pub(super) speed_wish: Option<f64>,
     pub(super) equilibria: EquilibriaSearch,
-    pub(super) history: History,
+    pub(super) history: UndoHistory,
     /// What a person predicts on a picture.
     pub prediction: Option<Box<Prediction>>,
     /// The times that are marked, in order.
@@ -121,14 +121,14 @@ impl Lab {
             drawn: DrawnPanes::default(),
             answers: Answers::default(),
             closed_forms_asked: None,
-            search: Search::default(),
+            search: InvariantSearch::default(),
             flow: None,
             symmetries: SymmetrySearch::default(),
             pending: Vec::new(),
             asked: PendingChanges::default(),
             speed_wish: None,
             equilibria: EquilibriaSearch::default(),
-            history: History::default(),
+            history: UndoHistory::default(),
             prediction: None,
             marks: Vec::new(),
             awaited: None,

@@ -5,7 +5,7 @@
 
 use super::value::{nice_step, significant, step};
 use super::{Lab, ValueId, ValueInfo};
-use crate::model::Scale;
+use crate::model::RangeSpacing;
 use crate::system::ChannelKind;
 
 impl Lab {
@@ -97,7 +97,9 @@ impl Lab {
     pub(super) fn rounded(&self, target: ValueId, value: f64) -> f64 {
         match self.value_info(target).and_then(|value_info| value_info.range) {
             Some((min, max, _)) if value <= min || value >= max => value.clamp(min, max),
-            Some((min, max, Scale::Log)) if min > 0.0 => significant(value, 3).clamp(min, max),
+            Some((min, max, RangeSpacing::Log)) if min > 0.0 => {
+                significant(value, 3).clamp(min, max)
+            }
             Some((min, max, _)) => {
                 let fine = nice_step((max - min) / 200.0);
                 significant((value / fine).round() * fine, 12).clamp(min, max)

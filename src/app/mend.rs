@@ -9,7 +9,7 @@ use super::buffer::Unsaved;
 use super::session::NEW_SYSTEM;
 use super::{App, Effect, Lab, Loaded, Overlay, Page};
 use crate::experiment::Command;
-use crate::preset::{Origin, is_path, template};
+use crate::preset::{PresetOrigin, is_path, template};
 
 impl App {
     /// Asks for the text of the file whose mistakes are shown.
@@ -29,8 +29,8 @@ impl App {
         }
         let entry = self.picker.entries.iter().find(|entry| entry.name == name)?;
         match &entry.origin {
-            Origin::User(path) => Some(path.clone()),
-            Origin::Shipped => None,
+            PresetOrigin::User(path) => Some(path.clone()),
+            PresetOrigin::Shipped => None,
         }
     }
 

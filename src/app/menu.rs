@@ -5,7 +5,7 @@
 use tui_input::Input;
 
 use super::action::Action;
-use super::fuzzy::{Fit, Query, Texts};
+use super::fuzzy::{FuzzyMatch, Query, Texts};
 use super::keymap::Place;
 use super::{Pane, ValueId};
 use crate::instrument::Plot;
@@ -164,17 +164,17 @@ impl Menu {
     }
 
     /// Returns the indices of the lines that match the search, best first, and how each matches.
-    pub fn found(&self) -> Vec<(usize, Fit)> {
+    pub fn found(&self) -> Vec<(usize, FuzzyMatch)> {
         let text = self.filter.as_ref().map_or("", Input::value);
         if text.trim().is_empty() {
-            return (0..self.items.len()).map(|index| (index, Fit::default())).collect();
+            return (0..self.items.len()).map(|index| (index, FuzzyMatch::default())).collect();
         }
         let mut query = Query::new(text);
         let lines = self.items.iter().enumerate();
         let mut fit = |item: &Item| {
             query.fit(Texts { label: &item.label, names: &[], about: &[&item.about] })
         };
-        let mut found: Vec<(usize, Fit)> =
+        let mut found: Vec<(usize, FuzzyMatch)> =
             lines.filter_map(|(index, item)| Some((index, fit(item)?))).collect();
         // Among equal matches, available lines come first, then the order of the list decides.
         found.sort_by_key(|(index, fit)| {

@@ -2,7 +2,7 @@
 //!
 //! In: what is selected, the purpose of a field. Out: the changed state and the effects. Never here: keys; what is typed.
 
-use super::field::Field;
+use super::field::InputField;
 use super::{Above, App, Effect, Overlay, Page, Purpose};
 use crate::experiment::Command;
 use crate::integrate::{METHODS, Stepping};
@@ -57,7 +57,7 @@ impl App {
             Purpose::Tolerance => method.and_then(|m| m.tolerance),
         };
         self.overlay =
-            Some(Overlay::Field(Field::new(purpose, now.map_or_else(String::new, written))));
+            Some(Overlay::Field(InputField::new(purpose, now.map_or_else(String::new, written))));
         Vec::new()
     }
 }

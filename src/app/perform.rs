@@ -5,7 +5,7 @@
 use super::keymap::Place;
 use super::speed::{faster, slower};
 use super::{
-    Action, App, Asker, Direction, Effect, Notification, Overlay, Page, Pane, Prompt, Purpose,
+    Action, App, ArrowDirection, Asker, Effect, Notification, Overlay, Page, Pane, Prompt, Purpose,
 };
 use crate::experiment::{Command, Status};
 use crate::instrument::{Plot, Sight, Viewport};
@@ -361,11 +361,11 @@ impl App {
         self.notice.as_ref().is_some_and(|notice| notice.text == LEAVING)
     }
 
-    fn shift(&mut self, way: Direction) -> Vec<Effect> {
+    fn shift(&mut self, way: ArrowDirection) -> Vec<Effect> {
         match way {
-            Direction::Up => return self.jump(-1),
-            Direction::Down => return self.jump(1),
-            Direction::Left | Direction::Right => {}
+            ArrowDirection::Up => return self.jump(-1),
+            ArrowDirection::Down => return self.jump(1),
+            ArrowDirection::Left | ArrowDirection::Right => {}
         }
         self.with_plot(|plot, _| plot.shift(way.step()))
     }
@@ -381,7 +381,7 @@ impl App {
                 (Page::Lab, Some(lab)) if lab.focus == Pane::Law => lab.roll_law(by),
                 (Page::Lab, Some(lab)) => {
                     if let Pane::Plot(_) = lab.focus {
-                        let way = if by < 0 { Direction::Up } else { Direction::Down };
+                        let way = if by < 0 { ArrowDirection::Up } else { ArrowDirection::Down };
                         return self.with_plot(|plot, _| plot.shift(way.step()));
                     }
                     lab.select(|place| place.saturating_add_signed(by));

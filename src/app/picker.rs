@@ -8,9 +8,9 @@ use std::time::Duration;
 
 use tui_input::Input;
 
-use super::fuzzy::{Fit, Query, Texts};
+use super::fuzzy::{FuzzyMatch, Query, Texts};
 use super::{Guide, LoadError, Saved};
-use crate::preset::Entry;
+use crate::preset::CatalogEntry;
 
 /// How long a selection must stay unchanged before its system is loaded.
 const REST: Duration = Duration::from_millis(120);
@@ -19,7 +19,7 @@ const REST: Duration = Duration::from_millis(120);
 #[derive(Clone, Debug, Default)]
 pub struct Picker {
     /// All systems, grouped by topic.
-    pub entries: Vec<Entry>,
+    pub entries: Vec<CatalogEntry>,
     /// The search field, while it is open.
     pub search: Option<Input>,
     /// The index of the selected system among those shown.
@@ -50,24 +50,24 @@ pub enum Above {
 
 impl Picker {
     /// Creates the list from the catalog, in the catalog's order.
-    pub fn new(entries: Vec<Entry>) -> Self {
+    pub fn new(entries: Vec<CatalogEntry>) -> Self {
         Self { entries, ..Self::default() }
     }
 
     /// Returns the indices of the systems that match the search, best first, and how each matches.
-    pub fn found(&self) -> Vec<(usize, Fit)> {
+    pub fn found(&self) -> Vec<(usize, FuzzyMatch)> {
         let Some(sought) = self.sought() else {
-            return (0..self.entries.len()).map(|index| (index, Fit::default())).collect();
+            return (0..self.entries.len()).map(|index| (index, FuzzyMatch::default())).collect();
         };
         let mut query = Query::new(sought);
-        let mut fit = |entry: &Entry| {
+        let mut fit = |entry: &CatalogEntry| {
             let info = &entry.info;
             let mut about = vec![info.summary.as_str(), &info.source];
             about.extend(info.topics.iter().map(String::as_str));
             query.fit(Texts { label: &info.title, names: &[&entry.name], about: &about })
         };
         let entries = self.entries.iter().enumerate();
-        let mut found: Vec<(usize, Fit)> =
+        let mut found: Vec<(usize, FuzzyMatch)> =
             entries.filter_map(|(index, entry)| Some((index, fit(entry)?))).collect();
         // The system whose own name begins so comes first, and of several the one with the shortest name.
         let sought = sought.to_lowercase();
@@ -157,7 +157,7 @@ impl Picker {
     }
 
     /// Returns the selected system; for a session, the one it is of, if that is in the catalog. A new one is none yet.
-    pub fn current(&self) -> Option<&Entry> {
+    pub fn current(&self) -> Option<&CatalogEntry> {
         match self.selected_above() {
             Some(Above::Session) => {
                 let session = self.session()?;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::computation::{Asker, Computation};
-use super::findings::{Findings, UnderWay, followed, search};
+use super::findings::{Findings, SearchUnderWay, followed, search};
 use super::{App, Effect, Lab, Page};
 use crate::experiment::{Command, FoundConstant};
 use crate::expr::Expr;
@@ -42,7 +42,7 @@ impl Lab {
         .within(BUDGET * 4_u32.pow(further));
         let computation = Computation { ticket: *tickets, asker: Asker::Search, job };
         search_state.under_way =
-            Some(UnderWay { ticket: *tickets, at: parameters, since: Duration::ZERO });
+            Some(SearchUnderWay { ticket: *tickets, at: parameters, since: Duration::ZERO });
         Some(computation)
     }
 
@@ -53,7 +53,8 @@ impl Lab {
         ticket: u64,
         outcome: &Outcome<Answer>,
     ) -> Option<Vec<Vec<FoundConstant>>> {
-        let UnderWay { at, .. } = self.search.under_way.take_if(|job| job.ticket == ticket)?;
+        let SearchUnderWay { at, .. } =
+            self.search.under_way.take_if(|job| job.ticket == ticket)?;
         let Outcome::Done(answer) = outcome else {
             self.search.stopped = true;
             return Some(Vec::new());

@@ -6,7 +6,7 @@
 //! A system rebuilt from a changed file is resumed in the same way: everything that has the same name in both is
 //! kept.
 
-use super::{App, Effect, Lab, Loaded, Overlay, Page, Saved, SheetState, SourceBuffer};
+use super::{App, BufferState, Effect, Lab, Loaded, Overlay, Page, Saved, SourceBuffer};
 use crate::experiment::{Checkpoint, Command};
 use crate::instrument::{Plot, SavedPlot};
 
@@ -66,7 +66,8 @@ impl App {
         // A system without a file could not be found again; its text is kept among the unsaved ones.
         let has_file = |lab: &&Lab| lab.loaded.name != NEW_SYSTEM || self.file().is_some();
         let Some(lab) = self.lab.as_ref().filter(has_file) else { return self.left.clone() };
-        let runs = |buffer: &SourceBuffer| buffer.is_modified() && buffer.state != SheetState::Left;
+        let runs =
+            |buffer: &SourceBuffer| buffer.is_modified() && buffer.state != BufferState::Left;
         let edited = self.own_buffer().is_some_and(runs);
         Some(Saved { edited, ..Saved::of(lab, self.page)? })
     }

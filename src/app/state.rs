@@ -7,7 +7,7 @@ use tui_input::Input;
 use super::action::Action;
 use super::drawn::Drawn;
 use super::event::Effect;
-use super::field::Field;
+use super::field::InputField;
 use super::hit_target::Grab;
 use super::keymap::{CHAINS, Place};
 use super::lab::Lab;
@@ -98,7 +98,7 @@ pub enum Overlay {
     /// A pop-up list.
     Menu(Menu),
     /// A field.
-    Field(Field),
+    Field(InputField),
     /// The prompt for brackets.
     Prompt(Prompt),
     /// The editor of the system's file, which shows the top of [`App::workbench`].

@@ -3,7 +3,7 @@
 //! In: a value and its range. Out: the value one step further. Never here: the lab, the list on the screen, or the
 //! command that sets a value.
 
-use crate::model::Scale;
+use crate::model::RangeSpacing;
 use crate::num::math;
 
 /// One value that can be changed.
@@ -27,14 +27,19 @@ pub struct ValueInfo {
     /// What it means, in words.
     pub about: String,
     /// The range of its slider, if it has one.
-    pub range: Option<(f64, f64, Scale)>,
+    pub range: Option<(f64, f64, RangeSpacing)>,
 }
 
 /// Moves a value by `sign · times` fine steps. About 200 of them make up the range or, without one, the value's
 /// magnitude, which counts as at least 1.
-pub(super) fn step(value: f64, range: Option<(f64, f64, Scale)>, sign: f64, times: f64) -> f64 {
+pub(super) fn step(
+    value: f64,
+    range: Option<(f64, f64, RangeSpacing)>,
+    sign: f64,
+    times: f64,
+) -> f64 {
     match range {
-        Some((min, max, Scale::Log)) if min > 0.0 && value > 0.0 => {
+        Some((min, max, RangeSpacing::Log)) if min > 0.0 && value > 0.0 => {
             let factor = math::powf(max / min, times / 200.0);
             let moved = significant(value * math::powf(factor, sign), 4);
             within(moved, value, min, max)

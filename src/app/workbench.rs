@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use super::buffer::{SourceBuffer, State, Unsaved};
+use super::buffer::{BufferState, SourceBuffer, Unsaved};
 use super::{Effect, Loaded};
 
 /// The source buffers.
@@ -59,7 +59,7 @@ impl Workbench {
             None => SourceBuffer::new(loaded, place),
         };
         buffer.name.clone_from(&loaded.name);
-        if buffer.state == State::Left {
+        if buffer.state == BufferState::Left {
             buffer.touch_at_once(false);
         }
         self.buffers.retain(SourceBuffer::is_modified);
@@ -92,7 +92,7 @@ impl Workbench {
 
     /// Advances the time for the top buffer. Returns the check that is now due, if there is one.
     pub(super) fn tick(&mut self, elapsed: Duration) -> Option<Effect> {
-        let buffer = self.buffers.last_mut().filter(|buffer| buffer.state != State::Left)?;
+        let buffer = self.buffers.last_mut().filter(|buffer| buffer.state != BufferState::Left)?;
         if !buffer.tick(elapsed) {
             return None;
         }

@@ -6,7 +6,7 @@
 use super::brackets::false_brackets;
 use super::conservation::{known, open_claims};
 use super::invariants::false_count;
-use super::motion::Motion;
+use super::motion::ClaimedMotion;
 use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::mechanics::{self, Equations, HamiltonJacobi};
 use crate::model::Model;
@@ -33,7 +33,7 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
             return mistakes;
         }
     };
-    match Motion::begin(model, equations, &system) {
+    match ClaimedMotion::begin(model, equations, &system) {
         Ok(motion) => motion.follow(model, equations, claims, &mut mistakes),
         Err(mistake) => mistakes.push(mistake),
     }

@@ -62,7 +62,7 @@ fn own_method_starts(model: &Model, system: &System, state: &State, parameters: 
 }
 
 /// The motion against which claims are checked.
-pub(super) struct Motion<'a> {
+pub(super) struct ClaimedMotion<'a> {
     system: &'a System,
     course: integrate::Propagator,
     observer: Observer,
@@ -116,13 +116,13 @@ fn place_of(model: &Model, fault: &MotionError) -> SourceRange {
     constraint.map_or(0..0, |c| c.place.clone())
 }
 
-impl<'a> Motion<'a> {
+impl<'a> ClaimedMotion<'a> {
     /// The motion at its start, with a first step that is known to succeed.
     pub(super) fn begin(
         model: &Model,
         equations: &Equations,
         system: &'a System,
-    ) -> Result<Motion<'a>, Diagnostic> {
+    ) -> Result<ClaimedMotion<'a>, Diagnostic> {
         let refused = |place: SourceRange, why: String| {
             Diagnostic::error(place, format!("the motion cannot begin: {why}"))
         };
@@ -132,7 +132,7 @@ impl<'a> Motion<'a> {
         let course = integrate::Propagator::new(system, method, Settings::default(), &parameters);
         let course = course.map_err(|error| refused(0..0, error.to_string()))?;
         let allowed = steps_for(equations);
-        let mut motion = Motion {
+        let mut motion = ClaimedMotion {
             system,
             course,
             observer: system.observer(&parameters),

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use serde_json::{Value, json};
 
 use super::assignment::number;
-use super::cells::{self, Cell, TableFormat};
+use super::cells::{self, TableCell, TableFormat};
 use super::crowd;
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
-use super::motion_options::{Laid, MotionOptions, Reading};
+use super::motion_options::{Laid, ModelReading, MotionOptions};
 use super::output::Output;
 use super::section::surface;
 use crate::diagnostic::{Document, nearest};
@@ -17,8 +17,8 @@ use crate::ensemble::{Start, add_section};
 use crate::expr::Expr;
 use crate::model::{Direction, Model};
 use crate::orbits::{
-    ActionRow, ActionSystems, EffectivePotential, NoAction, Region, RegionKind, action_between,
-    action_row, cyclic_row,
+    ActionRow, ActionSystems, AllowedInterval, EffectivePotential, NoAction, RegionKind,
+    action_between, action_row, cyclic_row,
 };
 use crate::printable;
 use crate::system::ChannelKind;
@@ -127,7 +127,7 @@ pub(super) fn of_start(
     start: Start,
     interrupt: &Interrupt,
 ) -> Option<ActionRow> {
-    let reading = Reading::of(document, model, start);
+    let reading = ModelReading::of(document, model, start);
     let systems = Systems::compile(&MotionOptions::plain(), reading, 0, interrupt).ok()?;
     let mut potential = systems.potential().ok()?;
     let own = own_start(&systems.turning, 0).ok()?;
@@ -140,7 +140,7 @@ pub(super) fn of_start(
 /// advances by the same angle each time.
 fn partner(
     motion: &MotionOptions,
-    reading: &Reading,
+    reading: &ModelReading,
     index: usize,
     interrupt: &Interrupt,
 ) -> Result<Option<usize>, CommandError> {
@@ -168,7 +168,7 @@ struct Systems {
 impl Systems {
     fn compile(
         motion: &MotionOptions,
-        mut reading: Reading,
+        mut reading: ModelReading,
         index: usize,
         interrupt: &Interrupt,
     ) -> Result<Systems, CommandError> {
@@ -223,7 +223,7 @@ impl Systems {
         &self,
         potential: &mut EffectivePotential<'_>,
         cyclic: usize,
-        region: Region,
+        region: AllowedInterval,
         energy: f64,
     ) -> Result<ActionRow, NoAction> {
         let columns =
@@ -300,8 +300,12 @@ fn own_start(laid: &Laid, index: usize) -> Result<Own, String> {
 }
 
 /// The region that a place lies in; a start at rest lies on its edge.
-fn containing(regions: &[Region], place: f64, period: Option<f64>) -> Vec<Region> {
-    let distance = |region: &Region| {
+fn containing(
+    regions: &[AllowedInterval],
+    place: f64,
+    period: Option<f64>,
+) -> Vec<AllowedInterval> {
+    let distance = |region: &AllowedInterval| {
         let at = |place: f64| {
             let left = region.left.map_or(0.0, |left| left - place);
             let right = region.right.map_or(0.0, |right| place - right);
@@ -346,16 +350,16 @@ fn written(
     let cell = |row: &ActionRow| {
         let point = |i: usize| row.turning_points.get(i).copied().unwrap_or(f64::NAN);
         vec![
-            Cell::Number(row.energy),
-            Cell::Word(row.kind.word().to_owned()),
-            Cell::Number(point(0)),
-            Cell::Number(point(1)),
-            Cell::Number(action(row)),
-            Cell::Number(row.period),
-            Cell::Number(frequency(row)),
+            TableCell::Number(row.energy),
+            TableCell::Word(row.kind.word().to_owned()),
+            TableCell::Number(point(0)),
+            TableCell::Number(point(1)),
+            TableCell::Number(action(row)),
+            TableCell::Number(row.period),
+            TableCell::Number(frequency(row)),
         ]
     };
-    let table: Vec<Vec<Cell>> = rows.iter().map(cell).collect();
+    let table: Vec<Vec<TableCell>> = rows.iter().map(cell).collect();
     let lead = if format == TableFormat::Csv { "# " } else { "" };
     let shown = |x: f64| {
         if format == TableFormat::Csv { printable::number(x) } else { crate::num::short(x) }

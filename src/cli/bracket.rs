@@ -10,7 +10,7 @@ use super::failure::CommandError;
 use super::format::Format;
 use super::open;
 use super::output::Output;
-use super::script::Script;
+use super::script::MathScript;
 use crate::experiment::Derived;
 use crate::expr::{Expr, Zero};
 use crate::mechanics::{self, ChainRule, Equations, NoClosedForm, Recognised};
@@ -72,7 +72,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let Derived { model, equations } = &derived;
     let answer = BracketReport { arguments, model, f, g, expression, recognised, value };
     let text = match arguments.format {
-        Format::Text => answer.text(equations, Script::of_locale()),
+        Format::Text => answer.text(equations, MathScript::of_locale()),
         Format::Latex => answer.latex(equations),
         Format::Json => answer.json(equations),
     };
@@ -141,7 +141,7 @@ impl BracketReport<'_> {
         if self.model.is_poisson() { ("{", "}") } else { ("[", "]") }
     }
 
-    fn text(&self, equations: &Equations, script: Script) -> String {
+    fn text(&self, equations: &Equations, script: MathScript) -> String {
         let (open, close) = self.braces();
         let (f, g) = (self.arguments.f.trim(), self.arguments.g.trim());
         let head = format!("{open}{f}, {g}{close}");

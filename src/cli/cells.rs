@@ -5,7 +5,7 @@
 use serde_json::{Map, Value};
 
 use super::decimal::shortest;
-use super::output::Form;
+use super::output::OutputForm;
 use crate::num::short;
 use crate::printable;
 
@@ -22,17 +22,17 @@ pub(super) enum TableFormat {
 
 impl TableFormat {
     /// The form of its output.
-    pub(super) fn form(self) -> Form {
+    pub(super) fn form(self) -> OutputForm {
         match self {
-            TableFormat::Text | TableFormat::Csv => Form::Text,
-            TableFormat::Json => Form::Json,
+            TableFormat::Text | TableFormat::Csv => OutputForm::Text,
+            TableFormat::Json => OutputForm::Json,
         }
     }
 }
 
 /// One cell.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) enum Cell {
+pub(super) enum TableCell {
     /// A place in an order.
     Count(u64),
     /// A number; what is not finite is left empty.
@@ -41,21 +41,21 @@ pub(super) enum Cell {
     Word(String),
 }
 
-impl Cell {
+impl TableCell {
     /// The cell in comma-separated values.
     pub(super) fn plain(&self) -> String {
         match self {
-            Cell::Count(n) => n.to_string(),
-            Cell::Number(x) => shortest(*x).unwrap_or_default(),
-            Cell::Word(word) => word.clone(),
+            TableCell::Count(n) => n.to_string(),
+            TableCell::Number(x) => shortest(*x).unwrap_or_default(),
+            TableCell::Word(word) => word.clone(),
         }
     }
 
     /// The cell for reading.
     fn brief(&self) -> String {
         match self {
-            Cell::Number(x) if x.is_finite() => short(*x),
-            Cell::Number(_) => "–".to_owned(),
+            TableCell::Number(x) if x.is_finite() => short(*x),
+            TableCell::Number(_) => "–".to_owned(),
             other => other.plain(),
         }
     }
@@ -63,16 +63,16 @@ impl Cell {
     /// The cell in JSON.
     pub(super) fn value(&self) -> Value {
         match self {
-            Cell::Count(n) => Value::from(*n),
-            Cell::Number(x) => Value::from(*x),
-            Cell::Word(word) => Value::from(word.clone()),
+            TableCell::Count(n) => Value::from(*n),
+            TableCell::Number(x) => Value::from(*x),
+            TableCell::Word(word) => Value::from(word.clone()),
         }
     }
 }
 
 /// Lines of comma-separated values.
-pub(super) fn csv<'a>(rows: impl IntoIterator<Item = &'a [Cell]>) -> String {
-    rows.into_iter().map(|row| record(row.iter().map(Cell::plain))).collect()
+pub(super) fn csv<'a>(rows: impl IntoIterator<Item = &'a [TableCell]>) -> String {
+    rows.into_iter().map(|row| record(row.iter().map(TableCell::plain))).collect()
 }
 
 /// One line of comma-separated values, quoted where that is needed.
@@ -89,9 +89,9 @@ pub(super) fn record(fields: impl IntoIterator<Item = String>) -> String {
 }
 
 /// Columns of text, numbers to the right.
-pub(super) fn text(names: &[String], rows: &[Vec<Cell>]) -> String {
+pub(super) fn text(names: &[String], rows: &[Vec<TableCell>]) -> String {
     let brief: Vec<Vec<String>> =
-        rows.iter().map(|row| row.iter().map(Cell::brief).collect()).collect();
+        rows.iter().map(|row| row.iter().map(TableCell::brief).collect()).collect();
     let width = |i: usize| {
         let cells = brief.iter().filter_map(|row| row.get(i)).chain(names.get(i));
         cells.map(|cell| cell.chars().count()).max().unwrap_or(0)

@@ -7,12 +7,12 @@ use clap::ValueEnum;
 use serde_json::{Value, json};
 
 use super::failure::CommandError;
-use super::output::{Form, Output};
+use super::output::{Output, OutputForm};
 use super::{open, stderr};
 use crate::claims::false_claims;
 use crate::diagnostic::{Diagnostic, Document, Severity};
 use crate::experiment::Derived;
-use crate::mechanics::{Constant, Report};
+use crate::mechanics::{ConservedKind, Report};
 use crate::printable;
 
 /// Tell every mistake in files, and whether what they claim is true.
@@ -57,14 +57,14 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
                 let found = found.filter(|_| mistakes.is_empty() && stdout().is_terminal());
                 if let Some(found) = found {
                     let name = printable::path(path);
-                    Output::print(Form::Text, &format!("{name}: no mistakes; {found}\n"))?;
+                    Output::print(OutputForm::Text, &format!("{name}: no mistakes; {found}\n"))?;
                 }
             }
             Format::Json => files.push(object(&document, &mistakes)),
         }
     }
     if arguments.format == Format::Json {
-        Output::print(Form::Json, &format!("{:#}\n", json!({ "files": files })))?;
+        Output::print(OutputForm::Json, &format!("{:#}\n", json!({ "files": files })))?;
     }
     match (errors, arguments.files.as_slice()) {
         (0, _) => Ok(()),
@@ -104,10 +104,10 @@ fn findings(document: &Document) -> (Vec<Diagnostic>, Option<String>) {
 /// What a system consists of and what it conserves: `2 coordinates, conserved: p_x, E`.
 fn description(derived: &Derived) -> String {
     let report = Report::of(&derived.model, &derived.equations);
-    let name = |constant: &Constant<'_>| match constant {
-        Constant::Momentum(p) => derived.equations.pool.symbol_info(*p).name.clone(),
-        Constant::Energy => "E".to_owned(),
-        Constant::Casimir(name) | Constant::Other(name) => (*name).to_owned(),
+    let name = |constant: &ConservedKind<'_>| match constant {
+        ConservedKind::Momentum(p) => derived.equations.pool.symbol_info(*p).name.clone(),
+        ConservedKind::Energy => "E".to_owned(),
+        ConservedKind::Casimir(name) | ConservedKind::Other(name) => (*name).to_owned(),
     };
     let conserved: Vec<String> = report.conserved.iter().map(|kept| name(&kept.constant)).collect();
     let coordinates = match derived.model.coordinates.len() {

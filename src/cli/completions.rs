@@ -3,7 +3,7 @@
 use clap_complete::Shell;
 
 use super::failure::CommandError;
-use super::output::{Form, Output};
+use super::output::{Output, OutputForm};
 
 /// Print what a shell needs to complete commands, options and the names of presets.
 ///
@@ -23,7 +23,7 @@ pub(super) struct Arguments {
 
 /// `command` is the whole command line.
 pub(super) fn perform(arguments: &Arguments, command: clap::Command) -> Result<(), CommandError> {
-    Output::print(Form::Text, &script(arguments.shell, command))
+    Output::print(OutputForm::Text, &script(arguments.shell, command))
 }
 
 /// The whole script.

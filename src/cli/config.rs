@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::failure::CommandError;
-use super::output::{Form, Output};
+use super::output::{Output, OutputForm};
 use super::{open, stderr};
 use crate::diagnostic::Document;
 use crate::printable;
@@ -83,5 +83,5 @@ fn read(document: &Document) -> Result<Words, CommandError> {
 }
 
 fn print(text: &str) -> Result<(), CommandError> {
-    Output::print(Form::Text, text)
+    Output::print(OutputForm::Text, text)
 }

@@ -7,12 +7,12 @@ mod text;
 
 use std::ffi::OsString;
 
-use self::against::Comparison;
+use self::against::LagrangianComparison;
 use super::failure::CommandError;
 use super::format::Format;
 use super::open;
 use super::output::Output;
-use super::script::Script;
+use super::script::MathScript;
 use crate::experiment::Derived;
 use crate::mechanics::{Further, Report, latex};
 
@@ -49,16 +49,17 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     equations.find_closed_forms();
     let further = Further::of(&model, &mut equations);
     let given = arguments.against.as_deref();
-    let compared = given.map(|given| Comparison::of(&model, &mut equations, given)).transpose()?;
+    let compared =
+        given.map(|given| LagrangianComparison::of(&model, &mut equations, given)).transpose()?;
     let report = Report::of(&model, &equations);
     let mut text = match arguments.format {
-        Format::Text => text::write(&report, &further, Script::of_locale()),
+        Format::Text => text::write(&report, &further, MathScript::of_locale()),
         Format::Latex => latex(&report, &further),
         Format::Json => json::write(&report, &further, compared.as_ref()),
     };
     match (arguments.format, &compared) {
         (Format::Text, Some(known)) => {
-            text.push_str(&known.text(&equations.pool, Script::of_locale()));
+            text.push_str(&known.text(&equations.pool, MathScript::of_locale()));
         }
         (Format::Latex, Some(known)) => text.push_str(&known.latex(&equations.pool)),
         _ => {}

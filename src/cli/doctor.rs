@@ -6,7 +6,7 @@ use std::io::{IsTerminal, stdout};
 use rustix::termios::tcgetwinsize;
 
 use super::failure::CommandError;
-use super::output::{Form, Output};
+use super::output::{Output, OutputForm};
 use crate::shell::diagnosis;
 use crate::view::card::card;
 use crate::view::glyphs::Glyphs;
@@ -34,7 +34,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
         let size = tcgetwinsize(rustix::stdio::stdout()).ok().filter(|_| near);
         findings(&variables, size.map(|size| (size.ws_col, size.ws_row)))
     };
-    Output::print(Form::Coloured, &text)
+    Output::print(OutputForm::Coloured, &text)
 }
 
 fn findings(variables: &dyn Fn(&str) -> Option<String>, size: Option<(u16, u16)>) -> String {

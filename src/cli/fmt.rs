@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use super::failure::CommandError;
-use super::output::{Form, Output};
+use super::output::{Output, OutputForm};
 use super::{open, stderr};
 use crate::diagnostic::Document;
 use crate::printable;
@@ -37,9 +37,9 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
         })?;
         let text = checked.in_plain_form(&document.text);
         if !arguments.write {
-            Output::print(Form::Text, &text)?;
+            Output::print(OutputForm::Text, &text)?;
         } else if text != document.text {
-            let mut output = Output::open(Some(path), Form::Text)?;
+            let mut output = Output::open(Some(path), OutputForm::Text)?;
             output.write_all(text.as_bytes()).map_err(|why| output.failed(&why))?;
             output.finish()?;
         }

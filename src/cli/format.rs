@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 
-use super::output::Form;
+use super::output::OutputForm;
 
 /// The three ways.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
@@ -18,10 +18,10 @@ pub(super) enum Format {
 
 impl Format {
     /// The form of its output.
-    pub(super) fn form(self) -> Form {
+    pub(super) fn form(self) -> OutputForm {
         match self {
-            Format::Text | Format::Latex => Form::Text,
-            Format::Json => Form::Json,
+            Format::Text | Format::Latex => OutputForm::Text,
+            Format::Json => OutputForm::Json,
         }
     }
 }

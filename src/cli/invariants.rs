@@ -14,7 +14,7 @@ use super::failure::CommandError;
 use super::format::Format;
 use super::open;
 use super::output::Output;
-use super::script::Script;
+use super::script::MathScript;
 use crate::experiment::Derived;
 use crate::integrability::{
     Invariants, Limits, Relations, invariants, is_hamiltonian, relations, separates,
@@ -149,7 +149,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
         scan,
     };
     let text = match arguments.format {
-        Format::Text => text::write(&answer, Script::of_locale()),
+        Format::Text => text::write(&answer, MathScript::of_locale()),
         Format::Latex => text::latex(&answer),
         Format::Json => json::write(&answer),
     };

@@ -4,9 +4,9 @@ use std::ffi::OsString;
 use std::io::IsTerminal;
 
 use super::failure::CommandError;
-use super::output::{Form, Output};
+use super::output::{Output, OutputForm};
 use super::{config, demo_source, record, stderr};
-use crate::preset::{Catalog, Origin, is_path};
+use crate::preset::{Catalog, PresetOrigin, is_path};
 use crate::record::ScriptRunner;
 use crate::shell::{
     self, Ending, LabError, Options, Request, SessionError, options, options::Words,
@@ -96,7 +96,7 @@ fn perform_demo(
         Err(error) => return how_it_ended(Err(error)),
     };
     if let (Ending::Quit, Some(picture)) = (ending, outcome.map_err(wrong)?) {
-        Output::print(Form::Coloured, &picture)?;
+        Output::print(OutputForm::Coloured, &picture)?;
     }
     how_it_ended(Ok(ending))
 }
@@ -107,7 +107,7 @@ fn watchable(name: Option<&str>) -> Result<(), CommandError> {
     let catalog = Catalog::load();
     let entry = catalog.entries().iter().find(|entry| entry.name == name);
     match entry.map(|entry| &entry.origin) {
-        Some(Origin::Shipped) => Err(CommandError::WrongUse(format!(
+        Some(PresetOrigin::Shipped) => Err(CommandError::WrongUse(format!(
             "`{name}` is shipped with phaselab and has no file to be watched; open it, press E and Ctrl-s to save a \
              copy of your own, and watch that"
         ))),

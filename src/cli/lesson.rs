@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
-use super::output::{Form, Output};
+use super::output::{Output, OutputForm};
 use super::{record, script, stderr};
 use crate::diagnostic::{Document, nearest};
 use crate::preset::{self, is_path};
@@ -182,10 +182,10 @@ fn list(format: Format) -> Result<(), CommandError> {
                 json!({ "name": name, "title": title(name), "finished": finished, "begun": begun })
             })
             .collect();
-        return Output::print(Form::Json, &format!("{:#}\n", json!({ "lessons": lessons })));
+        return Output::print(OutputForm::Json, &format!("{:#}\n", json!({ "lessons": lessons })));
     }
     let width = preset::lessons().iter().map(|name| name.len()).max().unwrap_or(0);
-    let ascii = script::Script::of_locale() == script::Script::Ascii;
+    let ascii = script::MathScript::of_locale() == script::MathScript::Ascii;
     let (tick, begun) = if ascii { ("x", "~") } else { ("✓", "…") };
     let mut text = String::new();
     for name in preset::lessons() {
@@ -196,7 +196,7 @@ fn list(format: Format) -> Result<(), CommandError> {
         };
         text.push_str(&format!("{mark} {name:width$}  {}\n", title(name)));
     }
-    Output::print(Form::Text, &text)
+    Output::print(OutputForm::Text, &text)
 }
 
 fn take(

@@ -4,9 +4,9 @@ use clap::ValueEnum;
 use serde_json::{Value, json};
 
 use super::failure::CommandError;
-use super::output::{Form, Output};
+use super::output::{Output, OutputForm};
 use super::stderr;
-use crate::preset::{Catalog, Entry, Origin};
+use crate::preset::{Catalog, CatalogEntry, PresetOrigin};
 use crate::printable;
 
 /// List the presets by chapter and topic.
@@ -38,10 +38,10 @@ enum Format {
 
 impl Format {
     /// The form of its output.
-    fn form(self) -> Form {
+    fn form(self) -> OutputForm {
         match self {
-            Format::Text | Format::Names => Form::Text,
-            Format::Json => Form::Json,
+            Format::Text | Format::Names => OutputForm::Text,
+            Format::Json => OutputForm::Json,
         }
     }
 }
@@ -78,7 +78,7 @@ const CHAPTERS: [&str; 5] = [
 ];
 
 /// The heading of a preset, and its position among the headings.
-fn heading(entry: &Entry) -> (usize, &'static str) {
+fn heading(entry: &CatalogEntry) -> (usize, &'static str) {
     let number = entry.info.chapter.split('.').next().and_then(|first| first.parse().ok());
     match number.and_then(|n: usize| Some((n, *CHAPTERS.get(n)?))) {
         Some(chapter) => chapter,
@@ -86,13 +86,13 @@ fn heading(entry: &Entry) -> (usize, &'static str) {
     }
 }
 
-fn text(entries: &[Entry]) -> String {
-    let longest = |of: fn(&Entry) -> &str| {
+fn text(entries: &[CatalogEntry]) -> String {
+    let longest = |of: fn(&CatalogEntry) -> &str| {
         entries.iter().map(|entry| printable::line(of(entry)).chars().count()).max().unwrap_or(0)
     };
     let section = longest(|entry| &entry.info.chapter);
     let width = longest(|entry| &entry.name);
-    let mut ordered: Vec<&Entry> = entries.iter().collect();
+    let mut ordered: Vec<&CatalogEntry> = entries.iter().collect();
     ordered.sort_by_key(|entry| heading(entry).0);
     let mut text = String::new();
     let mut above = None;
@@ -112,7 +112,7 @@ fn text(entries: &[Entry]) -> String {
             None if entry.info.summary.is_empty() => entry.info.title.clone(),
             None => entry.info.summary.clone(),
         };
-        let own = if matches!(entry.origin, Origin::User(_)) { " (your own)" } else { "" };
+        let own = if matches!(entry.origin, PresetOrigin::User(_)) { " (your own)" } else { "" };
         let [place, name, about] =
             [&entry.info.chapter, &entry.name, &about].map(|text| printable::line(text));
         text.push_str(&format!("    {place:section$}  {name:width$}  {about}{own}\n"));
@@ -120,10 +120,10 @@ fn text(entries: &[Entry]) -> String {
     text
 }
 
-fn object(entry: &Entry) -> Value {
+fn object(entry: &CatalogEntry) -> Value {
     let path = match &entry.origin {
-        Origin::Shipped => None,
-        Origin::User(path) => Some(path.display().to_string()),
+        PresetOrigin::Shipped => None,
+        PresetOrigin::User(path) => Some(path.display().to_string()),
     };
     json!({
         "name": entry.name,

@@ -7,7 +7,7 @@ use clap_mangen::roff::{Roff, bold, roman};
 
 use super::exit::EXITS;
 use super::failure::CommandError;
-use super::output::{Form, Output};
+use super::output::{Output, OutputForm};
 use crate::app::keymap::{KEYS, Place};
 use crate::shell::options::rows;
 
@@ -61,7 +61,7 @@ pub(super) fn perform(arguments: &Arguments, command: clap::Command) -> Result<(
         [] => whole(command),
         words => of_command(command, words)?,
     };
-    let mut out = Output::open(None, Form::Text)?;
+    let mut out = Output::open(None, OutputForm::Text)?;
     page.and_then(|page| out.write_all(&page)).map_err(|error| out.failed(&error))?;
     out.finish()
 }

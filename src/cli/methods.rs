@@ -4,7 +4,7 @@ use clap::ValueEnum;
 use serde_json::{Value, json};
 
 use super::failure::CommandError;
-use super::output::{Form, Output};
+use super::output::{Output, OutputForm};
 use crate::integrate::{METHODS, Method, Preserves, Stepping};
 
 /// List the integrators: order, what they preserve, what they need.
@@ -33,10 +33,10 @@ enum Format {
 
 impl Format {
     /// The form of its output.
-    fn form(self) -> Form {
+    fn form(self) -> OutputForm {
         match self {
-            Format::Text => Form::Text,
-            Format::Json => Form::Json,
+            Format::Text => OutputForm::Text,
+            Format::Json => OutputForm::Json,
         }
     }
 }

@@ -46,7 +46,7 @@ pub(super) struct MotionOptions {
 
 /// A model as the options set it, before anything is derived from it.
 #[derive(Clone)]
-pub(super) struct Reading {
+pub(super) struct ModelReading {
     pub(super) document: Document,
     pub(super) model: Model,
     pub(super) start: Start,
@@ -63,11 +63,11 @@ pub(super) struct Laid {
     pub(super) settings: Settings,
 }
 
-impl Reading {
+impl ModelReading {
     /// A model at a start.
-    pub(super) fn of(document: &Document, model: Model, start: Start) -> Reading {
+    pub(super) fn of(document: &Document, model: Model, start: Start) -> ModelReading {
         let settings = Settings { step: None, tolerance: model.run.tolerance };
-        Reading { document: document.clone(), model, start, settings }
+        ModelReading { document: document.clone(), model, start, settings }
     }
 }
 
@@ -85,7 +85,7 @@ impl MotionOptions {
     }
 
     /// Reads the system and its start.
-    pub(super) fn read(&self) -> Result<Reading, CommandError> {
+    pub(super) fn read(&self) -> Result<ModelReading, CommandError> {
         let document = open::find(&self.name)?;
         let mut model = open::read(&document)?;
         model.leave_views_out();
@@ -101,18 +101,18 @@ impl MotionOptions {
             return Err(open::refuse(&document, &[mistake]));
         }
         let start = Start { time: model.run.start, parameters, overrides };
-        Ok(Reading { document, model, start, settings })
+        Ok(ModelReading { document, model, start, settings })
     }
 
     /// Derives and compiles a model, with further columns, each `EXPR` or `NAME=EXPR`, of the option `called`.
     pub(super) fn compile(
         &self,
-        reading: Reading,
+        reading: ModelReading,
         columns: &[String],
         called: &str,
         interrupt: &Interrupt,
     ) -> Result<Laid, CommandError> {
-        let Reading { document, model, start, settings } = reading;
+        let ModelReading { document, model, start, settings } = reading;
         let mut derived = open::derive(&document, model)?;
         let Derived { model, equations } = &mut derived;
         equations.pool.set_cancel(interrupt.cancel().clone());

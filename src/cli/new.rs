@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use super::failure::CommandError;
-use super::output::{Form, Output};
+use super::output::{Output, OutputForm};
 use crate::preset::template;
 use crate::printable;
 
@@ -44,7 +44,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let written = file.write_all(template().as_bytes()).and_then(|()| file.sync_all());
     written.map_err(|why| CommandError::writing(&shown, &why))?;
     let text = format!("{shown} was written; open it with phaselab {}\n", as_argument(&shown));
-    Output::print(Form::Text, &text)
+    Output::print(OutputForm::Text, &text)
 }
 
 /// A path as an argument that is taken for a file, not for a preset.

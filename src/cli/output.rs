@@ -1,6 +1,6 @@
 //! The destination of a command's data: standard output, or a file that appears complete or not at all.
 //!
-//! In: text in a [`Form`]. Out: a file or a stream, without terminal control characters. Never here: what the text
+//! In: text in a [`OutputForm`]. Out: a file or a stream, without terminal control characters. Never here: what the text
 //! means.
 
 use std::fs::{self, File};
@@ -14,7 +14,7 @@ use crate::shell::atomic_file::{AtomicFile, Durability};
 
 /// The form of the text, which determines how terminal control characters are escaped.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Form {
+pub(super) enum OutputForm {
     /// Text: `\u{9b}`.
     Text,
     /// Text with our own colours.
@@ -27,7 +27,7 @@ pub(super) enum Form {
 #[derive(Debug)]
 pub(super) struct Output {
     writer: BufWriter<Target>,
-    form: Form,
+    form: OutputForm,
     /// Its name in messages.
     name: String,
     /// Whether a file that is not empty already exists there.
@@ -45,7 +45,7 @@ enum Target {
 impl Output {
     /// Opens standard output, or the file at a path. A regular file is replaced as a whole in [`Output::finish`], so
     /// that a failure leaves an old file unchanged; a device or a pipe is written directly.
-    pub(super) fn open(path: Option<&Path>, form: Form) -> Result<Output, CommandError> {
+    pub(super) fn open(path: Option<&Path>, form: OutputForm) -> Result<Output, CommandError> {
         let Some(path) = path else { return Ok(Output::standard(form)) };
         let name = printable::path(path);
         let about = fs::metadata(path);
@@ -60,13 +60,13 @@ impl Output {
         Ok(Output { writer: BufWriter::new(target), form, name, over })
     }
 
-    fn standard(form: Form) -> Output {
+    fn standard(form: OutputForm) -> Output {
         let writer = BufWriter::new(Target::Stdout(io::stdout()));
         Output { writer, form, name: "standard output".to_owned(), over: false }
     }
 
     /// Writes all of a text to standard output.
-    pub(super) fn print(form: Form, text: &str) -> Result<(), CommandError> {
+    pub(super) fn print(form: OutputForm, text: &str) -> Result<(), CommandError> {
         let mut out = Output::standard(form);
         out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
         out.finish()
@@ -109,9 +109,9 @@ impl Write for Output {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let text = String::from_utf8_lossy(bytes);
         let safe = match self.form {
-            Form::Text => printable::lines(&text),
-            Form::Coloured => printable::coloured(&text),
-            Form::Json => printable::json(&text),
+            OutputForm::Text => printable::lines(&text),
+            OutputForm::Coloured => printable::coloured(&text),
+            OutputForm::Json => printable::json(&text),
         };
         self.writer.write_all(safe.as_bytes())?;
         Ok(bytes.len())

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde_json::{Value, json};
 
 use super::assignment::{self, Assignment, number};
-use super::cells::{self, Cell, TableFormat};
+use super::cells::{self, TableCell, TableFormat};
 use super::crowd;
 use super::decimal::divisions;
 use super::failure::CommandError;
@@ -415,11 +415,11 @@ impl JudgedPath {
             text.push_str(&format!("{lead}abbreviated action: {why}\n"));
         }
         let every = if csv { 1 } else { 20 };
-        let table: Vec<Vec<Cell>> = self
+        let table: Vec<Vec<TableCell>> = self
             .rows
             .iter()
             .step_by(every)
-            .map(|row| row.iter().map(|&x| Cell::Number(x)).collect())
+            .map(|row| row.iter().map(|&x| TableCell::Number(x)).collect())
             .collect();
         if csv {
             let rows = cells::csv(table.iter().map(Vec::as_slice));

@@ -8,7 +8,7 @@ use clap::ValueEnum;
 
 use super::failure::CommandError;
 use super::open;
-use super::output::{Form, Output};
+use super::output::{Output, OutputForm};
 use crate::diagnostic::nearest;
 use crate::diagnostic::{Diagnostic, Document};
 use crate::preset::{demo, demos};
@@ -86,8 +86,8 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
         }
     }
     let form = match arguments.format {
-        Format::V3 | Format::V2 => Form::Json,
-        Format::Account => Form::Text,
+        Format::V3 | Format::V2 => OutputForm::Json,
+        Format::Account => OutputForm::Text,
     };
     let mut out = Output::open(arguments.output.as_deref(), form)?;
     let written = match arguments.format {
@@ -123,7 +123,8 @@ fn take_still(recording: &Recording, path: &Path, at: Option<&str>) -> Result<()
     };
     let palette = recording.look.theme.palette();
     let text = screenshot::write(screen, palette, form, &recording.title);
-    let written = if form == screenshot::Form::Ansi { Form::Coloured } else { Form::Text };
+    let written =
+        if form == screenshot::ImageFormat::Ansi { OutputForm::Coloured } else { OutputForm::Text };
     let mut out = Output::open(Some(path), written)?;
     out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
     out.finish()

@@ -29,7 +29,7 @@ pub(super) struct Closing {
     /// The events and impulses.
     pub(super) events: Events,
     /// How the run ended.
-    pub(super) status: Status,
+    pub(super) status: RunStatus,
     /// Why the run ended, if that needs a sentence.
     pub(super) message: Option<String>,
 }
@@ -56,7 +56,7 @@ pub(super) struct Invariant {
 /// How a run ended.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum Status {
+pub(super) enum RunStatus {
     /// The run reached its end.
     Completed,
     /// An event or the user stopped it.
@@ -66,13 +66,13 @@ pub(super) enum Status {
     Failed,
 }
 
-impl Status {
+impl RunStatus {
     /// The word in the reports.
     pub(super) fn word(self) -> &'static str {
         match self {
-            Status::Completed => "completed",
-            Status::Stopped => "stopped",
-            Status::Failed => "faulted",
+            RunStatus::Completed => "completed",
+            RunStatus::Stopped => "stopped",
+            RunStatus::Failed => "faulted",
         }
     }
 }

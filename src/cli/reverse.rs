@@ -12,7 +12,7 @@ use super::motion_options::Laid;
 use super::run::progress::Bar;
 use super::study::{self, StudyArguments, shown};
 use crate::dynamics::{DynamicsError, PhaseSpace, lyapunov};
-use crate::experiment::{Command, Experiment, Progress, Return, Setup, Status};
+use crate::experiment::{AdvanceOutcome, Command, Experiment, Return, Setup, Status};
 use crate::num::math;
 use crate::printable;
 
@@ -121,7 +121,7 @@ fn advance(
         if let Status::Failed(failure) = experiment.status() {
             return Err(CommandError::CouldNot(failure.message));
         }
-        if progress != Progress::Underway {
+        if progress != AdvanceOutcome::Underway {
             return Ok(());
         }
     }

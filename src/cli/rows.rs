@@ -7,7 +7,7 @@ use std::io::{self, Write};
 use serde_json::{Value, json};
 
 use super::decimal::push_shortest;
-use super::report::{Closing, Header, Status};
+use super::report::{Closing, Header, RunStatus};
 use crate::printable;
 
 /// How rows are written.
@@ -81,7 +81,7 @@ impl<W: Write> Rows<W> {
     pub(super) fn end(mut self, closing: &Closing) -> io::Result<W> {
         match self.format {
             Format::Csv => {
-                if closing.status != Status::Completed {
+                if closing.status != RunStatus::Completed {
                     let message = closing.message.as_deref().unwrap_or_default();
                     writeln!(self.out, "# {}: {}", closing.status.word(), one_line(message))?;
                 }

@@ -19,7 +19,7 @@ use serde_json::{Map, Value};
 use super::assignment::{self, Assignment, number, tolerance};
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
-use super::output::{Form, Output};
+use super::output::{Output, OutputForm};
 use super::report::Header;
 use super::rows::Format;
 use super::{open, stderr};
@@ -197,8 +197,8 @@ pub(super) fn perform(
         experiment.only_count_occurrences();
     }
     let form = match arguments.format {
-        Format::Csv => Form::Text,
-        Format::Json | Format::Jsonl => Form::Json,
+        Format::Csv => OutputForm::Text,
+        Format::Json | Format::Jsonl => OutputForm::Json,
     };
     let out = Output::open(arguments.output.as_deref(), form)?;
     let (columns, strict) = (system.columns(), arguments.strict);

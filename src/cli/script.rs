@@ -5,25 +5,25 @@ use crate::view::glyphs::Glyphs;
 
 /// The script that the reader's terminal can show.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Script {
+pub(super) enum MathScript {
     /// `θ̈ = −(g/l) sin θ`.
     Unicode,
     /// `theta'' = -g*sin(theta)/l`.
     Ascii,
 }
 
-impl Script {
+impl MathScript {
     /// The script of the locale.
-    pub(super) fn of_locale() -> Script {
+    pub(super) fn of_locale() -> MathScript {
         let glyphs = Glyphs::from_environment(&|name| std::env::var(name).ok());
-        if glyphs.is_ascii() { Script::Ascii } else { Script::Unicode }
+        if glyphs.is_ascii() { MathScript::Ascii } else { MathScript::Unicode }
     }
 
     /// Formats an expression.
     pub(super) fn math(self, pool: &Pool, e: Expr) -> String {
         match self {
-            Script::Unicode => pool.unicode(e),
-            Script::Ascii => pool.ascii(e),
+            MathScript::Unicode => pool.unicode(e),
+            MathScript::Ascii => pool.ascii(e),
         }
     }
 
@@ -31,16 +31,16 @@ impl Script {
     pub(super) fn symbol(self, pool: &Pool, symbol: Symbol) -> String {
         let info = pool.symbol_info(symbol);
         match self {
-            Script::Unicode => info.unicode.clone(),
-            Script::Ascii => info.name.clone(),
+            MathScript::Unicode => info.unicode.clone(),
+            MathScript::Ascii => info.name.clone(),
         }
     }
 
     /// Formats text.
     pub(super) fn words(self, text: &str) -> String {
         match self {
-            Script::Unicode => text.to_owned(),
-            Script::Ascii => Glyphs::Ascii.text(text).into_owned(),
+            MathScript::Unicode => text.to_owned(),
+            MathScript::Ascii => Glyphs::Ascii.text(text).into_owned(),
         }
     }
 }

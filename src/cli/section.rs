@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde_json::{Map, Value, json};
 
 use super::assignment::{self, number};
-use super::cells::{self, Cell, TableFormat};
+use super::cells::{self, TableCell, TableFormat};
 use super::crowd::{self, Crowd};
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
@@ -358,25 +358,28 @@ impl SectionReport<'_> {
         printable::line(&self.arguments.on).into_owned()
     }
 
-    fn rows(&self) -> Vec<Vec<Cell>> {
+    fn rows(&self) -> Vec<Vec<TableCell>> {
         let mut rows = Vec::new();
         for (orbit, crossings) in (1..).zip(self.orbits) {
             for (n, row) in (1..).zip(&crossings.rows) {
-                let numbers = self.shown.iter().map(|&(_, place)| Cell::Number(row[place]));
+                let numbers = self.shown.iter().map(|&(_, place)| TableCell::Number(row[place]));
                 rows.push(
-                    [Cell::Count(orbit), Cell::Count(n)].into_iter().chain(numbers).collect(),
+                    [TableCell::Count(orbit), TableCell::Count(n)]
+                        .into_iter()
+                        .chain(numbers)
+                        .collect(),
                 );
             }
         }
         rows
     }
 
-    fn members(&self, columns: &[String], rows: &[Vec<Cell>]) -> Map<String, Value> {
+    fn members(&self, columns: &[String], rows: &[Vec<TableCell>]) -> Map<String, Value> {
         let mut members = crowd::members(&self.laid.header());
         members.insert("on".to_owned(), self.arguments.on.clone().into());
         members.insert("direction".to_owned(), self.arguments.direction.word().into());
         members.insert("columns".to_owned(), json!(columns));
-        let rows = rows.iter().map(|row| row.iter().map(Cell::value).collect::<Value>());
+        let rows = rows.iter().map(|row| row.iter().map(TableCell::value).collect::<Value>());
         members.insert("rows".to_owned(), rows.collect());
         let orbits = (1u64..).zip(self.orbits).map(|(orbit, crossings)| {
             let mut object = json!({

@@ -10,7 +10,7 @@ use super::study::{self, StudyArguments, shown, table};
 use crate::dynamics::{
     MeanRate, SpectralLine, Spectrum, independent_frequencies, mean_rate, spectrum, straightened,
 };
-use crate::ensemble::Flow;
+use crate::ensemble::SystemFlow;
 use crate::num::significant;
 use crate::system::ChannelKind;
 
@@ -85,7 +85,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     }
     interrupt.ends_by_itself(|| ());
     let state = start.state(system).map_err(|fault| CommandError::CouldNot(fault.to_string()))?;
-    let flow = Flow {
+    let flow = SystemFlow {
         system: system.clone(),
         method: (*method, *settings),
         parameters: start.parameters.clone(),

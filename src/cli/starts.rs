@@ -28,17 +28,17 @@ pub(super) struct Starts {
 
 /// An evenly spaced axis of a grid, `NAME=FROM:TO:COUNT`.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) struct Axis {
+pub(super) struct GridAxis {
     pub(super) name: String,
     pub(super) from: f64,
     pub(super) to: f64,
     pub(super) count: u32,
 }
 
-impl FromStr for Axis {
+impl FromStr for GridAxis {
     type Err = String;
 
-    fn from_str(text: &str) -> Result<Axis, String> {
+    fn from_str(text: &str) -> Result<GridAxis, String> {
         let form = "write it as name=from:to:count";
         let (name, range) = text.split_once('=').ok_or(form)?;
         let parts: Vec<&str> = range.split(':').collect();
@@ -52,11 +52,11 @@ impl FromStr for Axis {
         if count == 0 {
             return Err("a grid has at least one point".to_owned());
         }
-        Ok(Axis { name, from: number(from)?, to: number(to)?, count })
+        Ok(GridAxis { name, from: number(from)?, to: number(to)?, count })
     }
 }
 
-impl Axis {
+impl GridAxis {
     /// Its points; a single one is the first.
     pub(super) fn points(&self) -> Vec<f64> {
         if self.count == 1 {
@@ -108,7 +108,7 @@ impl Starts {
     }
 
     /// All points of a grid; the last axis varies fastest.
-    pub(super) fn grid(axes: &[Axis]) -> Result<Starts, CommandError> {
+    pub(super) fn grid(axes: &[GridAxis]) -> Result<Starts, CommandError> {
         let count = axes.iter().try_fold(1usize, |n, axis| n.checked_mul(axis.count as usize));
         if count.is_none_or(|count| count > MOST_ROWS) {
             let message = format!("a grid of more than {MOST_ROWS} points");

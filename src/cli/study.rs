@@ -15,7 +15,7 @@ use super::assignment::{self, Assignment};
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::motion_options::{Laid, MotionOptions};
-use super::output::{Form, Output};
+use super::output::{Output, OutputForm};
 use super::run;
 use crate::dynamics::{DynamicsError, PhaseSpace};
 use crate::integrate::{Method, Settings};
@@ -169,8 +169,8 @@ pub(super) fn write(
     interrupt: &Interrupt,
 ) -> Result<(), CommandError> {
     let (form, text) = match arguments.format {
-        Format::Text => (Form::Text, text),
-        Format::Json => (Form::Json, format!("{:#}\n", Value::Object(object))),
+        Format::Text => (OutputForm::Text, text),
+        Format::Json => (OutputForm::Json, format!("{:#}\n", Value::Object(object))),
     };
     let mut out = Output::open(arguments.output.as_deref(), form)?;
     out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;

@@ -13,20 +13,20 @@ use std::str::FromStr;
 use serde_json::{Value, json};
 
 use super::assignment::number;
-use super::cells::{self, Cell, TableFormat};
+use super::cells::{self, TableCell, TableFormat};
 use super::crowd::{self, Crowd, Tally};
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::motion_options::MotionOptions;
-use super::output::{Form, Output};
-use super::starts::{Axis, Starts};
+use super::output::{Output, OutputForm};
+use super::starts::{GridAxis, Starts};
 use super::stderr;
 use crate::ensemble::in_order;
 use crate::printable;
 
 use identity::{Identity, Shard};
 use journal::Journal;
-use table::{MeasureName, Row, Table};
+use table::{MeasureName, SweepRow, SweepTable};
 
 /// One run per row of a table or point of a grid, in parallel.
 ///
@@ -50,7 +50,7 @@ pub(super) struct Arguments {
     over: Option<PathBuf>,
     /// An axis of a grid, evenly spaced; repeatable, the last varies fastest.
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", allow_hyphen_values = true)]
-    grid: Vec<Axis>,
+    grid: Vec<GridAxis>,
     /// When a run ends; where it is left out, the file says, or 10 after the start.
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
     until: Option<f64>,
@@ -100,7 +100,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         }
         None => Starts::grid(&arguments.grid)?,
     };
-    let table = Table::new(motion, &starts, arguments.until, &arguments.measure, interrupt)?;
+    let table = SweepTable::new(motion, &starts, arguments.until, &arguments.measure, interrupt)?;
     let sweep = Sweep {
         identity: Identity::of(&table, arguments.shard),
         places: arguments.shard.map_or(0..table.count(), |s| 0..s.count(table.count())),
@@ -139,7 +139,7 @@ struct Sweep<'a> {
     identity: Identity,
     /// The places in this shard, from 0.
     places: std::ops::Range<usize>,
-    table: Table,
+    table: SweepTable,
     arguments: &'a Arguments,
     interrupt: &'a Interrupt,
 }
@@ -152,7 +152,7 @@ struct Failures {
 }
 
 impl Failures {
-    fn note(&mut self, index: usize, row: &Row) {
+    fn note(&mut self, index: usize, row: &SweepRow) {
         if let Some(message) = &row.message {
             self.count += 1;
             self.first.get_or_insert_with(|| format!("row {}, {message}", index + 1));
@@ -192,7 +192,7 @@ impl Sweep<'_> {
     fn compute<T: Send>(
         &self,
         places: &[usize],
-        note: impl Fn(usize, Row) -> T + Sync,
+        note: impl Fn(usize, SweepRow) -> T + Sync,
         mut take: impl FnMut(usize, Option<T>) -> ControlFlow<()>,
     ) -> Result<(), CommandError> {
         let (threads, cancel) = (self.arguments.crowd.threads(), self.interrupt.cancel());
@@ -215,13 +215,13 @@ impl Sweep<'_> {
 
     /// Writes each row as soon as all before it are written.
     fn into_stream(self, path: Option<&Path>) -> Result<(), CommandError> {
-        let mut out = Output::open(path, Form::Text)?;
+        let mut out = Output::open(path, OutputForm::Text)?;
         let (mut failures, mut failed) = (Failures::default(), None);
         let mut tally = Tally::new(0, self.places.len());
         let head = out.write_all(self.head().as_bytes());
         head.map_err(|error| out.failed(&error))?;
         let mut written = 0;
-        let take = |place, row: Option<Row>| {
+        let take = |place, row: Option<SweepRow>| {
             let Some(row) = row else { return ControlFlow::Break(()) };
             failures.note(self.index(place), &row);
             let line = cells::record(row.plain());
@@ -261,12 +261,12 @@ impl Sweep<'_> {
         let mut tally = Tally::new(lines.len() - missing.len(), lines.len());
         let (mut failures, mut failed) = (Failures::default(), None);
         // a row is in the journal before anything waits for those before it
-        let note = |place: usize, row: Row| {
+        let note = |place: usize, row: SweepRow| {
             let line = cells::record(row.plain());
             let noted = journal.note(place, &line);
             (row, line, noted)
         };
-        let take = |i: usize, done: Option<(Row, String, std::io::Result<()>)>| {
+        let take = |i: usize, done: Option<(SweepRow, String, std::io::Result<()>)>| {
             let Some((row, line, noted)) = done else { return ControlFlow::Break(()) };
             if let Err(error) = noted {
                 failed = Some(CommandError::writing(&journal.name(), &error));
@@ -286,7 +286,7 @@ impl Sweep<'_> {
             stderr::tell(&format!("the rows so far are in {}; --resume continues", journal.name()));
             return self.ended();
         }
-        let out = Output::open(Some(path), Form::Text)?;
+        let out = Output::open(Some(path), OutputForm::Text)?;
         let rows: String = lines.into_iter().flatten().collect();
         crowd::write(out, &(self.head() + &rows), self.interrupt)?;
         journal.remove();
@@ -299,7 +299,7 @@ impl Sweep<'_> {
         let out = Output::open(self.arguments.output.as_deref(), self.arguments.format.form())?;
         let (mut rows, mut tally) = (Vec::new(), Tally::new(0, self.places.len()));
         let places: Vec<usize> = self.places.clone().collect();
-        let take = |_, row: Option<Row>| {
+        let take = |_, row: Option<SweepRow>| {
             let Some(row) = row else { return ControlFlow::Break(()) };
             rows.push(row);
             tally.add();
@@ -309,18 +309,19 @@ impl Sweep<'_> {
         drop(tally);
         let mut failures = Failures::default();
         rows.iter().enumerate().for_each(|(i, row)| failures.note(i, row));
-        let cells: Vec<Vec<Cell>> = rows.iter().map(|row| row.cells.clone()).collect();
+        let cells: Vec<Vec<TableCell>> = rows.iter().map(|row| row.cells.clone()).collect();
         let columns = self.table.columns();
         let text = match self.arguments.format {
             TableFormat::Json => {
                 let mut members = crowd::members(&self.table.header());
                 members.insert("columns".to_owned(), columns.into());
-                let messages = (1..).zip(&rows).filter_map(|(n, row): (u64, &Row)| {
+                let messages = (1..).zip(&rows).filter_map(|(n, row): (u64, &SweepRow)| {
                     let message = row.message.as_ref()?;
                     Some(json!({ "row": n, "message": message }))
                 });
                 let messages: Value = messages.collect();
-                let rows = cells.iter().map(|row| row.iter().map(Cell::value).collect::<Value>());
+                let rows =
+                    cells.iter().map(|row| row.iter().map(TableCell::value).collect::<Value>());
                 members.insert("rows".to_owned(), rows.collect());
                 members.insert("messages".to_owned(), messages);
                 let status =

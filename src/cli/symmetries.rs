@@ -16,7 +16,7 @@ use super::failure::CommandError;
 use super::format::Format;
 use super::open;
 use super::output::Output;
-use super::script::Script;
+use super::script::MathScript;
 use crate::experiment::Derived;
 use crate::expr::Expr;
 use crate::integrability::{Symmetries, Symmetry, Unsupported, point_symmetries, symmetries};
@@ -73,7 +73,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let others = Others { points, similarity };
     let text = match arguments.format {
         Format::Text => {
-            let script = Script::of_locale();
+            let script = MathScript::of_locale();
             let own = match &found {
                 Ok(found) => text(&model, &equations, found, script),
                 Err(why) => {
@@ -97,7 +97,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     out.finish()
 }
 
-fn text(model: &Model, equations: &Equations, found: &Symmetries, script: Script) -> String {
+fn text(model: &Model, equations: &Equations, found: &Symmetries, script: MathScript) -> String {
     let math = |e: Expr| script.math(&equations.pool, e);
     let mut text = format!("{}\n", model.info.title);
     for symmetry in &found.found {

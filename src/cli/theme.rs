@@ -5,7 +5,7 @@ use std::io::IsTerminal;
 use ratatui::style::{Color, Style};
 
 use super::failure::CommandError;
-use super::output::{Form, Output};
+use super::output::{Output, OutputForm};
 use crate::view::colour::ColourDepth;
 use crate::view::sgr;
 use crate::view::theme::{CURVES, PALETTES, Role, Theme};
@@ -37,7 +37,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     } else {
         ColourDepth::None
     };
-    Output::print(Form::Coloured, &text(depth))
+    Output::print(OutputForm::Coloured, &text(depth))
 }
 
 /// One line per theme.

@@ -8,7 +8,7 @@
 //!
 //! In: starts by a parameter s from 0 to 1. Out: the curve and the integral at each time. Never here: which curve.
 
-use super::Flow;
+use super::SystemFlow;
 use crate::num::math;
 use crate::system::State;
 
@@ -34,7 +34,7 @@ const ROUNDS: usize = 64;
 
 /// A start of the curve, and its motion.
 #[derive(Clone, Debug)]
-struct Node {
+struct CurveNode {
     s: f64,
     start: State,
     /// The state at the last time; `None` if it did not get there.
@@ -47,7 +47,7 @@ struct Node {
 #[derive(Clone, Debug)]
 pub struct ClosedCurve {
     /// The nodes in order, [`INTERVALS`] for each panel; the last panel ends at the first node.
-    nodes: Vec<Node>,
+    nodes: Vec<CurveNode>,
     /// The channels that are seen.
     channels: Vec<usize>,
     /// What is at most the extent of a picture.
@@ -87,13 +87,14 @@ impl ClosedCurve {
     /// Returns an error if there are no threads.
     pub fn carry(
         &mut self,
-        flow: &Flow,
+        flow: &SystemFlow,
         times: &[f64],
         start: &(dyn Fn(f64) -> Option<State> + Sync),
     ) -> Result<(), super::PoolError> {
-        let nodes: Vec<Node> = std::mem::take(&mut self.nodes);
+        let nodes: Vec<CurveNode> = std::mem::take(&mut self.nodes);
         let begun = nodes.iter().any(|node| node.end.is_some());
-        let ends = |node: &Node| if begun { node.end.clone() } else { Some(node.start.clone()) };
+        let ends =
+            |node: &CurveNode| if begun { node.end.clone() } else { Some(node.start.clone()) };
         self.nodes = self.carried(flow, times, nodes, &ends)?;
         for _ in 0..ROUNDS {
             let want;
@@ -115,11 +116,11 @@ impl ClosedCurve {
     /// The nodes after they were carried from where `from` says; what is lost stays so.
     fn carried(
         &self,
-        flow: &Flow,
+        flow: &SystemFlow,
         times: &[f64],
-        mut nodes: Vec<Node>,
-        from: &(dyn Fn(&Node) -> Option<State> + Sync),
-    ) -> Result<Vec<Node>, super::PoolError> {
+        mut nodes: Vec<CurveNode>,
+        from: &(dyn Fn(&CurveNode) -> Option<State> + Sync),
+    ) -> Result<Vec<CurveNode>, super::PoolError> {
         let from: Vec<Option<State>> = nodes.iter().map(from).collect();
         let from: Vec<Option<&State>> = from.iter().map(Option::as_ref).collect();
         let results = flow.carry_all(&from, times, &self.channels, |_| ())?;
@@ -130,7 +131,7 @@ impl ClosedCurve {
     }
 
     /// The first of a panel's nodes and those after it, with the one at which it ends.
-    fn panel(&self, panel: usize) -> [&Node; INTERVALS + 1] {
+    fn panel(&self, panel: usize) -> [&CurveNode; INTERVALS + 1] {
         let count = self.nodes.len();
         std::array::from_fn(|i| &self.nodes[(panel * INTERVALS + i) % count])
     }
@@ -178,7 +179,7 @@ impl ClosedCurve {
 
     /// The nodes that cut the panels that want it, one between each two; those that want it most first, as far as there
     /// is room.
-    fn between(&self, want: &[f64], start: &dyn Fn(f64) -> Option<State>) -> Vec<Node> {
+    fn between(&self, want: &[f64], start: &dyn Fn(f64) -> Option<State>) -> Vec<CurveNode> {
         let mut cut: Vec<usize> = (0..want.len()).filter(|&panel| want[panel] > 1.0).collect();
         cut.sort_by(|a, b| want[*b].total_cmp(&want[*a]));
         let halves = |panel: usize| {
@@ -235,7 +236,7 @@ impl ClosedCurve {
     /// start was lost, and between two that are too far apart to be joined, one that is no number.
     pub fn points(&self, time: usize) -> Vec<[f64; 2]> {
         let lost = [f64::NAN; 2];
-        let at = |node: &Node| node.seen.get(time).map_or(lost, |row| [row[0], row[1]]);
+        let at = |node: &CurveNode| node.seen.get(time).map_or(lost, |row| [row[0], row[1]]);
         let longest = self.extent(time).map(|extent| LONGEST * extent);
         let mut points: Vec<[f64; 2]> = Vec::with_capacity(self.nodes.len() + 1);
         for here in self.nodes.iter().chain(self.nodes.first()).map(at) {
@@ -278,8 +279,8 @@ struct Part {
     size: f64,
 }
 
-fn node(s: f64, start: &dyn Fn(f64) -> Option<State>) -> Option<Node> {
-    Some(Node { s, start: start(s)?, end: None, seen: Vec::new() })
+fn node(s: f64, start: &dyn Fn(f64) -> Option<State>) -> Option<CurveNode> {
+    Some(CurveNode { s, start: start(s)?, end: None, seen: Vec::new() })
 }
 
 /// Σ (p − level) dq along a straight line between two rows.

@@ -6,7 +6,7 @@
 use std::ops::ControlFlow;
 
 use super::pool::{PoolError, in_order};
-use super::side_by_side::{Course, Follower, side_by_side};
+use super::side_by_side::{Follower, OrbitCourse, side_by_side};
 use crate::integrate::{
     ACCURACIES, BatchPropagator, LaneStatus, Method, Propagator, Reached, Settings, Stepping,
 };
@@ -20,7 +20,7 @@ const STEPS_PER_LOOK: u64 = 64;
 
 /// The flow of a system at fixed parameters, by a method.
 #[derive(Clone)]
-pub struct Flow {
+pub struct SystemFlow {
     /// The system.
     pub system: System,
     /// The method, and its step or tolerance.
@@ -40,10 +40,10 @@ pub struct Carried {
     pub end: Option<State>,
 }
 
-impl Flow {
+impl SystemFlow {
     /// The same flow with the step that a fixed method chooses at a state, so that it is one map for all states.
     #[must_use]
-    pub fn settled(mut self, at: &State) -> Flow {
+    pub fn settled(mut self, at: &State) -> SystemFlow {
         let (method, settings) = self.method;
         if method.stepping == Stepping::Fixed
             && settings.step.is_none()
@@ -60,7 +60,7 @@ impl Flow {
     /// The same flow in plain `f64` where no other tolerance is asked for: orbits are then carried side
     /// by side, and a picture of many does not show the difference.
     #[must_use]
-    pub fn fast(mut self) -> Flow {
+    pub fn fast(mut self) -> SystemFlow {
         let (method, settings) = &mut self.method;
         let (_, tolerance) = ACCURACIES[0];
         if method.stepping == Stepping::Adaptive && method.order.is_none() {
@@ -80,7 +80,7 @@ impl Flow {
     }
 
     /// Carries many states on all cores, several of them side by side where the system and the method
-    /// allow it, as each would be carried alone, to the last bit. `done` is told how many are there.
+    /// allow it, as each would be carried alone, to the last bit. `done` is called with the number of states carried so far.
     ///
     /// # Errors
     /// Returns an error if there are no threads.
@@ -203,34 +203,34 @@ struct CarriedTogether<'a> {
 }
 
 impl Follower for CarriedTogether<'_> {
-    fn begin(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> Course {
-        let Some(state) = self.from[orbit] else { return Course::Over };
+    fn begin(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
+        let Some(state) = self.from[orbit] else { return OrbitCourse::Over };
         if batch.begin(lane, state, self.parameters) == LaneStatus::Irregular {
             self.carried[orbit] = None;
-            return Course::Over;
+            return OrbitCourse::Over;
         }
         self.look(orbit, lane, batch)
     }
 
-    fn look(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> Course {
-        let Some(one) = &mut self.carried[orbit] else { return Course::Over };
+    fn look(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
+        let Some(one) = &mut self.carried[orbit] else { return OrbitCourse::Over };
         let Some(&last) = self.times.last() else {
             one.end = Some(batch.state(lane).clone());
-            return Course::Over;
+            return OrbitCourse::Over;
         };
         let known = batch.state(lane).time;
         while let Some(&time) = self.times.get(one.seen.len()) {
             if time > known {
-                return Course::Until(last);
+                return OrbitCourse::Until(last);
             }
             batch.at(lane, time, &mut self.here);
             match self.sight.of(&self.here) {
                 Ok(row) => one.seen.push(row),
-                Err(_) => return Course::Over,
+                Err(_) => return OrbitCourse::Over,
             }
         }
         one.end = Some(self.here.clone());
-        Course::Over
+        OrbitCourse::Over
     }
 
     fn leave(&mut self, orbit: usize) {

@@ -8,7 +8,7 @@ use crate::num::BATCH;
 
 /// How an orbit goes on.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Course {
+pub enum OrbitCourse {
     /// No farther than this time.
     Until(f64),
     /// It is over, or it has not begun.
@@ -18,13 +18,13 @@ pub enum Course {
 /// What is done with each orbit.
 pub trait Follower {
     /// Puts an orbit into a lane.
-    fn begin(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> Course;
+    fn begin(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse;
 
     /// Looks at all lanes after a step, before each orbit is looked at by itself.
     fn look_at_all(&mut self, _batch: &BatchPropagator) {}
 
     /// Looks at an orbit after a step.
-    fn look(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> Course;
+    fn look(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse;
 
     /// An orbit has to be followed alone, from its beginning.
     fn leave(&mut self, orbit: usize);
@@ -43,7 +43,7 @@ pub fn side_by_side(
         for lane in 0..BATCH {
             while places[lane].is_none() {
                 let Some(orbit) = waiting.next() else { break };
-                if let Course::Until(limit) = follower.begin(orbit, lane, batch) {
+                if let OrbitCourse::Until(limit) = follower.begin(orbit, lane, batch) {
                     (places[lane], limits[lane]) = (Some(orbit), limit);
                 }
             }
@@ -63,7 +63,7 @@ pub fn side_by_side(
             if batch.status(lane) == LaneStatus::Irregular {
                 follower.leave(orbit);
                 *place = None;
-            } else if let Course::Until(limit) = follower.look(orbit, lane, batch) {
+            } else if let OrbitCourse::Until(limit) = follower.look(orbit, lane, batch) {
                 limits[lane] = limit;
             } else {
                 *place = None;

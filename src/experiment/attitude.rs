@@ -10,21 +10,21 @@ use crate::system::{ChannelKind, System};
 
 /// The state of the gauge of an attitude.
 #[derive(Clone, Debug)]
-pub(super) struct Attitude {
+pub(super) struct AttitudeGauge {
     /// The channel of the first entry; the others follow in row-major order.
     first: usize,
     deviation: Deviation,
 }
 
-impl Attitude {
+impl AttitudeGauge {
     /// The gauge's name.
     pub(super) const NAME: &'static str = "attitude";
 
     /// Returns the gauge, or `None` if the system has no attitude.
-    pub(super) fn of(system: &System) -> Option<Attitude> {
+    pub(super) fn of(system: &System) -> Option<AttitudeGauge> {
         let mut kinds = system.channels().iter().map(|c| c.kind);
         let first = kinds.position(|kind| kind == ChannelKind::Attitude(0))?;
-        Some(Attitude { first, deviation: Deviation::since(0.0) })
+        Some(AttitudeGauge { first, deviation: Deviation::since(0.0) })
     }
 
     pub(super) fn refer(&mut self, time: f64) {

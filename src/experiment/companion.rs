@@ -8,13 +8,13 @@ use std::sync::Arc;
 
 use super::Trail;
 use super::recorder::Recorder;
-use crate::analysis::{CrossingLog, Separation};
+use crate::analysis::{CrossingLog, DistanceHistory};
 use crate::integrate::{Method, OccurrenceKind, Propagator, Reached, Settings};
 use crate::system::{InitialOverride, MotionError, Observer, State, System};
 
 /// What a companion is.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Origin {
+pub enum CompanionOrigin {
     /// A motion from other initial values, with the parameters and the method of the main one.
     Start(Vec<InitialOverride>),
     /// A motion that began beside the main one, each coordinate displaced by this.
@@ -25,14 +25,14 @@ pub enum Origin {
     Before,
 }
 
-impl Origin {
+impl CompanionOrigin {
     /// The word for it.
     pub fn word(&self) -> &'static str {
         match self {
-            Origin::Start(_) => "start",
-            Origin::Neighbour(_) => "neighbour",
-            Origin::Pinned(_) => "pinned run",
-            Origin::Before => "run before",
+            CompanionOrigin::Start(_) => "start",
+            CompanionOrigin::Neighbour(_) => "neighbour",
+            CompanionOrigin::Pinned(_) => "pinned run",
+            CompanionOrigin::Before => "run before",
         }
     }
 }
@@ -43,7 +43,7 @@ pub struct Companion {
     /// Its number, from 1 on, by which it is labelled and coloured.
     pub number: usize,
     /// What it is.
-    pub origin: Origin,
+    pub origin: CompanionOrigin,
     /// Its time, which is behind that of the main motion until it has caught up.
     pub time: f64,
     /// The value of each channel.
@@ -73,7 +73,7 @@ pub(super) type Due = (f64, Arc<[f64]>);
 /// A companion in motion.
 pub(super) struct CompanionMotion {
     pub(super) number: usize,
-    pub(super) origin: Origin,
+    pub(super) origin: CompanionOrigin,
     pub(super) parameters: Vec<f64>,
     motion: Propagator,
     observer: Observer,
@@ -81,7 +81,7 @@ pub(super) struct CompanionMotion {
     values: Vec<f64>,
     recorder: Recorder,
     crossings: CrossingLog,
-    separation: Arc<Separation>,
+    separation: Arc<DistanceHistory>,
     due: VecDeque<Due>,
     message: Option<String>,
 }
@@ -94,7 +94,7 @@ impl CompanionMotion {
     pub(super) fn new(
         system: &System,
         (method, settings): (&'static Method, Settings),
-        (number, origin): (usize, Origin),
+        (number, origin): (usize, CompanionOrigin),
         parameters: &[f64],
         numbers: usize,
     ) -> Result<CompanionMotion, crate::integrate::MethodError> {
@@ -260,7 +260,7 @@ impl CompanionMotion {
     }
 
     /// Its distance from the main motion.
-    pub(super) fn separation(&self) -> Arc<Separation> {
+    pub(super) fn separation(&self) -> Arc<DistanceHistory> {
         Arc::clone(&self.separation)
     }
 

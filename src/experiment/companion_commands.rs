@@ -6,7 +6,7 @@ use super::companion::CompanionMotion;
 use super::companions::MOST_COMPANIONS;
 use super::course::HORIZON;
 use super::recorder::NUMBERS;
-use super::{Experiment, Origin};
+use super::{CompanionOrigin, Experiment};
 use crate::num::DoubleDouble;
 use crate::system::{ChannelKind, Form, InitialOverride, State, System};
 
@@ -28,7 +28,7 @@ pub(super) fn canonical(system: &System) -> Vec<usize> {
 impl Experiment {
     /// Adds a motion from the initial values with these in place of the file's.
     pub(super) fn add_start(&mut self, given: Vec<InitialOverride>) {
-        let Some(mut one) = self.companion(Origin::Start(given)) else { return };
+        let Some(mut one) = self.companion(CompanionOrigin::Start(given)) else { return };
         one.begin(self.origin_state(&one));
         self.catch_up(&mut one);
         self.companions.all.push(one);
@@ -58,7 +58,7 @@ impl Experiment {
         let largest = sizes.iter().copied().fold(0.0, f64::max);
         let largest = if largest > 0.0 { largest } else { 1.0 };
         let displaced = |size: &f64| DISPLACED * if *size > 0.0 { *size } else { largest };
-        let origin = Origin::Neighbour(sizes.iter().map(displaced).collect());
+        let origin = CompanionOrigin::Neighbour(sizes.iter().map(displaced).collect());
         let Some(mut one) = self.companion(origin) else { return };
         let state = Self::beside(&one.origin, self.motion.state());
         one.begin(Ok(state));
@@ -71,7 +71,8 @@ impl Experiment {
         if !self.motion.has_begun() || self.fault.is_some() {
             return self.tell("there is no motion to pin".to_owned());
         }
-        let Some(mut one) = self.companion(Origin::Pinned(self.setup.overrides.clone())) else {
+        let Some(mut one) = self.companion(CompanionOrigin::Pinned(self.setup.overrides.clone()))
+        else {
             return;
         };
         one.begin(Ok(self.motion.state().clone()));
@@ -80,7 +81,7 @@ impl Experiment {
     }
 
     /// A companion that has yet to begin, if there is room for it.
-    fn companion(&mut self, origin: Origin) -> Option<CompanionMotion> {
+    fn companion(&mut self, origin: CompanionOrigin) -> Option<CompanionMotion> {
         if self.is_backwards() {
             self.tell("motions are added while time runs forwards".to_owned());
             return None;
@@ -126,19 +127,19 @@ impl Experiment {
     ) -> Result<State, crate::system::MotionError> {
         let start = self.setup.start;
         match &one.origin {
-            Origin::Start(given) | Origin::Pinned(given) => {
+            CompanionOrigin::Start(given) | CompanionOrigin::Pinned(given) => {
                 self.motion.whole().initial(start, &one.parameters, given)
             }
-            Origin::Neighbour(_) | Origin::Before => {
+            CompanionOrigin::Neighbour(_) | CompanionOrigin::Before => {
                 self.initial_state().map(|state| Self::beside(&one.origin, &state))
             }
         }
     }
 
     /// A state beside another.
-    fn beside(origin: &Origin, state: &State) -> State {
+    fn beside(origin: &CompanionOrigin, state: &State) -> State {
         let mut state = state.clone();
-        if let Origin::Neighbour(displaced) = origin {
+        if let CompanionOrigin::Neighbour(displaced) = origin {
             for (i, by) in displaced.iter().enumerate() {
                 let moved = state.exact(i) + DoubleDouble::written(*by);
                 state.set(i, moved);
@@ -159,7 +160,7 @@ impl Experiment {
     pub(super) fn restart_companions(&mut self) {
         let mut all = std::mem::take(&mut self.companions.all);
         for one in &mut all {
-            if !matches!(one.origin, Origin::Pinned(_)) {
+            if !matches!(one.origin, CompanionOrigin::Pinned(_)) {
                 one.parameters.clone_from(&self.setup.parameters);
             }
             one.begin(self.origin_state(one));
@@ -170,7 +171,8 @@ impl Experiment {
 
     /// The parameters of the main motion have changed.
     pub(super) fn pass_parameters(&mut self) {
-        let follows = |one: &&mut CompanionMotion| !matches!(one.origin, Origin::Pinned(_));
+        let follows =
+            |one: &&mut CompanionMotion| !matches!(one.origin, CompanionOrigin::Pinned(_));
         for one in self.companions.all.iter_mut().filter(follows) {
             one.take_parameters(&self.setup.parameters);
         }
@@ -179,7 +181,8 @@ impl Experiment {
     /// The method of the main motion has changed.
     pub(super) fn pass_method(&mut self) {
         let (method, settings) = (self.motion.method(), self.motion.settings());
-        let follows = |one: &&mut CompanionMotion| !matches!(one.origin, Origin::Pinned(_));
+        let follows =
+            |one: &&mut CompanionMotion| !matches!(one.origin, CompanionOrigin::Pinned(_));
         for one in self.companions.all.iter_mut().filter(follows) {
             one.take_method(method, settings);
         }

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use super::Companion;
 use super::companion::{CompanionMotion, Due};
-use crate::analysis::Separation;
+use crate::analysis::DistanceHistory;
 
 /// The most motions beside the main one.
 pub const MOST_COMPANIONS: usize = 6;
@@ -68,7 +68,7 @@ impl Companions {
     }
 
     /// The number and the distance of each.
-    pub(super) fn separations(&self) -> Arc<[(usize, Arc<Separation>)]> {
+    pub(super) fn separations(&self) -> Arc<[(usize, Arc<DistanceHistory>)]> {
         self.all.iter().map(|one| (one.number, one.separation())).collect()
     }
 

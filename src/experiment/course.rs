@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::companions::Companions;
 use super::echo::Echo;
 use super::event_log::EventLog;
-use super::gauges::{Gauges, Present};
+use super::gauges::{GaugeInputs, Gauges};
 use super::observed_motion::ObservedMotion;
 use super::recorder::Recorder;
 use super::row_spacing::RowSpacing;
@@ -63,7 +63,7 @@ pub struct Experiment {
 
 /// How far an advance came.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Progress {
+pub enum AdvanceOutcome {
     /// It reached the requested time.
     Arrived,
     /// It used up its steps before the requested time.
@@ -176,43 +176,43 @@ impl Experiment {
     ///
     /// The motions beside it follow to the time reached, with a budget of the same size. One that is behind makes the
     /// result `Underway`.
-    pub fn advance(&mut self, time: f64, budget: u64) -> Progress {
+    pub fn advance(&mut self, time: f64, budget: u64) -> AdvanceOutcome {
         let progress = match self.way_home().filter(|home| *home <= time) {
             Some(home) => match self.advance_main(home, budget) {
-                Progress::Arrived => self.come_home(),
+                AdvanceOutcome::Arrived => self.come_home(),
                 other => other,
             },
             None => self.advance_main(time, budget),
         };
         self.advance_companions(budget);
         match progress {
-            Progress::Arrived if self.is_behind() => Progress::Underway,
+            AdvanceOutcome::Arrived if self.is_behind() => AdvanceOutcome::Underway,
             other => other,
         }
     }
 
-    fn advance_main(&mut self, time: f64, mut budget: u64) -> Progress {
+    fn advance_main(&mut self, time: f64, mut budget: u64) -> AdvanceOutcome {
         if self.fault.is_some() {
-            return Progress::Stuck;
+            return AdvanceOutcome::Stuck;
         }
         if self.ended.is_some() {
-            return Progress::Ended;
+            return AdvanceOutcome::Ended;
         }
         while self.recorder.due() <= time {
             match self.reach(self.recorder.due(), &mut budget) {
-                Progress::Arrived => self.record(),
+                AdvanceOutcome::Arrived => self.record(),
                 other => return other,
             }
             if budget == 0 {
-                return Progress::Underway;
+                return AdvanceOutcome::Underway;
             }
             budget -= 1;
         }
         if time <= self.clock() {
-            return Progress::Arrived;
+            return AdvanceOutcome::Arrived;
         }
         let progress = self.reach(time, &mut budget);
-        if progress == Progress::Arrived {
+        if progress == AdvanceOutcome::Arrived {
             self.recorder.widen(self.motion.values());
             self.gauge(Gauges::look);
         }
@@ -359,7 +359,7 @@ impl Experiment {
     }
 
     /// Advances the motion, or fails.
-    fn reach(&mut self, time: f64, budget: &mut u64) -> Progress {
+    fn reach(&mut self, time: f64, budget: &mut u64) -> AdvanceOutcome {
         // otherwise a polynomial motion would be over in one step; no other motion is limited by this
         let ahead = (HORIZON * self.setup.spacing).max(GROWTH * self.motion.step_size().abs());
         let end = self.setup.end.filter(|_| !self.is_backwards());
@@ -392,14 +392,14 @@ impl Experiment {
             self.report_once(sentence.clone(), sentence);
         }
         match reached {
-            Ok(Reached::There | Reached::Happened(_)) => Progress::Arrived,
-            Ok(Reached::Underway) => Progress::Underway,
-            Ok(Reached::Ended) => Progress::Ended,
+            Ok(Reached::There | Reached::Happened(_)) => AdvanceOutcome::Arrived,
+            Ok(Reached::Underway) => AdvanceOutcome::Underway,
+            Ok(Reached::Ended) => AdvanceOutcome::Ended,
             Err(fault) => {
                 // show what was computed before the fault, as far as possible
                 let _ = self.motion.reach_end();
                 self.fault = Some(self.motion.dated(fault).into());
-                Progress::Stuck
+                AdvanceOutcome::Stuck
             }
         }
     }
@@ -423,7 +423,7 @@ impl Experiment {
     }
 
     /// Passes the current values to the gauges.
-    pub(super) fn gauge(&mut self, sample: impl FnOnce(&mut Gauges, &Present<'_>)) {
+    pub(super) fn gauge(&mut self, sample: impl FnOnce(&mut Gauges, &GaugeInputs<'_>)) {
         self.motion.look_at_terms();
         let constants = self.constants();
         sample(&mut self.gauges, &self.motion.present(&constants));

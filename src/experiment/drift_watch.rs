@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::gauges::{Gauges, Present};
+use super::gauges::{GaugeInputs, Gauges};
 use crate::mechanics::{Equations, Valuation};
 use crate::model::Model;
 use crate::system::{MotionError, Observer, State, System, TermWatch};
@@ -87,8 +87,8 @@ impl DriftWatch {
         self.observer.observe(state, &mut self.values)
     }
 
-    fn present<'a>(&'a self, state: &State) -> Present<'a> {
-        Present {
+    fn present<'a>(&'a self, state: &State) -> GaugeInputs<'a> {
+        GaugeInputs {
             time: state.time,
             steps: self.steps,
             values: &self.values,

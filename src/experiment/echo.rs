@@ -10,8 +10,8 @@
 use std::sync::Arc;
 
 use super::observed_motion::ObservedMotion;
-use super::{Companion, Origin, Return, Trail};
-use crate::analysis::{CrossingLog, Separation, distance};
+use super::{Companion, CompanionOrigin, Return, Trail};
+use crate::analysis::{CrossingLog, DistanceHistory, distance};
 
 /// Half the distance between 1 and the next number.
 const ROUNDING: f64 = 1.110_223_024_625_156_5e-16;
@@ -23,7 +23,7 @@ pub(super) struct Echo {
     /// Its values where it was looked at last, and the time.
     at: f64,
     values: Vec<f64>,
-    separation: Arc<Separation>,
+    separation: Arc<DistanceHistory>,
     turned: f64,
     /// When its clock began to count.
     began: f64,
@@ -104,7 +104,7 @@ impl Echo {
     }
 
     /// The distance over the time gone back.
-    pub(super) fn separation(&self) -> Arc<Separation> {
+    pub(super) fn separation(&self) -> Arc<DistanceHistory> {
         Arc::clone(&self.separation)
     }
 
@@ -112,7 +112,7 @@ impl Echo {
     pub(super) fn shown(&self, number: usize, parameters: &[f64], surfaces: usize) -> Companion {
         Companion {
             number,
-            origin: Origin::Before,
+            origin: CompanionOrigin::Before,
             time: self.at,
             values: self.values.as_slice().into(),
             parameters: parameters.into(),

@@ -10,9 +10,9 @@ mod invariant_monitor;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::attitude::Attitude;
+use super::attitude::AttitudeGauge;
 use super::law::{EnergyLaw, LONGEST};
-use super::residual::Residual;
+use super::residual::ResidualGauge;
 use super::{FoundConstant, Gauge, Reference};
 use crate::analysis::rounding_floor;
 use crate::expr::{Expr, Symbol};
@@ -35,8 +35,8 @@ pub(super) struct Gauges {
     equations: Arc<Equations>,
     monitors: Vec<InvariantMonitor>,
     followed: Followed,
-    residuals: Vec<Residual>,
-    attitude: Option<Attitude>,
+    residuals: Vec<ResidualGauge>,
+    attitude: Option<AttitudeGauge>,
     /// The channel of each symbol that a state expression may contain.
     places: Vec<(Symbol, usize)>,
     reference_time: f64,
@@ -118,8 +118,8 @@ impl Gauges {
         {
             places.extend(find(ChannelKind::Attitude(i)).map(|channel| (*symbol, channel)));
         }
-        let residuals = Residual::all(model, equations, system);
-        let attitude = Attitude::of(system);
+        let residuals = ResidualGauge::all(model, equations, system);
+        let attitude = AttitudeGauge::of(system);
         let equations = Arc::clone(equations);
         Gauges {
             equations,
@@ -135,7 +135,7 @@ impl Gauges {
     }
 
     /// Takes the current values as the reference.
-    pub(super) fn refer(&mut self, now: &Present<'_>) {
+    pub(super) fn refer(&mut self, now: &GaugeInputs<'_>) {
         self.reference_time = now.time;
         self.reference_steps = now.steps;
         self.samples = 0;
@@ -155,12 +155,12 @@ impl Gauges {
     }
 
     /// Takes the current values of what is followed as its reference.
-    pub(super) fn refer_followed(&mut self, now: &Present<'_>) {
+    pub(super) fn refer_followed(&mut self, now: &GaugeInputs<'_>) {
         self.followed.refer((now.time, now.values), now.terms, now.constants, &self.places);
     }
 
     /// Continues from the references of gauges with the same names, where both show the same value.
-    pub(super) fn restore(&mut self, references: &[Reference], now: &Present<'_>) {
+    pub(super) fn restore(&mut self, references: &[Reference], now: &GaugeInputs<'_>) {
         let known = |name: &str, value: f64| {
             let same = |r: &&Reference| r.name == name && r.value.to_bits() == value.to_bits();
             references.iter().find(same)
@@ -178,7 +178,7 @@ impl Gauges {
             }
         }
         if let Some(attitude) = &mut self.attitude
-            && let Some(reference) = known(Attitude::NAME, attitude.now(now.values))
+            && let Some(reference) = known(AttitudeGauge::NAME, attitude.now(now.values))
         {
             attitude.restore(reference);
         }
@@ -193,7 +193,7 @@ impl Gauges {
 
     /// Records the values at one of the evenly spaced times. If these are farther apart than the steps, they may
     /// always meet the motion at the same phase, so the histories are built from other samples.
-    pub(super) fn sample(&mut self, now: &Present<'_>, dense: bool) {
+    pub(super) fn sample(&mut self, now: &GaugeInputs<'_>, dense: bool) {
         self.samples += 1;
         // errors change slowly, and are the most expensive part
         if self.samples.is_power_of_two() || self.samples.is_multiple_of(MEASURED) {
@@ -213,7 +213,7 @@ impl Gauges {
     }
 
     /// Records the values at any other time.
-    pub(super) fn look(&mut self, now: &Present<'_>) {
+    pub(super) fn look(&mut self, now: &GaugeInputs<'_>) {
         let floor = self.floor(now.steps);
         for monitor in &mut self.monitors {
             monitor.look(now.time, now.values, now.terms, floor);
@@ -254,7 +254,7 @@ impl Gauges {
     }
 
     /// The gauges as shown.
-    pub(super) fn show(&self, now: &Present<'_>) -> Arc<[Gauge]> {
+    pub(super) fn show(&self, now: &GaugeInputs<'_>) -> Arc<[Gauge]> {
         let floor = self.floor(now.steps);
         let show =
             |monitor: &InvariantMonitor| monitor.show(now.values, self.reference_time, floor);
@@ -269,7 +269,7 @@ impl Gauges {
     }
 
     /// Measures the rounding error of every gauge's value.
-    fn measure(&mut self, now: &Present<'_>) {
+    fn measure(&mut self, now: &GaugeInputs<'_>) {
         let equations = &self.equations;
         let at = |symbol: Symbol| {
             let place = self.places.iter().find(|(s, _)| *s == symbol);
@@ -336,7 +336,7 @@ fn changing_casimirs(model: &Model, equations: &Equations) -> Vec<(usize, (Strin
 }
 
 /// The current values that the gauges read.
-pub(super) struct Present<'a> {
+pub(super) struct GaugeInputs<'a> {
     pub(super) time: f64,
     pub(super) steps: u64,
     /// The value of every channel.

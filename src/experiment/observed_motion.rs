@@ -3,7 +3,7 @@
 //! In: a state, parameters, times. Out: the current state and the value of every channel. Never here: rows, gauges,
 //! commands.
 
-use super::gauges::{Gauges, Present};
+use super::gauges::{GaugeInputs, Gauges};
 use super::step_log::StepLog;
 use super::step_sampler::StepSampler;
 use crate::integrate::{
@@ -393,9 +393,9 @@ impl ObservedMotion {
     }
 
     /// The values that the gauges read, once the terms have been [evaluated](ObservedMotion::look_at_terms).
-    pub(super) fn present<'a>(&'a self, constants: &'a Valuation) -> Present<'a> {
+    pub(super) fn present<'a>(&'a self, constants: &'a Valuation) -> GaugeInputs<'a> {
         let action = self.state().values.get(self.system().driven_len());
-        Present {
+        GaugeInputs {
             time: self.time(),
             steps: self.steps(),
             values: &self.values,

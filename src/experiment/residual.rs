@@ -16,7 +16,7 @@ const LONGEST: usize = 24;
 
 /// The state of the gauge of a constraint.
 #[derive(Clone, Debug)]
-pub(super) struct Residual {
+pub(super) struct ResidualGauge {
     index: usize,
     name: String,
     /// The channel of its multiplier.
@@ -28,14 +28,14 @@ pub(super) struct Residual {
     deviation: Deviation,
 }
 
-impl Residual {
+impl ResidualGauge {
     /// Creates one gauge for each constraint.
-    pub(super) fn all(model: &Model, equations: &Equations, system: &System) -> Vec<Residual> {
+    pub(super) fn all(model: &Model, equations: &Equations, system: &System) -> Vec<ResidualGauge> {
         let gauge = |index: usize| {
             let kind = ChannelKind::Multiplier(index);
             let multiplier = system.channels().iter().position(|c| c.kind == kind)?;
             let channel = &system.channels()[multiplier];
-            Some(Residual {
+            Some(ResidualGauge {
                 index,
                 name: model.constraints[index].name.clone(),
                 multiplier,

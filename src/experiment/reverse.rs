@@ -15,8 +15,8 @@ use super::course::HORIZON;
 use super::echo::Echo;
 use super::gauges::Gauges;
 use super::observed_motion::ObservedMotion;
-use super::{Companion, Experiment, Progress};
-use crate::analysis::Separation;
+use super::{AdvanceOutcome, Companion, Experiment};
+use crate::analysis::DistanceHistory;
 use crate::expr::Expr;
 use crate::integrate::Stepping;
 use crate::model::Action;
@@ -165,12 +165,12 @@ impl Experiment {
     }
 
     /// The motion is back where the run before began, and pauses.
-    pub(super) fn come_home(&mut self) -> Progress {
+    pub(super) fn come_home(&mut self) -> AdvanceOutcome {
         self.running = false;
         if self.recorder.due() > self.clock() {
             self.compare_with_echo();
         }
-        let Some(echo) = &self.echo else { return Progress::Arrived };
+        let Some(echo) = &self.echo else { return AdvanceOutcome::Arrived };
         let (returned, separation) = (echo.returned(), echo.separation());
         let gone = (returned.turned - returned.start).abs();
         let start = short(returned.start);
@@ -194,14 +194,14 @@ impl Experiment {
             }
             (None, _) => self.tell(format!("back at t = {start}")),
         }
-        Progress::Ended
+        AdvanceOutcome::Ended
     }
 
     /// The motions beside this one, and their distances; while time is reversed, the run before and the distance from it.
     pub(super) fn shown_beside(
         &self,
         time: f64,
-    ) -> (Arc<[Companion]>, Arc<[(usize, Arc<Separation>)]>) {
+    ) -> (Arc<[Companion]>, Arc<[(usize, Arc<DistanceHistory>)]>) {
         let companions = self.companions.shown(time);
         let Some(echo) = &self.echo else { return (companions, self.companions.separations()) };
         let number = self.companions.number().unwrap_or(MOST_COMPANIONS + 1);

@@ -10,7 +10,7 @@ use super::companions::MOST_COMPANIONS;
 use super::named::{Named, given, named};
 use super::recorder::NUMBERS;
 use super::setup::choose_method;
-use super::{Companion, Experiment, Origin};
+use super::{Companion, CompanionOrigin, Experiment};
 use crate::integrate::Settings;
 use crate::model::Model;
 use crate::system::{Form, InitialOverride, State};
@@ -64,10 +64,12 @@ impl SavedCompanion {
     /// A companion by names; `None` for one that belongs to the main motion itself.
     pub(super) fn of(model: &Model, one: &Companion) -> Option<SavedCompanion> {
         let (origin, given, displaced) = match &one.origin {
-            Origin::Start(given) => (OriginKind::Start, given.as_slice(), Vec::new()),
-            Origin::Neighbour(displaced) => (OriginKind::Neighbour, &[][..], displaced.clone()),
-            Origin::Pinned(given) => (OriginKind::Pinned, given.as_slice(), Vec::new()),
-            Origin::Before => return None,
+            CompanionOrigin::Start(given) => (OriginKind::Start, given.as_slice(), Vec::new()),
+            CompanionOrigin::Neighbour(displaced) => {
+                (OriginKind::Neighbour, &[][..], displaced.clone())
+            }
+            CompanionOrigin::Pinned(given) => (OriginKind::Pinned, given.as_slice(), Vec::new()),
+            CompanionOrigin::Before => return None,
         };
         let pinned = origin == OriginKind::Pinned;
         let parameters = model.parameters.iter().zip(one.parameters.iter());
@@ -141,12 +143,12 @@ impl Experiment {
             one.initial.iter().map(|named| given(&self.model, named)).collect::<Option<_>>()?;
         let degrees = self.system().degrees();
         let origin = match one.origin {
-            OriginKind::Start => Origin::Start(initial),
+            OriginKind::Start => CompanionOrigin::Start(initial),
             OriginKind::Neighbour if one.displaced.len() == degrees => {
-                Origin::Neighbour(one.displaced.clone())
+                CompanionOrigin::Neighbour(one.displaced.clone())
             }
             OriginKind::Neighbour => return None,
-            OriginKind::Pinned => Origin::Pinned(initial),
+            OriginKind::Pinned => CompanionOrigin::Pinned(initial),
         };
         let mut parameters = self.setup.parameters.clone();
         for named in &one.parameters {

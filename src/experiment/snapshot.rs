@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{Companion, EventLog, Return, Setup, Trail};
-use crate::analysis::{CrossingLog, Separation, Verdict};
+use crate::analysis::{CrossingLog, DistanceHistory, Verdict};
 use crate::system::{Form, State};
 
 /// The state of an experiment as the screen and the reports see it.
@@ -50,7 +50,7 @@ pub struct Snapshot {
     /// The motions beside this one.
     pub companions: Arc<[Companion]>,
     /// Their numbers and distances.
-    pub separations: Arc<[(usize, Arc<Separation>)]>,
+    pub separations: Arc<[(usize, Arc<DistanceHistory>)]>,
     /// The indices of the released constraints.
     pub released: Vec<usize>,
     /// Whether the motion was resumed from a checkpoint.

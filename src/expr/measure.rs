@@ -47,7 +47,7 @@ impl SymbolSet {
 
 /// What is known of a node without looking below it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Measure {
+pub(super) struct NodeMeasure {
     /// The length of the longest chain of parts.
     pub(super) depth: u32,
     /// The number of nodes when it is written out, a common part counted wherever it occurs;
@@ -59,11 +59,15 @@ pub(super) struct Measure {
     pub(super) symbols: SymbolSet,
 }
 
-impl Measure {
+impl NodeMeasure {
     /// The measure of a node, from those of its parts.
-    pub(super) fn of(node: &Node, known: &[Measure]) -> Measure {
-        let mut measure =
-            Measure { depth: 0, weight: 1, cost: own_cost(node), symbols: SymbolSet::default() };
+    pub(super) fn of(node: &Node, known: &[NodeMeasure]) -> NodeMeasure {
+        let mut measure = NodeMeasure {
+            depth: 0,
+            weight: 1,
+            cost: own_cost(node),
+            symbols: SymbolSet::default(),
+        };
         if let Node::Symbol(symbol) = node {
             measure.symbols = SymbolSet::of(*symbol);
         }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use hashbrown::HashTable;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
-use super::measure::{DISTINCT, Measure, SymbolSet};
+use super::measure::{DISTINCT, NodeMeasure, SymbolSet};
 use super::memo::Memo;
 use super::node::{Expr, Node};
 use super::notation::{latex_name, unicode_name};
@@ -23,7 +23,7 @@ pub const NODE_LIMIT: usize = 1_000_000;
 #[derive(Clone, Debug)]
 pub struct Pool {
     nodes: Vec<Arc<Node>>,
-    measures: Vec<Measure>,
+    measures: Vec<NodeMeasure>,
     /// The handles, found by the hashes of their nodes.
     index: HashTable<Expr>,
     symbols: Vec<SymbolInfo>,
@@ -321,7 +321,7 @@ impl Pool {
         let mut parts = 0;
         node.for_each_part(|_| parts += 1);
         self.size += 1 + parts / 4;
-        self.measures.push(Measure::of(&node, &self.measures));
+        self.measures.push(NodeMeasure::of(&node, &self.measures));
         self.nodes.push(Arc::new(node));
         let nodes = &self.nodes;
         self.index.insert_unique(hash, e, |&e| FxBuildHasher.hash_one(&*nodes[e.index()]));

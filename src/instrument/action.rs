@@ -4,7 +4,7 @@
 //! on the way ([`varied_action`](crate::dynamics::varied_action)). Every curve S(ε) is level at ε = 0; the first turns
 //! over once the motion has passed a kinetic focus, and its action is no longer least.
 
-use super::conditions::Conditions;
+use super::conditions::PlotConditions;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, Present, Sign, Upwards,
@@ -12,7 +12,7 @@ use super::{
 use crate::dynamics::{
     Lagrangian, PhaseSpace, VARIATIONS, VariedAction, conjugate_points, varied_action,
 };
-use crate::ensemble::Flow;
+use crate::ensemble::SystemFlow;
 use crate::integrate::{Method, method_named};
 use crate::job::{Job, Progress};
 use crate::num::significant;
@@ -28,11 +28,11 @@ const GRID: f64 = 0.25;
 const MOST: f64 = 240.0;
 
 /// The row.
-pub(super) struct Action;
+pub(super) struct ActionPlot;
 
 /// What was found, and of which motion.
 struct ComputedAction {
-    conditions: Conditions,
+    conditions: PlotConditions,
     coordinate: usize,
     duration: f64,
     outcome: Result<Beside, String>,
@@ -46,7 +46,7 @@ struct Beside {
     foci: Option<Vec<f64>>,
 }
 
-impl Instrument for Action {
+impl Instrument for ActionPlot {
     fn name(&self) -> &'static str {
         "action"
     }
@@ -117,7 +117,7 @@ impl Instrument for Action {
         let ChannelKind::Position(coordinate) = system.channels()[channel].kind else {
             return Need::Nothing;
         };
-        let conditions = Conditions::of(present, &plot.seeds);
+        let conditions = PlotConditions::of(present, &plot.seeds);
         let duration = duration(present);
         let holds = |known: &ComputedAction| {
             (known.coordinate, known.duration) == (coordinate, duration)
@@ -169,14 +169,14 @@ impl Instrument for Action {
 fn beside(
     space: &PhaseSpace,
     mut lagrangian: Lagrangian,
-    (method, conditions, begin): (&'static Method, &Conditions, f64),
+    (method, conditions, begin): (&'static Method, &PlotConditions, f64),
     coordinate: usize,
     duration: f64,
 ) -> Result<Beside, String> {
     let system = space.system();
     let start = conditions.state(system, begin).map_err(|fault| fault.to_string())?;
     let (parameters, method) = (conditions.parameters.clone(), (method, conditions.settings));
-    let flow = Flow { system: system.clone(), method, parameters, start: begin };
+    let flow = SystemFlow { system: system.clone(), method, parameters, start: begin };
     let channel = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
     let n = system.degrees();
     let kinds = (0..n).map(ChannelKind::Position).chain((0..n).map(ChannelKind::Velocity));

@@ -1,6 +1,6 @@
 //! What the result of a job depends on: when it changes, the job is begun anew.
 //!
-//! In: the present, what was added. Out: [`Conditions`], to be compared. Never here: what is computed.
+//! In: the present, what was added. Out: [`PlotConditions`], to be compared. Never here: what is computed.
 
 use super::{Present, Seed};
 use crate::integrate::Settings;
@@ -8,7 +8,7 @@ use crate::system::{InitialOverride, MotionError, State, System};
 
 /// The values of the system, the method, and what a person added to the plot.
 #[derive(Clone, PartialEq)]
-pub(super) struct Conditions {
+pub(super) struct PlotConditions {
     pub(super) parameters: Vec<f64>,
     initial: Vec<f64>,
     method: &'static str,
@@ -16,7 +16,7 @@ pub(super) struct Conditions {
     pub(super) seeds: Vec<Seed>,
 }
 
-impl Conditions {
+impl PlotConditions {
     pub(super) fn of(present: &Present<'_>, seeds: &[Seed]) -> Self {
         Self {
             parameters: present.parameters.to_vec(),

@@ -11,7 +11,7 @@ mod origin;
 
 use std::sync::Arc;
 
-use super::conditions::Conditions;
+use super::conditions::PlotConditions;
 use super::phase::initial_values;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
@@ -23,8 +23,8 @@ use crate::job::Job;
 use crate::num::{math, significant};
 use crate::system::{ChannelKind, Form, InitialOverride};
 
-use cloud::{Cloud, Frame, Task};
-use origin::Origin;
+use cloud::{Cloud, CloudFrame, Task};
+use origin::CloudOrigin;
 
 /// The levels of the picture.
 const CLOUD: Level = 0;
@@ -146,7 +146,7 @@ impl Instrument for Ensemble {
             return Need::Nothing;
         }
         let Some(method) = method_named(present.method) else { return Need::Nothing };
-        let conditions = Conditions::of(present, &plot.seeds);
+        let conditions = PlotConditions::of(present, &plot.seeds);
         let known = cloud(answer)
             .filter(|known| known.conditions == conditions && known.origin.time <= present.time);
         if known.is_some_and(|known| known.holds(present.time)) {
@@ -154,7 +154,7 @@ impl Instrument for Ensemble {
         }
         let origin = match known {
             Some(known) => known.origin.clone(),
-            None => match Origin::of(plot, present, conditions.seeds.last().copied()) {
+            None => match CloudOrigin::of(plot, present, conditions.seeds.last().copied()) {
                 Some(origin) => origin,
                 None => return Need::Nothing,
             },
@@ -215,7 +215,7 @@ fn cloud(answer: Option<&Answer>) -> Option<&Cloud> {
 }
 
 /// The frame that is shown: the last that is not later than the motion.
-fn shown<'a>(present: &Present<'_>, answer: Option<&'a Answer>) -> Option<&'a Frame> {
+fn shown<'a>(present: &Present<'_>, answer: Option<&'a Answer>) -> Option<&'a CloudFrame> {
     let cloud = cloud(answer)?;
     let before = cloud.frames.iter().rfind(|frame| frame.time <= present.time);
     before.or_else(|| cloud.frames.first())

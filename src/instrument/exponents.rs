@@ -3,7 +3,7 @@
 //! The job follows the variational equations along the motion from its initial values, over a time that is doubled until
 //! the exponent has been followed long enough ([`lyapunov`](crate::dynamics::lyapunov)); the picture fills as it does.
 
-use super::conditions::Conditions;
+use super::conditions::PlotConditions;
 use super::{
     Across, Answer, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, Present, Stroke, Upwards,
@@ -29,7 +29,7 @@ pub(super) struct Exponents;
 
 /// What was measured, and of which motion.
 struct Measured {
-    conditions: Conditions,
+    conditions: PlotConditions,
     doublings: u32,
     found: Result<Lyapunov, String>,
 }
@@ -116,7 +116,7 @@ impl Instrument for Exponents {
     }
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
-        let conditions = Conditions::of(present, &plot.seeds);
+        let conditions = PlotConditions::of(present, &plot.seeds);
         let known = measured(answer).filter(|known| known.conditions == conditions);
         let doublings = match known {
             None => 0,
@@ -174,7 +174,7 @@ impl Instrument for Exponents {
 /// The initial state, in the variables of the space.
 fn state(
     space: &PhaseSpace,
-    conditions: &Conditions,
+    conditions: &PlotConditions,
     start: f64,
 ) -> Result<crate::system::State, String> {
     let state = conditions.state(space.system(), start).and_then(|state| space.state(&state));

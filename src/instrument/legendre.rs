@@ -27,7 +27,7 @@ const BEYOND: f64 = 1.4;
 const FLAT: f64 = 1e-12;
 
 /// The row.
-pub(super) struct Legendre;
+pub(super) struct LegendrePlot;
 
 /// One function of one number.
 #[derive(Clone, Copy)]
@@ -90,7 +90,7 @@ impl Transformed {
     }
 }
 
-impl Instrument for Legendre {
+impl Instrument for LegendrePlot {
     fn name(&self) -> &'static str {
         "legendre"
     }
@@ -102,7 +102,7 @@ impl Instrument for Legendre {
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
         let offer = |(_, channel): (usize, usize)| {
             let columns: Columns = vec![vec![channel]];
-            let plot = Plot::new(&Legendre, (columns.clone(), None), physics.model);
+            let plot = Plot::new(&LegendrePlot, (columns.clone(), None), physics.model);
             let found = Transformed::of(&plot, physics)?;
             let (function, number) = (found.letters[0], physics.shown(found.channel));
             Some(Offer {
@@ -159,8 +159,8 @@ impl Instrument for Legendre {
         };
         let mut lines = vec![format!("slope {of_slope}, {named}")];
         lines.extend(shape(&values).map(|shape| match shape {
-            Shape::Straight => format!("straight: {of_slope} does not determine {number}"),
-            Shape::Bent => format!("not convex: several {number} may have one {of_slope}"),
+            CurveShape::Straight => format!("straight: {of_slope} does not determine {number}"),
+            CurveShape::Bent => format!("not convex: several {number} may have one {of_slope}"),
         }));
         let curve = numbers.iter().zip(&values).map(|(&x, &y)| [x, y]).collect();
         let layers = vec![
@@ -197,13 +197,13 @@ impl Instrument for Legendre {
 }
 
 /// How a curve is bent whose slope does not determine the abscissa.
-enum Shape {
+enum CurveShape {
     Straight,
     Bent,
 }
 
 /// Whether a curve is straight, or bent in both directions; `None` if it is bent in one.
-fn shape(values: &[f64]) -> Option<Shape> {
+fn shape(values: &[f64]) -> Option<CurveShape> {
     let size = values.iter().fold(0.0_f64, |size, y| size.max(y.abs()));
     let bends = values.windows(3).map(|three| three[0] - 2.0 * three[1] + three[2]);
     let (mut up, mut down, mut known) = (false, false, false);
@@ -213,8 +213,8 @@ fn shape(values: &[f64]) -> Option<Shape> {
         known = true;
     }
     match (up, down) {
-        (true, true) => Some(Shape::Bent),
-        (false, false) if known => Some(Shape::Straight),
+        (true, true) => Some(CurveShape::Bent),
+        (false, false) if known => Some(CurveShape::Straight),
         _ => None,
     }
 }

@@ -13,7 +13,7 @@ use super::{
     Across, Answer, Axis, Entry, Field, Heading, Ink, Instrument, Layer, Level, Measure, Need,
     NoStart, Offer, Physics, Picture, Plot, Present, Sign, Upwards,
 };
-use crate::ensemble::{Flow, SectionPlan, Start, crossings, in_order};
+use crate::ensemble::{SectionPlan, Start, SystemFlow, crossings, in_order};
 use crate::job::{Job, Progress};
 use crate::mechanics::Valuation;
 use crate::model::{Variation, View};
@@ -59,7 +59,7 @@ struct ComputedMap {
 
 /// The number of a motion that is shown.
 #[derive(Clone, Copy, PartialEq)]
-enum Number {
+enum MapNumber {
     /// Its largest Lyapunov exponent.
     Exponent,
     /// When it first crosses the surface of section of this index.
@@ -253,7 +253,7 @@ impl Instrument for Map {
 /// What a job computes: the numbers at the next places.
 struct Task {
     motions: VariedMotions,
-    number: Number,
+    number: MapNumber,
     length: f64,
     values: Vec<f64>,
 }
@@ -300,11 +300,11 @@ impl Task {
         let VariedMotions { model, method: (method, settings), .. } = &self.motions;
         let start = self.motions.start(&at);
         match self.number {
-            Number::Exponent => {
+            MapNumber::Exponent => {
                 let found = self.motions.exponent(system, &start, self.length)?;
                 Ok(found.unwrap_or(f64::NAN))
             }
-            Number::FirstCrossing(section) => {
+            MapNumber::FirstCrossing(section) => {
                 let plan = SectionPlan {
                     event: model.sections[section].name.clone(),
                     count: Some(1),
@@ -319,14 +319,14 @@ impl Task {
                     (None, None) => Ok(f64::NAN),
                 }
             }
-            Number::AtTheEnd(channel) => self.at_the_end(system, &start, channel),
+            MapNumber::AtTheEnd(channel) => self.at_the_end(system, &start, channel),
         }
     }
 
     /// A channel at the end of a motion.
     fn at_the_end(&self, system: &System, start: &Start, channel: usize) -> Result<f64, String> {
         let state = start.state(system).map_err(|why| why.to_string())?;
-        let flow = Flow {
+        let flow = SystemFlow {
             system: system.clone(),
             method: self.motions.method,
             parameters: start.parameters.clone(),
@@ -385,21 +385,21 @@ fn view<'a>(plot: &Plot, physics: Physics<'a>) -> Option<&'a View> {
 }
 
 /// What is shown of the motions.
-fn number(plot: &Plot, physics: Physics<'_>) -> Number {
-    let Some(view) = view(plot, physics) else { return Number::Exponent };
+fn number(plot: &Plot, physics: Physics<'_>) -> MapNumber {
+    let Some(view) = view(plot, physics) else { return MapNumber::Exponent };
     if let Some(section) = view.section {
-        return Number::FirstCrossing(section);
+        return MapNumber::FirstCrossing(section);
     }
     let of = view.axes.get(2).and_then(|axis| axis.first());
     let channel = of.and_then(|of| physics.system.channel_of(of.expression));
-    channel.map_or(Number::Exponent, Number::AtTheEnd)
+    channel.map_or(MapNumber::Exponent, MapNumber::AtTheEnd)
 }
 
 /// The same in words.
 fn quantity(plot: &Plot, physics: Physics<'_>) -> String {
     match (number(plot, physics), view(plot, physics)) {
-        (Number::FirstCrossing(_), Some(view)) => format!("time until {}", zero(physics, view)),
-        (Number::AtTheEnd(channel), _) => format!("{} at the end", physics.shown(channel)),
+        (MapNumber::FirstCrossing(_), Some(view)) => format!("time until {}", zero(physics, view)),
+        (MapNumber::AtTheEnd(channel), _) => format!("{} at the end", physics.shown(channel)),
         _ => "largest exponent λ".to_owned(),
     }
 }

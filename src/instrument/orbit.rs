@@ -4,7 +4,7 @@
 //! ([`periodic_orbit`]), and follows it once around; it begins again where a parameter, the method or the initial values
 //! change.
 
-use super::conditions::Conditions;
+use super::conditions::PlotConditions;
 use super::equilibria::given;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
@@ -13,7 +13,7 @@ use super::{
 use crate::dynamics::{
     DynamicsError, Fixed, Orbit as Closed, PhaseSpace, Removed, driven_orbit, periodic_orbit,
 };
-use crate::ensemble::{Flow, Start};
+use crate::ensemble::{Start, SystemFlow};
 use crate::integrate::{Method, Settings, method_named};
 use crate::job::{Job, Progress};
 use crate::num::{math, significant};
@@ -31,11 +31,11 @@ const POINTS: usize = 512;
 const MARGIN: f64 = 0.25;
 
 /// The row.
-pub(super) struct Orbit;
+pub(super) struct OrbitPlot;
 
 /// What was found, and of which motion.
 struct ComputedOrbit {
-    conditions: Conditions,
+    conditions: PlotConditions,
     /// The time of the motion when it was asked for.
     asked: f64,
     outcome: Result<Described, String>,
@@ -50,7 +50,7 @@ struct Described {
     drive: Option<f64>,
 }
 
-impl Instrument for Orbit {
+impl Instrument for OrbitPlot {
     fn name(&self) -> &'static str {
         "orbit"
     }
@@ -129,7 +129,7 @@ impl Instrument for Orbit {
     }
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
-        let conditions = Conditions::of(present, &plot.seeds);
+        let conditions = PlotConditions::of(present, &plot.seeds);
         let known = found(answer)
             .filter(|known| known.conditions == conditions && known.asked <= present.time);
         if known.is_some() {
@@ -206,7 +206,7 @@ impl Instrument for Orbit {
 fn close(
     physics: Physics<'_>,
     method: (&'static Method, Settings),
-    (start, conditions): (&Start, &Conditions),
+    (start, conditions): (&Start, &PlotConditions),
     channels: [usize; 2],
 ) -> Result<Described, DynamicsError> {
     let (system, parameters) = (physics.system, &start.parameters);
@@ -227,7 +227,7 @@ fn close(
         Some(drive) => driven_orbit(&space, method, &state, drive)?,
         None => periodic_orbit(&space, method, &state, None, fixed)?,
     };
-    let flow = Flow {
+    let flow = SystemFlow {
         system: System::clone(system),
         method: (method.0, orbit.settings),
         parameters: parameters.clone(),

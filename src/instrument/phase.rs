@@ -81,7 +81,7 @@ impl Instrument for Phase {
         let entries = vec![
             Entry::Channel(plot.column(0)?),
             Entry::Channel(plot.column(1)?),
-            Entry::Happenings,
+            Entry::Occurrences,
         ];
         Some(plot.heading(present.physics, otherwise, entries))
     }

@@ -33,7 +33,7 @@ pub enum Entry {
     /// What an ink stands for, in it.
     Key(Ink, String),
     /// The names of recent occurrences, whose marks are in the picture.
-    Happenings,
+    Occurrences,
 }
 
 /// The horizontal axis.

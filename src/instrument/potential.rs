@@ -28,7 +28,7 @@ pub(super) struct Potential;
 
 /// The potential of a view of the file.
 #[derive(Clone, Copy, Debug)]
-pub struct Along {
+pub struct PotentialView {
     /// The channel of the coordinate.
     pub x: usize,
     /// The channel of the potential.
@@ -37,7 +37,7 @@ pub struct Along {
     expression: Expr,
 }
 
-impl Along {
+impl PotentialView {
     /// The potential of a view of a system.
     pub fn of(physics: Physics<'_>, view: usize) -> Option<Self> {
         let Physics { model, system, .. } = physics;
@@ -91,7 +91,7 @@ impl Instrument for Potential {
     }
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
-        let along = Along::of(present.physics, plot.view?)?;
+        let along = PotentialView::of(present.physics, plot.view?)?;
         let title = present.physics.model.views.get(plot.view?).map_or("", |view| &view.title);
         let energy = present.valuation().at(present.physics.model.symbols.energy);
         Some(Heading {
@@ -106,7 +106,7 @@ impl Instrument for Potential {
     }
 
     fn across(&self, plot: &Plot, present: &Present<'_>, _answer: Option<&Answer>) -> Across {
-        let along = plot.view.and_then(|view| Along::of(present.physics, view));
+        let along = plot.view.and_then(|view| PotentialView::of(present.physics, view));
         along.map_or(Across::Nothing, |along| {
             Across::Channel(along.x, Some(range(present, along.x)))
         })
@@ -119,7 +119,7 @@ impl Instrument for Potential {
         [from, to]: [f64; 2],
         _answer: Option<&Answer>,
     ) -> Option<Picture> {
-        let along = Along::of(present.physics, plot.view?)?;
+        let along = PotentialView::of(present.physics, plot.view?)?;
         let (model, now) = (present.physics.model, present.valuation());
         let energy = now.at(model.symbols.energy);
         let x = |i: usize| from + (to - from) * i as f64 / (POINTS - 1) as f64;

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use crate::analysis::{CrossingLog, Separation};
+use crate::analysis::{CrossingLog, DistanceHistory};
 use crate::dynamics::Equilibrium;
 use crate::integrate::Settings;
 use crate::mechanics::{Equations, Valuation};
@@ -40,7 +40,7 @@ pub struct Present<'a> {
     /// Where the motion has crossed each surface of section.
     pub crossings: &'a CrossingLog,
     /// The motions beside this one: the number of each, and its distance.
-    pub separations: &'a [(usize, Arc<Separation>)],
+    pub separations: &'a [(usize, Arc<DistanceHistory>)],
     /// The equilibria that were found at these parameters.
     pub equilibria: &'a [Equilibrium],
     /// The name of the method.

@@ -32,9 +32,9 @@ const NOW: Level = 3;
 const COUNT_OWN: usize = 1000;
 
 /// The row.
-pub(super) struct Section;
+pub(super) struct SectionPlot;
 
-impl Instrument for Section {
+impl Instrument for SectionPlot {
     fn name(&self) -> &'static str {
         "section"
     }

@@ -1,7 +1,7 @@
 //! `separation`: how far the motions beside the main one are from it, as ln d against time.
 //!
 //! Neighbours part like e^{λt} where the motion is chaotic, and in proportion to t where it is regular; the slope is that
-//! of the straight line while d is small beside the motion ([`Separation`](crate::analysis::Separation)).
+//! of the straight line while d is small beside the motion ([`SeparationPlot`](crate::analysis::DistanceHistory)).
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use super::{
     Across, Answer, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Offer,
     Physics, Picture, Plot, Present, Returned, Stroke, Upwards,
 };
-use crate::analysis::{Separation as Distances, Slope};
+use crate::analysis::{DistanceHistory as Distances, Slope};
 use crate::num::significant;
 
 /// The levels of the picture.
@@ -17,9 +17,9 @@ const CURVES: Level = 1;
 const SLOPE: Level = 2;
 
 /// The row.
-pub(super) struct Separation;
+pub(super) struct SeparationPlot;
 
-impl Instrument for Separation {
+impl Instrument for SeparationPlot {
     fn name(&self) -> &'static str {
         "separation"
     }

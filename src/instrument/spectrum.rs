@@ -4,7 +4,7 @@
 //! The job follows the motion from its initial values at equal intervals of time, and finds the lines
 //! ([`spectrum`](crate::dynamics::spectrum)).
 
-use super::conditions::Conditions;
+use super::conditions::PlotConditions;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, Present, Upwards,
@@ -12,7 +12,7 @@ use super::{
 use crate::dynamics::{
     MeanRate, Spectrum as Lines, independent_frequencies, mean_rate, spectrum, straightened,
 };
-use crate::ensemble::Flow;
+use crate::ensemble::SystemFlow;
 use crate::integrate::method_named;
 use crate::job::{Job, Progress};
 use crate::num::{math, significant};
@@ -35,15 +35,15 @@ const POWERS: f64 = 9.0;
 const BEYOND: f64 = 1.3;
 
 /// The row.
-pub(super) struct Spectrum;
+pub(super) struct SpectrumPlot;
 
 /// What was found, and of which motion.
 struct ComputedSpectrum {
-    conditions: Conditions,
+    conditions: PlotConditions,
     outcome: Result<(Lines, Option<MeanRate>), String>,
 }
 
-impl Instrument for Spectrum {
+impl Instrument for SpectrumPlot {
     fn name(&self) -> &'static str {
         "spectrum"
     }
@@ -112,7 +112,7 @@ impl Instrument for Spectrum {
     }
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
-        let conditions = Conditions::of(present, &plot.seeds);
+        let conditions = PlotConditions::of(present, &plot.seeds);
         if found(answer).is_some_and(|known| known.conditions == conditions) {
             return Need::Held;
         }
@@ -125,7 +125,7 @@ impl Instrument for Spectrum {
         let is_angle = matches!(system.channels()[channel].kind, ChannelKind::Position(_))
             && system.period(channel, present.parameters).is_some();
         Need::Job(Job::new("spectrum", move |progress: &Progress| {
-            let flow = Flow {
+            let flow = SystemFlow {
                 system: system.with_cancel(progress.token().clone()),
                 method: (method, conditions.settings),
                 parameters: conditions.parameters.clone(),

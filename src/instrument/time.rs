@@ -50,7 +50,7 @@ impl Instrument for Time {
         let curves = plot.columns.first()?.iter().enumerate();
         let mut entries: Vec<Entry> =
             curves.map(|(i, channel)| Entry::Curve(i, *channel)).collect();
-        entries.push(Entry::Happenings);
+        entries.push(Entry::Occurrences);
         Some(plot.heading(present.physics, "Time", entries))
     }
 

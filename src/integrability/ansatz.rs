@@ -3,8 +3,8 @@
 //! In: generators and degrees. Out: columns, and their values and rates at points. Never here: what is done with them.
 
 use super::atoms::Atoms;
-use super::evaluator::Evaluator;
-use super::law::Drawn;
+use super::evaluator::ResidueEvaluator;
+use super::law::DrawnPoint;
 use super::random::Random;
 use crate::expr::{Expr, Pool};
 use crate::num::{Number, PrimeField, Residue};
@@ -24,7 +24,7 @@ pub(super) struct Ansatz {
 }
 
 /// The value of each column, and its rate.
-pub(super) struct Row {
+pub(super) struct AnsatzRow {
     pub(super) values: Vec<Residue>,
     pub(super) rates: Vec<Residue>,
 }
@@ -122,10 +122,10 @@ impl Ansatz {
     pub(super) fn row(
         &self,
         atoms: &Atoms,
-        evaluator: &Evaluator,
-        drawn: &Drawn,
+        evaluator: &ResidueEvaluator,
+        drawn: &DrawnPoint,
         columns: &[usize],
-    ) -> Row {
+    ) -> AnsatzRow {
         let field = drawn.point.field;
         let tables = |all: &[Exponents], generators: &[Expr]| -> Vec<(Residue, Residue)> {
             let powers: Vec<Vec<(Residue, Residue)>> = generators
@@ -155,7 +155,7 @@ impl Ansatz {
         let momenta = tables(&self.momenta, &atoms.momenta);
         let generators: Vec<Expr> = atoms.coefficients.iter().map(|g| g.expression).collect();
         let coefficients = tables(&self.coefficients, &generators);
-        let mut row = Row { values: Vec::new(), rates: Vec::new() };
+        let mut row = AnsatzRow { values: Vec::new(), rates: Vec::new() };
         for &c in columns {
             let (a, b) = self.columns[c];
             let (value, rate) = product(field, momenta[a], coefficients[b]);

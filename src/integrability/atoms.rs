@@ -1,6 +1,6 @@
 //! The functions of which a constant of the motion may be a polynomial: what the law itself is made of.
 //!
-//! In: a law. Out: [`Generator`]s: momenta (or velocities, or the variables of a Poisson system), coordinates that enter
+//! In: a law. Out: [`MonomialGenerator`]s: momenta (or velocities, or the variables of a Poisson system), coordinates that enter
 //! algebraically, sines and cosines of angles, roots, exponentials, reciprocals, and which of them never stand
 //! together. Never here: monomials, numbers.
 
@@ -14,7 +14,7 @@ use crate::num::Number;
 
 /// One of the functions from which monomials are made.
 #[derive(Clone, Debug)]
-pub(super) struct Generator {
+pub(super) struct MonomialGenerator {
     pub(super) expression: Expr,
     /// The highest power that may occur; higher ones are polynomials in the others.
     pub(super) highest: u32,
@@ -22,7 +22,7 @@ pub(super) struct Generator {
 
 /// How coordinates enter that the law does not contain, and into what angles are divided.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Family {
+pub(super) struct AnsatzFamily {
     /// Absent coordinates enter by their sine and cosine, and not by themselves.
     pub(super) absent_by_angle: bool,
     /// Angles are halved.
@@ -33,7 +33,7 @@ pub(super) struct Family {
 #[derive(Clone, Debug)]
 pub(super) struct Atoms {
     pub(super) momenta: Vec<Expr>,
-    pub(super) coefficients: Vec<Generator>,
+    pub(super) coefficients: Vec<MonomialGenerator>,
     /// Pairs of coefficients that never stand together: their product is a polynomial in the others.
     pub(super) excluded: Vec<(usize, usize)>,
     /// Whether the generators satisfy no algebraic relation.
@@ -63,7 +63,7 @@ struct LawAtoms {
 
 impl Atoms {
     /// The generators of a law, whose parameters are numbers.
-    pub(super) fn of(pool: &mut Pool, law: &Law, angles: &[Symbol], family: Family) -> Atoms {
+    pub(super) fn of(pool: &mut Pool, law: &Law, angles: &[Symbol], family: AnsatzFamily) -> Atoms {
         let mut moving: Vec<Symbol> = law.variables.clone();
         moving.push(law.time);
         let roots = law.expressions();
@@ -129,7 +129,7 @@ impl Atoms {
         if let Some(known) = self.coefficients.iter().position(|g| g.expression == expression) {
             return known;
         }
-        self.coefficients.push(Generator { expression, highest });
+        self.coefficients.push(MonomialGenerator { expression, highest });
         self.coefficients.len() - 1
     }
 

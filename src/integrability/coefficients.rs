@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 use super::ansatz::Ansatz;
 use super::atoms::Atoms;
 use super::echelon::Echelon;
-use super::evaluator::Evaluator;
+use super::evaluator::ResidueEvaluator;
 use super::formula::cleared;
 use super::law::Law;
 use super::level::Ground;
@@ -114,7 +114,7 @@ pub(super) fn exact(n: i128, d: i128) -> Option<Number> {
 /// The same constant of the motion for parameters that are symbols.
 pub(super) struct Lift<'a> {
     pub(super) law: &'a Law,
-    pub(super) evaluator: &'a Evaluator,
+    pub(super) evaluator: &'a ResidueEvaluator,
     pub(super) atoms: &'a Atoms,
     pub(super) ansatz: &'a Ansatz,
     pub(super) columns: Vec<usize>,

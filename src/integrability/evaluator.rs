@@ -48,7 +48,7 @@ struct Angle {
 
 /// Compiled expressions.
 #[derive(Clone, Debug)]
-pub(super) struct Evaluator {
+pub(super) struct ResidueEvaluator {
     steps: Vec<Instruction>,
     index: FxHashMap<Expr, usize>,
     /// For each circle, and each unit, whether it is the same at all points.
@@ -68,14 +68,14 @@ pub(super) struct Point {
     companions: Vec<Residue>,
 }
 
-impl Evaluator {
+impl ResidueEvaluator {
     /// Compiles expressions. Functions of what does not contain the `moving` symbols have the same value at every
     /// point of a seed.
     pub(super) fn new(
         pool: &mut Pool,
         roots: &[Expr],
         moving: &[Symbol],
-    ) -> Result<Evaluator, Unsupported> {
+    ) -> Result<ResidueEvaluator, Unsupported> {
         let nodes = pool.reachable(roots);
         let index: FxHashMap<Expr, usize> =
             nodes.iter().enumerate().map(|(i, &e)| (e, i)).collect();
@@ -176,7 +176,7 @@ impl Evaluator {
             all.order.iter().map(|&term| !pool.depends_on_any(term, moving)).collect()
         };
         let radicals = Radicals::new(pool, &roots_of, &index);
-        Ok(Evaluator {
+        Ok(ResidueEvaluator {
             steps,
             index,
             circles: fixed(&circles),
@@ -192,9 +192,9 @@ impl Evaluator {
     }
 
     /// The same with the negative roots of some of those numbers, a bit for each.
-    pub(super) fn conjugate(&self, negative: u32) -> Evaluator {
+    pub(super) fn conjugate(&self, negative: u32) -> ResidueEvaluator {
         let radicals = Radicals { negative, ..self.radicals.clone() };
-        Evaluator { radicals, ..self.clone() }
+        ResidueEvaluator { radicals, ..self.clone() }
     }
 
     /// Evaluates everything at a point whose symbols have the values `at`. `None` where something has no value.
@@ -303,7 +303,11 @@ impl Evaluator {
     }
 
     /// The derivatives of everything along a direction, given by the rate of each symbol.
-    pub(super) fn rates(&self, point: &Point, seed: &dyn Fn(Symbol) -> Residue) -> Option<Rates> {
+    pub(super) fn rates(
+        &self,
+        point: &Point,
+        seed: &dyn Fn(Symbol) -> Residue,
+    ) -> Option<ResidueRates> {
         let field = &point.field;
         let mut rates = vec![Residue::ZERO; self.steps.len()];
         for (i, step) in self.steps.iter().enumerate() {
@@ -347,18 +351,18 @@ impl Evaluator {
                 }
             };
         }
-        Some(Rates(rates))
+        Some(ResidueRates(rates))
     }
 
     /// Its rate.
-    pub(super) fn rate(&self, rates: &Rates, e: Expr) -> Residue {
+    pub(super) fn rate(&self, rates: &ResidueRates, e: Expr) -> Residue {
         rates.0[self.index[&e]]
     }
 }
 
 /// The derivatives of everything along one direction.
 #[derive(Clone, Debug)]
-pub(super) struct Rates(Vec<Residue>);
+pub(super) struct ResidueRates(Vec<Residue>);
 
 impl Angle {
     /// Its sine and cosine.

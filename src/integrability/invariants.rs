@@ -2,7 +2,7 @@
 //!
 //! In: limits. Out: [`Invariants`]: what is found, how far it is proved, and what was searched. Never here: the search.
 
-use super::known::Known;
+use super::known::KnownConstant;
 use crate::expr::Expr;
 
 /// Why a search ends where as many are known as can be independent.
@@ -64,7 +64,7 @@ pub struct Searched {
 #[derive(Clone, Debug, Default)]
 pub struct Invariants {
     /// The constants of the motion that the equations already have.
-    pub known: Vec<Known>,
+    pub known: Vec<KnownConstant>,
     /// Which of them are independent of those before.
     pub known_independent: Vec<bool>,
     /// The constants that nobody wrote down.

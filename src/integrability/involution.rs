@@ -14,7 +14,7 @@ use rustc_hash::FxHashMap;
 
 use super::ansatz::orders;
 use super::echelon::{Echelon, reduced};
-use super::evaluator::Evaluator;
+use super::evaluator::ResidueEvaluator;
 use super::law::{self, Law};
 use super::random::Random;
 use super::vanishing::vanishes;
@@ -174,7 +174,7 @@ impl Work {
         let functions: Vec<Expr> = given.functions.iter().map(|(_, here)| *here).collect();
         let mut random = Random::new(3);
         let evaluator =
-            Evaluator::new(pool, &roots(&law, &functions, &here), &law.moving()).ok()?;
+            ResidueEvaluator::new(pool, &roots(&law, &functions, &here), &law.moving()).ok()?;
         let none = FxHashMap::default();
         let field = (0..PRIMES.len()).map(PrimeField::nth).find(|field| {
             (0..40).any(|_| law.draw(&evaluator, *field, &mut random, &none, SEED).is_some())
@@ -239,7 +239,7 @@ impl Work {
         monomials: &[Vec<usize>],
     ) -> Option<Vec<Vec<Residue>>> {
         let roots = roots(&self.law, &self.functions, &self.here);
-        let evaluator = Evaluator::new(pool, &roots, &self.law.moving()).ok()?;
+        let evaluator = ResidueEvaluator::new(pool, &roots, &self.law.moving()).ok()?;
         let field = self.field;
         let mut echelon = Echelon::new(field, monomials.len());
         let (mut idle, mut vain) = (0, 0);
@@ -284,7 +284,9 @@ impl Work {
             members.iter().map(|member| polynomial(pool, member, &self.functions)).collect();
         let mut roots = roots(&self.law, &members, &[]);
         roots.extend(self.law.variables.iter().map(|&s| pool.variable(s)));
-        let Ok(evaluator) = Evaluator::new(pool, &roots, &self.law.moving()) else { return false };
+        let Ok(evaluator) = ResidueEvaluator::new(pool, &roots, &self.law.moving()) else {
+            return false;
+        };
         let none = FxHashMap::default();
         let drawn = (0..TRIES)
             .find_map(|_| self.law.draw(&evaluator, self.field, &mut self.random, &none, SEED));

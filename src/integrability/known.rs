@@ -5,14 +5,14 @@
 
 use std::collections::HashMap;
 
-use super::evaluator::Evaluator;
+use super::evaluator::ResidueEvaluator;
 use super::law::Law;
 use crate::expr::{Expr, Node, Pool, Symbol, Zero};
 use crate::mechanics::{Equations, in_phase_space};
 
 /// A constant of the motion that the equations already have.
 #[derive(Clone, Debug)]
-pub struct Known {
+pub struct KnownConstant {
     /// Its name: `energy`, `p_phi`, an observable's name.
     pub name: String,
     /// As a function of the state in which the search is made.
@@ -30,8 +30,8 @@ pub(super) fn of(
     equations: &mut Equations,
     law: &Law,
     values: &HashMap<Symbol, Expr>,
-) -> Vec<Known> {
-    let mut all: Vec<Known> = Vec::new();
+) -> Vec<KnownConstant> {
+    let mut all: Vec<KnownConstant> = Vec::new();
     for conserved in equations.conserved.clone() {
         if !conserved.reason.is_proved() {
             continue;
@@ -52,7 +52,7 @@ pub(super) fn of(
             continue;
         }
         // something whose values cannot be had modulo a prime cannot be compared
-        if Evaluator::new(pool, &[here], &law.moving()).is_err()
+        if ResidueEvaluator::new(pool, &[here], &law.moving()).is_err()
             || all.iter().any(|k| k.here == here)
         {
             continue;
@@ -60,7 +60,13 @@ pub(super) fn of(
         let moving = if law.positions == 0 { &law.variables[..] } else { law.momenta() };
         let (degree, is_polynomial) = degree(pool, here, moving);
         let degree = degree.max(1);
-        all.push(Known { name: conserved.name, expression: opened, here, degree, is_polynomial });
+        all.push(KnownConstant {
+            name: conserved.name,
+            expression: opened,
+            here,
+            degree,
+            is_polynomial,
+        });
     }
     all
 }

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use rustc_hash::FxHashMap;
 
 use super::echelon::{Echelon, solve};
-use super::evaluator::{Evaluator, Point, Rates};
+use super::evaluator::{Point, ResidueEvaluator, ResidueRates};
 use super::random::Random;
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{Equations, Flow, body_values};
@@ -18,16 +18,16 @@ use crate::num::{Number, PrimeField, Residue};
 
 /// How the rates of the variables are known.
 #[derive(Clone, Debug)]
-pub(super) enum Rule {
+pub(super) enum RateRule {
     /// One expression for each variable.
     Explicit(Vec<Expr>),
     /// Positions, then velocities: M q̈ − Aᵀλ = f, A q̈ = γ.
-    Solved { mass: Vec<Vec<Expr>>, force: Vec<Expr>, rows: Vec<Row> },
+    Solved { mass: Vec<Vec<Expr>>, force: Vec<Expr>, rows: Vec<LawConstraint> },
 }
 
 /// A constraint A q̇ + a = 0, with f(q) = 0 where it is holonomic.
 #[derive(Clone, Debug)]
-pub(super) struct Row {
+pub(super) struct LawConstraint {
     pub(super) slopes: Vec<Expr>,
     rate: Expr,
     bias: Expr,
@@ -41,7 +41,7 @@ pub fn is_hamiltonian(model: &Model, equations: &mut Equations) -> bool {
     free && !driven && equations.hamiltonian().is_ok()
 }
 
-impl Row {
+impl LawConstraint {
     /// Whether it does not move by itself: A q̇ = 0 without time.
     pub(super) fn is_scleronomic(&self, pool: &Pool, time: Symbol) -> bool {
         self.rate == Expr::ZERO && !self.slopes.iter().any(|&a| pool.depends(a, time))
@@ -55,7 +55,7 @@ pub(super) struct Law {
     pub(super) variables: Vec<Symbol>,
     /// The number of positions; 0 for the variables of a Poisson system, which are all alike.
     pub(super) positions: usize,
-    pub(super) rule: Rule,
+    pub(super) rule: RateRule,
     /// H, or Jacobi's h.
     pub(super) energy: Expr,
     pub(super) time: Symbol,
@@ -83,11 +83,11 @@ impl Law {
         let time = equations.symbols.time;
         let (variables, rule, hamiltonian, energy) = match equations.flow.clone() {
             Flow::Poisson { rates } => {
-                (positions.clone(), Rule::Explicit(rates), undriven, equations.energy)
+                (positions.clone(), RateRule::Explicit(rates), undriven, equations.energy)
             }
             Flow::Hamilton { velocities, momentum_rates } => {
                 let rates = velocities.into_iter().chain(momentum_rates).collect();
-                (phase, Rule::Explicit(rates), undriven, equations.energy)
+                (phase, RateRule::Explicit(rates), undriven, equations.energy)
             }
             Flow::Lagrange { mass, force, .. } => match equations.hamiltonian().clone() {
                 Ok(h) if undriven => {
@@ -98,18 +98,18 @@ impl Law {
                         let slope = pool.derivative(h, c.position);
                         rates.push(pool.neg(slope));
                     }
-                    (phase, Rule::Explicit(rates), true, h)
+                    (phase, RateRule::Explicit(rates), true, h)
                 }
                 _ => {
                     let velocities = symbols.iter().map(|c| c.velocity);
                     let state = positions.iter().copied().chain(velocities).collect();
-                    let rows = equations.constraints.iter().map(|c| Row {
+                    let rows = equations.constraints.iter().map(|c| LawConstraint {
                         slopes: c.row.clone(),
                         rate: c.rate,
                         bias: c.bias,
                         position: c.position,
                     });
-                    let rule = Rule::Solved { mass, force, rows: rows.collect() };
+                    let rule = RateRule::Solved { mass, force, rows: rows.collect() };
                     (state, rule, false, equations.energy)
                 }
             },
@@ -127,8 +127,8 @@ impl Law {
     pub(super) fn expressions(&self) -> Vec<Expr> {
         let mut all = vec![self.energy];
         match &self.rule {
-            Rule::Explicit(rates) => all.extend(rates),
-            Rule::Solved { mass, force, rows } => {
+            RateRule::Explicit(rates) => all.extend(rates),
+            RateRule::Solved { mass, force, rows } => {
                 all.extend(mass.concat());
                 all.extend(force);
                 for row in rows {
@@ -147,8 +147,8 @@ impl Law {
         let mut put = |e: &mut Expr| *e = pool.substitute(*e, map);
         put(&mut law.energy);
         match &mut law.rule {
-            Rule::Explicit(rates) => rates.iter_mut().for_each(&mut put),
-            Rule::Solved { mass, force, rows } => {
+            RateRule::Explicit(rates) => rates.iter_mut().for_each(&mut put),
+            RateRule::Solved { mass, force, rows } => {
                 mass.iter_mut().flatten().for_each(&mut put);
                 force.iter_mut().for_each(&mut put);
                 for row in rows {
@@ -173,7 +173,7 @@ impl Law {
 
     /// dF/dt along the motion as an expression; `None` where accelerations are solved for at points.
     pub(super) fn rate(&self, pool: &mut Pool, f: Expr) -> Option<Expr> {
-        let Rule::Explicit(rates) = &self.rule else { return None };
+        let RateRule::Explicit(rates) = &self.rule else { return None };
         let mut seeds: Vec<(Symbol, Expr)> =
             self.variables.iter().copied().zip(rates.iter().copied()).collect();
         seeds.push((self.time, Expr::ONE));
@@ -184,12 +184,12 @@ impl Law {
     /// has no value there; another point is then drawn.
     pub(super) fn draw(
         &self,
-        evaluator: &Evaluator,
+        evaluator: &ResidueEvaluator,
         field: PrimeField,
         random: &mut Random,
         constants: &FxHashMap<Symbol, Residue>,
         seed: u64,
-    ) -> Option<Drawn> {
+    ) -> Option<DrawnPoint> {
         let mut state = constants.clone();
         for &symbol in self.variables.iter().chain([&self.time]) {
             state.insert(symbol, random.residue(&field));
@@ -199,21 +199,21 @@ impl Law {
         let evaluate = |state: &FxHashMap<Symbol, Residue>| {
             evaluator.point(field, &mut begin.clone(), seed, &|s| state.get(&s).copied())
         };
-        if let Rule::Solved { rows, .. } = &self.rule {
+        if let RateRule::Solved { rows, .. } = &self.rule {
             self.constrain(rows, evaluator, field, &mut state, &evaluate)?;
         }
         let point = evaluate(&state)?;
         let rates = self.rates_at(evaluator, &point, &state)?;
         let all = evaluator.rates(&point, &|s| rates.get(&s).copied().unwrap_or_default())?;
-        Some(Drawn { point, rates: all })
+        Some(DrawnPoint { point, rates: all })
     }
 
     /// Moves a state onto the constraints: one position for each holonomic one, where it is at most quadratic in it,
     /// then velocities.
     fn constrain(
         &self,
-        rows: &[Row],
-        evaluator: &Evaluator,
+        rows: &[LawConstraint],
+        evaluator: &ResidueEvaluator,
         field: PrimeField,
         state: &mut FxHashMap<Symbol, Residue>,
         evaluate: &dyn Fn(&FxHashMap<Symbol, Residue>) -> Option<Point>,
@@ -289,7 +289,7 @@ impl Law {
 
     fn rates_at(
         &self,
-        evaluator: &Evaluator,
+        evaluator: &ResidueEvaluator,
         point: &Point,
         state: &FxHashMap<Symbol, Residue>,
     ) -> Option<FxHashMap<Symbol, Residue>> {
@@ -297,12 +297,12 @@ impl Law {
         let mut rates: FxHashMap<Symbol, Residue> = FxHashMap::default();
         rates.insert(self.time, field.one());
         match &self.rule {
-            Rule::Explicit(all) => {
+            RateRule::Explicit(all) => {
                 for (&s, &e) in self.variables.iter().zip(all) {
                     rates.insert(s, evaluator.value(point, e));
                 }
             }
-            Rule::Solved { mass, force, rows } => {
+            RateRule::Solved { mass, force, rows } => {
                 let (n, value) = (force.len(), |e: Expr| evaluator.value(point, e));
                 let all = n + rows.len();
                 let entry = |i: usize, j: usize| match (i < n, j < n) {
@@ -328,7 +328,7 @@ impl Law {
     /// lower bound, and equal to the rank but for a chance of the order of 2⁻⁵⁰.
     pub(super) fn independent(
         &self,
-        evaluator: &Evaluator,
+        evaluator: &ResidueEvaluator,
         point: &Point,
         functions: &[Expr],
     ) -> Option<Vec<bool>> {
@@ -348,16 +348,16 @@ impl Law {
     }
 
     /// The dimension of the space of states at a point.
-    pub(super) fn dimension(&self, evaluator: &Evaluator, point: &Point) -> usize {
+    pub(super) fn dimension(&self, evaluator: &ResidueEvaluator, point: &Point) -> usize {
         self.directions(evaluator, point).len()
     }
 
     /// The directions in which a state may vary: all, or those along the constraints on positions and velocities.
-    fn directions(&self, evaluator: &Evaluator, point: &Point) -> Vec<Vec<Residue>> {
+    fn directions(&self, evaluator: &ResidueEvaluator, point: &Point) -> Vec<Vec<Residue>> {
         let field = point.field;
         let width = self.variables.len();
         let mut conditions = Echelon::new(field, width);
-        if let Rule::Solved { rows, .. } = &self.rule {
+        if let RateRule::Solved { rows, .. } = &self.rule {
             let (q, v) = self.variables.split_at(self.positions);
             for row in rows {
                 let value = |e: Expr| evaluator.value(point, e);
@@ -394,7 +394,7 @@ impl Law {
 
 /// A point of the state with the rates of everything there.
 #[derive(Clone, Debug)]
-pub(super) struct Drawn {
+pub(super) struct DrawnPoint {
     pub(super) point: Point,
-    pub(super) rates: Rates,
+    pub(super) rates: ResidueRates,
 }

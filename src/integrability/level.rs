@@ -14,8 +14,8 @@ use rustc_hash::FxHashMap;
 use super::ansatz::{Ansatz, orders};
 use super::atoms::Atoms;
 use super::echelon::{Echelon, reduced};
-use super::evaluator::Evaluator;
-use super::law::{Drawn, Law};
+use super::evaluator::ResidueEvaluator;
+use super::law::{DrawnPoint, Law};
 use super::random::Random;
 use crate::expr::{Expr, Symbol};
 use crate::num::{PrimeField, Residue};
@@ -41,7 +41,7 @@ pub(super) enum Broken {
 /// Where functions are evaluated: a law with its compiled expressions.
 pub(super) struct Ground<'a> {
     pub(super) law: &'a Law,
-    pub(super) evaluator: &'a Evaluator,
+    pub(super) evaluator: &'a ResidueEvaluator,
     pub(super) field: PrimeField,
     pub(super) constants: FxHashMap<Symbol, Residue>,
     /// What determines the values of functions of constants.
@@ -51,7 +51,7 @@ pub(super) struct Ground<'a> {
 
 impl Ground<'_> {
     /// The next point at which everything has a value.
-    pub(super) fn draw(&self, random: &mut Random) -> Result<Drawn, Broken> {
+    pub(super) fn draw(&self, random: &mut Random) -> Result<DrawnPoint, Broken> {
         for _ in 0..TRIES {
             if (self.is_over)() {
                 return Err(Broken::Over);
@@ -131,7 +131,7 @@ impl Ground<'_> {
 }
 
 /// What a level found.
-pub(super) struct Level {
+pub(super) struct LevelOutcome {
     /// The number of independent monomials.
     pub(super) size: usize,
     /// New constants of the motion: columns with their coefficients.
@@ -147,13 +147,13 @@ pub(super) fn search(
     known: &[Expr],
     products: &[Vec<usize>],
     random: &mut Random,
-) -> Result<Level, Broken> {
+) -> Result<LevelOutcome, Broken> {
     let field = ground.field;
     let columns = ground.independent(atoms, ansatz, random)?;
     let basis = ground.null_space(atoms, ansatz, &columns, random)?;
     let size = columns.len();
     if basis.is_empty() {
-        return Ok(Level { size, new: Vec::new() });
+        return Ok(LevelOutcome { size, new: Vec::new() });
     }
     let mut candidates: Vec<Vec<(usize, Residue)>> = Vec::new();
     for order in orders(columns.len(), ORDERS) {
@@ -195,5 +195,5 @@ pub(super) fn search(
     }
     let is_new = |i: &usize| echelon.leads(products.len() + i);
     let new = (0..candidates.len()).filter(is_new).map(|i| candidates[i].clone()).collect();
-    Ok(Level { size, new })
+    Ok(LevelOutcome { size, new })
 }

@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 
 use super::ansatz::orders;
 use super::echelon::{Echelon, reduced};
-use super::evaluator::Evaluator;
+use super::evaluator::ResidueEvaluator;
 use super::explicit_motion::{ExplicitMotion, accelerations};
 use super::formula::{cleared, content};
 use super::law;
@@ -198,7 +198,7 @@ impl Problem {
             .chain([&motion.time])
             .copied()
             .collect();
-        let evaluator = Evaluator::new(pool, &roots, &moving)?;
+        let evaluator = ResidueEvaluator::new(pool, &roots, &moving)?;
         self.overgeneral = evaluator.overgeneral;
         let mut random = Random::new(3);
         let works = |k: &usize| {
@@ -280,7 +280,7 @@ impl Problem {
     #[expect(clippy::type_complexity, reason = "three rows of one point")]
     fn rows(
         &self,
-        evaluator: &Evaluator,
+        evaluator: &ResidueEvaluator,
         moved: &[Expr],
         first: &[(Expr, Vec<Expr>)],
         field: PrimeField,

@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 
 use super::ansatz::orders;
 use super::echelon::{Echelon, reduced};
-use super::evaluator::Evaluator;
+use super::evaluator::ResidueEvaluator;
 use super::formula::{cleared, content};
 use super::law;
 use super::naming::name_of;
@@ -202,7 +202,7 @@ impl Problem {
         roots.extend(self.slopes.1.iter().chain(&self.slopes.2));
         let moving: Vec<Symbol> =
             self.positions.iter().chain(&self.velocities).chain([&self.time]).copied().collect();
-        let evaluator = Evaluator::new(pool, &roots, &moving)?;
+        let evaluator = ResidueEvaluator::new(pool, &roots, &moving)?;
         self.overgeneral = evaluator.overgeneral;
         let (n, m) = (self.positions.len(), self.monomials.len());
         let mut random = Random::new(3);
@@ -263,7 +263,7 @@ impl Problem {
     /// of f.
     fn row(
         &self,
-        evaluator: &Evaluator,
+        evaluator: &ResidueEvaluator,
         field: PrimeField,
         random: &mut Random,
     ) -> Option<(Vec<Residue>, Vec<Residue>)> {

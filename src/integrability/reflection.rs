@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 
-use super::law::{Law, Rule};
+use super::law::{Law, RateRule};
 use crate::expr::{Expr, Pool, Symbol, Zero};
 
 /// The largest number of coordinates, or of variables of a Poisson system, of which all subsets are tried; of more only
@@ -100,17 +100,17 @@ fn images(pool: &mut Pool, law: &Law, flipped: u64) -> HashMap<Symbol, Expr> {
 fn conditions(law: &Law, flipped: u64, reversed: bool) -> Option<Vec<(Expr, bool)>> {
     let odd = |i: usize| flipped >> i & 1 == 1;
     match &law.rule {
-        Rule::Explicit(rates) => {
+        RateRule::Explicit(rates) => {
             Some(rates.iter().enumerate().map(|(i, &e)| (e, odd(i) != reversed)).collect())
         }
-        Rule::Solved { mass, force, rows } if rows.is_empty() && !reversed => {
+        RateRule::Solved { mass, force, rows } if rows.is_empty() && !reversed => {
             let forces = force.iter().enumerate().map(|(i, &e)| (e, odd(i)));
             let masses = mass.iter().enumerate().flat_map(|(i, row)| {
                 row.iter().enumerate().map(move |(j, &e)| (e, odd(i) != odd(j)))
             });
             Some(forces.chain(masses).collect())
         }
-        Rule::Solved { .. } => None,
+        RateRule::Solved { .. } => None,
     }
 }
 

@@ -2,36 +2,36 @@
 //!
 //! In: a law. Out: families, bounds, and what coefficients may be made of. Never here: the search.
 
-use super::atoms::{Atoms, Family, parity};
-use super::law::{Law, Rule};
+use super::atoms::{AnsatzFamily, Atoms, parity};
+use super::law::{Law, RateRule};
 use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
 use crate::model::Model;
 
 /// A law with the coordinates that are angles.
 #[derive(Clone, Debug)]
-pub(super) struct Scope {
+pub(super) struct SearchScope {
     pub(super) law: Law,
     pub(super) angles: Vec<Symbol>,
 }
 
-impl Scope {
-    pub(super) fn of(model: &Model, law: Law) -> Scope {
+impl SearchScope {
+    pub(super) fn of(model: &Model, law: Law) -> SearchScope {
         let is_angle = |c: &&crate::model::Coordinate| {
             c.period.is_some() || ["rad", "deg", "°"].contains(&c.unit.as_str()) || greek(&c.name)
         };
         let angles = model.coordinates.iter().filter(is_angle).map(|c| c.position).collect();
-        Scope { law, angles }
+        SearchScope { law, angles }
     }
 
     /// The standard family, and the others that are tried where the law has what they need.
-    pub(super) fn families(&self, model: &Model, pool: &Pool) -> Vec<Family> {
-        let standard = Family { absent_by_angle: false, half_angles: false };
+    pub(super) fn families(&self, model: &Model, pool: &Pool) -> Vec<AnsatzFamily> {
+        let standard = AnsatzFamily { absent_by_angle: false, half_angles: false };
         let mut all = vec![standard];
         let roots = self.law.expressions();
         let absent = |s: &&Symbol| !roots.iter().any(|&e| pool.depends(e, **s));
         let positions = &self.law.variables[..self.law.positions];
         if positions.iter().filter(absent).any(|s| !self.angles.contains(s)) {
-            all.push(Family { absent_by_angle: true, ..standard });
+            all.push(AnsatzFamily { absent_by_angle: true, ..standard });
         }
         let turns = |e: &Expr| {
             let parts = pool.reachable(&[*e]);
@@ -40,7 +40,7 @@ impl Scope {
                 .any(|e| matches!(pool.node(e), Node::Call(FunctionId::Sin | FunctionId::Cos, _)))
         };
         if !model.is_poisson() && roots.iter().any(turns) {
-            all.push(Family { half_angles: true, ..standard });
+            all.push(AnsatzFamily { half_angles: true, ..standard });
         }
         all
     }
@@ -82,12 +82,12 @@ impl Scope {
         let momenta = self.law.momenta();
         let even = |e: &Expr| parity(pool, *e, momenta) == Some(true);
         match &self.law.rule {
-            Rule::Explicit(rates) => {
+            RateRule::Explicit(rates) => {
                 let (velocities, forces) = rates.split_at(self.law.positions);
                 let odd = |e: &Expr| *e == Expr::ZERO || parity(pool, *e, momenta) == Some(false);
                 velocities.iter().all(odd) && forces.iter().all(even)
             }
-            Rule::Solved { mass, force, rows } => {
+            RateRule::Solved { mass, force, rows } => {
                 mass.iter().flatten().chain(force).all(even)
                     && rows.iter().all(|row| row.is_scleronomic(pool, self.law.time))
             }

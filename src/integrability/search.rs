@@ -9,17 +9,17 @@ use std::collections::HashMap;
 use rustc_hash::FxHashMap;
 
 use super::ansatz::Ansatz;
-use super::atoms::{Atoms, Family};
+use super::atoms::{AnsatzFamily, Atoms};
 use super::coefficients::{Lift, rationals};
-use super::evaluator::Evaluator;
+use super::evaluator::ResidueEvaluator;
 use super::formula::{cleared, combination, words};
 use super::invariants::{Constant, EXHAUSTED, Invariants, Limits, Proof, Searched};
-use super::known::{self, Known, products};
+use super::known::{self, KnownConstant, products};
 use super::law::{self, Law};
 use super::level::{self, Broken, Ground};
 use super::quadratic::with_root;
 use super::random::Random;
-use super::scope::{Scope, constants_of};
+use super::scope::{SearchScope, constants_of};
 use super::units::Unsupported;
 use super::vanishing::vanishes;
 use crate::expr::{Expr, Symbol};
@@ -80,8 +80,8 @@ struct Search<'a> {
     law: Law,
     values: HashMap<Symbol, Expr>,
     parameters: Vec<Symbol>,
-    scope: Scope,
-    known: Vec<Known>,
+    scope: SearchScope,
+    known: Vec<KnownConstant>,
     field: PrimeField,
     random: Random,
 }
@@ -101,7 +101,7 @@ impl<'a> Search<'a> {
         if pool.is_full() {
             return Err(Unsupported("the equations are too large".to_owned()));
         }
-        let evaluator = Evaluator::new(pool, &law.expressions(), &law.moving())?;
+        let evaluator = ResidueEvaluator::new(pool, &law.expressions(), &law.moving())?;
         for e in symbolic.expressions() {
             if equations.has_kink_on_constraints(e) {
                 let why =
@@ -110,7 +110,7 @@ impl<'a> Search<'a> {
             }
         }
         let known = known::of(equations, &law, &values);
-        let scope = Scope::of(model, law.clone());
+        let scope = SearchScope::of(model, law.clone());
         let mut random = Random::new(1);
         let mut works = |n: &usize| {
             let field = PrimeField::nth(*n);
@@ -186,7 +186,7 @@ impl<'a> Search<'a> {
         model: &Model,
         equations: &mut Equations,
         answer: &mut Invariants,
-        family: Family,
+        family: AnsatzFamily,
         atoms: &Atoms,
         ansatz: &Ansatz,
     ) -> Result<(usize, bool), Broken> {
@@ -206,7 +206,8 @@ impl<'a> Search<'a> {
         roots.extend(&functions);
         roots.extend(&atoms.momenta);
         roots.extend(atoms.coefficients.iter().map(|g| g.expression));
-        let Ok(evaluator) = Evaluator::new(&mut equations.pool, &roots, &self.law.moving()) else {
+        let Ok(evaluator) = ResidueEvaluator::new(&mut equations.pool, &roots, &self.law.moving())
+        else {
             return Err(Broken::NoPoint);
         };
         let law = self.law.clone();
@@ -278,7 +279,7 @@ impl<'a> Search<'a> {
         &mut self,
         model: &Model,
         equations: &mut Equations,
-        family: Family,
+        family: AnsatzFamily,
         ansatz: &Ansatz,
         columns: &[usize],
     ) -> Option<Expr> {
@@ -305,7 +306,7 @@ impl<'a> Search<'a> {
         roots.extend(&atoms.momenta);
         roots.extend(atoms.coefficients.iter().map(|g| g.expression));
         roots.extend(constants.iter().map(|(e, _)| *e));
-        let evaluator = Evaluator::new(pool, &roots, &self.law.moving()).ok()?;
+        let evaluator = ResidueEvaluator::new(pool, &roots, &self.law.moving()).ok()?;
         let lift = Lift {
             law: &self.symbolic,
             evaluator: &evaluator,
@@ -357,7 +358,8 @@ impl<'a> Search<'a> {
         for &s in &self.law.variables {
             roots.push(equations.pool.variable(s));
         }
-        let Ok(evaluator) = Evaluator::new(&mut equations.pool, &roots, &self.law.moving()) else {
+        let Ok(evaluator) = ResidueEvaluator::new(&mut equations.pool, &roots, &self.law.moving())
+        else {
             return;
         };
         let ground = Ground {

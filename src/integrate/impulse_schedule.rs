@@ -5,12 +5,12 @@
 
 use super::clock::spacing;
 use crate::num::DoubleDouble;
-use crate::system::Schedule;
+use crate::system::ImpulseTimes;
 
 /// The impulses of one motion.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ImpulseSchedule {
-    schedule: Vec<Schedule>,
+    schedule: Vec<ImpulseTimes>,
     start: f64,
     /// The time and index of the last impulse applied.
     applied: Option<(f64, usize)>,
@@ -18,13 +18,14 @@ pub(super) struct ImpulseSchedule {
 
 impl ImpulseSchedule {
     /// Replaces the schedule; impulses already applied are not repeated.
-    pub(super) fn reschedule(&mut self, schedule: Vec<Schedule>) {
+    pub(super) fn reschedule(&mut self, schedule: Vec<ImpulseTimes>) {
         self.schedule = schedule;
     }
 
     /// Whether there are no impulses at any time.
     pub(super) fn is_empty(&self) -> bool {
-        let timed = |schedule: &Schedule| schedule.interval.is_some() || !schedule.times.is_empty();
+        let timed =
+            |schedule: &ImpulseTimes| schedule.interval.is_some() || !schedule.times.is_empty();
         !self.schedule.iter().any(timed)
     }
 

@@ -14,6 +14,7 @@ mod batch_step_size;
 mod branches;
 mod collocation_step;
 mod kinks;
+mod last_orders;
 mod steep;
 mod step_screen;
 mod step_size;
@@ -22,7 +23,7 @@ mod sticking;
 pub(super) use batch::TaylorBatch;
 use collocation_step::CollocationStep;
 use kinks::Kinks;
-use step_size::StepSize;
+use step_size::{EXACT_BELOW, StepSize};
 use sticking::{Sticking, Still};
 
 use super::method::{Method, MethodError, Preserves, Settings, Stepping};
@@ -33,9 +34,6 @@ use crate::system::{ExactRates, Form, MotionError, MotionErrorKind, Series, Side
 /// The default tolerance. It is far below the last digit shown, so that the results carry the error
 /// of one rounding at the end and not of all on the way.
 const TOLERANCE: f64 = 1e-18;
-
-/// Below this tolerance the lowest orders are built in double-double.
-const EXACT_BELOW: f64 = 1e-16;
 
 /// The number of orders built in double-double: the part left to `f64` is a ten-thousandth of a
 /// step.

@@ -11,7 +11,7 @@ use crate::expr::{Expr, Symbol, Zero};
 
 /// What the difference of two Lagrangians is.
 #[derive(Clone, Debug)]
-pub struct Gauge {
+pub struct GaugeDifference {
     /// L₁ − L₂.
     pub difference: Expr,
     /// Whether it is a total derivative: its Euler–Lagrange expressions vanish identically. `None` where neither answer is
@@ -23,7 +23,7 @@ pub struct Gauge {
 
 impl Equations {
     /// Compares two functions of (q, q̇, t) as Lagrangians.
-    pub fn gauge(&mut self, first: Expr, second: Expr) -> Gauge {
+    pub fn gauge(&mut self, first: Expr, second: Expr) -> GaugeDifference {
         let difference = self.pool.sub(first, second);
         let difference = self.pool.simplify(difference);
         let coordinates = self.coordinates.clone();
@@ -56,7 +56,7 @@ impl Equations {
             answer = None;
         }
         let function = (answer == Some(true)).then(|| self.function_of(difference)).flatten();
-        Gauge { difference, total_derivative: answer, function }
+        GaugeDifference { difference, total_derivative: answer, function }
     }
 
     /// f with df/dt = e, for an e that is linear in the velocities.

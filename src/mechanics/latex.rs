@@ -4,7 +4,7 @@
 
 use super::Holonomy;
 use super::further::Further;
-use super::report::{Left, Line, Report};
+use super::report::{LeftSide, Line, Report};
 use crate::expr::Symbol;
 
 /// Writes the report as a fragment for LaTeX.
@@ -103,15 +103,15 @@ impl<'a> LatexReport<'a> {
         self.add(&left, &matrix(&row(force)));
     }
 
-    fn left(&self, left: Left) -> String {
+    fn left(&self, left: LeftSide) -> String {
         let symbol = |s: Symbol| &self.report.equations.pool.symbol_info(s).latex;
         match left {
-            Left::Letter(letter) => letter.to_owned(),
-            Left::Symbol(s) => symbol(s).clone(),
-            Left::Rate(p) => format!("\\dot {}", symbol(p)),
-            Left::Added(letter, q) => format!("{letter}_{{{}}}", symbol(q)),
-            Left::Bracket(a, b) => format!("\\{{{}, {}\\}}", symbol(a), symbol(b)),
-            Left::Jump(s) => format!("\\Delta {}", symbol(s)),
+            LeftSide::Letter(letter) => letter.to_owned(),
+            LeftSide::Symbol(s) => symbol(s).clone(),
+            LeftSide::Rate(p) => format!("\\dot {}", symbol(p)),
+            LeftSide::Added(letter, q) => format!("{letter}_{{{}}}", symbol(q)),
+            LeftSide::Bracket(a, b) => format!("\\{{{}, {}\\}}", symbol(a), symbol(b)),
+            LeftSide::Jump(s) => format!("\\Delta {}", symbol(s)),
         }
     }
 }

@@ -14,7 +14,7 @@ use crate::num::DoubleDouble;
 
 /// The left-hand side of a line.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Left {
+pub enum LeftSide {
     /// A letter with a fixed meaning: `L`, `H`, `F`, `E`.
     Letter(&'static str),
     /// A symbol of the system.
@@ -34,24 +34,24 @@ pub enum Left {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Line {
     /// The left-hand side.
-    pub left: Left,
+    pub left: LeftSide,
     /// The right-hand side.
     pub right: Expr,
 }
 
 impl Line {
-    fn of((left, right): (Left, Expr)) -> Line {
+    fn of((left, right): (LeftSide, Expr)) -> Line {
         Line { left, right }
     }
 
     fn named(symbol: Symbol, right: Expr) -> Line {
-        Line { left: Left::Symbol(symbol), right }
+        Line { left: LeftSide::Symbol(symbol), right }
     }
 }
 
 /// A constraint with its multiplier.
 #[derive(Clone, Copy, Debug)]
-pub struct Constrained<'a> {
+pub struct ConstraintReport<'a> {
     /// The constraint as the file gives it.
     pub constraint: &'a Constraint,
     /// The constraint in terms of the velocities.
@@ -84,7 +84,7 @@ pub struct ImpulseReport<'a> {
 
 /// The kind of a conserved quantity.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Constant<'a> {
+pub enum ConservedKind<'a> {
     /// A momentum.
     Momentum(Symbol),
     /// The energy.
@@ -99,7 +99,7 @@ pub enum Constant<'a> {
 #[derive(Clone, Copy, Debug)]
 pub struct ConservedReport<'a> {
     /// Its kind.
-    pub constant: Constant<'a>,
+    pub constant: ConservedKind<'a>,
     /// The quantity as a function of the state.
     pub expression: Expr,
     /// Why it is conserved.
@@ -153,7 +153,7 @@ pub struct Report<'a> {
     /// The Casimirs, by name.
     pub casimirs: Vec<(&'a str, Expr)>,
     /// The constraints.
-    pub constraints: Vec<Constrained<'a>>,
+    pub constraints: Vec<ConstraintReport<'a>>,
     /// Their multipliers, or why these have no closed form.
     pub multipliers: Result<Vec<Line>, &'a NoClosedForm>,
     /// The forces of the constraints on the coordinates.
@@ -163,7 +163,7 @@ pub struct Report<'a> {
     /// The momenta.
     pub momenta: Vec<Line>,
     /// The quantities for which the equations of motion are solved.
-    pub rates: Vec<Left>,
+    pub rates: Vec<LeftSide>,
     /// The solved equations of motion, or why they have no closed form.
     pub motion: Result<Vec<Line>, &'a NoClosedForm>,
     /// H, or why it has no closed form.
@@ -206,19 +206,21 @@ impl<'a> Report<'a> {
             model,
             equations,
             body: BodyReport::of(model, equations),
-            law: Line { left: Left::Letter(name), right: law },
+            law: Line { left: LeftSide::Letter(name), right: law },
             domain: widened(model, equations),
             dissipation: (dissipation != Expr::ZERO)
-                .then_some(Line { left: Left::Letter("F"), right: dissipation }),
-            forces: forces.map(|(c, &e)| Line::of((Left::Added(letter, c.position), e))).collect(),
+                .then_some(Line { left: LeftSide::Letter("F"), right: dissipation }),
+            forces: forces
+                .map(|(c, &e)| Line::of((LeftSide::Added(letter, c.position), e)))
+                .collect(),
             brackets: brackets
-                .map(|(i, j, e)| Line::of((Left::Bracket(position(i), position(j)), e)))
+                .map(|(i, j, e)| Line::of((LeftSide::Bracket(position(i), position(j)), e)))
                 .collect(),
             casimirs: casimirs.iter().map(|(name, e, _)| (name.as_str(), *e)).collect(),
             constraints: constraints
                 .map(|(k, (constraint, row))| {
                     let multiplier = solved.ok().map(|solved| solved[k]);
-                    Constrained { constraint, row, multiplier, holonomy: &holonomy[k] }
+                    ConstraintReport { constraint, row, multiplier, holonomy: &holonomy[k] }
                 })
                 .collect(),
             multipliers: solved.map(|solved| {
@@ -238,8 +240,8 @@ impl<'a> Report<'a> {
             hamiltonian: equations
                 .hamiltonian
                 .as_ref()
-                .map(|&h| Line { left: Left::Letter("H"), right: h }),
-            energy: Line { left: Left::Letter("E"), right: equations.energy },
+                .map(|&h| Line { left: LeftSide::Letter("H"), right: h }),
+            energy: Line { left: LeftSide::Letter("E"), right: equations.energy },
             energy_rate: equations.energy_rate,
             cyclic: equations.cyclic.iter().map(|&i| position(i)).collect(),
             conserved: conserved(model, equations),
@@ -257,13 +259,13 @@ impl<'a> Report<'a> {
 }
 
 /// Left-hand sides of the equations of motion: q̈, or q̇ and then ṗ.
-fn rates(model: &Model) -> Vec<Left> {
+fn rates(model: &Model) -> Vec<LeftSide> {
     let all = model.coordinates.iter();
     if model.is_lagrangian() {
-        return all.map(|c| Left::Symbol(c.acceleration)).collect();
+        return all.map(|c| LeftSide::Symbol(c.acceleration)).collect();
     }
-    let velocities = all.clone().map(|c| Left::Symbol(c.velocity));
-    velocities.chain(all.map(|c| Left::Rate(c.momentum))).collect()
+    let velocities = all.clone().map(|c| LeftSide::Symbol(c.velocity));
+    velocities.chain(all.map(|c| LeftSide::Rate(c.momentum))).collect()
 }
 
 fn reactions<'e>(
@@ -280,10 +282,10 @@ fn conserved<'a>(model: &Model, equations: &'a Equations) -> Vec<ConservedReport
         let mut coordinates = model.coordinates.iter();
         let momentum = coordinates.find(|c| name.strip_prefix("p_") == Some(c.name.as_str()));
         let constant = match momentum {
-            Some(c) => Constant::Momentum(c.momentum),
-            None if name == "energy" => Constant::Energy,
-            None if conserved.reason == Reason::Casimir => Constant::Casimir(name),
-            None => Constant::Other(name),
+            Some(c) => ConservedKind::Momentum(c.momentum),
+            None if name == "energy" => ConservedKind::Energy,
+            None if conserved.reason == Reason::Casimir => ConservedKind::Casimir(name),
+            None => ConservedKind::Other(name),
         };
         ConservedReport { constant, expression: conserved.expression, reason: &conserved.reason }
     });
@@ -295,7 +297,7 @@ impl<'a> ImpulseReport<'a> {
         let changes = model.coordinates.iter().zip(&impulse.change);
         let changes = changes.filter(|(_, e)| **e != Expr::ZERO).map(|(c, &e)| {
             let moved = if model.is_poisson() { c.position } else { c.momentum };
-            Line { left: Left::Jump(moved), right: e }
+            Line { left: LeftSide::Jump(moved), right: e }
         });
         ImpulseReport { impulse, changes: changes.collect() }
     }

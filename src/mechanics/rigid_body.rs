@@ -12,7 +12,7 @@ use nalgebra::{Matrix3, SymmetricEigen};
 use super::structure_error::StructureError;
 use super::valuation::Valuation;
 use crate::expr::{Expr, FunctionId, Pool, Symbol};
-use crate::model::{Body, Model, Piece, Point, Solid, Turn};
+use crate::model::{Body, Model, Piece, PieceOrientation, Point, Solid};
 use crate::num::{DoubleDouble, Number};
 
 /// A rigid body as a whole.
@@ -105,7 +105,7 @@ fn moments(pool: &mut Pool, piece: &Piece) -> [Expr; 3] {
 /// A piece's tensor about its own centre of mass, along the file's axes: R diag Rᵀ.
 fn turned(pool: &mut Pool, piece: &Piece) -> Tensor {
     let moments = moments(pool, piece);
-    if matches!(piece.turn, Turn::None) || moments.iter().all(|&m| m == moments[0]) {
+    if matches!(piece.turn, PieceOrientation::None) || moments.iter().all(|&m| m == moments[0]) {
         return [0, 1, 2].map(|i| [0, 1, 2].map(|j| if i == j { moments[i] } else { Expr::ZERO }));
     }
     let rotation = rotation(pool, &piece.turn);
@@ -126,10 +126,10 @@ fn turned(pool: &mut Pool, piece: &Piece) -> Tensor {
 }
 
 /// The rotation from a piece's own axes to the file's; its columns are the piece's axes.
-fn rotation(pool: &mut Pool, turn: &Turn) -> Tensor {
+fn rotation(pool: &mut Pool, turn: &PieceOrientation) -> Tensor {
     match turn {
-        Turn::None => identity(),
-        Turn::Euler(angles) => {
+        PieceOrientation::None => identity(),
+        PieceOrientation::Euler(angles) => {
             // about z by ψ, then about x by θ, then about z by φ
             let [phi, theta, psi] = *angles;
             let (outer, middle, inner) =
@@ -137,7 +137,7 @@ fn rotation(pool: &mut Pool, turn: &Turn) -> Tensor {
             let outer = times(pool, outer, middle);
             times(pool, outer, inner)
         }
-        Turn::Axis { axis, angle } => {
+        PieceOrientation::Axis { axis, angle } => {
             // Rodrigues: cos α 1 + (1 − cos α) n nᵀ + sin α [n]×
             let squares: Vec<Expr> = axis.iter().map(|&a| pool.powi(a, 2)).collect();
             let square = pool.sum(&squares);
@@ -301,7 +301,7 @@ pub fn body_constants(model: &Model, parameters: &[f64]) -> Vec<(Symbol, f64)> {
 /// A = B(ψ) C(θ) D(φ), which takes components along space axes to those along body axes: the
 /// transpose of the rotation about z by ψ, then x by θ, then z by φ.
 pub(super) fn attitude(pool: &mut Pool, angles: Point) -> Tensor {
-    let rotation = rotation(pool, &Turn::Euler(angles));
+    let rotation = rotation(pool, &PieceOrientation::Euler(angles));
     [0, 1, 2].map(|i| [0, 1, 2].map(|j| rotation[j][i]))
 }
 
@@ -340,7 +340,7 @@ pub(super) fn structure_errors(
             let message = format!("a size of this piece is {size}");
             report(&piece.place, message, "sizes are not below zero; a hole has a negative mass");
         }
-        if let Turn::Axis { axis, .. } = piece.turn
+        if let PieceOrientation::Axis { axis, .. } = piece.turn
             && axis.into_iter().all(|a| value(a) == 0.0)
         {
             let message = "the axis this piece is turned about has no length".to_owned();

@@ -62,8 +62,8 @@ pub struct Piece {
     pub mass: Expr,
     /// Its centre of mass.
     pub at: Point,
-    /// Its orientation; [`Turn::None`] if the file gives none.
-    pub turn: Turn,
+    /// Its orientation; [`PieceOrientation::None`] if the file gives none.
+    pub turn: PieceOrientation,
     /// Its place in the file.
     pub place: SourceRange,
 }
@@ -110,7 +110,7 @@ pub enum Solid {
 
 /// The orientation of a piece.
 #[derive(Clone, Debug)]
-pub enum Turn {
+pub enum PieceOrientation {
     /// Not rotated.
     None,
     /// Rotated by the right-hand rule about an axis of any length.

@@ -18,7 +18,7 @@ pub struct Parameter {
     /// The greatest value of its range.
     pub max: f64,
     /// The spacing of the steps in its range.
-    pub scale: Scale,
+    pub scale: RangeSpacing,
     /// Its unit, empty if none is given.
     pub unit: String,
     /// Its meaning, in words.
@@ -27,7 +27,7 @@ pub struct Parameter {
 
 /// The spacing of the steps in a range.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub enum Scale {
+pub enum RangeSpacing {
     /// Equal differences.
     #[default]
     Linear,

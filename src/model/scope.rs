@@ -16,7 +16,7 @@ pub use allowed::Allowed;
 
 use allowed::SymbolRole;
 use meaning::Meaning;
-use notation::Shown;
+use notation::ShownNames;
 
 /// The largest depth of an expression with its definitions substituted: the 256 nested parentheses
 /// allowed in a text, with a call, a sum, a product and a power in each.
@@ -34,7 +34,7 @@ pub struct Scope {
     kinds: HashMap<Symbol, SymbolRole>,
     offenders: HashMap<Expr, Option<Symbol>>,
     /// The names as the screen shows them.
-    shown: Shown,
+    shown: ShownNames,
     /// The plain form of the last expression read, if it was written in the notation of the screen.
     pub plain: Option<String>,
     /// The number of mistakes found, including those that are not reported.
@@ -105,7 +105,7 @@ impl Scope {
         for o in &model.observables {
             names.entry(o.name.clone()).or_insert(Meaning::Defined(o.expression));
         }
-        let shown = Shown::of(model, &names);
+        let shown = ShownNames::of(model, &names);
         Scope {
             shown,
             plain: None,

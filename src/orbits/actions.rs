@@ -8,7 +8,7 @@
 
 use std::f64::consts::PI;
 
-use super::{EffectivePotential, Region};
+use super::{AllowedInterval, EffectivePotential};
 use crate::ensemble::{Crossings, NotOnShell, OrbitStatus, Root, SectionPlan, Start, crossings};
 use crate::integrate::{Method, Settings};
 use crate::num::{math, short};
@@ -110,7 +110,7 @@ const ROUNDING: f64 = 1e-11;
 pub fn action_row(
     potential: &mut EffectivePotential<'_>,
     systems: &ActionSystems<'_>,
-    region: Region,
+    region: AllowedInterval,
     energy: f64,
 ) -> Result<ActionRow, NoAction> {
     match (region.left, region.right, potential.period()) {
@@ -132,7 +132,7 @@ fn libration(
     [left, right]: [f64; 2],
     energy: f64,
 ) -> Result<ActionRow, NoAction> {
-    let region = Region { left: Some(left), right: Some(right) };
+    let region = AllowedInterval { left: Some(left), right: Some(right) };
     if potential.is_separatrix(region, energy) {
         let action = action_between(potential, left, right, energy)?;
         let turning_points = vec![left, right];
@@ -167,7 +167,7 @@ fn libration(
 pub fn cyclic_row(
     potential: &mut EffectivePotential<'_>,
     systems: &ActionSystems<'_>,
-    region: Region,
+    region: AllowedInterval,
     energy: f64,
     [position, momentum]: [usize; 2],
     turn: f64,

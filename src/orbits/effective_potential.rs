@@ -39,7 +39,7 @@ pub struct EffectivePotential<'a> {
 
 /// An interval in which a coordinate may move.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Region {
+pub struct AllowedInterval {
     /// Where it turns on the left; `None` where it does not.
     pub left: Option<f64>,
     /// Where it turns on the right.
@@ -214,7 +214,7 @@ impl<'a> EffectivePotential<'a> {
     }
 
     /// All regions that an energy allows, from left to right; those of a rotation have no ends.
-    pub fn regions(&mut self, energy: f64) -> Vec<Region> {
+    pub fn regions(&mut self, energy: f64) -> Vec<AllowedInterval> {
         let nodes = self.nodes.clone();
         let mut regions = Vec::new();
         let mut open: Option<Option<f64>> = None;
@@ -228,7 +228,7 @@ impl<'a> EffectivePotential<'a> {
                 (Some(left), false) => {
                     let inside = last.map_or(node[0], |[q, _]| q);
                     let right = Some(self.crossing(inside, node[0], energy));
-                    regions.push(Region { left, right });
+                    regions.push(AllowedInterval { left, right });
                     open = None;
                 }
                 _ => {}
@@ -236,11 +236,12 @@ impl<'a> EffectivePotential<'a> {
             last = Some(node);
         }
         if let Some(left) = open {
-            regions.push(Region { left, right: None });
+            regions.push(AllowedInterval { left, right: None });
         }
         // of a period both ends are the top, and what is open at one is open at the other
         if self.period.is_some() {
-            let whole = regions.len() == 1 && regions[0] == Region { left: None, right: None };
+            let whole =
+                regions.len() == 1 && regions[0] == AllowedInterval { left: None, right: None };
             if !whole {
                 regions.retain(|region| region.left.is_some() && region.right.is_some());
             }
@@ -249,7 +250,7 @@ impl<'a> EffectivePotential<'a> {
     }
 
     /// The lobes of the separatrix through a top: the regions at its energy that end there.
-    pub fn lobes(&mut self, top: [f64; 2]) -> Vec<Region> {
+    pub fn lobes(&mut self, top: [f64; 2]) -> Vec<AllowedInterval> {
         let [place, energy] = top;
         let noise = NOISE * (energy.abs() + self.depth());
         let mut lobes = Vec::new();
@@ -274,8 +275,8 @@ impl<'a> EffectivePotential<'a> {
             }
             if inside {
                 lobes.push(match side {
-                    0 => Region { left: end, right: Some(place) },
-                    _ => Region { left: Some(place), right: end },
+                    0 => AllowedInterval { left: end, right: Some(place) },
+                    _ => AllowedInterval { left: Some(place), right: end },
                 });
             }
         }
@@ -283,7 +284,7 @@ impl<'a> EffectivePotential<'a> {
     }
 
     /// Whether an energy is that of a separatrix that ends a region, whose motion there takes for ever.
-    pub fn is_separatrix(&self, region: Region, energy: f64) -> bool {
+    pub fn is_separatrix(&self, region: AllowedInterval, energy: f64) -> bool {
         let noise = NOISE * (energy.abs() + self.depth());
         let width = region.left.zip(region.right).map_or(f64::INFINITY, |(l, r)| r - l);
         let ends = |top: &[f64; 2]| {

@@ -12,7 +12,7 @@ use crate::model::Model;
 use crate::system::System;
 
 /// A measure of an orbit.
-pub struct Measure {
+pub struct OrbitMeasure {
     /// Its name on the command line.
     pub name: &'static str,
     /// What it is, in a sentence.
@@ -83,14 +83,14 @@ impl MeasuredOrbit<'_> {
 }
 
 /// All measures.
-pub const MEASURES: &[Measure] = &[PERIOD, ESCAPE, CROSSINGS, LYAPUNOV];
+pub const MEASURES: &[OrbitMeasure] = &[PERIOD, ESCAPE, CROSSINGS, LYAPUNOV];
 
 /// The measure of a name.
-pub fn measure_named(name: &str) -> Option<&'static Measure> {
+pub fn measure_named(name: &str) -> Option<&'static OrbitMeasure> {
     MEASURES.iter().find(|measure| measure.name == name)
 }
 
-const PERIOD: Measure = Measure {
+const PERIOD: OrbitMeasure = OrbitMeasure {
     name: "period",
     about: "the mean time between maxima of the first coordinate, or with =EXPR between upward zeros of an expression; empty where there are fewer than two",
     of: Zeros::Maxima,
@@ -105,7 +105,7 @@ const PERIOD: Measure = Measure {
     },
 };
 
-const ESCAPE: Measure = Measure {
+const ESCAPE: OrbitMeasure = OrbitMeasure {
     name: "escape",
     about: "the first time at which EXPR of escape=EXPR rises through zero; empty where it does not",
     of: Zeros::Given,
@@ -115,7 +115,7 @@ const ESCAPE: Measure = Measure {
     },
 };
 
-const CROSSINGS: Measure = Measure {
+const CROSSINGS: OrbitMeasure = OrbitMeasure {
     name: "crossings",
     about: "how often EXPR of crossings=EXPR rises through zero",
     of: Zeros::Given,
@@ -126,7 +126,7 @@ const CROSSINGS: Measure = Measure {
     },
 };
 
-const LYAPUNOV: Measure = Measure {
+const LYAPUNOV: OrbitMeasure = OrbitMeasure {
     name: "lyapunov",
     about: "the largest Lyapunov exponent over the time of the run; empty where the orbit cannot be followed to its end",
     of: Zeros::None,

@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use crate::ensemble::{Course, Follower, OrbitStatus, Start, side_by_side};
+use crate::ensemble::{Follower, OrbitCourse, OrbitStatus, Start, side_by_side};
 use crate::experiment::{DriftWatch, Experiment, Setup, Status, energy_drift};
 use crate::integrate::{BatchPropagator, LaneStatus, Settings, method_named};
 use crate::mechanics::Equations;
@@ -31,7 +31,7 @@ pub struct RunPlan {
 
 /// How a run ended, and where.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Outcome {
+pub struct RunOutcome {
     /// How it ended.
     pub status: OrbitStatus,
     /// Why, if that needs a sentence.
@@ -51,10 +51,10 @@ const STEPS_PER_LOOK: u64 = 256;
 /// The number of accurate looks at the gauges, besides those after every step.
 const LOOKS: f64 = 64.0;
 
-impl Outcome {
+impl RunOutcome {
     /// A run that could not begin.
-    pub fn refused(why: &impl ToString, columns: usize) -> Outcome {
-        Outcome {
+    pub fn refused(why: &impl ToString, columns: usize) -> RunOutcome {
+        RunOutcome {
             status: OrbitStatus::Refused,
             message: Some(why.to_string()),
             time: f64::NAN,
@@ -83,15 +83,15 @@ impl RunPlan {
     }
 
     /// Runs to the end; `None` if it was cancelled.
-    pub fn run(&self, start: &Start, end: f64) -> Option<Outcome> {
+    pub fn run(&self, start: &Start, end: f64) -> Option<RunOutcome> {
         let columns = self.system.columns();
         let mut experiment = match self.experiment(start, end) {
             Ok(experiment) => experiment,
-            Err(why) => return Some(Outcome::refused(&why, columns)),
+            Err(why) => return Some(RunOutcome::refused(&why, columns)),
         };
         if let Status::Failed(failure) = experiment.status() {
             let cancelled = self.system.cancel().is_cancelled();
-            return (!cancelled).then(|| Outcome::refused(&failure.message, columns));
+            return (!cancelled).then(|| RunOutcome::refused(&failure.message, columns));
         }
         experiment.only_count_occurrences();
         experiment.forget_past();
@@ -114,7 +114,7 @@ impl RunPlan {
             }
         };
         let gauges = experiment.snapshot().gauges;
-        Some(Outcome {
+        Some(RunOutcome {
             status,
             message,
             time: experiment.time(),
@@ -132,8 +132,8 @@ impl RunPlan {
     }
 
     /// Follows several runs to their ends and hands each to `done` as soon as it is over. One that is cancelled is not.
-    pub fn run_all(&self, runs: &[(&Start, f64)], mut done: impl FnMut(usize, Outcome)) {
-        let alone = |i: usize, done: &mut dyn FnMut(usize, Outcome)| {
+    pub fn run_all(&self, runs: &[(&Start, f64)], mut done: impl FnMut(usize, RunOutcome)) {
+        let alone = |i: usize, done: &mut dyn FnMut(usize, RunOutcome)| {
             let (start, end) = runs[i];
             self.run(start, end).into_iter().for_each(|outcome| done(i, outcome));
         };
@@ -165,7 +165,7 @@ impl RunPlan {
 }
 
 /// Runs that are followed side by side.
-struct RunTogether<'a, D: FnMut(usize, Outcome)> {
+struct RunTogether<'a, D: FnMut(usize, RunOutcome)> {
     plan: &'a RunPlan,
     runs: &'a [(&'a Start, f64)],
     watches: [DriftWatch; BATCH],
@@ -176,8 +176,8 @@ struct RunTogether<'a, D: FnMut(usize, Outcome)> {
     done: &'a mut D,
 }
 
-impl<D: FnMut(usize, Outcome)> Follower for RunTogether<'_, D> {
-    fn begin(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> Course {
+impl<D: FnMut(usize, RunOutcome)> Follower for RunTogether<'_, D> {
+    fn begin(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
         let (start, end) = self.runs[orbit];
         let parameters = &start.parameters;
         let regular = start.time < end
@@ -189,10 +189,10 @@ impl<D: FnMut(usize, Outcome)> Follower for RunTogether<'_, D> {
             if let Some(terms) = &mut self.terms {
                 terms.set_parameters(lane, parameters);
             }
-            return Course::Until(end);
+            return OrbitCourse::Until(end);
         }
         self.leave(orbit);
-        Course::Over
+        OrbitCourse::Over
     }
 
     fn look_at_all(&mut self, batch: &BatchPropagator) {
@@ -202,7 +202,7 @@ impl<D: FnMut(usize, Outcome)> Follower for RunTogether<'_, D> {
         }
     }
 
-    fn look(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> Course {
+    fn look(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
         let (_, end) = self.runs[orbit];
         let (state, watch) = (batch.state(lane), &mut self.watches[lane]);
         let together = self.terms.as_ref();
@@ -211,11 +211,11 @@ impl<D: FnMut(usize, Outcome)> Follower for RunTogether<'_, D> {
             None => watch.step(state),
         }
         if state.time < end {
-            return Course::Until(end);
+            return OrbitCourse::Until(end);
         }
         match watch.end(state) {
             Ok((values, energy_drift)) => {
-                let outcome = Outcome {
+                let outcome = RunOutcome {
                     status: OrbitStatus::Completed,
                     message: None,
                     time: state.time,
@@ -226,7 +226,7 @@ impl<D: FnMut(usize, Outcome)> Follower for RunTogether<'_, D> {
             }
             Err(_) => self.leave(orbit),
         }
-        Course::Over
+        OrbitCourse::Over
     }
 
     fn leave(&mut self, orbit: usize) {

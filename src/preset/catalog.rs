@@ -20,12 +20,12 @@ use crate::diagnostic::Document;
 use crate::diagnostic::nearest;
 use crate::printable;
 
-pub use entry::{Entry, Origin};
+pub use entry::{CatalogEntry, PresetOrigin};
 
 /// All available presets.
 #[derive(Clone, Debug)]
 pub struct Catalog {
-    entries: Vec<Entry>,
+    entries: Vec<CatalogEntry>,
     cut: bool,
 }
 
@@ -68,10 +68,10 @@ impl Catalog {
         if let Some(folder) = user {
             let found = folder::presets(folder);
             cut = found.cut;
-            entries.extend(found.files.iter().map(|path| Entry::of_user(folder, path)));
+            entries.extend(found.files.iter().map(|path| CatalogEntry::of_user(folder, path)));
         }
         let own: Vec<String> = entries.iter().map(|entry| entry.name.clone()).collect();
-        let shipped = shipped::INDEX.iter().map(Entry::shipped);
+        let shipped = shipped::INDEX.iter().map(CatalogEntry::shipped);
         entries.extend(shipped.filter(|entry| !own.contains(&entry.name)));
         entry::sort(&mut entries);
         Catalog { entries, cut }
@@ -83,7 +83,7 @@ impl Catalog {
     }
 
     /// The presets, by topic in the order of the notes, and by chapter within a topic.
-    pub fn entries(&self) -> &[Entry] {
+    pub fn entries(&self) -> &[CatalogEntry] {
         &self.entries
     }
 
@@ -94,8 +94,8 @@ impl Catalog {
         }
         let entry = self.entries.iter().find(|entry| entry.name == wanted)?;
         match &entry.origin {
-            Origin::User(path) => Some(path.clone()),
-            Origin::Shipped => None,
+            PresetOrigin::User(path) => Some(path.clone()),
+            PresetOrigin::Shipped => None,
         }
     }
 
@@ -139,8 +139,10 @@ pub fn find_beside(user: Option<&Path>, wanted: &OsStr) -> Result<Document, NotF
     }
     let own = user.map(folder::presets).unwrap_or_default().files;
     let own: Vec<&PathBuf> = own.iter().filter(|path| path.file_stem() == Some(wanted)).collect();
-    let shipped =
-        shipped::INDEX.iter().map(Entry::shipped).find(|entry| wanted == entry.name.as_str());
+    let shipped = shipped::INDEX
+        .iter()
+        .map(CatalogEntry::shipped)
+        .find(|entry| wanted == entry.name.as_str());
     match (own.as_slice(), shipped) {
         ([path], _) => open(path),
         ([], Some(entry)) => entry.document(),

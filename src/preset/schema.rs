@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 /// A table of the file, or of a list in it.
 #[derive(Debug)]
-pub(super) struct Section {
+pub(super) struct SchemaTable {
     /// Its heading: `[run]`, `[[events]]`, or what its entries are called.
     pub(super) head: &'static str,
     /// Its purpose.
@@ -22,7 +22,7 @@ pub(super) struct Key {
     /// Its name.
     pub(super) name: &'static str,
     /// The kind of its value.
-    pub(super) kind: Kind,
+    pub(super) kind: ValueKind,
     /// The unit of its number; empty if it has none, or if the file determines it.
     pub(super) unit: &'static str,
     /// The kinds of entries that may have it; empty for all.
@@ -35,7 +35,7 @@ pub(super) struct Key {
 
 /// The kind of a value.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Kind {
+pub(super) enum ValueKind {
     /// A text in quotes.
     Text,
     /// A list of texts.
@@ -59,18 +59,18 @@ pub(super) enum Kind {
     /// A list of `[a, b, {a, b}]`.
     Brackets,
     /// A table.
-    Table(&'static Section),
+    Table(&'static SchemaTable),
     /// A table of names chosen by the file, each with such a table.
-    Named(&'static Section),
+    Named(&'static SchemaTable),
     /// Tables, each under a heading in double brackets.
-    Tables(&'static Section),
+    Tables(&'static SchemaTable),
     /// Tables of several kinds, whose keys are known to their own readers.
-    Kinds(&'static Section),
+    Kinds(&'static SchemaTable),
     /// A list of tables in braces.
-    List(&'static Section),
+    List(&'static SchemaTable),
 }
 
-const fn key(name: &'static str, kind: Kind, help: &'static str) -> Key {
+const fn key(name: &'static str, kind: ValueKind, help: &'static str) -> Key {
     Key { name, kind, unit: "", only: &[], missing: None, help }
 }
 
@@ -88,7 +88,7 @@ impl Key {
     }
 }
 
-use Kind::{
+use ValueKind::{
     Brackets, Constant, Flag, Formula, Formulas, Kinds, List, Named, Names, Number, Point, Table,
     Tables, Text, Texts, Triple,
 };
@@ -110,7 +110,7 @@ const FORCES: Key = key("forces", Names, "generalised forces that come from no p
 const H: Key = key("H", Formula, "the Hamiltonian").needed("write H = \"T + V\"");
 
 /// The whole file.
-pub(super) const FILE: Section = Section {
+pub(super) const FILE: SchemaTable = SchemaTable {
     head: "(top)",
     about: "What the file says of itself, before the first table.",
     keys: &[
@@ -146,7 +146,7 @@ pub(super) const FILE: Section = Section {
 };
 
 /// A coordinate.
-pub(super) const COORDINATE: Section = Section {
+pub(super) const COORDINATE: SchemaTable = SchemaTable {
     head: "[coordinates]",
     about: "The coordinates in order: `theta = { initial = 2.0 }`.",
     keys: &[
@@ -164,14 +164,14 @@ pub(super) const COORDINATE: Section = Section {
 };
 
 /// A variable of brackets.
-pub(super) const VARIABLE: Section = Section {
+pub(super) const VARIABLE: SchemaTable = SchemaTable {
     head: "[variables]",
     about: "The variables of a `[poisson]` file in order: a number or an expression, or a table. `L1'` is the rate of `L1`.",
     keys: &[INITIAL, SYMBOL, UNIT, PERIOD],
 };
 
 /// A parameter.
-pub(super) const PARAMETER: Section = Section {
+pub(super) const PARAMETER: SchemaTable = SchemaTable {
     head: "[parameters]",
     about: "What can be changed while it runs: a number or an expression of numbers (`\"2*pi\"`), or a table.",
     keys: &[
@@ -185,7 +185,7 @@ pub(super) const PARAMETER: Section = Section {
     ],
 };
 
-const LAGRANGIAN: Section = Section {
+const LAGRANGIAN: SchemaTable = SchemaTable {
     head: "[lagrangian]",
     about: "d/dt(∂L/∂q') − ∂L/∂q + ∂F/∂q' = Q.",
     keys: &[
@@ -195,13 +195,13 @@ const LAGRANGIAN: Section = Section {
     ],
 };
 
-const HAMILTONIAN: Section = Section {
+const HAMILTONIAN: SchemaTable = SchemaTable {
     head: "[hamiltonian]",
     about: "q' = ∂H/∂p, p' = −∂H/∂q + force.",
     keys: &[H, FORCES],
 };
 
-const POISSON: Section = Section {
+const POISSON: SchemaTable = SchemaTable {
     head: "[poisson]",
     about: "x' = {x, H} + force.",
     keys: &[
@@ -213,7 +213,7 @@ const POISSON: Section = Section {
     ],
 };
 
-const CONSTRAINT: Section = Section {
+const CONSTRAINT: SchemaTable = SchemaTable {
     head: "[[constraints]]",
     about: "Beside a Lagrangian, linear in the velocities; without one it holds the coordinates.",
     keys: &[
@@ -225,7 +225,7 @@ const CONSTRAINT: Section = Section {
     ],
 };
 
-const IMPULSE: Section = Section {
+const IMPULSE: SchemaTable = SchemaTable {
     head: "[[impulses]]",
     about: "Without `at` and `every` it is applied by a key.",
     keys: &[
@@ -239,7 +239,7 @@ const IMPULSE: Section = Section {
     ],
 };
 
-const EVENT: Section = Section {
+const EVENT: SchemaTable = SchemaTable {
     head: "[[events]]",
     about: "Located where an expression crosses zero.",
     keys: &[
@@ -255,7 +255,7 @@ const EVENT: Section = Section {
     ],
 };
 
-const BODY: Section = Section {
+const BODY: SchemaTable = SchemaTable {
     head: "[body]",
     about: "It defines `Ixx` … `Izz`, `I1 ≤ I2 ≤ I3`, `body_mass` and `body_x`, `body_y`, `body_z`.",
     keys: &[key("pieces", List(&PIECE), "the pieces")
@@ -277,7 +277,7 @@ pub(super) const SOLIDS: &[&str] = &[
 ];
 
 /// A piece of a body.
-pub(super) const PIECE: Section = Section {
+pub(super) const PIECE: SchemaTable = SchemaTable {
     head: "a piece",
     about: "A solid or a point. Edges are full edges; the axis of a solid is its z.",
     keys: &[
@@ -309,7 +309,7 @@ pub(super) const PIECE: Section = Section {
 };
 
 /// The rotation of a piece.
-pub(super) const TURN: Section = Section {
+pub(super) const TURN: SchemaTable = SchemaTable {
     head: "`turned` of a piece",
     about: "By an axis and an angle, by the right-hand rule; or by Euler's angles.",
     keys: &[
@@ -326,7 +326,7 @@ pub(super) const TURN: Section = Section {
     ],
 };
 
-const ATTITUDE: Section = Section {
+const ATTITUDE: SchemaTable = SchemaTable {
     head: "[attitude]",
     about: "The matrix from space axes to body axes, `A11` … `A33`: by `euler`, or by `omega`.",
     keys: &[
@@ -336,14 +336,14 @@ const ATTITUDE: Section = Section {
     ],
 };
 
-const COMPARISON: Section = Section {
+const COMPARISON: SchemaTable = SchemaTable {
     head: "[comparison]",
     about: "The constraints are put into L before it is varied; the motion is `other_x`.",
     keys: &[key("eliminate", Texts, "the coordinates whose velocities are eliminated")
         .needed("write eliminate = [\"x\"], one coordinate for each constraint")],
 };
 
-const TRANSFORMATION: Section = Section {
+const TRANSFORMATION: SchemaTable = SchemaTable {
     head: "[[transformations]]",
     about: "By a generating function of one old and one new variable of each pair, or explicitly. The new variables are \
             `Q`, `P` for one coordinate, else `Q1` …, `P1` …; observables, views, claims and `--observe` may use them \
@@ -364,13 +364,13 @@ const TRANSFORMATION: Section = Section {
     ],
 };
 
-const GENERATOR: Section = Section {
+const GENERATOR: SchemaTable = SchemaTable {
     head: "[[generators]]",
     about: "Of infinitesimal transformations; `run --flow-of NAME` carries the state along its flow.",
     keys: &[NAME, key("G", Formula, "a function of q, p, t").needed("write G = \"...\"")],
 };
 
-const INTEGRAL: Section = Section {
+const INTEGRAL: SchemaTable = SchemaTable {
     head: "[hamilton_jacobi]",
     about: "A complete integral of H(q, ∂S/∂q, t) + ∂S/∂t = 0; checked.",
     keys: &[
@@ -380,13 +380,13 @@ const INTEGRAL: Section = Section {
     ],
 };
 
-const OBSERVABLE: Section = Section {
+const OBSERVABLE: SchemaTable = SchemaTable {
     head: "[[observables]]",
     about: "Each may use those above it.",
     keys: &[NAME, EXPRESSION, key("conserved", Flag, "a claim that it is; checked")],
 };
 
-const EXPECT: Section = Section {
+const EXPECT: SchemaTable = SchemaTable {
     head: "[expect]",
     about: "The file's own test.",
     keys: &[
@@ -405,7 +405,7 @@ const EXPECT: Section = Section {
 };
 
 /// An expected value.
-pub(super) const EXPECTED_VALUE: Section = Section {
+pub(super) const EXPECTED_VALUE: SchemaTable = SchemaTable {
     head: "`values` of [expect]",
     about: "What an expression is at a time.",
     keys: &[
@@ -419,7 +419,7 @@ pub(super) const EXPECTED_VALUE: Section = Section {
 };
 
 /// An expected event.
-pub(super) const EXPECTED_EVENT: Section = Section {
+pub(super) const EXPECTED_EVENT: SchemaTable = SchemaTable {
     head: "`events` of [expect]",
     about: "When an event or an impulse happens.",
     keys: &[
@@ -432,7 +432,7 @@ pub(super) const EXPECTED_EVENT: Section = Section {
 };
 
 /// An expected count.
-pub(super) const EXPECTED_COUNT: Section = Section {
+pub(super) const EXPECTED_COUNT: SchemaTable = SchemaTable {
     head: "`count` of [expect]",
     about: "How often it has happened by a time.",
     keys: &[
@@ -444,7 +444,7 @@ pub(super) const EXPECTED_COUNT: Section = Section {
 };
 
 /// An expected bracket.
-pub(super) const EXPECTED_BRACKET: Section = Section {
+pub(super) const EXPECTED_BRACKET: SchemaTable = SchemaTable {
     head: "`brackets` of [expect]",
     about: "What the bracket of two expressions is.",
     keys: &[
@@ -455,7 +455,7 @@ pub(super) const EXPECTED_BRACKET: Section = Section {
     ],
 };
 
-const FRAME: Section = Section {
+const FRAME: SchemaTable = SchemaTable {
     head: "[[frames]]",
     about: "It turns and moves, or is that of the body.",
     keys: &[
@@ -469,7 +469,7 @@ const FRAME: Section = Section {
 };
 
 /// A particle of a frame.
-pub(super) const PARTICLE: Section = Section {
+pub(super) const PARTICLE: SchemaTable = SchemaTable {
     head: "`particles` of a frame",
     about: "On which the apparent forces are drawn.",
     keys: &[
@@ -478,7 +478,7 @@ pub(super) const PARTICLE: Section = Section {
     ],
 };
 
-const VIEW: Section = Section {
+const VIEW: SchemaTable = SchemaTable {
     head: "[[views]]",
     about: "A `potential` is `y` over the coordinate `x`, all else held.",
     keys: &[
@@ -533,7 +533,7 @@ const VIEW: Section = Section {
     ],
 };
 
-const SPACE: Section = Section {
+const SPACE: SchemaTable = SchemaTable {
     head: "[space]",
     about: "Points have two or three expressions, z up.",
     keys: &[
@@ -547,7 +547,7 @@ const SPACE: Section = Section {
     ],
 };
 
-const SHAPE: Section = Section {
+const SHAPE: SchemaTable = SchemaTable {
     head: "a shape",
     about: "Its kind is a key of its own.",
     keys: &[
@@ -576,7 +576,7 @@ const SHAPE: Section = Section {
     ],
 };
 
-const RUN: Section = Section {
+const RUN: SchemaTable = SchemaTable {
     head: "[run]",
     about: "What is left out follows from the system.",
     keys: &[
@@ -589,7 +589,7 @@ const RUN: Section = Section {
     ],
 };
 
-impl Kind {
+impl ValueKind {
     /// A short description of the kind.
     fn words(self) -> &'static str {
         match self {
@@ -612,7 +612,7 @@ impl Kind {
     }
 
     /// The nested table, if there is one.
-    pub(super) fn section(self) -> Option<&'static Section> {
+    pub(super) fn section(self) -> Option<&'static SchemaTable> {
         match self {
             Table(section) | Named(section) | Tables(section) | Kinds(section) | List(section) => {
                 Some(section)
@@ -623,7 +623,7 @@ impl Kind {
 }
 
 /// The tables of the file, each before the tables nested in it.
-fn sections() -> Vec<&'static Section> {
+fn sections() -> Vec<&'static SchemaTable> {
     let mut all = vec![&FILE];
     let mut at = 0;
     while at < all.len() {

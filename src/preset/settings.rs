@@ -14,7 +14,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 
 /// A key of the file with its value.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Entry {
+pub struct Setting {
     /// The key.
     pub key: &'static str,
     /// The byte range of its value in the file.
@@ -39,7 +39,7 @@ pub enum Plain {
 impl Document {
     /// Reads a file that may have only these keys. `called` is its name in messages. Returns the values that could be
     /// read, every TOML error and every unknown key.
-    pub fn settings(&self, called: &str, keys: &[&'static str]) -> (Vec<Entry>, Vec<Diagnostic>) {
+    pub fn settings(&self, called: &str, keys: &[&'static str]) -> (Vec<Setting>, Vec<Diagnostic>) {
         if let Some(mistake) = self.unreadable() {
             return (Vec::new(), vec![mistake.clone()]);
         }
@@ -50,7 +50,11 @@ impl Document {
             let mut table = Table::new(called, 0..0, file.get_ref());
             for &key in keys {
                 if let Some((_, value)) = table.take(key) {
-                    entries.push(Entry { key, place: value.span(), value: plain(value.get_ref()) });
+                    entries.push(Setting {
+                        key,
+                        place: value.span(),
+                        value: plain(value.get_ref()),
+                    });
                 }
             }
             table.finish(&mut mistakes);

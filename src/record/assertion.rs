@@ -11,11 +11,11 @@ use crate::instrument::{INSTRUMENTS, named};
 use crate::model::{Allowed, Scope};
 use crate::num::significant;
 
-use super::script::{Assert, Measure, Relation, Text};
+use super::script::{Assert, AssertedNumber, Comparator, LineText};
 
 /// The result of an assertion.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Finding {
+pub(super) struct AssertionResult {
     /// Whether it is true.
     pub(super) holds: bool,
     /// A sentence with the values.
@@ -23,24 +23,31 @@ pub(super) struct Finding {
 }
 
 /// Evaluates an assertion; `screen` contains the screen's rows.
-pub(super) fn find(claim: &Assert, app: &App, screen: &[String]) -> Result<Finding, Diagnostic> {
+pub(super) fn find(
+    claim: &Assert,
+    app: &App,
+    screen: &[String],
+) -> Result<AssertionResult, Diagnostic> {
     match claim {
         Assert::Screen(text) => {
             let holds = screen.iter().any(|row| row.contains(text.as_str()));
             let sentence = if holds { "is on the screen" } else { "is not on the screen" };
-            Ok(Finding { holds, sentence: format!("\"{text}\" {sentence}") })
+            Ok(AssertionResult { holds, sentence: format!("\"{text}\" {sentence}") })
         }
         Assert::Status(word) => {
             let status = app.snapshot().map(|s| status(&s.status));
             let is = status.unwrap_or("without a system");
-            Ok(Finding { holds: status == Some(word), sentence: format!("the motion is {is}") })
+            Ok(AssertionResult {
+                holds: status == Some(word),
+                sentence: format!("the motion is {is}"),
+            })
         }
         Assert::Verdict(name, word) => {
             let (lab, snapshot) = seen(app, name)?;
             let gauge = gauge(lab, snapshot, name)?;
             let is = gauge.verdict.word();
             let holds = is.starts_with(word);
-            Ok(Finding { holds, sentence: format!("the verdict on {} is {is}", name.text) })
+            Ok(AssertionResult { holds, sentence: format!("the verdict on {} is {is}", name.text) })
         }
         Assert::Number { measure, of, relation, with, within } => {
             let left = measured(app, *measure, of)?;
@@ -52,26 +59,26 @@ pub(super) fn find(claim: &Assert, app: &App, screen: &[String]) -> Result<Findi
 }
 
 fn compared(
-    measure: Measure,
-    of: &Text,
+    measure: AssertedNumber,
+    of: &LineText,
     (left, right): (f64, f64),
-    relation: Relation,
+    relation: Comparator,
     within: Option<f64>,
-) -> Finding {
+) -> AssertionResult {
     let what = match measure {
-        Measure::Value => of.text.clone(),
-        Measure::Drift => format!("the drift of {}", of.text),
-        Measure::Least => format!("the least {}", of.text),
-        Measure::Greatest => format!("the greatest {}", of.text),
-        Measure::Count => format!("the count of {}", of.text),
-        Measure::Time => format!("the time of {}", of.text),
+        AssertedNumber::Value => of.text.clone(),
+        AssertedNumber::Drift => format!("the drift of {}", of.text),
+        AssertedNumber::Least => format!("the least {}", of.text),
+        AssertedNumber::Greatest => format!("the greatest {}", of.text),
+        AssertedNumber::Count => format!("the count of {}", of.text),
+        AssertedNumber::Time => format!("the time of {}", of.text),
     };
     let off = (left - right).abs();
     let (holds, sentence) = match relation {
-        Relation::Equal => {
+        Comparator::Equal => {
             let within = within.unwrap_or(0.0);
             let sentence = match measure {
-                Measure::Count => format!("{what} is {left}"),
+                AssertedNumber::Count => format!("{what} is {left}"),
                 _ if off == 0.0 => format!("{what} is {left}, exactly"),
                 _ => format!(
                     "{what} is {left}, {} off {right}, within {}",
@@ -81,21 +88,21 @@ fn compared(
             };
             (off <= within, sentence)
         }
-        Relation::Less => {
+        Comparator::Less => {
             (left < right, format!("{what} is {}, below {}", short(left), short(right)))
         }
-        Relation::More => {
+        Comparator::More => {
             (left > right, format!("{what} is {}, above {}", short(left), short(right)))
         }
     };
     if holds {
-        return Finding { holds, sentence };
+        return AssertionResult { holds, sentence };
     }
     let sentence = match relation {
-        Relation::Equal => {
+        Comparator::Equal => {
             let within = within.unwrap_or(0.0);
             match measure {
-                Measure::Count => format!("{what} is {left}, not {right}"),
+                AssertedNumber::Count => format!("{what} is {left}, not {right}"),
                 _ => format!(
                     "{what} is {left}, which is {} off {right}, not within {}",
                     tolerance(off),
@@ -103,10 +110,10 @@ fn compared(
                 ),
             }
         }
-        Relation::Less => format!("{what} is {}, not below {}", short(left), short(right)),
-        Relation::More => format!("{what} is {}, not above {}", short(left), short(right)),
+        Comparator::Less => format!("{what} is {}, not below {}", short(left), short(right)),
+        Comparator::More => format!("{what} is {}, not above {}", short(left), short(right)),
     };
-    Finding { holds, sentence }
+    AssertionResult { holds, sentence }
 }
 
 /// A difference with two digits, for display only.
@@ -128,7 +135,7 @@ fn status(status: &Status) -> &'static str {
     }
 }
 
-fn seen<'a>(app: &'a App, at: &Text) -> Result<(&'a Lab, &'a Snapshot), Diagnostic> {
+fn seen<'a>(app: &'a App, at: &LineText) -> Result<(&'a Lab, &'a Snapshot), Diagnostic> {
     let lab = app.lab.as_ref().and_then(|lab| Some((lab, lab.seen()?)));
     lab.ok_or_else(|| Diagnostic::error(at.place.clone(), "there is no system in motion here"))
 }
@@ -136,7 +143,7 @@ fn seen<'a>(app: &'a App, at: &Text) -> Result<(&'a Lab, &'a Snapshot), Diagnost
 fn gauge<'a>(
     lab: &Lab,
     snapshot: &'a Snapshot,
-    name: &Text,
+    name: &LineText,
 ) -> Result<&'a crate::experiment::Gauge, Diagnostic> {
     let named = |g: &&crate::experiment::Gauge| g.name == name.text || g.shown == name.text;
     snapshot.gauges.iter().find(named).ok_or_else(|| {
@@ -146,7 +153,7 @@ fn gauge<'a>(
 }
 
 /// The index of the channel of a name.
-pub(super) fn column(app: &App, of: &Text) -> Result<usize, Diagnostic> {
+pub(super) fn column(app: &App, of: &LineText) -> Result<usize, Diagnostic> {
     let (lab, _) = seen(app, of)?;
     let channels = lab.loaded.system.channels();
     channels.iter().position(|c| c.name == of.text || c.shown == of.text).ok_or_else(|| {
@@ -154,8 +161,8 @@ pub(super) fn column(app: &App, of: &Text) -> Result<usize, Diagnostic> {
     })
 }
 
-fn measured(app: &App, measure: Measure, of: &Text) -> Result<f64, Diagnostic> {
-    if measure == Measure::Value {
+fn measured(app: &App, measure: AssertedNumber, of: &LineText) -> Result<f64, Diagnostic> {
+    if measure == AssertedNumber::Value {
         return value(app, of);
     }
     let (lab, snapshot) = seen(app, of)?;
@@ -172,19 +179,19 @@ fn measured(app: &App, measure: Measure, of: &Text) -> Result<f64, Diagnostic> {
         Err(missing("event or impulse", of, names(), &lab.loaded.name))
     };
     Ok(match measure {
-        Measure::Value => f64::NAN,
-        Measure::Drift => gauge(lab, snapshot, of)?.max_drift,
-        Measure::Least => snapshot.bounds[channel()?].0,
-        Measure::Greatest => snapshot.bounds[channel()?].1,
-        Measure::Count => tally()?.map_or(0.0, |tally| tally.count as f64),
-        Measure::Time => tally()?.map(|tally| tally.last).ok_or_else(|| {
+        AssertedNumber::Value => f64::NAN,
+        AssertedNumber::Drift => gauge(lab, snapshot, of)?.max_drift,
+        AssertedNumber::Least => snapshot.bounds[channel()?].0,
+        AssertedNumber::Greatest => snapshot.bounds[channel()?].1,
+        AssertedNumber::Count => tally()?.map_or(0.0, |tally| tally.count as f64),
+        AssertedNumber::Time => tally()?.map(|tally| tally.last).ok_or_else(|| {
             Diagnostic::error(of.place.clone(), format!("`{}` has not happened yet", of.text))
         })?,
     })
 }
 
 /// The current value of an expression.
-pub(super) fn value(app: &App, written: &Text) -> Result<f64, Diagnostic> {
+pub(super) fn value(app: &App, written: &LineText) -> Result<f64, Diagnostic> {
     // a number needs no system
     if let Ok(number) = written.text.parse::<f64>()
         && number.is_finite()
@@ -223,7 +230,7 @@ pub(super) fn value(app: &App, written: &Text) -> Result<f64, Diagnostic> {
 }
 
 /// The value of a measure of a plot, `KIND.WORD`, or `None` if the text is not one.
-fn measured_of_plot(lab: &Lab, written: &Text) -> Result<Option<f64>, Diagnostic> {
+fn measured_of_plot(lab: &Lab, written: &LineText) -> Result<Option<f64>, Diagnostic> {
     let Some((kind, word)) = written.text.split_once('.') else { return Ok(None) };
     let is_word = |text: &str| text.starts_with(|c: char| c.is_ascii_alphabetic());
     if !is_word(kind) || !is_word(word) {
@@ -231,7 +238,7 @@ fn measured_of_plot(lab: &Lab, written: &Text) -> Result<Option<f64>, Diagnostic
     }
     let part = |text: &str, from: usize| {
         let start = written.place.start + from;
-        Text { text: text.to_owned(), place: start..start + text.len() }
+        LineText { text: text.to_owned(), place: start..start + text.len() }
     };
     let system = "this version";
     let known = named(kind).ok_or_else(|| {
@@ -258,7 +265,7 @@ fn measured_of_plot(lab: &Lab, written: &Text) -> Result<Option<f64>, Diagnostic
 /// A mistake about something that does not exist, with the nearest name that does.
 pub(super) fn missing<'a>(
     kind: &str,
-    name: &Text,
+    name: &LineText,
     names: impl Iterator<Item = &'a str> + Clone,
     system: &str,
 ) -> Diagnostic {

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::clock::{Micros, SECOND};
-use super::recording::{Event, Recording};
+use super::recording::{Recording, RecordingEvent};
 use crate::printable;
 
 /// A cast in memory.
@@ -52,7 +52,7 @@ const MOST_ROWS: u64 = 500;
 const LONGEST: f64 = 86_400.0;
 
 #[derive(Deserialize)]
-struct Head {
+struct CastHeader {
     version: u64,
     title: Option<String>,
     idle_time_limit: Option<f64>,
@@ -76,7 +76,7 @@ impl RecordedCast {
         let wrong = |line: usize, what: String| CastError { line, what };
         let mut lines = text.lines().enumerate().map(|(index, line)| (index + 1, line));
         let (_, first) = lines.next().unwrap_or((1, ""));
-        let head: Head = serde_json::from_str(first)
+        let head: CastHeader = serde_json::from_str(first)
             .map_err(|why| wrong(1, format!("this is not the head of a cast: {why}")))?;
         let size = match (head.version, &head.term, head.width, head.height) {
             (2, _, Some(width), Some(height)) => (width, height),
@@ -142,8 +142,8 @@ fn sized((columns, rows): (u64, u64)) -> Result<(u16, u16), String> {
 impl From<Recording> for RecordedCast {
     fn from(recording: Recording) -> RecordedCast {
         let converted = |event| match event {
-            Event::Output(text) => CastEvent::Output(text),
-            Event::Marker(name) => CastEvent::Marker(name),
+            RecordingEvent::Output(text) => CastEvent::Output(text),
+            RecordingEvent::Marker(name) => CastEvent::Marker(name),
         };
         RecordedCast {
             title: Some(recording.title),

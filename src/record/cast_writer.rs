@@ -11,7 +11,7 @@ use std::io::{self, Write};
 use serde_json::{Value, json};
 
 use super::clock::{Micros, SECOND};
-use super::recording::{Event, Recording};
+use super::recording::{Recording, RecordingEvent};
 use crate::view::colour::Rgb;
 use crate::view::theme::Palette;
 
@@ -126,8 +126,8 @@ pub fn write<W: Write>(recording: &Recording, version: Version, out: W) -> io::R
     let mut cast = Cast::begin(out, version, recording.size, &recording.title, palette)?;
     for (time, event) in &recording.events {
         match event {
-            Event::Output(text) => cast.output(*time, text)?,
-            Event::Marker(name) => cast.marker(*time, name)?,
+            RecordingEvent::Output(text) => cast.output(*time, text)?,
+            RecordingEvent::Marker(name) => cast.marker(*time, name)?,
         }
     }
     cast.end(recording.end, recording.size)?;

@@ -8,9 +8,9 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::clock::{Clock, Micros};
-use crate::app::{App, Checked, Effect, Event, LoadError, Loaded, ValueId};
+use crate::app::{App, CheckedText, Effect, Event, LoadError, Loaded, ValueId};
 use crate::diagnostic::Document;
-use crate::experiment::{Command, Experiment, Prepared, Progress, Status};
+use crate::experiment::{AdvanceOutcome, Command, Experiment, Prepared, Status};
 use crate::preset::Catalog;
 
 /// The most steps and rows of a motion in one frame, at a finite speed and at an unlimited speed. A motion that is
@@ -157,10 +157,10 @@ impl HeadlessLab {
             (f64::INFINITY, self.budget.flat_out)
         };
         let progress = experiment.advance(target, budget);
-        if progress == Progress::Underway && target.is_finite() {
+        if progress == AdvanceOutcome::Underway && target.is_finite() {
             self.behind += 1;
         }
-        if progress != Progress::Arrived {
+        if progress != AdvanceOutcome::Arrived {
             self.base = (now, experiment.clock(), speed);
         }
     }
@@ -224,7 +224,7 @@ impl HeadlessLab {
             Err(unready) => Err(unready.mistakes),
         };
         let took = Duration::ZERO;
-        self.happen(Event::Checked(Box::new(Checked { ticket, outcome, took })));
+        self.happen(Event::Checked(Box::new(CheckedText { ticket, outcome, took })));
         self.look_at_motion();
     }
 }

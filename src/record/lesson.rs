@@ -8,13 +8,13 @@
 
 use ratatui::layout::Size;
 
-use super::assertion::Finding;
+use super::assertion::AssertionResult;
 use super::clock::Micros;
 use super::headless_lab::Budget;
 use super::lesson_order::mistakes_in;
-use super::lesson_question::{Answer, Choice, Question, QuestionKind, Verdict};
+use super::lesson_question::{AnswerChoice, AnswerVerdict, GivenAnswer, Question, QuestionKind};
 use super::recording::rows;
-use super::script::{Asked, Assert, LessonStep, Script, Step};
+use super::script::{Asked, Assert, LessonStep, Script, ScriptStep};
 use super::script_runner::{RunnerEvent, ScriptRunner};
 use crate::diagnostic::{Diagnostic, Document, SourceRange};
 use crate::view::lesson::{Paragraph, ParagraphKind};
@@ -23,11 +23,11 @@ use crate::view::lesson::{Paragraph, ParagraphKind};
 pub struct Lesson {
     pub(super) runner: ScriptRunner,
     pub(super) title: String,
-    pub(super) stage: Stage,
+    pub(super) stage: LessonStage,
     /// The question whose outcome is not known yet.
     pub(super) question: Option<Question>,
     /// The answers so far, those of earlier visits not included.
-    pub(super) verdicts: Vec<Verdict>,
+    pub(super) verdicts: Vec<AnswerVerdict>,
     /// Claims (`Assert`) that were found false; looked for only where nobody watches.
     pub(super) false_claims: Vec<Diagnostic>,
     /// What was said last.
@@ -40,7 +40,7 @@ pub struct Lesson {
 }
 
 /// What a lesson is doing.
-pub(super) enum Stage {
+pub(super) enum LessonStage {
     /// Time passes.
     Playing,
     /// It waits to be read.
@@ -93,7 +93,7 @@ impl Lesson {
         Ok(Lesson {
             runner: runner.map_err(|mistake| vec![mistake])?,
             title,
-            stage: Stage::Playing,
+            stage: LessonStage::Playing,
             question: None,
             verdicts: Vec::new(),
             false_claims: Vec::new(),
@@ -109,12 +109,12 @@ impl Lesson {
     /// # Errors
     /// Returns a mistake of the script that only its system reveals.
     pub fn resume(&mut self, place: usize) -> Result<(), Diagnostic> {
-        while self.runner.next < place && !matches!(self.stage, Stage::Ended) {
+        while self.runner.next < place && !matches!(self.stage, LessonStage::Ended) {
             match self.runner.beat()? {
                 RunnerEvent::Lesson(_, LessonStep::Task { .. } | LessonStep::Free(_)) => {
                     self.begin_anew();
                 }
-                RunnerEvent::Overlay => self.stage = Stage::Ended,
+                RunnerEvent::Overlay => self.stage = LessonStage::Ended,
                 _ => {}
             }
         }
@@ -130,7 +130,7 @@ impl Lesson {
 
     /// Whether the lesson was taken to its end.
     pub fn is_finished(&self) -> bool {
-        matches!(self.stage, Stage::Ended)
+        matches!(self.stage, LessonStage::Ended)
     }
 
     /// How many questions were answered rightly, and how many were answered.
@@ -141,15 +141,15 @@ impl Lesson {
     /// Whether text or a number is being typed.
     pub fn is_typing(&self) -> bool {
         match self.stage {
-            Stage::Typing(..) => true,
-            Stage::Task { .. } | Stage::Free => self.runner.lab.app.is_typing(),
+            LessonStage::Typing(..) => true,
+            LessonStage::Task { .. } | LessonStage::Free => self.runner.lab.app.is_typing(),
             _ => false,
         }
     }
 
     /// Whether time passes.
     pub fn is_moving(&self) -> bool {
-        matches!(self.stage, Stage::Playing | Stage::Task { .. } | Stage::Free)
+        matches!(self.stage, LessonStage::Playing | LessonStage::Task { .. } | LessonStage::Free)
     }
 
     /// Lets time pass. Returns whether anything visible has changed.
@@ -158,18 +158,18 @@ impl Lesson {
     /// Returns a mistake of the script that only its system reveals.
     pub fn advance(&mut self, elapsed: Micros) -> Result<bool, Diagnostic> {
         match self.stage {
-            Stage::Playing => {
+            LessonStage::Playing => {
                 self.time += elapsed;
                 let before = self.runner.now();
-                while matches!(self.stage, Stage::Playing)
+                while matches!(self.stage, LessonStage::Playing)
                     && (self.runner.lab.clock.left() == 0
                         || self.runner.lab.clock.next() <= self.time)
                 {
                     self.beat()?;
                 }
-                Ok(before != self.runner.now() || !matches!(self.stage, Stage::Playing))
+                Ok(before != self.runner.now() || !matches!(self.stage, LessonStage::Playing))
             }
-            Stage::Task { .. } | Stage::Free => {
+            LessonStage::Task { .. } | LessonStage::Free => {
                 self.runner.lab.clock.pass(elapsed);
                 let before = self.runner.now();
                 while self.runner.lab.clock.left() > 0 {
@@ -206,12 +206,12 @@ impl Lesson {
         {
             *since = since.min(now);
         }
-        let waits = !self.is_moving() && !matches!(self.stage, Stage::Ended);
+        let waits = !self.is_moving() && !matches!(self.stage, LessonStage::Ended);
         self.runner.hold(waits);
         Ok(())
     }
 
-    pub(super) fn find(&self, claim: &Assert) -> Result<Finding, Diagnostic> {
+    pub(super) fn find(&self, claim: &Assert) -> Result<AssertionResult, Diagnostic> {
         let screen = match claim {
             Assert::Screen(_) => rows(&self.runner.picture(&self.runner.script.head.look())),
             _ => Vec::new(),
@@ -232,25 +232,25 @@ impl Lesson {
         match step {
             LessonStep::Say(text) => {
                 self.said = vec![paragraph(ParagraphKind::Text, text)];
-                self.stage = Stage::Said;
+                self.stage = LessonStage::Said;
             }
             LessonStep::Ask(text) => {
                 let options = self.options();
                 self.runner.next += options.len();
                 let kind = QuestionKind::Choice { options, chosen: None };
                 self.question = Some(Question { place, text, kind });
-                self.stage = Stage::Choosing(0);
+                self.stage = LessonStage::Choosing(0);
             }
             LessonStep::Predict { text, asked: Asked::Value { value, within } } => {
                 let kind = QuestionKind::Number { value, within, said: None };
                 self.question = Some(Question { place, text, kind });
-                self.stage = Stage::Typing(String::new(), None);
+                self.stage = LessonStage::Typing(String::new(), None);
             }
             LessonStep::Predict { text, asked: Asked::Place { is_curve, axes } } => {
                 let prediction = self.prediction(&place, is_curve, &axes)?;
                 let kind = QuestionKind::Place { prediction, since: 0.0 };
                 self.question = Some(Question { place, text, kind });
-                self.stage = Stage::Pointing(None);
+                self.stage = LessonStage::Pointing(None);
             }
             LessonStep::Outcome => {
                 self.judge()?;
@@ -258,11 +258,11 @@ impl Lesson {
             }
             LessonStep::Task { text, hint, claim } => {
                 self.said = vec![paragraph(ParagraphKind::Text, text)];
-                self.stage = Stage::Task { place, hint, claim, hinted: false };
+                self.stage = LessonStage::Task { place, hint, claim, hinted: false };
             }
             LessonStep::Free(text) => {
                 self.said = vec![paragraph(ParagraphKind::Text, text)];
-                self.stage = Stage::Free;
+                self.stage = LessonStage::Free;
             }
             // read with the question or the task above
             LessonStep::Option { .. } | LessonStep::Solution(_) => {}
@@ -271,10 +271,10 @@ impl Lesson {
     }
 
     /// The options below the question that was just read.
-    fn options(&self) -> Vec<Choice> {
+    fn options(&self) -> Vec<AnswerChoice> {
         let below = self.runner.script.steps[self.runner.next..].iter();
         let options = below.map_while(|(place, step)| match step {
-            Step::Lesson(LessonStep::Option { text, why, claim }) => Some(Choice {
+            ScriptStep::Lesson(LessonStep::Option { text, why, claim }) => Some(AnswerChoice {
                 place: place.clone(),
                 text: text.clone(),
                 why: why.clone(),
@@ -304,14 +304,14 @@ impl Lesson {
         };
         self.said = said;
         let (right, truth) = verdict;
-        self.verdicts.push(Verdict { question, right, truth });
-        self.stage = Stage::Said;
+        self.verdicts.push(AnswerVerdict { question, right, truth });
+        self.stage = LessonStage::Said;
         Ok(())
     }
 
     /// Ends a task whose claim holds.
     pub(super) fn look_at_task(&mut self) {
-        let Stage::Task { claim, .. } = &self.stage else { return };
+        let LessonStage::Task { claim, .. } = &self.stage else { return };
         // in another system, or before anything has happened, a claim need not have a meaning: it does not hold
         let Ok(finding) = self.find(claim) else { return };
         if finding.holds {
@@ -323,7 +323,7 @@ impl Lesson {
 
     fn begin_anew_later(&mut self) {
         self.runner.hold(true);
-        self.stage = Stage::Said;
+        self.stage = LessonStage::Said;
     }
 
     /// Opens the system again as its file says, so that what follows does not depend on what the person did.
@@ -341,33 +341,33 @@ impl Lesson {
             _ => format!("This is the end of the lesson: {right} of {all} predictions were right."),
         };
         self.said = vec![paragraph(ParagraphKind::Text, text)];
-        self.stage = Stage::Ended;
+        self.stage = LessonStage::Ended;
     }
 
     /// Goes on from what was said.
     pub(super) fn go_on(&mut self) {
         let last = self.runner.next.checked_sub(1).and_then(|at| self.runner.script.steps.get(at));
-        let personal = |step: &Step| {
-            matches!(step, Step::Lesson(LessonStep::Task { .. } | LessonStep::Free(_)))
+        let personal = |step: &ScriptStep| {
+            matches!(step, ScriptStep::Lesson(LessonStep::Task { .. } | LessonStep::Free(_)))
         };
         if last.is_some_and(|(_, step)| personal(step)) {
             self.begin_anew();
         }
         self.runner.hold(false);
-        self.stage = Stage::Playing;
+        self.stage = LessonStage::Playing;
     }
 
     /// Commits an answer to the question.
-    pub(super) fn commit(&mut self, answer: Answer) {
+    pub(super) fn commit(&mut self, answer: GivenAnswer) {
         let app = &mut self.runner.lab.app;
         match (self.question.as_mut().map(|question| &mut question.kind), answer) {
-            (Some(QuestionKind::Choice { chosen, options }), Answer::Option(option)) => {
+            (Some(QuestionKind::Choice { chosen, options }), GivenAnswer::Option(option)) => {
                 *chosen = Some(option.min(options.len().saturating_sub(1)));
             }
-            (Some(QuestionKind::Number { said, .. }), Answer::Number(number)) => {
+            (Some(QuestionKind::Number { said, .. }), GivenAnswer::Number(number)) => {
                 *said = Some(number);
             }
-            (Some(QuestionKind::Place { prediction, since }), Answer::Points(points)) => {
+            (Some(QuestionKind::Place { prediction, since }), GivenAnswer::Points(points)) => {
                 prediction.points = points;
                 *since = app.snapshot().map_or(0.0, |snapshot| snapshot.time);
                 app.end_prediction();

@@ -3,9 +3,9 @@
 //! In: a [`Script`] and its system. Out: every claim of the lesson that is false, in its place. Never here: a person.
 
 use super::headless_lab::Budget;
-use super::lesson::{Lesson, Stage};
-use super::lesson_question::{Answer, Question, QuestionKind, Truth, Verdict};
-use super::script::{LessonStep, Script, Step};
+use super::lesson::{Lesson, LessonStage};
+use super::lesson_question::{AnswerVerdict, GivenAnswer, Question, QuestionKind, Truth};
+use super::script::{LessonStep, Script, ScriptStep};
 use crate::app::Event;
 use crate::diagnostic::{Diagnostic, Document};
 
@@ -32,7 +32,7 @@ pub fn check_lesson(
     document: &Document,
     called: &str,
 ) -> Result<LessonReport, Vec<Diagnostic>> {
-    let pass = |answer: &dyn Fn(usize, &Question) -> Answer| {
+    let pass = |answer: &dyn Fn(usize, &Question) -> GivenAnswer| {
         let mut lesson = Lesson::new(script.clone(), document, called, Budget::RECORDED)?;
         let tasks = take(&mut lesson, answer)?;
         if lesson.false_claims.is_empty() {
@@ -57,7 +57,7 @@ pub fn check_lesson(
     for round in 0..most {
         let choose = |index: usize| {
             let wrong = truth[index].wrong_answers();
-            wrong.get(round).or(wrong.last()).cloned().unwrap_or(Answer::Option(0))
+            wrong.get(round).or(wrong.last()).cloned().unwrap_or(GivenAnswer::Option(0))
         };
         let (answered, _) = pass(&|index, _| choose(index))?;
         for (verdict, before) in answered.iter().zip(&truth) {
@@ -75,30 +75,30 @@ pub fn check_lesson(
 /// Takes a lesson to its end; returns the number of tasks.
 fn take(
     lesson: &mut Lesson,
-    answer: &dyn Fn(usize, &Question) -> Answer,
+    answer: &dyn Fn(usize, &Question) -> GivenAnswer,
 ) -> Result<usize, Vec<Diagnostic>> {
     let mut tasks = 0;
     loop {
         match &lesson.stage {
-            Stage::Playing => lesson.beat().map_err(|mistake| vec![mistake])?,
-            Stage::Said | Stage::Free => lesson.go_on(),
-            Stage::Choosing(_) | Stage::Typing(..) | Stage::Pointing(_) => {
+            LessonStage::Playing => lesson.beat().map_err(|mistake| vec![mistake])?,
+            LessonStage::Said | LessonStage::Free => lesson.go_on(),
+            LessonStage::Choosing(_) | LessonStage::Typing(..) | LessonStage::Pointing(_) => {
                 let index = lesson.verdicts.len();
                 let answer = lesson.question.as_ref().map(|question| answer(index, question));
-                lesson.commit(answer.unwrap_or(Answer::Option(0)));
+                lesson.commit(answer.unwrap_or(GivenAnswer::Option(0)));
             }
-            Stage::Task { .. } => {
+            LessonStage::Task { .. } => {
                 solve(lesson).map_err(|mistake| vec![mistake])?;
                 tasks += 1;
             }
-            Stage::Ended => return Ok(tasks),
+            LessonStage::Ended => return Ok(tasks),
         }
     }
 }
 
 /// Presses the keys of the solution.
 fn solve(lesson: &mut Lesson) -> Result<(), Diagnostic> {
-    let Stage::Task { place, claim, .. } = &lesson.stage else { return Ok(()) };
+    let LessonStage::Task { place, claim, .. } = &lesson.stage else { return Ok(()) };
     let (place, claim) = (place.clone(), claim.clone());
     // an unknown name must not pass for a claim that does not hold yet
     if lesson.runner.find(&claim, &[])?.holds {
@@ -106,17 +106,17 @@ fn solve(lesson: &mut Lesson) -> Result<(), Diagnostic> {
         return Err(Diagnostic::error(place, message));
     }
     let below = lesson.runner.script.steps.get(lesson.runner.next).map(|(_, step)| step.clone());
-    let Some(Step::Lesson(LessonStep::Solution(keys))) = below else { return Ok(()) };
+    let Some(ScriptStep::Lesson(LessonStep::Solution(keys))) = below else { return Ok(()) };
     for key in keys {
         lesson.runner.lab.happen(Event::Key(key));
         lesson.advance(100_000)?;
     }
     let mut passed = 0;
-    while matches!(lesson.stage, Stage::Task { .. }) && passed < PATIENCE {
+    while matches!(lesson.stage, LessonStage::Task { .. }) && passed < PATIENCE {
         lesson.advance(100_000)?;
         passed += 100_000;
     }
-    if !matches!(lesson.stage, Stage::Task { .. }) {
+    if !matches!(lesson.stage, LessonStage::Task { .. }) {
         return Ok(());
     }
     let found = lesson.runner.find(&claim, &[])?.sentence;
@@ -125,7 +125,7 @@ fn solve(lesson: &mut Lesson) -> Result<(), Diagnostic> {
 }
 
 /// What is wrong with a question, once its outcome is known.
-fn faults(verdict: &Verdict) -> Vec<Diagnostic> {
+fn faults(verdict: &AnswerVerdict) -> Vec<Diagnostic> {
     let question = &verdict.question;
     let mut faults = Vec::new();
     match (&question.kind, &verdict.truth) {
@@ -160,40 +160,43 @@ const POINTS: usize = 12;
 
 impl Question {
     /// An answer, be it right or wrong.
-    fn any_answer(&self) -> Answer {
+    fn any_answer(&self) -> GivenAnswer {
         match &self.kind {
-            QuestionKind::Choice { .. } => Answer::Option(0),
-            QuestionKind::Number { .. } => Answer::Number(0.0),
-            QuestionKind::Place { .. } => Answer::Points(Vec::new()),
+            QuestionKind::Choice { .. } => GivenAnswer::Option(0),
+            QuestionKind::Number { .. } => GivenAnswer::Number(0.0),
+            QuestionKind::Place { .. } => GivenAnswer::Points(Vec::new()),
         }
     }
 }
 
-impl Verdict {
-    fn right_answer(&self) -> Answer {
+impl AnswerVerdict {
+    fn right_answer(&self) -> GivenAnswer {
         match &self.truth {
             Truth::Options(holds) => {
-                Answer::Option(holds.iter().position(|holds| *holds).unwrap_or(0))
+                GivenAnswer::Option(holds.iter().position(|holds| *holds).unwrap_or(0))
             }
-            Truth::Value(value, _) => Answer::Number(*value),
-            Truth::Place(found) => Answer::Points(match &self.question.kind {
+            Truth::Value(value, _) => GivenAnswer::Number(*value),
+            Truth::Place(found) => GivenAnswer::Points(match &self.question.kind {
                 QuestionKind::Place { prediction, .. } => prediction.spread(found, POINTS),
                 _ => found.clone(),
             }),
         }
     }
 
-    fn wrong_answers(&self) -> Vec<Answer> {
+    fn wrong_answers(&self) -> Vec<GivenAnswer> {
         match (&self.truth, self.right_answer()) {
             (Truth::Options(holds), _) => {
                 let wrong = holds.iter().enumerate().filter(|(_, holds)| !**holds);
-                wrong.map(|(index, _)| Answer::Option(index)).collect()
+                wrong.map(|(index, _)| GivenAnswer::Option(index)).collect()
             }
             (Truth::Value(value, near), _) => {
-                vec![Answer::Number(value - 2.0 * near), Answer::Number(value + 2.0 * near)]
+                vec![
+                    GivenAnswer::Number(value - 2.0 * near),
+                    GivenAnswer::Number(value + 2.0 * near),
+                ]
             }
             // a curve that is moved is as far from where it was as it was moved: its farthest point in that direction is
-            (Truth::Place(_), Answer::Points(points)) => {
+            (Truth::Place(_), GivenAnswer::Points(points)) => {
                 let QuestionKind::Place { prediction, .. } = &self.question.kind else {
                     return Vec::new();
                 };
@@ -201,7 +204,7 @@ impl Verdict {
                 let moves = [[2.0, 0.0], [-2.0, 0.0], [0.0, 2.0], [0.0, -2.0]];
                 let moved = moves.map(|by| {
                     let place = |at: &[f64; 2]| [0, 1].map(|k| at[k] + by[k] * within[k]);
-                    Answer::Points(points.iter().map(place).collect())
+                    GivenAnswer::Points(points.iter().map(place).collect())
                 });
                 moved.into()
             }

@@ -3,10 +3,10 @@
 //! In: an answer that was committed, a [`Lesson`] at the outcome. Out: whether it is right, what is right, and what is said.
 //! Never here: keys, or what comes next.
 
-use super::assertion::{self, Finding};
+use super::assertion::{self, AssertionResult};
 use super::lesson::{Lesson, paragraph};
-use super::lesson_question::{Choice, Truth};
-use super::script::{AskedAxis, Text};
+use super::lesson_question::{AnswerChoice, Truth};
+use super::script::{AskedAxis, LineText};
 use crate::app::{PredictedAxis, Prediction};
 use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::num::significant;
@@ -21,10 +21,10 @@ type Judged = (Vec<Paragraph>, (bool, Truth));
 impl Lesson {
     pub(super) fn judge_choice(
         &self,
-        options: &[Choice],
+        options: &[AnswerChoice],
         chosen: Option<usize>,
     ) -> Result<Judged, Diagnostic> {
-        let findings: Vec<Finding> =
+        let findings: Vec<AssertionResult> =
             options.iter().map(|option| self.find(&option.claim)).collect::<Result<_, _>>()?;
         let holds: Vec<bool> = findings.iter().map(|finding| finding.holds).collect();
         let chosen = chosen.unwrap_or(0);
@@ -48,8 +48,8 @@ impl Lesson {
 
     pub(super) fn judge_number(
         &self,
-        value: &Text,
-        within: &Text,
+        value: &LineText,
+        within: &LineText,
         said: Option<f64>,
     ) -> Result<Judged, Diagnostic> {
         let app = &self.runner.lab.app;

@@ -4,8 +4,8 @@
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
-use super::lesson::{Lesson, Stage, paragraph};
-use super::lesson_question::{Answer, QuestionKind};
+use super::lesson::{Lesson, LessonStage, paragraph};
+use super::lesson_question::{GivenAnswer, QuestionKind};
 use crate::app::Event;
 use crate::view::lesson::ParagraphKind;
 
@@ -22,9 +22,9 @@ impl Lesson {
     /// Handles a key.
     pub fn press(&mut self, key: KeyEvent) -> Pressed {
         let held = key.modifiers.contains(KeyModifiers::CONTROL);
-        let typing = self.is_typing() && !matches!(self.stage, Stage::Typing(..));
+        let typing = self.is_typing() && !matches!(self.stage, LessonStage::Typing(..));
         let covered = self.runner.lab.app.overlay.is_some()
-            && matches!(self.stage, Stage::Task { .. } | Stage::Free);
+            && matches!(self.stage, LessonStage::Task { .. } | LessonStage::Free);
         match key.code {
             KeyCode::Char('c') if held => return Pressed::Leave,
             KeyCode::Char('q') if !held && !typing => return Pressed::Leave,
@@ -33,12 +33,12 @@ impl Lesson {
         }
         let goes_on = matches!(key.code, KeyCode::Enter | KeyCode::Char(' ') | KeyCode::F(9));
         match &mut self.stage {
-            Stage::Playing => {}
-            Stage::Said if goes_on => self.go_on(),
-            Stage::Said => {}
-            Stage::Ended if goes_on => return Pressed::Leave,
-            Stage::Ended => {}
-            Stage::Choosing(selected) => {
+            LessonStage::Playing => {}
+            LessonStage::Said if goes_on => self.go_on(),
+            LessonStage::Said => {}
+            LessonStage::Ended if goes_on => return Pressed::Leave,
+            LessonStage::Ended => {}
+            LessonStage::Choosing(selected) => {
                 let Some(QuestionKind::Choice { options, .. }) =
                     self.question.as_ref().map(|question| &question.kind)
                 else {
@@ -53,12 +53,12 @@ impl Lesson {
                     }
                     KeyCode::Enter => {
                         let chosen = *selected;
-                        self.commit(Answer::Option(chosen));
+                        self.commit(GivenAnswer::Option(chosen));
                     }
                     _ => {}
                 }
             }
-            Stage::Typing(text, wrong) => match key.code {
+            LessonStage::Typing(text, wrong) => match key.code {
                 KeyCode::Char(c) if !held && text.chars().count() < LONGEST_NUMBER => {
                     text.push(c);
                     *wrong = None;
@@ -68,17 +68,17 @@ impl Lesson {
                     *wrong = None;
                 }
                 KeyCode::Enter => match number(text) {
-                    Some(number) => self.commit(Answer::Number(number)),
+                    Some(number) => self.commit(GivenAnswer::Number(number)),
                     None => *wrong = Some("This is not a number; write it as 1.5 or 3/2.".into()),
                 },
                 _ => {}
             },
-            Stage::Pointing(wrong) => {
+            LessonStage::Pointing(wrong) => {
                 *wrong = None;
                 self.set_point(key);
             }
-            Stage::Free if key.code == KeyCode::F(9) => self.go_on(),
-            Stage::Task { hinted, hint, .. } if key.code == KeyCode::F(9) => {
+            LessonStage::Free if key.code == KeyCode::F(9) => self.go_on(),
+            LessonStage::Task { hinted, hint, .. } if key.code == KeyCode::F(9) => {
                 match hint.take().filter(|_| !*hinted) {
                     Some(hint) => {
                         *hinted = true;
@@ -87,7 +87,7 @@ impl Lesson {
                     None => self.go_on(),
                 }
             }
-            Stage::Task { .. } | Stage::Free => {
+            LessonStage::Task { .. } | LessonStage::Free => {
                 self.runner.lab.happen(Event::Key(key));
                 self.look_at_task();
             }

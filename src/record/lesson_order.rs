@@ -2,7 +2,7 @@
 //!
 //! In: a [`Script`]. Out: the mistakes in its order, and the paragraphs that its pane has to hold. Never here: playing it.
 
-use super::script::{LessonStep, Script, Step};
+use super::script::{LessonStep, Script, ScriptStep};
 use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::view::lesson::{Paragraph, ParagraphKind, rows};
 
@@ -21,7 +21,7 @@ pub(super) fn mistakes_in(script: &Script) -> Vec<Diagnostic> {
     let mut open: Option<SourceRange> = None;
     let no_outcome = "the outcome of this question is never shown";
     for (index, (place, step)) in script.steps.iter().enumerate() {
-        let Step::Lesson(step) = step else { continue };
+        let ScriptStep::Lesson(step) = step else { continue };
         let above = index.checked_sub(1).map(|above| &script.steps[above].1);
         let asks = matches!(
             step,
@@ -36,7 +36,9 @@ pub(super) fn mistakes_in(script: &Script) -> Vec<Diagnostic> {
         match step {
             LessonStep::Ask(_) => {
                 let below = &script.steps[index + 1..];
-                let option = |step: &Step| matches!(step, Step::Lesson(LessonStep::Option { .. }));
+                let option = |step: &ScriptStep| {
+                    matches!(step, ScriptStep::Lesson(LessonStep::Option { .. }))
+                };
                 let count = below.iter().take_while(|(_, step)| option(step)).count();
                 if !(2..=MOST_OPTIONS).contains(&count) {
                     let help = "an option is written Option \"TEXT\" why \"TEXT\" if CLAIM";
@@ -57,7 +59,7 @@ pub(super) fn mistakes_in(script: &Script) -> Vec<Diagnostic> {
             LessonStep::Option { .. } => {
                 let fits = matches!(
                     above,
-                    Some(Step::Lesson(LessonStep::Ask(_) | LessonStep::Option { .. }))
+                    Some(ScriptStep::Lesson(LessonStep::Ask(_) | LessonStep::Option { .. }))
                 );
                 if !fits {
                     wrong(place, "this option belongs to no question", "put it below its `Ask`");
@@ -65,13 +67,13 @@ pub(super) fn mistakes_in(script: &Script) -> Vec<Diagnostic> {
             }
             LessonStep::Task { .. } => {
                 let below = script.steps.get(index + 1).map(|(_, step)| step);
-                if !matches!(below, Some(Step::Lesson(LessonStep::Solution(_)))) {
+                if !matches!(below, Some(ScriptStep::Lesson(LessonStep::Solution(_)))) {
                     let help = "put `Solution KEY …` below it";
                     wrong(place, "nothing shows that this task can be done", help);
                 }
             }
             LessonStep::Solution(_) => {
-                if !matches!(above, Some(Step::Lesson(LessonStep::Task { .. }))) {
+                if !matches!(above, Some(ScriptStep::Lesson(LessonStep::Task { .. }))) {
                     wrong(place, "this solution belongs to no task", "put it below its `Task`");
                 }
             }
@@ -81,7 +83,7 @@ pub(super) fn mistakes_in(script: &Script) -> Vec<Diagnostic> {
     if let Some(first) = open {
         wrong(&first, no_outcome, "put `Outcome` where it has been seen");
     }
-    if !script.steps.iter().any(|(_, step)| matches!(step, Step::Lesson(_))) {
+    if !script.steps.iter().any(|(_, step)| matches!(step, ScriptStep::Lesson(_))) {
         wrong(
             &(0..0),
             "this is a demo, not a lesson: nothing is asked",
@@ -107,10 +109,10 @@ pub(super) fn steps_of_person(script: &Script) -> impl Iterator<Item = Vec<Parag
     spoken(script).map(|(_, said)| said)
 }
 
-fn spoken(script: &Script) -> impl Iterator<Item = (&(SourceRange, Step), Vec<Paragraph>)> {
+fn spoken(script: &Script) -> impl Iterator<Item = (&(SourceRange, ScriptStep), Vec<Paragraph>)> {
     let text = |text: &str| Paragraph { kind: ParagraphKind::Text, text: text.to_owned() };
     script.steps.iter().enumerate().filter_map(move |(index, line)| {
-        let Step::Lesson(step) = &line.1 else { return None };
+        let ScriptStep::Lesson(step) = &line.1 else { return None };
         let said = match step {
             LessonStep::Say(said) | LessonStep::Free(said) => vec![text(said)],
             LessonStep::Predict { text: asked, .. } => vec![text(asked), text("1"), text("wrong")],
@@ -124,7 +126,7 @@ fn spoken(script: &Script) -> impl Iterator<Item = (&(SourceRange, Step), Vec<Pa
             LessonStep::Ask(asked) => {
                 let below = script.steps[index + 1..].iter();
                 let options = below.map_while(|(_, step)| match step {
-                    Step::Lesson(LessonStep::Option { text, .. }) => Some(format!("a) {text}")),
+                    ScriptStep::Lesson(LessonStep::Option { text, .. }) => Some(format!("a) {text}")),
                     _ => None,
                 });
                 let mut said = vec![text(asked)];

@@ -6,8 +6,8 @@ use crossterm::event::{KeyCode, KeyEvent, MouseButton, MouseEventKind};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::lesson::{Lesson, Stage};
-use super::lesson_question::Answer;
+use super::lesson::{Lesson, LessonStage};
+use super::lesson_question::GivenAnswer;
 use super::script_runner::ScriptRunner;
 use crate::app::{Event, HitTarget, Prediction};
 use crate::view::{Painter, RenderStyle, hit_test};
@@ -39,15 +39,15 @@ impl Lesson {
             KeyCode::Enter if is_curve => {
                 let points = self.predicted().map_or(Vec::new(), |found| found.points.clone());
                 if points.len() >= 2 {
-                    self.commit(Answer::Points(points));
+                    self.commit(GivenAnswer::Points(points));
                 } else {
                     let why = "A curve takes two points at least; Space sets one at the cursor.";
-                    self.stage = Stage::Pointing(Some(why.to_owned()));
+                    self.stage = LessonStage::Pointing(Some(why.to_owned()));
                 }
             }
             KeyCode::Enter => {
                 if let Some(at) = self.runner.reading() {
-                    self.commit(Answer::Points(vec![at]));
+                    self.commit(GivenAnswer::Points(vec![at]));
                 }
             }
             _ => {}
@@ -70,7 +70,7 @@ impl Lesson {
     pub fn point(&mut self, kind: MouseEventKind, style: &RenderStyle, [column, row]: [u16; 2]) {
         let pressed = kind == MouseEventKind::Down(MouseButton::Left);
         match self.stage {
-            Stage::Task { .. } | Stage::Free => {
+            LessonStage::Task { .. } | LessonStage::Free => {
                 if pressed {
                     // Not every terminal reports the release of a button.
                     self.runner.lab.app.drop_hold();
@@ -80,7 +80,7 @@ impl Lesson {
                     self.look_at_task();
                 }
             }
-            Stage::Pointing(_) if pressed => {
+            LessonStage::Pointing(_) if pressed => {
                 let Some(HitTarget::Plot { index, place, at }) =
                     self.runner.hit(style, column, row)
                 else {
@@ -98,7 +98,7 @@ impl Lesson {
                 if let Some(viewport) = plot.viewport_mut() {
                     viewport.cursor = Some(place);
                 }
-                self.stage = Stage::Pointing(None);
+                self.stage = LessonStage::Pointing(None);
                 if is_curve {
                     self.add_point(Some(at));
                 }

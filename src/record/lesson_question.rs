@@ -2,7 +2,7 @@
 //!
 //! Never here: what is right, keys, or what comes next.
 
-use super::script::{Assert, Text};
+use super::script::{Assert, LineText};
 use crate::app::Prediction;
 use crate::diagnostic::SourceRange;
 
@@ -17,12 +17,12 @@ pub(super) struct Question {
 #[derive(Clone, Debug)]
 pub(super) enum QuestionKind {
     Choice {
-        options: Vec<Choice>,
+        options: Vec<AnswerChoice>,
         chosen: Option<usize>,
     },
     Number {
-        value: Text,
-        within: Text,
+        value: LineText,
+        within: LineText,
         said: Option<f64>,
     },
     /// A point or a curve, and the time since which the motion is compared with it.
@@ -33,7 +33,7 @@ pub(super) enum QuestionKind {
 }
 
 #[derive(Clone, Debug)]
-pub(super) struct Choice {
+pub(super) struct AnswerChoice {
     pub(super) place: SourceRange,
     pub(super) text: String,
     pub(super) why: Option<String>,
@@ -42,7 +42,7 @@ pub(super) struct Choice {
 
 /// An answer.
 #[derive(Clone, Debug)]
-pub(super) enum Answer {
+pub(super) enum GivenAnswer {
     Option(usize),
     Number(f64),
     Points(Vec<[f64; 2]>),
@@ -50,7 +50,7 @@ pub(super) enum Answer {
 
 /// How a question was answered.
 #[derive(Clone, Debug)]
-pub(super) struct Verdict {
+pub(super) struct AnswerVerdict {
     pub(super) question: Question,
     pub(super) right: bool,
     pub(super) truth: Truth,

@@ -6,7 +6,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
-use super::lesson::{Lesson, Stage, paragraph};
+use super::lesson::{Lesson, LessonStage, paragraph};
 use super::lesson_judge::{letter, pair, short};
 use super::lesson_order::steps_of_person;
 use super::lesson_question::{Question, QuestionKind};
@@ -39,7 +39,7 @@ impl Lesson {
     pub fn speech(&self) -> Speech {
         let mut said = self.said.clone();
         let keys = match &self.stage {
-            Stage::Playing => match &self.question {
+            LessonStage::Playing => match &self.question {
                 Some(question) => {
                     said = vec![paragraph(ParagraphKind::Text, question.text.clone())];
                     said.push(paragraph(ParagraphKind::Quiet, question.answer()));
@@ -47,19 +47,19 @@ impl Lesson {
                 }
                 None => "watch · q leaves",
             },
-            Stage::Said => "Enter goes on · q leaves",
-            Stage::Ended => "Enter leaves",
-            Stage::Free => "the lab is yours · F9 continues · q leaves",
-            Stage::Task { hint, .. } => match hint {
+            LessonStage::Said => "Enter goes on · q leaves",
+            LessonStage::Ended => "Enter leaves",
+            LessonStage::Free => "the lab is yours · F9 continues · q leaves",
+            LessonStage::Task { hint, .. } => match hint {
                 Some(_) => "the lab is yours · F9 hint · q leaves",
                 None => "the lab is yours · F9 skips this · q leaves",
             },
-            Stage::Choosing(selected) => {
+            LessonStage::Choosing(selected) => {
                 said =
                     self.question.as_ref().map_or(Vec::new(), |question| question.asked(*selected));
                 "↑ ↓ choose · Enter commits · q leaves"
             }
-            Stage::Pointing(wrong) => {
+            LessonStage::Pointing(wrong) => {
                 let question = self.question.as_ref();
                 said = question.map_or(Vec::new(), |question| question.asked(0));
                 said.push(paragraph(ParagraphKind::Selected, self.pointed()));
@@ -70,7 +70,7 @@ impl Lesson {
                     "arrows or mouse · Enter commits · q leaves"
                 }
             }
-            Stage::Typing(text, wrong) => {
+            LessonStage::Typing(text, wrong) => {
                 let question = self.question.as_ref().map(|question| question.text.clone());
                 said = vec![paragraph(ParagraphKind::Text, question.unwrap_or_default())];
                 said.push(paragraph(ParagraphKind::Selected, format!("{text}_")));

@@ -11,7 +11,7 @@ use ratatui::layout::Size;
 
 use super::clock::Micros;
 use super::headless_lab::Budget;
-use super::script::{Script, Step};
+use super::script::{Script, ScriptStep};
 use super::script_runner::{RunnerEvent, ScriptRunner, waits};
 use crate::diagnostic::{Diagnostic, Document};
 use crate::view::RenderStyle;
@@ -33,20 +33,20 @@ pub struct Recording {
     /// The render style.
     pub look: RenderStyle,
     /// The timed output: bytes for a terminal and names of chapters.
-    pub events: Vec<(Micros, Event)>,
+    pub events: Vec<(Micros, RecordingEvent)>,
     /// The chapters.
     pub markers: Vec<Marker>,
     /// The screen at the end.
     pub last: Buffer,
     /// The actions and assertions.
-    pub log: Vec<(Micros, Entry)>,
+    pub log: Vec<(Micros, TranscriptEntry)>,
     /// The assertions that failed.
     pub false_claims: Vec<Diagnostic>,
 }
 
 /// An event of a recording.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Event {
+pub enum RecordingEvent {
     /// Text for the terminal.
     Output(String),
     /// A chapter begins.
@@ -66,7 +66,7 @@ pub struct Marker {
 
 /// An entry of the transcript.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Entry {
+pub enum TranscriptEntry {
     /// An action.
     Done(&'static str, String),
     /// An assertion: whether it was true, and a sentence with the values.
@@ -137,7 +137,7 @@ fn unwritten(why: &io::Error) -> Diagnostic {
 fn too_long(script: &Script, width: u16) -> Vec<Diagnostic> {
     let room = Script::caption_room(width);
     let long = script.steps.iter().filter(|(_, step)| match step {
-        Step::Caption(text) => text.chars().count() > room,
+        ScriptStep::Caption(text) => text.chars().count() > room,
         _ => false,
     });
     let message = format!("a caption may have {room} characters at this size");
@@ -150,9 +150,9 @@ struct Take {
     screen: Frames,
     look: RenderStyle,
     area: Size,
-    events: Vec<(Micros, Event)>,
+    events: Vec<(Micros, RecordingEvent)>,
     markers: Vec<Marker>,
-    log: Vec<(Micros, Entry)>,
+    log: Vec<(Micros, TranscriptEntry)>,
     false_claims: Vec<Diagnostic>,
 }
 
@@ -163,7 +163,9 @@ impl Take {
         let now = self.performance.now();
         match next {
             RunnerEvent::Frame => self.draw(now).map_err(|why| unwritten(&why))?,
-            RunnerEvent::Done(what, text) => self.log.push((now, Entry::Done(what, text))),
+            RunnerEvent::Done(what, text) => {
+                self.log.push((now, TranscriptEntry::Done(what, text)));
+            }
             RunnerEvent::Claim(place, claim) => {
                 let screen = rows(&self.performance.picture(&self.look));
                 let finding = self.performance.find(&claim, &screen)?;
@@ -171,12 +173,12 @@ impl Take {
                     let message = format!("this is false: {}", finding.sentence);
                     self.false_claims.push(Diagnostic::error(place, message));
                 }
-                self.log.push((now, Entry::Claimed(finding.holds, finding.sentence)));
+                self.log.push((now, TranscriptEntry::Claimed(finding.holds, finding.sentence)));
             }
             RunnerEvent::Marker(name) => {
                 let screen = self.performance.picture(&self.look);
-                self.events.push((now, Event::Marker(name.clone())));
-                self.log.push((now, Entry::Marker(self.markers.len())));
+                self.events.push((now, RecordingEvent::Marker(name.clone())));
+                self.log.push((now, TranscriptEntry::Marker(self.markers.len())));
                 self.markers.push(Marker { name, time: now, screen });
             }
             RunnerEvent::Lesson(place, _) => return Err(waits(place)),
@@ -196,7 +198,7 @@ impl Take {
         })?;
         if !bytes.is_empty() {
             let text = String::from_utf8_lossy(&bytes).into_owned();
-            self.events.push((now, Event::Output(text)));
+            self.events.push((now, RecordingEvent::Output(text)));
         }
         Ok(())
     }

@@ -15,7 +15,7 @@ use crate::view::theme::Palette;
 
 /// The format of a still.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub enum ImageFormat {
     /// A drawing: dots and lines are shapes, words are text in any available font.
     Svg,
     /// Characters without colours.
@@ -24,26 +24,26 @@ pub enum Form {
     Ansi,
 }
 
-impl FromStr for Form {
+impl FromStr for ImageFormat {
     type Err = String;
 
     /// Determines the format from a file name's extension.
-    fn from_str(path: &str) -> Result<Form, String> {
+    fn from_str(path: &str) -> Result<ImageFormat, String> {
         let ending = path.rsplit_once('.').map_or("", |(_, ending)| ending);
         match ending.to_ascii_lowercase().as_str() {
-            "svg" => Ok(Form::Svg),
-            "txt" => Ok(Form::Text),
-            "ans" | "ansi" => Ok(Form::Ansi),
+            "svg" => Ok(ImageFormat::Svg),
+            "txt" => Ok(ImageFormat::Text),
+            "ans" | "ansi" => Ok(ImageFormat::Ansi),
             _ => Err("a still ends in .svg, .txt or .ans".to_owned()),
         }
     }
 }
 
 /// Writes the screen in a format; `palette` gives the background.
-pub fn write(screen: &Buffer, palette: &Palette, form: Form, title: &str) -> String {
+pub fn write(screen: &Buffer, palette: &Palette, form: ImageFormat, title: &str) -> String {
     match form {
-        Form::Svg => svg::write(screen, palette, title),
-        Form::Text => rows(screen).join("\n") + "\n",
-        Form::Ansi => ansi::write(screen),
+        ImageFormat::Svg => svg::write(screen, palette, title),
+        ImageFormat::Text => rows(screen).join("\n") + "\n",
+        ImageFormat::Ansi => ansi::write(screen),
     }
 }

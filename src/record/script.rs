@@ -21,9 +21,9 @@ use crate::view::theme::Theme;
 
 use super::clock::{Micros, SECOND};
 
-pub use command::{CLAIMS, COMMANDS, Command, read_size};
+pub use command::{CLAIMS, COMMANDS, CommandRow, read_size};
 use line::Line;
-pub use line::Text;
+pub use line::LineText;
 
 /// The longest demo in seconds; a script that waits for a day would fill the memory.
 pub const LONGEST: u64 = 3600;
@@ -38,16 +38,16 @@ pub fn called(name: &str) -> &str {
 #[derive(Clone, Debug)]
 pub struct Script {
     /// The settings of the whole demo.
-    pub head: Head,
+    pub head: ScriptHeader,
     /// The steps, in order.
-    pub steps: Vec<(SourceRange, Step)>,
+    pub steps: Vec<(SourceRange, ScriptStep)>,
 }
 
 /// The settings of a demo.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Head {
+pub struct ScriptHeader {
     /// The preset or file to open, if the script names one.
-    pub open: Option<Text>,
+    pub open: Option<LineText>,
     /// The title; by default the system's.
     pub title: Option<String>,
     /// Columns and rows.
@@ -64,9 +64,9 @@ pub struct Head {
     pub footer: bool,
 }
 
-impl Default for Head {
-    fn default() -> Head {
-        Head {
+impl Default for ScriptHeader {
+    fn default() -> ScriptHeader {
+        ScriptHeader {
             open: None,
             title: None,
             size: None,
@@ -79,7 +79,7 @@ impl Default for Head {
     }
 }
 
-impl Head {
+impl ScriptHeader {
     /// The render style, which depends on the script alone and not on the environment.
     pub fn look(&self) -> RenderStyle {
         let theme = Theme::named(self.theme, self.colour);
@@ -94,16 +94,16 @@ impl Head {
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepPath {
     /// The name of the value.
-    pub name: Text,
+    pub name: LineText,
     /// The start; by default the current value.
-    pub from: Option<Text>,
+    pub from: Option<LineText>,
     /// The end.
-    pub to: Text,
+    pub to: LineText,
 }
 
 /// An action of a script.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Step {
+pub enum ScriptStep {
     /// Sets how long each following key is shown.
     Pace(Micros),
     /// Presses keys.
@@ -113,7 +113,7 @@ pub enum Step {
     /// Lets time pass.
     Wait(Micros),
     /// Sets a parameter or an initial value.
-    Set(Text, Text),
+    Set(LineText, LineText),
     /// Moves parameters and initial values evenly to other values while time passes.
     Sweep {
         /// The values, which move simultaneously.
@@ -122,9 +122,9 @@ pub enum Step {
         time: Micros,
     },
     /// Sets the simulated seconds per second.
-    Speed(Text),
+    Speed(LineText),
     /// Look at a time of the recorded past.
-    Look(Text),
+    Look(LineText),
     /// Sets the line below the screen; an empty text clears it.
     Caption(String),
     /// Begins a chapter.
@@ -181,9 +181,9 @@ pub enum Asked {
     /// The value of an expression.
     Value {
         /// The expression.
-        value: Text,
+        value: LineText,
         /// How far a prediction may be off.
-        within: Text,
+        within: LineText,
     },
     /// A place on a plot, set by its cursor: a point, or the curve that the motion draws from here to the outcome.
     Place {
@@ -198,11 +198,11 @@ pub enum Asked {
 #[derive(Clone, Debug, PartialEq)]
 pub struct AskedAxis {
     /// The quantity.
-    pub of: Text,
+    pub of: LineText,
     /// The ends of what the axis shows at least.
-    pub range: Option<[Text; 2]>,
+    pub range: Option<[LineText; 2]>,
     /// How far a prediction may be off along this axis.
-    pub within: Text,
+    pub within: LineText,
 }
 
 /// An assertion.
@@ -213,19 +213,19 @@ pub enum Assert {
     /// The text is on the screen.
     Screen(String),
     /// A gauge has this verdict.
-    Verdict(Text, Word),
+    Verdict(LineText, Word),
     /// A number compares with another.
     Number {
         /// The measure.
-        measure: Measure,
+        measure: AssertedNumber,
         /// Its subject, or the expression.
-        of: Text,
+        of: LineText,
         /// The relation.
-        relation: Relation,
+        relation: Comparator,
         /// The other number.
-        with: Text,
+        with: LineText,
         /// The tolerance, if the numbers are to be equal.
-        within: Option<Text>,
+        within: Option<LineText>,
     },
 }
 
@@ -234,7 +234,7 @@ pub type Word = &'static str;
 
 /// A number that can be asserted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Measure {
+pub enum AssertedNumber {
     /// An expression of the current state.
     Value,
     /// The greatest drift of a gauge since its reference.
@@ -251,7 +251,7 @@ pub enum Measure {
 
 /// A relation between two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Relation {
+pub enum Comparator {
     /// Equal, within a tolerance.
     Equal,
     /// Less.
@@ -269,7 +269,7 @@ impl Script {
         if let Some(mistake) = document.unreadable() {
             return Err(vec![mistake.clone()]);
         }
-        let mut reading = Reading::default();
+        let mut reading = ScriptReading::default();
         let mut start = 0;
         for text in document.text.split('\n') {
             reading.line(text.strip_suffix('\r').unwrap_or(text), start);
@@ -285,7 +285,7 @@ impl Script {
 
     /// Whether a row of the screen is reserved for captions.
     pub fn has_captions(&self) -> bool {
-        self.steps.iter().any(|(_, step)| matches!(step, Step::Caption(_)))
+        self.steps.iter().any(|(_, step)| matches!(step, ScriptStep::Caption(_)))
     }
 
     /// The duration, without the time for keys.
@@ -293,13 +293,13 @@ impl Script {
         let (mut pace, mut length) = (PACE, 0_u64);
         for (_, step) in &self.steps {
             length = length.saturating_add(match step {
-                Step::Pace(time) => {
+                ScriptStep::Pace(time) => {
                     pace = *time;
                     0
                 }
-                Step::Wait(time) | Step::Sweep { time, .. } => *time,
-                Step::Press(keys) => pace.saturating_mul(keys.len() as u64),
-                Step::Type(text) => pace.saturating_mul(text.chars().count() as u64),
+                ScriptStep::Wait(time) | ScriptStep::Sweep { time, .. } => *time,
+                ScriptStep::Press(keys) => pace.saturating_mul(keys.len() as u64),
+                ScriptStep::Type(text) => pace.saturating_mul(text.chars().count() as u64),
                 _ => 0,
             });
         }
@@ -312,10 +312,10 @@ pub const PACE: Micros = 150_000;
 
 /// The result of reading so far.
 #[derive(Default)]
-struct Reading {
-    head: Head,
+struct ScriptReading {
+    head: ScriptHeader,
     given: HashMap<&'static str, SourceRange>,
-    steps: Vec<(SourceRange, Step)>,
+    steps: Vec<(SourceRange, ScriptStep)>,
     markers: HashMap<String, SourceRange>,
     mistakes: Vec<Diagnostic>,
 }
@@ -323,15 +323,15 @@ struct Reading {
 /// The meaning of a line.
 pub(super) enum Said {
     /// A setting of the whole demo.
-    Head(Box<dyn FnOnce(&mut Head)>),
+    Head(Box<dyn FnOnce(&mut ScriptHeader)>),
     /// A step.
-    Step(Step),
+    Step(ScriptStep),
 }
 
 /// At most this many mistakes are reported.
 const MOST_MISTAKES: usize = 100;
 
-impl Reading {
+impl ScriptReading {
     /// Reads one line of the text, which begins at this byte.
     fn line(&mut self, text: &str, start: usize) {
         let mut line = Line::new(text, start);
@@ -343,7 +343,7 @@ impl Reading {
         }
     }
 
-    fn command(&mut self, word: &Text, line: &mut Line<'_>) -> Result<(), Diagnostic> {
+    fn command(&mut self, word: &LineText, line: &mut Line<'_>) -> Result<(), Diagnostic> {
         let command = COMMANDS.iter().find(|command| command.name == word.text);
         let command = command.ok_or_else(|| unknown(word))?;
         let parsed = (command.read)(line)?;
@@ -364,7 +364,7 @@ impl Reading {
                 say(&mut self.head);
             }
             Said::Step(step) => {
-                if let Step::Marker(name) = &step
+                if let ScriptStep::Marker(name) = &step
                     && let Some(first) = self.markers.insert(name.clone(), place.clone())
                 {
                     let message = format!("there are two markers `{name}`");
@@ -383,7 +383,7 @@ impl Reading {
         if let Some((width, _)) = script.head.size {
             let room = Script::caption_room(width);
             for (place, step) in &script.steps {
-                if let Step::Caption(text) = step
+                if let ScriptStep::Caption(text) = step
                     && text.chars().count() > room
                 {
                     let many = text.chars().count();
@@ -408,7 +408,7 @@ impl Reading {
     }
 }
 
-fn unknown(word: &Text) -> Diagnostic {
+fn unknown(word: &LineText) -> Diagnostic {
     let message = format!("there is no command `{}`", word.text);
     let mistake = Diagnostic::error(word.place.clone(), message);
     let names = COMMANDS.iter().map(|command| command.name);

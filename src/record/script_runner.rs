@@ -11,11 +11,11 @@ use crossterm::event::{KeyCode, KeyEvent};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Rect, Size};
 
-use super::assertion::{self, Finding};
+use super::assertion::{self, AssertionResult};
 use super::clock::Micros;
 use super::headless_lab::{Budget, HeadlessLab};
 use super::plain::plain;
-use super::script::{Assert, LessonStep, PACE, Script, Step, SweepPath, Text};
+use super::script::{Assert, LessonStep, LineText, PACE, Script, ScriptStep, SweepPath};
 use crate::app::{Drawn, Event, ValueId, key};
 use crate::diagnostic::{Diagnostic, Document};
 use crate::experiment::Command;
@@ -198,7 +198,7 @@ impl ScriptRunner {
         if self.lab.left {
             return Err(Diagnostic::error(place, "the lab was left before this line"));
         }
-        if matches!(step, Step::Marker(_)) && !self.begun {
+        if matches!(step, ScriptStep::Marker(_)) && !self.begun {
             self.begins = true;
             return Ok(None);
         }
@@ -206,34 +206,38 @@ impl ScriptRunner {
         self.take(place, step)
     }
 
-    fn take(&mut self, place: Range<usize>, step: Step) -> Result<Option<RunnerEvent>, Diagnostic> {
+    fn take(
+        &mut self,
+        place: Range<usize>,
+        step: ScriptStep,
+    ) -> Result<Option<RunnerEvent>, Diagnostic> {
         let done = |what, text| Ok(Some(RunnerEvent::Done(what, text)));
         match step {
-            Step::Pace(time) => {
+            ScriptStep::Pace(time) => {
                 self.pace = time;
                 Ok(None)
             }
-            Step::Press(keys) => {
+            ScriptStep::Press(keys) => {
                 let written = keys_written(&keys);
                 self.under_way = PartialStep::Keys(keys.into_iter());
                 done("press", written)
             }
-            Step::Type(text) => {
+            ScriptStep::Type(text) => {
                 let keys: Vec<KeyEvent> = text.chars().map(key::character).collect();
                 self.under_way = PartialStep::Keys(keys.into_iter());
                 done("type", text)
             }
-            Step::Wait(time) => {
+            ScriptStep::Wait(time) => {
                 self.pass(time);
                 Ok(None)
             }
-            Step::Set(name, written) => {
+            ScriptStep::Set(name, written) => {
                 let target = self.target(&name)?;
                 let value = assertion::value(&self.lab.app, &written)?;
                 self.lab.set(target, value);
                 done("set", format!("{} = {value}", name.text))
             }
-            Step::Sweep { ways, time } => {
+            ScriptStep::Sweep { ways, time } => {
                 let courses =
                     ways.iter().map(|way| self.course(way)).collect::<Result<Vec<_>, _>>()?;
                 let moves = ways.iter().zip(&courses).map(|(way, ValueRamp { from, to, .. })| {
@@ -246,7 +250,7 @@ impl ScriptRunner {
                 self.under_way = PartialStep::Sweep { courses, frame: 0, count };
                 done("sweep", moves)
             }
-            Step::Speed(written) => {
+            ScriptStep::Speed(written) => {
                 let speed = assertion::value(&self.lab.app, &written)?;
                 if speed <= 0.0 {
                     let message = format!("a speed is above zero; this is {speed}");
@@ -255,28 +259,32 @@ impl ScriptRunner {
                 self.lab.tell(Command::Speed(speed));
                 done("speed", format!("{speed}"))
             }
-            Step::Look(written) => {
+            ScriptStep::Look(written) => {
                 let time = assertion::value(&self.lab.app, &written)?;
                 self.lab.tell(Command::LookAt(time));
                 done("look", format!("{time}"))
             }
-            Step::Caption(text) => {
+            ScriptStep::Caption(text) => {
                 self.caption.clone_from(&text);
                 done("caption", text)
             }
-            Step::Marker(name) => Ok(Some(RunnerEvent::Marker(name))),
-            Step::Assert(claim) => Ok(Some(RunnerEvent::Claim(place, claim))),
-            Step::Lesson(step) => Ok(Some(RunnerEvent::Lesson(place, step))),
+            ScriptStep::Marker(name) => Ok(Some(RunnerEvent::Marker(name))),
+            ScriptStep::Assert(claim) => Ok(Some(RunnerEvent::Claim(place, claim))),
+            ScriptStep::Lesson(step) => Ok(Some(RunnerEvent::Lesson(place, step))),
         }
     }
 
     /// Evaluates an assertion now.
-    pub(super) fn find(&self, claim: &Assert, screen: &[String]) -> Result<Finding, Diagnostic> {
+    pub(super) fn find(
+        &self,
+        claim: &Assert,
+        screen: &[String],
+    ) -> Result<AssertionResult, Diagnostic> {
         assertion::find(claim, &self.lab.app, screen)
     }
 
     /// The value that a name refers to: a parameter or an initial value.
-    fn target(&self, name: &Text) -> Result<ValueId, Diagnostic> {
+    fn target(&self, name: &LineText) -> Result<ValueId, Diagnostic> {
         let Some(lab) = &self.lab.app.lab else {
             return Err(Diagnostic::error(name.place.clone(), "there is no system here"));
         };
@@ -295,7 +303,7 @@ impl ScriptRunner {
     /// The course of one value in a sweep.
     fn course(&self, way: &SweepPath) -> Result<ValueRamp, Diagnostic> {
         let target = self.target(&way.name)?;
-        let of = |text: &Text| assertion::value(&self.lab.app, text);
+        let of = |text: &LineText| assertion::value(&self.lab.app, text);
         let present = || self.lab.app.lab.as_ref().and_then(|lab| lab.value(target));
         let from = match &way.from {
             Some(from) => of(from)?,
@@ -418,7 +426,7 @@ impl ScriptRunner {
     /// The number of rows reserved for captions, constant throughout.
     pub(super) fn caption_rows(&self, width: u16) -> u16 {
         let texts = self.script.steps.iter().filter_map(|(_, step)| match step {
-            Step::Caption(text) => Some(text.as_str()),
+            ScriptStep::Caption(text) => Some(text.as_str()),
             _ => None,
         });
         texts.map(|text| caption::rows(text, width)).max().unwrap_or(0).min(CAPTION_ROWS)

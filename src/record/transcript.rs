@@ -3,7 +3,7 @@
 //! In: a [`Recording`]. Out: text with lines no wider than the screen needs. Never here: files.
 
 use super::clock::Micros;
-use super::recording::{Entry, Recording, rows, seconds};
+use super::recording::{Recording, TranscriptEntry, rows, seconds};
 
 /// Writes the transcript.
 pub fn write(recording: &Recording) -> String {
@@ -15,10 +15,10 @@ pub fn write(recording: &Recording) -> String {
     ];
     for (time, entry) in &recording.log {
         match entry {
-            Entry::Done(what, text) => account.push(line(*time, what, text)),
-            Entry::Claimed(true, text) => account.push(line(*time, "found", text)),
-            Entry::Claimed(false, text) => account.push(line(*time, "FALSE", text)),
-            Entry::Marker(index) => {
+            TranscriptEntry::Done(what, text) => account.push(line(*time, what, text)),
+            TranscriptEntry::Claimed(true, text) => account.push(line(*time, "found", text)),
+            TranscriptEntry::Claimed(false, text) => account.push(line(*time, "FALSE", text)),
+            TranscriptEntry::Marker(index) => {
                 let marker = &recording.markers[*index];
                 account.push(line(*time, "chapter", &marker.name));
                 account.extend(rows(&marker.screen).iter().map(|row| framed(row)));

@@ -8,17 +8,17 @@ use std::time::{Duration, Instant};
 use crate::diagnostic::{Diagnostic, Document};
 use crate::experiment::Prepared;
 use crate::job::{Job, Outcome};
-use crate::worker::Side;
+use crate::worker::SideJob;
 
 /// Checks texts.
 #[derive(Debug)]
 pub(super) struct Checker {
-    side: Side<Result<Box<Prepared>, Vec<Diagnostic>>>,
+    side: SideJob<Result<Box<Prepared>, Vec<Diagnostic>>>,
     begun: Instant,
 }
 
 /// The result of a check.
-pub(super) struct Answer {
+pub(super) struct CheckResult {
     /// The ticket of the check.
     pub(super) ticket: u64,
     /// The experiment, or what is wrong with the text.
@@ -30,7 +30,7 @@ pub(super) struct Answer {
 impl Checker {
     /// Creates an idle checker.
     pub(super) fn new() -> Self {
-        Self { side: Side::new("checker"), begun: Instant::now() }
+        Self { side: SideJob::new("checker"), begun: Instant::now() }
     }
 
     /// Cancels the check under way.
@@ -50,13 +50,13 @@ impl Checker {
     }
 
     /// Returns a result as soon as there is one.
-    pub(super) fn take(&mut self) -> Option<Answer> {
+    pub(super) fn take(&mut self) -> Option<CheckResult> {
         let (ticket, outcome) = self.side.take()?;
         let outcome = match outcome {
             Outcome::Done(made) => made,
             Outcome::Failed(sentence) => Err(vec![Diagnostic::error(0..0, sentence)]),
             Outcome::Cancelled => return None,
         };
-        Some(Answer { ticket, outcome, took: self.begun.elapsed() })
+        Some(CheckResult { ticket, outcome, took: self.begun.elapsed() })
     }
 }

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use etcetera::BaseStrategy;
 use etcetera::base_strategy::Xdg;
 
-use super::options::{Row, Words, rows};
+use super::options::{OptionRow, Words, rows};
 use super::regular;
 use crate::diagnostic::{Diagnostic, Document};
 use crate::preset::{Plain, Setting};
@@ -56,7 +56,7 @@ pub fn read(document: &Document) -> Result<Words, Vec<Diagnostic>> {
 }
 
 /// Returns the value as a word that the option accepts.
-fn word(row: &Row, entry: &Setting) -> Result<String, Diagnostic> {
+fn word(row: &OptionRow, entry: &Setting) -> Result<String, Diagnostic> {
     let at = |message: String| Diagnostic::error(entry.place.clone(), message);
     // `color = 256` and `color = true` are accepted too.
     let word = match &entry.value {

@@ -30,7 +30,7 @@ use vte::Parser;
 pub use self::sink::PASTE_LIMIT;
 use self::sink::{Prefix, Sink};
 use super::events::EventSource;
-use super::terminal::{Mode, Terminal};
+use super::terminal::{Terminal, TerminalMode};
 
 const ESC: u8 = 0x1b;
 
@@ -54,7 +54,7 @@ const SEQUENCE_LIMIT: usize = 16 * 1024;
 /// Decodes bytes that come in pieces without a pause, followed by silence, with all reports enabled.
 pub fn decode<'a>(pieces: impl IntoIterator<Item = &'a [u8]>) -> Vec<Event> {
     let (mut decoder, now) = (Decoder::default(), Instant::now());
-    for mode in [Mode::Paste, Mode::Mouse, Mode::Focus] {
+    for mode in [TerminalMode::Paste, TerminalMode::Mouse, TerminalMode::Focus] {
         decoder.expect(mode, true);
     }
     pieces.into_iter().for_each(|piece| decoder.feed(piece, now));
@@ -107,13 +107,13 @@ impl EventSource for Decoder {
         Some((last + patience).min(first + IN_ALL * patience))
     }
 
-    fn expect(&mut self, mode: Mode, expected: bool) {
+    fn expect(&mut self, mode: TerminalMode, expected: bool) {
         let expects = &mut self.sink.expects;
         match mode {
-            Mode::Paste => expects.pastes = expected,
-            Mode::Mouse => expects.mouse = expected,
-            Mode::Focus => expects.focus = expected,
-            Mode::AlternateScreen | Mode::HiddenCursor => {}
+            TerminalMode::Paste => expects.pastes = expected,
+            TerminalMode::Mouse => expects.mouse = expected,
+            TerminalMode::Focus => expects.focus = expected,
+            TerminalMode::AlternateScreen | TerminalMode::HiddenCursor => {}
         }
     }
 }
@@ -195,11 +195,11 @@ mod tests {
 
     /// Decodes complete input, followed by silence.
     fn decode(bytes: &[u8]) -> Vec<Event> {
-        decode_with(Mode::Paste, bytes)
+        decode_with(TerminalMode::Paste, bytes)
     }
 
     /// Decodes the same with a mode enabled.
-    fn decode_with(mode: Mode, bytes: &[u8]) -> Vec<Event> {
+    fn decode_with(mode: TerminalMode, bytes: &[u8]) -> Vec<Event> {
         let mut decoder = Decoder::default();
         decoder.expect(mode, true);
         decoder.feed(bytes, Instant::now());
@@ -269,7 +269,7 @@ mod tests {
     /// Decodes a `q` typed a while after an unfinished sequence.
     fn q_after(unfinished: &[u8], patience: Duration) -> Vec<Event> {
         let (mut decoder, now) = (Decoder::default(), Instant::now());
-        for mode in [Mode::Paste, Mode::Mouse, Mode::Focus] {
+        for mode in [TerminalMode::Paste, TerminalMode::Mouse, TerminalMode::Focus] {
             decoder.expect(mode, true);
         }
         decoder.feed(unfinished, now);
@@ -343,7 +343,7 @@ mod tests {
                 Event::Mouse(MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE })
             };
             let expected: Vec<_> = expected.iter().map(plain).collect();
-            assert_eq!(decode_with(Mode::Mouse, bytes.as_bytes()), expected, "{bytes:?}");
+            assert_eq!(decode_with(TerminalMode::Mouse, bytes.as_bytes()), expected, "{bytes:?}");
         };
         let (press, release) =
             (MouseEventKind::Down(MouseButton::Left), MouseEventKind::Up(MouseButton::Left));
@@ -354,7 +354,7 @@ mod tests {
         check("\x1b[<0;99999;99999M", &[(65534, 65534, press)]);
         let modifiers = KeyModifiers::SHIFT | KeyModifiers::ALT | KeyModifiers::CONTROL;
         let held = Event::Mouse(MouseEvent { kind: press, column: 1, row: 2, modifiers });
-        assert_eq!(decode_with(Mode::Mouse, b"\x1b[<28;2;3M"), [held]);
+        assert_eq!(decode_with(TerminalMode::Mouse, b"\x1b[<28;2;3M"), [held]);
         for nothing in [
             "\x1b[<0;1M",
             "\x1b[<0;1;1;1M",
@@ -375,16 +375,16 @@ mod tests {
     #[test]
     fn a_report_from_row_or_column_zero_is_none() {
         for report in ["\x1b[<0;0;0M", "\x1b[<0;1;0M", "\x1b[<0;0;1M", "\x1b[M   ", "\x1b[0;0;0M"] {
-            assert_eq!(decode_with(Mode::Mouse, report.as_bytes()), [], "{report:?}");
+            assert_eq!(decode_with(TerminalMode::Mouse, report.as_bytes()), [], "{report:?}");
         }
     }
 
     #[test]
     fn focus_is_reported_where_it_was_asked_for() {
         let expected = [Event::FocusLost, Event::FocusGained];
-        assert_eq!(decode_with(Mode::Focus, b"\x1b[O\x1b[I"), expected);
-        assert_eq!(decode_with(Mode::Mouse, b"\x1b[O\x1b[I"), []);
-        assert_eq!(decode_with(Mode::Focus, b"\x1b[5I\x1b[2;2O\x1b[?I"), []);
+        assert_eq!(decode_with(TerminalMode::Focus, b"\x1b[O\x1b[I"), expected);
+        assert_eq!(decode_with(TerminalMode::Mouse, b"\x1b[O\x1b[I"), []);
+        assert_eq!(decode_with(TerminalMode::Focus, b"\x1b[5I\x1b[2;2O\x1b[?I"), []);
     }
 
     #[test]
@@ -409,7 +409,7 @@ mod tests {
         };
         let mut now = Instant::now();
         let mut decoder = Decoder::default();
-        for mode in [Mode::Paste, Mode::Mouse, Mode::Focus] {
+        for mode in [TerminalMode::Paste, TerminalMode::Mouse, TerminalMode::Focus] {
             decoder.expect(mode, true);
         }
         for _ in 0..100_000 {
@@ -437,7 +437,7 @@ mod tests {
     proptest! {
         #[test]
         fn nothing_swallows_q_for_ever(
-            modes in prop::sample::subsequence(vec![Mode::Paste, Mode::Mouse, Mode::Focus], 0..=3),
+            modes in prop::sample::subsequence(vec![TerminalMode::Paste, TerminalMode::Mouse, TerminalMode::Focus], 0..=3),
             bytes: Vec<u8>,
             tail in "\x1b[\\[\\]PO_X]?(200~|M|<[0-9]{0,6}(;[0-9]{0,6}){0,4}[Mm])?.{0,8}",
         ) {

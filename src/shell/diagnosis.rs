@@ -9,7 +9,7 @@ use crate::view::glyphs::Glyphs;
 
 /// One finding.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Finding {
+pub struct DoctorFinding {
     /// Its subject.
     pub what: &'static str,
     /// Its result.
@@ -31,7 +31,7 @@ const OF_GLYPHS: [&str; 5] = ["LC_ALL", "LC_CTYPE", "LANG", "TERM", "WT_SESSION"
 const OF_LINE: [&str; 2] = ["SSH_CONNECTION", "SSH_TTY"];
 
 /// Returns the findings about the environment, and about a window of this size (columns, rows) if there is one.
-pub fn diagnosis(variables: Variables<'_>, size: Option<(u16, u16)>) -> Vec<Finding> {
+pub fn diagnosis(variables: Variables<'_>, size: Option<(u16, u16)>) -> Vec<DoctorFinding> {
     let set = |name: &str| variables(name).is_some_and(|value| !value.is_empty());
     let term = variables("TERM").filter(|term| !term.is_empty());
     let size = size.map_or_else(
@@ -56,7 +56,7 @@ pub fn diagnosis(variables: Variables<'_>, size: Option<(u16, u16)>) -> Vec<Find
         (_, true) => "screen",
         _ => "none",
     };
-    let finding = |what, found: &str, why| Finding { what, found: found.to_owned(), why };
+    let finding = |what, found: &str, why| DoctorFinding { what, found: found.to_owned(), why };
     vec![
         finding("terminal", &terminal, String::new()),
         finding("color", colours, why(variables, &OF_COLOUR, &ColourDepth::from_environment)),

@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use crossterm::event::Event;
 
-use super::terminal::{Mode, Terminal};
+use super::terminal::{Terminal, TerminalMode};
 
 /// A reader of a terminal.
 pub(super) trait EventSource {
@@ -24,5 +24,5 @@ pub(super) trait EventSource {
     fn deadline(&self) -> Option<Instant>;
 
     /// Sets whether the reports of a mode are enabled; if they are not, they are noise.
-    fn expect(&mut self, mode: Mode, expected: bool);
+    fn expect(&mut self, mode: TerminalMode, expected: bool);
 }

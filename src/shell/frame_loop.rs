@@ -22,7 +22,7 @@ use super::lab_error::LabError;
 use super::panic;
 use super::queue::Queue;
 use super::signals::Signals;
-use super::terminal::{Mode, Ready, Terminal, TerminalError};
+use super::terminal::{Ready, Terminal, TerminalError, TerminalMode};
 use crate::view::Detail;
 use crate::view::frame::Frames;
 
@@ -82,7 +82,7 @@ pub enum ScreenRequest {
 
 /// How frames are sent.
 #[derive(Clone, Copy, Debug)]
-pub struct Pace {
+pub struct FramePace {
     /// The maximum number of frames per second, at least one.
     pub frames: u16,
     /// The maximum number of bytes per second, if there is a limit.
@@ -111,7 +111,7 @@ const FAILURES: u32 = 20;
 ///
 /// # Errors
 /// Returns an error if there is no terminal, or if it can no longer be used.
-pub fn perform(page: &mut impl Screen, pace: Pace) -> Result<Ending, LabError> {
+pub fn perform(page: &mut impl Screen, pace: FramePace) -> Result<Ending, LabError> {
     TerminalError::check()?;
     let terminal = Arc::new(Terminal::open()?);
     panic::guard(&terminal);
@@ -220,14 +220,14 @@ impl<E: EventSource> FrameLoop<'_, E> {
     fn enter(&mut self) -> io::Result<()> {
         self.queue.clear();
         self.terminal.enter(&mut self.queue)?;
-        self.events.expect(Mode::Focus, true);
+        self.events.expect(TerminalMode::Focus, true);
         self.governor.watched = true;
         self.screen.forget();
         Ok(())
     }
 
     /// Switches a mode, and accepts or ignores its reports from now on.
-    fn switch(&mut self, mode: Mode, on: bool) -> io::Result<()> {
+    fn switch(&mut self, mode: TerminalMode, on: bool) -> io::Result<()> {
         self.terminal.switch(mode, on, &mut self.queue)?;
         self.events.expect(mode, on);
         Ok(())
@@ -270,12 +270,12 @@ impl<E: EventSource> FrameLoop<'_, E> {
     /// Draws, and queues the changes. Returns the number of bytes.
     fn frame(&mut self, page: &mut impl Screen) -> io::Result<usize> {
         let size = self.size.unwrap_or_default();
-        self.switch(Mode::Paste, page.is_typing())?;
-        self.switch(Mode::Mouse, self.mouse)?;
+        self.switch(TerminalMode::Paste, page.is_typing())?;
+        self.switch(TerminalMode::Mouse, self.mouse)?;
         let draw = |area, buffer: &mut Buffer| page.draw(area, buffer);
         let frame = self.screen.next_with(size, self.governor.most(), draw)?;
         self.queue.write_all(&frame)?;
-        self.switch(Mode::HiddenCursor, self.screen.cursor().is_none())?;
+        self.switch(TerminalMode::HiddenCursor, self.screen.cursor().is_none())?;
         Ok(frame.len())
     }
 

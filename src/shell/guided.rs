@@ -14,9 +14,9 @@ use super::demo::Demo;
 use super::frame_loop::{Screen, ScreenRequest};
 use super::lesson::LessonScreen;
 use super::progress::{LessonMark, LessonProgress};
-use crate::app::{Guide, GuideKind, Taken};
+use crate::app::{Guide, GuideKind, LessonTaken};
 use crate::diagnostic::{Diagnostic, Document};
-use crate::preset::{self, Entry};
+use crate::preset::{self, CatalogEntry};
 use crate::record::{Lesson, Script, ScriptRunner, called};
 use crate::view::{Detail, RenderStyle};
 
@@ -27,7 +27,7 @@ const LEADS_BACK: &str = " over: any key returns ";
 const FIRST: &str = "tour";
 
 /// The lessons and demos that are shipped, with how far each lesson was taken.
-pub(super) fn guides(systems: &[Entry]) -> Vec<Guide> {
+pub(super) fn guides(systems: &[CatalogEntry]) -> Vec<Guide> {
     let progress = LessonProgress::known().unwrap_or_else(|why| {
         warn!("{why}");
         LessonProgress::default()
@@ -36,9 +36,9 @@ pub(super) fn guides(systems: &[Entry]) -> Vec<Guide> {
     lessons.sort_by_key(|name| *name != FIRST);
     let lessons = lessons.into_iter().filter_map(|name| {
         let taken = match progress.lessons.get(name).copied().unwrap_or_default() {
-            LessonMark { finished: true, .. } => Taken::Whole,
-            LessonMark { step: 0, .. } => Taken::NotYet,
-            LessonMark { .. } => Taken::Partly,
+            LessonMark { finished: true, .. } => LessonTaken::Whole,
+            LessonMark { step: 0, .. } => LessonTaken::NotYet,
+            LessonMark { .. } => LessonTaken::Partly,
         };
         guide(GuideKind::Lesson(taken), name, &preset::lesson(name)?, systems)
     });
@@ -48,7 +48,12 @@ pub(super) fn guides(systems: &[Entry]) -> Vec<Guide> {
     lessons.chain(demos).collect()
 }
 
-fn guide(kind: GuideKind, name: &str, source: &Document, systems: &[Entry]) -> Option<Guide> {
+fn guide(
+    kind: GuideKind,
+    name: &str,
+    source: &Document,
+    systems: &[CatalogEntry],
+) -> Option<Guide> {
     let head = Script::read(source).ok()?.head;
     let open = head.open.map(|open| open.text)?;
     let system = systems.iter().find(|entry| entry.name == open);

@@ -10,13 +10,13 @@ use tracing::{error, info};
 use super::cast_player::CastPlayer;
 use super::demo::Demo;
 use super::diagnosis::diagnosis;
-use super::frame_loop::{Ending, Pace, perform};
+use super::frame_loop::{Ending, FramePace, perform};
 use super::lab_error::LabError;
 use super::lesson::LessonScreen;
 use super::log::Log;
 use super::regular;
 use super::request::Request;
-use super::session::{Left, Session};
+use super::session::{ExitResult, Session};
 use super::session_file;
 use super::store::Store;
 use super::terminal::TerminalError;
@@ -66,7 +66,7 @@ pub fn run(request: &Request) -> Result<Ending, LabError> {
         session.offer(offered);
     }
     let ended = catch_unwind(AssertUnwindSafe(|| perform(&mut session, pace)));
-    let Left { recorded, kept } = session.left();
+    let ExitResult { recorded, kept } = session.left();
     match &ended {
         Ok(Ok(ending)) => info!("ends: {ending:?}"),
         Ok(Err(error)) => error!("{error}"),
@@ -100,7 +100,7 @@ pub fn show(cast: RecordedCast, request: &Request) -> Result<Ending, LabError> {
     TerminalError::check()?;
     let variable = |name: &str| std::env::var(name).ok();
     // Nothing in a cast can be clicked, and its text can be selected.
-    let pace = Pace { mouse: false, ..request.pace(&variable) };
+    let pace = FramePace { mouse: false, ..request.pace(&variable) };
     perform(&mut CastPlayer::new(cast, request.look(&variable)), pace)
 }
 
@@ -118,9 +118,9 @@ pub fn perform_demo(
     let look = request.look(&variable);
     let palette = look.theme.palette();
     let mut demo = Demo::new(performance, look);
-    let pace = Pace { mouse: false, ..request.pace(&variable) };
+    let pace = FramePace { mouse: false, ..request.pace(&variable) };
     let ending = perform(&mut demo, pace)?;
-    let text = |picture| screenshot::write(&picture, palette, screenshot::Form::Ansi, "");
+    let text = |picture| screenshot::write(&picture, palette, screenshot::ImageFormat::Ansi, "");
     Ok((ending, demo.outcome().map(|last| last.map(text))))
 }
 

@@ -11,7 +11,7 @@ use crate::cancel::Cancel;
 use crate::experiment::Prepared;
 use crate::job::{self, Job};
 use crate::preset::Catalog;
-use crate::worker::Side;
+use crate::worker::SideJob;
 
 /// Loads systems, one after the other.
 #[derive(Debug)]
@@ -20,7 +20,7 @@ pub(super) struct Loader {
     /// The name requested last, and the number of that request: a load that ends while it is replaced is not its answer.
     name: String,
     request: u64,
-    side: Side<Result<Box<Prepared>, String>>,
+    side: SideJob<Result<Box<Prepared>, String>>,
 }
 
 /// The requested name with the prepared experiment, or an error.
@@ -29,7 +29,7 @@ type LoadOutcome = Result<(String, Box<Prepared>), LoadError>;
 impl Loader {
     /// Creates a loader with the presets of this catalog.
     pub(super) fn new(catalog: Arc<Catalog>) -> Self {
-        Self { catalog, name: String::new(), request: 0, side: Side::new("loader") }
+        Self { catalog, name: String::new(), request: 0, side: SideJob::new("loader") }
     }
 
     /// Cancels the load under way.

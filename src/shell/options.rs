@@ -47,7 +47,7 @@ pub struct Options {
     ///
     /// a whole number from 1 to 240, or auto (30, and 15 over ssh)
     #[arg(long, value_name = "N", default_value = "auto", allow_hyphen_values = true)]
-    pub fps: Auto<Frames>,
+    pub fps: Auto<FrameRate>,
     /// The most that is sent in a second; where it is too little less is drawn.
     ///
     /// bytes a second such as 16k or 1M, off, or auto (off, and 64k over ssh)
@@ -169,9 +169,9 @@ impl<T: FromStr> FromStr for Auto<T> {
 
 /// Frames per second.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Frames(pub u16);
+pub struct FrameRate(pub u16);
 
-impl FromStr for Frames {
+impl FromStr for FrameRate {
     type Err = String;
 
     fn from_str(word: &str) -> Result<Self, String> {
@@ -201,7 +201,7 @@ impl FromStr for LogTarget {
 
 /// The description of one option.
 #[derive(Debug)]
-pub struct Row {
+pub struct OptionRow {
     /// Its name.
     pub name: String,
     /// Its purpose, as a sentence.
@@ -216,11 +216,11 @@ pub struct Row {
     pub is_switch: bool,
 }
 
-static ROWS: LazyLock<Vec<Row>> =
-    LazyLock::new(|| command().get_arguments().map(Row::new).collect());
+static ROWS: LazyLock<Vec<OptionRow>> =
+    LazyLock::new(|| command().get_arguments().map(OptionRow::new).collect());
 
 /// Returns all options, in the order of the help.
-pub fn rows() -> &'static [Row] {
+pub fn rows() -> &'static [OptionRow] {
     &ROWS
 }
 
@@ -228,7 +228,7 @@ fn command() -> Command {
     Options::augment_args(Command::new("options").no_binary_name(true).disable_help_flag(true))
 }
 
-impl Row {
+impl OptionRow {
     fn new(argument: &clap::Arg) -> Self {
         let text = |text: Option<&clap::builder::StyledStr>| {
             text.map(ToString::to_string).unwrap_or_default()
@@ -350,7 +350,7 @@ mod tests {
         let matches = with_defaults(command(), words).try_get_matches_from(["--glyphs=half"]);
         let options = Options::from_arg_matches(&matches.expect("good words")).expect("options");
         assert_eq!(options.glyphs, GlyphSet::Half);
-        assert_eq!(options.fps, Auto::Is(Frames(20)));
+        assert_eq!(options.fps, Auto::Is(FrameRate(20)));
         assert_eq!((options.color, options.mouse), (Color::True, true));
         assert!(options.no_sync, "an empty variable says nothing");
     }

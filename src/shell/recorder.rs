@@ -18,14 +18,14 @@ use crate::view::theme::Palette;
 
 /// A cast being recorded.
 #[derive(Debug)]
-pub(super) struct Recorder {
+pub(super) struct CastRecorder {
     cast: Cast<NewFile>,
     frames: Frames,
     began: Instant,
     size: Size,
 }
 
-impl Recorder {
+impl CastRecorder {
     /// Begins a cast named after a system.
     pub(super) fn begin(
         stem: &str,

@@ -9,7 +9,7 @@ use crate::view::glyphs::Glyphs;
 use crate::view::theme::Theme;
 
 use super::bandwidth::Bandwidth;
-use super::frame_loop::Pace;
+use super::frame_loop::FramePace;
 use super::log::LogFile;
 use super::options::{MOST_FRAMES, Options};
 
@@ -96,12 +96,12 @@ impl Request {
     }
 
     /// Returns how frames are sent.
-    pub(super) fn pace(&self, variable: &dyn Fn(&str) -> Option<String>) -> Pace {
+    pub(super) fn pace(&self, variable: &dyn Fn(&str) -> Option<String>) -> FramePace {
         let far = ["SSH_CONNECTION", "SSH_TTY"].iter().any(|name| variable(name).is_some());
         let frames = self.frames.unwrap_or(if far { FAR } else { NEAR }).min(self.most_frames());
         let bandwidth = if far { Bandwidth::Bytes(LINE) } else { Bandwidth::Unlimited };
         let bytes = self.bandwidth.unwrap_or(bandwidth).bytes();
-        Pace { frames, bytes, synchronized: !self.unsynchronized, mouse: self.mouse }
+        FramePace { frames, bytes, synchronized: !self.unsynchronized, mouse: self.mouse }
     }
 }
 

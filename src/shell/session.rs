@@ -25,11 +25,11 @@ use tracing::{error, info};
 use super::checker::Checker;
 use super::clipboard;
 use super::files::{self, Watch};
-use super::frame_loop::{Pace, Screen, ScreenRequest};
+use super::frame_loop::{FramePace, Screen, ScreenRequest};
 use super::guided::Guided;
 use super::loader::Loader;
 use super::mouse::with_shift;
-use super::recorder::Recorder;
+use super::recorder::CastRecorder;
 use super::request::Request;
 use super::store::Store;
 use super::writer::Writer;
@@ -40,7 +40,7 @@ use crate::instrument::Answer;
 use crate::preset::{Catalog, is_path};
 use crate::view::theme::PALETTES;
 use crate::view::{self, Detail, Painter, RenderStyle};
-use crate::worker::{Side, Worker};
+use crate::worker::{SideJob, Worker};
 
 /// The running laboratory.
 pub(super) struct Session {
@@ -62,7 +62,7 @@ pub(super) struct Session {
     /// Writes the file that a key requested.
     writer: Writer,
     /// The background jobs of each asker.
-    sides: HashMap<Asker, Side<Answer>>,
+    sides: HashMap<Asker, SideJob<Answer>>,
     /// A warning to repeat when the first system is loaded, since loading clears notifications.
     warning: Option<String>,
     /// The last fault logged.
@@ -70,7 +70,7 @@ pub(super) struct Session {
     /// The lesson or demo that has the screen.
     guided: Option<Guided>,
     /// The recording under way, if there is one.
-    recorder: Option<Recorder>,
+    recorder: Option<CastRecorder>,
     /// What draws the screen, and keeps what does not change.
     painter: Painter,
     /// How long nothing visible has changed.
@@ -81,12 +81,12 @@ pub(super) struct Session {
     has_clipboard: bool,
     clipboard: Option<String>,
     /// The result of saving at the end.
-    left: Option<Left>,
+    left: Option<ExitResult>,
 }
 
 /// The result of saving at the end.
 #[derive(Debug)]
-pub(super) struct Left {
+pub(super) struct ExitResult {
     pub(super) recorded: io::Result<()>,
     pub(super) kept: io::Result<()>,
 }
@@ -116,7 +116,7 @@ impl Session {
         catalog: Catalog,
         request: &Request,
         look: RenderStyle,
-        pace: Pace,
+        pace: FramePace,
     ) -> io::Result<Self> {
         let (mut app, effects) = App::new(&catalog, request.open.as_deref());
         app.mouse = pace.mouse;
@@ -192,7 +192,7 @@ impl Session {
                 Effect::StopLoading => self.loader.stop(),
                 Effect::StopCheck => self.checker.stop(),
                 Effect::Compute(Computation { ticket, asker, job }) => {
-                    let side = self.sides.entry(asker).or_insert_with(|| Side::new("side"));
+                    let side = self.sides.entry(asker).or_insert_with(|| SideJob::new("side"));
                     side.begin(ticket, job);
                 }
                 Effect::StopComputing(asker) => {
@@ -235,9 +235,9 @@ impl Session {
 
     /// Returns the result of saving the recording and the session at the end, and saves them if that has not been
     /// done yet.
-    pub(super) fn left(&mut self) -> Left {
+    pub(super) fn left(&mut self) -> ExitResult {
         self.on_exit(true);
-        self.left.take().unwrap_or(Left { recorded: Ok(()), kept: Ok(()) })
+        self.left.take().unwrap_or(ExitResult { recorded: Ok(()), kept: Ok(()) })
     }
 
     /// Starts a loaded system.
@@ -295,7 +295,7 @@ impl Screen for Session {
         let awaited = app.loading().is_some()
             || app.notice.is_some()
             || self.writer.is_busy()
-            || self.sides.values().any(Side::is_busy);
+            || self.sides.values().any(SideJob::is_busy);
         let editing = matches!(app.overlay, Some(Overlay::Workbench));
         let rests =
             self.still >= SETTLED && paused && !awaited && !editing && self.guided.is_none();
@@ -394,7 +394,7 @@ impl Screen for Session {
         let recorded = recorder.map_or(Ok(()), |recorder| recorder.end(!hurried).map(|_| ()));
         let written = if hurried { None } else { self.writer.wait(UNHURRIED) };
         let written = written.map_or(Ok(()), |report| report.map(|_| ()).map_err(io::Error::other));
-        self.left = Some(Left { recorded: recorded.and(written), kept });
+        self.left = Some(ExitResult { recorded: recorded.and(written), kept });
     }
 
     fn reduce(&mut self, detail: Detail) {

@@ -67,7 +67,7 @@ impl TerminalError {
 
 /// A mode of a terminal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Mode {
+pub(super) enum TerminalMode {
     /// The alternate screen; the shell's screen reappears unchanged.
     AlternateScreen,
     /// The cursor is hidden.
@@ -80,7 +80,7 @@ pub(super) enum Mode {
     Focus,
 }
 
-impl Mode {
+impl TerminalMode {
     /// Writes the commands that switch it on or off.
     fn switch(self, on: bool, mut out: impl Write) -> io::Result<()> {
         match (self, on) {
@@ -130,7 +130,7 @@ pub(super) struct Terminal {
     /// program.
     output: OwnedFd,
     /// The modes to be undone, besides raw mode; `None` if the terminal has not been changed.
-    active: Mutex<Option<Vec<Mode>>>,
+    active: Mutex<Option<Vec<TerminalMode>>>,
 }
 
 impl Terminal {
@@ -151,7 +151,8 @@ impl Terminal {
     /// the state of the terminal is unknown after a stop or a failure.
     pub(super) fn enter(&self, mut out: impl Write) -> io::Result<()> {
         let mut active = self.lock();
-        let first = || vec![Mode::AlternateScreen, Mode::HiddenCursor, Mode::Focus];
+        let first =
+            || vec![TerminalMode::AlternateScreen, TerminalMode::HiddenCursor, TerminalMode::Focus];
         let modes = active.get_or_insert_with(first);
         // A shell may have changed the mode since, although crossterm still considers it raw.
         disable_raw_mode()?;
@@ -160,7 +161,7 @@ impl Terminal {
     }
 
     /// Switches a mode, and writes the commands for that.
-    pub(super) fn switch(&self, mode: Mode, on: bool, out: impl Write) -> io::Result<()> {
+    pub(super) fn switch(&self, mode: TerminalMode, on: bool, out: impl Write) -> io::Result<()> {
         let mut active = self.lock();
         let Some(modes) = active.as_mut().filter(|modes| modes.contains(&mode) != on) else {
             return Ok(());
@@ -278,12 +279,12 @@ impl Terminal {
         true
     }
 
-    fn lock(&self) -> MutexGuard<'_, Option<Vec<Mode>>> {
+    fn lock(&self) -> MutexGuard<'_, Option<Vec<TerminalMode>>> {
         self.active.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Takes the lock, unless its holder is stuck in a blocking write: then nothing can be restored.
-    fn lock_soon(&self) -> Option<MutexGuard<'_, Option<Vec<Mode>>>> {
+    fn lock_soon(&self) -> Option<MutexGuard<'_, Option<Vec<TerminalMode>>>> {
         let end = Instant::now() + PATIENCE;
         loop {
             match self.active.try_lock() {

@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use crate::job::{Job, Outcome};
-use crate::worker::Side;
+use crate::worker::SideJob;
 
 /// The outcome, as a sentence for the user.
 pub(super) type WriteReport = Result<String, String>;
@@ -15,13 +15,13 @@ pub(super) type WriteReport = Result<String, String>;
 /// The file being written, if there is one.
 #[derive(Debug)]
 pub(super) struct Writer {
-    side: Side<WriteReport>,
+    side: SideJob<WriteReport>,
 }
 
 impl Writer {
     /// Creates an idle writer.
     pub(super) fn new() -> Self {
-        Self { side: Side::new("writer") }
+        Self { side: SideJob::new("writer") }
     }
 
     /// Starts to write a file.

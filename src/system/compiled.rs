@@ -12,7 +12,7 @@ use super::observables::{ObservableList, Observables};
 use super::program::Program;
 use super::rhs::{MotionPrograms, ProgramBuilder, Quadratures, Tangents};
 use super::separability::NotSeparable;
-use super::terms::{Quantities, Terms};
+use super::terms::{ConservedTerms, Terms};
 use super::value::Evaluator;
 use super::{Channel, Discontinuities, Form, State};
 use crate::cancel::Cancel;
@@ -116,7 +116,7 @@ impl System {
     ) -> Result<System, CompileError> {
         let mut equations = equations.clone();
         let list = ObservableList::of(model, &mut equations, extra);
-        let quantities = Quantities::of(&mut equations);
+        let quantities = ConservedTerms::of(&mut equations);
         if !equations.has_moving_mass() {
             // splitting methods need it; where M moves there is nothing to find
             equations.separable();
@@ -172,7 +172,7 @@ impl System {
         model: &Model,
         equations: &Arc<Equations>,
         builder: &mut ProgramBuilder<'_>,
-        (list, quantities): (ObservableList, Quantities),
+        (list, quantities): (ObservableList, ConservedTerms),
         constraints: Option<Constrained>,
     ) -> Result<Shared, Symbol> {
         let split = match builder.split() {

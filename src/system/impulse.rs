@@ -14,7 +14,7 @@ use crate::num::DoubleDouble;
 
 /// The times of one impulse.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Schedule {
+pub struct ImpulseTimes {
     /// Single times.
     pub times: Vec<DoubleDouble>,
     /// The interval at whose multiples after the start the impulse is applied, too.
@@ -23,7 +23,7 @@ pub struct Schedule {
     given: DoubleDouble,
 }
 
-impl Schedule {
+impl ImpulseTimes {
     /// The time of an impulse beyond the precision of an `f64`, given its nearest `f64`.
     pub fn exactly(&self, start: f64, time: f64) -> DoubleDouble {
         let periodic = || {
@@ -50,7 +50,7 @@ pub struct ImpulseOutcome {
 
 impl System {
     /// The times of each impulse at these parameters.
-    pub fn schedule(&self, parameters: &[f64]) -> Vec<Schedule> {
+    pub fn schedule(&self, parameters: &[f64]) -> Vec<ImpulseTimes> {
         let discontinuities = self.discontinuities();
         let mut values: Evaluator<DoubleDouble> =
             Evaluator::new(Arc::clone(&discontinuities.schedule));
@@ -64,7 +64,7 @@ impl System {
             let times = take(impulse.times);
             let given = take(1).first().copied().unwrap_or(DoubleDouble::ZERO);
             let interval = Some(given).filter(|x| x.high > 0.0 && x.is_finite());
-            Schedule { times, interval, given }
+            ImpulseTimes { times, interval, given }
         };
         discontinuities.impulses.iter().map(of).collect()
     }

@@ -31,7 +31,7 @@ pub(super) struct OutputPlace {
 }
 
 /// The energy, then the conserved quantities, each by its terms, before compilation.
-pub(super) struct Quantities {
+pub(super) struct ConservedTerms {
     places: Vec<Option<OutputPlace>>,
     outputs: Vec<Expr>,
 }
@@ -47,10 +47,10 @@ pub(super) struct Terms {
     pub(super) canonical: Option<Arc<Program>>,
 }
 
-impl Quantities {
+impl ConservedTerms {
     /// The energy and all quantities that `equations` finds conserved.
-    pub(super) fn of(equations: &mut Equations) -> Quantities {
-        let mut quantities = Quantities { places: Vec::new(), outputs: Vec::new() };
+    pub(super) fn of(equations: &mut Equations) -> ConservedTerms {
+        let mut quantities = ConservedTerms { places: Vec::new(), outputs: Vec::new() };
         let all: Vec<Expr> = std::iter::once(equations.energy)
             .chain(equations.conserved.iter().map(|c| c.expression))
             .collect();

@@ -12,7 +12,7 @@ use unicode_width::UnicodeWidthStr;
 use super::RenderStyle;
 use super::colour::ColourDepth;
 use super::kept::Kept;
-use super::region::Region;
+use super::region::ScreenRegion;
 use super::theme::Role;
 use crate::app::HitTarget;
 use crate::printable;
@@ -22,7 +22,7 @@ pub(super) struct Canvas<'a> {
     pub(super) buffer: &'a mut Buffer,
     pub(super) look: &'a RenderStyle,
     /// The regions for the mouse, if they are collected; later ones lie over earlier ones.
-    pub(super) regions: Option<Vec<(Rect, Region)>>,
+    pub(super) regions: Option<Vec<(Rect, ScreenRegion)>>,
     /// The position of the terminal's cursor.
     pub(super) cursor: Option<Position>,
     /// The coordinates of the cursor of the focused plot.
@@ -155,7 +155,7 @@ impl Canvas<'_> {
     /// Clears an area for an overlay.
     pub(super) fn clear(&mut self, area: Rect) {
         Clear.render(area, self.buffer);
-        self.region(area, Region::Blank);
+        self.region(area, ScreenRegion::Blank);
     }
 
     /// Places the terminal's cursor.
@@ -164,7 +164,7 @@ impl Canvas<'_> {
     }
 
     /// Registers a region for the mouse.
-    pub(super) fn region(&mut self, area: Rect, region: Region) {
+    pub(super) fn region(&mut self, area: Rect, region: ScreenRegion) {
         if let Some(regions) = self.regions.as_mut().filter(|_| !area.is_empty()) {
             regions.push((area, region));
         }
@@ -172,7 +172,7 @@ impl Canvas<'_> {
 
     /// Registers an area with a single mouse target.
     pub(super) fn target(&mut self, area: Rect, target: HitTarget) {
-        self.region(area, Region::Plain(target));
+        self.region(area, ScreenRegion::Plain(target));
     }
 
     /// Styles a whole row and leaves its text unchanged.

@@ -9,7 +9,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 
 use super::glyphs::Glyphs;
-use super::plot::{Frame, Pen, Raster, Scale};
+use super::plot::{Pen, PlotFrame, Raster, Scale};
 use crate::num::math;
 
 /// The size of a sample in cells: columns, rows.
@@ -47,7 +47,7 @@ fn sample(glyphs: Glyphs) -> Vec<String> {
     let mut raster = Raster::new(area, glyphs);
     let pen = Pen::new(Style::new(), 0);
     let wave = Rect { width: SAMPLE.0 - FILLED - 1, ..area };
-    let frame = Frame::new(Scale::linear(0.0, 2.0), Scale::linear(-1.1, 1.1), wave);
+    let frame = PlotFrame::new(Scale::linear(0.0, 2.0), Scale::linear(-1.1, 1.1), wave);
     let mut curve = Raster::new(wave, glyphs);
     let points = (0..=400).map(|i| f64::from(i) / 200.0).map(|x| [x, math::sin(TAU * x)]);
     curve.polyline(&frame, points, &pen);

@@ -8,10 +8,10 @@ use super::canvas::Canvas;
 use super::glyphs::Glyphs;
 use super::kept::{self, Track, TrailKey};
 use super::number::readable;
-use super::plot::{Ages, Frame, Marker, Pen, Raster};
+use super::plot::{Ages, Marker, Pen, PlotFrame, Raster};
 use super::quantity::Quantities;
 use super::theme::Theme;
-use crate::analysis::Separation;
+use crate::analysis::DistanceHistory;
 use crate::experiment::{Companion, Snapshot};
 use crate::instrument::Level;
 use crate::num::math;
@@ -34,7 +34,7 @@ pub(super) fn ink(theme: &Theme, number: usize) -> Style {
 pub(super) fn trails(
     canvas: &mut Canvas<'_>,
     raster: &mut Raster,
-    (frame, q): (&Frame, &Quantities<'_>),
+    (frame, q): (&PlotFrame, &Quantities<'_>),
     ([x, y], level): ([usize; 2], Level),
 ) {
     let look = canvas.look;
@@ -58,7 +58,7 @@ pub(super) fn trails(
 pub(super) fn curves(
     canvas: &mut Canvas<'_>,
     raster: &mut Raster,
-    (frame, q): (&Frame, &Quantities<'_>),
+    (frame, q): (&PlotFrame, &Quantities<'_>),
     (channel, level): (usize, Level),
 ) {
     let look = canvas.look;
@@ -81,7 +81,7 @@ pub(super) fn curves(
 pub(super) fn crossings(
     canvas: &Canvas<'_>,
     raster: &mut Raster,
-    (frame, q): (&Frame, &Quantities<'_>),
+    (frame, q): (&PlotFrame, &Quantities<'_>),
     (section, channels, level): (usize, [usize; 2], Level),
 ) {
     let theme = &canvas.look.theme;
@@ -98,7 +98,7 @@ pub(super) fn crossings(
 /// Draws the number of a companion.
 fn mark(
     raster: &mut Raster,
-    frame: &Frame,
+    frame: &PlotFrame,
     (one, theme): (&Companion, &Theme),
     (at, level): ([f64; 2], Level),
 ) {
@@ -120,7 +120,7 @@ pub(super) fn as_main(snapshot: &Snapshot, one: &Companion) -> Snapshot {
 /// A companion in words: its name, its distance from the main motion, and the rest.
 pub(super) fn words(
     one: &Companion,
-    separation: &Separation,
+    separation: &DistanceHistory,
     glyphs: Glyphs,
 ) -> (String, String, String) {
     let name = format!("{}, {}", one.number, one.origin.word());

@@ -7,7 +7,7 @@ use ratatui::layout::{Position, Rect};
 use super::canvas::Canvas;
 use super::marks::Marks;
 use super::number::readable;
-use super::plot::Frame;
+use super::plot::PlotFrame;
 use super::theme::Role;
 use crate::instrument::Viewport;
 
@@ -16,7 +16,7 @@ use crate::instrument::Viewport;
 pub(super) fn draw(
     canvas: &mut Canvas<'_>,
     area: Rect,
-    frame: &Frame,
+    frame: &PlotFrame,
     (viewport, marks): (Viewport, &Marks<'_>),
 ) -> Option<[f64; 2]> {
     let [right, up] = viewport.cursor?;

@@ -8,7 +8,7 @@ use super::text_page::TextPage;
 use super::theme::Role;
 use crate::app::Lab;
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Constant, Flow, Holonomy, Left, Line, NoClosedForm, Report};
+use crate::mechanics::{ConservedKind, Flow, Holonomy, LeftSide, Line, NoClosedForm, Report};
 
 /// Expressions with more nodes than this are not written out.
 const MOST: u64 = 4_000;
@@ -63,15 +63,15 @@ impl EquationRows<'_> {
         self.look.glyphs.pick(&info.unicode, &info.name).clone()
     }
 
-    fn left(&self, left: Left) -> String {
+    fn left(&self, left: LeftSide) -> String {
         match left {
-            Left::Letter(letter) => letter.to_owned(),
-            Left::Symbol(symbol) => self.symbol(symbol),
+            LeftSide::Letter(letter) => letter.to_owned(),
+            LeftSide::Symbol(symbol) => self.symbol(symbol),
             // d/dt x, in this terminal's notation
-            Left::Rate(symbol) => format!("d{}/dt", self.symbol(symbol)),
-            Left::Added(letter, q) => format!("{letter}_{}", self.symbol(q)),
-            Left::Bracket(x, y) => format!("{{{}, {}}}", self.symbol(x), self.symbol(y)),
-            Left::Jump(symbol) => {
+            LeftSide::Rate(symbol) => format!("d{}/dt", self.symbol(symbol)),
+            LeftSide::Added(letter, q) => format!("{letter}_{}", self.symbol(q)),
+            LeftSide::Bracket(x, y) => format!("{{{}, {}}}", self.symbol(x), self.symbol(y)),
+            LeftSide::Jump(symbol) => {
                 format!("{}{}", self.look.glyphs.pick("Δ", "jump of "), self.symbol(symbol))
             }
         }
@@ -188,7 +188,7 @@ impl EquationRows<'_> {
             (&report.equations.flow, &report.motion)
         {
             for (coordinate, rate) in report.model.coordinates.iter().zip(momentum_rates) {
-                self.put(&self.left(Left::Rate(coordinate.momentum)), *rate, "");
+                self.put(&self.left(LeftSide::Rate(coordinate.momentum)), *rate, "");
             }
         }
     }
@@ -224,7 +224,7 @@ impl EquationRows<'_> {
             self.page.heading("Energy");
         }
         self.put("h", report.energy.right, "");
-        let known = report.conserved.iter().any(|kept| kept.constant == Constant::Energy);
+        let known = report.conserved.iter().any(|kept| kept.constant == ConservedKind::Energy);
         let rests = known && report.energy_rate == Expr::ZERO;
         let remark = match (rests, report.impulses.is_empty()) {
             (true, true) => "conserved",
@@ -242,9 +242,9 @@ impl EquationRows<'_> {
         }
         for kept in &report.conserved {
             let shown = match kept.constant {
-                Constant::Momentum(p) => self.symbol(p),
-                Constant::Energy => self.look.glyphs.pick("E", "energy").to_owned(),
-                Constant::Casimir(name) | Constant::Other(name) => name.to_owned(),
+                ConservedKind::Momentum(p) => self.symbol(p),
+                ConservedKind::Energy => self.look.glyphs.pick("E", "energy").to_owned(),
+                ConservedKind::Casimir(name) | ConservedKind::Other(name) => name.to_owned(),
             };
             self.put(&shown, kept.expression, &kept.reason.to_string());
         }

@@ -7,7 +7,7 @@ use ratatui::layout::Position;
 use ratatui::style::Style;
 
 use super::canvas::Canvas;
-use super::plot::Frame;
+use super::plot::PlotFrame;
 use crate::instrument::Field;
 use crate::view::colour::ColourDepth;
 
@@ -16,7 +16,7 @@ const SHADES: [char; 5] = ['·', '░', '▒', '▓', '█'];
 const ASCII: [char; 8] = ['.', ':', '-', '=', '+', '*', '#', '@'];
 
 /// Draws a field.
-pub(super) fn draw(canvas: &mut Canvas<'_>, frame: &Frame, field: &Field) {
+pub(super) fn draw(canvas: &mut Canvas<'_>, frame: &PlotFrame, field: &Field) {
     let (theme, glyphs) = (&canvas.look.theme, canvas.look.glyphs);
     let ramp = theme.density();
     let few = matches!(theme.depth(), ColourDepth::None | ColourDepth::Ansi16);

@@ -11,7 +11,7 @@ use super::glyphs::Glyphs;
 use super::layout::split_rows;
 use super::number::{self, fitted, readable};
 use super::plot::{Marker, Scale};
-use super::sparkline::History;
+use super::sparkline::Sparkline;
 use super::theme::Role;
 use super::values::window;
 use super::wrap::words;
@@ -236,7 +236,7 @@ fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
     let shown = || values.iter().copied().filter(|drift| *drift >= FLOOR && drift.is_finite());
     let most = shown().fold(FLOOR * LEAST_RATIO, f64::max);
     let least = shown().fold(most / LEAST_RATIO, f64::min);
-    let history = History {
+    let history = Sparkline {
         values: &values,
         scale: Scale::log(least, most),
         style: canvas.style(drift_role(gauge)),

@@ -16,7 +16,7 @@ use super::timeline;
 use super::values::typing;
 use super::wrap::words_in;
 use crate::app::keymap::{KEYS, Place};
-use crate::app::{Action, App, Field, HitTarget, Lab, Overlay, Page, Pane, Purpose};
+use crate::app::{Action, App, HitTarget, InputField, Lab, Overlay, Page, Pane, Purpose};
 use crate::experiment::{Snapshot, Status};
 
 /// The pages of a loaded system and their keys.
@@ -331,7 +331,7 @@ fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
 }
 
 /// Draws the text being typed, and what is wrong with it.
-fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &Field) {
+fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &InputField) {
     let facts = match (&app.lab, field.purpose) {
         (Some(lab), Purpose::Value(target)) => lab.value_info(target),
         _ => None,

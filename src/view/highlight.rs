@@ -6,10 +6,14 @@ use unicode_width::UnicodeWidthChar;
 
 use super::canvas::{Canvas, Span};
 use super::theme::Role;
-use crate::app::Fit;
+use crate::app::FuzzyMatch;
 
 /// Splits the text into spans and highlights those that match.
-pub(super) fn found_in(canvas: &Canvas<'_>, text: &str, (fit, role): (&Fit, Role)) -> Vec<Span> {
+pub(super) fn found_in(
+    canvas: &Canvas<'_>,
+    text: &str,
+    (fit, role): (&FuzzyMatch, Role),
+) -> Vec<Span> {
     let mut spans: Vec<Span> = Vec::new();
     let mut last = None;
     for (place, letter) in text.chars().enumerate() {

@@ -8,7 +8,7 @@ use ratatui::layout::{Position, Rect};
 
 use super::canvas::Canvas;
 use super::look::RenderStyle;
-use super::region::Region;
+use super::region::ScreenRegion;
 use super::screen::paint;
 use crate::app::{App, Grab, HitTarget};
 
@@ -16,7 +16,7 @@ use crate::app::{App, Grab, HitTarget};
 #[derive(Clone, Debug)]
 pub struct HitMap {
     /// The regions; later ones lie over earlier ones.
-    regions: Vec<(Rect, Region)>,
+    regions: Vec<(Rect, ScreenRegion)>,
     hold: Option<Grab>,
 }
 
@@ -44,12 +44,13 @@ impl HitMap {
     /// Returns what lies at a position; during a drag, that is the dragged item wherever the mouse is.
     pub fn at(&self, column: u16, row: u16) -> Option<HitTarget> {
         let at = Position::new(column, row);
-        let held = |region: &Region| match (self.hold, region) {
-            (Some(Grab::Bar(held)), Region::Bar(target, _)) => held == *target,
-            (Some(Grab::Time), Region::Time(_)) => true,
-            (Some(Grab::Picture { index, .. }), Region::Plot(i, _) | Region::Space(i)) => {
-                index == *i
-            }
+        let held = |region: &ScreenRegion| match (self.hold, region) {
+            (Some(Grab::Bar(held)), ScreenRegion::Bar(target, _)) => held == *target,
+            (Some(Grab::Time), ScreenRegion::Time(_)) => true,
+            (
+                Some(Grab::Picture { index, .. }),
+                ScreenRegion::Plot(i, _) | ScreenRegion::Space(i),
+            ) => index == *i,
             _ => false,
         };
         let found = match self.hold {
@@ -61,26 +62,26 @@ impl HitMap {
 }
 
 /// The target of a region at a position, which may lie outside it.
-fn resolved(region: Region, area: Rect, at: Position) -> Option<HitTarget> {
+fn resolved(region: ScreenRegion, area: Rect, at: Position) -> Option<HitTarget> {
     let middle = |at: u16, start: u16, length: u16| {
         (f64::from(at) - f64::from(start) + 0.5) / f64::from(length.max(1))
     };
     let place = [middle(at.x, area.x, area.width), 1.0 - middle(at.y, area.y, area.height)];
     Some(match region {
-        Region::Blank => return None,
-        Region::Plain(target) => target,
-        Region::Bar(target, scale) => {
+        ScreenRegion::Blank => return None,
+        ScreenRegion::Plain(target) => target,
+        ScreenRegion::Bar(target, scale) => {
             let along = f64::from(at.x) - f64::from(area.x);
             let share = along / f64::from(area.width.saturating_sub(1).max(1));
             HitTarget::Bar { target, value: scale.value(share.clamp(0.0, 1.0)) }
         }
-        Region::Time([from, to]) => {
+        ScreenRegion::Time([from, to]) => {
             let along = f64::from(at.x) - f64::from(area.x);
             let share = (along / f64::from(area.width.saturating_sub(1).max(1))).clamp(0.0, 1.0);
             // both ends are met exactly
             HitTarget::Time(if share < 1.0 { from + share * (to - from) } else { to })
         }
-        Region::Space(index) => HitTarget::Space { index, place },
-        Region::Plot(index, frame) => HitTarget::Plot { index, place, at: frame.at(at) },
+        ScreenRegion::Space(index) => HitTarget::Space { index, place },
+        ScreenRegion::Plot(index, frame) => HitTarget::Plot { index, place, at: frame.at(at) },
     })
 }

@@ -9,7 +9,7 @@ use ratatui::style::Style;
 
 use super::RenderStyle;
 use super::glyphs::Glyphs;
-use super::plot::{Ages, Camera, Frame, KeptTrail, Raster};
+use super::plot::{Ages, Camera, KeptTrail, PlotFrame, Raster};
 use super::quantity::Source;
 use super::theme::{Dash, Shade};
 use crate::analysis::Landscape;
@@ -50,7 +50,7 @@ pub(super) struct TrailKey {
     pub(super) epoch: u64,
     /// The number of a motion beside the main one; 0 for the main one.
     pub(super) motion: usize,
-    pub(super) frame: Frame,
+    pub(super) frame: PlotFrame,
     pub(super) track: Track,
 }
 
@@ -77,7 +77,7 @@ struct DrawnTrail {
 #[derive(Debug)]
 struct LevelsKey {
     landscape: Arc<Landscape>,
-    frame: Frame,
+    frame: PlotFrame,
     level: u8,
 }
 
@@ -142,7 +142,7 @@ impl Kept {
     pub(super) fn levels(
         &mut self,
         landscape: &Arc<Landscape>,
-        (frame, level): (&Frame, u8),
+        (frame, level): (&PlotFrame, u8),
         draw: impl FnOnce() -> Raster,
     ) -> &Raster {
         let same = |kept: &Held<LevelsKey, Raster>| {
@@ -189,7 +189,7 @@ impl DrawnTrail {
 
     /// The number of rows after the last one drawn; `None` if these rows do not continue what is drawn.
     ///
-    /// The rows of one motion are told from those of another by their bits: the last drawn row must be among them, and
+    /// The rows of one motion are distinguished from those of another by their bits: the last drawn row must be among them, and
     /// the oldest must be the first one drawn or a later one.
     fn continuation(&self, rows: &Trail) -> Option<usize> {
         let (oldest, began) = (rows.row(0)?, self.first.first()?);

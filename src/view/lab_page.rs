@@ -9,14 +9,14 @@ use super::canvas::{Canvas, Span, columns, row, wide};
 use super::layout::{Slot, is_single, panes};
 use super::number::brief;
 use super::quantity::Quantities;
-use super::region::Region;
+use super::region::ScreenRegion;
 use super::text_page::draw_rows;
 use super::theme::Role;
-use super::values::{Values, window};
+use super::values::{ValueList, window};
 use super::wrap::{capitalised, words};
 use super::{equations, gauges, picture};
 use crate::app::{
-    App, DrawnPanes, Field, HitTarget, Lab, LawInView, Overlay, Pane, PlotsInView, ValueId,
+    App, DrawnPanes, HitTarget, InputField, Lab, LawInView, Overlay, Pane, PlotsInView, ValueId,
 };
 use crate::experiment::{Failure, Status};
 
@@ -144,12 +144,12 @@ fn list(
     area: Rect,
     (lab, pane): (&Lab, Pane),
     title: &[Span],
-    field: Option<&Field>,
+    field: Option<&InputField>,
 ) {
     let focused = lab.focus == pane;
     let inner = canvas.pane(area, title, focused);
     canvas.target(area, HitTarget::Pane(pane));
-    let values = |kind, selected| Values { lab, kind, selected, focused, field };
+    let values = |kind, selected| ValueList { lab, kind, selected, focused, field };
     beyond(canvas, area, lab, pane);
     match pane {
         Pane::Parameters => {
@@ -231,8 +231,8 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize
         tab_targets(canvas, area, &title, &panes);
     }
     match picture::draw(canvas, inner, &q, plot) {
-        Some(frame) => canvas.region(frame.area, Region::Plot(index, frame)),
-        None if plot.kind.is_scene() => canvas.region(inner, Region::Space(index)),
+        Some(frame) => canvas.region(frame.area, ScreenRegion::Plot(index, frame)),
+        None if plot.kind.is_scene() => canvas.region(inner, ScreenRegion::Space(index)),
         None => {}
     }
 }

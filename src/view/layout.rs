@@ -15,14 +15,14 @@ const PLOT: (u16, u16) = (50, 13);
 const LISTS: (u16, u16) = (40, 52);
 
 /// A screen's parts: a header, the body, a status line and a line of hints, if there are any.
-pub(super) struct Screen {
+pub(super) struct ScreenLayout {
     pub(super) header: Rect,
     pub(super) body: Rect,
     pub(super) status: Rect,
     pub(super) footer: Rect,
 }
 
-impl Screen {
+impl ScreenLayout {
     pub(super) fn of(area: Rect, status: bool, footer: bool) -> Self {
         let line = |y: u16| Rect { y, height: 1, ..area };
         let (status, footer) = (u16::from(status), u16::from(footer));

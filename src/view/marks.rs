@@ -5,7 +5,7 @@
 use ratatui::layout::Position;
 
 use super::canvas::{Canvas, Span};
-use super::plot::{Frame, Marker, Pen, Raster};
+use super::plot::{Marker, Pen, PlotFrame, Raster};
 use super::quantity::Quantities;
 use super::theme::Role;
 
@@ -57,7 +57,7 @@ impl<'a> Marks<'a> {
     }
 
     /// Draws as many marks as fit without overlap, newest first.
-    pub(super) fn draw(&self, raster: &mut Raster, frame: &Frame, pen: &Pen) {
+    pub(super) fn draw(&self, raster: &mut Raster, frame: &PlotFrame, pen: &Pen) {
         let mut taken: Vec<Position> = Vec::new();
         for (_, point) in &self.points {
             let Some(cell) = frame.cell(*point) else { continue };
@@ -72,7 +72,7 @@ impl<'a> Marks<'a> {
     }
 
     /// Returns what happened in a cell or beside it.
-    pub(super) fn at(&self, frame: &Frame, at: Position) -> Option<&'a str> {
+    pub(super) fn at(&self, frame: &PlotFrame, at: Position) -> Option<&'a str> {
         let here = |(_, point): &&(&str, [f64; 2])| {
             let cell = frame.cell(*point);
             cell.is_some_and(|cell| cell.x.abs_diff(at.x) <= 1 && cell.y.abs_diff(at.y) <= 1)

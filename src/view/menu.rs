@@ -12,7 +12,7 @@ use super::layout::split_rows;
 use super::theme::Role;
 use super::values::window;
 use super::wrap::{capitalised, words, words_in};
-use crate::app::{Choice, Fit, HitTarget, Item, Menu};
+use crate::app::{Choice, FuzzyMatch, HitTarget, Item, Menu};
 
 /// Draws the list in the middle of an area, with the meaning of the selected item below it.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
@@ -141,7 +141,12 @@ impl MenuColumns {
 }
 
 /// Draws a row: the label with the matching letters highlighted, the note or the reason it is disabled, and the keys.
-fn line(canvas: &mut Canvas<'_>, area: Rect, (item, fit): (&Item, &Fit), grid: &MenuColumns) {
+fn line(
+    canvas: &mut Canvas<'_>,
+    area: Rect,
+    (item, fit): (&Item, &FuzzyMatch),
+    grid: &MenuColumns,
+) {
     let role = if item.unavailable.is_some() { Role::Dim } else { Role::Text };
     let label = found_in(canvas, &item.label, (fit, role));
     let used = canvas.spans(columns(area, 2, grid.room(canvas, item)), &label);

@@ -15,8 +15,8 @@ use super::quantity::Quantities;
 use super::theme::Role;
 use super::values::window;
 use super::wrap::{capitalised, words};
-use crate::app::{Above, App, Fit, HitTarget, Picker, Saved};
-use crate::preset::{Entry, Origin};
+use crate::app::{Above, App, FuzzyMatch, HitTarget, Picker, Saved};
+use crate::preset::{CatalogEntry, PresetOrigin};
 
 /// The least and greatest width of the list if it has something beside it.
 const LIST: (u16, u16) = (34, 46);
@@ -80,7 +80,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
 enum ListLine<'a> {
     Above(Above),
     Topic(&'a str),
-    System(usize, &'a Entry, &'a Fit),
+    System(usize, &'a CatalogEntry, &'a FuzzyMatch),
 }
 
 fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
@@ -212,12 +212,12 @@ fn search(canvas: &mut Canvas<'_>, area: Rect, search: Option<&Input>) {
 }
 
 /// Draws a description of the selected system, and returns the number of rows used.
-fn summary(canvas: &mut Canvas<'_>, area: Rect, entry: &Entry) -> u16 {
+fn summary(canvas: &mut Canvas<'_>, area: Rect, entry: &CatalogEntry) -> u16 {
     let width = usize::from(area.width);
     let mut lines: Vec<(Role, String)> = Vec::new();
     let text = canvas.text(&entry.info.summary);
     lines.extend(words(&text, width).into_iter().map(|line| (Role::Text, line)));
-    let own = matches!(entry.origin, Origin::User(_)) && entry.info.source.is_empty();
+    let own = matches!(entry.origin, PresetOrigin::User(_)) && entry.info.source.is_empty();
     let source = if own { "your own presets" } else { entry.info.source.as_str() };
     let source = canvas.text(source);
     lines.extend(words(&source, width).into_iter().map(|line| (Role::Dim, line)));
@@ -231,7 +231,7 @@ fn summary(canvas: &mut Canvas<'_>, area: Rect, entry: &Entry) -> u16 {
 }
 
 /// Draws the selected system in motion, or the reason why it cannot be shown.
-fn preview(canvas: &mut Canvas<'_>, area: Rect, app: &App, entry: &Entry) {
+fn preview(canvas: &mut Canvas<'_>, area: Rect, app: &App, entry: &CatalogEntry) {
     let text = columns(area, 1, area.width.saturating_sub(2));
     if let Some(failure) = app.picker.failure.as_ref().filter(|f| f.name == entry.name) {
         canvas.left(row(text, 0), Role::Bad, "This file has mistakes; Enter shows all of them.");

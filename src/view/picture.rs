@@ -12,7 +12,7 @@ use super::kept::{self, Track, TrailKey};
 use super::marks::{self, Marks};
 use super::number::readable;
 use super::plot::ticks::nice_range;
-use super::plot::{Ages, Axes, Axis, Frame, Marker, Pen, Raster, Scale};
+use super::plot::{Ages, Axes, DrawnAxis, Marker, Pen, PlotFrame, Raster, Scale};
 use super::quantity::{Quantities, through};
 use super::theme::Role;
 use super::time_window::time_window;
@@ -109,7 +109,7 @@ fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<Span> {
             let style = pen(canvas, *ink, 0).style;
             vec![(format!("  {mark} "), style), canvas.span(Role::Dim, words)]
         }
-        Entry::Happenings => marks::legend(canvas, q),
+        Entry::Occurrences => marks::legend(canvas, q),
         Entry::Curve(index, channel) => key(canvas, q, *index, *channel),
     }
 }
@@ -171,7 +171,7 @@ pub(super) fn draw(
     area: Rect,
     q: &Quantities<'_>,
     plot: &Plot,
-) -> Option<Frame> {
+) -> Option<PlotFrame> {
     let (present, answer) = (q.present(), q.lab.answer(plot));
     let viewport = plot.viewport().unwrap_or(Viewport::WHOLE);
     let across = match plot.kind.across(plot, &present, answer) {
@@ -179,14 +179,14 @@ pub(super) fn draw(
         Across::Channel(channel, range) => Some(q.axis(channel, range, (viewport, 0))),
         Across::Times([from, to]) => {
             let scale = through(Scale::linear(from, to), (viewport, 0));
-            Some(Axis::new("t", q.lab.loaded.model.time_unit(), scale))
+            Some(DrawnAxis::new("t", q.lab.loaded.model.time_unit(), scale))
         }
         Across::Named(name, [from, to]) => {
             let name = q.look.glyphs.text(&name).into_owned();
-            Some(Axis::new(name, "", through(Scale::linear(from, to), (viewport, 0))))
+            Some(DrawnAxis::new(name, "", through(Scale::linear(from, to), (viewport, 0))))
         }
         Across::Time => {
-            Some(Axis::new("t", q.lab.loaded.model.time_unit(), time_window(q, viewport, 1)))
+            Some(DrawnAxis::new("t", q.lab.loaded.model.time_unit(), time_window(q, viewport, 1)))
         }
     };
     let seen = across.as_ref().map_or([f64::NAN; 2], |axis| [axis.scale.lo, axis.scale.hi]);
@@ -234,26 +234,26 @@ pub(super) fn draw(
     Some(frame)
 }
 
-fn axis_upwards(q: &Quantities<'_>, upwards: &Upwards, viewport: Viewport) -> Axis {
+fn axis_upwards(q: &Quantities<'_>, upwards: &Upwards, viewport: Viewport) -> DrawnAxis {
     match upwards {
         Upwards::Channel(channel, range) => q.axis(*channel, *range, (viewport, 1)),
         Upwards::Shared(channels) => common_axis(q, channels, viewport),
         Upwards::Around(channel, [low, high]) => {
             let (lo, hi) = nice_range(*low, *high);
             let scale = through(Scale::linear(lo, hi), (viewport, 1));
-            Axis::new(q.name(*channel), q.unit(*channel), scale)
+            DrawnAxis::new(q.name(*channel), q.unit(*channel), scale)
         }
         Upwards::Annotated { channel, range, words } => {
             let axis = q.axis(*channel, *range, (viewport, 1));
             let words = q.look.glyphs.text(words);
             let unit =
                 if axis.unit.is_empty() { String::new() } else { format!(" [{}]", axis.unit) };
-            Axis::new(format!("{}{unit}   {words}", axis.title), "", axis.scale)
+            DrawnAxis::new(format!("{}{unit}   {words}", axis.title), "", axis.scale)
         }
         Upwards::Named(name, [low, high]) => {
             let (lo, hi) = nice_range(*low, *high);
             let name = q.look.glyphs.text(name);
-            Axis::new(name, "", through(Scale::linear(lo, hi), (viewport, 1)))
+            DrawnAxis::new(name, "", through(Scale::linear(lo, hi), (viewport, 1)))
         }
     }
 }
@@ -261,7 +261,7 @@ fn axis_upwards(q: &Quantities<'_>, upwards: &Upwards, viewport: Viewport) -> Ax
 fn draw_layer(
     canvas: &mut Canvas<'_>,
     raster: &mut Raster,
-    (frame, q): (&Frame, &Quantities<'_>),
+    (frame, q): (&PlotFrame, &Quantities<'_>),
     (level, layer): (Level, &Layer),
 ) {
     let look = canvas.look;
@@ -374,7 +374,7 @@ fn pen(canvas: &Canvas<'_>, ink: Ink, level: Level) -> Pen {
 fn levels(
     canvas: &Canvas<'_>,
     raster: &mut Raster,
-    frame: &Frame,
+    frame: &PlotFrame,
     landscape: &Landscape,
     lowest: Level,
 ) {
@@ -411,14 +411,19 @@ fn levels(
 }
 
 /// One axis for all quantities: their names are in the frame, and the axis has the unit if they share it.
-fn common_axis(q: &Quantities<'_>, channels: &[usize], viewport: Viewport) -> Axis {
+fn common_axis(q: &Quantities<'_>, channels: &[usize], viewport: Viewport) -> DrawnAxis {
     if let [only] = channels {
         return q.axis(*only, None, (viewport, 1));
     }
-    let axes: Vec<Axis> = channels.iter().map(|c| q.axis(*c, None, (Viewport::WHOLE, 1))).collect();
+    let axes: Vec<DrawnAxis> =
+        channels.iter().map(|c| q.axis(*c, None, (Viewport::WHOLE, 1))).collect();
     let lo = axes.iter().map(|axis| axis.scale.lo).fold(f64::INFINITY, f64::min);
     let hi = axes.iter().map(|axis| axis.scale.hi).fold(f64::NEG_INFINITY, f64::max);
     let unit = axes.first().map_or("", |axis| &axis.unit);
     let shared = axes.iter().all(|axis| axis.unit == unit);
-    Axis::new("", if shared { unit } else { "" }, through(Scale::linear(lo, hi), (viewport, 1)))
+    DrawnAxis::new(
+        "",
+        if shared { unit } else { "" },
+        through(Scale::linear(lo, hi), (viewport, 1)),
+    )
 }

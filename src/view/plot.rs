@@ -11,8 +11,8 @@ pub mod scale;
 mod stroke;
 pub mod ticks;
 
-pub use axes::{Axes, Axis};
+pub use axes::{Axes, DrawnAxis};
 pub use camera::{Bounds, Camera, Extent};
 pub use depth::DepthBuffer;
 pub use raster::{Ages, KeptTrail, Marker, Pen, Raster};
-pub use scale::{Frame, Scale, ScaleKind};
+pub use scale::{PlotFrame, Scale, ScaleKind};

@@ -5,7 +5,7 @@
 use ratatui::layout::Position;
 
 use super::canvas::Canvas;
-use super::plot::{Frame, Marker, Pen, Raster};
+use super::plot::{Marker, Pen, PlotFrame, Raster};
 use super::quantity::Quantities;
 use super::theme::Role;
 use crate::app::Prediction;
@@ -23,7 +23,7 @@ fn shown<'a>(q: &Quantities<'a>, plot: &Plot) -> Option<&'a Prediction> {
 pub(super) fn draw(
     canvas: &Canvas<'_>,
     raster: &mut Raster,
-    frame: &Frame,
+    frame: &PlotFrame,
     (q, plot): (&Quantities<'_>, &Plot),
 ) {
     let Some(prediction) = shown(q, plot) else { return };
@@ -40,7 +40,11 @@ pub(super) fn draw(
 }
 
 /// Writes which is which, once it was committed.
-pub(super) fn label(canvas: &mut Canvas<'_>, frame: &Frame, (q, plot): (&Quantities<'_>, &Plot)) {
+pub(super) fn label(
+    canvas: &mut Canvas<'_>,
+    frame: &PlotFrame,
+    (q, plot): (&Quantities<'_>, &Plot),
+) {
     let Some(prediction) = shown(q, plot) else { return };
     let named = [
         (prediction.points.last(), Role::Warn, "predicted"),

@@ -9,7 +9,7 @@ use super::canvas::{Canvas, Span, columns, row};
 use super::number::readable;
 use super::theme::Role;
 use super::wrap::{formula, words};
-use crate::analysis::{Answer, Inquiry};
+use crate::analysis::{Inquiry, InquiryAnswer};
 use crate::app::{Lab, Prompt};
 use crate::expr::{Expr, Zero};
 use crate::mechanics::Class;
@@ -76,7 +76,7 @@ fn lines(canvas: &Canvas<'_>, lab: &Lab, prompt: &Prompt, width: usize) -> Vec<V
         }
         (None, None) => page.words(Role::Dim, HELP),
         (None, Some((asked, inquiry))) => match &inquiry.answer {
-            Answer::Bracket { bracket, recognised, .. } => {
+            InquiryAnswer::Bracket { bracket, recognised, .. } => {
                 let (open, close) =
                     if lab.loaded.model.is_poisson() { ("{", "}") } else { ("[", "]") };
                 let asked =
@@ -119,7 +119,7 @@ fn lines(canvas: &Canvas<'_>, lab: &Lab, prompt: &Prompt, width: usize) -> Vec<V
                     page.words(Role::Dim, what);
                 }
             }
-            Answer::Conservation { class, rate, .. } => {
+            InquiryAnswer::Conservation { class, rate, .. } => {
                 let head = rate_head(lab);
                 match rate {
                     Ok(e) => page.formula(inquiry, head, *e),

@@ -4,7 +4,7 @@
 
 use super::RenderStyle;
 use super::plot::ticks::nice_range;
-use super::plot::{Axis, Scale};
+use super::plot::{DrawnAxis, Scale};
 use crate::app::Lab;
 use crate::experiment::Snapshot;
 use crate::expr::Expr;
@@ -106,7 +106,7 @@ impl<'a> Quantities<'a> {
         channel: usize,
         range: Option<[f64; 2]>,
         viewport: (Viewport, usize),
-    ) -> Axis {
+    ) -> DrawnAxis {
         let (lo, hi) = self.extent(channel);
         let range = self
             .lab
@@ -134,7 +134,7 @@ impl<'a> Quantities<'a> {
         };
         let unit = self.unit(channel);
         let scale = if unit == "rad" { scale.angle() } else { scale };
-        Axis::new(self.name(channel), unit, through(scale, viewport))
+        DrawnAxis::new(self.name(channel), unit, through(scale, viewport))
     }
 }
 

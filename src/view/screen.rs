@@ -11,7 +11,7 @@ use super::header_footer;
 use super::help;
 use super::kept::Kept;
 use super::lab_page;
-use super::layout::{LEAST, Screen};
+use super::layout::{LEAST, ScreenLayout};
 use super::look::RenderStyle;
 use super::menu;
 use super::notes;
@@ -69,7 +69,7 @@ pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
     let status = !matches!(app.page, Page::Picker | Page::Plain) && app.lab.is_some();
     // A value is typed in the footer.
     let footer = app.footer || matches!(app.overlay, Some(Overlay::Field(_)));
-    let screen = Screen::of(area, status && app.footer, footer);
+    let screen = ScreenLayout::of(area, status && app.footer, footer);
     header_footer::header(canvas, screen.header, app);
     let drawn = body(canvas, screen.body, app);
     header_footer::notice(canvas, screen.body, app);

@@ -18,7 +18,7 @@ use ratatui::layout::{Position, Rect};
 use super::canvas::Canvas;
 use super::companions;
 use super::kept::{self, Kept, Track, TrailKey};
-use super::plot::{Ages, Camera, DepthBuffer, Frame, Marker, Pen, Raster};
+use super::plot::{Ages, Camera, DepthBuffer, Marker, Pen, PlotFrame, Raster};
 use super::quantity::{Quantities, Source};
 use super::theme::Role;
 use crate::expr::Symbol;
@@ -116,7 +116,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
 /// Draws the shapes of a scene.
 struct ScenePainter<'a> {
     raster: Raster,
-    frame: Frame,
+    frame: PlotFrame,
     camera: Camera,
     q: &'a Quantities<'a>,
     reference_frame: Option<ReferenceFrame>,

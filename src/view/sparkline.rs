@@ -12,7 +12,7 @@ use super::plot::Scale;
 
 /// A history with the newest value at the right; each column shows the greatest of its values.
 #[derive(Clone, Copy, Debug)]
-pub struct History<'a> {
+pub struct Sparkline<'a> {
     /// The values, oldest first. NaN leaves a gap.
     pub values: &'a [f64],
     /// The vertical scale.
@@ -23,7 +23,7 @@ pub struct History<'a> {
     pub glyphs: Glyphs,
 }
 
-impl Widget for History<'_> {
+impl Widget for Sparkline<'_> {
     fn render(self, area: Rect, buffer: &mut Buffer) {
         let area = area.intersection(buffer.area);
         if area.is_empty() || self.values.is_empty() {

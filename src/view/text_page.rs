@@ -30,10 +30,10 @@ const MARGIN: usize = 8;
 /// A page of text being built.
 #[derive(Default)]
 pub(super) struct TextPage {
-    blocks: Vec<Block>,
+    blocks: Vec<TextBlock>,
 }
 
-enum Block {
+enum TextBlock {
     Heading(String),
     Words(Role, String),
     Formula { label: String, body: String, remark: String },
@@ -48,19 +48,19 @@ impl TextPage {
     /// Adds a heading with space above it.
     pub(super) fn heading(&mut self, text: &str) {
         if !self.blocks.is_empty() {
-            self.blocks.push(Block::Gap);
+            self.blocks.push(TextBlock::Gap);
         }
-        self.blocks.push(Block::Heading(text.to_owned()));
+        self.blocks.push(TextBlock::Heading(text.to_owned()));
     }
 
     /// Adds a paragraph.
     pub(super) fn words(&mut self, role: Role, text: impl Into<String>) {
-        self.blocks.push(Block::Words(role, text.into()));
+        self.blocks.push(TextBlock::Words(role, text.into()));
     }
 
     /// Adds `label = body` and a remark after it.
     pub(super) fn formula(&mut self, label: &str, body: String, remark: &str) {
-        self.blocks.push(Block::Formula {
+        self.blocks.push(TextBlock::Formula {
             label: label.to_owned(),
             body,
             remark: remark.to_owned(),
@@ -69,29 +69,29 @@ impl TextPage {
 
     /// Adds spans in one row, which is not wrapped.
     pub(super) fn row(&mut self, pieces: Vec<(Role, String)>) {
-        self.blocks.push(Block::Row(pieces));
+        self.blocks.push(TextBlock::Row(pieces));
     }
 
     /// Adds a label and a text beside it, wrapped with a hanging indent.
     pub(super) fn item(&mut self, label: &str, text: &str) {
-        self.blocks.push(Block::Item { label: label.to_owned(), text: text.to_owned() });
+        self.blocks.push(TextBlock::Item { label: label.to_owned(), text: text.to_owned() });
     }
 
     /// Adds a name, a number aligned with those of other names, its unit, and further spans. Narrow pages put the number
     /// below a long name.
     pub(super) fn value(&mut self, name: &str, value: &str, unit: &str, rest: Vec<(Role, String)>) {
         let (name, value, unit) = (name.to_owned(), value.to_owned(), unit.to_owned());
-        self.blocks.push(Block::Value { name, value, unit, rest });
+        self.blocks.push(TextBlock::Value { name, value, unit, rest });
     }
 
     /// Adds a single line, wrapped if necessary.
     pub(super) fn line(&mut self, text: &str) {
-        self.blocks.push(Block::Line(text.to_owned()));
+        self.blocks.push(TextBlock::Line(text.to_owned()));
     }
 
     /// Adds an empty row.
     pub(super) fn gap(&mut self) {
-        self.blocks.push(Block::Gap);
+        self.blocks.push(TextBlock::Gap);
     }
 
     /// Draws the rows from `scroll` on.
@@ -157,9 +157,9 @@ impl TextPage {
     /// The width of the column of labels under a heading.
     fn widest_label(&self, canvas: &Canvas<'_>, heading: usize, most: usize) -> usize {
         let section = self.blocks[heading..].iter().enumerate();
-        let section = section.take_while(|(i, b)| *i == 0 || !matches!(b, Block::Heading(_)));
-        let label = |block: &Block| match block {
-            Block::Formula { label, .. } => canvas.text(label).width(),
+        let section = section.take_while(|(i, b)| *i == 0 || !matches!(b, TextBlock::Heading(_)));
+        let label = |block: &TextBlock| match block {
+            TextBlock::Formula { label, .. } => canvas.text(label).width(),
             _ => 0,
         };
         section.map(|(_, block)| label(block)).max().unwrap_or(0).min(most)
@@ -169,20 +169,20 @@ impl TextPage {
         let mut widest = 0;
         let mut lines = Vec::new();
         for (place, block) in self.blocks.iter().enumerate() {
-            if place == 0 || matches!(block, Block::Heading(_)) {
+            if place == 0 || matches!(block, TextBlock::Heading(_)) {
                 widest = self.widest_label(canvas, place, width / 3);
             }
             match block {
-                Block::Gap => lines.push(Vec::new()),
-                Block::Heading(text) => lines.push(vec![canvas.span(Role::Title, text)]),
-                Block::Words(role, text) => {
+                TextBlock::Gap => lines.push(Vec::new()),
+                TextBlock::Heading(text) => lines.push(vec![canvas.span(Role::Title, text)]),
+                TextBlock::Words(role, text) => {
                     let text = canvas.text(text);
                     let wrapped = words(&text, width.saturating_sub(2));
                     lines.extend(wrapped.into_iter().map(|line| {
                         vec![("  ".to_owned(), Style::new()), (line, canvas.style(*role))]
                     }));
                 }
-                Block::Formula { label, body, remark } => {
+                TextBlock::Formula { label, body, remark } => {
                     let (label, body) = (canvas.text(label), canvas.text(body));
                     let margin = widest + 5;
                     let broken = formula_beside(&body, width, margin, [margin + 2, HANGING]);
@@ -219,18 +219,18 @@ impl TextPage {
                         }
                     }
                 }
-                Block::Line(text) => {
+                TextBlock::Line(text) => {
                     let wrapped = words(&canvas.text(text), width);
                     lines.extend(
                         wrapped.into_iter().map(|line| vec![(line, canvas.style(Role::Text))]),
                     );
                 }
-                Block::Item { label, text } => lines.extend(item(canvas, width, label, text)),
-                Block::Value { name, value, unit, rest } => {
+                TextBlock::Item { label, text } => lines.extend(item(canvas, width, label, text)),
+                TextBlock::Value { name, value, unit, rest } => {
                     let rest: Vec<Span> = rest.iter().map(|(r, t)| canvas.span(*r, t)).collect();
                     lines.extend(self::value(canvas, width, [name, value, unit], rest));
                 }
-                Block::Row(pieces) => {
+                TextBlock::Row(pieces) => {
                     lines.push(pieces.iter().map(|(role, t)| canvas.span(*role, t)).collect());
                 }
             }

@@ -7,7 +7,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns};
 use super::number::brief;
-use super::region::Region;
+use super::region::ScreenRegion;
 use super::theme::Role;
 use crate::app::Lab;
 use crate::experiment::{Recorded, Snapshot, Status};
@@ -64,5 +64,5 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, snapshot: &Sn
     spans.push(canvas.span(Role::Dim, format!(" {}", ends[1])));
     canvas.spans(columns(area, from_left, area.width), &spans);
     let bar = columns(area, from_left + ends[0].width() as u16 + 1, wide);
-    canvas.region(bar, Region::Time([low, high]));
+    canvas.region(bar, ScreenRegion::Time([low, high]));
 }

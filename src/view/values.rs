@@ -9,11 +9,11 @@ use unicode_width::UnicodeWidthStr;
 use super::canvas::{Canvas, columns, row};
 use super::number::brief_in;
 use super::plot::Scale;
-use super::region::Region;
+use super::region::ScreenRegion;
 use super::sparkline::RangeBar;
 use super::theme::Role;
 use super::wrap::{words, words_in};
-use crate::app::{Field, HitTarget, Lab, Purpose, ValueId, ValueInfo};
+use crate::app::{HitTarget, InputField, Lab, Purpose, ValueId, ValueInfo};
 use crate::model;
 
 /// Columns of a number.
@@ -31,7 +31,7 @@ struct ListColumns {
 }
 
 /// A list of values.
-pub(super) struct Values<'a> {
+pub(super) struct ValueList<'a> {
     pub(super) lab: &'a Lab,
     /// Makes the identifier: parameters or initial values.
     pub(super) kind: fn(usize) -> ValueId,
@@ -40,10 +40,10 @@ pub(super) struct Values<'a> {
     /// Whether the list has the focus.
     pub(super) focused: bool,
     /// The field in which one of the values is being edited.
-    pub(super) field: Option<&'a Field>,
+    pub(super) field: Option<&'a InputField>,
 }
 
-impl Values<'_> {
+impl ValueList<'_> {
     /// Draws the rows around the selected one and, if there is room, its meaning.
     pub(super) fn draw(&self, canvas: &mut Canvas<'_>, area: Rect) {
         let count = self.lab.count(self.kind);
@@ -136,19 +136,19 @@ fn bar(
         return;
     }
     let scale = match scale {
-        model::Scale::Linear => Scale::linear(min, max),
-        model::Scale::Log => Scale::log(min, max),
+        model::RangeSpacing::Linear => Scale::linear(min, max),
+        model::RangeSpacing::Log => Scale::log(min, max),
     };
     let filled = canvas.style(if here { Role::Focus } else { Role::Level });
     let rest = canvas.style(Role::Border);
     let bar = RangeBar { value, scale, filled, rest, glyphs: canvas.look.glyphs };
     let place = columns(area, 0, area.width.saturating_sub(1).min(30));
     bar.render(place, canvas.buffer);
-    canvas.region(place, Region::Bar(target, scale));
+    canvas.region(place, ScreenRegion::Bar(target, scale));
 }
 
 /// Draws the text of a field with its end in view, and its cursor.
-pub(super) fn typing(canvas: &mut Canvas<'_>, area: Rect, field: &Field) {
+pub(super) fn typing(canvas: &mut Canvas<'_>, area: Rect, field: &InputField) {
     if area.width < 2 {
         return;
     }

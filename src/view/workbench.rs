@@ -14,7 +14,7 @@ use super::layout::{split_columns, split_rows};
 use super::theme::Role;
 use super::wrap::words;
 use crate::app::{
-    App, Asking, BufferDiagnostic, Caret, Drawn, Notification, SheetState, SourceBuffer,
+    App, Asking, BufferDiagnostic, BufferState, Caret, Drawn, Notification, SourceBuffer,
 };
 
 /// The width from which the motion is shown beside the text.
@@ -192,17 +192,17 @@ fn foot(
     }
     let count = sheet.mistakes();
     let (role, text) = match sheet.state {
-        SheetState::Runs(None) => (Role::Dim, "Running this version.".to_owned()),
-        SheetState::Runs(Some(took)) => {
+        BufferState::Runs(None) => (Role::Dim, "Running this version.".to_owned()),
+        BufferState::Runs(Some(took)) => {
             let time = took.as_secs_f64() * 1e3;
             let time = if time < 10.0 { format!("{time:.1}") } else { format!("{time:.0}") };
             (Role::Good, format!("No errors: rebuilt in {time} ms; the motion continues."))
         }
-        SheetState::Changed if sheet.is_long_checked() => {
+        BufferState::Changed if sheet.is_long_checked() => {
             (Role::Dim, "Checking takes long; Esc stops it.".to_owned())
         }
-        SheetState::Changed | SheetState::Left => (Role::Dim, "Checking…".to_owned()),
-        SheetState::Wrong if !runs => {
+        BufferState::Changed | BufferState::Left => (Role::Dim, "Checking…".to_owned()),
+        BufferState::Wrong if !runs => {
             let errors = if count == 1 { "1 error".to_owned() } else { format!("{count} errors") };
             (
                 Role::Bad,
@@ -211,10 +211,10 @@ fn foot(
                 ),
             )
         }
-        SheetState::Wrong if count == 1 => {
+        BufferState::Wrong if count == 1 => {
             (Role::Bad, "1 error – still running the last valid version.".to_owned())
         }
-        SheetState::Wrong => {
+        BufferState::Wrong => {
             (Role::Bad, format!("{count} errors – still running the last valid version."))
         }
     };

@@ -82,7 +82,7 @@ fn formula_after(text: &str, width: usize, first: usize, indent: usize) -> Vec<S
 /// The depth of parentheses down to which a formula is broken before its operators.
 const DEEPEST: usize = 6;
 
-/// Cuts a formula into pieces that fit; the flag tells whether a space precedes the piece.
+/// Cuts a formula into pieces that fit; the flag says whether a space precedes the piece.
 fn break_up(text: &str, room: usize, depth: usize, pieces: &mut Vec<(String, bool)>) {
     for term in terms(text, depth) {
         if term.width() <= room {
@@ -132,7 +132,7 @@ fn factors(term: &str) -> Vec<String> {
     factors
 }
 
-/// Fills lines with pieces, the first after `first` columns; the flag tells whether a space precedes the piece.
+/// Fills lines with pieces, the first after `first` columns; the flag says whether a space precedes the piece.
 fn fill(
     pieces: impl Iterator<Item = (String, bool)>,
     width: usize,

@@ -2,7 +2,7 @@
 //! which panic or count.
 
 use crate::cancel::Cancel;
-use crate::experiment::{Command, Experiment, Progress, Snapshot, Status};
+use crate::experiment::{AdvanceOutcome, Command, Experiment, Snapshot, Status};
 
 /// Something that executes commands, advances in time and takes snapshots.
 pub trait Runnable: Send {
@@ -15,7 +15,7 @@ pub trait Runnable: Send {
     /// Executes a command.
     fn execute(&mut self, command: Command);
     /// Advances to a time in at most `budget` steps.
-    fn advance(&mut self, time: f64, budget: u64) -> Progress;
+    fn advance(&mut self, time: f64, budget: u64) -> AdvanceOutcome;
     /// What it advances in: the current time, or its negative while time runs backwards.
     fn time(&self) -> f64;
     /// Simulated seconds per second of wall time; infinite for as fast as possible.
@@ -45,7 +45,7 @@ impl Runnable for Experiment {
         Experiment::execute(self, command);
     }
 
-    fn advance(&mut self, time: f64, budget: u64) -> Progress {
+    fn advance(&mut self, time: f64, budget: u64) -> AdvanceOutcome {
         Experiment::advance(self, time, budget)
     }
 

@@ -15,7 +15,7 @@ use crate::job::{Job, Outcome, Progress, Share};
 const STACK: usize = 64 << 20;
 
 /// Runs one background job at a time.
-pub struct Side<T> {
+pub struct SideJob<T> {
     /// The name of its threads.
     name: &'static str,
     sender: Sender<(u64, Outcome<T>)>,
@@ -25,7 +25,7 @@ pub struct Side<T> {
     ends: Option<Instant>,
 }
 
-impl<T: Send + 'static> Side<T> {
+impl<T: Send + 'static> SideJob<T> {
     /// Creates an idle instance with a name for its threads.
     pub fn new(name: &'static str) -> Self {
         let (sender, receiver) = channel();
@@ -37,7 +37,7 @@ impl<T: Send + 'static> Side<T> {
         self.begin_with(ticket, job, Progress::new());
     }
 
-    /// Like [`begin`](Side::begin), with a progress that the caller shares.
+    /// Like [`begin`](SideJob::begin), with a progress that the caller shares.
     pub fn begin_with(&mut self, ticket: u64, job: Job<T>, progress: Progress) {
         self.stop();
         self.under_way = Some((ticket, progress.clone()));
@@ -97,7 +97,7 @@ impl<T: Send + 'static> Side<T> {
     }
 }
 
-impl<T> fmt::Debug for Side<T> {
+impl<T> fmt::Debug for SideJob<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Side")
             .field("name", &self.name)
@@ -106,7 +106,7 @@ impl<T> fmt::Debug for Side<T> {
     }
 }
 
-impl<T> Drop for Side<T> {
+impl<T> Drop for SideJob<T> {
     fn drop(&mut self) {
         if let Some((_, progress)) = self.under_way.take() {
             progress.cancel();

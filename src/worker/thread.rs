@@ -11,7 +11,7 @@ use arc_swap::ArcSwapOption;
 use super::Runnable;
 use super::pace::Pace;
 use super::slice::Slice;
-use crate::experiment::{Command, Failure, Progress, Snapshot, Status};
+use crate::experiment::{AdvanceOutcome, Command, Failure, Snapshot, Status};
 
 /// The least time between two snapshots that no command asked for.
 const BETWEEN_SNAPSHOTS: Duration = Duration::from_millis(16);
@@ -71,15 +71,16 @@ impl WorkerLoop<'_> {
         let target = self.pace.target(began, time);
         let budget = self.slice.budget();
         let progress = self.guarded(|subject| subject.advance(target, budget));
-        if progress == Some(Progress::Underway) {
+        if progress == Some(AdvanceOutcome::Underway) {
             self.slice.learn(began.elapsed());
         }
         let since = self.published.elapsed();
-        if since >= BETWEEN_SNAPSHOTS || matches!(progress, Some(Progress::Stuck | Progress::Ended))
+        if since >= BETWEEN_SNAPSHOTS
+            || matches!(progress, Some(AdvanceOutcome::Stuck | AdvanceOutcome::Ended))
         {
             self.publish();
             self.guarded(|subject| subject.shown());
-        } else if progress == Some(Progress::Arrived) {
+        } else if progress == Some(AdvanceOutcome::Arrived) {
             return self.wait(BETWEEN_SNAPSHOTS.saturating_sub(since));
         }
         Ok(())

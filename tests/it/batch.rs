@@ -2,7 +2,7 @@
 //! that must be followed alone.
 
 use phaselab::diagnostic::Document;
-use phaselab::ensemble::{Carried, Flow};
+use phaselab::ensemble::{Carried, SystemFlow};
 use phaselab::experiment::Prepared;
 use phaselab::integrate::{BatchPropagator, LaneStatus, Settings, method_named};
 use phaselab::num::BATCH;
@@ -16,11 +16,16 @@ fn settings(tolerance: f64) -> Settings {
     Settings { tolerance: Some(tolerance), ..Settings::default() }
 }
 
-fn flow(ready: &Prepared, tolerance: f64) -> Flow {
+fn flow(ready: &Prepared, tolerance: f64) -> SystemFlow {
     let method = method_named("taylor").unwrap();
     let parameters = ready.model.parameter_values();
     let system = System::clone(&ready.system);
-    Flow { system, method: (method, settings(tolerance)), parameters, start: ready.model.run.start }
+    SystemFlow {
+        system,
+        method: (method, settings(tolerance)),
+        parameters,
+        start: ready.model.run.start,
+    }
 }
 
 /// States near that of the file, in no order of size.

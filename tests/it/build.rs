@@ -1,7 +1,9 @@
 //! Small models built in a line, for tests of the layers below the file format.
 
 use phaselab::expr::{Expr, Symbol, SyntaxError};
-use phaselab::model::{Allowed, Constraint, Coordinate, Mechanics, Model, Parameter, Scale, Scope};
+use phaselab::model::{
+    Allowed, Constraint, Coordinate, Mechanics, Model, Parameter, RangeSpacing, Scope,
+};
 
 /// A model with coordinates and parameters, and no law yet.
 pub(crate) fn names(coordinates: &[&str], parameters: &[&str]) -> Model {
@@ -15,7 +17,7 @@ pub(crate) fn names(coordinates: &[&str], parameters: &[&str]) -> Model {
             value: 1.0,
             min: 0.0,
             max: 2.0,
-            scale: Scale::Linear,
+            scale: RangeSpacing::Linear,
             unit: String::new(),
             about: String::new(),
         });

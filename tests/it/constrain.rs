@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::experiment::{Experiment, Progress, Setup, Status, choose_method};
+use phaselab::experiment::{AdvanceOutcome, Experiment, Setup, Status, choose_method};
 use phaselab::expr::{Expr, Zero};
 use phaselab::mechanics::{self, Equations};
 use phaselab::model::Model;
@@ -108,7 +108,7 @@ fn experiment(model: &Model, change: impl FnOnce(&mut Setup)) -> Experiment {
 
 fn run(experiment: &mut Experiment, time: f64) {
     let progress = experiment.advance(time, 10_000_000);
-    assert_eq!(progress, Progress::Arrived, "{:?}", experiment.status());
+    assert_eq!(progress, AdvanceOutcome::Arrived, "{:?}", experiment.status());
 }
 
 fn value(experiment: &Experiment, name: &str) -> f64 {

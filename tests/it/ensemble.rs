@@ -7,7 +7,7 @@ use std::sync::Arc;
 use phaselab::app::{App, Computation, Effect, Event, Loaded, Saved};
 use phaselab::diagnostic::Document;
 use phaselab::dynamics::{PhaseSpace, conformal_rate};
-use phaselab::ensemble::{ClosedCurve, Flow};
+use phaselab::ensemble::{ClosedCurve, SystemFlow};
 use phaselab::experiment::{Command, Prepared};
 use phaselab::instrument::{Layer, Picture, Plot, Seed, named};
 use phaselab::integrate::{Settings, method_named};
@@ -29,11 +29,11 @@ fn oscillator(potential: &str, friction: &str) -> Prepared {
     ))
 }
 
-fn flow(ready: &Prepared) -> Flow {
+fn flow(ready: &Prepared) -> SystemFlow {
     let method = method_named("taylor").unwrap();
     let parameters = ready.model.parameter_values();
     let system = phaselab::system::System::clone(&ready.system);
-    Flow { system, method: (method, Settings::default()), parameters, start: 0.0 }
+    SystemFlow { system, method: (method, Settings::default()), parameters, start: 0.0 }
 }
 
 fn channel(ready: &Prepared, kind: ChannelKind) -> usize {

@@ -15,7 +15,7 @@ mod verdicts;
 use std::sync::Arc;
 
 use phaselab::app::Loaded;
-use phaselab::experiment::{Experiment, Gauge, Progress, Setup, Snapshot};
+use phaselab::experiment::{AdvanceOutcome, Experiment, Gauge, Setup, Snapshot};
 use phaselab::mechanics;
 use phaselab::preset;
 use phaselab::system::System;
@@ -45,7 +45,7 @@ pub(crate) fn shipped(name: &str) -> Experiment {
 
 /// Advances an experiment to a time.
 pub(crate) fn run(experiment: &mut Experiment, time: f64) {
-    assert_eq!(experiment.advance(time, PLENTY), Progress::Arrived);
+    assert_eq!(experiment.advance(time, PLENTY), AdvanceOutcome::Arrived);
     assert_eq!(experiment.time(), time);
 }
 

@@ -1,6 +1,6 @@
 //! Points at which a method stops, or used to stop: it passes them, or reports a method that does.
 
-use phaselab::experiment::{Experiment, Progress, Status};
+use phaselab::experiment::{AdvanceOutcome, Experiment, Status};
 
 use crate::cli::with_file;
 use crate::experiment::{PLENTY, build, run, value};
@@ -18,7 +18,7 @@ fn by(method: &str, step: Option<f64>, text: &str) -> Experiment {
 
 /// The message of the failure on the way to a time.
 fn fault(mut experiment: Experiment, time: f64) -> String {
-    assert_ne!(experiment.advance(time, PLENTY), Progress::Arrived);
+    assert_ne!(experiment.advance(time, PLENTY), AdvanceOutcome::Arrived);
     match experiment.status() {
         Status::Failed(fault) => fault.message.clone(),
         other => panic!("{other:?}"),

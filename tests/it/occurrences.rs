@@ -1,6 +1,6 @@
 //! Impulses and events: their times and effects, and that none is missed or invented.
 
-use phaselab::experiment::{Command, Experiment, Progress, Status};
+use phaselab::experiment::{AdvanceOutcome, Command, Experiment, Status};
 use phaselab::integrate::OccurrenceKind;
 
 use crate::experiment::{PLENTY, build, gauge, run, value};
@@ -184,7 +184,7 @@ fn a_ball_bounces_at_the_times_of_its_parabolas() {
     assert_eq!(times(&ball, "bounce").len(), 7);
     // Σ ends at t = 1 + 2 e/(1 − e) = 9, and the motion cannot continue beyond
     let progress = ball.advance(10.0, PLENTY);
-    assert_eq!(progress, Progress::Stuck);
+    assert_eq!(progress, AdvanceOutcome::Stuck);
     let Status::Failed(fault) = ball.status() else { panic!("it went on") };
     assert!((fault.time - 9.0).abs() < 1e-6, "{}", fault.time);
     assert!(fault.message.contains("piles up"), "{}", fault.message);
@@ -426,7 +426,7 @@ fn a_function_faster_than_the_clock_is_a_fault() {
 fn an_event_may_end_the_motion() {
     let text = format!("{FREE}[[events]]\nname = 'far'\nwhen = 'x - 2'\naction = 'stop'\n");
     let mut free = file(&text);
-    assert_eq!(free.advance(5.0, PLENTY), Progress::Ended);
+    assert_eq!(free.advance(5.0, PLENTY), AdvanceOutcome::Ended);
     assert_eq!(free.status(), Status::Ended("far".to_owned()));
     assert_eq!((free.time(), value(&free, "x")), (2.0, 2.0));
     free.execute(Command::Reset);

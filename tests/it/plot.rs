@@ -12,13 +12,13 @@ mod theme;
 mod ticks;
 mod trail;
 
-use phaselab::view::plot::{Frame, Raster, Scale};
+use phaselab::view::plot::{PlotFrame, Raster, Scale};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 /// A frame from 0 to 1 on both axes.
-fn unit(area: Rect) -> Frame {
-    Frame::new(Scale::linear(0.0, 1.0), Scale::linear(0.0, 1.0), area)
+fn unit(area: Rect) -> PlotFrame {
+    PlotFrame::new(Scale::linear(0.0, 1.0), Scale::linear(0.0, 1.0), area)
 }
 
 /// The dots that are set.

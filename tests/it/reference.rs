@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use phaselab::diagnostic::Document;
-use phaselab::experiment::{Experiment, Progress, Setup, Status};
+use phaselab::experiment::{AdvanceOutcome, Experiment, Setup, Status};
 use phaselab::expr::Pool;
 use phaselab::integrate::{Occurrence, OccurrenceKind as occurrence};
 use phaselab::mechanics;
@@ -167,8 +167,9 @@ fn occurrences(
     worst: &mut Worst,
 ) -> Result<(), String> {
     if expected.status.as_deref() == Some("stopped") {
-        while experiment.advance(1e3 * (1.0 + experiment.time()), 1_000_000) == Progress::Underway {
-        }
+        while experiment.advance(1e3 * (1.0 + experiment.time()), 1_000_000)
+            == AdvanceOutcome::Underway
+        {}
         if !matches!(experiment.status(), Status::Ended(_)) {
             return Err("it is not stopped".into());
         }
@@ -245,7 +246,7 @@ fn worst(file: &Path) -> Result<Worst, String> {
     let mut worst = Worst { name, error: 0.0, condition: expected.condition, place: String::new() };
     let degrees = experiment.model().coordinates.len();
     for known in &expected.reference {
-        while experiment.advance(known.at, 1_000_000) == Progress::Underway {}
+        while experiment.advance(known.at, 1_000_000) == AdvanceOutcome::Underway {}
         if let Status::Failed(fault) = experiment.status() {
             return Err(fault.message);
         }

@@ -9,7 +9,8 @@ use phaselab::expr::{Expr, Pool, Zero};
 use phaselab::integrate::{Settings, method_named};
 use phaselab::mechanics::{self, COMPONENTS, Class, body_constants, principal};
 use phaselab::model::{
-    Attitude, AttitudeSource, Body, BodyNames, Channel, Model, Observable, Piece, Solid, Turn,
+    Attitude, AttitudeSource, Body, BodyNames, Channel, Model, Observable, Piece, PieceOrientation,
+    Solid,
 };
 use phaselab::num::DoubleDouble;
 use phaselab::preset;
@@ -127,11 +128,11 @@ fn with_body(mut model: Model, pieces: &[Written<'_>]) -> Model {
             let mut point = |all: [&str; 3]| all.map(|text| read(&mut model, text));
             let (sizes, at) = (point(sizes), point(at));
             let turn = match turn {
-                Turned::Not => Turn::None,
-                Turned::Euler(angles) => Turn::Euler(point(angles)),
+                Turned::Not => PieceOrientation::None,
+                Turned::Euler(angles) => PieceOrientation::Euler(point(angles)),
                 Turned::Axis(axis, angle) => {
                     let axis = point(axis);
-                    Turn::Axis { axis, angle: read(&mut model, angle) }
+                    PieceOrientation::Axis { axis, angle: read(&mut model, angle) }
                 }
             };
             Piece { solid: solid(name, sizes), mass: read(&mut model, mass), at, turn, place: 5..9 }

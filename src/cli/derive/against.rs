@@ -10,25 +10,25 @@ use serde_json::{Value, json};
 use super::super::assignment;
 use super::super::failure::CommandError;
 use super::super::open;
-use super::super::script::Script;
+use super::super::script::MathScript;
 use crate::experiment::Derived;
 use crate::expr::{Expr, Pool};
-use crate::mechanics::{Equations, Gauge};
+use crate::mechanics::{Equations, GaugeDifference};
 use crate::model::Model;
 use crate::num::Number;
 
 /// The Lagrangian of the system compared with another.
-pub(super) struct Comparison {
+pub(super) struct LagrangianComparison {
     given: String,
-    gauge: Gauge,
+    gauge: GaugeDifference,
 }
 
-impl Comparison {
+impl LagrangianComparison {
     pub(super) fn of(
         model: &Model,
         equations: &mut Equations,
         given: &str,
-    ) -> Result<Comparison, CommandError> {
+    ) -> Result<LagrangianComparison, CommandError> {
         let Ok(own) = equations.lagrangian().clone() else {
             let why = "--against: the system has no Lagrangian in closed form".to_owned();
             return Err(CommandError::CouldNot(why));
@@ -50,10 +50,10 @@ impl Comparison {
             )));
         }
         let gauge = equations.gauge(own, other);
-        Ok(Comparison { given: given.to_owned(), gauge })
+        Ok(LagrangianComparison { given: given.to_owned(), gauge })
     }
 
-    pub(super) fn text(&self, pool: &Pool, script: Script) -> String {
+    pub(super) fn text(&self, pool: &Pool, script: MathScript) -> String {
         let math = |e: Expr| script.math(pool, e);
         let words = match (self.gauge.total_derivative, self.gauge.function) {
             (Some(true), Some(f)) => format!(

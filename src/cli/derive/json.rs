@@ -3,17 +3,17 @@
 
 use serde_json::{Map, Value, json};
 
-use super::against::Comparison;
+use super::against::LagrangianComparison;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{
-    Further, GeneratingFunction, HamiltonJacobi, Holonomy, Left, Line, Report, Separation,
+    Further, GeneratingFunction, HamiltonJacobi, Holonomy, LeftSide, Line, Report, Separation,
 };
 use crate::model::{Action, Direction, Event, Model};
 
 pub(super) fn write(
     report: &Report<'_>,
     further: &Further,
-    compared: Option<&Comparison>,
+    compared: Option<&LagrangianComparison>,
 ) -> String {
     let page = JsonReport { report };
     let mut why = Vec::new();
@@ -43,7 +43,7 @@ pub(super) fn write(
         let rate = c.rate.as_ref().map_or(Value::Null, |&rate| page.text(rate));
         json!({ "name": c.name, "class": c.class.to_string(), "rate": rate })
     });
-    let cyclic = report.cyclic.iter().map(|&q| page.left(Left::Symbol(q)));
+    let cyclic = report.cyclic.iter().map(|&q| page.left(LeftSide::Symbol(q)));
     let mut object = json!({
         "phaselab": env!("CARGO_PKG_VERSION"),
         "title": report.model.info.title,
@@ -88,8 +88,8 @@ pub(super) fn write(
     if report.model.is_poisson() {
         object["variables"] = object["coordinates"].clone();
         let brackets = report.brackets.iter().filter_map(|line| match line.left {
-            Left::Bracket(a, b) => {
-                let [a, b] = [a, b].map(|symbol| page.left(Left::Symbol(symbol)));
+            LeftSide::Bracket(a, b) => {
+                let [a, b] = [a, b].map(|symbol| page.left(LeftSide::Symbol(symbol)));
                 Some(json!([a, b, page.text(line.right)]))
             }
             _ => None,
@@ -126,14 +126,14 @@ impl JsonReport<'_> {
     }
 
     /// The left-hand side of an equation: `x''`, `p_x'`.
-    fn left(&self, left: Left) -> String {
+    fn left(&self, left: LeftSide) -> String {
         let name = |symbol| &self.report.equations.pool.symbol_info(symbol).name;
         match left {
-            Left::Letter(letter) => letter.to_owned(),
-            Left::Symbol(s) | Left::Jump(s) => name(s).clone(),
-            Left::Rate(p) => format!("{}'", name(p)),
-            Left::Added(letter, q) => format!("{letter}_{}", name(q)),
-            Left::Bracket(a, b) => format!("{{{}, {}}}", name(a), name(b)),
+            LeftSide::Letter(letter) => letter.to_owned(),
+            LeftSide::Symbol(s) | LeftSide::Jump(s) => name(s).clone(),
+            LeftSide::Rate(p) => format!("{}'", name(p)),
+            LeftSide::Added(letter, q) => format!("{letter}_{}", name(q)),
+            LeftSide::Bracket(a, b) => format!("{{{}, {}}}", name(a), name(b)),
         }
     }
 
@@ -152,7 +152,7 @@ impl JsonReport<'_> {
                 "holonomy": self.holonomy(known.holonomy),
                 "coefficients": coefficients,
                 "rate": self.text(known.row.rate),
-                "multiplier": self.left(Left::Symbol(known.row.multiplier)),
+                "multiplier": self.left(LeftSide::Symbol(known.row.multiplier)),
                 "lambda": known.multiplier.map(|e| self.text(e)),
             })
         });
@@ -169,7 +169,7 @@ impl JsonReport<'_> {
                 "for_all_parameters": !at_these_parameters,
             }),
             Holonomy::Not { variables, component } => {
-                let all = variables.iter().map(|&s| self.left(Left::Symbol(s)));
+                let all = variables.iter().map(|&s| self.left(LeftSide::Symbol(s)));
                 json!({ "component": self.text(*component), "in": all.collect::<Vec<_>>() })
             }
         }
@@ -183,7 +183,7 @@ impl JsonReport<'_> {
                 json!({ "for_all_parameters": !at_these_parameters })
             }
             Some(Separation::Not(a, b)) => {
-                let pair = [a, b].map(|&s| self.left(Left::Symbol(s)));
+                let pair = [a, b].map(|&s| self.left(LeftSide::Symbol(s)));
                 json!({ "fails_for": pair })
             }
             Some(Separation::Unknown(why)) => json!({ "why": why }),

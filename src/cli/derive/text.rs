@@ -6,12 +6,14 @@ use std::fmt::Write;
 
 use unicode_width::UnicodeWidthStr;
 
-use super::super::script::Script;
+use super::super::script::MathScript;
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Constant, Further, Holonomy, Left, Line, NoClosedForm, Report, Separation};
+use crate::mechanics::{
+    ConservedKind, Further, Holonomy, LeftSide, Line, NoClosedForm, Report, Separation,
+};
 use crate::model::Model;
 
-pub(super) fn write(report: &Report<'_>, further: &Further, script: Script) -> String {
+pub(super) fn write(report: &Report<'_>, further: &Further, script: MathScript) -> String {
     let mut page = TextReport { report, script, text: String::new() };
     page.head(report.model);
     page.body();
@@ -35,7 +37,7 @@ pub(super) fn write(report: &Report<'_>, further: &Further, script: Script) -> S
 /// The text so far.
 struct TextReport<'a> {
     report: &'a Report<'a>,
-    script: Script,
+    script: MathScript,
     text: String,
 }
 
@@ -299,10 +301,10 @@ impl TextReport<'_> {
             let reason = self.words(&kept.reason.to_string());
             // a formula shown above needs no repetition
             let what = match kept.constant {
-                Constant::Momentum(p) => self.symbol(p),
-                Constant::Energy => "E".to_owned(),
-                Constant::Casimir(name) => self.words(name),
-                Constant::Other(name) => {
+                ConservedKind::Momentum(p) => self.symbol(p),
+                ConservedKind::Energy => "E".to_owned(),
+                ConservedKind::Casimir(name) => self.words(name),
+                ConservedKind::Other(name) => {
                     format!("{} = {}", self.words(name), self.math(kept.expression))
                 }
             };
@@ -344,18 +346,18 @@ impl TextReport<'_> {
         self.line(title);
     }
 
-    fn left(&self, left: Left) -> String {
+    fn left(&self, left: LeftSide) -> String {
         match left {
-            Left::Letter(letter) => letter.to_owned(),
-            Left::Symbol(symbol) => self.symbol(symbol),
-            Left::Rate(p) => match self.script {
-                Script::Ascii => format!("{}'", self.symbol(p)),
+            LeftSide::Letter(letter) => letter.to_owned(),
+            LeftSide::Symbol(symbol) => self.symbol(symbol),
+            LeftSide::Rate(p) => match self.script {
+                MathScript::Ascii => format!("{}'", self.symbol(p)),
                 // the dot belongs over the letter p
-                Script::Unicode => self.symbol(p).replacen('p', "ṗ", 1),
+                MathScript::Unicode => self.symbol(p).replacen('p', "ṗ", 1),
             },
-            Left::Added(letter, q) => format!("{letter}_{}", self.symbol(q)),
-            Left::Bracket(a, b) => format!("{{{}, {}}}", self.symbol(a), self.symbol(b)),
-            Left::Jump(symbol) => format!("Δ{}", self.symbol(symbol)),
+            LeftSide::Added(letter, q) => format!("{letter}_{}", self.symbol(q)),
+            LeftSide::Bracket(a, b) => format!("{{{}, {}}}", self.symbol(a), self.symbol(b)),
+            LeftSide::Jump(symbol) => format!("Δ{}", self.symbol(symbol)),
         }
     }
 

@@ -4,7 +4,7 @@
 use serde_json::{Value, json};
 
 use super::InvariantsReport;
-use super::Script;
+use super::MathScript;
 use crate::expr::Expr;
 use crate::integrability::Proof;
 
@@ -53,7 +53,7 @@ pub(super) fn write(answer: &InvariantsReport<'_>) -> String {
         "title": model.info.title,
         "parameters": parameters,
         "method": null,
-        "searched": answer.searched(Script::Ascii),
+        "searched": answer.searched(MathScript::Ascii),
         "known": known.collect::<Vec<_>>(),
         "found": found.collect::<Vec<_>>(),
         "none_up_to": invariants.none_up_to,

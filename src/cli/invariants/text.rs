@@ -1,7 +1,7 @@
 //! Constants of the motion for reading and for typesetting.
 
 use super::InvariantsReport;
-use super::Script;
+use super::MathScript;
 use crate::expr::Expr;
 use crate::integrability::{Proof, Searched};
 
@@ -15,7 +15,7 @@ impl InvariantsReport<'_> {
 
     /// What was searched, word for word: the standard family of the highest degree and the one before it, of the
     /// other parity; expressions as in files, or as on the screen.
-    pub(super) fn searched(&self, script: Script) -> String {
+    pub(super) fn searched(&self, script: MathScript) -> String {
         let family = |searched: &Searched| family(searched, script);
         let standard: Vec<_> = self.invariants.searched.iter().filter(|s| s.standard).collect();
         match standard.as_slice() {
@@ -27,10 +27,10 @@ impl InvariantsReport<'_> {
 }
 
 /// An ansatz in words.
-fn family(searched: &Searched, script: Script) -> String {
+fn family(searched: &Searched, script: MathScript) -> String {
     match script {
-        Script::Unicode => searched.shown.clone(),
-        Script::Ascii => searched.family.clone(),
+        MathScript::Unicode => searched.shown.clone(),
+        MathScript::Ascii => searched.family.clone(),
     }
 }
 
@@ -43,7 +43,7 @@ fn proof(proof: Proof) -> &'static str {
     }
 }
 
-pub(super) fn write(answer: &InvariantsReport<'_>, script: Script) -> String {
+pub(super) fn write(answer: &InvariantsReport<'_>, script: MathScript) -> String {
     let InvariantsReport { model, equations, invariants, relations, .. } = answer;
     let math = |e| script.math(&equations.pool, e);
     let names = answer.names();

@@ -9,7 +9,7 @@ use super::super::events::Events;
 use super::super::failure::CommandError;
 use super::super::interrupt::Interrupt;
 use super::super::output::Output;
-use super::super::report::{Closing, Header, Status};
+use super::super::report::{Closing, Header, RunStatus};
 use super::super::rows::{Format, Rows};
 use super::super::stderr;
 use super::adiabatic::Adiabatic;
@@ -17,7 +17,7 @@ use super::invariants::Departure;
 use super::progress::Bar;
 use super::times::Times;
 use super::{cautions, invariants};
-use crate::experiment::{self, Experiment, Progress};
+use crate::experiment::{self, AdvanceOutcome, Experiment};
 use crate::printable;
 use crate::system::{State, System};
 
@@ -65,7 +65,7 @@ impl Table {
         let closing = Closing {
             invariants: Vec::new(),
             events: Events::unknown(),
-            status: Status::Stopped,
+            status: RunStatus::Stopped,
             message: Some(message.to_owned()),
         };
         if let Ok(out) = rows.end(&closing) {
@@ -170,10 +170,10 @@ impl Run<'_> {
                 return Err(End::Fault(fault));
             }
             // the final instant still has its row
-            if progress == Progress::Ended && self.experiment.time() != time {
+            if progress == AdvanceOutcome::Ended && self.experiment.time() != time {
                 return Err(End::Event);
             }
-            if matches!(progress, Progress::Arrived | Progress::Ended) {
+            if matches!(progress, AdvanceOutcome::Arrived | AdvanceOutcome::Ended) {
                 return Ok(());
             }
         }
@@ -181,17 +181,17 @@ impl Run<'_> {
 
     fn closing(&self, end: Option<&End>) -> Closing {
         let (status, message) = match end {
-            Some(End::Fault(fault)) => (Status::Failed, Some(fault.message.clone())),
+            Some(End::Fault(fault)) => (RunStatus::Failed, Some(fault.message.clone())),
             Some(End::Signal(_) | End::Write(_)) => {
-                (Status::Stopped, Some("stopped by a signal".to_owned()))
+                (RunStatus::Stopped, Some("stopped by a signal".to_owned()))
             }
             Some(End::Event) | None => match self.experiment.status() {
                 experiment::Status::Ended(name) => {
                     let time = self.experiment.time();
                     let time = printable::number(time);
-                    (Status::Stopped, Some(format!("`{name}` ended the motion at t = {time}")))
+                    (RunStatus::Stopped, Some(format!("`{name}` ended the motion at t = {time}")))
                 }
-                _ => (Status::Completed, None),
+                _ => (RunStatus::Completed, None),
             },
         };
         let snapshot = self.experiment.snapshot();
@@ -209,14 +209,14 @@ impl Run<'_> {
 mod tests {
     use serde_json::{Map, Value};
 
-    use super::super::super::output::Form;
+    use super::super::super::output::OutputForm;
     use super::*;
 
     /// The end of a table whose run is stuck within a step.
     fn ended(format: Format) -> String {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("out");
-        let form = if format == Format::Csv { Form::Text } else { Form::Json };
+        let form = if format == Format::Csv { OutputForm::Text } else { OutputForm::Json };
         let out = Output::open(Some(&path), form).expect("it can be written");
         let header = Header {
             phaselab: "0",

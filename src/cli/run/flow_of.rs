@@ -13,7 +13,7 @@ use crate::printable;
 use crate::system::{Form, InitialOverride};
 
 /// A system that moves along the flow of a generator.
-pub(super) struct Carried {
+pub(super) struct CarriedSystem {
     pub(super) derived: Derived,
     pub(super) columns: Vec<Channel>,
     pub(super) given: Vec<InitialOverride>,
@@ -26,7 +26,7 @@ pub(super) fn carried(
     written: &str,
     parameters: &[f64],
     given: &[InitialOverride],
-) -> Result<Carried, CommandError> {
+) -> Result<CarriedSystem, CommandError> {
     let Derived { model, mut equations } = derived;
     let written = written.trim();
     let named = model.generators.iter().find(|generator| generator.name == written);
@@ -51,7 +51,7 @@ pub(super) fn carried(
     "auto".clone_into(&mut model.run.method);
     model.run.method_place = None;
     model.run.step = None;
-    Ok(Carried { derived: Derived { model, equations }, columns, given })
+    Ok(CarriedSystem { derived: Derived { model, equations }, columns, given })
 }
 
 /// The initial state as coordinates and momenta, or variables.

@@ -2,7 +2,7 @@
 //!
 //! In: a table. Out: one `#` line, the same for all shards but for their number. Never here: rows.
 
-use super::table::Table;
+use super::table::SweepTable;
 
 /// One part of a sweep: every Nth row, from the Ith on, counted from 1.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -38,7 +38,7 @@ pub(super) struct Identity {
 const LEAD: &str = "# sweep: ";
 
 impl Identity {
-    pub(super) fn of(table: &Table, shard: Option<Shard>) -> Identity {
+    pub(super) fn of(table: &SweepTable, shard: Option<Shard>) -> Identity {
         let digest = format!("{:016x}", digest(&table.everything()));
         Identity { digest, rows: table.count(), shard }
     }

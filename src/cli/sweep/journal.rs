@@ -160,7 +160,7 @@ impl Journal {
         printable::path(&self.path)
     }
 
-    /// Removes it, once the file is written. What cannot be removed is told apart by its sweep.
+    /// Removes it, once the file is written. What cannot be removed is recognised by its sweep.
     pub(super) fn remove(self) {
         let _ = fs::remove_file(&self.path);
     }

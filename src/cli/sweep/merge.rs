@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use super::identity::{Identity, Shard};
 use crate::cli::failure::CommandError;
-use crate::cli::output::{Form, Output};
+use crate::cli::output::{Output, OutputForm};
 use crate::printable;
 use std::io::Write;
 
@@ -60,7 +60,7 @@ pub(super) fn perform(paths: &[PathBuf], output: Option<&Path>) -> Result<(), Co
         text += &parts[row % of].rows[row / of];
         text.push('\n');
     }
-    let mut out = Output::open(output, Form::Text)?;
+    let mut out = Output::open(output, OutputForm::Text)?;
     out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
     out.finish()
 }

@@ -5,10 +5,10 @@
 use std::str::FromStr;
 
 use super::super::assignment;
-use super::super::cells::Cell;
+use super::super::cells::TableCell;
 use super::super::failure::CommandError;
 use super::super::interrupt::Interrupt;
-use super::super::motion_options::{Laid, MotionOptions, Reading};
+use super::super::motion_options::{Laid, ModelReading, MotionOptions};
 use super::super::report::Header;
 use super::super::section::surface;
 use super::super::starts::Starts;
@@ -16,7 +16,9 @@ use crate::diagnostic::nearest;
 use crate::dynamics::PhaseSpace;
 use crate::ensemble::{OrbitStatus, Start, add_section};
 use crate::model::Direction;
-use crate::orbits::{MEASURES, Measure, MeasuredOrbit, Outcome, RunPlan, Zeros, measure_named};
+use crate::orbits::{
+    MEASURES, MeasuredOrbit, OrbitMeasure, RunOutcome, RunPlan, Zeros, measure_named,
+};
 use crate::printable;
 use crate::system::{InitialOverride, System};
 
@@ -32,7 +34,7 @@ const SHARES: usize = 4;
 #[derive(Clone)]
 pub(super) struct MeasureName {
     written: String,
-    measure: &'static Measure,
+    measure: &'static OrbitMeasure,
     expression: Option<String>,
 }
 
@@ -86,7 +88,7 @@ enum Set {
 }
 
 /// All rows of a sweep.
-pub(super) struct Table {
+pub(super) struct SweepTable {
     laid: Laid,
     plan: RunPlan,
     names: Vec<String>,
@@ -100,27 +102,27 @@ pub(super) struct Table {
 
 /// One row that came out.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) struct Row {
-    pub(super) cells: Vec<Cell>,
+pub(super) struct SweepRow {
+    pub(super) cells: Vec<TableCell>,
     /// Why the run was not completed.
     pub(super) message: Option<String>,
 }
 
-impl Row {
+impl SweepRow {
     /// Its cells as comma-separated values have them.
     pub(super) fn plain(&self) -> impl Iterator<Item = String> {
-        self.cells.iter().map(Cell::plain)
+        self.cells.iter().map(TableCell::plain)
     }
 }
 
-impl Table {
+impl SweepTable {
     pub(super) fn new(
         motion: &MotionOptions,
         starts: &Starts,
         until: Option<f64>,
         measures: &[MeasureName],
         interrupt: &Interrupt,
-    ) -> Result<Table, CommandError> {
+    ) -> Result<SweepTable, CommandError> {
         let reading = motion.read()?;
         let text = reading.document.text.clone();
         let base = reading.start.clone();
@@ -152,7 +154,7 @@ impl Table {
             settings: laid.settings,
         };
         let names = starts.names.clone();
-        Ok(Table { laid, plan, names, set, starts: all, until, measures, text })
+        Ok(SweepTable { laid, plan, names, set, starts: all, until, measures, text })
     }
 
     /// The number of rows.
@@ -196,7 +198,7 @@ impl Table {
 
     /// Computes rows, and hands each to `done` with its place among these as soon as it is there. One that is cancelled is
     /// not.
-    pub(super) fn rows(&self, indices: &[usize], mut done: impl FnMut(usize, Row)) {
+    pub(super) fn rows(&self, indices: &[usize], mut done: impl FnMut(usize, SweepRow)) {
         let run = |&index: &usize| {
             let start = &self.starts[index];
             (start, self.until.unwrap_or(start.time + LENGTH))
@@ -209,13 +211,13 @@ impl Table {
     }
 
     /// The row of a run; `None` if a measure was cancelled.
-    fn row(&self, start: &Start, end: f64, outcome: Outcome) -> Option<Row> {
-        let mut cells: Vec<Cell> =
-            self.set.iter().map(|&set| Cell::Number(value(set, start))).collect();
-        cells.push(Cell::Word(outcome.status.word().to_owned()));
-        cells.push(Cell::Number(outcome.time));
-        cells.extend(outcome.values.iter().map(|&x| Cell::Number(x)));
-        cells.push(Cell::Number(outcome.energy_drift));
+    fn row(&self, start: &Start, end: f64, outcome: RunOutcome) -> Option<SweepRow> {
+        let mut cells: Vec<TableCell> =
+            self.set.iter().map(|&set| TableCell::Number(value(set, start))).collect();
+        cells.push(TableCell::Word(outcome.status.word().to_owned()));
+        cells.push(TableCell::Number(outcome.time));
+        cells.extend(outcome.values.iter().map(|&x| TableCell::Number(x)));
+        cells.push(TableCell::Number(outcome.energy_drift));
         for taken in &self.measures {
             let orbit = MeasuredOrbit {
                 model: &self.laid.model,
@@ -232,10 +234,10 @@ impl Table {
             } else {
                 (taken.name.measure.measure)(&orbit)?
             };
-            cells.push(Cell::Number(measured));
+            cells.push(TableCell::Number(measured));
         }
         let failed = matches!(outcome.status, OrbitStatus::Faulted | OrbitStatus::Refused);
-        Some(Row { cells, message: outcome.message.filter(|_| failed) })
+        Some(SweepRow { cells, message: outcome.message.filter(|_| failed) })
     }
 }
 
@@ -260,7 +262,7 @@ fn value(set: Set, start: &Start) -> f64 {
 /// Compiles a system with the zeros of a measure.
 fn taken(
     motion: &MotionOptions,
-    mut reading: Reading,
+    mut reading: ModelReading,
     name: &MeasureName,
     interrupt: &Interrupt,
 ) -> Result<Taken, CommandError> {

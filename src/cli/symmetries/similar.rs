@@ -5,7 +5,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::super::script::Script;
+use super::super::script::MathScript;
 use crate::expr::{Expr, Pool};
 use crate::integrability::{PointSymmetries, PointSymmetry, Unsupported, changed};
 use crate::mechanics::{Equations, Similarity};
@@ -20,7 +20,7 @@ pub(super) struct Others {
 /// `x by …, y by …`.
 pub(super) fn moved(
     equations: &Equations,
-    script: Script,
+    script: MathScript,
     time: Expr,
     coordinates: &[Expr],
 ) -> String {
@@ -43,7 +43,7 @@ fn scaling(equations: &Equations, exponents: &[Number]) -> Vec<(String, String)>
 }
 
 impl Others {
-    pub(super) fn text(&self, equations: &Equations, script: Script) -> String {
+    pub(super) fn text(&self, equations: &Equations, script: MathScript) -> String {
         let mut text = String::new();
         match &self.points {
             Err(why) => text.push_str(&format!("\nPoint symmetries of the equations: {why}\n")),

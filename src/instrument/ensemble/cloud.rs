@@ -1,14 +1,14 @@
 //! A cloud under way: its points, the closed curve around it, and the job that carries both on, in parts.
 //!
-//! In: an [`Origin`], or a [`Cloud`] that was carried so far. Out: the next [`Cloud`]. Never here: how it is drawn.
+//! In: an [`CloudOrigin`], or a [`Cloud`] that was carried so far. Out: the next [`Cloud`]. Never here: how it is drawn.
 
 use std::sync::Arc;
 
-use super::super::conditions::Conditions;
+use super::super::conditions::PlotConditions;
 use super::super::{Answer, Physics, Plot};
-use super::origin::Origin;
+use super::origin::CloudOrigin;
 use crate::dynamics::{PhaseSpace, conformal_rate};
-use crate::ensemble::{Carried, Circulation, ClosedCurve, Flow};
+use crate::ensemble::{Carried, Circulation, ClosedCurve, SystemFlow};
 use crate::integrate::{Method, Settings};
 use crate::job::Progress;
 use crate::mechanics::Equations;
@@ -30,12 +30,12 @@ const PROBES: usize = 16;
 
 /// A cloud under way.
 pub(super) struct Cloud {
-    pub(super) conditions: Conditions,
-    pub(super) origin: Origin,
+    pub(super) conditions: PlotConditions,
+    pub(super) origin: CloudOrigin,
     /// The time of the motion when this part was asked for, and the time up to which the cloud is known.
     asked: f64,
     pub(super) end: f64,
-    pub(super) frames: Vec<Frame>,
+    pub(super) frames: Vec<CloudFrame>,
     /// Where the points are at the end.
     points: Vec<Option<State>>,
     pub(super) curve: Option<ClosedCurve>,
@@ -50,7 +50,7 @@ pub(super) struct Cloud {
 
 /// What is seen at one time.
 #[derive(Clone)]
-pub(super) struct Frame {
+pub(super) struct CloudFrame {
     pub(super) time: f64,
     pub(super) cloud: Arc<Vec<[f64; 2]>>,
     pub(super) curve: Arc<Vec<[f64; 2]>>,
@@ -77,8 +77,8 @@ pub(super) struct Task {
     pub(super) equations: Arc<Equations>,
     pub(super) system: Arc<System>,
     pub(super) method: (&'static Method, Settings),
-    pub(super) conditions: Conditions,
-    pub(super) origin: Origin,
+    pub(super) conditions: PlotConditions,
+    pub(super) origin: CloudOrigin,
     pub(super) now: f64,
     pub(super) known: Option<Answer>,
 }
@@ -92,7 +92,7 @@ impl Task {
     pub(super) fn next(&self, progress: &Progress) -> Cloud {
         let parameters = &self.conditions.parameters;
         let system = self.system.with_cancel(progress.token().clone());
-        let flow = Flow {
+        let flow = SystemFlow {
             system,
             method: self.method,
             parameters: parameters.clone(),
@@ -137,14 +137,14 @@ impl Task {
         }
         let frame = |(k, &time): (usize, &f64)| {
             let at = |one: &Carried| one.seen.get(k).map_or([f64::NAN; 2], |row| [row[0], row[1]]);
-            Frame {
+            CloudFrame {
                 time,
                 cloud: Arc::new(carried.iter().map(at).collect()),
                 curve: Arc::new(curve.as_ref().map_or_else(Vec::new, |curve| curve.points(k))),
                 action: curve.as_ref().and_then(|curve| curve.circulation(k)),
             }
         };
-        let new: Vec<Frame> = times.iter().enumerate().map(frame).collect();
+        let new: Vec<CloudFrame> = times.iter().enumerate().map(frame).collect();
         let extent = extent(known.map(|known| known.extent), &new);
         let known_frames = known.map_or(&[][..], |known| &known.frames);
         let seen = known_frames.iter().rposition(|frame| frame.time <= self.now).unwrap_or(0);
@@ -198,7 +198,7 @@ impl Task {
     /// The integral around the curve where it began.
     fn first(&self, start: &(dyn Fn(f64) -> Option<State> + Sync)) -> Option<Circulation> {
         let mut curve = ClosedCurve::new(start, self.channels()?, self.scales())?;
-        let flow = Flow {
+        let flow = SystemFlow {
             system: System::clone(&self.system),
             method: self.method,
             parameters: self.conditions.parameters.clone(),
@@ -225,7 +225,7 @@ impl Task {
 }
 
 /// The extent of all that was seen, with what is in these frames.
-fn extent(known: Option<[[f64; 2]; 2]>, frames: &[Frame]) -> [[f64; 2]; 2] {
+fn extent(known: Option<[[f64; 2]; 2]>, frames: &[CloudFrame]) -> [[f64; 2]; 2] {
     let mut extent = known.unwrap_or([[f64::INFINITY, f64::NEG_INFINITY]; 2]);
     for frame in frames {
         for at in frame.cloud.iter().chain(frame.curve.iter()) {

@@ -1,6 +1,6 @@
 //! Where a cloud begins: a disc or a box in the plane of two quantities, around the motion, or the shell of its energy.
 //!
-//! In: the plot, the present, a window that was chosen. Out: an [`Origin`]: points within it and on its boundary, and the states
+//! In: the plot, the present, a window that was chosen. Out: an [`CloudOrigin`]: points within it and on its boundary, and the states
 //! they stand for. Never here: how they are carried.
 
 use super::super::equilibria::given;
@@ -21,18 +21,18 @@ const TRIES: usize = 64;
 
 /// Where a cloud began.
 #[derive(Clone)]
-pub(super) struct Origin {
+pub(super) struct CloudOrigin {
     pub(super) time: f64,
     /// The motion there.
     base: Vec<InitialOverride>,
     pub(super) centre: [f64; 2],
     radii: [f64; 2],
-    shape: Shape,
+    shape: CloudShape,
 }
 
 /// What a cloud fills.
 #[derive(Clone)]
-enum Shape {
+enum CloudShape {
     Disc,
     Box,
     /// The states of an energy, within a range of each coordinate and rate.
@@ -42,7 +42,7 @@ enum Shape {
     },
 }
 
-impl Origin {
+impl CloudOrigin {
     /// A cloud around the motion, or around what was chosen.
     pub(super) fn of(plot: &Plot, present: &Present<'_>, seed: Option<Seed>) -> Option<Self> {
         let physics = present.physics;
@@ -55,9 +55,9 @@ impl Origin {
             centre: own,
             radii: [1.0; 2],
             shape: match seed {
-                Some(Seed::Spread(_)) => Shape::Box,
+                Some(Seed::Spread(_)) => CloudShape::Box,
                 Some(Seed::Shell) => shell(present)?,
-                _ => Shape::Disc,
+                _ => CloudShape::Disc,
             },
         };
         Some(match seed {
@@ -92,14 +92,14 @@ impl Origin {
 
     /// Whether it has a closed curve around it.
     pub(super) fn has_boundary(&self) -> bool {
-        !matches!(self.shape, Shape::Shell { .. })
+        !matches!(self.shape, CloudShape::Shell { .. })
     }
 
     /// The energy of all its states, if they have one.
     pub(super) fn energy(&self) -> Option<f64> {
         match self.shape {
-            Shape::Shell { energy, .. } => Some(energy),
-            Shape::Disc | Shape::Box => None,
+            CloudShape::Shell { energy, .. } => Some(energy),
+            CloudShape::Disc | CloudShape::Box => None,
         }
     }
 
@@ -112,10 +112,10 @@ impl Origin {
         parameters: &[f64],
     ) -> Vec<Option<State>> {
         match &self.shape {
-            Shape::Shell { energy, ranges } => {
+            CloudShape::Shell { energy, ranges } => {
                 self.on_shell((*energy, ranges), count, physics.system, parameters)
             }
-            Shape::Disc | Shape::Box => {
+            CloudShape::Disc | CloudShape::Box => {
                 let points = self.inside(count);
                 points.map(|at| self.state(at, plot, physics, parameters)).collect()
             }
@@ -149,7 +149,7 @@ impl Origin {
 
     /// The point of the closed curve at s, counter-clockwise.
     pub(super) fn boundary(&self, s: f64) -> [f64; 2] {
-        let at = if matches!(self.shape, Shape::Box) {
+        let at = if matches!(self.shape, CloudShape::Box) {
             let (side, along) = ((4.0 * s).floor(), 2.0 * (4.0 * s).fract() - 1.0);
             match side as u8 {
                 0 => [along, -1.0],
@@ -166,7 +166,7 @@ impl Origin {
 
     /// Points within it, evenly.
     fn inside(&self, count: usize) -> impl Iterator<Item = [f64; 2]> + '_ {
-        let boxed = matches!(self.shape, Shape::Box);
+        let boxed = matches!(self.shape, CloudShape::Box);
         let within = move |at: &[f64; 2]| boxed || at[0] * at[0] + at[1] * at[1] <= 1.0;
         let all = (0..).map(|index| spread(index, [[-1.0, 1.0]; 2])).filter(within);
         all.take(count).map(|at| self.placed(at))
@@ -178,7 +178,7 @@ impl Origin {
 }
 
 /// The shell of the motion's energy, around what it has reached; `None` where its energy is not constant.
-fn shell(present: &Present<'_>) -> Option<Shape> {
+fn shell(present: &Present<'_>) -> Option<CloudShape> {
     let physics = present.physics;
     if physics.equations.energy_rate != Expr::ZERO || physics.system.form() == Form::Variables {
         return None;
@@ -201,7 +201,7 @@ fn shell(present: &Present<'_>) -> Option<Shape> {
         let reach = if reach > 0.0 { reach } else { 1.0 };
         Some([middle - reach, middle + reach])
     };
-    Some(Shape::Shell { energy, ranges: kinds.map(range).collect::<Option<_>>()? })
+    Some(CloudShape::Shell { energy, ranges: kinds.map(range).collect::<Option<_>>()? })
 }
 
 /// Numbers from 0 to 1, those of each place spread evenly with the index: multiples of the powers of 1/φ, where φ is the
@@ -213,7 +213,12 @@ fn shares(index: usize) -> impl Iterator<Item = f64> {
 }
 
 /// The size of a cloud in both directions: by the coordinate, and by how much as much energy changes the other.
-fn radii(origin: &Origin, plot: &Plot, present: &Present<'_>, channels: [usize; 2]) -> [f64; 2] {
+fn radii(
+    origin: &CloudOrigin,
+    plot: &Plot,
+    present: &Present<'_>,
+    channels: [usize; 2],
+) -> [f64; 2] {
     let physics = present.physics;
     let sized = |k: usize| {
         let (lo, hi) = present.bounds.get(channels[k]).copied().unwrap_or_default();

@@ -4,7 +4,7 @@
 //! In: a series, the powers of a step. Out: whether the rule of [`step_size`](super::step_size) surely
 //! finds no shorter one; "no" decides nothing. Never here: the rule, its constants.
 
-use super::step_size::{
+use super::last_orders::{
     BEFORE, FAINT, FIRST, LANES, LAST, ROOM, indulgence_of, larger, last_orders,
 };
 use crate::num::math;

@@ -6,25 +6,20 @@
 //! |c_j| h^j, and stays inside the radius of convergence however small those terms are: a body far
 //! from a collision is hardly affected by it.
 
-use std::ops::RangeInclusive;
-
-use super::EXACT_BELOW;
+use super::last_orders::{
+    FAINT, FIRST, INDULGENCE, LANES, ROOM, indulgence_of, larger, last_orders,
+};
 use super::step_screen::Screen;
 use crate::expr::FunctionId;
 use crate::num::{Kernel, all_finite, math, vectorized};
 use crate::system::Series;
 
+/// Below this tolerance the lowest orders are built in double-double.
+pub(super) const EXACT_BELOW: f64 = 1e-16;
+
 /// The part of the tolerance allowed for the last terms, which represent everything truncated.
 /// Truncation errs in the same direction step by step, while rounding does not.
 const SHARE: f64 = 0.01;
-
-/// The number of last orders that enter. There are more than two, because symmetric motions have
-/// coefficients that vanish in a regular pattern.
-pub(super) const LAST: usize = 4;
-
-/// The number of orders before these that also enter, with a larger tolerance.
-pub(super) const BEFORE: usize = 6;
-const INDULGENCE: f64 = 1.5;
 
 /// The largest step as a part of the radius of convergence.
 const PART_OF_RADIUS: f64 = 0.6;
@@ -43,10 +38,6 @@ const SATURATED: f64 = 750.0;
 
 /// The largest relative change of the argument of a function without scale (`ln`, `atan`).
 const PART_OF_ARGUMENT: f64 = 0.5;
-
-/// A coefficient below this is an underflow: in a unit of time near the step its term is far below
-/// the last digit of anything.
-pub(super) const FAINT: f64 = 1e-290;
 
 /// The order at which a tolerance costs least, for a motion of so many degrees of freedom. The step
 /// grows with the order. In large systems the work grows with its square (Jorba & Zou, proposition
@@ -216,9 +207,6 @@ fn integrals(series: &Series) -> impl Iterator<Item = &[f64]> {
     (series.inputs()..series.len()).map(|i| series.coefficients(i))
 }
 
-/// The most coefficients that a series has, and room for a whole chunk behind them.
-pub(super) const ROOM: usize = 64;
-
 /// The reciprocals of the differences of two orders, so that those of k − j for j = 0, 1, …, k − 1
 /// lie side by side: 1/n is the one at `ROOM - n`.
 const RECIPROCALS: [f64; ROOM] = {
@@ -230,12 +218,6 @@ const RECIPROCALS: [f64; ROOM] = {
     }
     table
 };
-
-/// The number of logarithms taken together.
-pub(super) const LANES: usize = 4;
-
-/// The number of lowest orders that are looked at first.
-pub(super) const FIRST: usize = 3;
 
 /// The logarithm of a tolerance, divided among the orders: `ln ε / (p − j)` for the j-th of p.
 #[derive(Clone, Debug)]
@@ -273,12 +255,6 @@ impl Shares {
         let screen = Screen::new(order, &table, log_part, log_indulgence);
         Shares { table, log_part, log_indulgence, screen }
     }
-}
-
-/// By how much the logarithm of the step may be longer for the k-th of p orders.
-#[inline(always)]
-pub(super) fn indulgence_of(log_indulgence: f64, k: usize, p: usize) -> f64 {
-    if k + LAST <= p { log_indulgence } else { 0.0 }
 }
 
 /// The logarithm of the step that one series allows, or `shortest` if that is less; `None` if a
@@ -326,12 +302,6 @@ fn of_one<const FUSED: bool>(
     Some(shortest)
 }
 
-/// The orders up to p that enter.
-#[inline(always)]
-pub(super) fn last_orders(p: usize) -> RangeInclusive<usize> {
-    (p + 1).saturating_sub(LAST + BEFORE).max(3)..=p
-}
-
 /// The reciprocals of k − j for j = 0, 1, …, k − 1.
 #[inline(always)]
 pub(super) fn reciprocals(k: usize) -> &'static [f64] {
@@ -356,12 +326,6 @@ fn largest(logs: &[f64], own: f64, reciprocals: &[f64], shares: &[f64]) -> f64 {
     let last = last_logs.iter().zip(last_reciprocals).zip(last_shares);
     let last = last.map(|((log, reciprocal), share)| (log - own) * reciprocal + share);
     last.chain(most).fold(f64::NEG_INFINITY, larger)
-}
-
-/// The larger of two numbers, the first if the second is NaN.
-#[inline(always)]
-pub(super) fn larger(a: f64, b: f64) -> f64 {
-    if b > a { b } else { a }
 }
 
 /// The natural logarithms of the absolute values, to four digits or so. Returns whether all are

@@ -11,13 +11,13 @@ use crate::model::Model;
 
 /// The names in the file for what the screen shows, by the shown name and its primes.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Shown {
+pub(super) struct ShownNames {
     names: BTreeMap<(String, usize), BTreeSet<String>>,
 }
 
-impl Shown {
-    pub(super) fn of(model: &Model, names: &BTreeMap<String, Meaning>) -> Shown {
-        let mut shown = Shown::default();
+impl ShownNames {
+    pub(super) fn of(model: &Model, names: &BTreeMap<String, Meaning>) -> ShownNames {
+        let mut shown = ShownNames::default();
         for (name, meaning) in names {
             let symbol = match meaning {
                 Meaning::Symbol(symbol)

@@ -14,7 +14,7 @@ use crate::printable;
 
 /// The origin of a preset.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Origin {
+pub enum PresetOrigin {
     /// Part of the program.
     Shipped,
     /// A file of the user.
@@ -23,26 +23,26 @@ pub enum Origin {
 
 /// A preset in the catalog.
 #[derive(Clone, Debug)]
-pub struct Entry {
+pub struct CatalogEntry {
     /// The file's name without `.toml`.
     pub name: String,
     /// Its folder below `presets`; empty at the top level.
     pub folder: String,
     /// The origin.
-    pub origin: Origin,
+    pub origin: PresetOrigin,
     /// The title, summary, topics and chapter, without the notes.
     pub info: Info,
     /// The first mistake of an invalid preset, as `file:line:column: reason`.
     pub fault: Option<String>,
 }
 
-impl Entry {
-    pub(super) fn shipped(listed: &Listed) -> Entry {
+impl CatalogEntry {
+    pub(super) fn shipped(listed: &Listed) -> CatalogEntry {
         let path = Path::new(listed.path);
-        Entry {
+        CatalogEntry {
             name: stem(path),
             folder: folder_of(path),
-            origin: Origin::Shipped,
+            origin: PresetOrigin::Shipped,
             info: Info {
                 title: listed.title.to_owned(),
                 summary: listed.summary.to_owned(),
@@ -57,11 +57,11 @@ impl Entry {
 
     /// An entry for a file in the user's folder. The whole file is read, so that its mistakes can
     /// be reported.
-    pub(super) fn of_user(folder: &Path, path: &Path) -> Entry {
-        let mut entry = Entry {
+    pub(super) fn of_user(folder: &Path, path: &Path) -> CatalogEntry {
+        let mut entry = CatalogEntry {
             name: stem(path),
             folder: path.strip_prefix(folder).map_or(String::new(), folder_of),
-            origin: Origin::User(path.to_owned()),
+            origin: PresetOrigin::User(path.to_owned()),
             info: Info::default(),
             fault: None,
         };
@@ -94,13 +94,13 @@ impl Entry {
     /// Returns an error if a user's file cannot be read.
     pub fn document(&self) -> Result<Document, NotFound> {
         match &self.origin {
-            Origin::Shipped => {
+            PresetOrigin::Shipped => {
                 let folder = if self.folder.is_empty() { "" } else { "/" };
                 let path = format!("{}{folder}{}.toml", self.folder, self.name);
                 let text = shipped::text(&path).unwrap_or_default();
                 Ok(Document::new(format!("presets/{path}"), text))
             }
-            Origin::User(path) => {
+            PresetOrigin::User(path) => {
                 Document::open(path).map_err(|reason| NotFound::File { path: path.clone(), reason })
             }
         }
@@ -131,7 +131,7 @@ fn folder_of(path: &Path) -> String {
 
 /// Sorts by topic in the order of the notes, with topics without a chapter last; within a topic by
 /// chapter, then by title.
-pub(super) fn sort(entries: &mut [Entry]) {
+pub(super) fn sort(entries: &mut [CatalogEntry]) {
     let mut first: BTreeMap<String, Chapter> = BTreeMap::new();
     for entry in entries.iter() {
         let chapter = Chapter::of(&entry.info.chapter);

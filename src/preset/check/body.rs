@@ -6,7 +6,8 @@ use super::Check;
 use crate::diagnostic::Diagnostic;
 use crate::expr::{Expr, Rank, Symbol, latex_name, unicode_name};
 use crate::model::{
-    Allowed, Attitude, AttitudeSource, Body, BodyNames, Mechanics, Piece, Point, Scope, Solid, Turn,
+    Allowed, Attitude, AttitudeSource, Body, BodyNames, Mechanics, Piece, PieceOrientation, Point,
+    Scope, Solid,
 };
 use crate::preset::draft::{DraftAttitude, DraftBody, DraftPiece, DraftTurn, Formula, Formulas};
 
@@ -107,9 +108,9 @@ impl Check<'_> {
         Some(Piece { solid, mass: mass?, at: at?, turn: turn?, place: written.place.clone() })
     }
 
-    fn turn(&mut self, written: &DraftTurn, scope: &mut Scope) -> Option<Turn> {
+    fn turn(&mut self, written: &DraftTurn, scope: &mut Scope) -> Option<PieceOrientation> {
         Some(match written {
-            DraftTurn::None => Turn::None,
+            DraftTurn::None => PieceOrientation::None,
             DraftTurn::Axis { axis, angle } => {
                 let read = self.constants(axis.as_ref(), "the axis of this piece", scope);
                 let angle = self.constant(angle.as_ref(), "the angle of this piece", scope);
@@ -119,11 +120,13 @@ impl Check<'_> {
                     self.error(place, "this axis has no length, and so no direction");
                     return None;
                 }
-                Turn::Axis { axis: read, angle: angle? }
+                PieceOrientation::Axis { axis: read, angle: angle? }
             }
-            DraftTurn::Euler(angles) => {
-                Turn::Euler(self.constants(angles.as_ref(), "an angle of this piece", scope)?)
-            }
+            DraftTurn::Euler(angles) => PieceOrientation::Euler(self.constants(
+                angles.as_ref(),
+                "an angle of this piece",
+                scope,
+            )?),
         })
     }
 

@@ -6,7 +6,7 @@ use super::Check;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::nearest;
 use crate::expr::{Rank, latex_of_unicode, unicode_name};
-use crate::model::{Parameter, Scale};
+use crate::model::{Parameter, RangeSpacing};
 use crate::num::math;
 use crate::preset::draft::DraftParameter;
 
@@ -18,7 +18,7 @@ impl Check<'_> {
             if written.symbol.is_empty() { unicode_name(name) } else { written.symbol.clone() };
         let symbol = self.model.pool.symbol(name);
         self.model.pool.describe(symbol, &shown, &latex_of_unicode(&shown), Rank::Constant);
-        let scale = written.scale.as_ref().map_or(Scale::Linear, |scale| self.scale(scale));
+        let scale = written.scale.as_ref().map_or(RangeSpacing::Linear, |scale| self.scale(scale));
         let value = written.value.as_ref().map_or(1.0, |v| *v.get_ref());
         let (min, max) = self.range(written, value, scale);
         self.model.parameters.push(Parameter {
@@ -34,10 +34,10 @@ impl Check<'_> {
         });
     }
 
-    fn scale(&mut self, written: &Spanned<String>) -> Scale {
+    fn scale(&mut self, written: &Spanned<String>) -> RangeSpacing {
         match written.get_ref().as_str() {
-            "linear" => Scale::Linear,
-            "log" => Scale::Log,
+            "linear" => RangeSpacing::Linear,
+            "log" => RangeSpacing::Log,
             other => {
                 let help = match nearest(other, ["linear", "log"]) {
                     Some(near) => format!("did you mean `{near}`?"),
@@ -45,13 +45,13 @@ impl Check<'_> {
                 };
                 let message = format!("there is no scale `{other}`");
                 self.mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
-                Scale::Linear
+                RangeSpacing::Linear
             }
         }
     }
 
     /// The range, with missing ends filled in.
-    fn range(&mut self, written: &DraftParameter, value: f64, scale: Scale) -> (f64, f64) {
+    fn range(&mut self, written: &DraftParameter, value: f64, scale: RangeSpacing) -> (f64, f64) {
         let given = |end: &Option<Spanned<f64>>| end.as_ref().map(|v| *v.get_ref());
         let (min, max) = (given(&written.min), given(&written.max));
         let name = written.name.get_ref();
@@ -70,7 +70,7 @@ impl Check<'_> {
                 self.error(place.span(), format!("the value of `{name}` is {beyond}"));
             }
         }
-        if scale == Scale::Log {
+        if scale == RangeSpacing::Log {
             let end =
                 [&written.min, &written.value].into_iter().flatten().find(|v| *v.get_ref() <= 0.0);
             if let Some(end) = end {
@@ -84,8 +84,8 @@ impl Check<'_> {
 
 /// Fills in the missing ends of a range: 0 to twice the value, −1 to 1 for zero, or a factor of ten
 /// to each side on a log scale, widened to 1, 2 or 5 times a power of ten.
-fn fill(value: f64, min: Option<f64>, max: Option<f64>, scale: Scale) -> (f64, f64) {
-    let (low, high) = if scale == Scale::Log && value > 0.0 {
+fn fill(value: f64, min: Option<f64>, max: Option<f64>, scale: RangeSpacing) -> (f64, f64) {
+    let (low, high) = if scale == RangeSpacing::Log && value > 0.0 {
         (1.0 / nice_above(10.0 / value), nice_above(10.0 * value))
     } else if value > 0.0 {
         (0.0, nice_above(2.0 * value))

@@ -7,7 +7,7 @@ use super::value::Value;
 use super::{Formula, TOP_LEVEL, value};
 use crate::diagnostic::nearest;
 use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
-use crate::preset::schema::{Key, Kind, Section};
+use crate::preset::schema::{Key, SchemaTable, ValueKind};
 
 /// A table that is being read.
 pub(in crate::preset) struct Table<'d> {
@@ -17,7 +17,7 @@ pub(in crate::preset) struct Table<'d> {
     pub(super) place: SourceRange,
     entries: &'d DeTable<'d>,
     /// Its description in the schema; `None` if only its reader knows the keys.
-    section: Option<&'static Section>,
+    section: Option<&'static SchemaTable>,
     /// The kind of entry, if kinds have different keys.
     kind: Option<&'static str>,
     asked: Vec<&'static str>,
@@ -37,7 +37,7 @@ impl<'d> Table<'d> {
     }
 
     /// Attaches the schema's description of the table.
-    pub(super) fn with(self, section: &'static Section) -> Table<'d> {
+    pub(super) fn with(self, section: &'static SchemaTable) -> Table<'d> {
         Table { section: Some(section), ..self }
     }
 
@@ -57,7 +57,7 @@ impl<'d> Table<'d> {
     }
 
     /// Whether the schema gives a key the kind that its reader expects.
-    fn agrees(&self, key: &str, fits: impl Fn(Kind) -> bool) -> bool {
+    fn agrees(&self, key: &str, fits: impl Fn(ValueKind) -> bool) -> bool {
         self.section.is_none() || self.row(key).is_some_and(|row| fits(row.kind))
     }
 
@@ -132,7 +132,7 @@ impl<'d> Table<'d> {
         key: &'static str,
         mistakes: &mut Diagnostics,
     ) -> Option<Spanned<String>> {
-        debug_assert!(self.agrees(key, |kind| matches!(kind, Kind::Text)), "{key} is no text");
+        debug_assert!(self.agrees(key, |kind| matches!(kind, ValueKind::Text)), "{key} is no text");
         let (_, found) = self.take(key)?;
         value::text(found, &format!("`{key}`"), mistakes)
     }
@@ -165,7 +165,10 @@ impl<'d> Table<'d> {
         key: &'static str,
         mistakes: &mut Diagnostics,
     ) -> Option<Spanned<f64>> {
-        debug_assert!(self.agrees(key, |kind| matches!(kind, Kind::Number)), "{key} is no number");
+        debug_assert!(
+            self.agrees(key, |kind| matches!(kind, ValueKind::Number)),
+            "{key} is no number"
+        );
         let (_, found) = self.take(key)?;
         value::number(found, &format!("`{key}`"), mistakes)
     }
@@ -177,7 +180,7 @@ impl<'d> Table<'d> {
         mistakes: &mut Diagnostics,
     ) -> Option<Formula> {
         debug_assert!(
-            self.agrees(key, |kind| matches!(kind, Kind::Formula)),
+            self.agrees(key, |kind| matches!(kind, ValueKind::Formula)),
             "{key} is no formula"
         );
         let (_, found) = self.take(key)?;
@@ -190,7 +193,7 @@ impl<'d> Table<'d> {
         key: &'static str,
         mistakes: &mut Diagnostics,
     ) -> Option<Spanned<bool>> {
-        debug_assert!(self.agrees(key, |kind| matches!(kind, Kind::Flag)), "{key} is no flag");
+        debug_assert!(self.agrees(key, |kind| matches!(kind, ValueKind::Flag)), "{key} is no flag");
         let (_, found) = self.take(key)?;
         value::flag(found, &format!("`{key}`"), mistakes)
     }
@@ -219,7 +222,7 @@ impl<'d> Table<'d> {
         let (place, found) = self.take(key)?;
         let table = Table::of(found, format!("[{key}]"), place, &format!("[{key}]"), mistakes)?;
         Some(match self.row(key).map(|row| row.kind) {
-            Some(Kind::Table(section)) => table.with(section),
+            Some(ValueKind::Table(section)) => table.with(section),
             _ => table,
         })
     }
@@ -247,7 +250,7 @@ impl<'d> Table<'d> {
         let Some((place, found)) = self.take(key) else { return Vec::new() };
         let head = format!("[[{key}]]");
         let section = match self.row(key).map(|row| row.kind) {
-            Some(Kind::Tables(section)) => Some(section),
+            Some(ValueKind::Tables(section)) => Some(section),
             _ => None,
         };
         match found.get_ref() {

@@ -11,7 +11,7 @@ pub(super) const DOT: f64 = 1.45;
 
 /// A character as shapes.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Shape {
+pub(super) enum GlyphShape {
     /// The centres of dots.
     Dots(Vec<(f64, f64)>),
     /// Rectangles as left, top, width and height; and their opacity.
@@ -20,17 +20,17 @@ pub(super) enum Shape {
     Stroke(&'static str, bool),
 }
 
-impl Shape {
+impl GlyphShape {
     /// The shape of a character; letters have none.
-    pub(super) fn of(character: char) -> Option<Shape> {
+    pub(super) fn of(character: char) -> Option<GlyphShape> {
         match character {
-            '\u{2800}'..='\u{28ff}' => Some(Shape::Dots(dots(character as u32 - 0x2800))),
-            '░' => Some(Shape::Blocks(vec![[0.0, 0.0, 8.0, 16.0]], 0.25)),
-            '▒' => Some(Shape::Blocks(vec![[0.0, 0.0, 8.0, 16.0]], 0.5)),
-            '▓' => Some(Shape::Blocks(vec![[0.0, 0.0, 8.0, 16.0]], 0.75)),
+            '\u{2800}'..='\u{28ff}' => Some(GlyphShape::Dots(dots(character as u32 - 0x2800))),
+            '░' => Some(GlyphShape::Blocks(vec![[0.0, 0.0, 8.0, 16.0]], 0.25)),
+            '▒' => Some(GlyphShape::Blocks(vec![[0.0, 0.0, 8.0, 16.0]], 0.5)),
+            '▓' => Some(GlyphShape::Blocks(vec![[0.0, 0.0, 8.0, 16.0]], 0.75)),
             _ => blocks(character)
-                .map(|blocks| Shape::Blocks(blocks, 1.0))
-                .or_else(|| stroke(character).map(|(data, heavy)| Shape::Stroke(data, heavy))),
+                .map(|blocks| GlyphShape::Blocks(blocks, 1.0))
+                .or_else(|| stroke(character).map(|(data, heavy)| GlyphShape::Stroke(data, heavy))),
         }
     }
 }
@@ -130,17 +130,19 @@ mod tests {
     fn every_braille_pattern_has_as_many_dots_as_bits() {
         for bits in 0..256_u32 {
             let character = char::from_u32(0x2800 + bits).expect("braille");
-            let Some(Shape::Dots(dots)) = Shape::of(character) else { panic!("no dots") };
+            let Some(GlyphShape::Dots(dots)) = GlyphShape::of(character) else { panic!("no dots") };
             assert_eq!(dots.len() as u32, bits.count_ones(), "{character}");
         }
-        assert_eq!(Shape::of('⠁'), Some(Shape::Dots(vec![(2.0, 2.0)])));
-        assert_eq!(Shape::of('⢀'), Some(Shape::Dots(vec![(6.0, 14.0)])));
+        assert_eq!(GlyphShape::of('⠁'), Some(GlyphShape::Dots(vec![(2.0, 2.0)])));
+        assert_eq!(GlyphShape::of('⢀'), Some(GlyphShape::Dots(vec![(6.0, 14.0)])));
     }
 
     #[test]
     fn blocks_cover_what_they_should() {
-        let area = |character: char| match Shape::of(character) {
-            Some(Shape::Blocks(blocks, _)) => blocks.iter().map(|[.., w, h]| w * h).sum::<f64>(),
+        let area = |character: char| match GlyphShape::of(character) {
+            Some(GlyphShape::Blocks(blocks, _)) => {
+                blocks.iter().map(|[.., w, h]| w * h).sum::<f64>()
+            }
             other => panic!("{character}: {other:?}"),
         };
         let check = |character, eighths: f64| {
@@ -155,6 +157,6 @@ mod tests {
         check('▟', 6.0);
         check('\u{1fb00}', 8.0 / 6.0);
         check('\u{1fb3b}', 5.0 * 8.0 / 6.0);
-        assert_eq!(Shape::of('a'), None);
+        assert_eq!(GlyphShape::of('a'), None);
     }
 }

@@ -7,7 +7,7 @@ use std::fmt::Write;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Modifier};
 
-use super::shape::{CELL, DOT, Shape};
+use super::shape::{CELL, DOT, GlyphShape};
 use crate::view::colour::Rgb;
 use crate::view::theme::Palette;
 
@@ -100,8 +100,8 @@ fn named(colour: Color) -> Option<Rgb> {
     if colour == Color::Reset { None } else { Rgb::of(colour) }
 }
 
-fn shape(cell: &Cell) -> Option<Shape> {
-    Shape::of(cell.symbol().chars().next()?)
+fn shape(cell: &Cell) -> Option<GlyphShape> {
+    GlyphShape::of(cell.symbol().chars().next()?)
 }
 
 /// Writes the dots, blocks and strokes of a row, grouped by colour.
@@ -111,7 +111,7 @@ fn shapes(out: &mut String, y: usize, row: &[Cell], palette: &Palette) {
     for run in row.chunk_by(|a, b| {
         shape(a).is_some() == shape(b).is_some() && ink(a, palette) == ink(b, palette)
     }) {
-        let drawn: Vec<(usize, Shape)> =
+        let drawn: Vec<(usize, GlyphShape)> =
             run.iter().enumerate().filter_map(|(i, cell)| Some((x + i, shape(cell)?))).collect();
         x += run.len();
         if drawn.is_empty() {
@@ -127,15 +127,15 @@ fn shapes(out: &mut String, y: usize, row: &[Cell], palette: &Palette) {
     }
 }
 
-fn one_shape(out: &mut String, (left, top): (f64, f64), shape: &Shape, colour: Rgb) {
+fn one_shape(out: &mut String, (left, top): (f64, f64), shape: &GlyphShape, colour: Rgb) {
     match shape {
-        Shape::Dots(dots) => {
+        GlyphShape::Dots(dots) => {
             for (x, y) in dots {
                 let (x, y) = (left + x, top + y);
                 let _ = write!(out, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{DOT}\"/>");
             }
         }
-        Shape::Blocks(blocks, seen) => {
+        GlyphShape::Blocks(blocks, seen) => {
             for [x, y, width, height] in blocks {
                 let (x, y) = (left + x, top + y);
                 let faint =
@@ -146,7 +146,7 @@ fn one_shape(out: &mut String, (left, top): (f64, f64), shape: &Shape, colour: R
                 );
             }
         }
-        Shape::Stroke(data, heavy) => {
+        GlyphShape::Stroke(data, heavy) => {
             let (colour, width) = (hex(colour), if *heavy { 2.4 } else { 1.0 });
             let _ = write!(
                 out,

@@ -6,7 +6,8 @@ use crossterm::event::KeyEvent;
 
 use super::line::Line;
 use super::{
-    Asked, AskedAxis, Assert, LessonStep, Measure, Relation, Said, Step, SweepPath, Text, Word,
+    Asked, AskedAxis, Assert, AssertedNumber, Comparator, LessonStep, LineText, Said, ScriptStep,
+    SweepPath, Word,
 };
 use crate::app::key;
 use crate::diagnostic::Diagnostic;
@@ -15,7 +16,7 @@ use crate::view::glyphs::Glyphs;
 use crate::view::theme::PALETTES;
 
 /// One row of the table.
-pub struct Command {
+pub struct CommandRow {
     /// The word.
     pub name: &'static str,
     /// The syntax of the line; the parts in brackets are optional.
@@ -30,13 +31,13 @@ const fn row(
     form: &'static str,
     about: &'static str,
     read: fn(&mut Line<'_>) -> Result<Said, Diagnostic>,
-) -> Command {
-    Command { name, form, about, read }
+) -> CommandRow {
+    CommandRow { name, form, about, read }
 }
 
 /// All commands; those for the whole demo come first.
 #[rustfmt::skip]
-pub const COMMANDS: &[Command] = &[
+pub const COMMANDS: &[CommandRow] = &[
     row("Open", "Open NAME", "the preset or file the demo is about; the command line may name another", open),
     row("Title", "Title \"TEXT\"", "the title of the cast; that of the system where it is left out", title),
     row("Size", "Size 100x30", "columns and rows of the screen, the line of captions included", size),
@@ -66,7 +67,7 @@ pub const COMMANDS: &[Command] = &[
     row("Free", "Free \"TEXT\"", "lesson: give the lab to the person until F9; afterwards the system begins as its file says", free),
 ];
 
-fn head(say: impl FnOnce(&mut super::Head) + 'static) -> Said {
+fn head(say: impl FnOnce(&mut super::ScriptHeader) + 'static) -> Said {
     Said::Head(Box::new(say))
 }
 
@@ -139,14 +140,14 @@ fn hide(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
 }
 
 fn pace(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
-    Ok(Said::Step(Step::Pace(line.time()?)))
+    Ok(Said::Step(ScriptStep::Pace(line.time()?)))
 }
 
 /// The most times that a key may be pressed in a row.
 const MOST_PRESSES: usize = 1000;
 
 fn press(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
-    Ok(Said::Step(Step::Press(keys(line)?)))
+    Ok(Said::Step(ScriptStep::Press(keys(line)?)))
 }
 
 /// The names of keys to the end of the line.
@@ -180,18 +181,18 @@ fn keys(line: &mut Line<'_>) -> Result<Vec<KeyEvent>, Diagnostic> {
 }
 
 fn typed(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
-    Ok(Said::Step(Step::Type(line.quoted("a text")?.text)))
+    Ok(Said::Step(ScriptStep::Type(line.quoted("a text")?.text)))
 }
 
 fn wait(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
-    Ok(Said::Step(Step::Wait(line.time()?)))
+    Ok(Said::Step(ScriptStep::Wait(line.time()?)))
 }
 
 fn set(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     let name = line.until(&["="], "the name of a parameter or an initial value")?;
     expect(line, "=")?;
     let value = line.until(&[], "a value")?;
-    Ok(Said::Step(Step::Set(name, value)))
+    Ok(Said::Step(ScriptStep::Set(name, value)))
 }
 
 fn sweep(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
@@ -212,7 +213,7 @@ fn sweep(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
         }
     }
     expect(line, "in")?;
-    Ok(Said::Step(Step::Sweep { ways, time: line.time()? }))
+    Ok(Said::Step(ScriptStep::Sweep { ways, time: line.time()? }))
 }
 
 fn expect(line: &mut Line<'_>, word: &str) -> Result<(), Diagnostic> {
@@ -224,17 +225,17 @@ fn expect(line: &mut Line<'_>, word: &str) -> Result<(), Diagnostic> {
 }
 
 fn speed(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
-    Ok(Said::Step(Step::Speed(line.until(&[], "a speed")?)))
+    Ok(Said::Step(ScriptStep::Speed(line.until(&[], "a speed")?)))
 }
 
 fn look(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     expect(line, "at")?;
-    Ok(Said::Step(Step::Look(line.until(&[], "a time")?)))
+    Ok(Said::Step(ScriptStep::Look(line.until(&[], "a time")?)))
 }
 
 fn caption(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     let text = if line.is_over() { String::new() } else { line.quoted("a text")?.text };
-    Ok(Said::Step(Step::Caption(text)))
+    Ok(Said::Step(ScriptStep::Caption(text)))
 }
 
 fn marker(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
@@ -242,7 +243,7 @@ fn marker(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     if name.text.trim().is_empty() {
         return Err(Diagnostic::error(name.place, "a chapter has a name"));
     }
-    Ok(Said::Step(Step::Marker(name.text)))
+    Ok(Said::Step(ScriptStep::Marker(name.text)))
 }
 
 /// The forms of an `Assert`, with descriptions.
@@ -266,12 +267,12 @@ pub const CLAIMS: [(&str, &str); 10] = [
 ];
 
 /// The words for measures in front of a name.
-const MEASURES: [(&str, Measure); 5] = [
-    ("drift", Measure::Drift),
-    ("greatest", Measure::Greatest),
-    ("least", Measure::Least),
-    ("count", Measure::Count),
-    ("time", Measure::Time),
+const MEASURES: [(&str, AssertedNumber); 5] = [
+    ("drift", AssertedNumber::Drift),
+    ("greatest", AssertedNumber::Greatest),
+    ("least", AssertedNumber::Least),
+    ("count", AssertedNumber::Count),
+    ("time", AssertedNumber::Time),
 ];
 
 /// The words for the status of an experiment.
@@ -281,7 +282,7 @@ const STATUS: [Word; 4] = ["running", "paused", "ended", "stopped"];
 const VERDICTS: [Word; 6] = ["exact", "bounded", "secular", "lost", "broken", "open"];
 
 fn assert(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
-    Ok(Said::Step(Step::Assert(claim(line)?)))
+    Ok(Said::Step(ScriptStep::Assert(claim(line)?)))
 }
 
 /// A claim, to the end of the line.
@@ -304,7 +305,7 @@ fn claim(line: &mut Line<'_>) -> Result<Assert, Diagnostic> {
         None if line.is_quoted() => line.name("a name")?,
         None => line.until(&["=", "<", ">"], "what is claimed")?,
     };
-    let relations = [("=", Relation::Equal), ("<", Relation::Less), (">", Relation::More)];
+    let relations = [("=", Comparator::Equal), ("<", Comparator::Less), (">", Comparator::More)];
     let relation =
         relations.iter().find(|(sign, _)| line.take(sign)).map(|(_, relation)| *relation);
     let relation = relation.ok_or_else(|| {
@@ -313,7 +314,7 @@ fn claim(line: &mut Line<'_>) -> Result<Assert, Diagnostic> {
     })?;
     let with = line.until(&["within"], "a value")?;
     let within = line.take("within").then(|| line.until(&[], "a tolerance")).transpose()?;
-    let measure = measure.unwrap_or(Measure::Value);
+    let measure = measure.unwrap_or(AssertedNumber::Value);
     exactness(line, measure, relation, within.as_ref())?;
     Ok(Assert::Number { measure, of, relation, with, within })
 }
@@ -321,16 +322,16 @@ fn claim(line: &mut Line<'_>) -> Result<Assert, Diagnostic> {
 /// `=` needs a tolerance, except between counts; `<` and `>` must not have one.
 fn exactness(
     line: &Line<'_>,
-    measure: Measure,
-    relation: Relation,
-    within: Option<&Text>,
+    measure: AssertedNumber,
+    relation: Comparator,
+    within: Option<&LineText>,
 ) -> Result<(), Diagnostic> {
     match (relation, measure, within) {
-        (Relation::Equal, Measure::Count, None) => Ok(()),
-        (Relation::Equal, _, None) => {
+        (Comparator::Equal, AssertedNumber::Count, None) => Ok(()),
+        (Comparator::Equal, _, None) => {
             Err(line.missing("how far it may be off").with_help("add `within 1e-9`"))
         }
-        (Relation::Less | Relation::More, _, Some(within)) => {
+        (Comparator::Less | Comparator::More, _, Some(within)) => {
             let message = "`within` belongs to `=`";
             Err(Diagnostic::error(within.place.clone(), message))
         }
@@ -339,7 +340,7 @@ fn exactness(
 }
 
 fn lesson(step: LessonStep) -> Said {
-    Said::Step(Step::Lesson(step))
+    Said::Step(ScriptStep::Lesson(step))
 }
 
 fn say(line: &mut Line<'_>) -> Result<Said, Diagnostic> {

@@ -8,7 +8,7 @@ use crate::record::clock::{Micros, SECOND};
 
 /// A piece of a line whose meaning depends on the system, and its range.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Text {
+pub struct LineText {
     /// The text without quotes.
     pub text: String,
     /// The range in the script.
@@ -45,13 +45,13 @@ impl<'a> Line<'a> {
         self.at == self.text.len()
     }
 
-    fn piece(&self, from: usize, to: usize) -> Text {
+    fn piece(&self, from: usize, to: usize) -> LineText {
         let place = self.start + from..self.start + to;
-        Text { text: self.text[from..to].to_owned(), place }
+        LineText { text: self.text[from..to].to_owned(), place }
     }
 
     /// The next word, up to a blank.
-    pub(super) fn word(&mut self) -> Option<Text> {
+    pub(super) fn word(&mut self) -> Option<LineText> {
         if self.is_over() {
             return None;
         }
@@ -72,7 +72,7 @@ impl<'a> Line<'a> {
     }
 
     /// The next word, which is required.
-    pub(super) fn need(&mut self, what: &str) -> Result<Text, Diagnostic> {
+    pub(super) fn need(&mut self, what: &str) -> Result<LineText, Diagnostic> {
         self.word().ok_or_else(|| self.missing(what))
     }
 
@@ -89,12 +89,12 @@ impl<'a> Line<'a> {
     }
 
     /// A quoted text, or a single word without quotes.
-    pub(super) fn name(&mut self, what: &str) -> Result<Text, Diagnostic> {
+    pub(super) fn name(&mut self, what: &str) -> Result<LineText, Diagnostic> {
         if self.is_quoted() { self.quoted(what) } else { self.need(what) }
     }
 
     /// A quoted text; `\"` and `\\` are the escapes.
-    pub(super) fn quoted(&mut self, what: &str) -> Result<Text, Diagnostic> {
+    pub(super) fn quoted(&mut self, what: &str) -> Result<LineText, Diagnostic> {
         self.skip();
         let (from, rest) = (self.at, &self.text[self.at..]);
         let Some(inside) = rest.strip_prefix('"') else {
@@ -112,7 +112,7 @@ impl<'a> Line<'a> {
                 '"' if !escaped => {
                     self.at = from + 1 + at + 1;
                     let place = self.start + from..self.start + self.at;
-                    return Ok(Text { text, place });
+                    return Ok(LineText { text, place });
                 }
                 '\\' if !escaped => escaped = true,
                 c if c.is_control() => {
@@ -131,7 +131,7 @@ impl<'a> Line<'a> {
     }
 
     /// The text up to one of these words, which must be surrounded by blanks; at least one character.
-    pub(super) fn until(&mut self, words: &[&str], what: &str) -> Result<Text, Diagnostic> {
+    pub(super) fn until(&mut self, words: &[&str], what: &str) -> Result<LineText, Diagnostic> {
         self.skip();
         let from = self.at;
         let rest = &self.text[from..];

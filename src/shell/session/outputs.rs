@@ -13,7 +13,7 @@ use tracing::{error, info};
 
 use super::super::clipboard;
 use super::super::new_file;
-use super::super::recorder::Recorder;
+use super::super::recorder::CastRecorder;
 use super::super::writer::WriteReport;
 use super::Session;
 use crate::app::{Event, Loaded, Notification};
@@ -80,7 +80,7 @@ impl Session {
         plain(&mut screen);
         let (stem, title) = (self.stem(), self.title());
         self.write_file(move || {
-            let drawing = screenshot::write(&screen, palette, screenshot::Form::Svg, &title);
+            let drawing = screenshot::write(&screen, palette, screenshot::ImageFormat::Svg, &title);
             put(&stem, "svg", drawing.as_bytes())
         });
     }
@@ -111,7 +111,7 @@ impl Session {
     /// Starts a recording, or reports why that is impossible.
     pub(super) fn record(&mut self) {
         let palette = self.palette();
-        match Recorder::begin(&self.stem(), &self.title(), self.size, palette) {
+        match CastRecorder::begin(&self.stem(), &self.title(), self.size, palette) {
             Ok(recorder) => self.recorder = Some(recorder),
             Err(why) => self.give_up_recording(&why),
         }

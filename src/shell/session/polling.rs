@@ -9,7 +9,7 @@ use tracing::{error, info};
 
 use super::super::files::FileChange;
 use super::Session;
-use crate::app::{Checked, Event};
+use crate::app::{CheckedText, Event};
 use crate::experiment::Status;
 use crate::preset::is_path;
 
@@ -65,7 +65,7 @@ impl Session {
         let Some(name) = name.filter(|_| self.app.awaits(answer.ticket)) else { return false };
         let outcome = answer.outcome.map(|ready| self.begin(name, *ready));
         let (ticket, took) = (answer.ticket, answer.took);
-        self.update(Event::Checked(Box::new(Checked { ticket, outcome, took })));
+        self.update(Event::Checked(Box::new(CheckedText { ticket, outcome, took })));
         true
     }
 

@@ -13,7 +13,7 @@ use super::super::atomic_file;
 use super::super::store::{Store, StoreError};
 use super::{Session, Since, UNHURRIED};
 use crate::app::{Event, LoadError, Notification, Unsaved};
-use crate::preset::{Origin, is_path};
+use crate::preset::{PresetOrigin, is_path};
 
 /// The interval at which the session is saved while the laboratory is open, the delay before typed text is stored,
 /// and the interval of checks whether another program that saves its session has ended.
@@ -59,8 +59,8 @@ impl Session {
     /// Restores stored texts under the names that their systems have in this program.
     fn take_texts(&mut self, texts: Vec<Unsaved>, open: Option<&str>) {
         let own = self.app.picker.entries.iter().filter_map(|entry| match &entry.origin {
-            Origin::User(path) => Some((entry.name.as_str(), path.as_path())),
-            Origin::Shipped => None,
+            PresetOrigin::User(path) => Some((entry.name.as_str(), path.as_path())),
+            PresetOrigin::Shipped => None,
         });
         let open = open.filter(|open| is_path(open)).map(|open| (open, Path::new(open)));
         let names: Vec<_> = open.into_iter().chain(own).collect();

@@ -4,7 +4,7 @@
 //! sending them, hiding the cursor (the owner of the terminal does that, because it must be shown again), or a query:
 //! all questions are answered from what was written.
 //!
-//! Cells are encoded by the [`Pen`], for the reasons in its module head, and everything else by crossterm's
+//! Cells are encoded by the [`TerminalPen`], for the reasons in its module head, and everything else by crossterm's
 //! [`CrosstermBackend`].
 
 use std::collections::BTreeMap;
@@ -16,13 +16,13 @@ use ratatui::backend::{Backend, ClearType, CrosstermBackend, WindowSize};
 use ratatui::buffer::Cell;
 use ratatui::layout::{Position, Size};
 
-use super::pen::Pen;
+use super::pen::TerminalPen;
 
 /// Encodes frames.
 #[derive(Debug)]
 pub(super) struct Encoder {
     bytes: Vec<u8>,
-    pen: Pen,
+    pen: TerminalPen,
     /// Whether a frame is enclosed in synchronization marks.
     synchronized: bool,
     size: Size,
@@ -42,7 +42,7 @@ impl Encoder {
     pub(super) fn new(synchronized: bool) -> Self {
         Self {
             bytes: Vec::new(),
-            pen: Pen::default(),
+            pen: TerminalPen::default(),
             synchronized,
             size: Size::default(),
             most: 0,
@@ -80,7 +80,7 @@ impl Encoder {
     }
 
     /// Begins the frame if necessary, and returns the pen and its output.
-    fn pen(&mut self) -> io::Result<(&mut Pen, &mut Vec<u8>)> {
+    fn pen(&mut self) -> io::Result<(&mut TerminalPen, &mut Vec<u8>)> {
         if self.bytes.is_empty() && self.synchronized {
             queue!(self.bytes, BeginSynchronizedUpdate)?;
         }

@@ -28,7 +28,7 @@ const FEEDS: u16 = 4;
 
 /// The terminal's cursor and style; `None` if unknown.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Pen {
+pub(super) struct TerminalPen {
     at: Option<(u16, u16)>,
     ink: Option<CellStyle>,
 }
@@ -41,7 +41,7 @@ struct CellStyle {
     modifier: Modifier,
 }
 
-impl Pen {
+impl TerminalPen {
     /// Clears the whole screen, whatever the state of the terminal and of the pen.
     pub(super) fn clear(&mut self, out: &mut Vec<u8>) -> io::Result<()> {
         self.at = None;

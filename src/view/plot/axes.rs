@@ -1,6 +1,6 @@
 //! Axes: lines at the left and below, ticks with labels, titles with units.
 //!
-//! In: two titled scales and an area. Out: the axes on the buffer, and the [`Frame`] left for the plot. The frame is a
+//! In: two titled scales and an area. Out: the axes on the buffer, and the [`PlotFrame`] left for the plot. The frame is a
 //! pure function of the area, so that mouse handling can compute it too. Never here: data.
 
 use ratatui::buffer::Buffer;
@@ -8,7 +8,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
-use super::scale::{Frame, Scale, ScaleKind};
+use super::scale::{PlotFrame, Scale, ScaleKind};
 use super::ticks::Ticks;
 use crate::view::glyphs::Glyphs;
 use crate::view::number::power;
@@ -19,7 +19,7 @@ const LEAST: (u16, u16) = (16, 5);
 
 /// An axis with its title.
 #[derive(Clone, Debug)]
-pub struct Axis {
+pub struct DrawnAxis {
     /// The quantity: `θ`.
     pub title: String,
     /// The unit: `rad`; may be empty.
@@ -28,7 +28,7 @@ pub struct Axis {
     pub scale: Scale,
 }
 
-impl Axis {
+impl DrawnAxis {
     /// Creates an axis from its parts.
     pub fn new(title: impl Into<String>, unit: impl Into<String>, scale: Scale) -> Self {
         Self { title: title.into(), unit: unit.into(), scale }
@@ -54,9 +54,9 @@ impl Axis {
 #[derive(Clone, Debug)]
 pub struct Axes {
     /// The horizontal axis.
-    pub x: Axis,
+    pub x: DrawnAxis,
     /// The vertical axis.
-    pub y: Axis,
+    pub y: DrawnAxis,
     /// Whether a unit has the same length on both axes.
     pub equal: bool,
     /// Whether faint dots mark the crossings of ticks.
@@ -65,7 +65,7 @@ pub struct Axes {
 
 /// The positions of everything.
 struct Plan {
-    frame: Frame,
+    frame: PlotFrame,
     x: Ticks,
     y: Ticks,
     bare: bool,
@@ -73,7 +73,7 @@ struct Plan {
 
 impl Axes {
     /// Creates axes with free proportions and no grid.
-    pub fn new(x: Axis, y: Axis) -> Self {
+    pub fn new(x: DrawnAxis, y: DrawnAxis) -> Self {
         Self { x, y, equal: false, grid: false }
     }
 
@@ -90,12 +90,18 @@ impl Axes {
     }
 
     /// Returns the frame left for the plot.
-    pub fn frame(&self, area: Rect, glyphs: Glyphs) -> Frame {
+    pub fn frame(&self, area: Rect, glyphs: Glyphs) -> PlotFrame {
         self.plan(area, glyphs).frame
     }
 
     /// Draws the axes and returns the frame left for the plot.
-    pub fn draw(&self, area: Rect, buffer: &mut Buffer, theme: &Theme, glyphs: Glyphs) -> Frame {
+    pub fn draw(
+        &self,
+        area: Rect,
+        buffer: &mut Buffer,
+        theme: &Theme,
+        glyphs: Glyphs,
+    ) -> PlotFrame {
         let plan = self.plan(area, glyphs);
         let mut sheet = StrokeContext { buffer, area, theme, glyphs };
         sheet.zero_lines(&plan.frame);
@@ -135,17 +141,17 @@ impl Axes {
         Plan { frame, x, y, bare: false }
     }
 
-    fn over(&self, area: Rect) -> Frame {
+    fn over(&self, area: Rect) -> PlotFrame {
         if self.equal {
-            Frame::equal(self.x.scale, self.y.scale, area)
+            PlotFrame::equal(self.x.scale, self.y.scale, area)
         } else {
-            Frame::new(self.x.scale, self.y.scale, area)
+            PlotFrame::new(self.x.scale, self.y.scale, area)
         }
     }
 }
 
 /// As many ticks as have room for separate labels.
-fn x_ticks(frame: &Frame, area: Rect, glyphs: Glyphs) -> Ticks {
+fn x_ticks(frame: &PlotFrame, area: Rect, glyphs: Glyphs) -> Ticks {
     let most = usize::from(frame.area.width / 6).clamp(2, 12);
     let apart = |ticks: &Ticks| {
         let places: Vec<_> = label_places(ticks, frame, area).collect();
@@ -155,7 +161,7 @@ fn x_ticks(frame: &Frame, area: Rect, glyphs: Glyphs) -> Ticks {
 }
 
 /// The first column and the width of each label of the horizontal axis.
-fn label_places(ticks: &Ticks, frame: &Frame, area: Rect) -> impl Iterator<Item = (u16, u16)> {
+fn label_places(ticks: &Ticks, frame: &PlotFrame, area: Rect) -> impl Iterator<Item = (u16, u16)> {
     ticks.marks.iter().filter_map(move |tick| {
         let column = frame.cell([tick.value, frame.y.middle()])?.x;
         let width = tick.label.width() as u16;
@@ -188,7 +194,7 @@ impl StrokeContext<'_> {
         }
     }
 
-    fn zero_lines(&mut self, frame: &Frame) {
+    fn zero_lines(&mut self, frame: &PlotFrame) {
         let inside =
             |scale: &Scale| scale.kind != ScaleKind::Log && scale.lo < 0.0 && scale.hi > 0.0;
         let style = self.theme[Role::Border];

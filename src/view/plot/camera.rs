@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use ratatui::layout::Rect;
 
-use super::scale::{Frame, Scale};
+use super::scale::{PlotFrame, Scale};
 use crate::num::math;
 
 /// A view of space, orthographic or with slight perspective.
@@ -73,20 +73,20 @@ impl Camera {
     }
 
     /// The projection of many points.
-    pub fn projection(&self) -> Projection {
+    pub fn projection(&self) -> CameraProjection {
         let (yaw, pitch) = (math::sin_cos(self.yaw), math::sin_cos(self.pitch));
-        Projection { yaw, pitch, distance: self.distance }
+        CameraProjection { yaw, pitch, distance: self.distance }
     }
 
     /// The frame over an area that shows a whole box with equal units, then zoomed and panned.
-    pub fn frame(&self, bounds: &Bounds, area: Rect) -> Frame {
+    pub fn frame(&self, bounds: &Bounds, area: Rect) -> PlotFrame {
         let [low, high] = bounds.ends.unwrap_or([[-1.0; 3], [1.0; 3]]);
         self.frame_around(&[Extent { low, high, radius: 0.0 }], area)
     }
 
     /// The frame over an area that shows the whole of each extent with equal units, then zoomed and panned. The
     /// outline of all of them on the screen, not a box in space around it, fills the area in one of its directions.
-    pub fn frame_around(&self, extents: &[Extent], area: Rect) -> Frame {
+    pub fn frame_around(&self, extents: &[Extent], area: Rect) -> PlotFrame {
         let projection = Self { distance: None, ..*self }.projection();
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for extent in extents {
@@ -106,20 +106,20 @@ impl Camera {
             let half = half(k).max(least) * 1.05 / self.zoom;
             Scale::linear(middle - half, middle + half)
         };
-        let fitted = Frame::equal(scale(0), scale(1), area);
-        Frame::new(fitted.x.panned(-self.pan[0]), fitted.y.panned(-self.pan[1]), area)
+        let fitted = PlotFrame::equal(scale(0), scale(1), area);
+        PlotFrame::new(fitted.x.panned(-self.pan[0]), fitted.y.panned(-self.pan[1]), area)
     }
 }
 
 /// A camera with the sine and cosine of its angles at hand.
 #[derive(Clone, Copy, Debug)]
-pub struct Projection {
+pub struct CameraProjection {
     yaw: (f64, f64),
     pitch: (f64, f64),
     distance: Option<f64>,
 }
 
-impl Projection {
+impl CameraProjection {
     /// Projects a point, see [`Camera::project`].
     pub fn of(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let ((sin_yaw, cos_yaw), (sin_pitch, cos_pitch)) = (self.yaw, self.pitch);

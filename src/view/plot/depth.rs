@@ -3,7 +3,7 @@
 //! In: faces and balls in the coordinates of the camera: right, up, towards the eye. Out: covered dots, and what of a
 //! line is in front of them. Never here: colours, or the shapes that the surfaces belong to.
 
-use super::scale::Frame;
+use super::scale::PlotFrame;
 use crate::num::math;
 
 /// The direction of the light, from the upper left in front: right, up, towards the eye.
@@ -30,7 +30,7 @@ pub struct Covered {
 /// The nearest opaque surface at each dot.
 #[derive(Clone, Debug)]
 pub struct DepthBuffer {
-    frame: Frame,
+    frame: PlotFrame,
     size: [i32; 2],
     /// Row by row; empty as long as there is no surface.
     covered: Vec<Option<Covered>>,
@@ -38,7 +38,7 @@ pub struct DepthBuffer {
 
 impl DepthBuffer {
     /// Creates a buffer without surfaces over a raster of this many dots.
-    pub fn new(frame: &Frame, size: [i32; 2]) -> Self {
+    pub fn new(frame: &PlotFrame, size: [i32; 2]) -> Self {
         Self { frame: *frame, size: size.map(|n| n.max(0)), covered: Vec::new() }
     }
 
@@ -205,7 +205,7 @@ mod tests {
     /// A hundred dots of unit length across and upwards; the origin is in the middle.
     fn buffer() -> DepthBuffer {
         let scale = Scale::linear(-50.0, 50.0);
-        DepthBuffer::new(&Frame::new(scale, scale, Rect::new(0, 0, 50, 25)), [100, 100])
+        DepthBuffer::new(&PlotFrame::new(scale, scale, Rect::new(0, 0, 50, 25)), [100, 100])
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The raster: dots finer than cells, in layers.
 //!
-//! In: points, lines and clouds in the data coordinates of a [`Frame`]. Out: cells of a buffer. A cell has one colour, so
+//! In: points, lines and clouds in the data coordinates of a [`PlotFrame`]. Out: cells of a buffer. A cell has one colour, so
 //! it shows the dots of its highest layer only, in the style of the newest of them; a marker keeps the dots beside it
 //! blank. Never here: axes, or the meaning of the curves.
 
@@ -18,7 +18,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::symbols::pixel::{OCTANTS, QUADRANTS, SEXTANTS};
 
-use super::scale::Frame;
+use super::scale::PlotFrame;
 use crate::num::math;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::{Dash, Shade};
@@ -174,7 +174,12 @@ impl Raster {
     }
 
     /// Draws single dots.
-    pub fn points(&mut self, frame: &Frame, points: impl IntoIterator<Item = [f64; 2]>, pen: &Pen) {
+    pub fn points(
+        &mut self,
+        frame: &PlotFrame,
+        points: impl IntoIterator<Item = [f64; 2]>,
+        pen: &Pen,
+    ) {
         let size = self.size();
         for point in points {
             let place = frame.dot(point, size);
@@ -185,7 +190,7 @@ impl Raster {
     }
 
     /// Draws a circle about a point of the frame, with its radius in the units of the axes.
-    pub fn circle(&mut self, frame: &Frame, [x, y]: [f64; 2], radius: f64, pen: &Pen) {
+    pub fn circle(&mut self, frame: &PlotFrame, [x, y]: [f64; 2], radius: f64, pen: &Pen) {
         let sides = 128;
         let corner = |side: i32| {
             let (sin, cos) =
@@ -196,7 +201,7 @@ impl Raster {
     }
 
     /// Fills a disc about a point of the frame, with its radius in the units of the axes.
-    pub fn disc(&mut self, frame: &Frame, [x, y]: [f64; 2], radius: f64, pen: &Pen) {
+    pub fn disc(&mut self, frame: &PlotFrame, [x, y]: [f64; 2], radius: f64, pen: &Pen) {
         let size = self.size();
         let [left, top] = frame.dot([x - radius, y + radius], size);
         let [right, bottom] = frame.dot([x + radius, y - radius], size);
@@ -222,7 +227,7 @@ impl Raster {
     }
 
     /// Draws a marker in the cell of a point, above the dots of its own layer and of all layers below.
-    pub fn marker(&mut self, frame: &Frame, point: [f64; 2], marker: Marker, pen: &Pen) {
+    pub fn marker(&mut self, frame: &PlotFrame, point: [f64; 2], marker: Marker, pen: &Pen) {
         let Some(at) = frame.cell(point) else { return };
         let sign = marker.symbol(self.glyphs);
         let (column, row) = (at.x.wrapping_sub(self.area.x), at.y.wrapping_sub(self.area.y));

@@ -165,7 +165,7 @@ const FAR: f64 = 1e7;
 
 /// Two scales over a rectangle of cells.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
+pub struct PlotFrame {
     /// The horizontal axis.
     pub x: Scale,
     /// The vertical axis; values increase towards the top.
@@ -174,7 +174,7 @@ pub struct Frame {
     pub area: Rect,
 }
 
-impl Frame {
+impl PlotFrame {
     /// The two scales over an area.
     pub fn new(x: Scale, y: Scale, area: Rect) -> Self {
         Self { x, y, area }

@@ -6,7 +6,7 @@
 use ratatui::layout::Rect;
 
 use crate::view::canvas::{Canvas, row};
-use crate::view::plot::{Camera, Frame, Pen, Raster, Scale};
+use crate::view::plot::{Camera, Pen, PlotFrame, Raster, Scale};
 use crate::view::theme::Role;
 
 /// The apparent forces, in the order of their colours.
@@ -19,7 +19,7 @@ pub(super) fn compass(canvas: &mut Canvas<'_>, area: Rect, camera: &Camera) {
     }
     let corner = Rect { x: area.x, y: area.bottom() - 6, width: 12, height: 6 };
     let reach = Scale::linear(-1.3, 1.3);
-    let frame = Frame::equal(reach, reach, corner);
+    let frame = PlotFrame::equal(reach, reach, corner);
     let mut arms = Raster::new(corner, canvas.look.glyphs);
     let pen = Pen::new(canvas.style(Role::Dim), 0);
     let axes = [("x", [1.0, 0.0, 0.0]), ("y", [0.0, 1.0, 0.0]), ("z", [0.0, 0.0, 1.0])];

@@ -5,10 +5,10 @@
 
 use std::f64::consts::TAU;
 
-use super::solid::{self, Solid as Surface};
+use super::solid::{self, Occluder as Surface};
 use crate::expr::Expr;
 use crate::mechanics::principal;
-use crate::model::{Model, Piece, Solid, Turn};
+use crate::model::{Model, Piece, PieceOrientation, Solid};
 use crate::num::{DoubleDouble, math};
 use crate::system::ChannelKind;
 use crate::view::quantity::Quantities;
@@ -94,9 +94,9 @@ impl Outline {
 /// Transforms a point from a piece's own axes to the body's.
 fn turned(piece: &Piece, own: [f64; 3], value: &impl Fn(Expr) -> f64) -> [f64; 3] {
     match &piece.turn {
-        Turn::None => own,
-        Turn::Axis { axis, angle } => about(axis.map(value), value(*angle), own),
-        Turn::Euler([phi, theta, psi]) => {
+        PieceOrientation::None => own,
+        PieceOrientation::Axis { axis, angle } => about(axis.map(value), value(*angle), own),
+        PieceOrientation::Euler([phi, theta, psi]) => {
             let (x, z) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
             about(z, value(*phi), about(x, value(*theta), about(z, value(*psi), own)))
         }

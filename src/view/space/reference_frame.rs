@@ -10,12 +10,12 @@ use crate::view::quantity::{Quantities, Source};
 
 /// A frame, with the channels of its origin and orientation.
 pub(super) struct ReferenceFrame {
-    turn: Turn,
+    turn: FrameOrientation,
     origin: [Source; 3],
 }
 
 /// The orientation of a frame.
-enum Turn {
+enum FrameOrientation {
     /// Rotated by an angle about an axis.
     Axis { axis: [Source; 3], angle: Source },
     /// Fixed in the body, given by its attitude matrix; this is the channel of the first entry.
@@ -29,9 +29,9 @@ impl ReferenceFrame {
         let place = |e: Expr| q.place(e);
         let turn = if frame.attitude {
             let mut channels = q.lab.loaded.system.channels().iter();
-            Turn::Body(channels.position(|c| c.kind == ChannelKind::Attitude(0))?)
+            FrameOrientation::Body(channels.position(|c| c.kind == ChannelKind::Attitude(0))?)
         } else {
-            Turn::Axis { axis: frame.axis.map(place), angle: q.place(frame.angle) }
+            FrameOrientation::Axis { axis: frame.axis.map(place), angle: q.place(frame.angle) }
         };
         Some(Self { turn, origin: frame.origin.map(place) })
     }
@@ -45,8 +45,8 @@ impl ReferenceFrame {
     /// A v, or R(−α) v = v cos α − (n×v) sin α + n (n·v)(1 − cos α), Rodrigues' formula.
     pub(super) fn direction(&self, row: &[f64], v: [f64; 3]) -> [f64; 3] {
         let (axis, angle) = match &self.turn {
-            Turn::Axis { axis, angle } => (axis, angle),
-            Turn::Body(first) => {
+            FrameOrientation::Axis { axis, angle } => (axis, angle),
+            FrameOrientation::Body(first) => {
                 let entry = |i: usize, j: usize| Source::Channel(first + 3 * i + j).read(row);
                 return [0, 1, 2].map(|i| (0..3).map(|j| entry(i, j) * v[j]).sum());
             }
@@ -74,9 +74,11 @@ impl ReferenceFrame {
         let high = [0, 1, 2].map(|k| high[k] - origin[k].0);
         let far = [0, 1, 2].map(|k| low[k].abs().max(high[k].abs()));
         let upright = match &self.turn {
-            Turn::Axis { angle, .. } if span(*angle) == (0.0, 0.0) => return [low, high],
-            Turn::Axis { axis, .. } => [0, 1].map(|k| span(axis[k])) == [(0.0, 0.0); 2],
-            Turn::Body(_) => false,
+            FrameOrientation::Axis { angle, .. } if span(*angle) == (0.0, 0.0) => {
+                return [low, high];
+            }
+            FrameOrientation::Axis { axis, .. } => [0, 1].map(|k| span(axis[k])) == [(0.0, 0.0); 2],
+            FrameOrientation::Body(_) => false,
         };
         if upright {
             let radius = math::hypot(far[0], far[1]);

@@ -1,6 +1,6 @@
-//! What is told from a track at a glance: rods, which are two dots wide, and masses, which keep the dots around them blank.
+//! What stands out from a track: rods, which are two dots wide, and masses, around which dots stay blank.
 //!
-//! In: the lines and masses of a scene. Out: dots. Never here: which lines are rods, which their constant lengths tell.
+//! In: the lines and masses of a scene. Out: dots. Never here: which lines are rods; their constant lengths decide it.
 
 use super::{SOLID, ScenePainter, TRACK};
 use crate::model::{Point, Shape};

@@ -10,7 +10,7 @@ use super::reference_frame::ReferenceFrame;
 use crate::instrument::CameraPose;
 use crate::model::{Point, Shape};
 use crate::num::math;
-use crate::view::plot::{Bounds, Camera, Extent, Frame};
+use crate::view::plot::{Bounds, Camera, Extent, PlotFrame};
 use crate::view::quantity::{Quantities, Source};
 
 /// The contents of the picture.
@@ -63,7 +63,7 @@ impl Scene {
     }
 
     /// The frame over an area in which the whole scene is seen.
-    pub(super) fn frame(&self, camera: &Camera, area: Rect) -> Frame {
+    pub(super) fn frame(&self, camera: &Camera, area: Rect) -> PlotFrame {
         let flat = self.bounds.ends().is_some_and(|[low, high]| low[2] == 0.0 && high[2] == 0.0);
         let face_on = camera.pitch == Camera::FACE_ON.pitch && camera.yaw == Camera::FACE_ON.yaw;
         if flat && face_on || self.extents.is_empty() {

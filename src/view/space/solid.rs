@@ -6,14 +6,14 @@ use super::circle::circle;
 
 /// What hides the things behind it.
 #[derive(Clone, Debug)]
-pub(super) enum Solid {
+pub(super) enum Occluder {
     /// A flat convex face.
     Face(Vec<[f64; 3]>),
     /// A ball about a centre.
     Ball([f64; 3], f64),
 }
 
-impl Solid {
+impl Occluder {
     /// The same solid with its points at other places; they keep their distances.
     pub(super) fn moved(self, place: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
         match self {
@@ -24,17 +24,17 @@ impl Solid {
 }
 
 /// The surface of a cone, its base first.
-pub(super) fn cone(tip: [f64; 3], base: [f64; 3], radius: f64) -> Vec<Solid> {
+pub(super) fn cone(tip: [f64; 3], base: [f64; 3], radius: f64) -> Vec<Occluder> {
     let axis = [0, 1, 2].map(|k| base[k] - tip[k]);
     let rim = circle(base, radius, axis);
-    let sides = rim.windows(2).map(|pair| Solid::Face(vec![tip, pair[0], pair[1]])).collect();
-    [vec![Solid::Face(rim.clone())], sides].concat()
+    let sides = rim.windows(2).map(|pair| Occluder::Face(vec![tip, pair[0], pair[1]])).collect();
+    [vec![Occluder::Face(rim.clone())], sides].concat()
 }
 
 /// The surface of a tube between two rims of the same number of points, with its ends.
-pub(super) fn tube(low: &[[f64; 3]], high: &[[f64; 3]], closed: bool) -> Vec<Solid> {
+pub(super) fn tube(low: &[[f64; 3]], high: &[[f64; 3]], closed: bool) -> Vec<Occluder> {
     let pairs = low.windows(2).zip(high.windows(2));
-    let sides = pairs.map(|(l, h)| Solid::Face(vec![l[0], l[1], h[1], h[0]]));
-    let ends = [low, high].map(|rim| Solid::Face(rim.to_vec()));
+    let sides = pairs.map(|(l, h)| Occluder::Face(vec![l[0], l[1], h[1], h[0]]));
+    let ends = [low, high].map(|rim| Occluder::Face(rim.to_vec()));
     sides.chain(ends.into_iter().filter(|_| closed)).collect()
 }

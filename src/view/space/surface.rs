@@ -3,7 +3,7 @@
 //! In: the shapes of a scene. Out: depths, dots. Never here: lines and masses.
 
 use super::body::Outline;
-use super::solid::{self, Solid};
+use super::solid::{self, Occluder};
 use super::{BODY, SURFACE, ScenePainter, circle};
 use crate::model::Shape;
 use crate::view::plot::Pen;
@@ -27,7 +27,7 @@ impl ScenePainter<'_> {
             Shape::Disc { centre, radius, normal } => {
                 let (centre, normal) = (self.point(centre), self.direction(normal));
                 let rim = circle::circle(centre, self.q.number(*radius), normal);
-                (faint, vec![Solid::Face(rim)])
+                (faint, vec![Occluder::Face(rim)])
             }
             Shape::Cone { tip, base, radius } => {
                 let (tip, base) = (self.point(tip), self.point(base));
@@ -35,7 +35,7 @@ impl ScenePainter<'_> {
             }
             Shape::Sphere { centre, radius } => (
                 (faint.0, SPHERE),
-                vec![Solid::Ball(self.point(centre), self.q.number(*radius).abs())],
+                vec![Occluder::Ball(self.point(centre), self.q.number(*radius).abs())],
             ),
             Shape::Mass { at, radius: Some(radius) } => {
                 let radius = self.q.number(*radius).abs();
@@ -43,7 +43,7 @@ impl ScenePainter<'_> {
                     return;
                 }
                 let style = theme.curve(self.colour(at));
-                ((Pen::new(style, BODY), WHOLE), vec![Solid::Ball(self.point(at), radius)])
+                ((Pen::new(style, BODY), WHOLE), vec![Occluder::Ball(self.point(at), radius)])
             }
             Shape::Body { at } => {
                 let Some(outline) = Outline::of(self.q) else { return };
@@ -57,8 +57,8 @@ impl ScenePainter<'_> {
         self.surfaces.push(pen);
         for solid in solids {
             match solid.moved(|point| projection.of(point)) {
-                Solid::Face(corners) => self.depth.face(&corners, number),
-                Solid::Ball(centre, radius) => self.depth.ball(centre, radius, number),
+                Occluder::Face(corners) => self.depth.face(&corners, number),
+                Occluder::Ball(centre, radius) => self.depth.ball(centre, radius, number),
             }
         }
     }

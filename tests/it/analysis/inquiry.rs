@@ -1,6 +1,6 @@
 //! Questions typed by the user: brackets and conserved quantities, compared with textbooks.
 
-use phaselab::analysis::{Answer, Inquiry};
+use phaselab::analysis::{Inquiry, InquiryAnswer};
 use phaselab::expr::{Symbol, Zero};
 use phaselab::mechanics::{Class, Equations, derive};
 use phaselab::model::Model;
@@ -41,7 +41,9 @@ fn brackets_are_found_and_whether_they_vanish() {
         ("atan2(y, x), x*p_y - y*p_x", "1", Zero::No),
     ] {
         let inquiry = ask(&system, text);
-        let Answer::Bracket { bracket: Ok(e), .. } = &inquiry.answer else { panic!("{text}") };
+        let InquiryAnswer::Bracket { bracket: Ok(e), .. } = &inquiry.answer else {
+            panic!("{text}")
+        };
         assert_eq!(inquiry.written(*e, false), wanted, "{text}");
         assert_eq!(inquiry.answer.vanishes(), vanishes, "{text}");
     }
@@ -50,8 +52,8 @@ fn brackets_are_found_and_whether_they_vanish() {
 #[test]
 fn one_expression_alone_asks_whether_it_is_conserved() {
     let class = |system: &(Model, Equations), text: &str| match ask(system, text).answer {
-        Answer::Conservation { class, .. } => class,
-        Answer::Bracket { .. } => panic!("{text} is one expression"),
+        InquiryAnswer::Conservation { class, .. } => class,
+        InquiryAnswer::Bracket { .. } => panic!("{text} is one expression"),
     };
     let free = kepler();
     assert_eq!(class(&free, "H"), Class::Proved);

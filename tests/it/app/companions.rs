@@ -2,7 +2,7 @@
 
 use crossterm::event::{MouseButton, MouseEventKind};
 use phaselab::app::{Event, HitTarget, Pane};
-use phaselab::experiment::Origin;
+use phaselab::experiment::CompanionOrigin;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::Theme;
@@ -44,7 +44,7 @@ fn the_right_button_adds_a_motion_and_the_left_one_begins_the_main_one() {
     let seen = real.seen();
     assert_eq!(seen.companions.len(), 1);
     assert_eq!(seen.companions[0].values[0], 0.5);
-    assert!(matches!(seen.companions[0].origin, Origin::Start(_)));
+    assert!(matches!(seen.companions[0].origin, CompanionOrigin::Start(_)));
     assert_ne!(seen.values[0], 0.5);
     click(&mut real, MouseButton::Left, hit);
     assert_eq!(real.seen().values[0], 0.5);

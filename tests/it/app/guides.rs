@@ -1,10 +1,10 @@
 //! Lessons and demos among the systems: a row, a list, and back to it.
 
-use phaselab::app::{Above, App, Choice, Effect, Event, Guide, GuideKind, Overlay, Taken};
+use phaselab::app::{Above, App, Choice, Effect, Event, Guide, GuideKind, LessonTaken, Overlay};
 
 use crate::hand::{catalog, in_lab, press};
 
-fn guides(first: Taken) -> Vec<Guide> {
+fn guides(first: LessonTaken) -> Vec<Guide> {
     let guide = |kind, name: &str, title: &str| Guide {
         kind,
         name: name.to_owned(),
@@ -13,7 +13,7 @@ fn guides(first: Taken) -> Vec<Guide> {
     };
     vec![
         guide(GuideKind::Lesson(first), "tour", "A tour"),
-        guide(GuideKind::Lesson(Taken::NotYet), "kepler", "Why does Kepler's ellipse close?"),
+        guide(GuideKind::Lesson(LessonTaken::NotYet), "kepler", "Why does Kepler's ellipse close?"),
         guide(GuideKind::Demo, "tour", "The pendulum"),
     ]
 }
@@ -28,7 +28,7 @@ fn listed(app: &App) -> (Choice, Vec<String>) {
 #[test]
 fn the_row_of_lessons_lists_them_and_each_leads_back_to_the_list() {
     let (mut app, _) = App::new(catalog(), None);
-    app.picker.guides = guides(Taken::NotYet);
+    app.picker.guides = guides(LessonTaken::NotYet);
     assert!(app.picker.is_selected(0));
     press(&mut app, "Up Up");
     assert_eq!(app.picker.selected_above(), Some(Above::Guides));
@@ -36,10 +36,10 @@ fn the_row_of_lessons_lists_them_and_each_leads_back_to_the_list() {
     assert_eq!(listed(&app).0, Choice::Guide(0));
     assert_eq!(listed(&app).1[2], "demo: Simple pendulum");
     let effects = press(&mut app, "Enter");
-    assert_eq!(effects, [Effect::TakeGuide(guides(Taken::NotYet)[0].clone())]);
+    assert_eq!(effects, [Effect::TakeGuide(guides(LessonTaken::NotYet)[0].clone())]);
     assert!(app.overlay.is_none());
     // a lesson that was finished leads to the next one
-    app.update(Event::GuideLeft { guides: guides(Taken::Whole), wrong: None });
+    app.update(Event::GuideLeft { guides: guides(LessonTaken::Whole), wrong: None });
     assert_eq!(app.lessons_finished(), (1, 2));
     assert_eq!(listed(&app).0, Choice::Guide(1));
     assert_eq!(listed(&app).1[0], "lesson, finished: Simple pendulum");
@@ -50,14 +50,14 @@ fn the_row_of_lessons_lists_them_and_each_leads_back_to_the_list() {
 #[test]
 fn a_lesson_that_was_left_and_a_demo_are_selected_again() {
     let (mut app, _) = App::new(catalog(), None);
-    app.picker.guides = guides(Taken::NotYet);
+    app.picker.guides = guides(LessonTaken::NotYet);
     press(&mut app, "Up Up Enter Enter");
     let wrong = Some("the progress is not kept".to_owned());
-    app.update(Event::GuideLeft { guides: guides(Taken::Partly), wrong });
+    app.update(Event::GuideLeft { guides: guides(LessonTaken::Partly), wrong });
     assert_eq!(listed(&app).0, Choice::Guide(0));
     assert!(app.notice.as_ref().is_some_and(|notice| notice.text.contains("not kept")));
     press(&mut app, "Down Down Enter");
-    app.update(Event::GuideLeft { guides: guides(Taken::Partly), wrong: None });
+    app.update(Event::GuideLeft { guides: guides(LessonTaken::Partly), wrong: None });
     assert_eq!(listed(&app).0, Choice::Guide(2));
 }
 
@@ -67,12 +67,12 @@ fn a_key_lists_them_from_anywhere() {
     let mut app = in_lab();
     press(&mut app, "F2");
     assert!(app.overlay.is_none() && app.notice.is_some());
-    app.picker.guides = guides(Taken::NotYet);
+    app.picker.guides = guides(LessonTaken::NotYet);
     press(&mut app, "F2 k e p");
     assert_eq!(listed(&app).0, Choice::Guide(1));
     // negative: a search in the list of systems is among the systems only
     let (mut app, _) = App::new(catalog(), None);
-    app.picker.guides = guides(Taken::NotYet);
+    app.picker.guides = guides(LessonTaken::NotYet);
     press(&mut app, "/ p e n d");
     assert_eq!(app.picker.above().count(), 0);
 }

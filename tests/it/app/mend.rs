@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use phaselab::app::{App, Checked, Effect, Event, LoadError, Overlay, Page, Pane, SheetState};
+use phaselab::app::{App, BufferState, CheckedText, Effect, Event, LoadError, Overlay, Page, Pane};
 use phaselab::diagnostic::Document;
 use phaselab::preset::template;
 
@@ -33,7 +33,7 @@ fn rest(app: &mut App) {
         loaded.name = app.checked_system().expect("a name");
         loaded
     });
-    app.update(Event::Checked(Box::new(Checked { ticket, outcome, took: Duration::ZERO })));
+    app.update(Event::Checked(Box::new(CheckedText { ticket, outcome, took: Duration::ZERO })));
 }
 
 fn text_of(app: &App) -> String {
@@ -55,7 +55,7 @@ fn a_wrong_file_is_edited_at_its_first_mistake_and_then_runs() {
     app.update(Event::FileRead { text: wrong(), asked: true });
     rest(&mut app);
     let buffer = app.open_buffer().expect("the editor is open");
-    assert_eq!(buffer.state, SheetState::Wrong);
+    assert_eq!(buffer.state, BufferState::Wrong);
     let line = wrong().lines().position(|line| line.contains("csc2")).unwrap();
     assert_eq!(buffer.editor.cursor().row, line, "at the first mistake");
     let text = text_of(&app);
@@ -68,7 +68,7 @@ fn a_wrong_file_is_edited_at_its_first_mistake_and_then_runs() {
     press(&mut app, "Delete Delete Delete Delete c o s");
     rest(&mut app);
     let buffer = app.open_buffer().expect("the editor stays open");
-    assert_eq!(buffer.state, SheetState::Runs(Some(Duration::ZERO)));
+    assert_eq!(buffer.state, BufferState::Runs(Some(Duration::ZERO)));
     assert_eq!(app.lab.as_ref().map(|lab| lab.loaded.name.as_str()), Some(name));
     press(&mut app, "Esc");
     assert_eq!(app.page, Page::Lab);

@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use phaselab::app::keymap::Place;
 use phaselab::app::{
-    App, Caret, Checked, Effect, Event, Loaded, Overlay, Page, SaveError, SheetState, SourceBuffer,
+    App, BufferState, Caret, CheckedText, Effect, Event, Loaded, Overlay, Page, SaveError,
+    SourceBuffer,
 };
 use phaselab::diagnostic::Document;
 use phaselab::experiment::{Command, Prepared, Snapshot, Status};
@@ -30,7 +31,7 @@ fn checked(app: &App, effect: &Effect) -> Event {
         Err(unready) => Err(unready.mistakes),
     };
     let took = Duration::from_millis(7);
-    Event::Checked(Box::new(Checked { ticket: *ticket, outcome, took }))
+    Event::Checked(Box::new(CheckedText { ticket: *ticket, outcome, took }))
 }
 
 /// Waits until typing pauses, answers the resulting check, and returns the effects that follow.
@@ -68,16 +69,16 @@ fn the_editor_opens_at_the_law() {
 #[test]
 fn a_change_is_checked_when_typing_rests_and_the_motion_goes_on() {
     let mut app = edited();
-    assert_eq!(sheet(&app).state, SheetState::Runs(None));
+    assert_eq!(sheet(&app).state, BufferState::Runs(None));
     press(&mut app, "Ctrl-End x");
-    assert_eq!(sheet(&app).state, SheetState::Changed);
+    assert_eq!(sheet(&app).state, BufferState::Changed);
     assert_eq!(app.update(Event::Tick(Duration::from_millis(100))), [], "typing goes on");
     press(&mut app, "Backspace");
     assert_eq!(app.update(Event::Tick(Duration::from_millis(100))), [], "typing goes on");
     let effects = rest(&mut app);
     let [Effect::Tell(Command::TakeUp(moment))] = effects.as_slice() else { panic!("{effects:?}") };
     assert!(moment.running);
-    assert_eq!(sheet(&app).state, SheetState::Runs(Some(Duration::from_millis(7))));
+    assert_eq!(sheet(&app).state, BufferState::Runs(Some(Duration::from_millis(7))));
     assert_eq!(app.lab.as_ref().unwrap().loaded.epoch, 2);
     assert_eq!(app.update(Event::Tick(Duration::from_secs(1))), [], "it is checked once");
 }
@@ -115,7 +116,7 @@ fn mistakes_stand_in_their_places_until_the_text_is_right_again() {
         .skip(diagnostic.from.column)
         .take(diagnostic.to.column - diagnostic.from.column)
         .collect();
-    assert_eq!((word.as_str(), sheet(&app).state), ("thet", SheetState::Wrong));
+    assert_eq!((word.as_str(), sheet(&app).state), ("thet", BufferState::Wrong));
     assert!(
         diagnostic.help.as_deref().is_some_and(|help| help.contains("theta")),
         "{diagnostic:?}"
@@ -221,11 +222,11 @@ fn an_answer_that_comes_late_never_reaches_another_system() {
     let Event::Checked(old) = &late else { panic!("{late:?}") };
     assert!(!app.awaits(old.ticket));
     app.update(late);
-    assert_eq!((sheet(&app).diagnostics.len(), sheet(&app).state), (0, SheetState::Changed));
+    assert_eq!((sheet(&app).diagnostics.len(), sheet(&app).state), (0, BufferState::Changed));
     // its own answer is still to come
     let own = checked(&app, &asked[0]);
     app.update(own);
-    assert_eq!(sheet(&app).state, SheetState::Wrong);
+    assert_eq!(sheet(&app).state, BufferState::Wrong);
     // back at the first system, whose text is unchanged and is checked again
     app.update(Event::Loaded(Ok(pendulum())));
     press(&mut app, "E Ctrl-Home");
@@ -355,7 +356,7 @@ fn what_is_not_saved_of_another_system_is_kept() {
     app.update(Event::Loaded(Ok(pendulum())));
     press(&mut app, "E Ctrl-Home");
     assert!(sheet(&app).editor.text().starts_with("xy"));
-    assert_eq!(sheet(&app).state, SheetState::Changed, "the system was loaded anew meanwhile");
+    assert_eq!(sheet(&app).state, BufferState::Changed, "the system was loaded anew meanwhile");
 }
 
 /// Starts the program again with the saved texts; returns the effects once the system is there.
@@ -386,7 +387,7 @@ fn a_text_that_is_not_saved_outlives_the_session() {
     press(&mut again, "E Ctrl-Home");
     assert_eq!(sheet(&again).editor.text(), sheet(&app).editor.text());
     assert!(sheet(&again).is_modified());
-    assert!(matches!(sheet(&again).state, SheetState::Runs(Some(_))));
+    assert!(matches!(sheet(&again).state, BufferState::Runs(Some(_))));
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use phaselab::diagnostic::Document;
 use phaselab::dynamics::{Spectrum, mean_rate, spectrum};
-use phaselab::ensemble::Flow;
+use phaselab::ensemble::SystemFlow;
 use phaselab::experiment::Prepared;
 use phaselab::integrate::{Settings, method_named};
 use phaselab::system::System;
@@ -149,7 +149,7 @@ fn pendulum(q: f64, velocity: f64, spacing: f64) -> Vec<f64> {
     let start = ready.system.initial(0.0, &[], &[]).unwrap();
     let method = (method_named("taylor").unwrap(), Settings::default());
     let system = System::clone(&ready.system);
-    let flow = Flow { system, method, parameters: Vec::new(), start: 0.0 };
+    let flow = SystemFlow { system, method, parameters: Vec::new(), start: 0.0 };
     let times: Vec<f64> = (0..1024).map(|k| spacing * f64::from(k)).collect();
     let carried = flow.carry(&start, &times, &[0]);
     assert_eq!(carried.seen.len(), 1024);

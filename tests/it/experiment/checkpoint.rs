@@ -231,7 +231,7 @@ fn a_constraint_that_the_state_misses_begins_anew_and_says_why() {
 #[test]
 fn an_ended_motion_is_still_ended() {
     let mut left = shipped("rolling-race");
-    if left.advance(1e3, PLENTY) == phaselab::experiment::Progress::Ended {
+    if left.advance(1e3, PLENTY) == phaselab::experiment::AdvanceOutcome::Ended {
         let mut taken = shipped("rolling-race");
         taken.execute(Command::TakeUp(Box::new(kept(&left))));
         assert_eq!(taken.status(), left.status());

@@ -196,7 +196,7 @@ fn fault(experiment: &Experiment) -> Option<f64> {
 #[test]
 fn a_fault_is_data_and_a_reset_goes_on() {
     let mut fall = build(FALL, |_| ());
-    assert_ne!(fall.advance(3.0, u64::MAX), phaselab::experiment::Progress::Arrived);
+    assert_ne!(fall.advance(3.0, u64::MAX), phaselab::experiment::AdvanceOutcome::Arrived);
     let time = fault(&fall).expect("it falls into the centre");
     assert!((time - std::f64::consts::PI / 8.0_f64.sqrt()).abs() < 1e-6, "{time}");
     let snapshot = fall.snapshot();

@@ -1,6 +1,8 @@
 //! Motions beside the main one: against experiments of their own, known exponents, and the main motion without them.
 
-use phaselab::experiment::{Command, Experiment, MOST_COMPANIONS, Origin, Progress, Setup};
+use phaselab::experiment::{
+    AdvanceOutcome, Command, CompanionOrigin, Experiment, MOST_COMPANIONS, Setup,
+};
 use phaselab::system::InitialOverride::{Momentum, Position};
 
 use super::{PLENTY, run, shipped};
@@ -61,7 +63,7 @@ fn a_slice_of_work_is_bounded_and_what_is_behind_catches_up() {
     let mut experiment = shipped("henon-heiles");
     run(&mut experiment, 200.0);
     experiment.execute(Command::AddStart(vec![Position(1, 0.1)]));
-    assert_eq!(experiment.advance(200.0, 20), Progress::Underway);
+    assert_eq!(experiment.advance(200.0, 20), AdvanceOutcome::Underway);
     let first = experiment.snapshot().companions[0].time;
     assert!(first < 30.0, "{first}");
     let mut slices = 1;
@@ -123,7 +125,7 @@ fn a_pinned_run_keeps_its_parameters_and_its_method_and_its_past() {
     run(&mut before, 5.0);
     let seen = experiment.snapshot();
     let one = &seen.companions[0];
-    assert!(matches!(one.origin, Origin::Pinned(_)));
+    assert!(matches!(one.origin, CompanionOrigin::Pinned(_)));
     assert_eq!((one.method, seen.method.name), ("taylor", "rk4"));
     assert_ne!(one.parameters[g], seen.parameters[g]);
     assert!(apart(&one.values, before.values()) < 1e-12);
@@ -176,6 +178,6 @@ fn more_than_the_most_and_neighbours_under_constraints_are_refused_in_words() {
     // a start where there is no motion says why it does not go on
     let mut planet = shipped("planet");
     planet.execute(Command::AddStart(vec![Position(0, 0.0)]));
-    assert_eq!(planet.advance(0.5, PLENTY), Progress::Arrived);
+    assert_eq!(planet.advance(0.5, PLENTY), AdvanceOutcome::Arrived);
     assert!(planet.snapshot().companions[0].message.is_some());
 }

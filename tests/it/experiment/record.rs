@@ -1,6 +1,6 @@
 //! The record, which depends on nothing but the commands.
 
-use phaselab::experiment::{Command, Experiment, Progress};
+use phaselab::experiment::{AdvanceOutcome, Command, Experiment};
 
 use super::{PLENTY, build, run, shipped};
 
@@ -31,7 +31,7 @@ fn small_slices_give_the_same_rows_as_one_large_one() {
     let mut sliced = shipped("henon-heiles");
     run(&mut whole, 20.0);
     let mut slices = 0;
-    while sliced.advance(20.0, 3) == Progress::Underway {
+    while sliced.advance(20.0, 3) == AdvanceOutcome::Underway {
         slices += 1;
     }
     assert!(slices > 100);
@@ -90,7 +90,7 @@ fn flat_out_a_frame_gets_no_more_rows_than_it_can_show() {
             // all steps that a frame has time for: rows count among them
             let begin = system.time();
             for _ in 0..8 {
-                assert_eq!(system.advance(f64::INFINITY, 1000), Progress::Underway);
+                assert_eq!(system.advance(f64::INFINITY, 1000), AdvanceOutcome::Underway);
             }
             let trail = system.snapshot().trail;
             rows.push(trail.rows().filter(|row| row[0] > begin).count());
@@ -136,7 +136,7 @@ fn a_motion_that_is_a_polynomial_is_not_over_in_one_row() {
     run(&mut system, 100.0);
     assert!(system.snapshot().trail.len() > 1000);
     system.execute(Command::Speed(f64::INFINITY));
-    assert_eq!(system.advance(f64::INFINITY, 1000), Progress::Underway);
+    assert_eq!(system.advance(f64::INFINITY, 1000), AdvanceOutcome::Underway);
     assert!(system.time().is_finite());
 }
 
@@ -152,8 +152,8 @@ fn memory_is_bounded_in_a_long_run() {
 #[test]
 fn a_budget_is_kept() {
     let mut system = shipped("double-pendulum");
-    assert_eq!(system.advance(1e6, 50), Progress::Underway);
+    assert_eq!(system.advance(1e6, 50), AdvanceOutcome::Underway);
     assert!(system.time() > 0.0 && system.time() < 100.0);
     assert!(system.snapshot().method.steps <= 50);
-    assert_eq!(system.advance(system.time(), PLENTY), Progress::Arrived);
+    assert_eq!(system.advance(system.time(), PLENTY), AdvanceOutcome::Arrived);
 }

@@ -1,6 +1,6 @@
 //! Time reversed: motions return to where they began as far as their exponent lets them, and friction gives back.
 
-use phaselab::experiment::{Command, Experiment, Progress, Status};
+use phaselab::experiment::{AdvanceOutcome, Command, Experiment, Status};
 use phaselab::num::math;
 
 use super::{PLENTY, build, run, shipped, value};
@@ -12,7 +12,7 @@ fn there_and_back(experiment: &mut Experiment, time: f64) -> f64 {
     experiment.execute(Command::Play);
     experiment.execute(Command::Reverse);
     assert!(experiment.is_backwards(), "{:?}", experiment.snapshot().notices);
-    assert_eq!(experiment.advance(f64::INFINITY, PLENTY), Progress::Ended);
+    assert_eq!(experiment.advance(f64::INFINITY, PLENTY), AdvanceOutcome::Ended);
     let seen = experiment.snapshot();
     assert_eq!((seen.time, &seen.status), (start, &Status::Paused));
     assert!(seen.backwards && seen.trail.rows().all(|row| row[0] >= start));
@@ -146,7 +146,7 @@ fn a_run_that_is_reversed_twice_goes_on_and_reset_leads_forwards() {
     let mut experiment = shipped("pendulum");
     run(&mut experiment, 5.0);
     experiment.execute(Command::Reverse);
-    assert_eq!(experiment.advance(-2.0, PLENTY), Progress::Arrived);
+    assert_eq!(experiment.advance(-2.0, PLENTY), AdvanceOutcome::Arrived);
     assert_eq!(experiment.time(), 2.0);
     experiment.execute(Command::Reverse);
     assert!(!experiment.is_backwards());

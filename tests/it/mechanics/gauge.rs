@@ -1,13 +1,13 @@
 //! Lagrangians that differ by a total derivative, and those that do not.
 
 use phaselab::expr::Expr;
-use phaselab::mechanics::{self, Gauge};
+use phaselab::mechanics::{self, GaugeDifference};
 
 use crate::build::{lagrangian, read, sample};
 
 /// Compares two Lagrangians; a function that is found has the difference as its rate along random velocities, by
 /// differences.
-fn compare(coordinates: &[&str], first: &str, second: &str) -> (Gauge, Option<String>) {
+fn compare(coordinates: &[&str], first: &str, second: &str) -> (GaugeDifference, Option<String>) {
     let mut model = lagrangian(coordinates, &["m", "k", "b"], first);
     let second = read(&mut model, second);
     let mut equations = mechanics::derive(&model).expect("derivable");

@@ -2,7 +2,7 @@
 
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
-use phaselab::view::plot::{Axes, Axis, Frame, Scale};
+use phaselab::view::plot::{Axes, DrawnAxis, PlotFrame, Scale};
 use phaselab::view::theme::{Role, Theme};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -12,12 +12,12 @@ use super::rows;
 
 fn pendulum() -> Axes {
     Axes::new(
-        Axis::new("θ", "rad", Scale::turn()),
-        Axis::new("p_θ", "kg m²/s", Scale::linear(-3.0, 3.0)),
+        DrawnAxis::new("θ", "rad", Scale::turn()),
+        DrawnAxis::new("p_θ", "kg m²/s", Scale::linear(-3.0, 3.0)),
     )
 }
 
-fn drawn(axes: &Axes, area: Rect, glyphs: Glyphs, depth: ColourDepth) -> (Buffer, Frame) {
+fn drawn(axes: &Axes, area: Rect, glyphs: Glyphs, depth: ColourDepth) -> (Buffer, PlotFrame) {
     let mut buffer = Buffer::empty(area);
     let frame = axes.draw(area, &mut buffer, &Theme::dark(depth), glyphs);
     (buffer, frame)
@@ -92,8 +92,8 @@ fn without_colour_there_are_only_weights() {
 #[test]
 fn a_power_of_ten_moves_into_the_title() {
     let axes = Axes::new(
-        Axis::new("t", "s", Scale::linear(0.0, 10.0)),
-        Axis::new("ΔE", "J", Scale::linear(0.0, 4e-9)),
+        DrawnAxis::new("t", "s", Scale::linear(0.0, 10.0)),
+        DrawnAxis::new("ΔE", "J", Scale::linear(0.0, 4e-9)),
     );
     let area = Rect::new(0, 0, 40, 10);
     let (buffer, _) = drawn(&axes, area, Glyphs::Braille, ColourDepth::True);
@@ -105,7 +105,7 @@ fn a_power_of_ten_moves_into_the_title() {
 #[test]
 fn equal_axes_have_equal_units() {
     let scale = Scale::linear(-1.0, 1.0);
-    let axes = Axes::new(Axis::new("x", "m", scale), Axis::new("y", "m", scale)).equal();
+    let axes = Axes::new(DrawnAxis::new("x", "m", scale), DrawnAxis::new("y", "m", scale)).equal();
     let frame = axes.frame(Rect::new(0, 0, 90, 30), Glyphs::Braille);
     let across = (frame.x.hi - frame.x.lo) / f64::from(frame.area.width);
     let up = (frame.y.hi - frame.y.lo) / (2.0 * f64::from(frame.area.height));
@@ -123,8 +123,8 @@ fn labels_keep_apart_and_inside() {
     for width in 16..120 {
         let area = Rect::new(0, 0, width, 12);
         let axes = Axes::new(
-            Axis::new("t", "s", Scale::linear(1_000.0, 1_000.4)),
-            Axis::new("x", "m", Scale::linear(-0.001, 0.001)),
+            DrawnAxis::new("t", "s", Scale::linear(1_000.0, 1_000.4)),
+            DrawnAxis::new("x", "m", Scale::linear(-0.001, 0.001)),
         );
         let (buffer, _) = drawn(&axes, area, Glyphs::Ascii, ColourDepth::True);
         let last = rows(&buffer)[11].clone();

@@ -52,7 +52,7 @@ fn zoom_magnifies_and_pan_moves_the_picture() {
     let near = Camera::FACE_ON.zoomed(2.0).frame(&bounds, area);
     assert!(((plain.x.hi - plain.x.lo) / (near.x.hi - near.x.lo) - 2.0).abs() < 1e-12);
     let moved = Camera::FACE_ON.panned(0.25, 0.0).frame(&bounds, area);
-    let column = |frame: phaselab::view::plot::Frame| frame.cell([0.01, 0.01]).unwrap().x;
+    let column = |frame: phaselab::view::plot::PlotFrame| frame.cell([0.01, 0.01]).unwrap().x;
     assert_eq!(column(moved), column(plain) + 10, "a quarter of 40 columns to the right");
 }
 

@@ -1,7 +1,7 @@
 //! Dots: combined where lines cross, thin, round, and styled by the highest layer.
 
 use phaselab::view::glyphs::Glyphs;
-use phaselab::view::plot::{Frame, Marker, Pen, Raster, Scale};
+use phaselab::view::plot::{Marker, Pen, PlotFrame, Raster, Scale};
 use phaselab::view::theme::{Dash, Shade};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -132,7 +132,7 @@ fn a_circle_is_round_with_equal_units() {
         for (wide, high) in [(80, 24), (40, 40), (120, 33), (61, 50)] {
             let area = Rect::new(0, 0, wide, high);
             let scale = Scale::linear(-1.2, 1.2);
-            let frame = Frame::equal(scale, scale, area);
+            let frame = PlotFrame::equal(scale, scale, area);
             let mut raster = Raster::new(area, glyphs);
             raster.circle(&frame, [0.0, 0.0], 1.0, &PLAIN);
             let dots = dots(&raster);
@@ -338,7 +338,7 @@ fn shared_cells_are_a_part_of_those_with_dots() {
 fn a_halo_blanks_what_is_below_and_near() {
     let dots = |glyphs: Glyphs, layer: u8, halo: bool| {
         let area = Rect::new(0, 0, 20, 10);
-        let frame = Frame { x: Scale::linear(0.0, 40.0), y: Scale::linear(0.0, 40.0), area };
+        let frame = PlotFrame { x: Scale::linear(0.0, 40.0), y: Scale::linear(0.0, 40.0), area };
         let mut raster = Raster::new(area, glyphs);
         raster.line(&frame, [0.0, 20.5], [40.0, 20.5], &Pen::new(Style::new(), layer));
         if halo {

@@ -2,8 +2,10 @@
 
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
-use phaselab::view::plot::{Axes, Axis, Bounds, Camera, Frame, Marker, Pen, Raster, Scale};
-use phaselab::view::sparkline::{History, RangeBar};
+use phaselab::view::plot::{
+    Axes, Bounds, Camera, DrawnAxis, Marker, Pen, PlotFrame, Raster, Scale,
+};
+use phaselab::view::sparkline::{RangeBar, Sparkline};
 use phaselab::view::theme::{Role, Theme};
 use proptest::prelude::*;
 use ratatui::buffer::Buffer;
@@ -59,8 +61,8 @@ fn everything(
     theme: &Theme,
 ) {
     let axes = Axes {
-        x: Axis::new("θ", "rad", x),
-        y: Axis::new("p_θ", "kg m²/s", y),
+        x: DrawnAxis::new("θ", "rad", x),
+        y: DrawnAxis::new("p_θ", "kg m²/s", y),
         equal: false,
         grid: true,
     };
@@ -77,7 +79,8 @@ fn everything(
     }
     raster.draw(buffer);
     let values: Vec<f64> = points.iter().map(|[x, _]| *x).collect();
-    History { values: &values, scale: y, style: theme[Role::Accent], glyphs }.render(area, buffer);
+    Sparkline { values: &values, scale: y, style: theme[Role::Accent], glyphs }
+        .render(area, buffer);
     let value = points.first().map_or(f64::NAN, |p| p[1]);
     let (filled, rest) = (theme[Role::Accent], theme[Role::Border]);
     RangeBar { value, scale: x, filled, rest, glyphs }.render(area, buffer);
@@ -118,7 +121,7 @@ proptest! {
             .zoomed(angles[2])
             .panned(angles[3], angles[0]);
         let camera = Camera { distance: Some(angles[2]), ..camera };
-        let frame: Frame = camera.frame(&Bounds::around(points.iter().copied()), area);
+        let frame: PlotFrame = camera.frame(&Bounds::around(points.iter().copied()), area);
         prop_assert!(frame.x.lo < frame.x.hi && frame.y.lo < frame.y.hi);
         let mut raster = Raster::new(area, Glyphs::Braille);
         let seen = points.iter().map(|point| camera.project(*point)).map(|[x, y, _]| [x, y]);
@@ -152,7 +155,7 @@ fn the_corner_of_the_largest_screen_is_safe() {
 #[test]
 fn a_huge_line_costs_no_more_than_the_plot_is_wide() {
     let area = Rect::new(0, 0, 100, 50);
-    let frame = Frame::new(Scale::linear(0.0, 1.0), Scale::linear(0.0, 1.0), area);
+    let frame = PlotFrame::new(Scale::linear(0.0, 1.0), Scale::linear(0.0, 1.0), area);
     let mut raster = Raster::new(area, Glyphs::Braille);
     let start = std::time::Instant::now();
     for _ in 0..1000 {

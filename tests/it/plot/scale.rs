@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use phaselab::view::glyphs::Glyphs;
-use phaselab::view::plot::{Frame, Scale};
+use phaselab::view::plot::{PlotFrame, Scale};
 use proptest::prelude::*;
 use ratatui::layout::{Position, Rect};
 
@@ -11,8 +11,8 @@ use ratatui::layout::{Position, Rect};
 fn a_cells_middle_reads_back_as_the_cell() {
     let area = Rect::new(7, 3, 40, 11);
     let frames = [
-        Frame::new(Scale::linear(-2.0, 5.0), Scale::turn(), area),
-        Frame::new(Scale::log(1e-6, 1e3), Scale::linear(0.0, 1e-9), area),
+        PlotFrame::new(Scale::linear(-2.0, 5.0), Scale::turn(), area),
+        PlotFrame::new(Scale::log(1e-6, 1e3), Scale::linear(0.0, 1e-9), area),
     ];
     for frame in frames {
         for cell in area.positions() {
@@ -24,7 +24,7 @@ fn a_cells_middle_reads_back_as_the_cell() {
 #[test]
 fn the_readout_is_within_half_a_dot() {
     let area = Rect::new(0, 0, 40, 11);
-    let frame = Frame::new(Scale::linear(-2.0, 5.0), Scale::linear(0.0, 3.0), area);
+    let frame = PlotFrame::new(Scale::linear(-2.0, 5.0), Scale::linear(0.0, 3.0), area);
     let (across, down) = Glyphs::Braille.dots();
     let [x, y] = frame.at(Position::new(10, 4));
     let dots = [
@@ -37,7 +37,7 @@ fn the_readout_is_within_half_a_dot() {
 #[test]
 fn both_ends_of_a_range_are_on_the_screen() {
     let area = Rect::new(0, 0, 10, 10);
-    let frame = Frame::new(Scale::turn(), Scale::linear(0.0, 1.0), area);
+    let frame = PlotFrame::new(Scale::turn(), Scale::linear(0.0, 1.0), area);
     assert_eq!(frame.cell([-PI, 0.0]), Some(Position::new(0, 9)));
     assert_eq!(frame.cell([PI, 1.0]), Some(Position::new(9, 0)));
     assert_eq!(frame.cell([0.0, 1.01]), None);
@@ -74,7 +74,7 @@ fn a_logarithmic_scale_has_no_place_for_what_is_not_positive() {
 #[test]
 fn equal_units_only_ever_widen_a_range() {
     let area = Rect::new(0, 0, 80, 20);
-    let frame = Frame::equal(Scale::linear(-1.0, 1.0), Scale::linear(-3.0, 3.0), area);
+    let frame = PlotFrame::equal(Scale::linear(-1.0, 1.0), Scale::linear(-3.0, 3.0), area);
     assert_eq!((frame.y.lo, frame.y.hi), (-3.0, 3.0));
     assert_eq!((frame.x.lo, frame.x.hi), (-6.0, 6.0), "80 columns are twice as long as 20 rows");
 }

@@ -2,7 +2,7 @@
 
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::plot::Scale;
-use phaselab::view::sparkline::{History, RangeBar};
+use phaselab::view::sparkline::{RangeBar, Sparkline};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Style};
@@ -12,7 +12,7 @@ use super::rows;
 
 fn history(values: &[f64], scale: Scale, width: u16, glyphs: Glyphs) -> String {
     let mut buffer = Buffer::empty(Rect::new(0, 0, width, 1));
-    History { values, scale, style: Style::new(), glyphs }.render(buffer.area, &mut buffer);
+    Sparkline { values, scale, style: Style::new(), glyphs }.render(buffer.area, &mut buffer);
     rows(&buffer).concat()
 }
 

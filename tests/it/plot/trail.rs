@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use phaselab::view::colour::{ColourDepth, Rgb};
 use phaselab::view::glyphs::Glyphs;
-use phaselab::view::plot::{Frame, Pen, Raster, Scale};
+use phaselab::view::plot::{Pen, PlotFrame, Raster, Scale};
 use phaselab::view::theme::Theme;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -86,7 +86,7 @@ fn longest_run(raster: &Raster) -> (usize, usize) {
 #[test]
 fn a_rotating_pendulum_leaves_no_stroke_across_the_plot() {
     let area = Rect::new(0, 0, 60, 20);
-    let frame = Frame::new(Scale::turn(), Scale::linear(1.0, 4.0), area);
+    let frame = PlotFrame::new(Scale::turn(), Scale::linear(1.0, 4.0), area);
     // p²/2 − cos θ = 3, several turns to the right; the angle is not wrapped.
     let turns = (0..4000).map(|i| f64::from(i) * TAU / 1000.0);
     let right: Vec<_> = turns.map(|q: f64| [q, (2.0 * (3.0 + q.cos())).sqrt()]).collect();
@@ -108,7 +108,7 @@ fn a_rotating_pendulum_leaves_no_stroke_across_the_plot() {
 #[test]
 fn a_wrap_of_the_vertical_axis_splits_too() {
     let area = Rect::new(0, 0, 20, 20);
-    let frame = Frame::new(Scale::linear(0.0, 10.0), Scale::turn(), area);
+    let frame = PlotFrame::new(Scale::linear(0.0, 10.0), Scale::turn(), area);
     let mut raster = Raster::new(area, Glyphs::Braille);
     let points = (0..=100).map(|i| f64::from(i) / 10.0).map(|t| [t, 3.0 * t]);
     raster.polyline(&frame, points, &Pen::new(Style::new(), 0));

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use phaselab::model::Info;
-use phaselab::preset::{self, Catalog, Entry, NotFound, Origin};
+use phaselab::preset::{self, Catalog, CatalogEntry, NotFound, PresetOrigin};
 use tempfile::TempDir;
 
 use super::GOOD;
@@ -96,14 +96,14 @@ fn the_list_goes_by_topic_and_chapter() {
     let titles: Vec<&str> = catalog
         .entries()
         .iter()
-        .filter(|entry| entry.origin != Origin::Shipped)
+        .filter(|entry| entry.origin != PresetOrigin::Shipped)
         .map(|entry| entry.info.title.as_str())
         .collect();
     assert_eq!(titles, ["another nine", "nine", "ten", "unplaced", "last of all"]);
     let first = &catalog.entries()[0];
     assert_eq!((first.topic(), first.name.as_str()), ("zeta", "e"));
     // a topic is contiguous
-    let mut topics: Vec<&str> = catalog.entries().iter().map(Entry::topic).collect();
+    let mut topics: Vec<&str> = catalog.entries().iter().map(CatalogEntry::topic).collect();
     topics.dedup();
     let mut once = topics.clone();
     once.sort_unstable();
@@ -119,7 +119,7 @@ fn the_users_own_win_over_shipped_ones() {
     let document = catalog.find("pendulum").unwrap();
     assert_eq!(document.text, GOOD);
     let own = catalog.entries().iter().find(|entry| entry.name == "pendulum").unwrap();
-    assert_eq!(own.origin, Origin::User(user.path().join("deep/er/pendulum.toml")));
+    assert_eq!(own.origin, PresetOrigin::User(user.path().join("deep/er/pendulum.toml")));
     assert_eq!((own.folder.as_str(), own.fault.as_deref()), ("deep/er", None));
     assert_eq!(own.topic(), "deep/er");
 }

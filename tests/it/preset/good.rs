@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use phaselab::diagnostic::report;
 use phaselab::expr::Expr;
-use phaselab::model::{Mechanics, Model, Scale, Shape};
+use phaselab::model::{Mechanics, Model, RangeSpacing, Shape};
 use phaselab::num::Number;
-use phaselab::preset::{Catalog, Checked, Origin, read};
+use phaselab::preset::{Catalog, Checked, PresetOrigin, read};
 
 use super::GOOD;
 
@@ -38,7 +38,7 @@ pub(super) fn text(model: &Model, e: Expr) -> String {
 fn every_shipped_preset_can_be_read() {
     let mut names = BTreeSet::new();
     for entry in Catalog::with_folder(None).entries() {
-        assert_eq!(entry.origin, Origin::Shipped);
+        assert_eq!(entry.origin, PresetOrigin::Shipped);
         assert!(names.insert(entry.name.clone()), "{} is there twice", entry.name);
         let kebab = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         assert!(entry.name.chars().all(kebab), "{} is not kebab-case", entry.name);
@@ -105,7 +105,7 @@ start = 0.0
     assert_eq!(text(&top, top.coordinates[2].initial_rate), "spin");
     assert_eq!(top.coordinates[1].period.map(|e| text(&top, e)).as_deref(), Some("2*pi"));
     assert_eq!(top.parameters[0].about, "moment");
-    assert_eq!(top.parameters[1].scale, Scale::Log);
+    assert_eq!(top.parameters[1].scale, RangeSpacing::Log);
     assert_eq!((top.parameters[3].min, top.parameters[3].max), (-40.0, 40.0));
     assert_eq!(top.expect.conserves.len(), 4);
     assert_eq!(top.expect.conserves[3].1, top.observables[0].expression);

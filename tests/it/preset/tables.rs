@@ -2,8 +2,8 @@
 
 use phaselab::expr::{Expr, Rank};
 use phaselab::model::{
-    Action, Allowed, AttitudeSource, BodyNames, Direction, Mechanics, Model, Scope, Shape, Solid,
-    Turn, multiplier_name,
+    Action, Allowed, AttitudeSource, BodyNames, Direction, Mechanics, Model, PieceOrientation,
+    Scope, Shape, Solid, multiplier_name,
 };
 
 use super::good::{checked, model, text, with};
@@ -335,14 +335,14 @@ fn a_body_is_read_with_the_names_it_defines() {
     let Solid::Cylinder { radius, length } = body.pieces[0].solid else { panic!("{body:?}") };
     assert_eq!((text(&hammer, radius), text(&hammer, length)), ("1/10*a".into(), "a".into()));
     assert_eq!(body.pieces[0].at.map(|e| text(&hammer, e)), ["0", "0", "-1/2*a"]);
-    assert!(matches!(body.pieces[0].turn, Turn::None));
+    assert!(matches!(body.pieces[0].turn, PieceOrientation::None));
     let Solid::Cuboid(edges) = body.pieces[1].solid else { panic!("{body:?}") };
     assert_eq!(edges.map(|e| text(&hammer, e)), ["a", "1/2*a", "1/2*a"]);
-    let Turn::Axis { axis, angle } = body.pieces[1].turn else { panic!("{body:?}") };
+    let PieceOrientation::Axis { axis, angle } = body.pieces[1].turn else { panic!("{body:?}") };
     assert_eq!(axis.map(|e| text(&hammer, e)), ["1", "0", "0"]);
     assert_eq!(text(&hammer, angle), "1/2*pi");
     assert!(matches!(body.pieces[2].solid, Solid::SphericalShell(_)));
-    assert!(matches!(body.pieces[2].turn, Turn::Euler(_)));
+    assert!(matches!(body.pieces[2].turn, PieceOrientation::Euler(_)));
     assert!(matches!(body.pieces[3].solid, Solid::Point));
     assert!(HAMMER[body.pieces[3].place.clone()].starts_with("{ point = true"));
     let start = hammer.coordinates[1].initial;

@@ -9,7 +9,7 @@ use std::time::Duration;
 use phaselab::cancel::Cancel;
 use phaselab::claims::false_claims;
 use phaselab::diagnostic::{Document, Severity};
-use phaselab::experiment::{Experiment, Progress, Setup, Status, Verdict};
+use phaselab::experiment::{AdvanceOutcome, Experiment, Setup, Status, Verdict};
 use phaselab::integrate::METHODS;
 use phaselab::mechanics::derive;
 use phaselab::system::{ChannelKind, InitialOverride, System};
@@ -195,11 +195,11 @@ fn run(case: &Case, budget: Budget, cancel: &Cancel) -> Result<Told, Outcome> {
         let part = left.min(4096);
         left -= part;
         match experiment.advance(end, part) {
-            Progress::Arrived => break End::Completed,
-            Progress::Ended => break End::Stopped,
-            Progress::Stuck => break End::Fault(String::new()),
-            Progress::Underway if left == 0 => break End::OutOfBudget,
-            Progress::Underway => {}
+            AdvanceOutcome::Arrived => break End::Completed,
+            AdvanceOutcome::Ended => break End::Stopped,
+            AdvanceOutcome::Stuck => break End::Fault(String::new()),
+            AdvanceOutcome::Underway if left == 0 => break End::OutOfBudget,
+            AdvanceOutcome::Underway => {}
         }
     };
     let reached = match experiment.status() {

@@ -2,7 +2,7 @@
 
 use phaselab::preset::{Catalog, demo, demos};
 use phaselab::record::play;
-use phaselab::record::script::Step;
+use phaselab::record::script::ScriptStep;
 
 use super::{on_all_cores, replay, script, shipped};
 
@@ -14,12 +14,18 @@ fn every_demo_is_of_a_preset_and_about_it() {
         assert_eq!(script.head.open.expect("a system").text, name);
         assert!(catalog.find(name).is_ok(), "{name}");
         assert!(script.head.size.is_some(), "{name} says its size");
-        let count = |wanted: fn(&Step) -> bool| {
+        let count = |wanted: fn(&ScriptStep) -> bool| {
             script.steps.iter().filter(|(_, step)| wanted(step)).count()
         };
-        assert!(count(|step| matches!(step, Step::Assert(_))) >= 3, "{name} claims something");
-        assert!(count(|step| matches!(step, Step::Marker(_))) >= 2, "{name} has chapters");
-        assert!(count(|step| matches!(step, Step::Caption(_))) >= 3, "{name} says what is seen");
+        assert!(
+            count(|step| matches!(step, ScriptStep::Assert(_))) >= 3,
+            "{name} claims something"
+        );
+        assert!(count(|step| matches!(step, ScriptStep::Marker(_))) >= 2, "{name} has chapters");
+        assert!(
+            count(|step| matches!(step, ScriptStep::Caption(_))) >= 3,
+            "{name} says what is seen"
+        );
     }
     assert!(catalog.entries().iter().all(|entry| entry.folder != "demos"));
 }

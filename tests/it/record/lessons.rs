@@ -3,7 +3,7 @@
 use crossterm::event::{KeyCode, KeyEvent};
 use phaselab::diagnostic::Document;
 use phaselab::preset::{lesson, lessons};
-use phaselab::record::script::{LessonStep, Step};
+use phaselab::record::script::{LessonStep, ScriptStep};
 use phaselab::record::{Lesson, Pressed, Script, check_lesson};
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
@@ -91,14 +91,14 @@ fn shipped_lessons_ask_for_a_value_and_end_with_the_lab() {
         let script = Script::read(&lesson(name).expect("a lesson")).expect("a script");
         let has = |wanted: fn(&LessonStep) -> bool| {
             let mut steps = script.steps.iter().map(|(_, step)| step);
-            steps.any(|step| matches!(step, Step::Lesson(step) if wanted(step)))
+            steps.any(|step| matches!(step, ScriptStep::Lesson(step) if wanted(step)))
         };
         assert!(has(|step| matches!(step, LessonStep::Predict { .. })), "{name}");
         assert!(has(|step| matches!(step, LessonStep::Ask(_))), "{name}");
         assert!(has(|step| matches!(step, LessonStep::Task { hint: Some(_), .. })), "{name}");
         let last = script.steps.iter().rev().find_map(|(_, step)| match step {
-            Step::Lesson(LessonStep::Say(_)) => None,
-            step => Some(matches!(step, Step::Lesson(LessonStep::Free(_)))),
+            ScriptStep::Lesson(LessonStep::Say(_)) => None,
+            step => Some(matches!(step, ScriptStep::Lesson(LessonStep::Free(_)))),
         });
         assert_eq!(last, Some(true), "{name} ends with the lab");
     }

@@ -2,7 +2,7 @@
 
 use phaselab::diagnostic::{Diagnostic, Document};
 use phaselab::preset::Catalog;
-use phaselab::record::script::{COMMANDS, Step};
+use phaselab::record::script::{COMMANDS, ScriptStep};
 use phaselab::record::{Script, play, transcript};
 
 use super::{played, script};
@@ -230,5 +230,5 @@ fn every_command_is_written_as_its_row_says() {
         assert!(!command.about.ends_with('.'), "{}", command.about);
     }
     let script = script("Sweep l from 1 to 2 in 3s # on\nPress \"\nCaption");
-    assert!(matches!(script.steps[0].1, Step::Sweep { .. }));
+    assert!(matches!(script.steps[0].1, ScriptStep::Sweep { .. }));
 }

@@ -1,6 +1,6 @@
 //! Stills: well-formed drawings with as many dots as the screen, and the screen's text.
 
-use phaselab::record::screenshot::{Form, write};
+use phaselab::record::screenshot::{ImageFormat, write};
 use ratatui::buffer::Buffer;
 
 use super::played;
@@ -8,7 +8,7 @@ use super::played;
 fn pendulum() -> (Buffer, String) {
     let recording = played("pendulum", "Size 110x32\nCaption \"<A & B> \\\"C\\\"\"\nWait 2s");
     let palette = recording.look.theme.palette();
-    let drawing = write(&recording.last, palette, Form::Svg, "a < b & c");
+    let drawing = write(&recording.last, palette, ImageFormat::Svg, "a < b & c");
     (recording.last, drawing)
 }
 
@@ -56,9 +56,9 @@ fn a_drawing_has_the_words_of_its_screen_and_no_fonts() {
 fn text_and_colours_are_those_of_the_screen() {
     let recording = played("pendulum", "Size 80x24\nColor 256\nWait 1s");
     let palette = recording.look.theme.palette();
-    let text = write(&recording.last, palette, Form::Text, "");
+    let text = write(&recording.last, palette, ImageFormat::Text, "");
     assert_eq!(text.lines().count(), 24);
-    let ansi = write(&recording.last, palette, Form::Ansi, "");
+    let ansi = write(&recording.last, palette, ImageFormat::Ansi, "");
     let mut terminal = vt100::Parser::new(25, 80, 0);
     terminal.process(ansi.replace('\n', "\r\n").as_bytes());
     for y in 0..24 {

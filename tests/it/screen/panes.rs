@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use phaselab::app::{App, Drawn, DrawnPanes, Event, LawInView, Notification, Pane};
 use phaselab::experiment::{Gauge, Growth, Status, Verdict};
-use phaselab::instrument::{Along, Plot};
+use phaselab::instrument::{Plot, PotentialView};
 use phaselab::integrate::{Occurrence, OccurrenceKind};
 use phaselab::model::Shape;
 use phaselab::system::ChannelKind;
@@ -537,7 +537,7 @@ fn a_potential_is_drawn_with_the_energy_and_where_the_motion_is_allowed() {
     let potential = |app: &phaselab::app::App, r: f64| {
         let lab = app.lab.as_ref().unwrap();
         let view = lab.loaded.model.views.iter().position(|v| v.kind == "potential");
-        Along::of(lab.loaded.physics(), view.unwrap()).unwrap().at(
+        PotentialView::of(lab.loaded.physics(), view.unwrap()).unwrap().at(
             &lab.loaded.model.pool,
             &lab.valuation(),
             r,

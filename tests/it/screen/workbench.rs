@@ -1,6 +1,6 @@
 //! The workbench on the screen: the cursor always visible, mistakes marked, any size, ASCII.
 
-use phaselab::app::{App, BufferDiagnostic, Caret, Event, Notification, SheetState};
+use phaselab::app::{App, BufferDiagnostic, BufferState, Caret, Event, Notification};
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
@@ -70,7 +70,7 @@ fn a_mistake_is_underlined_marked_and_told_below() {
     let (from, to) = (Caret { row: 2, column: 10 }, Caret { row: 2, column: 13 });
     let (message, help) = ("it is not so".to_owned(), Some("write it so".to_owned()));
     sheet.diagnostics = vec![BufferDiagnostic { from, to, warning: false, message, help }];
-    sheet.state = SheetState::Wrong;
+    sheet.state = BufferState::Wrong;
     for (look, mark) in [(rich(), "✗"), (plain(), "x")] {
         let buffer = screen(&app, &look, (80, 24));
         let line: String = sheet_line(&app, 2).chars().skip(10).take(3).collect();

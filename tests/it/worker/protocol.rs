@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-use phaselab::experiment::{Command, Progress, Snapshot, Status};
+use phaselab::experiment::{AdvanceOutcome, Command, Snapshot, Status};
 use phaselab::worker::{Runnable, Worker};
 
 /// A subject that only counts.
@@ -42,14 +42,14 @@ impl Runnable for Counter {
         }
     }
 
-    fn advance(&mut self, time: f64, budget: u64) -> Progress {
+    fn advance(&mut self, time: f64, budget: u64) -> AdvanceOutcome {
         self.slices.fetch_add(1, Ordering::SeqCst);
         // every unit of simulated time is a step
         let most = self.time + budget as f64;
         self.time = self.time.max(time.min(most));
         let in_order = self.panics_at.is_none_or(|at| self.time < at);
         assert!(in_order, "out of {}", "order");
-        if self.time >= time { Progress::Arrived } else { Progress::Underway }
+        if self.time >= time { AdvanceOutcome::Arrived } else { AdvanceOutcome::Underway }
     }
 
     fn time(&self) -> f64 {

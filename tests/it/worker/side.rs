@@ -6,7 +6,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use phaselab::job::{Job, Outcome};
-use phaselab::worker::Side;
+use phaselab::worker::SideJob;
 
 /// Waits for a result, for at most a minute.
 fn until<T>(mut look: impl FnMut() -> Option<T>) -> T {
@@ -37,7 +37,7 @@ fn endless(ended: &Arc<AtomicBool>) -> Job<u32> {
 
 #[test]
 fn a_job_gives_its_result_once() {
-    let mut side = Side::new("test");
+    let mut side = SideJob::new("test");
     side.begin(7, Job::new("adding", |_| 1 + 1));
     assert_eq!(until(|| side.take()), (7, Outcome::Done(2)));
     assert!(side.take().is_none() && !side.is_busy());
@@ -46,7 +46,7 @@ fn a_job_gives_its_result_once() {
 #[test]
 fn the_next_job_stops_the_one_before_and_its_result_is_dropped() {
     let ended = Arc::new(AtomicBool::new(false));
-    let mut side = Side::new("test");
+    let mut side = SideJob::new("test");
     side.begin(1, endless(&ended));
     side.begin(2, Job::new("five", |_| 5));
     assert_eq!(until(|| side.take()), (2, Outcome::Done(5)));
@@ -57,7 +57,7 @@ fn the_next_job_stops_the_one_before_and_its_result_is_dropped() {
 #[test]
 fn a_job_ends_with_its_owner_at_once() {
     let ended = Arc::new(AtomicBool::new(false));
-    let mut side = Side::new("test");
+    let mut side = SideJob::new("test");
     side.begin(1, endless(&ended));
     until(|| side.share().filter(|(_, share)| share.done > 0));
     let begun = Instant::now();
@@ -69,7 +69,7 @@ fn a_job_ends_with_its_owner_at_once() {
 #[test]
 fn progress_never_becomes_less() {
     let ended = Arc::new(AtomicBool::new(false));
-    let mut side = Side::new("test");
+    let mut side = SideJob::new("test");
     side.begin(3, endless(&ended));
     let mut last = 0;
     for _ in 0..1000 {
@@ -83,7 +83,7 @@ fn progress_never_becomes_less() {
 
 #[test]
 fn a_panic_on_the_side_is_reported() {
-    let mut side: Side<()> = Side::new("test");
+    let mut side: SideJob<()> = SideJob::new("test");
     side.begin(1, Job::new("the search", |_| panic!("there is a hole")));
     let told = "the search stopped by a bug in phaselab: there is a hole".to_owned();
     assert_eq!(until(|| side.take()), (1, Outcome::Failed(told)));

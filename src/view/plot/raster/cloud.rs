@@ -6,7 +6,7 @@
 use super::{Pen, Raster};
 use crate::num::math;
 use crate::view::glyphs::Glyphs;
-use crate::view::plot::scale::Frame;
+use crate::view::plot::scale::PlotFrame;
 use crate::view::theme::Shade;
 
 /// ASCII characters from sparse to dense.
@@ -17,7 +17,7 @@ impl Raster {
     /// fullest cell gets the last step.
     pub fn cloud(
         &mut self,
-        frame: &Frame,
+        frame: &PlotFrame,
         points: impl IntoIterator<Item = [f64; 2]>,
         ramp: &[Shade],
         layer: u8,

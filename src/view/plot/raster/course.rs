@@ -3,7 +3,7 @@
 //! In: successive data points, each with an ink. Out: calls with dots inside the plot. Never here: cells, or the
 //! appearance of a dot.
 
-use crate::view::plot::scale::{Frame, Scale};
+use crate::view::plot::scale::{PlotFrame, Scale};
 use crate::view::plot::stroke::{Tip, clip};
 
 /// A dot's ink, and how the line ran through it.
@@ -26,7 +26,7 @@ impl<Ink> Inked<Ink> {
 /// Follows points in data coordinates; [`Course::rest`] ends a line.
 #[derive(Clone, Debug)]
 pub(super) struct Course<Ink> {
-    frame: Frame,
+    frame: PlotFrame,
     size: [i32; 2],
     /// The number of dots in one turn of each axis, if it is periodic.
     turns: [Option<f64>; 2],
@@ -38,7 +38,7 @@ pub(super) struct Course<Ink> {
 
 impl<Ink: Copy> Course<Ink> {
     /// Creates a course without points over a raster of this many dots.
-    pub(super) fn new(frame: &Frame, size: [i32; 2]) -> Self {
+    pub(super) fn new(frame: &PlotFrame, size: [i32; 2]) -> Self {
         let turn = |scale: &Scale, dots: i32| Some(scale.turn_length()? * f64::from(dots));
         let turns = [turn(&frame.x, size[0]), turn(&frame.y, size[1])];
         Self { frame: *frame, size, turns, tip: Tip::lifted(), at: None, lone: None }

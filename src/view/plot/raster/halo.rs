@@ -4,7 +4,7 @@
 
 use super::Raster;
 use crate::num::math;
-use crate::view::plot::Frame;
+use crate::view::plot::PlotFrame;
 
 /// The width of a halo in dots.
 const WIDTH: f64 = 1.5;
@@ -12,7 +12,7 @@ const WIDTH: f64 = 1.5;
 impl Raster {
     /// Blanks the dots inside and around a disc that are on a layer up to this one. In ASCII a cell has one character,
     /// and nothing is blanked.
-    pub fn halo(&mut self, frame: &Frame, [x, y]: [f64; 2], radius: f64, layer: u8) {
+    pub fn halo(&mut self, frame: &PlotFrame, [x, y]: [f64; 2], radius: f64, layer: u8) {
         if self.glyphs.is_ascii() {
             return;
         }

@@ -11,7 +11,7 @@ use super::letter::faded;
 use super::{Pen, Raster, noise};
 use crate::view::glyphs::Glyphs;
 use crate::view::plot::depth::DepthBuffer;
-use crate::view::plot::scale::Frame;
+use crate::view::plot::scale::PlotFrame;
 use crate::view::theme::{Dash, Shade};
 
 /// The number of dots in a cell at most.
@@ -65,7 +65,7 @@ impl Ages<'_> {
 
 impl KeptTrail {
     /// Creates an empty trail over a frame: fading, or a line with a pattern.
-    pub fn new(frame: &Frame, glyphs: Glyphs, line: Option<Dash>) -> Self {
+    pub fn new(frame: &PlotFrame, glyphs: Glyphs, line: Option<Dash>) -> Self {
         let blank = Raster::new(frame.area, glyphs);
         let count = blank.cells.len();
         Self {
@@ -211,8 +211,8 @@ mod tests {
         let area = Rect::new(0, 0, 31, 13);
         let whole = Scale::linear(-1.5, 1.5);
         let frames = [
-            Frame::new(whole, whole, area),
-            Frame::new(Scale::linear(-1.0, 1.0).wrapped(2.0), whole, area),
+            PlotFrame::new(whole, whole, area),
+            PlotFrame::new(Scale::linear(-1.0, 1.0).wrapped(2.0), whole, area),
         ];
         let points = walk(900);
         for (frame, depth) in
@@ -252,7 +252,7 @@ mod tests {
     fn what_is_older_than_the_trail_is_not_drawn() {
         let area = Rect::new(0, 0, 10, 4);
         let scale = Scale::linear(0.0, 1.0);
-        let frame = Frame::new(scale, scale, area);
+        let frame = PlotFrame::new(scale, scale, area);
         let theme = Theme::dark(ColourDepth::True);
         let mut kept = KeptTrail::new(&frame, Glyphs::Braille, None);
         kept.to([0.0, 0.1, 0.0], 0.0);

@@ -6,7 +6,7 @@ use super::course::{Course, Inked};
 use super::letter::faded;
 use super::{Pen, Raster};
 use crate::view::glyphs::Glyphs;
-use crate::view::plot::scale::Frame;
+use crate::view::plot::scale::PlotFrame;
 use crate::view::theme::Shade;
 
 /// The coverage below which a line is shading and, in ASCII, drawn as single dots.
@@ -14,14 +14,14 @@ const FAINT: f64 = 0.3;
 
 impl Raster {
     /// Draws a straight line between two points of the frame, clipped.
-    pub fn line(&mut self, frame: &Frame, a: [f64; 2], b: [f64; 2], pen: &Pen) {
+    pub fn line(&mut self, frame: &PlotFrame, a: [f64; 2], b: [f64; 2], pen: &Pen) {
         self.polyline(frame, [a, b], pen);
     }
 
     /// Draws a line through points. It is broken at points without a position (NaN) and where it wraps around an axis.
     pub fn polyline(
         &mut self,
-        frame: &Frame,
+        frame: &PlotFrame,
         points: impl IntoIterator<Item = [f64; 2]>,
         pen: &Pen,
     ) {
@@ -35,7 +35,7 @@ impl Raster {
     /// Draws a line through points, each with the number of the pen that leads to it.
     pub fn polyline_in(
         &mut self,
-        frame: &Frame,
+        frame: &PlotFrame,
         points: impl IntoIterator<Item = ([f64; 2], usize)>,
         pens: &[Pen],
     ) {
@@ -49,7 +49,7 @@ impl Raster {
     }
 
     /// Draws a fading trail, oldest point first: the points are divided among the steps of a ramp.
-    pub fn trail(&mut self, frame: &Frame, points: &[[f64; 2]], ramp: &[Shade], layer: u8) {
+    pub fn trail(&mut self, frame: &PlotFrame, points: &[[f64; 2]], ramp: &[Shade], layer: u8) {
         if ramp.is_empty() {
             return;
         }
@@ -75,7 +75,7 @@ struct Polyline<'a, 'p> {
 
 impl<'a, 'p> Polyline<'a, 'p> {
     /// Creates a polyline without points.
-    fn new(raster: &'a mut Raster, frame: &Frame) -> Self {
+    fn new(raster: &'a mut Raster, frame: &PlotFrame) -> Self {
         let course = Course::new(frame, raster.size());
         Self { raster, course, fading: None }
     }

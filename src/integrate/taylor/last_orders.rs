@@ -1,0 +1,44 @@
+//! Which orders of a series decide a step, and how its coefficients are compared.
+//!
+//! In: the order of a series. Out: its last orders, and what is allowed to each. Never here: coefficients, steps.
+
+use std::ops::RangeInclusive;
+
+/// The number of last orders that enter. There are more than two, because symmetric motions have
+/// coefficients that vanish in a regular pattern.
+pub(super) const LAST: usize = 4;
+
+/// The number of orders before these that also enter, with a larger tolerance.
+pub(super) const BEFORE: usize = 6;
+pub(super) const INDULGENCE: f64 = 1.5;
+
+/// A coefficient below this is an underflow: in a unit of time near the step its term is far below
+/// the last digit of anything.
+pub(super) const FAINT: f64 = 1e-290;
+
+/// The most coefficients that a series has, and room for a whole chunk behind them.
+pub(super) const ROOM: usize = 64;
+
+/// The number of logarithms taken together.
+pub(super) const LANES: usize = 4;
+
+/// The number of lowest orders that are looked at first.
+pub(super) const FIRST: usize = 3;
+
+/// By how much the logarithm of the step may be longer for the k-th of p orders.
+#[inline(always)]
+pub(super) fn indulgence_of(log_indulgence: f64, k: usize, p: usize) -> f64 {
+    if k + LAST <= p { log_indulgence } else { 0.0 }
+}
+
+/// The larger of two numbers, the first if the second is NaN.
+#[inline(always)]
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}
+
+/// The orders up to p that enter.
+#[inline(always)]
+pub(super) fn last_orders(p: usize) -> RangeInclusive<usize> {
+    (p + 1).saturating_sub(LAST + BEFORE).max(3)..=p
+}
