@@ -20,7 +20,8 @@ use crate::num::{DoubleDouble, Number};
 /// this, relative to the row.
 const INDEPENDENT: f64 = 1e-9;
 
-/// The orientation of rows is not trusted if an orthogonal component is smaller than this.
+/// The orientation of rows is not trusted if an orthogonal component is smaller than this: the rounding of
+/// an entry may be 1e-15 of its row.
 const SPANS: f64 = 1e-12;
 
 /// The number of passes that scale rows and columns to make entries comparable. Each pass brings
@@ -374,10 +375,8 @@ impl Conditions {
     /// entries comparable.
     pub(super) fn span(&self, enforced: &[bool], units: Option<&[f64]>) -> Option<ConstraintSpan> {
         let units = units.map_or_else(|| self.units(enforced), <[f64]>::to_vec);
-        let mut basis = Basis { rows: Vec::new(), volume: 1.0 };
-        for k in (0..self.count).filter(|&k| enforced[k]) {
-            basis.add(self.row(k, &units)).filter(|&left| left > SPANS)?;
-        }
+        let rows = (0..self.count).filter(|&k| enforced[k]).map(|k| self.row(k, &units));
+        let basis = Basis::spanned_by(rows)?;
         Some(ConstraintSpan { rows: basis.rows, volume: basis.volume, units })
     }
 
@@ -449,6 +448,15 @@ impl Basis {
         Some(left)
     }
 
+    /// The basis of the span of rows, or `None` if they are dependent.
+    fn spanned_by(rows: impl Iterator<Item = Vec<f64>>) -> Option<Basis> {
+        let mut basis = Basis { rows: Vec::new(), volume: 1.0 };
+        for row in rows {
+            basis.add(row).filter(|&left| left > SPANS)?;
+        }
+        Some(basis)
+    }
+
     fn drop_last(&mut self) {
         self.rows.pop();
     }
@@ -505,4 +513,20 @@ impl ConstraintSpan {
 
 fn norm(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_directions_a_trillionth_apart_span_a_plane() {
+        let spans = |angle: f64| {
+            let rows = [vec![1.0, 0.0], vec![3.0, 3.0 * angle]];
+            Basis::spanned_by(rows.into_iter()).map(|basis| basis.volume)
+        };
+        assert_eq!(spans(0.0), None);
+        assert_eq!(spans(0.9e-12), None);
+        assert_eq!(spans(1.1e-12), Some(3.0 * 1.1e-12));
+    }
 }
