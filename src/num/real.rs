@@ -114,6 +114,8 @@ pub trait Analytic:
 pub trait Real: Analytic<Unit = f64> {
     /// Whether its range is practically unlimited.
     const UNBOUNDED: bool = false;
+    /// The relative error of an operation, as for a double-double.
+    const ROUNDING: f64 = f64::EPSILON * f64::EPSILON;
 
     /// The nearest `f64`.
     fn value(self) -> f64;
@@ -122,6 +124,8 @@ pub trait Real: Analytic<Unit = f64> {
 }
 
 impl Real for f64 {
+    const ROUNDING: f64 = f64::EPSILON;
+
     fn value(self) -> f64 {
         self
     }

@@ -18,9 +18,6 @@ use crate::num::DoubleDouble;
 /// this, relative to the row.
 const INDEPENDENT: f64 = 1e-9;
 
-/// The orientation of rows is not trusted if an orthogonal component is smaller than this.
-const SPANS: f64 = 1e-12;
-
 /// The number of passes that scale rows and columns to make entries comparable. Each pass brings
 /// them closer.
 const SCALINGS: usize = 3;
@@ -281,10 +278,8 @@ impl Conditions {
     /// entries comparable.
     pub(super) fn span(&self, enforced: &[bool], units: Option<&[f64]>) -> Option<ConstraintSpan> {
         let units = units.map_or_else(|| self.units(enforced), <[f64]>::to_vec);
-        let mut basis = Basis { rows: Vec::new(), volume: 1.0 };
-        for k in (0..self.count).filter(|&k| enforced[k]) {
-            basis.add(self.row(k, &units)).filter(|&left| left > SPANS)?;
-        }
+        let rows = (0..self.count).filter(|&k| enforced[k]).map(|k| self.row(k, &units));
+        let basis = Basis::spanned_by(rows)?;
         Some(ConstraintSpan { rows: basis.rows, volume: basis.volume, units })
     }
 

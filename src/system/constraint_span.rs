@@ -2,6 +2,10 @@
 //!
 //! In: rows. Out: angles and volumes. Never here: where the rows come from.
 
+/// The orientation of rows is not trusted if an orthogonal component is smaller than this: the rounding of
+/// an entry may be 1e-15 of its row.
+const SPANS: f64 = 1e-12;
+
 /// Rows orthonormalised one after the other.
 #[derive(Clone, Debug)]
 pub(super) struct Basis {
@@ -32,6 +36,15 @@ impl Basis {
         let scale = if left > 0.0 { 1.0 / left } else { 0.0 };
         self.rows.push(rest.iter().map(|x| x * scale).collect());
         Some(left)
+    }
+
+    /// The basis of the span of rows, or `None` if they are dependent.
+    pub(super) fn spanned_by(rows: impl Iterator<Item = Vec<f64>>) -> Option<Basis> {
+        let mut basis = Basis { rows: Vec::new(), volume: 1.0 };
+        for row in rows {
+            basis.add(row).filter(|&left| left > SPANS)?;
+        }
+        Some(basis)
     }
 
     pub(super) fn drop_last(&mut self) {
@@ -91,4 +104,20 @@ impl ConstraintSpan {
 /// The Euclidean norm.
 pub(super) fn norm(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_directions_a_trillionth_apart_span_a_plane() {
+        let spans = |angle: f64| {
+            let rows = [vec![1.0, 0.0], vec![3.0, 3.0 * angle]];
+            Basis::spanned_by(rows.into_iter()).map(|basis| basis.volume)
+        };
+        assert_eq!(spans(0.0), None);
+        assert_eq!(spans(0.9e-12), None);
+        assert_eq!(spans(1.1e-12), Some(3.0 * 1.1e-12));
+    }
 }

@@ -51,17 +51,30 @@ pub(super) struct SeriesBuilder<R: Coefficient> {
     /// The number of orders after which a weight affects these switches: one if it acts on the
     /// numbers they depend on, two if it acts on the rates of these.
     pub(super) depth: usize,
+    /// Whether the weights act on the rate of each number.
+    steered: Vec<bool>,
 }
+
+/// A coefficient this many roundings from zero, in terms of what the weights balance in it, is zero.
+const BALANCED: f64 = 64.0;
 
 impl<R: Coefficient> SeriesBuilder<R> {
     pub(super) fn new(jet: Jet<R>, inputs: usize, len: usize) -> SeriesBuilder<R> {
         let order = jet.order();
         let state = vec![R::ZERO; len * (order + 1)];
-        SeriesBuilder { jet, order, inputs, state, kept: Vec::new(), depth: 1 }
+        let steered = vec![false; inputs];
+        SeriesBuilder { jet, order, inputs, state, kept: Vec::new(), depth: 1, steered }
     }
 
     pub(super) fn series(&self, i: usize) -> &[R] {
         &self.state[i * (self.order + 1)..][..=self.order]
+    }
+
+    /// The coefficients of a number that are final: a weight that acts two orders later is not known
+    /// at the last order.
+    pub(super) fn known_series(&self, i: usize) -> &[R] {
+        let unknown = if self.kept.is_empty() { 0 } else { self.depth - 1 };
+        &self.series(i)[..=self.order - unknown]
     }
 
     fn len(&self) -> usize {
@@ -151,6 +164,7 @@ impl<R: Real> SeriesBuilder<R> {
             }
         }
         self.kept.clone_from(&other.kept);
+        self.steered.clone_from(&other.steered);
         self.depth = other.depth;
         self.jet.take_over(&other.jet, other.order)
     }
@@ -180,15 +194,18 @@ impl<R: Real> SeriesBuilder<R> {
                 return Err(Halt::Cancelled);
             }
             self.extend(k, clock)?;
-            self.solve_weights(k, clock)?;
+            let terms = self.solve_weights(k, clock)?;
             self.extend(k, clock)?;
+            self.clear_balanced(k + 1, terms.as_deref());
         }
         Ok(())
     }
 
     /// Finds the coefficients of order `k` of the weights that make those of order `k + 1` of the
-    /// kept switches vanish. The latter depend linearly on the former.
-    fn solve_weights(&mut self, k: usize, clock: Clock<R>) -> Result<(), Halt> {
+    /// kept switches vanish. The latter depend linearly on the former. Returns for each number how much
+    /// the weights balance in its coefficient of order `k + 1`, or nothing where that order is the
+    /// last and its weights are not known.
+    fn solve_weights(&mut self, k: usize, clock: Clock<R>) -> Result<Option<Vec<f64>>, Halt> {
         let kept = self.kept.clone();
         let n = kept.len();
         if k == 0 {
@@ -198,14 +215,23 @@ impl<R: Real> SeriesBuilder<R> {
             for &switch in &kept {
                 self.jet.set_weight(switch, k, R::ZERO);
             }
-            return Ok(());
+            return Ok(None);
         }
         let mut matrix = vec![R::ZERO; n * n];
         let mut factored = Factored::new(n);
+        let (inputs, place) = (self.inputs, self.order + 1);
+        let mut parts = vec![R::ZERO; (n + 1) * inputs];
         let rest = loop {
             let rest = self.probe(k, clock, &kept, None)?;
+            for (i, part) in parts.iter_mut().take(inputs).enumerate() {
+                *part = self.state[i * place + k + 1];
+            }
             for (j, &switch) in kept.iter().enumerate() {
                 let moved = self.probe(k, clock, &kept, Some(switch))?;
+                let (without, with) = parts.split_at_mut((j + 1) * inputs);
+                for (i, (part, &before)) in with.iter_mut().zip(&without[..inputs]).enumerate() {
+                    *part = self.state[i * place + k + 1] - before;
+                }
                 for i in 0..n {
                     matrix[i * n + j] = moved[i] - rest[i];
                 }
@@ -225,7 +251,32 @@ impl<R: Real> SeriesBuilder<R> {
         for (&switch, &w) in kept.iter().zip(&weights) {
             self.jet.set_weight(switch, k, w);
         }
-        Ok(())
+        let acting = |i: usize| (1..=n).map(move |j| j * inputs + i);
+        for (i, steered) in self.steered.iter_mut().enumerate() {
+            *steered = acting(i).any(|part| parts[part].value() != 0.0);
+        }
+        let terms = (0..inputs).map(|i| {
+            let balancing =
+                acting(i).zip(&weights).map(|(part, &w)| (parts[part] * w).value().abs());
+            parts[i].value().abs() + balancing.sum::<f64>()
+        });
+        Ok(Some(terms.collect()))
+    }
+
+    /// Sets the coefficients of an order to zero that are rounding errors of what the weights
+    /// balance: a body held on a surface is at rest there. At the last order, whose weights may not be
+    /// known, the series of what they act on ends one order earlier.
+    fn clear_balanced(&mut self, order: usize, terms: Option<&[f64]>) {
+        for i in 0..self.inputs {
+            let c = &mut self.state[i * (self.order + 1) + order];
+            let balanced = terms.is_none_or(|terms| {
+                let size = c.value().abs();
+                terms[i].is_finite() && size > 0.0 && size <= BALANCED * R::ROUNDING * terms[i]
+            });
+            if self.steered[i] && balanced {
+                *c = R::ZERO;
+            }
+        }
     }
 
     /// The kept switches `depth` orders later, with one weight of order `k` set to 1 and the others

@@ -419,8 +419,7 @@ impl Legendre {
             new = largest(next, scales);
             // converged: the correction is below the precision of the result, or the residual stops
             // shrinking
-            let no_more_missed =
-                old <= STUBBORN && (new <= ROUNDING || (new <= STUBBORN && new >= 0.5 * old));
+            let no_more_missed = is_rounding(old, new);
             let settled =
                 new <= SETTLED && (change < 1e-26 || (change < 1e-18 && change >= last_change));
             if new == 0.0 || no_more_missed || settled {
@@ -463,4 +462,29 @@ fn largest(missing: &[DoubleDouble], scales: &[f64]) -> f64 {
         _ => f64::INFINITY,
     });
     parts.fold(0.0, f64::max)
+}
+
+/// Whether what is left of a residual, relative to its terms, is rounding, after `old` was left before the
+/// last step.
+fn is_rounding(old: f64, new: f64) -> bool {
+    old <= STUBBORN && (new <= ROUNDING || (new <= STUBBORN && new >= 0.5 * old))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_residual_is_rounding_where_a_step_leaves_it_tiny_or_as_small_as_it_was() {
+        for (old, new, rounding) in [
+            (0.9e-20, 0.9e-29, true),
+            (0.9e-20, 1.1e-29, false),
+            (0.9e-20, 0.5e-20, true),
+            (0.9e-20, 0.4e-20, false),
+            (1.1e-20, 1.1e-20, false),
+            (1.1e-20, 0.0, false),
+        ] {
+            assert_eq!(is_rounding(old, new), rounding, "{new:e} after {old:e}");
+        }
+    }
 }

@@ -108,7 +108,7 @@ impl Projection {
                     if b.0 > a.0 || b.0.is_nan() { b } else { a }
                 },
             );
-            if size <= ROUNDING || (size <= STUBBORN && size >= 0.5 * last) {
+            if is_rounding(size, last) {
                 return Ok(());
             }
             if size.is_nan() || size > 1e6 * last {
@@ -198,7 +198,7 @@ impl Projection {
                 }
                 part *= 0.5;
             }
-            if size <= ROUNDING || (size <= STUBBORN && size >= 0.5 * last) {
+            if is_rounding(size, last) {
                 state[n..2 * n].copy_from_slice(&numbers[n..]);
                 let mut all = vec![DoubleDouble::ZERO; self.enforced.len()];
                 rows.iter().zip(reactions).for_each(|(&k, x)| all[k] = x);
@@ -253,4 +253,31 @@ fn merit(missing: &[DoubleDouble], scales: &[f64]) -> f64 {
         _ => f64::INFINITY,
     });
     parts.map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// Whether what is left of a residual, relative to its terms, is rounding; `last` is what was left
+/// before the last correction.
+fn is_rounding(size: f64, last: f64) -> bool {
+    size <= ROUNDING || (size <= STUBBORN && size >= 0.5 * last)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A residual relative to its terms can be as small as the rounding of a double-double, 1.2e-32, and
+    /// where the terms are differences of numbers 1e9 times as large, 1e-23.
+    #[test]
+    fn a_residual_is_rounding_where_it_is_tiny_or_stays_small() {
+        for (size, last, rounding) in [
+            (0.9e-30, 1.0, true),
+            (1.1e-30, 1.0, false),
+            (0.9e-22, 1.7e-22, true),
+            (0.9e-22, 1.9e-22, false),
+            (1.1e-22, 1.1e-22, false),
+            (f64::NAN, 1e-30, false),
+        ] {
+            assert_eq!(is_rounding(size, last), rounding, "{size:e} after {last:e}");
+        }
+    }
 }

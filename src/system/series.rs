@@ -190,7 +190,6 @@ impl Series {
         if let Some(low) = &mut self.low {
             low.begin(&self.origin, &self.sides);
             low.grow(0, Clock::new(time, scale), cancel)?;
-            // a weight that acts two orders later is not yet known at the last order
             first = if low.kept.is_empty() { low.order } else { low.order + 1 - low.depth };
             self.high.take_over(low)?;
         } else {
@@ -285,9 +284,10 @@ impl Series {
     }
 }
 
-/// The power of two below the size of a step, with its sign.
+/// The power of two below the size of a step, with its sign; at least 2⁻⁹³⁰, whose inverse has all its
+/// digits in double-double.
 pub(super) fn unit_below(step: f64) -> f64 {
-    let exponent = (step.abs().to_bits() >> 52).clamp(23, 2023);
+    let exponent = (step.abs().to_bits() >> 52).clamp(93, 2023);
     f64::from_bits(exponent << 52).copysign(step)
 }
 
@@ -323,7 +323,7 @@ impl Kernel for Sum<'_> {
         let Sum { series, x, out } = self;
         let count = series.origin.len();
         let low = |i: usize| match &series.low {
-            Some(low) => low.series(i),
+            Some(low) => low.known_series(i),
             None => &series.origin[i..=i],
         };
         let first = low(0).len();
