@@ -48,6 +48,7 @@ mod pointer;
 mod predicting;
 mod prediction;
 mod prompt;
+mod ramp;
 mod rate;
 mod reading;
 mod saved;

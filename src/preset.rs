@@ -19,7 +19,7 @@ pub use catalog::{
     Catalog, Entry, NotFound, Origin, demo, demos, find, find_beside, is_path, lesson, lessons,
 };
 pub use read::{Checked, UNTITLED, read, read_with};
-pub use rewrite::{Beginning, Rewrite};
+pub use rewrite::{Beginning, NewRamp, Rewrite};
 pub use schema::reference;
 pub use settings::{Entry as Setting, Plain};
 pub use template::template;

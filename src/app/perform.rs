@@ -169,6 +169,7 @@ impl App {
             Action::PeriodicOrbit => self.find_orbit(),
             Action::Spectrum => self.show_picture("spectrum"),
             Action::Diagram => self.show_diagram(),
+            Action::Ramp => self.open_ramp(),
             Action::Pin => vec![Effect::Tell(Command::Pin)],
             Action::ClearCompanions => self.clear_companions(),
             Action::AddOrbits => self.add_orbits(),
@@ -457,7 +458,8 @@ impl App {
         }
         let now = match purpose {
             Purpose::Value(target) => lab.value(target),
-            Purpose::Flow(_) | Purpose::SymmetryFlow(_) => Some(FLOW),
+            Purpose::Flow(_) | Purpose::SymmetryFlow(_) | Purpose::GeneratorFlow(_) => Some(FLOW),
+            Purpose::TypedFlow | Purpose::Ramp(_) => None,
             Purpose::Step => method.map(|m| m.step),
             Purpose::Tolerance => method.and_then(|m| m.tolerance),
         };
