@@ -49,6 +49,7 @@ mod pointer;
 mod predicting;
 mod prediction;
 mod prompt;
+mod ramp;
 mod rate;
 mod reading;
 mod saved;

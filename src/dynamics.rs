@@ -5,6 +5,7 @@
 //! files, threads.
 
 mod action;
+mod amplified_rounding;
 mod carrier;
 mod conformal;
 mod conjugate;

@@ -6,6 +6,7 @@
 //! colours (`view` draws any picture), keys, threads.
 
 mod action;
+mod actions;
 mod answer;
 mod conditions;
 mod diagram;

@@ -5,6 +5,7 @@
 
 #![warn(clippy::disallowed_methods)]
 
+pub mod action_angle;
 pub mod analysis;
 pub mod app;
 pub mod cancel;

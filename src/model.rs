@@ -29,7 +29,7 @@ pub use description::{CommonSymbols, Info, Mechanics, Model, RunSettings};
 pub use occurrence::{Action, Direction, Event, Impulse};
 pub use parameter::{Parameter, RangeSpacing};
 pub use picture::{Channel, Follow, Point, Shape, Variation, View};
-pub use ramp::{Ramp, RampRefused, Ramped, replace_by_ramps};
+pub use ramp::{Ramp, RampForm, RampPart, RampRefused, Ramped, replace_by_ramps};
 pub use scope::{Allowed, Scope};
 pub use transformation::{
     CompleteIntegral, GeneratingType, Generator, IntegralConstant, Transformation,

@@ -75,6 +75,8 @@ pub enum Action {
     Brackets,
     /// Carry the state along the flow of a constant of the motion.
     ApplyFlow,
+    /// Let the selected parameter go to another value in the course of time.
+    Ramp,
     /// Edit the system's file.
     Edit,
     /// Begin a system of one's own in the editor.

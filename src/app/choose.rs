@@ -135,6 +135,8 @@ impl App {
             }
             (_, Choice::Guide(index)) => self.take_guide(index),
             (_, Choice::Flow(index)) => self.open_field(Purpose::Flow(index)),
+            (_, Choice::Generator(index)) => self.open_field(Purpose::GeneratorFlow(index)),
+            (_, Choice::TypedGenerator) => self.open_field(Purpose::TypedFlow),
             (_, Choice::Symmetries) => self.find_symmetries(),
             (_, Choice::Symmetry(index)) => self.open_field(Purpose::SymmetryFlow(index)),
             (_, Choice::Equilibrium(index)) => self.begin_at_equilibrium(index, None),
@@ -156,6 +158,11 @@ impl App {
     }
 
     fn accept_value(&mut self, mut field: InputField) -> Vec<Effect> {
+        match field.purpose {
+            Purpose::Ramp(index) => return self.accept_ramp(field, index),
+            Purpose::TypedFlow => return self.accept_typed_flow(field),
+            _ => {}
+        }
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let parameters = lab.snapshot.as_ref().map_or(Vec::new(), |s| s.parameters.to_vec());
         let value = match field.read(&lab.loaded.model, &parameters) {
@@ -185,6 +192,8 @@ impl App {
                 effects
             }
             Purpose::Flow(index) => self.follow_flow(index, value),
+            Purpose::GeneratorFlow(index) => self.follow_generator(index, value),
+            Purpose::TypedFlow | Purpose::Ramp(_) => Vec::new(),
             Purpose::SymmetryFlow(index) => self.follow_symmetry(index, value),
             Purpose::Step => lab.step_by(value),
             Purpose::Tolerance => lab.tolerate(value),

@@ -83,7 +83,7 @@ impl App {
     }
 
     /// Returns the buffer of the system in the lab, as it was left.
-    fn ready_buffer(&mut self) -> Option<&mut SourceBuffer> {
+    pub(super) fn ready_buffer(&mut self) -> Option<&mut SourceBuffer> {
         if self.lab.is_none() {
             return self.workbench.top_mut().filter(|buffer| buffer.state != BufferState::Left);
         }

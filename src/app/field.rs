@@ -29,6 +29,12 @@ pub enum Purpose {
     Flow(usize),
     /// How far it is carried along the flow of the symmetry of this index.
     SymmetryFlow(usize),
+    /// How far it is carried along the flow of the generator of this index of the file.
+    GeneratorFlow(usize),
+    /// A generator that is typed, and how far the state is carried along its flow.
+    TypedFlow,
+    /// Where the parameter of this index goes, and in which time.
+    Ramp(usize),
 }
 
 /// A field being typed in.
@@ -79,9 +85,12 @@ impl InputField {
     pub fn read(&self, model: &Model, parameters: &[f64]) -> Result<f64, String> {
         let value = number(model, parameters, self.input.value())?;
         let sentence = match self.purpose {
-            Purpose::Value(_) | Purpose::Flow(_) | Purpose::SymmetryFlow(_) => {
-                return Ok(value);
-            }
+            Purpose::Value(_)
+            | Purpose::Flow(_)
+            | Purpose::SymmetryFlow(_)
+            | Purpose::GeneratorFlow(_)
+            | Purpose::TypedFlow
+            | Purpose::Ramp(_) => return Ok(value),
             Purpose::Step => "The step must be more than zero.",
             Purpose::Tolerance => "The tolerance must be more than zero and less than one.",
         };
@@ -91,7 +100,7 @@ impl InputField {
 }
 
 /// Evaluates an expression of numbers and parameters with these parameter values.
-fn number(model: &Model, parameters: &[f64], text: &str) -> Result<f64, String> {
+pub(super) fn number(model: &Model, parameters: &[f64], text: &str) -> Result<f64, String> {
     let mut pool: Pool = model.pool.clone();
     let mut scope = Scope::new(model, Allowed::Parameters, "a typed value");
     let Some(expression) = scope.read(&mut pool, text) else {

@@ -8,6 +8,7 @@
 use std::sync::Arc;
 
 use super::computation::Asker;
+use super::field::{InputField, number};
 use super::menu::{Choice, Choosing, Item, Menu};
 use super::{App, Effect, Loaded, Notification, Overlay};
 use crate::experiment::{Command, Derived, Experiment, Setup, Status};
@@ -16,7 +17,8 @@ use crate::instrument::Answer;
 use crate::integrability::symmetry_flow;
 use crate::job::{Job, Outcome, Progress};
 use crate::mechanics::{Equations, GeneratorFlow, flow_of};
-use crate::model::Model;
+use crate::model::{Allowed, Model, Scope};
+use crate::num::significant;
 use crate::system::{ChannelKind, InitialOverride};
 
 /// The steps of integration between two looks at the token that stops them.
@@ -25,8 +27,21 @@ const SLICE: u64 = 200;
 /// The most slices before it is given up.
 const SLICES: u32 = 2_000;
 
-/// What a flow leads to: the initial values of the new orbit, or why there are none.
-type FlowOutcome = Result<Vec<InitialOverride>, String>;
+/// What a flow leads to, or why it leads nowhere.
+type FlowOutcome = Result<FlowEnd, String>;
+
+/// The initial values of the new orbit.
+#[derive(Clone, Debug)]
+struct FlowEnd {
+    values: Vec<InitialOverride>,
+    /// The energy before and after, of a flow of a function G.
+    energies: Option<[f64; 2]>,
+    /// Whether [H, G] = 0 is proved.
+    keeps_energy: bool,
+}
+
+/// Energies that differ by less than this part are the same to rounding.
+const SAME: f64 = 1e-12;
 
 /// What generates a flow.
 #[derive(Clone, Debug)]
@@ -142,6 +157,11 @@ impl FlowStart {
         let (model, equations) = (Arc::new(model), Arc::new(equations));
         let mut experiment =
             Experiment::new(&model, &equations, &system, setup).map_err(|why| why.to_string())?;
+        let energy = |experiment: &Experiment| {
+            let place = system.channels().iter().position(|c| c.kind == ChannelKind::Energy)?;
+            experiment.snapshot().values.get(place).copied()
+        };
+        let before = energy(&experiment);
         let end = self.epsilon.abs();
         for _ in 0..SLICES {
             if progress.is_cancelled() || experiment.time() >= end {
@@ -159,7 +179,29 @@ impl FlowStart {
         let channels = system.channels().iter().zip(snapshot.values.iter());
         let reached =
             channels.filter_map(|(c, &value)| self.generator.initial_value(degrees, c.kind, value));
-        Ok(reached.collect())
+        let values = reached.collect();
+        let after = energy(&experiment);
+        let of_function = matches!(self.generator, FlowGenerator::Constant(_));
+        let energies = before.zip(after).map(|(before, after)| [before, after]);
+        let keeps_energy = of_function && equations.energy_rate == Expr::ZERO;
+        Ok(FlowEnd { values, energies: energies.filter(|_| of_function), keeps_energy })
+    }
+}
+
+impl FlowEnd {
+    /// What is said of the new orbit.
+    fn sentence(&self) -> String {
+        let begins = "The motion begins where the flow leads";
+        let Some([before, after]) = self.energies else {
+            return format!("{begins}, on another orbit.");
+        };
+        let same = (after - before).abs() <= SAME * before.abs().max(after.abs());
+        let [from, to] = [before, after].map(|x| significant(x, 6, 1e-4..1e7));
+        match (self.keeps_energy, same) {
+            (true, _) => format!("{begins}: H = {to} as before, since [H, G] = 0."),
+            (false, true) => format!("{begins}: H = {to} as before, though [H, G] is not 0."),
+            (false, false) => format!("{begins}: H has changed from {from} to {to}."),
+        }
     }
 }
 
@@ -180,6 +222,17 @@ impl App {
                 }),
             );
         }
+        let model = &lab.loaded.model;
+        let generators = model.generators.iter().enumerate();
+        items.extend(generators.map(|(index, generator)| {
+            let about =
+                format!("generator of the file: {}", model.pool.unicode(generator.expression));
+            Item::plain(generator.name.clone(), about, Choice::Generator(index))
+        }));
+        if model.constraints.is_empty() {
+            let about = "any function of q and p, typed; H changes unless [H, G] = 0";
+            items.push(Item::plain("another G …", about, Choice::TypedGenerator));
+        }
         if lab.may_have_symmetries() {
             let about = "changes of time and coordinates that take motions to motions";
             items.push(Item::plain("symmetries …", about, Choice::Symmetries));
@@ -196,6 +249,40 @@ impl App {
         let Some((_, generator)) = lab.flows().into_iter().nth(index) else { return Vec::new() };
         let equations = findings.equations.clone();
         self.follow(FlowGenerator::Constant(generator), equations, epsilon)
+    }
+
+    /// Follows the flow of a generator of the file.
+    pub(super) fn follow_generator(&mut self, index: usize, epsilon: f64) -> Vec<Effect> {
+        let Some(lab) = &self.lab else { return Vec::new() };
+        let Some(generator) = lab.loaded.model.generators.get(index) else { return Vec::new() };
+        let (generator, equations) = (generator.expression, (*lab.loaded.equations).clone());
+        self.follow(FlowGenerator::Constant(generator), equations, epsilon)
+    }
+
+    /// Follows the flow of a generator that was typed: `G; ε`.
+    pub(super) fn accept_typed_flow(&mut self, mut field: InputField) -> Vec<Effect> {
+        let Some(lab) = &self.lab else { return Vec::new() };
+        let typed = field.input.value().to_owned();
+        let (written, far) = typed.split_once(';').unwrap_or((&typed, "0.1"));
+        let model = &lab.loaded.model;
+        let parameters = lab.seen().map_or(Vec::new(), |s| s.parameters.to_vec());
+        let mut equations = (*lab.loaded.equations).clone();
+        let mut scope = Scope::new(model, Allowed::Bracket, "a generator");
+        let read = scope.read(&mut equations.pool, written).ok_or_else(|| {
+            let mistake = scope.mistakes.first();
+            let what = mistake.map_or("it cannot be read".to_owned(), ToString::to_string);
+            format!("`{}` is not a generator: {what}.", written.trim())
+        });
+        match read.and_then(|e| Ok((e, number(model, &parameters, far)?))) {
+            Ok((generator, epsilon)) => {
+                self.follow(FlowGenerator::Constant(generator), equations, epsilon)
+            }
+            Err(sentence) => {
+                field.mistake = Some(sentence);
+                self.overlay = Some(Overlay::Field(field));
+                Vec::new()
+            }
+        }
     }
 
     /// Follows a flow from the current state; its generator stands in these equations.
@@ -252,10 +339,9 @@ impl App {
             Outcome::Cancelled => return Some(Vec::new()),
         };
         Some(match carried {
-            Ok(overrides) => {
-                let sentence = "The motion begins where the flow leads, on another orbit.";
-                self.notice = Some(Notification::info(sentence));
-                vec![Effect::Tell(Command::Start(overrides))]
+            Ok(end) => {
+                self.notice = Some(Notification::info(end.sentence()));
+                vec![Effect::Tell(Command::Start(end.values))]
             }
             Err(why) => self.notify(format!("The flow cannot be followed: {why}.")),
         })

@@ -258,7 +258,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('{'), c('i')], Action::Ask, "ask", "ask for a bracket [f, g], or whether something is an invariant"),
     row(Place::Experiment, &[c('I')], Action::SearchFurther, "", "search for constants of the motion, and further each time: to a higher degree, for longer"),
     row(Place::Experiment, &[c('B')], Action::Brackets, "", "the table of brackets of the constants of the motion, or away with it"),
-    row(Place::Experiment, &[c('J')], Action::ApplyFlow, "", "carry the state along the flow of a constant of the motion or a symmetry, to another orbit"),
+    row(Place::Experiment, &[c('J')], Action::ApplyFlow, "", "carry the state along the flow of a constant of the motion, a generator of the file or of your own, or a symmetry, to another orbit"),
     row(Place::Experiment, &[c('/')], Action::Palette, "", "search all actions by name, as : does"),
     row(Place::Experiment, &[c('P')], Action::Pin, "", "pin this run: it continues beside what follows, with its values and its method"),
     row(Place::Experiment, &[c('d')], Action::AddNeighbour, "", "add a neighbour, a motion from close beside, and show how they part: ln d against time"),
@@ -333,6 +333,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Values, &[SHIFT_RIGHT, c('L'), c('+'), c('=')], change(1, true), "", "more, by a coarse step"),
     row(Place::Values, &[ENTER], Action::TypeValue, "type", "type the value; pi, sqrt(2), 2*l are understood"),
     row(Place::Values, &[c('v')], Action::Diagram, "", "what becomes of the motion over the range of this parameter: where it crosses the surface of section (a bifurcation diagram), or its Lyapunov exponent"),
+    row(Place::Values, &[c('c')], Action::Ramp, "", "change this parameter in the course of time, by a ramp from now on: to another value, in a time; its action variable J is shown, which a slow ramp leaves"),
     row(Place::Values, &[BACKSPACE, DELETE], Action::Restore, "", "the value of the file"),
 
     row(Place::Gauges, &[UP, c('k')], Action::Move(ArrowDirection::Up), "", "the gauge above"),

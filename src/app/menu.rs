@@ -88,6 +88,10 @@ pub enum Choice {
     Impulse(usize),
     /// The constant of the motion of this index among those that have a flow.
     Flow(usize),
+    /// The generator of this index of the file.
+    Generator(usize),
+    /// A generator to be typed.
+    TypedGenerator,
     /// The symmetries of the equations of motion, which have flows, too.
     Symmetries,
     /// The symmetry of this index among those found.

@@ -52,7 +52,8 @@ impl App {
         }
         let now = match purpose {
             Purpose::Value(target) => lab.value(target),
-            Purpose::Flow(_) | Purpose::SymmetryFlow(_) => Some(FLOW),
+            Purpose::Flow(_) | Purpose::SymmetryFlow(_) | Purpose::GeneratorFlow(_) => Some(FLOW),
+            Purpose::TypedFlow | Purpose::Ramp(_) => None,
             Purpose::Step => method.map(|m| m.step),
             Purpose::Tolerance => method.and_then(|m| m.tolerance),
         };

@@ -98,9 +98,15 @@ impl App {
             Action::ApplyImpulse if lab.impulses().is_empty() => {
                 Some("this system has no impulse that waits for a key")
             }
-            Action::ApplyFlow if lab.flows().is_empty() && !lab.may_have_symmetries() => Some(
-                "no constants of the motion with a flow are known yet; page 2 searches for them",
-            ),
+            Action::ApplyFlow
+                if lab.flows().is_empty()
+                    && !lab.may_have_symmetries()
+                    && lab.loaded.model.generators.is_empty() =>
+            {
+                Some(
+                    "no constants of the motion with a flow are known yet; page 2 searches for them",
+                )
+            }
             Action::ClearCompanions if lab.seen().is_some_and(|s| s.companions.is_empty()) => {
                 Some("there are no motions beside the main one")
             }

@@ -163,6 +163,7 @@ impl App {
             Action::PeriodicOrbit => self.find_orbit(),
             Action::Spectrum => self.show_picture("spectrum"),
             Action::Diagram => self.show_diagram(),
+            Action::Ramp => self.open_ramp(),
             Action::Pin => vec![Effect::Tell(Command::Pin)],
             Action::ClearCompanions => self.clear_companions(),
             Action::AddOrbits => self.add_orbits(),

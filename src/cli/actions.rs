@@ -12,14 +12,14 @@ use super::interrupt::Interrupt;
 use super::motion_options::{Laid, ModelReading, MotionOptions};
 use super::output::Output;
 use super::section::surface;
-use crate::diagnostic::{Document, nearest};
-use crate::ensemble::{Start, add_section};
-use crate::expr::Expr;
-use crate::model::{Direction, Model};
-use crate::orbits::{
+use crate::action_angle::{
     ActionRow, ActionSystems, AllowedInterval, EffectivePotential, NoAction, RegionKind,
     action_between, action_row, cyclic_row,
 };
+use crate::diagnostic::nearest;
+use crate::ensemble::add_section;
+use crate::expr::Expr;
+use crate::model::{Direction, Model};
 use crate::printable;
 use crate::system::ChannelKind;
 
@@ -29,7 +29,8 @@ use crate::system::ChannelKind;
 /// two turning points, or rotation; the action ∮ p dq, the period T, the frequency dE/dJ = 1/T.
 /// The separatrices follow, with the actions of their lobes. Without --energy there is the region
 /// in which the start lies. Of several coordinates one is taken in which the system separates;
-/// of a cyclic one the frequency is that of its mean advance.
+/// of a cyclic one the frequency is that of its mean advance; where it has no period, and so no action,
+/// the angular frequency is its mean rate.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -119,23 +120,6 @@ fn unused_column(model: &Model) -> String {
     name
 }
 
-/// The action variable at a start of one degree of freedom whose parameters stand still; `None` where the motion from there
-/// does not return.
-pub(super) fn of_start(
-    document: &Document,
-    model: Model,
-    start: Start,
-    interrupt: &Interrupt,
-) -> Option<ActionRow> {
-    let reading = ModelReading::of(document, model, start);
-    let systems = Systems::compile(&MotionOptions::plain(), reading, 0, interrupt).ok()?;
-    let mut potential = systems.potential().ok()?;
-    let own = own_start(&systems.turning, 0).ok()?;
-    let regions = containing(&potential.regions(own.energy), own.place, potential.period());
-    let region = *regions.first()?;
-    action_row(&mut potential, &systems.systems(), region, own.energy).ok()
-}
-
 /// The only coordinate that is not cyclic, if the one that is asked for is: its motion repeats itself, and the other one
 /// advances by the same angle each time.
 fn partner(
@@ -144,7 +128,7 @@ fn partner(
     index: usize,
     interrupt: &Interrupt,
 ) -> Result<Option<usize>, CommandError> {
-    if reading.model.coordinates.len() == 1 || reading.model.coordinates[index].period.is_none() {
+    if reading.model.coordinates.len() == 1 {
         return Ok(None);
     }
     let laid = motion.compile(reading.clone(), &[], "--coordinate", interrupt)?;
@@ -229,7 +213,7 @@ impl Systems {
         let columns =
             [ChannelKind::Position(cyclic), ChannelKind::Momentum(cyclic)].map(|k| self.column(k));
         let parameters = &self.turning.start.parameters;
-        let turn = self.turning.system.period(cyclic, parameters).unwrap_or(f64::NAN);
+        let turn = self.turning.system.period(cyclic, parameters);
         cyclic_row(potential, &self.systems(), region, energy, columns, turn)
     }
 }
@@ -324,7 +308,14 @@ fn written(
     rows: &[ActionRow],
     separatrices: &[Separatrix],
 ) -> String {
-    let frequency = |row: &ActionRow| 1.0 / row.period;
+    let frequency = |row: &ActionRow| match row.kind {
+        RegionKind::Unbounded => f64::NAN,
+        _ => 1.0 / row.period,
+    };
+    let period = |row: &ActionRow| match row.kind {
+        RegionKind::Unbounded => f64::NAN,
+        _ => row.period,
+    };
     let action =
         |row: &ActionRow| if row.kind == RegionKind::Unbounded { f64::NAN } else { row.action };
     if format == TableFormat::Json {
@@ -335,8 +326,9 @@ fn written(
                 "kind": row.kind.word(),
                 "turning_points": row.turning_points,
                 "action": action(row),
-                "period": row.period,
+                "period": period(row),
                 "frequency": frequency(row),
+                "angular_frequency": row.angular_frequency(),
             })
         });
         members.insert("rows".to_owned(), rows.collect::<Value>());
@@ -346,7 +338,8 @@ fn written(
         return cells::object(&members);
     }
     let names =
-        ["energy", "kind", "left", "right", "action", "period", "frequency"].map(str::to_owned);
+        ["energy", "kind", "left", "right", "action", "period", "frequency", "angular_frequency"]
+            .map(str::to_owned);
     let cell = |row: &ActionRow| {
         let point = |i: usize| row.turning_points.get(i).copied().unwrap_or(f64::NAN);
         vec![
@@ -355,8 +348,9 @@ fn written(
             TableCell::Number(point(0)),
             TableCell::Number(point(1)),
             TableCell::Number(action(row)),
-            TableCell::Number(row.period),
+            TableCell::Number(period(row)),
             TableCell::Number(frequency(row)),
+            TableCell::Number(row.angular_frequency()),
         ]
     };
     let table: Vec<Vec<TableCell>> = rows.iter().map(cell).collect();

@@ -178,7 +178,7 @@ fn execute(command: Command, interrupt: &Interrupt) -> Result<(), CommandError> 
         Command::Bracket(arguments) => bracket::perform(&arguments),
         Command::Invariants(arguments) => invariants::perform(&arguments),
         Command::Symmetries(arguments) => symmetries::perform(&arguments),
-        Command::Run(arguments) => run::perform(&arguments, actions::of_start, interrupt),
+        Command::Run(arguments) => run::perform(&arguments, interrupt),
         Command::Flow(arguments) => flow::perform(&arguments, interrupt),
         Command::Lyapunov(arguments) => lyapunov::perform(&arguments, interrupt),
         Command::Reverse(arguments) => reverse::perform(&arguments, interrupt),

@@ -63,27 +63,7 @@ pub(super) struct Laid {
     pub(super) settings: Settings,
 }
 
-impl ModelReading {
-    /// A model at a start.
-    pub(super) fn of(document: &Document, model: Model, start: Start) -> ModelReading {
-        let settings = Settings { step: None, tolerance: model.run.tolerance };
-        ModelReading { document: document.clone(), model, start, settings }
-    }
-}
-
 impl MotionOptions {
-    /// No options: the most accurate method that fits.
-    pub(super) fn plain() -> MotionOptions {
-        MotionOptions {
-            name: OsString::new(),
-            set: Vec::new(),
-            init: Vec::new(),
-            method: Some("auto".to_owned()),
-            step: None,
-            tolerance: None,
-        }
-    }
-
     /// Reads the system and its start.
     pub(super) fn read(&self) -> Result<ModelReading, CommandError> {
         let document = open::find(&self.name)?;

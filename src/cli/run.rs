@@ -29,7 +29,6 @@ use crate::model::{Model, replace_by_ramps};
 use crate::printable;
 use crate::system::System;
 
-pub(super) use adiabatic::ActionOf;
 use adiabatic::Adiabatic;
 use execution::{Run, STEPS_PER_LOOK};
 use times::Times;
@@ -103,12 +102,7 @@ pub(super) struct Arguments {
 /// The number of times that the gauges are sampled, whatever the rows.
 const LOOKS: f64 = 1000.0;
 
-/// Runs; `action` finds the action variable of a run with a ramp.
-pub(super) fn perform(
-    arguments: &Arguments,
-    action: ActionOf,
-    interrupt: &Interrupt,
-) -> Result<(), CommandError> {
+pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let document = open::find(&arguments.name)?;
     let mut model = open::read(&document)?;
     model.leave_views_out();
@@ -123,10 +117,13 @@ pub(super) fn perform(
     let given = assignment::initial(&model, &parameters, &arguments.init)?;
     model.run.start = start;
     assignment::begin_at(&mut model, &given);
-    let found = (action, interrupt);
-    let adiabatic = Adiabatic::of(&document, &model, &ramps, &parameters, found);
     let ramped = replace_by_ramps(&mut model, &ramps)
         .map_err(|why| CommandError::WrongUse(format!("--ramp: {why}")))?;
+    let adiabatic = if arguments.flow_of.is_none() {
+        Adiabatic::of(&model, &parameters, interrupt.cancel())
+    } else {
+        None
+    };
     let mut run = model.run.clone();
     if arguments.flow_of.is_some() {
         run.start = 0.0;

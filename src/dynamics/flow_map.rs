@@ -6,6 +6,7 @@
 
 use nalgebra::DMatrix;
 
+use super::amplified_rounding::AmplifiedRounding;
 use super::carrier::Carrier;
 use super::error::DynamicsError;
 use super::phase_space::PhaseSpace;
@@ -36,7 +37,7 @@ pub struct FlowMap {
     pub determinant_expected: f64,
     /// The largest entry of |M𝕁Mᵀ − 𝕁|; `None` if the variables are not canonical.
     pub symplectic_residual: Option<f64>,
-    /// What the rounding of M alone may leave of it.
+    /// What rounding may leave of it: that of M at the end, and that of every step, amplified by the flow after it.
     pub symplectic_rounding: Option<f64>,
     /// The step or tolerance used.
     pub settings: Settings,
@@ -66,6 +67,8 @@ pub fn flow_map(
     carrier.start(start, &DMatrix::identity(n, n))?;
     let rule = gauss(if method.stepping == Stepping::Fixed { FEW_NODES } else { NODES });
     let mut field = (!space.is_hamiltonian()).then(|| space.vector_field());
+    let canonical = space.form() == crate::system::Form::Momentum;
+    let mut rounding = canonical.then(|| AmplifiedRounding::new(n));
     let forwards = until >= start.time;
     let (mut logarithm, mut failure, mut time) = (0.0, None, start.time);
     while carrier.is_before(until, forwards) {
@@ -84,11 +87,23 @@ pub fn flow_map(
             }
         }
         time = end;
+        if let Some(rounding) = &mut rounding {
+            rounding.step(&carrier.at(time)?.1);
+        }
         look(time);
     }
     let (state, matrix) = carrier.at(time)?;
-    let canonical = space.form() == crate::system::Form::Momentum;
-    let symplectic = canonical.then(|| PhaseSpace::symplectic_residual(&matrix));
+    let symplectic = rounding.map(|rounding| {
+        let hamiltonian = space.is_hamiltonian();
+        let left = rounding.left(&|m| {
+            if hamiltonian {
+                Some(PhaseSpace::symplectic_inverse(m))
+            } else {
+                m.clone().try_inverse()
+            }
+        });
+        PhaseSpace::symplectic_residual(&matrix, &left)
+    });
     Ok(FlowMap {
         time,
         determinant: matrix.determinant(),

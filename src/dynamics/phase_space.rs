@@ -8,6 +8,7 @@ use super::error::DynamicsError;
 use crate::expr::Expr;
 use crate::mechanics::Equations;
 use crate::model::{Action, Mechanics, Model};
+use crate::num::math;
 use crate::system::{Form, MotionError, Rates, State, System};
 
 /// A system in canonical variables.
@@ -190,10 +191,20 @@ impl PhaseSpace {
         VectorField::new(self)
     }
 
-    /// The largest entry of |M𝕁Mᵀ − 𝕁|, and what the rounding of M alone may leave of that entry: ε times its
-    /// entry of |M| |𝕁| |M|ᵀ. Entries of two coordinates, of two momenta and of one of each have units of
-    /// their own.
-    pub fn symplectic_residual(matrix: &DMatrix<f64>) -> (f64, f64) {
+    /// M⁻¹ = −𝕁 Mᵀ 𝕁 of a symplectic matrix.
+    pub fn symplectic_inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+        let size = matrix.nrows();
+        let n = size / 2;
+        DMatrix::from_fn(size, size, |i, j| {
+            let sign = if (i < n) == (j < n) { 1.0 } else { -1.0 };
+            sign * matrix[((j + n) % size, (i + n) % size)]
+        })
+    }
+
+    /// The largest entry of |M𝕁Mᵀ − 𝕁|, and what rounding may leave of that entry: ε times its entry of |M| |𝕁| |M|ᵀ, by the
+    /// rounding of M, and what earlier steps have `left` of it. Entries of two coordinates, of two momenta and of one of each
+    /// have units of their own.
+    pub fn symplectic_residual(matrix: &DMatrix<f64>, left: &DMatrix<f64>) -> (f64, f64) {
         let size = matrix.nrows();
         let n = size / 2;
         let unit = DMatrix::from_fn(size, size, |i, j| {
@@ -201,6 +212,7 @@ impl PhaseSpace {
         });
         let residual = (matrix * &unit * matrix.transpose() - &unit).abs();
         let rounding = matrix.abs() * unit.abs() * matrix.abs().transpose() * f64::EPSILON;
+        let rounding = rounding.zip_map(left, math::hypot);
         let largest = residual.amax();
         let of_the_largest = residual.iter().zip(&rounding).filter(|(entry, _)| **entry == largest);
         (largest, of_the_largest.map(|(_, &bound)| bound).fold(f64::INFINITY, f64::min))

@@ -17,7 +17,7 @@ use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
     Offer, Physics, Picture, Plot, Present, Seed, Sign, Upwards,
 };
-use crate::expr::Expr;
+use crate::expr::{Expr, Symbol};
 use crate::integrate::method_named;
 use crate::job::Job;
 use crate::num::{math, significant};
@@ -140,11 +140,10 @@ impl Instrument for Ensemble {
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
         let Physics { model, equations, system } = present.physics;
-        if !model.constraints.is_empty()
-            || initial_values(plot, present.physics, [0.0; 2]).is_none()
-        {
+        if !model.constraints.is_empty() {
             return Need::Nothing;
         }
+        let Some(starts) = starts(plot, present.physics) else { return Need::Nothing };
         let Some(method) = method_named(present.method) else { return Need::Nothing };
         let conditions = PlotConditions::of(present, &plot.seeds);
         let known = cloud(answer)
@@ -154,13 +153,14 @@ impl Instrument for Ensemble {
         }
         let origin = match known {
             Some(known) => known.origin.clone(),
-            None => match CloudOrigin::of(plot, present, conditions.seeds.last().copied()) {
+            None => match CloudOrigin::of(&starts, present, conditions.seeds.last().copied()) {
                 Some(origin) => origin,
                 None => return Need::Nothing,
             },
         };
         let task = Task {
             plot: plot.clone(),
+            starts,
             model: Arc::clone(model),
             equations: Arc::clone(equations),
             system: Arc::clone(system),
@@ -208,6 +208,25 @@ impl Instrument for Ensemble {
             },
         ]
     }
+}
+
+/// The plane in which the starts are spread: that of the picture, if its points are initial values; of two new variables
+/// of a transformation that of the coordinate and the momentum which they replace.
+fn starts(plot: &Plot, physics: Physics<'_>) -> Option<Plot> {
+    if initial_values(plot, physics, [0.0; 2]).is_some() {
+        return Some(plot.clone());
+    }
+    let shown = [plot.column(0)?, plot.column(1)?]
+        .map(|channel| physics.system.channels()[channel].name.as_str());
+    let model = physics.model;
+    let named = |symbol: Symbol| model.pool.symbol_info(symbol).name.as_str();
+    let mut pairs = model.transformations.iter().flat_map(|law| law.new.iter().enumerate());
+    let (pair, _) = pairs.find(|(_, new)| new.map(named) == shown)?;
+    let kinds = [ChannelKind::Position(pair), ChannelKind::Momentum(pair)];
+    let columns = kinds.map(|kind| physics.channel(kind).map(|channel| vec![channel]));
+    let columns: Vec<Vec<usize>> = columns.into_iter().collect::<Option<_>>()?;
+    let starts = Plot::new(plot.kind, (columns, None), model);
+    initial_values(&starts, physics, [0.0; 2]).map(|_| starts)
 }
 
 fn cloud(answer: Option<&Answer>) -> Option<&Cloud> {

@@ -6,12 +6,12 @@
 use super::kind::{Instrument, Offer};
 use super::present::Physics;
 use super::{
-    action, diagram, ensemble, exponents, legendre, map, orbit, phase, potential, section,
+    action, actions, diagram, ensemble, exponents, legendre, map, orbit, phase, potential, section,
     separation, space, spectrum, time, transformation,
 };
 
 /// All kinds, in the order in which the lab opens with them.
-pub static INSTRUMENTS: [&dyn Instrument; 15] = [
+pub static INSTRUMENTS: [&dyn Instrument; 16] = [
     &space::Space,
     &phase::Phase,
     &transformation::Transformation,
@@ -23,6 +23,7 @@ pub static INSTRUMENTS: [&dyn Instrument; 15] = [
     &ensemble::Ensemble,
     &orbit::OrbitPlot,
     &spectrum::SpectrumPlot,
+    &actions::ActionsPlot,
     &action::ActionPlot,
     &legendre::LegendrePlot,
     &diagram::Diagram,

@@ -213,6 +213,10 @@ impl Instrument for Transformation {
             return Need::Job(Job::new("verdict", move |progress| {
                 let mut equations = (*equations).clone();
                 equations.pool.set_cancel(progress.token().clone());
+                // what holds at some values of the parameters only is said of those that they have
+                let mut model = (*model).clone();
+                let values = model.parameters.iter_mut().zip(&parameters);
+                values.for_each(|(parameter, &value)| parameter.value = value);
                 let report = TransformationReport::named(&model, &mut equations, &name);
                 let verdict = Some(Judged::of(&equations.pool, report.as_ref()));
                 let (parameters, grid) = (parameters.clone(), Arc::clone(&grid));

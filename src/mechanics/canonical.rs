@@ -11,7 +11,7 @@ use std::collections::HashMap;
 use nalgebra::DMatrix;
 
 use super::equations::{Equations, ImplicitMap};
-use super::implicit_map::matrix_at;
+use super::implicit_map::{guesses, matrix_at};
 use super::isolate::{self, Solution, tidy};
 use super::sampling::{POINTS, TRIES};
 use super::valuation::Valuation;
@@ -43,8 +43,9 @@ pub struct PhaseMap {
     pub function_rate: Option<Expr>,
     /// The new variables as functions of the old and t, if they can be written down.
     pub forwards: Option<Solution>,
-    /// Whether its generating function has an old and a new variable of different kinds.
-    may_be_near_identity: bool,
+    /// The pairs whose generating function has an old and a new variable of different kinds, F2 or F3: they may be near the
+    /// identity.
+    near_identity: Vec<bool>,
     by_old: Vec<Vec<Expr>>,
 }
 
@@ -90,7 +91,7 @@ impl PhaseMap {
             .collect();
         let mut relations = Vec::new();
         let mut function_rate = None;
-        let mut may_be_near_identity = false;
+        let mut near_identity = vec![false; given.new.len()];
         match &given.law {
             TransformationLaw::Explicit { positions, momenta } => {
                 for (&symbol, &e) in new.iter().zip(positions.iter().chain(momenta)) {
@@ -122,8 +123,8 @@ impl PhaseMap {
                     relations
                         .push(pool.linear(Number::ZERO, &[(Number::ONE, own), (sign, derivative)]));
                 }
-                may_be_near_identity =
-                    types.iter().all(|of| of.has_position() != of.has_new_position());
+                near_identity =
+                    types.iter().map(|of| of.has_position() != of.has_new_position()).collect();
                 function_rate = Some(pool.derivative(*function, model.symbols.time));
             }
         }
@@ -139,7 +140,7 @@ impl PhaseMap {
             implicit: ImplicitMap { new, relations, by_new },
             function_rate,
             forwards: None,
-            may_be_near_identity,
+            near_identity,
             by_old,
         }
     }
@@ -158,20 +159,34 @@ impl PhaseMap {
         let points: Vec<Valuation> =
             (0..LOOKED_AT).map(|n| Valuation::near_start(model, equations, n)).collect();
         // of a map that may be near the identity the branch that is nearest to it comes first
-        let nearest: Vec<Option<Valuation>> = if self.may_be_near_identity {
+        let of_pair = |k: usize| self.near_identity[k % self.near_identity.len()];
+        let all_near = self.near_identity.iter().all(|&near| near);
+        let nearest: Vec<Option<Valuation>> = if self.near_identity.contains(&true) {
             let same = |point: &Valuation| {
-                let values =
-                    self.implicit.new.iter().zip(&self.old).map(|(&s, &old)| (s, point.at(old)));
-                self.implicit
-                    .newton(&equations.pool, point.clone().with(values.collect::<Vec<_>>()))
+                let own: Vec<f64> = self.old.iter().map(|&s| point.at(s)).collect();
+                // of the other pairs nothing is known
+                let others = guesses(own.len()).map(|guess| {
+                    let kept = |k: usize| if of_pair(k) { own[k] } else { guess[k] };
+                    (0..own.len()).map(kept).collect::<Vec<f64>>()
+                });
+                let others: Vec<Vec<f64>> = if all_near { Vec::new() } else { others.collect() };
+                std::iter::once(own.clone()).chain(others).find_map(|values| {
+                    let values = self.implicit.new.iter().copied().zip(values);
+                    let at = point.clone().with(values.collect::<Vec<_>>());
+                    self.implicit.newton(&equations.pool, at)
+                })
             };
             points.iter().take(WITNESSES).map(same).collect()
         } else {
             Vec::new()
         };
+        let near_one: Vec<Symbol> = (0..self.implicit.new.len())
+            .filter(|&k| of_pair(k))
+            .map(|k| self.implicit.new[k])
+            .collect();
         let mut near = |pool: &mut Pool, found: &Solution| {
             let same = |point: &Valuation, image: &Valuation| {
-                found.iter().all(|&(s, e)| {
+                found.iter().filter(|(s, _)| near_one.contains(s)).all(|&(s, e)| {
                     let (value, expected) = (point.value(pool, e), image.at(s));
                     (value - expected).abs() <= 1e-7 * (1.0 + expected.abs())
                 })

@@ -10,6 +10,7 @@ use super::coordinate::Coordinate;
 use super::occurrence::{Event, Impulse};
 use super::parameter::Parameter;
 use super::picture::{Follow, Shape, View};
+use super::ramp::Ramped;
 use super::transformation::{CompleteIntegral, Generator, Transformation};
 use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Pool, Symbol};
@@ -27,6 +28,8 @@ pub struct Model {
     pub coordinates: Vec<Coordinate>,
     /// The parameters, in order.
     pub parameters: Vec<Parameter>,
+    /// The parameters that change with the time, which stand in no expression but those of initial values.
+    pub ramped: Ramped,
     /// Definitions, in order. They are already substituted wherever they are used, and are stored
     /// for display.
     pub definitions: Vec<(String, Expr)>,
@@ -229,6 +232,7 @@ impl Model {
             symbols,
             coordinates: Vec::new(),
             parameters: Vec::new(),
+            ramped: Ramped::default(),
             definitions: Vec::new(),
             mechanics: Mechanics::Lagrangian {
                 lagrangian: Expr::ZERO,

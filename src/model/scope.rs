@@ -64,6 +64,7 @@ impl Scope {
         for p in &model.parameters {
             constant(&p.name, p.symbol, None);
         }
+        let constant_values = matches!(allowed, Allowed::Parameters | Allowed::Pieces);
         for symbol in model.body.iter().flat_map(|body| body.names.all()) {
             constant(&model.pool.symbol_info(symbol).name, symbol, Some(SymbolRole::Inertia));
         }
@@ -96,6 +97,9 @@ impl Scope {
         }
         for (name, e) in &model.definitions {
             names.insert(name.clone(), Meaning::Defined(*e));
+        }
+        for (symbol, e) in model.ramped.functions().filter(|_| !constant_values) {
+            names.insert(model.pool.symbol_info(symbol).name.clone(), Meaning::Defined(e));
         }
         if let Mechanics::Poisson { casimirs, .. } = &model.mechanics {
             for (name, e, _) in casimirs {

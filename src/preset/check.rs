@@ -18,6 +18,7 @@ mod parameters;
 mod picture;
 mod place;
 mod poisson;
+mod ramp;
 mod run;
 mod transformation;
 
@@ -50,6 +51,7 @@ pub(super) fn check(
     for written in &draft.parameters {
         check.parameter(written);
     }
+    check.ramps(draft);
     check.run(&draft.run);
     check.multipliers(draft);
     check.body_names(draft.body.as_ref(), draft.attitude.as_ref());

@@ -37,7 +37,7 @@ pub(super) use law::{DraftBracket, DraftMechanics, Law};
 pub(super) use occurrence::{DraftEvent, DraftImpulse};
 pub(super) use picture::{DraftFollow, DraftSection, DraftShape, DraftShapeKind, DraftView};
 pub(super) use run::DraftRun;
-pub(super) use system::{DraftCoordinate, DraftMoving, DraftParameter, NamedFormula};
+pub(super) use system::{DraftCoordinate, DraftMoving, DraftParameter, DraftRamp, NamedFormula};
 pub(super) use table::Table;
 pub(super) use transformation::{DraftGenerator, DraftIntegral, DraftTransformation};
 pub(super) use value::kind;
@@ -55,6 +55,8 @@ pub(super) struct Draft {
     pub(super) moving: DraftMoving,
     /// The parameters in order.
     pub(super) parameters: Vec<DraftParameter>,
+    /// The ramps in order.
+    pub(super) ramps: Vec<DraftRamp>,
     /// The definitions in order, as name and expression.
     pub(super) definitions: Vec<NamedFormula>,
     /// Every law of motion given; exactly one is valid.
@@ -112,6 +114,7 @@ pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Diagnostics) -> D
         info,
         moving: system::moving(&mut top, mistakes),
         parameters: system::parameters(&mut top, mistakes),
+        ramps: system::ramps(&mut top, mistakes),
         definitions: system::definitions(&mut top, mistakes),
         mechanics: law::mechanics(&mut top, mistakes),
         constraints: constraint::constraints(&mut top, mistakes),

@@ -5,7 +5,8 @@
 use std::ops::Range;
 
 use toml_edit::{
-    Array, Document, DocumentMut, InlineTable, Item, Table, TableLike, TomlError, Value, value,
+    Array, ArrayOfTables, Document, DocumentMut, InlineTable, Item, Table, TableLike, TomlError,
+    Value, value,
 };
 
 /// The values to write into a file.
@@ -136,6 +137,65 @@ impl Rewrite {
             file.remove(EXPECT);
         }
         Ok(Some(file.to_string()))
+    }
+}
+
+/// A ramp to be written into a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NewRamp {
+    /// The parameter.
+    pub parameter: String,
+    /// Its value at the end.
+    pub to: f64,
+    /// When it begins.
+    pub start: f64,
+    /// How long it takes.
+    pub duration: f64,
+    /// The name of its form.
+    pub form: &'static str,
+}
+
+impl NewRamp {
+    /// A text with the ramp behind those that it has, and with the parameter among its observables. What the file claims of a
+    /// motion without the ramp is left out.
+    ///
+    /// # Errors
+    /// Returns an error if the text is not valid TOML.
+    pub fn added_to(&self, text: &str) -> Result<String, TomlError> {
+        let mut file: DocumentMut = text.parse()?;
+        let mut ramp = Table::new();
+        ramp.insert("parameter", value(self.parameter.as_str()));
+        for (key, number) in [("to", self.to), ("start", self.start), ("duration", self.duration)] {
+            ramp.insert(key, value(number));
+        }
+        ramp.insert("form", value(self.form));
+        push(&mut file, "ramps", ramp);
+        file.remove(EXPECT);
+        let mut known = false;
+        let name = format!("{} now", self.parameter);
+        if let Some(Item::ArrayOfTables(all)) = file.get_mut("observables") {
+            for observable in all.iter_mut() {
+                observable.remove("conserved");
+                known |= observable.get("name").and_then(Item::as_str) == Some(name.as_str());
+            }
+        }
+        if !known {
+            let mut observable = Table::new();
+            observable.insert("name", value(name));
+            observable.insert("expression", value(self.parameter.as_str()));
+            push(&mut file, "observables", observable);
+        }
+        Ok(file.to_string())
+    }
+}
+
+/// Adds a table to a list of tables, whichever way that is written.
+fn push(file: &mut DocumentMut, key: &str, table: Table) {
+    match file.entry(key).or_insert(Item::ArrayOfTables(ArrayOfTables::new())) {
+        Item::Value(Value::Array(list)) => list.push(table.into_inline_table()),
+        Item::ArrayOfTables(list) => list.push(table),
+        // what is no list is a mistake, which is reported
+        _ => {}
     }
 }
 

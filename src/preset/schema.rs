@@ -123,6 +123,7 @@ pub(super) const FILE: SchemaTable = SchemaTable {
         key("coordinates", Named(&COORDINATE), "the coordinates in order"),
         key("variables", Named(&VARIABLE), "the variables of brackets, in place of coordinates"),
         key("parameters", Named(&PARAMETER), "what can be changed while it runs"),
+        key("ramps", Tables(&RAMP), "parameters that change with the time"),
         key("definitions", Names, "names for expressions; each may use those above it"),
         key("lagrangian", Table(&LAGRANGIAN), "the law of motion by L"),
         key("hamiltonian", Table(&HAMILTONIAN), "the law of motion by H"),
@@ -182,6 +183,22 @@ pub(super) const PARAMETER: SchemaTable = SchemaTable {
         UNIT,
         SYMBOL,
         ABOUT,
+    ],
+};
+
+const RAMP: SchemaTable = SchemaTable {
+    head: "[[ramps]]",
+    about: "A parameter that goes from its value to another one: a function of the time wherever it is used, but for initial values. Several of one parameter follow each other.",
+    keys: &[
+        key("parameter", Text, "its name").needed("write parameter = \"omega\""),
+        key("to", Formula, "where it leads, of other parameters").needed("write to = 2"),
+        key("start", Formula, "when it begins; 0 where not given"),
+        key("duration", Formula, "how long it takes").needed("write duration = 100"),
+        key(
+            "form",
+            Text,
+            "`smooth` (10u³ − 15u⁴ + 6u⁵), where not given; `cubic` (3u² − 2u³), `linear`",
+        ),
     ],
 };
 
@@ -485,7 +502,7 @@ const VIEW: SchemaTable = SchemaTable {
         key(
             "kind",
             Text,
-            "`phase`, `space`, `time`, `potential`, `section`, `diagram`, `map`, `transformation`, `ensemble`, `orbit`, `spectrum`, `action` or `legendre`",
+            "`phase`, `space`, `time`, `potential`, `section`, `diagram`, `map`, `transformation`, `ensemble`, `orbit`, `spectrum`, `actions`, `action` or `legendre`",
         )
         .needed("write kind = \"phase\", \"space\", \"time\", \"potential\" or \"section\""),
         key("title", Text, "what it is called"),
@@ -497,6 +514,7 @@ const VIEW: SchemaTable = SchemaTable {
             "transformation",
             "ensemble",
             "orbit",
+            "actions",
             "action",
             "legendre",
         ]),

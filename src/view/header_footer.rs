@@ -16,7 +16,7 @@ use super::timeline;
 use super::values::typing;
 use super::wrap::words_in;
 use crate::app::keymap::{KEYS, Place};
-use crate::app::{Action, App, HitTarget, InputField, Lab, Overlay, Page, Pane, Purpose};
+use crate::app::{Action, App, HitTarget, InputField, Lab, Overlay, Page, Pane, Purpose, ValueId};
 use crate::experiment::{Snapshot, Status};
 
 /// The pages of a loaded system and their keys.
@@ -334,12 +334,17 @@ fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
 fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &InputField) {
     let facts = match (&app.lab, field.purpose) {
         (Some(lab), Purpose::Value(target)) => lab.value_info(target),
+        (Some(lab), Purpose::Ramp(index)) => lab.value_info(ValueId::Parameter(index)),
         _ => None,
     };
     let glyphs = canvas.look.glyphs;
     let name = match (field.purpose, &facts) {
-        (Purpose::Flow(_) | Purpose::SymmetryFlow(_), _) => {
+        (Purpose::Flow(_) | Purpose::SymmetryFlow(_) | Purpose::GeneratorFlow(_), _) => {
             "how far, ε; a negative value goes back".to_owned()
+        }
+        (Purpose::TypedFlow, _) => "G; ε".to_owned(),
+        (Purpose::Ramp(_), Some(facts)) => {
+            format!("ramp {}: value in time", glyphs.pick(&facts.shown, &facts.name))
         }
         (Purpose::Step, _) => "step".to_owned(),
         (Purpose::Tolerance, _) => "tolerance".to_owned(),
@@ -352,6 +357,12 @@ fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &InputField
     let rest = columns(area, used + room + 2, area.width);
     let (role, text) = match (&field.mistake, facts) {
         (Some(mistake), _) => (Role::Bad, mistake.clone()),
+        (None, _) if field.purpose == Purpose::TypedFlow => {
+            (Role::Dim, "a function of q, p and t; p_x*y - p_y*x; 0.1".to_owned())
+        }
+        (None, _) if matches!(field.purpose, Purpose::Ramp(_)) => {
+            (Role::Dim, "2 in 60; behind it smooth, cubic or linear".to_owned())
+        }
         (None, Some(facts)) => (Role::Dim, format!("{} {}", facts.unit, facts.about)),
         (None, None) => (Role::Dim, "Enter accepts, Esc cancels".to_owned()),
     };

@@ -327,6 +327,39 @@ fn the_lab_carries_a_cloud_with_the_motion_and_begins_it_anew_where_it_must() {
     assert!((measure(&app, "action").unwrap() - PI * 0.09).abs() < 1e-2 * begun);
 }
 
+/// Seen in its initial values a cloud stands still, point by point; seen in others it does not.
+#[test]
+fn in_the_initial_values_the_cloud_stands_still() {
+    let back = "[[transformations]]\nname = \"back\"\nkind = \"explicit\"\n\
+                Q = { Q0 = \"q*cos(2*t) - p_q*sin(2*t)/2\" }\nP = { P0 = \"p_q*cos(2*t) + 2*q*sin(2*t)\" }\n";
+    let law = |potential: &str| {
+        prepared(&format!(
+            "title = \"one\"\n[coordinates]\nq = {{ initial = 1.0, momentum = 0.5 }}\n[hamiltonian]\n\
+             H = \"1/2*p_q^2 + {potential}\"\n{back}[run]\nuntil = 100.0\n"
+        ))
+    };
+    let moved = |potential: &str| {
+        let (mut app, _, mut experiment) = opened(law(potential));
+        let lab = app.lab.as_mut().unwrap();
+        let physics = lab.loaded.physics();
+        let of = |name: &str| physics.named().find(|(_, c)| c.name == name).map(|(x, _)| vec![x]);
+        let columns = vec![of("Q0").unwrap(), of("P0").unwrap()];
+        lab.plots = vec![Plot::new(named("ensemble").unwrap(), (columns, None), &lab.loaded.model)];
+        see(&mut app, &mut experiment, 0.02);
+        let before = cloud(&app);
+        assert_eq!(before.len(), 2000);
+        let action = measure(&app, "action").unwrap();
+        see(&mut app, &mut experiment, 7.0);
+        // the area is that of the cloud itself, in whichever variables it is drawn
+        assert!((measure(&app, "action").unwrap() - action).abs() < 1e-9 * action);
+        let far = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).abs().max((a[1] - b[1]).abs());
+        before.iter().zip(&cloud(&app)).map(far).fold(0.0, f64::max)
+    };
+    let still = moved("2*q^2");
+    assert!(still < 1e-11, "{still:e}");
+    assert!(moved("2*q^2 + q^4/10") > 0.05);
+}
+
 #[test]
 fn a_key_begins_the_cloud_over_what_is_seen_and_a_session_has_it() {
     let (mut app, _, _) = opened(oscillator("-cos(q)", "0"));

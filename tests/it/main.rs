@@ -1,6 +1,7 @@
 //! One integration-test binary.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod action_variable;
 mod analysis;
 mod app;
 mod batch;

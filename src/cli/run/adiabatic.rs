@@ -1,81 +1,64 @@
 //! The action variable of a run with a ramp: ∮ p dq at the start and at the end, each with the parameters of its time.
 //!
-//! In: a model of one coordinate before its parameters became functions of the time, the ramps. Out: an invariant of the
-//! report with the verdict *adiabatic*, or *broken by the physics*. Never here: the motion between.
+//! In: a model of one coordinate whose parameters are functions of the time. Out: an invariant of the report with the verdict
+//! *adiabatic*, or *broken by the physics*. Never here: the motion between.
 //! Source: *The Principles of Dynamics*, § 4.3.
 
-use crate::cli::interrupt::Interrupt;
+use crate::action_angle::{ActionRow, HeldSystem};
+use crate::cancel::Cancel;
 use crate::cli::report::Invariant;
-use crate::diagnostic::Document;
-use crate::ensemble::Start;
-use crate::model::{Model, Ramp};
-use crate::orbits::ActionRow;
-use crate::system::{Form, InitialOverride, State, System};
+use crate::integrate::Settings;
+use crate::model::Model;
+use crate::system::{Form, State, System};
 
 /// The action is an adiabatic invariant if it changes by less than this part of the change of the parameter.
 const FAR_LESS: f64 = 0.1;
 
-/// The action variable at a start, as `actions` finds it.
-pub(crate) type ActionOf = fn(&Document, Model, Start, &Interrupt) -> Option<ActionRow>;
-
 /// What is needed to know the action at any time of the run.
-pub(super) struct Adiabatic<'i> {
-    document: Document,
+pub(super) struct Adiabatic {
+    held: HeldSystem,
     model: Model,
-    ramps: Vec<Ramp>,
     parameters: Vec<f64>,
-    interrupt: &'i Interrupt,
-    action: ActionOf,
 }
 
-impl<'i> Adiabatic<'i> {
+impl Adiabatic {
     /// The action variable of a model with ramps; `None` where there is none.
-    pub(super) fn of(
-        document: &Document,
-        model: &Model,
-        ramps: &[Ramp],
-        parameters: &[f64],
-        (action, interrupt): (ActionOf, &'i Interrupt),
-    ) -> Option<Adiabatic<'i>> {
-        let suited = !ramps.is_empty()
-            && model.coordinates.len() == 1
-            && !model.is_poisson()
-            && model.constraints.is_empty();
-        suited.then(|| {
-            let mut model = model.clone();
-            // the frozen system is followed by itself
-            model.impulses.clear();
-            model.events.clear();
-            model.observables.clear();
-            model.space.clear();
-            model.expect = crate::model::Expect::default();
-            let (ramps, parameters) = (ramps.to_vec(), parameters.to_vec());
-            Adiabatic { document: document.clone(), model, ramps, parameters, interrupt, action }
-        })
-    }
-
-    /// The parameters at a time.
-    fn parameters(&self, time: f64) -> Vec<f64> {
-        let mut values = self.parameters.clone();
-        for ramp in &self.ramps {
-            values[ramp.parameter] = ramp.at(time);
+    pub(super) fn of(model: &Model, parameters: &[f64], cancel: &Cancel) -> Option<Adiabatic> {
+        if model.ramped.is_empty() || model.coordinates.len() != 1 {
+            return None;
         }
-        values
+        let settings = Settings { step: None, tolerance: None };
+        let held = HeldSystem::of(model, 0, settings, cancel).ok()?;
+        Some(Adiabatic { held, model: model.clone(), parameters: parameters.to_vec() })
     }
 
     /// The action of a state; `None` if its motion does not return at these parameters.
     fn action(&self, system: &System, state: &State) -> Option<ActionRow> {
-        let parameters = self.parameters(state.time);
-        let state = system.convert(state, Form::Momentum, &parameters).ok()?;
-        let overrides = vec![
-            InitialOverride::Position(0, state.values[0]),
-            InitialOverride::Momentum(0, state.values[1]),
-        ];
-        let mut model = self.model.clone();
-        model.parameters.iter_mut().zip(&parameters).for_each(|(p, &value)| p.value = value);
-        let start = Start { time: 0.0, parameters, overrides };
-        let row = (self.action)(&self.document, model, start, self.interrupt)?;
-        (row.action.is_finite() && row.action > 0.0).then_some(row)
+        let state = system.convert(state, Form::Momentum, &self.parameters).ok()?;
+        let halves = [&state.values[..1], &state.values[1..2]];
+        let own = self.held.at(state.time, &self.parameters, halves).ok()?.own().ok()?;
+        own.row.ok().filter(|row| row.action.is_finite() && row.action > 0.0)
+    }
+
+    /// How much the parameters that change have changed, each relative to what it was: the largest.
+    fn driven(&self, [first, last]: [f64; 2]) -> f64 {
+        let Model { pool, parameters, symbols, .. } = &self.model;
+        let at = |e, time: f64| {
+            let given = parameters.iter().zip(&self.parameters);
+            let value = |s| {
+                if s == symbols.time {
+                    time
+                } else {
+                    given.clone().find(|(p, _)| p.symbol == s).map_or(f64::NAN, |(_, &x)| x)
+                }
+            };
+            pool.evaluate(e, &value)
+        };
+        let change = |(_, e)| {
+            let (from, to) = (at(e, first), at(e, last));
+            (to - from).abs() / from.abs().max(f64::MIN_POSITIVE)
+        };
+        self.model.ramped.functions().map(change).fold(0.0, f64::max)
     }
 
     /// The invariant from the first to the last state of a run.
@@ -86,14 +69,7 @@ impl<'i> Adiabatic<'i> {
         last: &State,
     ) -> Option<Invariant> {
         let (before, after) = (self.action(system, first)?, self.action(system, last)?);
-        let driven = self
-            .ramps
-            .iter()
-            .map(|ramp| {
-                let (from, to) = (ramp.at(first.time), ramp.at(last.time));
-                (to - from).abs() / from.abs().max(f64::MIN_POSITIVE)
-            })
-            .fold(0.0, f64::max);
+        let driven = self.driven([first.time, last.time]);
         let change = (after.action - before.action).abs() / before.action;
         let verdict = match (driven > 0.0, change <= FAR_LESS * driven) {
             (false, _) => "open",

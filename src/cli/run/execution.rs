@@ -37,7 +37,7 @@ pub(super) struct Run<'i> {
     /// Whether a motion that violates its conservation laws is a failure.
     pub(super) strict: bool,
     /// Where parameters are ramped, what the action variable is found by: with the first state.
-    pub(super) adiabatic: Option<(Adiabatic<'i>, Arc<State>, System)>,
+    pub(super) adiabatic: Option<(Adiabatic, Arc<State>, System)>,
 }
 
 /// Why a run ended early.

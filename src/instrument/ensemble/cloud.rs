@@ -73,6 +73,8 @@ impl Cloud {
 /// What a job computes: a cloud from its beginning, or from where it was left.
 pub(super) struct Task {
     pub(super) plot: Plot,
+    /// The plane in which the starts are spread.
+    pub(super) starts: Plot,
     pub(super) model: Arc<Model>,
     pub(super) equations: Arc<Equations>,
     pub(super) system: Arc<System>,
@@ -115,7 +117,7 @@ impl Task {
         let times: Vec<f64> = (0..frames).map(|k| first + k as f64 * spacing).collect();
         let points = match known {
             Some(known) => known.points.clone(),
-            None => self.origin.states(COUNT, &self.plot, self.physics(), parameters),
+            None => self.origin.states(COUNT, &self.starts, self.physics(), parameters),
         };
         progress.expect(points.len() as u64);
         let from: Vec<Option<&State>> = points.iter().map(Option::as_ref).collect();
@@ -169,7 +171,7 @@ impl Task {
     }
 
     fn state(&self, at: [f64; 2]) -> Option<State> {
-        self.origin.state(at, &self.plot, self.physics(), &self.conditions.parameters)
+        self.origin.state(at, &self.starts, self.physics(), &self.conditions.parameters)
     }
 
     fn axes(&self) -> Vec<usize> {

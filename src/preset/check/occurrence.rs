@@ -57,6 +57,11 @@ impl Check<'_> {
                     None => self.mistakes.push(self.unknown_momentum(name)),
                 }
             }
+            let mut scheduled = at.iter().chain(&period);
+            if scheduled.any(|&e| self.model.ramped.acts_on(&self.model.pool, e)) {
+                let message = "the times of an impulse cannot follow a ramp";
+                self.error(impulse.place.clone(), message);
+            }
             self.model.impulses.push(Impulse {
                 name,
                 times: at,

@@ -52,6 +52,15 @@ pub(in crate::preset) struct DraftParameter {
     pub(in crate::preset) about: String,
 }
 
+/// A parameter's way to another value as written.
+pub(in crate::preset) struct DraftRamp {
+    pub(in crate::preset) parameter: Option<Spanned<String>>,
+    pub(in crate::preset) to: Option<Formula>,
+    pub(in crate::preset) start: Option<Formula>,
+    pub(in crate::preset) duration: Option<Formula>,
+    pub(in crate::preset) form: Option<Spanned<String>>,
+}
+
 /// The coordinates and variables as written; a file may have both tables by mistake.
 pub(in crate::preset) struct DraftMoving {
     /// The coordinates or variables in order.
@@ -191,6 +200,21 @@ fn parameter<'d>(
         _ => parameter.value = value::constant(entry, &called, mistakes),
     }
     parameter
+}
+
+pub(super) fn ramps(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftRamp> {
+    let mut all = Vec::new();
+    for mut table in top.tables("ramps", "this ramp", mistakes) {
+        all.push(DraftRamp {
+            parameter: table.text("parameter", mistakes),
+            to: table.formula("to", mistakes),
+            start: table.formula("start", mistakes),
+            duration: table.formula("duration", mistakes),
+            form: table.text("form", mistakes),
+        });
+        table.finish(mistakes);
+    }
+    all
 }
 
 pub(super) fn definitions(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<NamedFormula> {

@@ -203,3 +203,47 @@ fn where_nothing_has_a_flow_the_key_says_why() {
     real.press("2 J");
     assert!(real.app.overlay.is_none());
 }
+
+/// A generator that does not commute with H: x − ε changes the energy, and that is said; a generator of the file is in the list.
+#[test]
+fn a_generator_that_is_typed_or_of_the_file_carries_the_state() {
+    let mut real = Real::with(lowered(
+        "title = \"t\"\n[coordinates]\nx = { initial = 1.0, momentum = 0.5 }\n[parameters]\nk = 4.0\n[hamiltonian]\n\
+         H = \"1/2*(p_x^2 + k*x^2)\"\n[[generators]]\nname = \"translation\"\nG = \"p_x\"\n",
+    ));
+    let before = ["x", "p_x", "energy"].map(|name| value(&real, name));
+    apply(&mut real, "generator of the file: p_x", "0.25");
+    let after = ["x", "p_x", "energy"].map(|name| value(&real, name));
+    assert!((after[0] - before[0] - 0.25).abs() < 1e-14 && after[1] == before[1], "{after:?}");
+    let said = real.app.notice.as_ref().expect("a notice").text.clone();
+    assert!(said.contains("H has changed from 2.125 to 3.25"), "{said}");
+    // H itself by its own name, a quarter of a turn of ω = 2 on, and back
+    let formula = "any function of q and p, typed; H changes unless [H, G] = 0";
+    let quarter = std::f64::consts::PI / 4.0;
+    for epsilon in [quarter, -quarter] {
+        let before = ["x", "p_x"].map(|name| value(&real, name));
+        real.press("J");
+        let Some(Overlay::Menu(menu)) = &real.app.overlay else { panic!("no list") };
+        let line = menu.items.iter().position(|item| item.about == formula).expect("a line");
+        real.press(&"Down ".repeat(line));
+        real.press("Enter");
+        for c in format!("p_x^2/2+k*x^2/2;{epsilon:?}").chars() {
+            real.press(&c.to_string());
+        }
+        real.press("Enter");
+        let after = ["x", "p_x"].map(|name| value(&real, name));
+        let sign = epsilon.signum();
+        assert!((after[0] - sign * before[1] / 2.0).abs() < 1e-13, "{after:?}");
+        assert!((after[1] + sign * 2.0 * before[0]).abs() < 1e-13, "{after:?}");
+        let said = real.app.notice.as_ref().expect("a notice").text.clone();
+        assert!(said.contains("as before, since [H, G] = 0"), "{said}");
+    }
+    // what cannot be read is said in the field
+    real.press("J");
+    let Some(Overlay::Menu(menu)) = &real.app.overlay else { panic!("no list") };
+    let line = menu.items.iter().position(|item| item.about == formula).expect("a line");
+    real.press(&"Down ".repeat(line));
+    real.press("Enter y Enter");
+    let Some(Overlay::Field(field)) = &real.app.overlay else { panic!("no field") };
+    assert!(field.mistake.as_ref().is_some_and(|why| why.contains("unknown name `y`")));
+}

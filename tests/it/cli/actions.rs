@@ -75,6 +75,43 @@ fn the_radial_action_of_the_isochrone() {
     near(&row["frequency"], ratio * 0.25298221281347035 / (2.0 * PI), 1e-14);
 }
 
+/// Without a `period` an angle has no turn and no action, but a mean rate.
+#[test]
+fn a_cyclic_coordinate_without_a_period_has_a_mean_rate() {
+    let file = r#"
+        title = "Isochrone"
+        [coordinates]
+        r = { initial = 1.0, momentum = 0.0 }
+        phi = { initial = 0.3, momentum = 0.5 }
+        [hamiltonian]
+        H = "1/2*p_r^2 + p_phi^2/(2*r^2) - 1/(1 + sqrt(1 + r^2))"
+    "#;
+    let row = |coordinate: &str| actions(file, &[coordinate, "--energy=-0.2"])["rows"][0].clone();
+    near(&row("--coordinate=r")["angular_frequency"], 0.25298221281347035, 1e-14);
+    let angle = row("--coordinate=phi");
+    near(&angle["angular_frequency"], 0.15716970596062999, 1e-14);
+    assert_eq!(angle["kind"], "unbounded");
+    for key in ["action", "period", "frequency"] {
+        assert_eq!(angle[key], Value::Null, "{key}");
+    }
+    // what goes away has no rate
+    let away = actions(&line("-x", "0"), &["--energy=1"])["rows"][0].clone();
+    assert_eq!(away["angular_frequency"], Value::Null, "{away}");
+}
+
+#[test]
+fn a_pendulum_exactly_on_its_separatrix_has_its_area() {
+    for (set, energy, area) in [("g=1", "1", 16.0), ("g=4", "4", 32.0)] {
+        let energy = format!("--energy={energy}");
+        let set = format!("--set={set}");
+        let object = phaselab(&["actions", "pendulum", &set, &energy, "--format=json"]).json();
+        let rows = object["rows"].as_array().unwrap();
+        assert_eq!(rows.len(), 1, "{object}");
+        near(&rows[0]["action"], area, 1e-10);
+        assert_eq!((&rows[0]["kind"], &rows[0]["period"]), (&"libration".into(), &Value::Null));
+    }
+}
+
 #[test]
 fn a_double_well_has_both_its_wells_and_its_lobes() {
     let file = line("1/4*x^4 - 1/2*x^2", "1");

@@ -107,3 +107,41 @@ fn what_cannot_be_ramped_is_refused() {
     refused(&["pendulum", "--ramp=l=1:2:0:1", "--set=l=1"], &["--set and --ramp"]);
     refused(&["kicked-rotor", "--ramp=T=1:2:0:1"], &["`T`", "kick"]);
 }
+
+/// A ramp of the file is that of the option, in the law, in observables, and in what is said of the action.
+#[test]
+fn a_file_may_have_its_ramps() {
+    let plain = "title = \"t\"\n[coordinates]\nq = { initial = 1.0, momentum = \"w/4\" }\n[parameters]\nw = 1.0\nT = 20\n\
+                 [hamiltonian]\nH = \"p_q^2/2 + w^2*q^2/2\"\n[[observables]]\nname = \"J\"\nexpression = \"energy/w\"\n";
+    let forms = [("", "smooth"), (":linear", "linear")];
+    for (option, form) in forms {
+        let ramped = format!(
+            "{plain}[[ramps]]\nparameter = \"w\"\nto = 2\nstart = \"T/4\"\nduration = \"T\"\nform = \"{form}\"\n"
+        );
+        let by_option = format!("--ramp=w=1:2:5:20{option}");
+        for at in ["0", "4", "15", "30"] {
+            let at = format!("--at={at}");
+            let [mut own, given] =
+                [end(&ramped, &[&at, "--observe=w"]), end(plain, &[&at, &by_option])];
+            // t, q, q', p_q, energy, J, w
+            assert_eq!(own.len(), given.len());
+            own.iter_mut().zip(&given).for_each(|(x, y)| near(*x, *y, 1e-13));
+        }
+        // the slider of the duration acts on it, and so does the value before the ramp
+        let faster = end(&ramped, &["--at=20", "--set=T=10", "--set=w=1.5", "--observe=w"]);
+        near(faster[6], 2.0, 1e-15);
+        assert!((faster[5] - end(&ramped, &["--at=20", "--observe=w"])[5]).abs() > 1e-3);
+        let object = with_file(&ramped, &["run", "system.toml", "--format=json", "--at=40"]).json();
+        let found = object["invariants"].as_array().unwrap().clone();
+        let action = found.iter().find(|one| one["name"] == "action variable").expect("an action");
+        near(action["initial"].as_f64().unwrap(), 2.0 * PI * (0.5 + 1.0 / 32.0), 1e-12);
+        assert_eq!(action["verdict"], "adiabatic", "{action}");
+    }
+    // two after each other: up and down again
+    let twice = format!(
+        "{plain}[[ramps]]\nparameter = \"w\"\nto = 3\nduration = 2\n[[ramps]]\nparameter = \"w\"\nto = 1.5\nstart = 4\nduration = 2\n"
+    );
+    for (at, value) in [("2", 3.0), ("4", 3.0), ("6", 1.5), ("9", 1.5)] {
+        near(end(&twice, &[&format!("--at={at}"), "--observe=w"])[6], value, 1e-15);
+    }
+}

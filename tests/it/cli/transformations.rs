@@ -290,3 +290,21 @@ fn a_complete_integral_is_checked() {
         with_file(&format!("{head}{wrong}"), &["check", "system.toml"]).fails(65, &[why]);
     }
 }
+
+/// F2 = y P₂ + y² P₂²/7 in the second pair is quadratic in P₂, with a root near p_y and one far away, also beside an F1.
+#[test]
+fn of_mixed_types_the_root_near_the_identity_is_taken() {
+    let mixed = transformation(
+        "mixed",
+        "types = [\"F1\", \"F2\"]\nF = \"x^2/(2*tan(A1)) + y*B2 + y^2*B2^2/7\"\nnew = [\"A1\", \"A2\", \"B1\", \"B2\"]",
+    );
+    let words = ["--at", "0,0.4,0.9,1.4", "--observe", "B2", "--observe", "A2"];
+    let rows = run(PLANE, &mixed, &words).json();
+    let (y, p) = (column(&rows, "y"), column(&rows, "p_y"));
+    for k in 0..4 {
+        // p = P (1 + 2 y P/7), Q = y (1 + 2 y P/7): the root with the plus sign
+        let root = (1.0 + 8.0 * y[k] * p[k] / 7.0).sqrt();
+        close(column(&rows, "B2")[k], 2.0 * p[k] / (1.0 + root), 1e-13);
+        close(column(&rows, "A2")[k], 0.5 * y[k] * (1.0 + root), 1e-13);
+    }
+}

@@ -82,14 +82,15 @@ fn a_map_that_is_not_symplectic_is_told_by_its_residual() {
     assert!((1.9e-4..2.1e-4).contains(&coarse), "{coarse:e}");
     let order = (coarse / residual("rk4", 0.05)).log2();
     assert!((4.5..5.5).contains(&order), "{order}");
-    for name in ["leapfrog", "yoshida4", "gauss4"] {
+    // what the steps before have rounded is amplified by the flow after them, where M itself is small again, too
+    for name in ["leapfrog", "yoshida4", "gauss4", "symplectic-euler"] {
         let found = map_by(&case, (name, Some(0.1)), 50.0);
         let residual = found.symplectic_residual.unwrap();
         assert!(residual < found.symplectic_rounding.unwrap(), "{name}: {residual:e}");
     }
-    // five hundred steps, each to rounding
-    let euler = residual("symplectic-euler", 0.1);
-    assert!(euler < 1e-13, "{euler:e}");
+    let euler = map_by(&case, ("symplectic-euler", Some(0.1)), 50.0);
+    let rounding = euler.symplectic_rounding.unwrap();
+    assert!((1e-14..3e-13).contains(&rounding), "{rounding:e}");
     let exact = map(&case, 50.0);
     assert!(exact.symplectic_residual.unwrap() < exact.symplectic_rounding.unwrap());
 }

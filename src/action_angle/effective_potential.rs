@@ -215,12 +215,16 @@ impl<'a> EffectivePotential<'a> {
 
     /// All regions that an energy allows, from left to right; those of a rotation have no ends.
     pub fn regions(&mut self, energy: f64) -> Vec<AllowedInterval> {
+        // on a separatrix the top itself is out of reach, on whichever side of the energy rounding has put it
+        let noise = NOISE * (energy.abs() + self.depth());
+        let at_a_top = self.tops.iter().any(|top| (top[1] - energy).abs() <= noise);
+        let level = if at_a_top { energy - noise } else { energy };
         let nodes = self.nodes.clone();
         let mut regions = Vec::new();
         let mut open: Option<Option<f64>> = None;
         let mut last: Option<[f64; 2]> = None;
         for node in nodes {
-            let allowed = node[1] < energy;
+            let allowed = node[1] < level;
             match (open, allowed) {
                 (None, true) => {
                     open = Some(last.map(|[q, _]| self.crossing(node[0], q, energy)));
@@ -304,9 +308,14 @@ impl<'a> EffectivePotential<'a> {
         tops
     }
 
+    /// The least energy of the places looked at.
+    pub fn bottom(&self) -> f64 {
+        self.nodes.iter().map(|node| node[1]).fold(f64::INFINITY, f64::min)
+    }
+
     /// The depth of the deepest well below the highest node that is finite, at most below zero: a scale of the energy.
     fn depth(&self) -> f64 {
-        self.nodes.iter().map(|node| node[1]).fold(f64::INFINITY, f64::min).abs()
+        self.bottom().abs()
     }
 
     /// The place between two at which the potential is the energy; `inside` has less, `outside` has not.

@@ -47,8 +47,21 @@ pub struct ActionRow {
     pub turning_points: Vec<f64>,
     /// ∮ p dq; NaN where the motion is unbounded.
     pub action: f64,
-    /// The time of a return, or of a turn.
+    /// The time of a return, or of a turn; infinite where there is none.
     pub period: f64,
+    /// The mean rate of a cyclic coordinate, in its unit per unit of time.
+    pub mean_rate: Option<f64>,
+}
+
+impl ActionRow {
+    /// Ω = 2π ν; of a cyclic coordinate without a period, which goes on and on, its mean rate. NaN where the motion does not
+    /// return.
+    pub fn angular_frequency(&self) -> f64 {
+        match (self.kind, self.mean_rate) {
+            (RegionKind::Unbounded, rate) => rate.unwrap_or(f64::NAN),
+            _ => 2.0 * PI / self.period,
+        }
+    }
 }
 
 /// The system compiled with the two events that a return is located by.
@@ -122,6 +135,7 @@ pub fn action_row(
             turning_points: left.into_iter().chain(right).collect(),
             action: f64::NAN,
             period: f64::INFINITY,
+            mean_rate: None,
         }),
     }
 }
@@ -137,7 +151,7 @@ fn libration(
         let action = action_between(potential, left, right, energy)?;
         let turning_points = vec![left, right];
         let (kind, period) = (RegionKind::Libration, f64::INFINITY);
-        return Ok(ActionRow { energy, kind, turning_points, action, period });
+        return Ok(ActionRow { energy, kind, turning_points, action, period, mean_rate: None });
     }
     let start = potential.at_rest(left);
     let found = follow(systems, (systems.turning, systems.turns), &start, 2)?;
@@ -155,12 +169,14 @@ fn libration(
         action_between(potential, left, right, energy)?
     };
     let turning_points = vec![left, right];
-    Ok(ActionRow { energy, kind: RegionKind::Libration, turning_points, action, period })
+    let kind = RegionKind::Libration;
+    Ok(ActionRow { energy, kind, turning_points, action, period, mean_rate: None })
 }
 
 /// The row of a cyclic coordinate while another one librates: the action is its momentum times a turn, and the frequency
 /// is its mean rate, in turns, by the advance from one return of the other to the next. `columns` are those of the cyclic
-/// coordinate and its momentum in a row of crossings; `turn` is the period of the coordinate.
+/// coordinate and its momentum in a row of crossings; `turn` is the period of the coordinate: without one it has a mean
+/// rate, and no action.
 ///
 /// # Errors
 /// Returns an error if the other coordinate does not librate, or does not return.
@@ -170,7 +186,7 @@ pub fn cyclic_row(
     region: AllowedInterval,
     energy: f64,
     [position, momentum]: [usize; 2],
-    turn: f64,
+    turn: Option<f64>,
 ) -> Result<ActionRow, NoAction> {
     let (Some(left), Some(right)) = (region.left, region.right) else {
         return Err(NoAction::NoReturn("the other coordinate does not return".to_owned()));
@@ -187,13 +203,15 @@ pub fn cyclic_row(
         }
     }
     let (first, last) = (&found[0], &found[2]);
-    let turns = (last[position] - first[position]).abs() / turn;
+    let (advance, time) = (last[position] - first[position], last[0] - first[0]);
+    let kind = if turn.is_some() { RegionKind::Rotation } else { RegionKind::Unbounded };
     Ok(ActionRow {
         energy,
-        kind: RegionKind::Rotation,
+        kind,
         turning_points: Vec::new(),
-        action: (last[momentum] * turn).abs(),
-        period: (last[0] - first[0]) / turns,
+        action: turn.map_or(f64::NAN, |turn| (last[momentum] * turn).abs()),
+        period: turn.map_or(f64::INFINITY, |turn| time * turn / advance.abs()),
+        mean_rate: Some(advance / time),
     })
 }
 
@@ -222,7 +240,8 @@ fn rotation(
         })?
     };
     let turning_points = Vec::new();
-    Ok(ActionRow { energy, kind: RegionKind::Rotation, turning_points, action, period: time })
+    let kind = RegionKind::Rotation;
+    Ok(ActionRow { energy, kind, turning_points, action, period: time, mean_rate: None })
 }
 
 /// The first crossings after a start.

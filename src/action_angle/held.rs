@@ -1,0 +1,337 @@
+//! A system held at an instant: whatever depends on the time keeps the value it has then, so that the energy is
+//! conserved and the motion of one coordinate returns.
+//!
+//! In: a model, a coordinate, the time and the state of a motion. Out: the action, period and energy of that coordinate as if
+//! nothing changed any more: of a motion whose parameters change slowly, its adiabatic invariant. Never here: the motion
+//! itself.
+//! Source: *The Principles of Dynamics*, § 4.3.
+
+use std::collections::HashMap;
+
+use super::{
+    ActionRow, ActionSystems, AllowedInterval, EffectivePotential, NoAction, RegionKind,
+    action_between, action_row,
+};
+use crate::cancel::Cancel;
+use crate::ensemble::{Start, add_section};
+use crate::expr::{Expr, FunctionId, Pool, Symbol};
+use crate::integrate::{METHODS, Method, Settings};
+use crate::mechanics::{NoClosedForm, derive_for_motion};
+use crate::model::{
+    Action, Channel, Direction, Event, Expect, Impulse, Mechanics, Model, Parameter, RangeSpacing,
+};
+use crate::num::Number;
+use crate::system::{ChannelKind, CompileError, InitialOverride, MotionError, System};
+
+/// Why a system has no action variable, as a sentence for the user.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum NotHeld {
+    /// Its variables are given by their brackets.
+    #[error("variables given by their brackets have no momenta, and no actions")]
+    NoMomenta,
+    /// It is held to constraints.
+    #[error(
+        "under constraints there is no action of a coordinate: choose coordinates that need none"
+    )]
+    Constrained,
+    /// Impulses act on it.
+    #[error("impulses act on the motion: p is not a function of q on its curve of equal energy")]
+    Impulses,
+    /// Forces change its energy.
+    #[error("forces change the energy even while the parameters stand still: no motion returns")]
+    EnergyNotConserved,
+    /// It cannot be derived.
+    #[error(transparent)]
+    Derivation(#[from] NoClosedForm),
+    /// It cannot be compiled.
+    #[error("{0}")]
+    Compile(String),
+}
+
+impl From<CompileError> for NotHeld {
+    fn from(why: CompileError) -> Self {
+        NotHeld::Compile(why.to_string())
+    }
+}
+
+/// A separatrix, and ∮ p dq of each of its lobes, from left to right; of a coordinate with a period, of one turn.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Separatrix {
+    /// The energy at the top.
+    pub energy: f64,
+    /// The actions; infinite where a lobe does not close.
+    pub actions: Vec<f64>,
+    /// Of the highest top of a coordinate with a period: the action of one turn, which goes one way only.
+    pub turn: Option<f64>,
+}
+
+/// The coordinate as the motion has it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct OwnMotion {
+    /// The energy.
+    pub energy: f64,
+    /// The action, the period, the kind of motion; or why there is none.
+    pub row: Result<ActionRow, NoAction>,
+}
+
+/// A system of which everything that depends on the time stands still, compiled with the events by which returns are
+/// located.
+pub struct HeldSystem {
+    coordinate: usize,
+    turning: System,
+    turns: String,
+    rotating: Option<(System, String)>,
+    /// Whether the law depends on the time, so that the actions do.
+    depends_on_time: bool,
+    method: (&'static Method, Settings),
+}
+
+impl HeldSystem {
+    /// Holds a model at instants to come; `settings` are those of the motions by which returns are located.
+    ///
+    /// # Errors
+    /// Returns an error if a coordinate of it has no action variable.
+    pub fn of(
+        model: &Model,
+        coordinate: usize,
+        settings: Settings,
+        cancel: &Cancel,
+    ) -> Result<Self, NotHeld> {
+        if model.is_poisson() {
+            return Err(NotHeld::NoMomenta);
+        }
+        if !model.constraints.is_empty() {
+            return Err(NotHeld::Constrained);
+        }
+        let scheduled = |impulse: &Impulse| !impulse.times.is_empty() || impulse.period.is_some();
+        let strikes = |event: &Event| matches!(event.action, Action::Impulse(_));
+        if model.impulses.iter().any(scheduled) || model.events.iter().any(strikes) {
+            return Err(NotHeld::Impulses);
+        }
+        let mut model = model.clone();
+        model.leave_views_out();
+        model.impulses.clear();
+        model.events.clear();
+        model.generators.clear();
+        model.complete_integral = None;
+        model.comparison = None;
+        model.frames.clear();
+        model.observables.clear();
+        model.space.clear();
+        model.transformations.clear();
+        model.expect = Expect::default();
+        model.run.start = 0.0;
+        model.pool.set_cancel(cancel.clone());
+        let depends_on_time = hold_time(&mut model);
+        let action = model.pool.variable(model.symbols.action);
+        let columns = [Channel { written: "action".to_owned(), expression: action }];
+        let compile = |model: &Model| -> Result<System, NotHeld> {
+            let equations = derive_for_motion(model)?;
+            if equations.energy_rate != Expr::ZERO {
+                return Err(NotHeld::EnergyNotConserved);
+            }
+            Ok(System::compile(model, &equations, &columns)?.with_cancel(cancel.clone()))
+        };
+        let moving = &model.coordinates[coordinate];
+        let (position, velocity, period) = (moving.position, moving.velocity, moving.period);
+        let mut plain = model.clone();
+        let zero = model.pool.variable(velocity);
+        let turns = add_section(&mut model, zero, Direction::Either);
+        let turning = compile(&model)?;
+        let rotating = match period {
+            Some(period) => {
+                let whole = sine_of_a_turn(&mut plain.pool, position, period);
+                let event = add_section(&mut plain, whole, Direction::Either);
+                Some((compile(&plain)?, event))
+            }
+            None => None,
+        };
+        let method = (&METHODS[0], settings);
+        Ok(Self { coordinate, turning, turns, rotating, depends_on_time, method })
+    }
+
+    /// Whether the law depends on the time, so that its actions do.
+    pub fn depends_on_time(&self) -> bool {
+        self.depends_on_time
+    }
+
+    /// The system at an instant, at coordinates and momenta.
+    ///
+    /// # Errors
+    /// Returns an error if there is no such state.
+    pub fn at<'a>(
+        &'a self,
+        time: f64,
+        parameters: &[f64],
+        [positions, momenta]: [&[f64]; 2],
+    ) -> Result<HeldMotion<'a>, MotionError> {
+        let mut parameters = parameters.to_vec();
+        parameters.push(time);
+        let positions = positions.iter().enumerate();
+        let momenta = momenta.iter().enumerate();
+        let overrides = positions
+            .map(|(i, &x)| InitialOverride::Position(i, x))
+            .chain(momenta.map(|(i, &x)| InitialOverride::Momentum(i, x)))
+            .collect();
+        let start = Start { time: 0.0, parameters, overrides };
+        let potential = EffectivePotential::survey(&self.turning, &start, self.coordinate)?;
+        Ok(HeldMotion { held: self, start, potential })
+    }
+
+    /// The place of a quantity among the columns of the system.
+    fn column(&self, kind: ChannelKind) -> usize {
+        self.turning.channels().iter().position(|c| c.kind == kind).unwrap_or(0)
+    }
+
+    fn systems(&self) -> ActionSystems<'_> {
+        ActionSystems {
+            turning: &self.turning,
+            turns: &self.turns,
+            rotating: self.rotating.as_ref().map(|(system, event)| (system, event.as_str())),
+            column: 1 + self.column(ChannelKind::Position(self.coordinate)),
+            method: self.method.0,
+            settings: self.method.1,
+        }
+    }
+}
+
+/// A held system at one instant, with the other coordinates as they are.
+pub struct HeldMotion<'a> {
+    held: &'a HeldSystem,
+    start: Start,
+    potential: EffectivePotential<'a>,
+}
+
+impl HeldMotion<'_> {
+    /// The coordinate as the motion has it.
+    ///
+    /// # Errors
+    /// Returns an error if the state cannot be observed.
+    pub fn own(&mut self) -> Result<OwnMotion, MotionError> {
+        let system = &self.held.turning;
+        let mut values = vec![0.0; system.columns()];
+        let state = self.start.state(system)?;
+        system.observer(&self.start.parameters).observe_columns(&state, &mut values)?;
+        let place = values[self.held.column(ChannelKind::Position(self.held.coordinate))];
+        let energy = values[self.held.column(ChannelKind::Energy)];
+        let regions = self.potential.regions(energy);
+        let row = match nearest(&regions, place, self.potential.period()) {
+            Some(region) => action_row(&mut self.potential, &self.held.systems(), region, energy),
+            None => Err(NoAction::NoReturn("the coordinate is at rest".to_owned())),
+        };
+        Ok(OwnMotion { energy, row })
+    }
+
+    /// The rows of all regions of an energy in which the motion returns, from left to right.
+    ///
+    /// # Errors
+    /// Returns an error if a motion does not come back to where it began.
+    pub fn rows(&mut self, energy: f64) -> Result<Vec<ActionRow>, NoAction> {
+        let mut rows = Vec::new();
+        for region in self.potential.regions(energy) {
+            let row = action_row(&mut self.potential, &self.held.systems(), region, energy)?;
+            if row.kind != RegionKind::Unbounded {
+                rows.push(row);
+            }
+        }
+        Ok(rows)
+    }
+
+    /// The separatrices, from left to right.
+    ///
+    /// # Errors
+    /// Returns an error if a lobe has no momentum somewhere.
+    pub fn separatrices(&mut self) -> Result<Vec<Separatrix>, NoAction> {
+        let mut all = Vec::new();
+        for top in self.potential.tops() {
+            let mut actions = Vec::new();
+            for lobe in self.potential.lobes(top) {
+                actions.push(match (lobe.left, lobe.right) {
+                    (Some(left), Some(right)) => {
+                        action_between(&mut self.potential, left, right, top[1])?
+                    }
+                    _ => f64::INFINITY,
+                });
+            }
+            let highest = self.potential.tops().iter().all(|other| other[1] <= top[1]);
+            let turns = self.potential.period().is_some() && highest && actions.len() == 1;
+            let turn = actions.first().filter(|_| turns).map(|action| 0.5 * action);
+            all.push(Separatrix { energy: top[1], actions, turn });
+        }
+        Ok(all)
+    }
+
+    /// The least energy of the coordinate.
+    pub fn bottom(&self) -> f64 {
+        self.potential.bottom()
+    }
+}
+
+/// Puts a parameter in the place of the time, the last of all, and returns whether the law depends on it.
+fn hold_time(model: &mut Model) -> bool {
+    const NAME: &str = "the instant at which it is held";
+    let symbol = model.pool.symbol(NAME);
+    let held = model.pool.variable(symbol);
+    let time = model.symbols.time;
+    let map: HashMap<Symbol, Expr> = HashMap::from([(time, held)]);
+    let Model { pool, mechanics, parameters, .. } = model;
+    let mut all: Vec<&mut Expr> = Vec::new();
+    match mechanics {
+        Mechanics::Lagrangian { lagrangian, dissipation, forces } => {
+            all.extend([lagrangian, dissipation]);
+            all.extend(forces);
+        }
+        Mechanics::Hamiltonian { hamiltonian, forces } => {
+            all.push(hamiltonian);
+            all.extend(forces);
+        }
+        Mechanics::Poisson { .. } => {}
+    }
+    let mut depends = false;
+    for e in all {
+        depends |= pool.depends(*e, time);
+        *e = pool.substitute(*e, &map);
+    }
+    parameters.push(Parameter {
+        name: NAME.to_owned(),
+        shown: NAME.to_owned(),
+        symbol,
+        value: 0.0,
+        min: 0.0,
+        max: 1.0,
+        scale: RangeSpacing::Linear,
+        unit: String::new(),
+        about: String::new(),
+    });
+    depends
+}
+
+/// sin(π q/P), which vanishes once a turn.
+fn sine_of_a_turn(pool: &mut Pool, position: Symbol, period: Expr) -> Expr {
+    let (pi, q) = (pool.pi(), pool.variable(position));
+    let angle = pool.monomial(Number::ONE, &[(pi, Number::ONE), (q, Number::ONE)]);
+    let angle = pool.div(angle, period);
+    pool.call(FunctionId::Sin, &[angle])
+}
+
+/// The region that a place lies in; a motion at rest is on its edge.
+fn nearest(
+    regions: &[AllowedInterval],
+    place: f64,
+    period: Option<f64>,
+) -> Option<AllowedInterval> {
+    let outside = |region: &AllowedInterval, place: f64| {
+        let left = region.left.map_or(0.0, |left| left - place);
+        let right = region.right.map_or(0.0, |right| place - right);
+        left.max(right).max(0.0)
+    };
+    let distance = |region: &AllowedInterval| match (period, region.left) {
+        // the same place of the turn that begins where the region does
+        (Some(turn), Some(left)) => {
+            let within = left + (place - left).rem_euclid(turn);
+            outside(region, within).min(outside(region, within - turn))
+        }
+        _ => outside(region, place),
+    };
+    regions.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).copied()
+}

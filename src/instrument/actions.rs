@@ -1,0 +1,369 @@
+//! `actions`: the action variable J = ∮ p dq of a coordinate over the energy E, with the separatrices, and where the motion is.
+//!
+//! Where the law depends on the time the curve is that of the system held at this instant, and the way of the motion over
+//! (E, J) since the start is drawn: a slow change moves it along E and leaves J. The job computes curve and motion; what it
+//! found of earlier instants is kept. Never here: how an action is computed (`action_angle`).
+//! Source: *The Principles of Dynamics*, §§ 4.2, 4.3.
+
+use std::sync::Arc;
+
+use super::{
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
+    Physics, Picture, Plot, Present, Sign, Upwards,
+};
+use crate::action_angle::{HeldMotion, HeldSystem, OwnMotion, RegionKind, Separatrix};
+use crate::integrate::Settings;
+use crate::job::{Job, Progress};
+use crate::num::{math, significant};
+use crate::system::ChannelKind;
+
+/// The levels of the picture.
+const SEPARATRIX: Level = 0;
+const CURVE: Level = 1;
+const PAST: Level = 2;
+const NOW: Level = 3;
+
+/// The energies of the curve, and how many more stand on each side of a separatrix, ever closer to it.
+const ENERGIES: usize = 40;
+const BESIDE: u32 = 5;
+
+/// The part of the range above the motion and the separatrices.
+const ABOVE: f64 = 0.4;
+
+/// J is an adiabatic invariant where it changes by less than this part of the change of the energy above its least value.
+const FAR_LESS: f64 = 0.1;
+
+/// Beyond this energy, relative to the motion's, a top is out of the picture.
+const FAR: f64 = 20.0;
+
+/// The part of the time since the start, and of the period, after which a moving law is looked at again.
+const LATER: f64 = 0.01;
+const OF_A_PERIOD: f64 = 0.25;
+
+/// The settings of the motions by which returns are located: more digits than a picture has.
+const SETTINGS: Settings = Settings { step: None, tolerance: Some(1e-15) };
+
+/// The row.
+pub(super) struct ActionsPlot;
+
+/// An instant of the motion.
+#[derive(Clone, Copy, PartialEq, Debug)]
+struct Instant {
+    time: f64,
+    energy: f64,
+    /// The energy above the least one of the coordinate.
+    height: f64,
+    action: f64,
+}
+
+/// What was found, and of what.
+struct Computed {
+    coordinate: usize,
+    parameters: Vec<f64>,
+    initial: Vec<f64>,
+    held: Result<Arc<HeldSystem>, String>,
+    time: f64,
+    found: Result<Found, String>,
+    past: Vec<Instant>,
+}
+
+/// The curve and the motion.
+struct Found {
+    /// Lines through (E, J), one for each kind of motion.
+    curves: Vec<Vec<[f64; 2]>>,
+    separatrices: Vec<Separatrix>,
+    own: OwnMotion,
+}
+
+impl Instrument for ActionsPlot {
+    fn name(&self) -> &'static str {
+        "actions"
+    }
+
+    fn written(&self) -> &'static [Axis] {
+        const { &[Axis { heading: "Coordinate", coordinate: true, ..Axis::ACROSS }] }
+    }
+
+    fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
+        let model = physics.model;
+        if model.is_poisson() || !model.constraints.is_empty() {
+            return Vec::new();
+        }
+        let offer = |(index, channel): (usize, usize)| Offer {
+            label: format!("action variable of {}", model.coordinates[index].shown),
+            about: "J = ∮ p dq over the energy, with the separatrices; what a slow change leaves"
+                .to_owned(),
+            columns: vec![vec![channel]],
+            view: None,
+            over: Vec::new(),
+        };
+        physics.positions().map(offer).collect()
+    }
+
+    fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
+        format!(
+            "action variable of {}",
+            plot.column(0).map_or("?", |channel| physics.shown(channel))
+        )
+    }
+
+    fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
+        let name = present.physics.shown(plot.column(0)?);
+        let energy = present.physics.channel(ChannelKind::Energy)?;
+        let entries = vec![Entry::Words(format!("J = ∮ p d{name}")), Entry::Channel(energy)];
+        Some(plot.heading(present.physics, "Action variable", entries))
+    }
+
+    fn across(&self, _plot: &Plot, _present: &Present<'_>, answer: Option<&Answer>) -> Across {
+        Across::Named("E".to_owned(), ranges(answer)[0])
+    }
+
+    fn picture(
+        &self,
+        _plot: &Plot,
+        present: &Present<'_>,
+        _seen: [f64; 2],
+        answer: Option<&Answer>,
+    ) -> Option<Picture> {
+        let [_, high] = ranges(answer);
+        let mut layers = Vec::new();
+        if let Some(found) = found(answer) {
+            for separatrix in &found.separatrices {
+                let line = vec![[separatrix.energy, 0.0], [separatrix.energy, 2.0 * high[1]]];
+                layers.push((SEPARATRIX, Layer::Line(line, Ink::Separatrix.into())));
+            }
+            let curves = found.curves.iter();
+            layers.extend(
+                curves.map(|curve| (CURVE, Layer::Line(curve.clone(), Ink::Curve(0).into()))),
+            );
+            if let Ok(row) = &found.own.row {
+                let now = [found.own.energy, row.action];
+                layers.push((NOW, Layer::Point(now, Sign::Disc, Ink::Accent)));
+            }
+        }
+        let past = computed(answer).map_or(&[][..], |computed| &computed.past[..]);
+        if past.len() > 1 {
+            let line = past.iter().map(|instant| [instant.energy, instant.action]).collect();
+            layers.push((PAST, Layer::Line(line, Ink::Warn.into())));
+        }
+        if let [first, _, ..] = past {
+            layers.push((NOW, Layer::Point([first.energy, first.action], Sign::Ring, Ink::Warn)));
+        }
+        layers.push((NOW, Layer::Legend(sentences(present, answer))));
+        Some(Picture::Axes {
+            upwards: Upwards::Named("J".to_owned(), high),
+            layers,
+            occurrences: None,
+        })
+    }
+
+    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+        let Physics { model, system, .. } = present.physics;
+        let Some(channel) = plot.column(0) else { return Need::Nothing };
+        let ChannelKind::Position(coordinate) = system.channels()[channel].kind else {
+            return Need::Nothing;
+        };
+        let degrees = model.coordinates.len();
+        let values = |kind: fn(usize) -> ChannelKind| -> Vec<f64> {
+            let of = |i| present.physics.channel(kind(i)).map_or(f64::NAN, |c| present.value(c));
+            (0..degrees).map(of).collect()
+        };
+        let (positions, momenta) = (values(ChannelKind::Position), values(ChannelKind::Momentum));
+        let (parameters, initial) = (present.parameters.to_vec(), present.initial.to_vec());
+        let time = present.time;
+        let known = computed(answer).filter(|known| known.coordinate == coordinate);
+        let same = known.filter(|known| known.parameters == parameters && known.initial == initial);
+        if same.is_some_and(|known| known.holds_at(time)) {
+            return Need::Held;
+        }
+        let held = known.map(|known| known.held.clone());
+        let past = same.map_or_else(Vec::new, |known| known.past.clone());
+        let model = Arc::clone(model);
+        Need::Job(Job::new("actions", move |progress: &Progress| {
+            let held = held.clone().unwrap_or_else(|| {
+                HeldSystem::of(&model, coordinate, SETTINGS, progress.token())
+                    .map(Arc::new)
+                    .map_err(|why| why.to_string())
+            });
+            let motion = held.as_ref().map_err(Clone::clone).and_then(|held| {
+                held.at(time, &parameters, [&positions, &momenta]).map_err(|why| why.to_string())
+            });
+            let mut past: Vec<Instant> =
+                past.iter().copied().filter(|instant| instant.time < time).collect();
+            let moves = held.as_ref().is_ok_and(|held| held.depends_on_time());
+            let found = motion.and_then(|mut motion| {
+                let found = Found::of(&mut motion)?;
+                if let (true, Ok(row)) = (moves, &found.own.row)
+                    && row.kind != RegionKind::Unbounded
+                {
+                    let energy = found.own.energy;
+                    let height = energy - motion.bottom();
+                    past.push(Instant { time, energy, height, action: row.action });
+                }
+                Ok(found)
+            });
+            let (parameters, initial) = (parameters.clone(), initial.clone());
+            Answer::new(Computed { coordinate, parameters, initial, held, time, found, past })
+        }))
+    }
+
+    fn measures(&self) -> &'static [Measure] {
+        &[
+            Measure {
+                word: "action",
+                about: "∮ p dq of the motion",
+                value: |_, _, answer| Some(found(answer)?.own.row.as_ref().ok()?.action),
+            },
+            Measure {
+                word: "period",
+                about: "its period",
+                value: |_, _, answer| Some(found(answer)?.own.row.as_ref().ok()?.period),
+            },
+            Measure {
+                word: "separatrix",
+                about: "∮ p dq of the first lobe of the first separatrix",
+                value: |_, _, answer| found(answer)?.separatrices.first()?.actions.first().copied(),
+            },
+            Measure {
+                word: "change",
+                about: "by which part the action has changed since the start",
+                value: |_, _, answer| computed(answer)?.changes().map(|[action, _]| action),
+            },
+        ]
+    }
+}
+
+impl Computed {
+    /// Whether it is still what is to be seen at a time.
+    fn holds_at(&self, time: f64) -> bool {
+        let Ok(held) = &self.held else { return true };
+        if !held.depends_on_time() {
+            return true;
+        }
+        let period = self.found.as_ref().ok().and_then(|found| found.own.row.as_ref().ok());
+        let period = period.map(|row| row.period).filter(|period| period.is_finite());
+        let since = self.past.first().map_or(0.0, |first| (time - first.time).abs());
+        let later = (LATER * since).max(OF_A_PERIOD * period.unwrap_or(0.0));
+        self.time <= time && time - self.time <= later
+    }
+
+    /// By which part the action, and the height of the energy, have changed since the first instant.
+    fn changes(&self) -> Option<[f64; 2]> {
+        let (first, last) = (self.past.first()?, self.past.last()?);
+        let part = |from: f64, to: f64| (to - from) / from;
+        Some([part(first.action, last.action), part(first.height, last.height)])
+    }
+}
+
+impl Found {
+    fn of(motion: &mut HeldMotion<'_>) -> Result<Found, String> {
+        let own = motion.own().map_err(|why| why.to_string())?;
+        let separatrices = motion.separatrices().map_err(|why| why.to_string())?;
+        let bottom = motion.bottom();
+        let reach = (own.energy - bottom).max(f64::MIN_POSITIVE);
+        let separatrices: Vec<Separatrix> = separatrices
+            .into_iter()
+            .filter(|s| s.energy.is_finite() && s.energy > bottom)
+            .filter(|s| bottom.is_infinite() || s.energy - bottom < FAR * reach)
+            .collect();
+        let tops: Vec<f64> = separatrices.iter().map(|s| s.energy).collect();
+        let highest = tops.iter().copied().fold(own.energy, f64::max);
+        let from = if bottom.is_finite() { bottom } else { own.energy - own.energy.abs().max(1.0) };
+        let span = if highest > from { highest - from } else { from.abs().max(1.0) };
+        let to = highest + ABOVE * span;
+        let mut energies: Vec<f64> =
+            (1..=ENERGIES).map(|i| from + (to - from) * i as f64 / ENERGIES as f64).collect();
+        for &top in &tops {
+            let step = |k: u32| span * math::exp(-1.6 * f64::from(k + 1));
+            energies.extend((1..=BESIDE).flat_map(|k| [top - step(k), top + step(k)]));
+        }
+        energies.retain(|energy| *energy > from && !tops.contains(energy));
+        energies.sort_by(f64::total_cmp);
+        let mut curves: Vec<Vec<[f64; 2]>> = Vec::new();
+        let mut open: Vec<(RegionKind, usize)> = Vec::new();
+        let mut before = from;
+        for energy in energies {
+            // an energy at which a motion is lost has no point
+            let Ok(rows) = motion.rows(energy) else { continue };
+            let kinds: Vec<RegionKind> = rows.iter().map(|row| row.kind).collect();
+            let crossed = tops.iter().any(|top| before < *top && *top < energy);
+            let same = open.iter().map(|(kind, _)| *kind).eq(kinds.iter().copied());
+            if crossed || !same {
+                let begin = curves.len();
+                open = kinds.iter().enumerate().map(|(i, &kind)| (kind, begin + i)).collect();
+                curves.extend(kinds.iter().map(|_| Vec::new()));
+            }
+            for ((_, curve), row) in open.iter().zip(&rows) {
+                curves[*curve].push([energy, row.action]);
+            }
+            before = energy;
+        }
+        Ok(Found { curves, separatrices, own })
+    }
+}
+
+fn computed(answer: Option<&Answer>) -> Option<&Computed> {
+    answer?.of::<Computed>()
+}
+
+fn found(answer: Option<&Answer>) -> Option<&Found> {
+    computed(answer)?.found.as_ref().ok()
+}
+
+/// The ranges of the energy and of the action.
+fn ranges(answer: Option<&Answer>) -> [[f64; 2]; 2] {
+    let Some(found) = found(answer) else { return [[0.0, 1.0]; 2] };
+    let past = computed(answer).into_iter().flat_map(|computed| &computed.past);
+    let past = past.map(|instant| [instant.energy, instant.action]);
+    let all = found.curves.iter().flatten().copied().chain(past);
+    let all = all.filter(|[e, j]| e.is_finite() && j.is_finite());
+    let [mut low, mut high, mut top] = [f64::INFINITY, f64::NEG_INFINITY, 0.0_f64];
+    for [energy, action] in all {
+        (low, high, top) = (low.min(energy), high.max(energy), top.max(action));
+    }
+    if low < high { [[low, high], [0.0, 1.1 * top]] } else { [[0.0, 1.0]; 2] }
+}
+
+/// What is said of the motion, or why it has no action.
+fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
+    let Some(computed) = computed(answer) else { return vec!["being computed".to_owned()] };
+    let found = match &computed.found {
+        Err(why) => return vec![why.clone()],
+        Ok(found) => found,
+    };
+    let short = |x: f64| significant(x, 5, 1e-3..1e5).replace('-', "−");
+    let mut lines = Vec::new();
+    match &found.own.row {
+        Err(why) => lines.push(why.to_string()),
+        Ok(row) if row.kind == RegionKind::Unbounded => {
+            lines.push("the motion goes away and does not return".to_owned());
+        }
+        Ok(row) => {
+            let [action, over] = [row.action, row.action / std::f64::consts::TAU].map(short);
+            lines.push(format!("{}: J = {action} = 2π · {over}", row.kind.word()));
+            lines.push(format!(
+                "T = dJ/dE = {}, ν = {}",
+                short(row.period),
+                short(1.0 / row.period)
+            ));
+        }
+    }
+    for separatrix in &found.separatrices {
+        let actions: Vec<String> = separatrix.actions.iter().map(|&x| short(x)).collect();
+        let (energy, actions) = (short(separatrix.energy), actions.join(" and "));
+        let turn = separatrix.turn.map_or_else(String::new, |x| format!(", {} a turn", short(x)));
+        lines.push(format!("separatrix at E = {energy}: J = {actions}{turn}"));
+    }
+    if let Some([action, height]) = computed.changes().filter(|_| computed.past.len() > 1) {
+        let since = computed.past.first().map_or(present.time, |first| first.time);
+        let signed = |x: f64| {
+            let size = significant(x.abs(), 2, 1e-3..1e5);
+            if x < 0.0 { format!("−{size}") } else { format!("+{size}") }
+        };
+        let verdict =
+            if action.abs() <= FAR_LESS * height.abs() { "adiabatic" } else { "not adiabatic" };
+        lines.push(format!("since t = {}: {verdict}", short(since)));
+        lines.push(format!("ΔJ/J = {}, ΔE/(E − V₀) = {}", signed(action), signed(height)));
+    }
+    lines
+}

@@ -1,0 +1,78 @@
+//! Ramps: parameters that change with the time.
+//!
+//! In: ramps as written. Out: the model's parameters as functions of the time, which every expression but those of initial
+//! values is read with. Never here: what follows from a law that depends on the time.
+
+use super::Check;
+use crate::diagnostic::{Diagnostic, nearest};
+use crate::expr::{Expr, Symbol};
+use crate::model::{Allowed, RampForm, RampPart, Scope};
+use crate::preset::draft::{Draft, DraftRamp};
+
+impl Check<'_> {
+    /// Reads the ramps, after the parameters and before whatever uses them.
+    pub(super) fn ramps(&mut self, draft: &Draft) {
+        let mut ways: Vec<(Symbol, Vec<RampPart>)> = Vec::new();
+        for written in &draft.ramps {
+            let Some((symbol, part)) = self.ramp(written) else { continue };
+            if draft.body.is_some() {
+                let place = written.parameter.as_ref().map_or(0..0, toml::Spanned::span);
+                self.error(place, "a parameter cannot change with the time beside a [body]");
+            }
+            match ways.iter_mut().find(|(known, _)| *known == symbol) {
+                Some((_, parts)) => parts.push(part),
+                None => ways.push((symbol, vec![part])),
+            }
+        }
+        let time = self.model.symbols.time;
+        for (symbol, parts) in ways {
+            self.model.ramped.lead(&mut self.model.pool, time, symbol, &parts);
+        }
+    }
+
+    fn ramp(&mut self, written: &DraftRamp) -> Option<(Symbol, RampPart)> {
+        let form = written.form.as_ref().map_or(Some(RampForm::Smooth), |form| {
+            let known = RampForm::NAMED.iter().find(|(name, _)| name == form.get_ref());
+            if known.is_none() {
+                let names = RampForm::NAMED.map(|(name, _)| name);
+                let help = match nearest(form.get_ref(), names) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => "a ramp is `smooth`, `cubic` or `linear`".to_owned(),
+                };
+                let message = format!("there is no form `{}` of a ramp", form.get_ref());
+                self.mistakes.push(Diagnostic::error(form.span(), message).with_help(help));
+            }
+            known.map(|(_, form)| *form)
+        });
+        let name = written.parameter.as_ref()?;
+        let known = self.model.parameters.iter().find(|p| p.name == *name.get_ref());
+        let symbol = known.map(|parameter| parameter.symbol);
+        if symbol.is_none() {
+            let names = self.model.parameters.iter().map(|p| p.name.as_str());
+            let mistake = Diagnostic::error(
+                name.span(),
+                format!("there is no parameter `{}`", name.get_ref()),
+            );
+            self.mistakes.push(match nearest(name.get_ref(), names) {
+                Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
+                None => mistake.with_help("give it a value in [parameters]"),
+            });
+        }
+        let mut scope = Scope::new(&self.model, Allowed::Parameters, "a ramp");
+        let mut read = |check: &mut Self, formula: &Option<_>| match formula {
+            Some(formula) => check.formula(&mut scope, "a ramp", formula),
+            None => Some(Expr::ZERO),
+        };
+        let [to, start, duration] =
+            [&written.to, &written.start, &written.duration].map(|formula| read(self, formula));
+        let part = RampPart { to: to?, start: start?, duration: duration?, form: form? };
+        let place = written.duration.as_ref()?;
+        if self.finite(part.duration, "the duration of this ramp", place)
+            && self.at_start(part.duration) <= 0.0
+        {
+            self.error(place.span(), "the duration of a ramp must be above zero");
+            return None;
+        }
+        Some((symbol?, part))
+    }
+}

@@ -1,0 +1,199 @@
+//! The picture of the action variable: closed forms, separatrices, what a slow and a fast change leave, and what has none.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use phaselab::action_angle::{HeldSystem, NotHeld};
+use phaselab::app::{App, Event};
+use phaselab::cancel::Cancel;
+use phaselab::diagnostic::Document;
+use phaselab::experiment::{Experiment, Prepared};
+use phaselab::instrument::{Ink, Layer, Picture, Plot};
+use phaselab::integrate::Settings;
+
+use crate::hand::{begun, press};
+use crate::section::measure;
+
+/// A lab with a motion.
+struct Course {
+    app: App,
+    experiment: Experiment,
+}
+
+impl Course {
+    fn of(text: &str) -> Course {
+        let text = format!("{text}\n[[views]]\nkind = \"actions\"\nx = \"q\"\n");
+        let app = begun(&text);
+        let ready =
+            Prepared::of(&Document::new("test", &text)).unwrap_or_else(|why| panic!("{why}"));
+        let mut experiment = ready.experiment;
+        experiment.set_epoch(1);
+        Course { app, experiment }
+    }
+
+    fn go(&mut self, time: f64) {
+        self.experiment.advance(time, 1_000_000);
+        self.app.update(Event::Snapshot(Arc::new(self.experiment.snapshot())));
+        press(&mut self.app, "Wait");
+    }
+
+    fn plot(&self) -> Plot {
+        let plots = &self.app.lab.as_ref().unwrap().plots;
+        plots.iter().find(|plot| plot.kind.name() == "actions").expect("a picture").clone()
+    }
+
+    fn measure(&self, word: &str) -> f64 {
+        measure(&self.app, &self.plot(), word)
+    }
+
+    fn layers(&self) -> Vec<Layer> {
+        let (lab, plot) = (self.app.lab.as_ref().unwrap(), self.plot());
+        let present = lab.present().expect("a motion");
+        let picture = plot.kind.picture(&plot, &present, [0.0, 1.0], lab.answer(&plot));
+        let Some(Picture::Axes { layers, .. }) = picture else { panic!("no axes") };
+        layers.into_iter().map(|(_, layer)| layer).collect()
+    }
+
+    fn told(&self) -> String {
+        let legend = self.layers().into_iter().find_map(|layer| match layer {
+            Layer::Legend(lines) => Some(lines.join("\n")),
+            _ => None,
+        });
+        legend.expect("words")
+    }
+
+    /// The curves J(E).
+    fn curves(&self) -> Vec<Vec<[f64; 2]>> {
+        let line = |layer| match layer {
+            Layer::Line(points, stroke) if stroke.ink == Ink::Curve(0) => Some(points),
+            _ => None,
+        };
+        self.layers().into_iter().filter_map(line).collect()
+    }
+}
+
+fn near(found: f64, wanted: f64, within: f64) {
+    assert!((found - wanted).abs() <= within, "{found} is not {wanted} within {within}");
+}
+
+const PENDULUM: &str = "title = \"Pendulum\"\n[coordinates]\n\
+                        q = { initial = 2.0, velocity = \"v\", period = \"2*pi\" }\n[parameters]\nv = 0.0\n\
+                        [lagrangian]\nL = \"1/2*q'^2 + cos(q)\"\n";
+
+/// θ₀ = 2: J = 16 (E(k) − k′² K(k)), T = 4 K(k), k = sin 1; the separatrix has 16, a turn 8.
+#[test]
+fn the_pendulum_has_its_action_and_its_separatrix() {
+    let mut course = Course::of(PENDULUM);
+    course.go(0.3);
+    near(course.measure("action"), 10.039416280433402, 1e-12);
+    near(course.measure("period"), 8.349752926918494, 1e-12);
+    near(course.measure("separatrix"), 16.0, 1e-11);
+    assert!(course.told().contains("libration: J = 10.039"), "{}", course.told());
+    assert!(course.told().contains("separatrix at E = 1: J = 16, 8 a turn"), "{}", course.told());
+    // below the separatrix the curve climbs to 16, above it begins at 8
+    let curves = course.curves();
+    let [libration, rotation] = &curves[..] else { panic!("{}", curves.len()) };
+    assert!(libration.iter().all(|at| at[0] < 1.0) && rotation.iter().all(|at| at[0] > 1.0));
+    let (top, bottom) = (libration.last().unwrap()[1], rotation[0][1]);
+    assert!(top < 16.0 && top > 15.9 && bottom > 8.0 && bottom < 8.05, "{top} {bottom}");
+    // a motion that goes round has half
+    let mut round = Course::of(&PENDULUM.replace("v = 0.0", "v = 3.0"));
+    round.go(0.3);
+    assert!(round.told().contains("rotation: J = "), "{}", round.told());
+    assert!(round.measure("action") > 8.0);
+}
+
+#[test]
+fn an_oscillator_has_a_straight_line() {
+    let mut course = Course::of(
+        "title = \"t\"\n[coordinates]\nq = { initial = 1.0, momentum = 0.5 }\n[hamiltonian]\nH = \"p_q^2/2 + 2*q^2\"\n",
+    );
+    course.go(1.0);
+    near(course.measure("action"), PI * 2.125, 1e-12);
+    let [line] = &course.curves()[..] else { panic!("one curve") };
+    assert!(line.len() > 20);
+    line.iter().for_each(|[energy, action]| near(*action, PI * energy, 1e-12 * energy));
+    assert!(!course.told().contains("separatrix"), "{}", course.told());
+}
+
+/// An oscillator whose frequency is doubled in the time `T`.
+fn tightened(duration: &str, way: &str) -> String {
+    format!(
+        "title = \"t\"\n[coordinates]\nq = {{ initial = 1.0, momentum = 0.0 }}\n[parameters]\nw = 1.0\n{way}\n\
+         [hamiltonian]\nH = \"p_q^2/2 + 1/2*w^2*q^2\"\n"
+    )
+    .replace("DURATION", duration)
+}
+
+const RAMP: &str = "[[ramps]]\nparameter = \"w\"\nto = 2\nstart = 2\nduration = DURATION";
+
+/// E doubles with ω, J stays; after a fast change it does not.
+#[test]
+fn a_slow_change_leaves_the_action_and_a_fast_one_does_not() {
+    let mut slow = Course::of(&tightened("60", RAMP));
+    for time in [0.0, 20.0, 40.0, 65.0] {
+        slow.go(time);
+    }
+    near(slow.measure("action"), PI, 1e-4);
+    assert!(slow.measure("change").abs() < 1e-4);
+    assert!(slow.told().contains("since t = 0: adiabatic"), "{}", slow.told());
+    // the curve is that of the law held at this instant, J = 2π E/ω with ω = 2
+    let [line] = &slow.curves()[..] else { panic!("one curve") };
+    line.iter().for_each(|[energy, action]| near(*action, PI * energy, 1e-11 * energy));
+    let way = slow.layers().into_iter().find_map(|layer| match layer {
+        Layer::Line(points, stroke) if stroke.ink == Ink::Warn => Some(points),
+        _ => None,
+    });
+    let way = way.expect("the way of the motion");
+    assert_eq!(way.len(), 4);
+    near(way[3][0], 2.0 * way[0][0], 1e-4);
+    near(way[3][1], way[0][1], 1e-4);
+    let mut fast = Course::of(&tightened("0.01", RAMP));
+    fast.go(0.0);
+    fast.go(5.0);
+    // q and p stay: E = 2 at ω = 2 where the ramp began at cos² 2
+    let energy = |w: f64| 0.5 * (2.0_f64.sin().powi(2) + (w * 2.0_f64.cos()).powi(2));
+    near(fast.measure("action"), PI * energy(2.0), 2e-2);
+    assert!(fast.told().contains("not adiabatic"), "{}", fast.told());
+}
+
+#[test]
+fn what_has_no_action_is_told_why() {
+    let cases = [
+        ("H = \"p_q^2/2 + q^2/2\"\nforces = { q = \"-p_q/10\" }", NotHeld::EnergyNotConserved),
+        (
+            "H = \"p_q^2/2 + q^2/2\"\n[[impulses]]\nname = \"a\"\nevery = 2\nchange = { p_q = 1 }",
+            NotHeld::Impulses,
+        ),
+    ];
+    for (law, why) in cases {
+        let text = format!(
+            "title = \"t\"\n[coordinates]\nq = {{ initial = 1.0 }}\n[hamiltonian]\n{law}\n"
+        );
+        let model = Document::new("t", &text).read().unwrap_or_else(|_| panic!("{text}")).model;
+        let settings = Settings { step: None, tolerance: None };
+        let found = HeldSystem::of(&model, 0, settings, &Cancel::new()).err();
+        assert_eq!(found, Some(why));
+    }
+    let mut course = Course::of(
+        "title = \"t\"\n[coordinates]\nq = { initial = 1.0 }\n[hamiltonian]\nH = \"p_q^2/2 + q^2/2\"\nforces = { q = \"-p_q/10\" }\n",
+    );
+    course.go(1.0);
+    assert!(course.told().contains("forces change the energy"), "{}", course.told());
+}
+
+/// A form that the whole of a time-dependent law has: the same motion by `[[ramps]]` and written out.
+#[test]
+fn a_law_with_the_time_in_it_is_held_at_the_instant() {
+    let written = "[definitions]\nu = \"min(max((t - 2)/60, 0), 1)\"\nww = \"1 + 3*u^2 - 2*u^3\"";
+    let by_hand = tightened("60", written).replace("1/2*w^2*q^2", "1/2*ww^2*q^2 + 0*w");
+    let by_ramp = tightened("60", &format!("{RAMP}\nform = \"cubic\""));
+    let mut both = [by_hand, by_ramp].map(|text| Course::of(&text));
+    for course in &mut both {
+        course.go(0.0);
+        course.go(33.0);
+    }
+    let [a, b] = both.map(|course| course.measure("action"));
+    near(a, b, 1e-12);
+    assert!((a - PI).abs() > 1e-9 && (a - PI).abs() < 0.1, "{a}");
+}

@@ -1,0 +1,74 @@
+//! A parameter changed in the course of time by a key: the ramp is written into the text, and the pane of the action opens.
+
+use phaselab::app::{Effect, Event, Overlay, Pane};
+use phaselab::diagnostic::Document;
+
+use super::real::Real;
+use crate::hand::{key, lowered};
+
+const OSCILLATOR: &str = "title = \"t\"\n[coordinates]\nq = { initial = 1.0, momentum = 0.0 }\n[parameters]\n\
+                          w = { value = 1.0, min = 0.5, max = 5.0 } # a comment\n[hamiltonian]\nH = \"p_q^2/2 + w^2*q^2/2\"\n\
+                          [expect]\nconserves = [\"energy\"]\n";
+
+/// Types into the field of the ramp.
+fn ask(real: &mut Real, typed: &str) {
+    while real.lab().focus != Pane::Parameters {
+        real.press("Tab");
+    }
+    real.press("c");
+    for c in typed.chars() {
+        let name = if c == ' ' { "Space".to_owned() } else { c.to_string() };
+        real.press(&name);
+    }
+    real.press("Enter");
+}
+
+/// The text that is to be checked next.
+fn text(real: &mut Real) -> Option<String> {
+    let effects = real.app.update(Event::Tick(std::time::Duration::from_millis(20)));
+    effects.into_iter().find_map(|effect| match effect {
+        Effect::Check { text, .. } => Some(text),
+        _ => None,
+    })
+}
+
+#[test]
+fn a_ramp_that_is_typed_is_a_part_of_the_text() {
+    let mut real = Real::with(lowered(OSCILLATOR));
+    real.run(90);
+    ask(&mut real, "2 in 60 cubic");
+    assert!(real.app.overlay.is_none(), "{:?}", real.app.overlay);
+    let written = text(&mut real).expect("a text to be checked");
+    assert!(written.contains("# a comment"), "{written}");
+    let read = Document::new("t", &written).read().unwrap_or_else(|_| panic!("{written}"));
+    let model = read.model;
+    assert!(!model.ramped.is_empty() && !written.contains("[expect]"), "{written}");
+    // w goes from 1 at the time of the key to 2 a minute later
+    let now = model.observables.iter().find(|o| o.name == "w now").expect("an observable");
+    let at = |time: f64| {
+        model.pool.evaluate(now.expression, &|s| if s == model.symbols.time { time } else { 1.0 })
+    };
+    let start = real.seen().time;
+    assert!((at(start) - 1.0).abs() < 1e-15 && (at(start + 60.0) - 2.0).abs() < 1e-15);
+    assert!((at(start + 15.0) - (1.0 + 3.0 / 16.0 - 2.0 / 64.0)).abs() < 1e-12);
+    let focus = real.lab().focus;
+    let Pane::Plot(index) = focus else { panic!("{focus:?}") };
+    assert_eq!(real.lab().plots[index].kind.name(), "actions");
+}
+
+#[test]
+fn what_is_no_ramp_is_refused() {
+    for (typed, why) in [
+        ("2", "in which time"),
+        ("2 in 0", "more than zero"),
+        ("two in 3", "is not a number"),
+        ("2 in 3 cubical", "is not a number"),
+    ] {
+        let mut real = Real::with(lowered(OSCILLATOR));
+        ask(&mut real, typed);
+        let Some(Overlay::Field(field)) = &real.app.overlay else { panic!("{typed}") };
+        assert!(field.mistake.as_ref().is_some_and(|m| m.contains(why)), "{:?}", field.mistake);
+        real.strike(key("Esc"));
+        assert!(text(&mut real).is_none());
+    }
+}
