@@ -12,6 +12,7 @@ mod occurrence;
 mod parameter;
 mod picture;
 mod ramp;
+mod ramped;
 mod scope;
 mod transformation;
 mod unit;
@@ -29,7 +30,8 @@ pub use description::{CommonSymbols, Info, Mechanics, Model, RunSettings};
 pub use occurrence::{Action, Direction, Event, Impulse};
 pub use parameter::{Parameter, RangeSpacing};
 pub use picture::{Channel, Follow, Point, Shape, Variation, View};
-pub use ramp::{Ramp, RampForm, RampPart, RampRefused, Ramped, replace_by_ramps};
+pub use ramp::{Ramp, RampRefused, replace_by_ramps};
+pub use ramped::{RampForm, RampPart, Ramped};
 pub use scope::{Allowed, Scope};
 pub use transformation::{
     CompleteIntegral, GeneratingType, Generator, IntegralConstant, Transformation,

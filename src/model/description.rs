@@ -10,7 +10,7 @@ use super::coordinate::Coordinate;
 use super::occurrence::{Event, Impulse};
 use super::parameter::Parameter;
 use super::picture::{Follow, Shape, View};
-use super::ramp::Ramped;
+use super::ramped::Ramped;
 use super::transformation::{CompleteIntegral, Generator, Transformation};
 use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Pool, Symbol};

@@ -4,11 +4,9 @@
 //! In: a model, a ramp. Out: the model with the parameter replaced in its law, constraints, impulses, events and
 //! observables. Initial values keep the number that the parameter has at the start. Never here: motions.
 
-use std::collections::HashMap;
-
+use super::ramped::Ramped;
 use super::{Allowed, Mechanics, Model, Scope};
-use crate::expr::{Expr, FunctionId, Pool, Symbol};
-use crate::num::Number;
+use crate::expr::Expr;
 
 /// A parameter's way from one value to another.
 #[derive(Clone, PartialEq, Debug)]
@@ -57,93 +55,6 @@ impl Ramp {
     }
 }
 
-/// A part of a parameter's way, as a file gives it: its numbers may be expressions in other parameters.
-#[derive(Clone, Copy, Debug)]
-pub struct RampPart {
-    /// The value that it leads to.
-    pub to: Expr,
-    /// When it begins.
-    pub start: Expr,
-    /// How long it takes, above zero.
-    pub duration: Expr,
-    /// How it goes.
-    pub form: RampForm,
-}
-
-/// How smoothly a ramp begins and ends, with u from 0 to 1 on the way.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub enum RampForm {
-    /// 10u³ − 15u⁴ + 6u⁵: the third derivative jumps at both ends.
-    #[default]
-    Smooth,
-    /// 3u² − 2u³: the second derivative jumps.
-    Cubic,
-    /// u: the first derivative jumps.
-    Linear,
-}
-
-impl RampForm {
-    /// All forms with their names in files.
-    pub const NAMED: [(&str, RampForm); 3] =
-        [("smooth", RampForm::Smooth), ("cubic", RampForm::Cubic), ("linear", RampForm::Linear)];
-}
-
-/// Parameters as functions of the time.
-#[derive(Clone, Debug, Default)]
-pub struct Ramped(HashMap<Symbol, Expr>);
-
-impl Ramped {
-    /// Lets a parameter go its way, one part after the other, from its own value, which stays what it is before the first.
-    pub fn lead(&mut self, pool: &mut Pool, time: Symbol, parameter: Symbol, parts: &[RampPart]) {
-        let own = pool.variable(parameter);
-        let time = pool.variable(time);
-        let (mut value, mut last) = (own, own);
-        for part in parts {
-            let passed = pool.sub(time, part.start);
-            let passed = pool.div(passed, part.duration);
-            let passed = pool.call(FunctionId::Max, &[passed, Expr::ZERO]);
-            let one = pool.number(Number::ONE);
-            let u = pool.call(FunctionId::Min, &[passed, one]);
-            let powers: &[(i64, i64)] = match part.form {
-                RampForm::Smooth => &[(10, 3), (-15, 4), (6, 5)],
-                RampForm::Cubic => &[(3, 2), (-2, 3)],
-                RampForm::Linear => &[(1, 1)],
-            };
-            let mut share = Vec::new();
-            for &(coefficient, power) in powers {
-                let power = pool.monomial(Number::ONE, &[(u, Number::integer(power))]);
-                share.push((Number::integer(coefficient), power));
-            }
-            let share = pool.linear(Number::ZERO, &share);
-            let change = pool.sub(part.to, last);
-            let change = pool.mul(change, share);
-            value = pool.linear(Number::ZERO, &[(Number::ONE, value), (Number::ONE, change)]);
-            last = part.to;
-        }
-        self.0.insert(parameter, value);
-    }
-
-    /// Whether no parameter changes with the time.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    /// Each parameter with its function of the time.
-    pub fn functions(&self) -> impl Iterator<Item = (Symbol, Expr)> {
-        self.0.iter().map(|(&symbol, &e)| (symbol, e))
-    }
-
-    /// Whether an expression has a parameter that changes with the time.
-    pub fn acts_on(&self, pool: &Pool, e: Expr) -> bool {
-        self.0.keys().any(|&symbol| pool.depends(e, symbol))
-    }
-
-    /// An expression with these functions in place of the parameters.
-    pub fn replace(&self, pool: &mut Pool, e: Expr) -> Expr {
-        if self.0.is_empty() { e } else { pool.substitute(e, &self.0) }
-    }
-}
-
 /// Replaces parameters by functions of the time. Returns the replacements, which are those of every expression that is
 /// read later, and belong to the model's pool.
 ///
@@ -165,7 +76,7 @@ pub fn replace_by_ramps(model: &mut Model, ramps: &[Ramp]) -> Result<Ramped, Ram
         let mut pool = model.pool.clone();
         let read = Scope::new(model, Allowed::Event, "a ramp").read(&mut pool, &ramp.written());
         model.pool = pool;
-        ramped.0.insert(symbol, read.ok_or(RampRefused::TooLarge)?);
+        ramped.insert(symbol, read.ok_or(RampRefused::TooLarge)?);
     }
     let Model { pool, mechanics, constraints, impulses, events, observables, definitions, .. } =
         model;
@@ -194,6 +105,6 @@ pub fn replace_by_ramps(model: &mut Model, ramps: &[Ramp]) -> Result<Ramped, Ram
     for e in all {
         *e = ramped.replace(pool, *e);
     }
-    model.ramped.0.extend(ramped.0.iter().map(|(&symbol, &e)| (symbol, e)));
+    ramped.functions().for_each(|(symbol, e)| model.ramped.insert(symbol, e));
     Ok(ramped)
 }

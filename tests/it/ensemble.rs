@@ -335,7 +335,7 @@ fn in_the_initial_values_the_cloud_stands_still() {
     let law = |potential: &str| {
         prepared(&format!(
             "title = \"one\"\n[coordinates]\nq = {{ initial = 1.0, momentum = 0.5 }}\n[hamiltonian]\n\
-             H = \"1/2*p_q^2 + {potential}\"\n{back}[run]\nuntil = 100.0\n"
+             H = \"1/2*p_q^2 + {potential}\"\n{back}[[views]]\nkind = \"phase\"\nx = \"Q0\"\ny = \"P0\"\n[run]\nuntil = 100.0\n"
         ))
     };
     let moved = |potential: &str| {

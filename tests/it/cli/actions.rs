@@ -198,7 +198,7 @@ fn an_unbounded_motion_has_no_action() {
     let object = actions(&line("(1 - exp(-x))^2", "0"), &["--energy=1.5"]);
     let row = &object["rows"][0];
     assert_eq!(row["kind"], "unbounded");
-    assert_eq!((&row["action"], &row["frequency"]), (&Value::Null, &serde_json::json!(0.0)));
+    assert_eq!((&row["action"], &row["frequency"]), (&Value::Null, &Value::Null));
     near(&row["turning_points"][0], -f64::ln(1.0 + 1.5f64.sqrt()), 1e-14);
 }
 
