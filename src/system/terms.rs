@@ -16,6 +16,7 @@ use super::value::Evaluator;
 use super::{Form, State, System};
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, Flow};
+use crate::model::Model;
 use crate::num::DoubleDouble;
 
 /// The value of a term at rest, that is with velocities or momenta zero.
@@ -34,6 +35,8 @@ enum AtRest {
 struct OutputPlace {
     first: usize,
     terms: Vec<AtRest>,
+    /// Whether constant terms were left out.
+    offset: bool,
 }
 
 /// The energy, then the conserved quantities, each by its terms, before compilation.
@@ -54,8 +57,10 @@ pub(super) struct Terms {
 }
 
 impl Quantities {
-    /// The energy and all quantities that `equations` finds conserved.
-    pub(super) fn of(equations: &mut Equations) -> Quantities {
+    /// The energy and all quantities that `equations` finds conserved, without their constant terms,
+    /// beside which a change would have fewer digits.
+    pub(super) fn of(model: &Model, equations: &mut Equations) -> Quantities {
+        let parameters: Vec<Symbol> = model.parameters.iter().map(|p| p.symbol).collect();
         let mut quantities = Quantities { places: Vec::new(), outputs: Vec::new() };
         let all: Vec<Expr> = std::iter::once(equations.energy)
             .chain(equations.conserved.iter().map(|c| c.expression))
@@ -81,7 +86,16 @@ impl Quantities {
             }
             let first = quantities.outputs.len();
             let mut terms = Vec::new();
-            for (c, term) in equations.pool.summands(e) {
+            let mut summands = equations.pool.summands(e);
+            let is_fixed = |&(_, term): &(_, Expr)| {
+                equations.pool.symbols_of(term).iter().all(|s| parameters.contains(s))
+            };
+            let varies = summands.iter().any(|term| !is_fixed(term));
+            let offset = varies && summands.iter().any(is_fixed);
+            if offset {
+                summands.retain(|term| !is_fixed(term));
+            }
+            for (c, term) in summands {
                 let term = equations.pool.scale(c, term);
                 quantities.outputs.push(term);
                 let rest = if equations.pool.depends_on_any(term, &rates) {
@@ -97,7 +111,7 @@ impl Quantities {
                 };
                 terms.push(rest);
             }
-            quantities.places.push(Some(OutputPlace { first, terms }));
+            quantities.places.push(Some(OutputPlace { first, terms, offset }));
         }
         quantities
     }
@@ -216,6 +230,11 @@ impl TermWatch {
         self.places.get(quantity).is_some_and(Option::is_some)
     }
 
+    /// Whether a quantity has constant terms, which its sums are without.
+    pub fn has_offset(&self, quantity: usize) -> bool {
+        self.places.get(quantity).is_some_and(|place| place.as_ref().is_some_and(|p| p.offset))
+    }
+
     /// The terms of a quantity, each with its value at rest.
     fn terms(&self, quantity: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
         let place = self.places.get(quantity).and_then(Option::as_ref);
@@ -255,7 +274,7 @@ impl TermWatch {
 /// Sums over the terms of a quantity.
 #[derive(Clone, Copy, Debug)]
 pub struct TermSums {
-    /// Its value.
+    /// Its value, but for constant terms.
     pub value: f64,
     /// The size of the terms, to which its rounding errors are at least proportional.
     pub size: f64,
