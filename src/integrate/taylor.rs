@@ -14,6 +14,7 @@ mod batch_step_size;
 mod branches;
 mod collocation_step;
 mod kinks;
+mod onset;
 mod steep;
 mod step_size;
 mod sticking;
@@ -322,7 +323,7 @@ impl Taylor {
                             rates,
                             &self.parameters,
                             &from,
-                            wanted,
+                            (wanted, self.limit.0),
                         )?;
                         let Some((still, state)) = first else { return Ok(false) };
                         self.begin = from.time;
