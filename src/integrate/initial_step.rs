@@ -62,7 +62,8 @@ fn ahead(
         steps.push(ahead.step_size());
     }
     let longest = steps.iter().copied().fold(0.0, f64::max);
-    steps.retain(|step| *step >= SHORTEST * longest);
+    // a motion that comes to rest may do so in no time
+    steps.retain(|step| *step > 0.0 && *step >= SHORTEST * longest);
     steps.sort_by(f64::total_cmp);
     steps.get(steps.len() / 4).copied()
 }

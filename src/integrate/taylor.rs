@@ -15,6 +15,7 @@ mod branches;
 mod collocation_step;
 mod kinks;
 mod last_orders;
+mod onset;
 mod steep;
 mod step_screen;
 mod step_size;
@@ -321,7 +322,7 @@ impl Taylor {
                             rates,
                             &self.parameters,
                             &from,
-                            wanted,
+                            (wanted, self.limit.0),
                         )?;
                         let Some((still, state)) = first else { return Ok(false) };
                         self.begin = from.time;

@@ -116,7 +116,7 @@ impl System {
     ) -> Result<System, CompileError> {
         let mut equations = equations.clone();
         let list = ObservableList::of(model, &mut equations, extra);
-        let quantities = ConservedTerms::of(&mut equations);
+        let quantities = ConservedTerms::of(model, &mut equations);
         if !equations.has_moving_mass() {
             // splitting methods need it; where M moves there is nothing to find
             equations.separable();

@@ -115,6 +115,11 @@ impl TermWatch {
         self.places.get(quantity).is_some_and(Option::is_some)
     }
 
+    /// Whether a quantity has constant terms, which its sums are without.
+    pub fn has_offset(&self, quantity: usize) -> bool {
+        self.places.get(quantity).is_some_and(|place| place.as_ref().is_some_and(|p| p.offset))
+    }
+
     /// The terms of a quantity, each with its value at rest.
     fn terms(&self, quantity: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
         let place = self.places.get(quantity).and_then(Option::as_ref);
@@ -161,7 +166,7 @@ impl System {
 /// Sums over the terms of a quantity.
 #[derive(Clone, Copy, Debug)]
 pub struct TermSums {
-    /// Its value.
+    /// Its value, but for constant terms.
     pub value: f64,
     /// The size of the terms, to which its rounding errors are at least proportional.
     pub size: f64,

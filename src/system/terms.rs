@@ -11,6 +11,7 @@ use super::program::Program;
 use super::rhs::ProgramBuilder;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, Flow};
+use crate::model::Model;
 
 /// The value of a term at rest, that is with velocities or momenta zero.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -28,6 +29,8 @@ pub(super) enum AtRest {
 pub(super) struct OutputPlace {
     pub(super) first: usize,
     pub(super) terms: Vec<AtRest>,
+    /// Whether constant terms were left out.
+    pub(super) offset: bool,
 }
 
 /// The energy, then the conserved quantities, each by its terms, before compilation.
@@ -48,8 +51,10 @@ pub(super) struct Terms {
 }
 
 impl ConservedTerms {
-    /// The energy and all quantities that `equations` finds conserved.
-    pub(super) fn of(equations: &mut Equations) -> ConservedTerms {
+    /// The energy and all quantities that `equations` finds conserved, without their constant terms,
+    /// beside which a change would have fewer digits.
+    pub(super) fn of(model: &Model, equations: &mut Equations) -> ConservedTerms {
+        let parameters: Vec<Symbol> = model.parameters.iter().map(|p| p.symbol).collect();
         let mut quantities = ConservedTerms { places: Vec::new(), outputs: Vec::new() };
         let all: Vec<Expr> = std::iter::once(equations.energy)
             .chain(equations.conserved.iter().map(|c| c.expression))
@@ -75,7 +80,16 @@ impl ConservedTerms {
             }
             let first = quantities.outputs.len();
             let mut terms = Vec::new();
-            for (c, term) in equations.pool.summands(e) {
+            let mut summands = equations.pool.summands(e);
+            let is_fixed = |&(_, term): &(_, Expr)| {
+                equations.pool.symbols_of(term).iter().all(|s| parameters.contains(s))
+            };
+            let varies = summands.iter().any(|term| !is_fixed(term));
+            let offset = varies && summands.iter().any(is_fixed);
+            if offset {
+                summands.retain(|term| !is_fixed(term));
+            }
+            for (c, term) in summands {
                 let term = equations.pool.scale(c, term);
                 quantities.outputs.push(term);
                 let rest = if equations.pool.depends_on_any(term, &rates) {
@@ -91,7 +105,7 @@ impl ConservedTerms {
                 };
                 terms.push(rest);
             }
-            quantities.places.push(Some(OutputPlace { first, terms }));
+            quantities.places.push(Some(OutputPlace { first, terms, offset }));
         }
         quantities
     }

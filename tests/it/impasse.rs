@@ -77,6 +77,71 @@ fn dry_friction_in_the_plane_with_a_force_that_depends_on_time() {
     assert_eq!([value(&body, "y"), value(&body, "y'")], [0.0, 0.0]);
 }
 
+/// A body on a plane under a force that turns while it grows: its velocity begins as τ², in a direction that
+/// friction holds ever more tightly the slower it is. The numbers are computed with thirty digits: the
+/// asymptotic series of the polar coordinates of the velocity, s' = f·e − μ and s φ' = f·n, up to
+/// τ = 0.02, where its least term is 1e-32, then extrapolated midpoint steps.
+#[test]
+fn a_force_that_turns_sets_a_body_in_motion_against_dry_friction() {
+    let begin = 0.832_342_100_951;
+    for (text, names) in [
+        (
+            "[coordinates]\nx = { initial = 0 }\ny = { initial = 0 }\n[lagrangian]\n\
+             L = \"1/2*x'^2 + 1/2*y'^2 - 0.05*y + 0.4*x*sin(t)\"\n\
+             dissipation = \"0.3*sqrt(x'^2+y'^2)\"\n",
+            ["x", "y", "x'", "y'"],
+        ),
+        (
+            "[coordinates]\nx = { initial = 0 }\ny = { initial = 0 }\n[hamiltonian]\n\
+             H = \"1/2*p_x^2 + 1/2*p_y^2 + 0.05*y - 0.4*x*sin(t)\"\n\
+             forces = { x = \"-0.3*p_x/sqrt(p_x^2+p_y^2)\", y = \"-0.3*p_y/sqrt(p_x^2+p_y^2)\" }\n",
+            ["x", "y", "p_x", "p_y"],
+        ),
+    ] {
+        let mut body = file(text);
+        run(&mut body, begin - 1e-6);
+        assert_eq!(names.map(|name| value(&body, name)), [0.0; 4]);
+        for (t, expected) in [
+            (
+                0.9,
+                [
+                    1.327_889_537_504e-5,
+                    -2.150_570_191_505e-6,
+                    5.852_615_365_219_73e-4,
+                    -9.352_580_752_496_04e-5,
+                ],
+            ),
+            (
+                1.5,
+                [
+                    0.010_434_470_800_188_1,
+                    -0.001_379_265_450_051_05,
+                    0.042_642_133_835_936_57,
+                    -0.005_412_062_193_129,
+                ],
+            ),
+            (
+                2.0,
+                [
+                    0.043_977_287_439_496_93,
+                    -0.005_638_639_436_022_64,
+                    0.088_587_315_058_768_31,
+                    -0.011_543_691_286_748,
+                ],
+            ),
+        ] {
+            run(&mut body, t);
+            for (name, expected) in names.iter().zip(expected) {
+                let off = value(&body, name) - expected;
+                assert!(off.abs() < 4e-17, "{name} at {t}: off by {off:e}");
+            }
+        }
+        // it comes to rest and sets out again, every half period
+        run(&mut body, 20.0);
+        assert!(value(&body, "y") < -0.05);
+    }
+}
+
 #[test]
 fn dry_friction_in_the_plane_of_a_hamiltonian() {
     let mut body = file(IN_MOMENTA);

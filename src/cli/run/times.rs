@@ -122,6 +122,13 @@ impl Times {
             );
             return Err(CommandError::WrongUse(message));
         }
+        if end - start < SHORTEST {
+            let message = format!(
+                "from {start:e} to {end:e} is shorter than a motion can be followed, {SHORTEST:e}; \
+                 take a larger unit of time"
+            );
+            return Err(CommandError::WrongUse(message));
+        }
         Ok(())
     }
 

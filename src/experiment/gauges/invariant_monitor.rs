@@ -10,6 +10,10 @@ use crate::system::{TermSums, TermWatch};
 /// The name of the gauge that is constant by the law of the energy's change.
 pub(super) const LEDGER: &str = "energy ledger";
 
+/// Constant terms are large from this multiple of the others on: the value, in `f64`, has three digits fewer then than
+/// the sum of the others has.
+const LARGE: f64 = 1e3;
+
 /// The state of one gauge.
 #[derive(Clone, Debug)]
 pub(super) struct InvariantMonitor {
@@ -33,6 +37,10 @@ pub(super) struct InvariantMonitor {
     reference: f64,
     /// The reference as the sum of its terms in `f64`.
     rough_reference: f64,
+    /// Whether it has constant terms so large that its value has fewer digits than the sum of the others.
+    offset: bool,
+    /// The last distance from the reference.
+    last: f64,
     /// The terms at rest when the reference was taken.
     at_rest: Vec<f64>,
     /// The greatest error of its value since then, in units of ε.
@@ -79,6 +87,8 @@ impl InvariantMonitor {
             initial: f64::NAN,
             reference: f64::NAN,
             rough_reference: f64::NAN,
+            offset: false,
+            last: 0.0,
             at_rest: Vec::new(),
             rounding: 0.0,
             moving: Mean::default(),
@@ -93,6 +103,10 @@ impl InvariantMonitor {
     pub(super) fn refer(&mut self, time: f64, values: &[f64], terms: &TermWatch) {
         self.initial = values[self.channel];
         self.reference = self.initial;
+        let offset = self.quantity.is_some_and(|quantity| terms.has_offset(quantity));
+        let varying = self.summed(terms).map_or(0.0, |sums| sums.size);
+        self.offset = offset && varying * LARGE < self.initial.abs();
+        self.last = 0.0;
         self.rough_reference =
             self.summed(terms).map_or(f64::NAN, |sums| self.rough(sums.value, terms));
         self.at_rest = self.quantity.map_or_else(Vec::new, |quantity| terms.at_rest(quantity));
@@ -107,6 +121,7 @@ impl InvariantMonitor {
     /// Continues from the saved reference of the same quantity.
     pub(super) fn restore(&mut self, known: &Reference, time: f64) {
         self.rough_reference += known.from - self.reference;
+        self.forget_digits(known.from);
         self.reference = known.from;
         self.initial = known.initial.unwrap_or(known.from);
         let scale = known.scale.unwrap_or_else(|| known.from.abs());
@@ -122,11 +137,25 @@ impl InvariantMonitor {
         if self.jumps && jump.is_finite() {
             self.reference += jump;
             self.rough_reference += jump;
+            self.forget_digits(before[self.channel].abs().max(after[self.channel].abs()));
+        }
+    }
+
+    /// Takes into account that a reference was computed from a value of this size.
+    fn forget_digits(&mut self, value: f64) {
+        if self.offset {
+            self.widen(value.abs());
         }
     }
 
     /// Records the rounding error of its value, in units of ε.
     pub(super) fn measure(&mut self, error: f64) {
+        if !self.offset {
+            self.widen(error);
+        }
+    }
+
+    fn widen(&mut self, error: f64) {
         if error.is_finite() {
             self.rounding = self.rounding.max(error);
         }
@@ -145,12 +174,15 @@ impl InvariantMonitor {
 
     /// Records an accurate value and returns its distance; `floor` is the rounding error of a value of size 1.
     pub(super) fn look(&mut self, time: f64, values: &[f64], terms: &TermWatch, floor: f64) -> f64 {
-        let distance = values[self.channel] - self.reference;
+        let mut distance = values[self.channel] - self.reference;
         let mut moving = 0.0;
         if let Some(sums) = self.summed(terms) {
             // the terms may have grown
-            self.measure(sums.size);
+            self.widen(sums.size);
             moving = sums.moving;
+            if self.offset {
+                distance = self.rough(sums.value, terms) - self.rough_reference;
+            }
         }
         self.note(time, distance, moving, floor);
         distance
@@ -166,7 +198,7 @@ impl InvariantMonitor {
     pub(super) fn step(&mut self, time: f64, terms: &TermWatch, floor: f64, dense: bool) {
         let Some(TermSums { value, size, moving }) = self.summed(terms) else { return };
         let distance = self.rough(value, terms) - self.rough_reference;
-        self.measure(size);
+        self.widen(size);
         // the moving part of a lost motion is no measure of it
         if self.worst <= LOST {
             self.moving.note(time, moving);
@@ -182,6 +214,7 @@ impl InvariantMonitor {
 
     fn note(&mut self, time: f64, distance: f64, moving: f64, floor: f64) {
         let distance = distance.abs();
+        self.last = distance;
         if distance > self.farthest {
             self.farthest = distance;
         }
@@ -211,7 +244,7 @@ impl InvariantMonitor {
             _ if distance <= rounding => distance / scale.max(self.rounding),
             _ => distance / scale,
         };
-        let distance = (value - self.reference).abs();
+        let distance = if self.offset { self.last } else { (value - self.reference).abs() };
         let beyond = self.farthest > rounding;
         let max_drift = if beyond { self.worst } else { drift(self.farthest.max(distance)) };
         let drift_now = drift(distance).min(max_drift);

@@ -1,11 +1,12 @@
 //! Static friction in more than one direction: −μ v/|v| is undefined at v = 0, where it may be any
 //! vector up to its strength.
 //!
-//! In: a state in which all velocities have reached zero. Out: whether the motion stays there, and
-//! until when, or the rates with which it starts to move. It stays if a small velocity in any
+//! In: a state in which all velocities have reached zero. Out: whether the motion stays there, or the
+//! rates with which it starts to move, and when a rest ends. It stays if a small velocity in any
 //! direction loses energy. This is tested in many directions, including those in which all other
-//! forces pull, and repeatedly if the forces depend on time.
+//! forces pull. How far the forces are followed in time at once is found by what they are in between.
 
+use super::onset::{self, Onset, POINTS};
 use crate::num::{Analytic, DoubleDouble};
 use crate::system::{ExactRates, Form, MotionError, MotionErrorKind, State, System};
 
@@ -34,28 +35,30 @@ const ROUNDS: usize = 200;
 /// The number of checks of a motion at rest within a typical step.
 const CHECKS: u32 = 32;
 
+/// The maximal number of times a step is divided by four so that the forces are followed.
+const QUARTERINGS: u32 = 24;
+
 /// The first step of a motion that starts, as a part of a typical one: what it neglects is of third
 /// order.
 const FIRST: f64 = 1e-8;
 
+/// The first step of a motion that starts with a polynomial, in the same measure, and the maximal number
+/// of halvings of it.
+const LONGEST: f64 = 0.25;
+const SHORTER: u32 = 24;
+
 /// A force that reverses with the velocity counts as friction if it is at least this part of all
 /// forces.
 const FRICTION: f64 = 0.01;
+
+/// The forces are followed in time where they are predicted to this part of them.
+const FOLLOWED: f64 = 0.02;
 
 /// The number of iterations for the time at which rest ends; each golden section contributes less
 /// than one halving.
 const HALVINGS: u32 = 60;
 const SECTIONS: u32 = 40;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
-
-/// Gauss's five points on [−1, 1], and their weights.
-const POINTS: [(f64, f64); 5] = [
-    (-0.906_179_845_938_664, 0.236_926_885_056_189_08),
-    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-    (0.0, 0.568_888_888_888_888_9),
-    (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-    (0.906_179_845_938_664, 0.236_926_885_056_189_08),
-];
 
 /// The result of the test.
 pub(super) enum Sticking {
@@ -77,12 +80,26 @@ pub(super) struct Still {
     degrees: usize,
     /// The size of the trial velocities.
     size: f64,
-    /// The length of a typical step of the motion before.
+    /// The length of a step within which the forces are followed in time.
     stride: f64,
+    /// That of the next one to try.
+    next: f64,
+    /// The beginning of the motion after rest.
+    onset: Option<Onset>,
     over: bool,
 }
 
 impl Still {
+    /// A motion at rest at a state, with the rates of its auxiliary numbers; the number of degrees of
+    /// freedom, the size of trial velocities, the length of a typical step.
+    fn new(
+        from: State,
+        rates: Vec<DoubleDouble>,
+        (degrees, size, stride): (usize, f64, f64),
+    ) -> Still {
+        Still { from, rates, degrees, size, stride, next: stride, onset: None, over: false }
+    }
+
     /// Whether the motion has started at the end of the last step.
     pub(super) fn is_over(&self) -> bool {
         self.over
@@ -98,25 +115,74 @@ impl Still {
         (from, limit): (&State, f64),
     ) -> Result<State, MotionError> {
         self.from = from.clone();
+        if self.onset.is_some() {
+            return self.set_out(rates, limit);
+        }
         let (n, time) = (system.degrees(), from.time);
         let mut end = limit;
         if rates.depends_on_time() {
-            let (step, size) =
-                ((self.stride / f64::from(CHECKS)).copysign(limit - time), self.size);
-            let still = from.clone();
+            let (size, still) = (self.size, from.clone());
             let mut asked = Asked { system, rates: &mut *rates, parameters, still, n, size };
-            let reach = (limit - time).abs().min(self.stride);
-            end = if reach < self.stride { limit } else { time + self.stride.copysign(step) };
+            end = self.resolved(&mut asked, limit)?;
+            let step = (self.stride / f64::from(CHECKS)).copysign(limit - time);
             if let Some(breaks) = asked.end_of_rest(time, end, step)? {
                 let until = self.at(rates, DoubleDouble::from(breaks))?;
                 let still = until.clone();
-                let mut asked = Asked { system, rates, parameters, still, n, size };
-                let first = (FIRST * self.stride).copysign(step);
-                self.over = true;
-                return Ok(asked.first_step(first)?.unwrap_or(until));
+                let mut asked = Asked { system, rates: &mut *rates, parameters, still, n, size };
+                let onset = asked.onset(self.stride.copysign(step))?;
+                let first = if onset.is_none() {
+                    let first = (FIRST * self.stride).copysign(step);
+                    asked.first_step(first)?.unwrap_or(until)
+                } else {
+                    until
+                };
+                return self.begin(rates, (onset, first), limit);
             }
         }
         self.at(rates, DoubleDouble::written(end))
+    }
+
+    /// The end of a step so short that the forces are followed in time, which the next may exceed.
+    fn resolved(&mut self, asked: &mut Asked<'_>, limit: f64) -> Result<f64, MotionError> {
+        let time = self.from.time;
+        let mut reach = self.next.min((limit - time).abs());
+        for _ in 0..QUARTERINGS {
+            if asked.follows(time, reach.copysign(limit - time), CHECKS)? {
+                break;
+            }
+            reach *= 0.25;
+        }
+        // beyond the last digit of the time
+        let reach = reach.max(4.0 * f64::EPSILON * time.abs());
+        let end = time + reach.copysign(limit - time);
+        let last = reach >= (limit - time).abs();
+        self.stride = reach;
+        self.next = 2.0 * reach;
+        Ok(if last { limit } else { end })
+    }
+
+    /// Begins the motion after rest: with a polynomial, or at the state after a first step.
+    fn begin(
+        &mut self,
+        rates: &mut ExactRates,
+        (onset, first): (Option<Onset>, State),
+        limit: f64,
+    ) -> Result<State, MotionError> {
+        self.onset = onset;
+        if self.onset.is_some() {
+            return self.set_out(rates, limit);
+        }
+        self.over = true;
+        Ok(first)
+    }
+
+    /// Continues along the beginning of the motion, up to its end or a limit.
+    fn set_out(&mut self, rates: &mut ExactRates, limit: f64) -> Result<State, MotionError> {
+        let limit = DoubleDouble::written(limit);
+        let end = self.onset.as_ref().map_or(limit, Onset::end);
+        let begin = self.from.exact_time();
+        self.over = (end - begin).high.abs() <= (limit - begin).high.abs();
+        self.at(rates, if self.over { end } else { limit })
     }
 
     /// The state at a time within the last step.
@@ -125,6 +191,13 @@ impl Still {
         rates: &mut ExactRates,
         time: DoubleDouble,
     ) -> Result<State, MotionError> {
+        let moves = |onset: &&Onset| {
+            let after = (time - onset.begin()).high;
+            after != 0.0 && (after > 0.0) == (onset.end() - onset.begin()).high.is_sign_positive()
+        };
+        if let Some(onset) = self.onset.as_ref().filter(moves) {
+            return Ok(onset.at(time));
+        }
         let mut state = self.from.clone();
         let after = time - self.from.exact_time();
         let carried: Vec<usize> =
@@ -219,26 +292,31 @@ pub(super) fn set_out(
     rates: &mut ExactRates,
     parameters: &[f64],
     still: &State,
-    stride: f64,
+    (stride, limit): (f64, f64),
 ) -> Result<Option<(Still, State)>, MotionError> {
     let n = system.degrees();
     let size = TRIAL * stride;
-    let mut asked = Asked { system, rates, parameters, still: still.clone(), n, size };
+    let mut asked = Asked { system, rates: &mut *rates, parameters, still: still.clone(), n, size };
     if !asked.has_friction()? {
         return Ok(None);
     }
+    let onset = asked.onset(stride)?;
     let Some(state) = asked.first_step(FIRST * stride)? else { return Ok(None) };
-    let rates = vec![DoubleDouble::ZERO; still.values.len()];
-    let (from, stride) = (still.clone(), stride.abs());
-    Ok(Some((Still { from, rates, degrees: n, size, stride, over: true }, state)))
+    let none = vec![DoubleDouble::ZERO; still.values.len()];
+    let (from, length) = (still.clone(), stride.abs());
+    let mut still = Still::new(from, none, (n, size, length));
+    let state = still.begin(rates, (onset, state), limit)?;
+    Ok(Some((still, state)))
 }
 
+/// A state at rest whose small velocities are tested.
 struct Asked<'a> {
     system: &'a System,
     rates: &'a mut ExactRates,
     parameters: &'a [f64],
     still: State,
     n: usize,
+    /// The size of these velocities.
     size: f64,
 }
 
@@ -339,6 +417,49 @@ impl Asked<'_> {
         Ok(None)
     }
 
+    /// Whether the accelerations in two opposite directions are followed at so many equal intervals from
+    /// a time on: whether their values between them are what those at their ends predict.
+    fn follows(&mut self, time: f64, reach: f64, intervals: u32) -> Result<bool, MotionError> {
+        let step = reach / f64::from(intervals);
+        let mut samples = Vec::new();
+        for k in 0..=intervals {
+            let Some(sample) = self.both_ways(time + step * f64::from(k))? else { return Ok(true) };
+            samples.push(sample);
+        }
+        let strength = samples.iter().flatten().fold(0.0_f64, |m, a| m.max(a.abs()));
+        for (k, around) in samples.windows(4).enumerate() {
+            // irregular places, which meet no period
+            let x = 0.3 + 0.4 * (GOLDEN * k as f64).fract();
+            let Some(there) = self.both_ways(time + step * (k as f64 + 1.0 + x))? else {
+                return Ok(true);
+            };
+            let weights = [
+                -x * (x - 1.0) * (x - 2.0) / 6.0,
+                (x + 1.0) * (x - 1.0) * (x - 2.0) / 2.0,
+                -x * (x + 1.0) * (x - 2.0) / 2.0,
+                x * (x + 1.0) * (x - 1.0) / 6.0,
+            ];
+            for (i, &value) in there.iter().enumerate() {
+                let predicted: f64 = around.iter().zip(weights).map(|(a, w)| a[i] * w).sum();
+                if (predicted - value).abs() > FOLLOWED * strength {
+                    return Ok(false);
+                }
+            }
+        }
+        Ok(true)
+    }
+
+    /// The accelerations of a small velocity and of its opposite at a time.
+    fn both_ways(&mut self, time: f64) -> Result<Option<Vec<f64>>, MotionError> {
+        (self.still.time, self.still.time_carry) = (time, 0.0);
+        let mut some = vec![0.0; self.n];
+        some[0] = 1.0;
+        let Some(there) = self.accelerations(&some)? else { return Ok(None) };
+        some[0] = -1.0;
+        let Some(back) = self.accelerations(&some)? else { return Ok(None) };
+        Ok(Some(there.iter().chain(&back).map(|a| a.high).collect()))
+    }
+
     /// The time between two others at which rest ends, if it does, checked at steps of this size.
     fn end_of_rest(&mut self, time: f64, end: f64, step: f64) -> Result<Option<f64>, MotionError> {
         let mut samples = [(time, f64::NEG_INFINITY); 3];
@@ -409,6 +530,38 @@ impl Asked<'_> {
         Ok(Some(state))
     }
 
+    /// The beginning of a motion from rest, as long as the polynomial over it agrees with that over
+    /// half of it.
+    fn onset(&mut self, stride: f64) -> Result<Option<Onset>, MotionError> {
+        let from = self.still.clone();
+        let mut step = LONGEST * stride;
+        let (mut whole, mut found) = (self.onset_over(&from, step)?, None);
+        for _ in 0..SHORTER {
+            step *= 0.5;
+            let half = self.onset_over(&from, step)?;
+            if let (Some(one), Some(other)) = (&whole, &half)
+                && one.agrees(other, self.n)
+            {
+                found = whole;
+                break;
+            }
+            whole = half;
+        }
+        self.still = from;
+        Ok(found)
+    }
+
+    fn onset_over(&mut self, from: &State, step: f64) -> Result<Option<Onset>, MotionError> {
+        let mut found = Vec::new();
+        for part in onset::points() {
+            let time = from.exact_time() + DoubleDouble::product(step, part);
+            (self.still.time, self.still.time_carry) = (time.high, time.low);
+            let Some((_, accelerations)) = self.direction()? else { return Ok(None) };
+            found.push(accelerations.iter().map(|a| a.high).collect());
+        }
+        Onset::new(self.rates, from, self.n, step, &found)
+    }
+
     /// The end of a motion: the rates of the auxiliary numbers and integrals, at rest or in the
     /// limit of zero velocities.
     fn carried(mut self, some: &[f64], stride: f64) -> Result<Sticking, MotionError> {
@@ -434,7 +587,7 @@ impl Asked<'_> {
         }
         let known = rates.iter().all(|x| x.is_finite());
         let (from, degrees) = (self.still, self.n);
-        let still = Still { from, rates, degrees, size, stride, over: false };
+        let still = Still::new(from, rates, (degrees, size, stride));
         Ok(if known { Sticking::Stays(still) } else { Sticking::Unknown })
     }
 

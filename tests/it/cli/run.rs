@@ -375,6 +375,8 @@ fn a_clock_that_cannot_tell_rows_or_steps_apart_is_refused_before_the_first_row(
     for (arguments, why) in [
         (&["--until", "1e-320"][..], "closer than a motion can be followed"),
         (&["--until", "1.9e-278"], "closer than a motion can be followed"),
+        (&["--until", "1e-320", "--every", "1"], "shorter than a motion can be followed"),
+        (&["--until", "0.9e-280", "--every", "1"], "shorter than a motion can be followed"),
         (&["--init", "t=1e300"], "cannot tell t = 1e300 from 10 later"),
         (&["--init", "t=1e17"], "cannot tell rows"),
         (&["--every", "1e-300"], "cannot tell rows 1e-300 apart"),
@@ -392,6 +394,7 @@ fn a_clock_that_cannot_tell_rows_or_steps_apart_is_refused_before_the_first_row(
     }
     // the other side of each
     assert_eq!(csv(&run(&["--until", "2.1e-278"]).success()).len(), 201);
+    assert_eq!(csv(&run(&["--until", "1.1e-280", "--every", "1"]).success()).len(), 1);
     assert_eq!(csv(&run(&["--init", "t=1e300", "--at", "1e300"]).success()).len(), 1);
     assert_eq!(csv(&run(&["--until", "1.4e-15", "--every", "2e-16"]).success()).len(), 8);
     let steps = ["--method", "rk4", "--until", "1e-13", "--step", "2e-16", "--at", "1e-13"];

@@ -98,7 +98,7 @@ fn an_oscillator_with_a_constant_in_its_potential() {
         ("rk4", 0.09, |length| if length > 50.0 { "lost" } else { "secular" }),
     ];
     let mut runs = 0;
-    for (units, offset) in [(UNITS[0], 1e6), (UNITS[1], 1e6), (UNITS[2], -1e4)] {
+    for (units, offset) in [(UNITS[0], 1e12), (UNITS[1], 1e6), (UNITS[2], -1e4)] {
         let period = std::f64::consts::TAU / units.1;
         runs += hold(&oscillator(units, offset), period, &labels, &[("energy", None)]);
     }
@@ -125,17 +125,14 @@ fn a_pendulum_from_rest() {
         ("leapfrog", 0.4, |_| "lost"),
     ];
     let mut runs = 0;
-    for (from, constant) in [(1.0, 0.0), (2.0, 0.0), (2.0, 1e6)] {
+    for (from, constant) in [(1.0, 0.0), (2.0, 0.0), (2.0, 1e9)] {
         let text = format!(
             "title = \"Pendulum\"\n[coordinates]\ntheta = {{ initial = {from} }}\n\
              [lagrangian]\nL = \"1/2*theta'^2 + cos(theta) - {constant}\"\n"
         );
-        // beside a constant of a million the oscillation under gauss4 is within rounding
-        let told = |label: &&Label| constant == 0.0 || label.0 != "gauss4";
-        let labels: Vec<Label> = labels.iter().filter(told).copied().collect();
         runs += hold(&text, period_of_pendulum(from), &labels, &[("energy", None)]);
     }
-    assert_eq!(runs, 68);
+    assert_eq!(runs, 72);
 }
 
 #[test]

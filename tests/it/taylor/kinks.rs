@@ -191,3 +191,73 @@ fn on_a_steep_incline_it_sets_out_and_on_a_flat_one_it_does_not() {
     let mut run = table("0.3*x + 0.3*y", [0.0, 0.0], [0.0, 0.0], 0.5);
     assert_eq!(run.to(10.0)[..4], [0.0; 4]);
 }
+
+#[test]
+fn kinks_a_trillionth_of_the_way_apart_are_crossed_in_one_step_and_farther_ones_in_two() {
+    let steps = |apart: &str| {
+        let l = format!("1/2*x'^2 - abs(x) - abs(x - {apart})");
+        let mut run = one("-1.0", "1.0", &l, "0", "0");
+        // x'' = 2 up to the kinks: x = −1 + t + t², there at the golden section, with velocity √5
+        run.to(1.0);
+        run.steps
+    };
+    assert_eq!(steps("2.2e-12"), steps("7e-13") + 1);
+}
+
+#[test]
+fn at_rest_on_a_kink_it_stays_to_the_last_bit() {
+    // the pull of 0.3 is less than the jump of 1 to both sides
+    for (initial, potential, force) in [
+        ("0.0", "abs(x) + 0.3*x", "0"),
+        ("0.7", "abs(x - 0.7) + 0.3*x", "0"),
+        ("0.0", "abs(x)", "0.3*sin(t)"),
+        ("0.0", "3*max(x, -x/2)", "-0.7*cos(2*t) - t/40"),
+    ] {
+        let mut run = one(initial, "0.0", &format!("1/2*x'^2 - {potential}"), "0", force);
+        let x: f64 = initial.parse().unwrap();
+        for t in [0.3, 1.0, 10.0, 20.0] {
+            assert_eq!(run.to(t)[..2], [x, 0.0], "{potential} with {force} at {t}");
+        }
+    }
+}
+
+#[test]
+fn one_rests_on_a_kink_while_another_that_is_coupled_to_it_swings() {
+    // the pendulum's support is held by the kink as long as |T sin θ| is less than its jump
+    let text = |support: &str| {
+        format!(
+            "title = \"Pendulum\"\n[coordinates]\nx = {{ initial = 0.0 }}\n\
+             q = {{ initial = 0.5 }}\n[lagrangian]\n\
+             L = \"x'^2 + x'*q'*cos(q) + 1/2*q'^2 + cos(q) - {support}\"\n"
+        )
+    };
+    let mut held = Run::new(&text("5*abs(x)"));
+    let alone = "title = \"Pendulum\"\n[coordinates]\nq = { initial = 0.5 }\n[lagrangian]\n\
+                 L = \"1/2*q'^2 + cos(q)\"\n";
+    let mut alone = Run::new(alone);
+    for t in [0.4, 2.0, 7.0] {
+        let held = held.to(t);
+        assert_eq!([held[0], held[2]], [0.0, 0.0], "at {t}");
+        near(&[held[1], held[3]], &alone.to(t)[..2], 2e-16);
+    }
+    // a jump of ±0.2 does not hold it
+    assert!(Run::new(&text("1/5*abs(x)")).to(2.0)[0].abs() > 1e-3);
+}
+
+/// The end of the run is the only length of time known at first.
+#[test]
+fn rest_under_friction_ends_when_the_force_says_however_far_the_end_of_the_run_is() {
+    let text = "title = \"Friction\"\n[coordinates]\nx = { initial = 0 }\ny = { initial = 0 }\n\
+                [lagrangian]\nL = \"1/2*x'^2 + 1/2*y'^2 - 0.05*y + 0.4*x*sin(t)\"\n\
+                dissipation = \"0.3*sqrt(x'^2 + y'^2)\"\n";
+    for end in [2.5, 300.0, 20_000.0, 7e6] {
+        let mut run = Run::new(text);
+        while run.stepper.time() < 2.0 {
+            run.stepper.step(end).unwrap();
+        }
+        let mut state = run.stepper.state().clone();
+        run.stepper.at(2.0, &mut state).unwrap();
+        // the numbers of `a_force_that_turns_sets_a_body_in_motion_against_dry_friction`
+        near(&state.values[..2], &[0.043_977_287_439_496_93, -0.005_638_639_436_022_64], 4e-17);
+    }
+}
