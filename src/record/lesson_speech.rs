@@ -47,7 +47,7 @@ impl Lesson {
                 }
                 None => "watch · q leaves",
             },
-            Stage::Said => "Enter goes on · q leaves",
+            Stage::Said => "Enter continues · q leaves",
             Stage::Ended => "Enter leaves",
             Stage::Free => "the lab is yours · F9 continues · q leaves",
             Stage::Task { hint, .. } => match hint {
