@@ -15,7 +15,7 @@ use crate::experiment::Derived;
 use crate::mechanics::{ConservedKind, Report};
 use crate::printable;
 
-/// Tell every mistake in files, and whether what they claim is true.
+/// Report all mistakes in files, and whether what they claim is true.
 ///
 /// Reports go to standard error. A file's claims (`conserved`, `[expect]`) are checked by
 /// integrating the motion. Without a mistake a terminal is told what was found, and

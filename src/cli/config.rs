@@ -33,7 +33,7 @@ enum Command {
     PrintDefault,
     /// Print where the configuration is looked for, whether it is there or not.
     Path,
-    /// Tell every mistake in the configuration, or in a file that is to become one.
+    /// Report every mistake in the configuration, or in a file that is to become one.
     Check {
         /// The file to look at in place of the configuration.
         #[arg(value_name = "FILE")]

@@ -21,7 +21,7 @@ pub(super) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Tell every mistake in scripts, and whether what they claim is true.
+    /// Report every mistake in scripts, and whether what they claim is true.
     ///
     /// Reports go to standard error. A script that says which system it is about (Open) is played
     /// to its end, without writing anything.

@@ -19,7 +19,7 @@ use crate::shell::{self, Ending, LabError, LessonMark, LessonProgress, Request};
 /// List the lessons, or take one.
 ///
 /// A lesson is a demo with a person in it: you say what you expect before it happens. Right or
-/// wrong is decided by the motion. It can be left at any time (q) and goes on there the next time.
+/// wrong is decided by the motion. It can be left at any time (q) and continues there the next time.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -50,7 +50,7 @@ enum Format {
 
 /// Take the tour: three minutes, from the pendulum to a Lagrangian of your own.
 ///
-/// It is the lesson `tour`. It can be left at any time (q) and goes on there the next time.
+/// It is the lesson `tour`. It can be left at any time (q) and continues there the next time.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

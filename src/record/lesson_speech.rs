@@ -47,7 +47,7 @@ impl Lesson {
                 }
                 None => "watch · q leaves",
             },
-            LessonStage::Said => "Enter goes on · q leaves",
+            LessonStage::Said => "Enter continues · q leaves",
             LessonStage::Ended => "Enter leaves",
             LessonStage::Free => "the lab is yours · F9 continues · q leaves",
             LessonStage::Task { hint, .. } => match hint {

@@ -26,11 +26,11 @@ pub const MOST_FRAMES: u16 = 240;
 /// The options of the laboratory, with their defaults.
 #[derive(Args, Clone, PartialEq, Eq, Debug)]
 pub struct Options {
-    /// Go on with the last session: its system, views, values and motion.
+    /// Continue the last session: its system, views, values and motion.
     #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, hide_possible_values = true)]
     #[arg(default_value = "false", default_missing_value = "true", value_name = SWITCH)]
     pub resume: bool,
-    /// Build the system anew whenever its file is saved; the motion goes on.
+    /// Rebuild the system whenever its file is saved; the motion continues.
     #[arg(long, action = ArgAction::Set, num_args = 0..=1, require_equals = true, hide_possible_values = true)]
     #[arg(default_value = "false", default_missing_value = "true", value_name = SWITCH)]
     pub watch: bool,

@@ -248,7 +248,7 @@ fn the_pane_lies_below_the_lab_and_is_readable_without_colour_and_in_ascii() {
             let pane = rows.iter().position(|row| row.contains(&title[..20])).expect("a pane");
             assert!(pane >= usize::from(size.1) / 2, "{size:?}: {pane}\n{}", rows.join("\n"));
             assert!(rows.join("").is_ascii(), "{}", rows.join("\n"));
-            assert!(rows.last().is_some_and(|row| row.contains("Enter goes on")));
+            assert!(rows.last().is_some_and(|row| row.contains("Enter continues")));
         }
     }
 }
