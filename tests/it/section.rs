@@ -444,6 +444,27 @@ fn without_a_background_further_orbits_are_computed_once_they_are_asked_for() {
     assert!(highest < 3.09 && highest > 2.6, "{highest}");
 }
 
+/// Below zero, where no weight can be, r has no bound: the picture is that of 0 < r < E/((M − m) g) = 3/2, where
+/// |p_r| is at most √(2 (M + m) E) = 15.3.
+#[test]
+fn the_section_of_the_swinging_weight_shows_all_that_the_energy_allows() {
+    let (app, index) = opened(shipped("swinging-atwood"), 0.5);
+    let plot = app.lab.as_ref().unwrap().plots[index].clone();
+    let points = layers(&app, &plot).into_iter().filter_map(|layer| match layer {
+        Layer::Points(points, _) => Some(points),
+        _ => None,
+    });
+    let points: Vec<[f64; 2]> = points.flat_map(|points| points.to_vec()).collect();
+    assert!(points.len() > 500, "{}", points.len());
+    let (energy, slope) = (29.43, 2.0 * 9.81);
+    for [r, p] in &points {
+        assert!(*r > 0.0 && p * p / 8.0 + slope * r <= energy * (1.0 + 1e-9), "{r} {p}");
+    }
+    let reaches = |test: fn(&[f64; 2]) -> bool| points.iter().any(test);
+    assert!(reaches(|[r, _]| *r < 0.15) && reaches(|[r, _]| *r > 1.2));
+    assert!(reaches(|[_, p]| *p < -8.0) && reaches(|[_, p]| *p > 8.0));
+}
+
 #[test]
 fn sections_open_the_systems_that_are_known_by_them() {
     let names = [
