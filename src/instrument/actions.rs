@@ -48,7 +48,7 @@ pub(super) struct ActionsPlot;
 
 /// An instant of the motion.
 #[derive(Clone, Copy, PartialEq, Debug)]
-struct Instant {
+struct Moment {
     time: f64,
     energy: f64,
     /// The energy above the least one of the coordinate.
@@ -64,7 +64,7 @@ struct Computed {
     held: Result<Arc<HeldSystem>, String>,
     time: f64,
     found: Result<Found, String>,
-    past: Vec<Instant>,
+    past: Vec<Moment>,
 }
 
 /// The curve and the motion.
@@ -188,7 +188,7 @@ impl Instrument for ActionsPlot {
             let motion = held.as_ref().map_err(Clone::clone).and_then(|held| {
                 held.at(time, &parameters, [&positions, &momenta]).map_err(|why| why.to_string())
             });
-            let mut past: Vec<Instant> =
+            let mut past: Vec<Moment> =
                 past.iter().copied().filter(|instant| instant.time < time).collect();
             let moves = held.as_ref().is_ok_and(|held| held.depends_on_time());
             let found = motion.and_then(|mut motion| {
@@ -198,7 +198,7 @@ impl Instrument for ActionsPlot {
                 {
                     let energy = found.own.energy;
                     let height = energy - motion.bottom();
-                    past.push(Instant { time, energy, height, action: row.action });
+                    past.push(Moment { time, energy, height, action: row.action });
                 }
                 Ok(found)
             });
