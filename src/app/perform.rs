@@ -353,7 +353,7 @@ impl App {
     }
 
     /// Whether something lies over the page that the key for quitting closes.
-    fn closes_with_quit(&self) -> bool {
+    pub fn closes_with_quit(&self) -> bool {
         matches!(self.overlay, Some(Overlay::Help { .. } | Overlay::Message(_) | Overlay::Menu(_)))
     }
 

@@ -217,6 +217,10 @@ impl Taylor {
                 }
                 units.long = scale;
                 self.series.set_scale(units.next(scale * 1e-6) * direction);
+                if self.series.scale().abs() == scale {
+                    // there is no smaller one
+                    return Err(self.not_finite());
+                }
                 continue;
             };
             if lost {

@@ -16,7 +16,7 @@ use super::theme::Role;
 use super::values::window;
 use super::wrap::words;
 use crate::analysis::{Growth, Verdict};
-use crate::app::HitTarget;
+use crate::app::{HitTarget, Lab};
 use crate::experiment::{Gauge, Snapshot};
 
 /// The widths, in columns, of a verdict in a word and in full, of a drift and of a value.
@@ -24,6 +24,9 @@ const VERDICT: u16 = 8;
 const IN_FULL: u16 = 17;
 const DRIFT: u16 = 9;
 const VALUE: u16 = 9;
+
+/// The verdict on what impulses change and the motion between them does not; their sign comes after it.
+const BETWEEN: &str = "conserved between";
 
 /// The widths of a drift and of a value in a single row.
 const SHORT_DRIFT: u16 = 8;
@@ -63,8 +66,14 @@ impl SingleRow {
     }
 }
 
-/// Draws the gauges around the selected one: two rows for each if there is room, else one.
-pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], selected: Option<usize>) {
+/// Whether a gauge shows the residual of a constraint: a value that is its own distance from zero.
+pub(super) fn is_residual(lab: &Lab, gauge: &Gauge) -> bool {
+    lab.loaded.model.constraints.iter().any(|constraint| constraint.name == gauge.name)
+}
+
+/// Draws the gauges of a lab around the selected one: two rows for each if there is room, else one.
+pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, selected: Option<usize>) {
+    let gauges = lab.snapshot.as_ref().map_or(&[][..], |snapshot| &snapshot.gauges);
     if gauges.is_empty() {
         canvas.left(row(area, 0), Role::Dim, "  nothing is conserved here");
         return;
@@ -95,11 +104,14 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, gauges: &[Gauge], select
         let at = row(area, place * height);
         canvas.left(columns(at, 0, 1), Role::Focus, mark);
         let at = columns(at, 2, area.width.saturating_sub(3));
-        if let Some(single) = single {
+        let residual = is_residual(lab, gauge);
+        if let Some(mut single) = single {
+            single.drift = single.drift.filter(|_| !residual);
             in_one_row(canvas, at, single, gauge, here);
         } else {
-            name_and_reason(canvas, at, gauge, here);
-            numbers_and_history(canvas, row(columns(area, 2, at.width), place * 2 + 1), gauge);
+            name_and_reason(canvas, at, (gauge, residual), here);
+            let below = row(columns(area, 2, at.width), place * 2 + 1);
+            numbers_and_history(canvas, below, (gauge, residual));
         }
     }
 }
@@ -153,7 +165,7 @@ pub(super) fn in_full(verdict: &Verdict) -> (&'static str, Role) {
 }
 
 /// The word for a verdict, short enough for a column, and its role.
-fn word(verdict: &Verdict) -> (&'static str, Role) {
+pub(super) fn word(verdict: &Verdict) -> (&'static str, Role) {
     match verdict {
         Verdict::Open => ("…", Role::Dim),
         Verdict::Exact(Growth::Level | Growth::Root) => ("exact", Role::Good),
@@ -206,30 +218,51 @@ fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
 }
 
 /// Draws the name, the reason for its conservation and, at the right, the verdict: in a word where the name leaves no room
-/// for more.
-fn name_and_reason(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, here: bool) {
+/// for more. A residual is called so; it is satisfied rather than conserved, so its verdict is a word.
+fn name_and_reason(
+    canvas: &mut Canvas<'_>,
+    area: Rect,
+    (gauge, residual): (&Gauge, bool),
+    here: bool,
+) {
     let name_width = canvas.look.glyphs.pick(&gauge.shown, &gauge.name).width();
-    let sign = if given_by_impulses(gauge).is_some() { 2 } else { 0 };
+    let changed = given_by_impulses(gauge).is_some();
+    let sign = if changed { 2 } else { 0 };
     let fits = name_width + 1 + usize::from(IN_FULL + sign) <= area.width.into();
-    let full = area.width >= HEADED - 3 && fits;
-    let words = if full { in_full(&gauge.verdict) } else { word(&gauge.verdict) };
+    let full = area.width >= HEADED - 3 && fits && !residual;
+    let words = match (full, &gauge.verdict) {
+        (false, verdict) => word(verdict),
+        (true, Verdict::Exact(_)) if changed => (BETWEEN, word(&gauge.verdict).1),
+        (true, verdict) => in_full(verdict),
+    };
     let room = if full { IN_FULL + 2 } else { VERDICT };
     let used = verdict(canvas, columns(area, area.width.saturating_sub(room), room), gauge, words);
     let area = columns(area, 0, area.width.saturating_sub(used + 1));
     let used = name(canvas, area, gauge, here) + 2;
     // A reason is shown whole, or in a word.
     let reason = canvas.text(&number::with_minus_signs(&gauge.reason, canvas.look.glyphs));
-    let proved = if gauge.proved { "proved" } else { "" };
+    let in_a_word = match (residual, gauge.proved) {
+        (true, _) => "residual",
+        (false, true) => "proved",
+        (false, false) => "",
+    };
     let room = usize::from(area.width.saturating_sub(used));
-    if let Some(reason) = [&*reason, proved].into_iter().find(|text| text.width() <= room) {
+    let whole =
+        if residual && reason != RELEASED { format!("{in_a_word}; {reason}") } else { reason };
+    if let Some(reason) = [&*whole, in_a_word].into_iter().find(|text| text.width() <= room) {
         canvas.left(columns(area, used, area.width), Role::Dim, reason);
     }
 }
 
-/// Draws value, drift, and the history of the drift on a logarithmic scale.
-fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
+/// The reason shown for a constraint that no longer holds.
+const RELEASED: &str = "released";
+
+/// Draws value, drift, and the history of the drift on a logarithmic scale. A residual is its own drift, and is shown once.
+fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, (gauge, residual): (&Gauge, bool)) {
     value(canvas, columns(area, 0, VALUE + 2), gauge, 6);
-    drift(canvas, columns(area, VALUE + 3, DRIFT), gauge);
+    if !residual {
+        drift(canvas, columns(area, VALUE + 3, DRIFT), gauge);
+    }
     let room = area.width.saturating_sub(VALUE + DRIFT + 5);
     let sparkline = columns(area, area.width.saturating_sub(room.min(HISTORY)), HISTORY);
     let values: Vec<f64> = gauge.history.iter().map(|v| f64::from(*v).abs()).collect();
@@ -255,15 +288,18 @@ fn in_one_row(canvas: &mut Canvas<'_>, area: Rect, row: SingleRow, gauge: &Gauge
     name(canvas, columns(area, 0, row.value.saturating_sub(1)), gauge, here);
 }
 
-/// Draws the words for the verdict at the right, after a sign if impulses have changed the value. Returns the number of
-/// columns used.
+/// Draws the words for the verdict at the right, with a sign if impulses have changed the value: after the words that refer
+/// to it, else before them. Returns the number of columns used.
 fn verdict(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, (text, role): (&str, Role)) -> u16 {
-    let used = canvas.right(area, role, text);
-    if given_by_impulses(gauge).is_none() || used + 2 > area.width {
-        return used;
+    let width = text.width() as u16;
+    if given_by_impulses(gauge).is_none() || width + 2 > area.width {
+        return canvas.right(area, role, text);
     }
     let sign = Marker::Diamond.symbol(canvas.look.glyphs).to_string();
-    canvas.left(columns(area, area.width - used - 2, 1), Role::Warn, &sign);
+    let after = if text == BETWEEN { 2 } else { 0 };
+    let used = canvas.right(columns(area, 0, area.width - after), role, text);
+    let at = if after > 0 { area.width - 1 } else { area.width - used - 2 };
+    canvas.left(columns(area, at, 1), Role::Warn, &sign);
     used + 2
 }
 

@@ -321,8 +321,12 @@ fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
     let hint = |row: &crate::app::keymap::Binding| {
         let keys = keys(row, canvas.look);
         let first = keys.split(' ').next().unwrap_or_default().to_owned();
-        // The editor keeps its text when it is left.
-        let closes = editing && row.action == Action::Back;
+        // The editor keeps its text when it is left; what lies on top is closed before the program is left.
+        let closes = match row.action {
+            Action::Back => editing,
+            Action::Quit => app.closes_with_quit(),
+            _ => false,
+        };
         let word = if closes { "close" } else { row.hint };
         let word = canvas.span(Role::Dim, format!(" {word}"));
         Hint { spans: vec![canvas.span(Role::Accent, first), word], action: row.action }

@@ -158,8 +158,7 @@ fn list(
         Pane::Initial => values(ValueId::Initial, lab.selection.initial).draw(canvas, inner),
         Pane::Gauges => {
             let selected = focused.then_some(lab.selection.gauge);
-            let all = lab.snapshot.as_ref().map_or(&[][..], |s| &s.gauges);
-            gauges::draw(canvas, inner, all, selected);
+            gauges::draw(canvas, inner, lab, selected);
         }
         Pane::Plot(_) | Pane::Law => {}
     }

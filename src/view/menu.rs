@@ -172,6 +172,7 @@ const LEAST_NOTE: u16 = 8;
 fn refused(item: &Item) -> &'static str {
     match item.choice {
         Choice::Method(_) => "not for this system",
+        Choice::System(_) => "is open",
         _ => "not here",
     }
 }

@@ -3,7 +3,7 @@
 //! In: the channels and their values. Out: a page of text. Never here: pictures.
 
 use super::companions;
-use super::gauges::in_full;
+use super::gauges::{in_full, is_residual, word};
 use super::number::{drift, readable};
 use super::quantity::Quantities;
 use super::text_page::TextPage;
@@ -56,9 +56,12 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
     page.heading("Gauges");
     for gauge in q.snapshot.gauges.iter() {
         let name = glyphs.pick(&gauge.shown, &gauge.name);
-        let (text, role) = in_full(&gauge.verdict);
+        let residual = is_residual(q.lab, gauge);
+        let (text, role) = if residual { word(&gauge.verdict) } else { in_full(&gauge.verdict) };
+        let drifted = format!("  drift {:<9} ", drift(gauge.drift, glyphs));
+        let drifted = if residual { format!("{:<18}", "  residual") } else { drifted };
         let rest = vec![
-            (Role::Dim, format!("  drift {:<9} ", drift(gauge.drift, glyphs))),
+            (Role::Dim, drifted),
             (role, format!("{text:<18}")),
             (Role::Dim, gauge.reason.clone()),
         ];

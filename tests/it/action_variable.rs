@@ -112,7 +112,9 @@ fn an_oscillator_has_a_straight_line() {
     near(course.measure("action"), PI * 2.125, 1e-12);
     let [line] = &course.curves()[..] else { panic!("one curve") };
     assert!(line.len() > 20);
-    line.iter().for_each(|[energy, action]| near(*action, PI * energy, 1e-12 * energy));
+    for [energy, action] in line {
+        near(*action, PI * energy, 1e-12 * energy);
+    }
     assert!(!course.told().contains("separatrix"), "{}", course.told());
 }
 
@@ -139,7 +141,9 @@ fn a_slow_change_leaves_the_action_and_a_fast_one_does_not() {
     assert!(slow.told().contains("since t = 0: adiabatic"), "{}", slow.told());
     // the curve is that of the law held at this instant, J = 2π E/ω with ω = 2
     let [line] = &slow.curves()[..] else { panic!("one curve") };
-    line.iter().for_each(|[energy, action]| near(*action, PI * energy, 1e-11 * energy));
+    for [energy, action] in line {
+        near(*action, PI * energy, 1e-11 * energy);
+    }
     let way = slow.layers().into_iter().find_map(|layer| match layer {
         Layer::Line(points, stroke) if stroke.ink == Ink::Warn => Some(points),
         _ => None,

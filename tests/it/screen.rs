@@ -3,6 +3,7 @@
 mod cells;
 mod golden;
 mod hit_test;
+mod labels;
 mod motion;
 mod panes;
 mod plain;

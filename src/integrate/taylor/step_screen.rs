@@ -75,7 +75,8 @@ impl Screen {
         for lane in 0..WIDTH {
             let term = own[lane] * powers[self.first + lane];
             // a coefficient that vanishes allows anything
-            all &= ((by_tolerance[lane] > term) & (by_radius[lane] > term)) | (own[lane] < FAINT);
+            let bound = by_tolerance[lane].min(by_radius[lane]);
+            all &= if own[lane] < FAINT { true } else { bound > term };
         }
         all
     }

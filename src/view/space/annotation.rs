@@ -17,16 +17,20 @@ pub(super) fn compass(canvas: &mut Canvas<'_>, area: Rect, camera: &Camera) {
     if area.width < 30 || area.height < 14 {
         return;
     }
-    let corner = Rect { x: area.x, y: area.bottom() - 6, width: 12, height: 6 };
-    let reach = Scale::linear(-1.3, 1.3);
-    let frame = PlotFrame::equal(reach, reach, corner);
-    let mut arms = Raster::new(corner, canvas.look.glyphs);
-    let pen = Pen::new(canvas.style(Role::Dim), 0);
+    let corner = Rect { x: area.x + 1, y: area.bottom() - 6, width: 12, height: 6 };
     let axes = [("x", [1.0, 0.0, 0.0]), ("y", [0.0, 1.0, 0.0]), ("z", [0.0, 0.0, 1.0])];
     let tips = axes.map(|(name, axis)| {
         let [right, up, _] = camera.project(axis);
         (name, [right, up])
     });
+    // Where no arm points to the left or down, the place where they meet is the corner itself.
+    let reach = |k: usize| {
+        let least = tips.iter().map(|(_, tip)| tip[k]).fold(0.0, f64::min);
+        Scale::linear(least - 0.1, least + 2.5)
+    };
+    let frame = PlotFrame::equal(reach(0), reach(1), corner);
+    let mut arms = Raster::new(corner, canvas.look.glyphs);
+    let pen = Pen::new(canvas.style(Role::Dim), 0);
     for (_, tip) in tips {
         arms.line(&frame, [0.0; 2], tip.map(|v| 0.7 * v), &pen);
     }

@@ -2,14 +2,20 @@
 //!
 //! In: the shapes of a picture. Out: its points, in the order of their colours. Never here: the colours themselves.
 
+use crate::expr::{Expr, Symbol};
 use crate::instrument::CameraPose;
 use crate::model::{Point, Shape};
 use crate::view::quantity::{Quantities, Source};
 
 /// The points of the masses and of the traces of other points, in the order of their colours: what moves comes first,
-/// and the second colour, an amber, is left to a single mass that stays where it is.
+/// and the second colour, an amber, is left to the first mass whose place is fixed by numbers and parameters.
 pub(super) fn colours(q: &Quantities<'_>, eye: CameraPose) -> Vec<Point> {
-    let stays = |at: &Point| at.iter().all(|e| matches!(q.place(*e), Source::Number(_)));
+    let loaded = &q.lab.loaded;
+    let parameters: Vec<Symbol> = loaded.model.parameters.iter().map(|p| p.symbol).collect();
+    let constant = |e: Expr| {
+        loaded.equations.pool.symbols_of(e).iter().all(|symbol| parameters.contains(symbol))
+    };
+    let stays = |at: &Point| at.iter().all(|e| constant(*e));
     let shapes = || q.lab.shapes(eye).map(|(shape, _)| shape);
     let masses: Vec<Point> = shapes()
         .filter_map(|shape| match shape {

@@ -961,7 +961,7 @@ fn what_impulses_have_changed_is_marked() {
         seen.gauges = [gauge].into();
         let mut app = in_lab();
         app.update(Event::Snapshot(Arc::new(seen.clone())));
-        for (look, sign) in [(&rich(), "◆ conserved (exact)"), (&ascii, "* conserved (exact)")] {
+        for (look, sign) in [(&rich(), "conserved between ◆"), (&ascii, "conserved between *")] {
             for size in [(80, 24), (120, 40)] {
                 let text = rows(&screen(&app, look, size)).join("\n");
                 assert_eq!(text.contains(sign), marked, "{text}");
