@@ -92,7 +92,8 @@ impl TextReport<'_> {
             self.line("Holds where");
             for &e in &report.domain {
                 let e = self.math(e);
-                self.line(&format!("  {e} ≥ 0   (its root is squared away)"));
+                let line = format!("  {e} ≥ 0   (its root is squared away)");
+                self.line(&self.script.words(&line));
             }
         }
         if !report.casimirs.is_empty() {

@@ -46,10 +46,13 @@ const PART_OF_ARGUMENT: f64 = 0.5;
 /// in the longer steps of motions without singularities terms of high order, which are in `f64`, are
 /// larger than their sum.
 pub(super) fn order_for(tolerance: f64, degrees: usize) -> usize {
-    let long = tolerance >= EXACT_BELOW && degrees <= SMALL;
+    let long = (EXACT_BELOW..LOOSE).contains(&tolerance) && degrees <= SMALL;
     let part = if long { 0.8 } else { 0.66 };
     ((-math::ln(tolerance) * part).ceil() as usize).clamp(12, 44)
 }
+
+/// From this tolerance on it is loose; time scales of motions are measured with it.
+const LOOSE: f64 = 1e-9;
 
 /// With no more degrees of freedom than this the products of series are not most of the work
 /// (measured on chains of pendulums).

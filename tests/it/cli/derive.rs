@@ -106,6 +106,12 @@ fn text_is_mathematics_in_unicode_and_in_ascii() {
         let ascii = done(program(home.path()).env("LC_ALL", "C").args(["derive", name])).success();
         assert!(ascii.is_ascii(), "{name}: {ascii}");
     }
+    let root = "[coordinates]\nx = { initial = 1 }\n[lagrangian]\nL = \"1/2*x'^2 - sqrt(x)^2\"\n";
+    std::fs::write(home.path().join("root.toml"), root).expect("a file");
+    let derive = ["derive", "./root.toml"];
+    let ascii = done(program(home.path()).current_dir(home.path()).env("LC_ALL", "C").args(derive));
+    let ascii = ascii.success();
+    assert!(ascii.is_ascii() && ascii.contains("x >= 0"), "{ascii}");
 }
 
 #[test]

@@ -358,7 +358,7 @@ fn the_picker_shows_what_a_system_is() {
     let mut app = at_picker();
     press(&mut app, "/ h e n o n");
     let buffer = screen(&app, &rich(), (120, 40));
-    assert!(find(&buffer, "3 of ").is_some() && find(&buffer, "Hénon–Heiles").is_some());
+    assert!(find(&buffer, "4 of ").is_some() && find(&buffer, "Hénon–Heiles").is_some());
     assert!(find(&buffer, "Damped pendulum").is_none());
 }
 
