@@ -88,7 +88,7 @@ pub enum Effect {
     /// Export the current state as a system file; [`Event::Written`] answers.
     Export,
     /// Check a text and cancel the previous check; if the text is correct, its system replaces the one in the lab.
-    /// [`Event::CheckedText`] answers.
+    /// [`Event::Checked`] answers.
     Check {
         /// The number of the check, counted over all texts.
         ticket: u64,

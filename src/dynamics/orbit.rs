@@ -20,7 +20,7 @@ use super::phase_space::PhaseSpace;
 use super::quadrature::gauss;
 use super::transverse::{self, Removed};
 use crate::integrate::{Method, Settings, Stepping};
-use crate::num::{DoubleDouble, math, short};
+use crate::num::{DoubleDouble, math};
 use crate::system::State;
 
 /// The maximal number of steps of Newton's method, and of halvings of one.
@@ -254,30 +254,11 @@ impl Newton<'_> {
         // rest is an equilibrium; under a drive it may be one of the orbits that have its period
         let turned = time / self.units.time();
         let still = self.space.is_autonomous() && look.rates[0].norm() * turned < 1e-6 * look.size;
-        if still {
-            return Err(self.rest(&state));
-        }
-        if residual > CLOSED * look.size {
-            return Err(no_orbit(residual / look.size, time));
+        if residual > CLOSED * look.size || still {
+            return Err(no_orbit(residual, time));
         }
         let settings = look.settings;
         Ok(Closed { state, period: time, residual, monodromy: look.monodromy, settings })
-    }
-
-    /// What was found is an equilibrium, which closes after any time.
-    fn rest(&self, state: &State) -> DynamicsError {
-        let variables = self.space.variables(state);
-        let sizes = self.units.scaled(&DVector::from_column_slice(variables));
-        let place: Vec<String> = (self.space.names().iter().zip(variables).zip(sizes.iter()))
-            .map(|((name, value), size)| {
-                format!("{name} = {}", short(if size.abs() <= CLOSED { 0.0 } else { *value }))
-            })
-            .collect();
-        DynamicsError::Unsuited(format!(
-            "no periodic orbit was found near the start: the search ended at the equilibrium {}; begin farther from it, or \
-             with another period or energy",
-            place.join(", ")
-        ))
     }
 
     /// The state and the period after a correction, or a part of it, that leaves less missing; the period within five times
@@ -293,7 +274,7 @@ impl Newton<'_> {
         let (matrix, right) = self.equations(look);
         let residual = self.residual(look);
         let Some(step) = linear::least_squares(&matrix, &right, 1e-11 * matrix.amax() + cut) else {
-            return Err(no_orbit(residual / look.size, time));
+            return Err(no_orbit(residual, time));
         };
         let change = self.units.unscaled(&step.rows(0, n).into_owned());
         let mut part = 1.0;
@@ -431,11 +412,9 @@ impl Newton<'_> {
     }
 }
 
-/// None was found: by how much the best one misses itself, as a part of its size, and its period.
-fn no_orbit(missed: f64, period: f64) -> DynamicsError {
+fn no_orbit(residual: f64, period: f64) -> DynamicsError {
     DynamicsError::Unsuited(format!(
-        "no periodic orbit was found near the start: the best one misses itself by {missed:.1e} \
-         of its size after {}",
-        short(period)
+        "no periodic orbit was found near the start: the best one misses itself by {residual:.1e} \
+         of its size after {period:.6}"
     ))
 }

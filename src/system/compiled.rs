@@ -254,7 +254,7 @@ impl System {
         self.shared.native
     }
 
-    /// The channels, in the order of [`Observer::observe`].
+    /// The channels, in the order of [`Observer::observe`](super::Observer::observe).
     pub fn channels(&self) -> &[Channel] {
         &self.shared.watch.channels
     }
