@@ -52,7 +52,7 @@ mod vakonomic;
 mod valuation;
 
 pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise};
-pub use canonical::{FailingBracket, PhaseMap, Verdict};
+pub use canonical::{CanonicalVerdict, FailingBracket, PhaseMap};
 pub use conservation::{Class, Classed, class_of, classes};
 pub use constrain::with_reactions;
 pub use derive::{derive, derive_for_motion};

@@ -32,6 +32,6 @@ pub use lesson::Lesson;
 pub use lesson_check::{LessonReport, check_lesson};
 pub use lesson_keys::Pressed;
 pub use plain::plain;
-pub use recording::{Marker, Recording, RecordingEvent, TranscriptEntry, play};
+pub use recording::{ChapterMarker, Recording, RecordingEvent, TranscriptEntry, play};
 pub use script::{Script, called};
 pub use script_runner::ScriptRunner;

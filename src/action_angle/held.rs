@@ -18,7 +18,8 @@ use crate::expr::{Expr, FunctionId, Pool, Symbol};
 use crate::integrate::{METHODS, Method, Settings};
 use crate::mechanics::{NoClosedForm, derive_for_motion};
 use crate::model::{
-    Action, Channel, Direction, Event, Expect, Impulse, Mechanics, Model, Parameter, RangeSpacing,
+    Channel, Direction, Event, EventAction, Expect, Impulse, Mechanics, Model, Parameter,
+    RangeSpacing,
 };
 use crate::num::Number;
 use crate::system::{ChannelKind, CompileError, InitialOverride, MotionError, System};
@@ -104,7 +105,7 @@ impl HeldSystem {
             return Err(NotHeld::Constrained);
         }
         let scheduled = |impulse: &Impulse| !impulse.times.is_empty() || impulse.period.is_some();
-        let strikes = |event: &Event| matches!(event.action, Action::Impulse(_));
+        let strikes = |event: &Event| matches!(event.action, EventAction::Impulse(_));
         if model.impulses.iter().any(scheduled) || model.events.iter().any(strikes) {
             return Err(NotHeld::Impulses);
         }

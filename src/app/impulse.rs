@@ -4,14 +4,15 @@
 
 use super::{App, Choice, Choosing, Effect, Item, Lab, Menu, Overlay};
 use crate::experiment::{Command, Status};
-use crate::model::Action;
+use crate::model::EventAction;
 
 impl Lab {
     /// Returns the indices of the impulses that neither a time nor an event triggers.
     pub fn impulses(&self) -> Vec<usize> {
         let model = &self.loaded.model;
-        let by_event =
-            |index: usize| model.events.iter().any(|event| event.action == Action::Impulse(index));
+        let by_event = |index: usize| {
+            model.events.iter().any(|event| event.action == EventAction::Impulse(index))
+        };
         let waits = |index: &usize| {
             let impulse = &model.impulses[*index];
             impulse.times.is_empty() && impulse.period.is_none() && !by_event(*index)

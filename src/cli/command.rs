@@ -205,7 +205,7 @@ fn execute(command: Command, interrupt: &Interrupt) -> Result<(), CommandError> 
 }
 
 /// What lessons need of the commands that perform scripts.
-const LESSONS: lesson::Shared = lesson::Shared {
+const LESSONS: lesson::LessonHost = lesson::LessonHost {
     scripted: demo_source::scripted,
     request: || lab::request(None, &["phaselab".into()], options),
     ended: lab::how_it_ended,

@@ -66,7 +66,7 @@ pub(super) struct Tour {
 pub(super) fn tour(
     arguments: &Tour,
     interrupt: &Interrupt,
-    shared: &Shared,
+    shared: &LessonHost,
 ) -> Result<(), CommandError> {
     take("tour", arguments.restart, interrupt, shared)
 }
@@ -97,7 +97,7 @@ enum Command {
 }
 
 /// What lessons share with the commands that perform scripts on the terminal.
-pub(super) struct Shared {
+pub(super) struct LessonHost {
     /// A script with its system and the system's name on the screen.
     pub(super) scripted: fn(&Document) -> Result<(Script, Document, String), CommandError>,
     /// How the terminal is asked for.
@@ -122,7 +122,7 @@ fn source(name: &str) -> Result<Document, CommandError> {
     })
 }
 
-pub(super) fn check(arguments: &Check, shared: &Shared) -> Result<(), CommandError> {
+pub(super) fn check(arguments: &Check, shared: &LessonHost) -> Result<(), CommandError> {
     let Command::Check { names } = &arguments.command;
     let shipped = || preset::lessons().into_iter().map(str::to_owned).collect();
     let names: Vec<String> = if names.is_empty() { shipped() } else { names.clone() };
@@ -136,7 +136,7 @@ pub(super) fn check(arguments: &Check, shared: &Shared) -> Result<(), CommandErr
     if wrong.is_empty() { Ok(()) } else { Err(CommandError::WrongFile(wrong.join("\n"))) }
 }
 
-fn check_one(source: &Document, shared: &Shared) -> Result<(), CommandError> {
+fn check_one(source: &Document, shared: &LessonHost) -> Result<(), CommandError> {
     let (script, system, name) = (shared.scripted)(source)?;
     let report = check_lesson(&script, &system, &name);
     let report = report.map_err(|mistakes| record::located(source, &mistakes))?;
@@ -153,7 +153,7 @@ fn check_one(source: &Document, shared: &Shared) -> Result<(), CommandError> {
 pub(super) fn perform(
     arguments: &Lessons,
     interrupt: &Interrupt,
-    shared: &Shared,
+    shared: &LessonHost,
 ) -> Result<(), CommandError> {
     match &arguments.lesson {
         Some(name) => take(name, arguments.restart, interrupt, shared),
@@ -203,7 +203,7 @@ fn take(
     name: &str,
     restart: bool,
     interrupt: &Interrupt,
-    shared: &Shared,
+    shared: &LessonHost,
 ) -> Result<(), CommandError> {
     let request = (shared.request)()?;
     let source = source(name)?;

@@ -12,7 +12,7 @@ use crate::printable;
 
 /// How rows are written.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, clap::ValueEnum)]
-pub(super) enum Format {
+pub(super) enum RowFormat {
     /// Comma-separated values; what is not a row stands in lines that begin with `#`.
     #[default]
     Csv,
@@ -25,7 +25,7 @@ pub(super) enum Format {
 /// Writes one table.
 #[derive(Debug)]
 pub(super) struct Rows<W> {
-    format: Format,
+    format: RowFormat,
     out: W,
     written: u64,
     /// The row being written.
@@ -34,15 +34,15 @@ pub(super) struct Rows<W> {
 
 impl<W: Write> Rows<W> {
     /// Writes the report before the rows.
-    pub(super) fn begin(format: Format, mut out: W, header: &Header) -> io::Result<Rows<W>> {
+    pub(super) fn begin(format: RowFormat, mut out: W, header: &Header) -> io::Result<Rows<W>> {
         match format {
-            Format::Csv => csv_header(&mut out, header)?,
-            Format::Json => {
+            RowFormat::Csv => csv_header(&mut out, header)?,
+            RowFormat::Json => {
                 out.write_all(b"{\n")?;
                 members(&mut out, &serde_json::to_value(header)?)?;
                 out.write_all(b"  \"rows\": [")?;
             }
-            Format::Jsonl => {
+            RowFormat::Jsonl => {
                 serde_json::to_writer(&mut out, header)?;
                 out.write_all(b"\n")?;
             }
@@ -53,7 +53,7 @@ impl<W: Write> Rows<W> {
     /// Writes a row, with one number per column.
     pub(super) fn row(&mut self, row: &[f64]) -> io::Result<()> {
         match self.format {
-            Format::Csv => {
+            RowFormat::Csv => {
                 self.line.clear();
                 for &x in row {
                     push_shortest(&mut self.line, x);
@@ -63,12 +63,12 @@ impl<W: Write> Rows<W> {
                 self.line.push('\n');
                 self.out.write_all(self.line.as_bytes())?;
             }
-            Format::Json => {
+            RowFormat::Json => {
                 let lead = if self.written == 0 { "\n    " } else { ",\n    " };
                 self.out.write_all(lead.as_bytes())?;
                 serde_json::to_writer(&mut self.out, row)?;
             }
-            Format::Jsonl => {
+            RowFormat::Jsonl => {
                 serde_json::to_writer(&mut self.out, row)?;
                 self.out.write_all(b"\n")?;
             }
@@ -80,13 +80,13 @@ impl<W: Write> Rows<W> {
     /// Writes the report after the rows and returns the stream.
     pub(super) fn end(mut self, closing: &Closing) -> io::Result<W> {
         match self.format {
-            Format::Csv => {
+            RowFormat::Csv => {
                 if closing.status != RunStatus::Completed {
                     let message = closing.message.as_deref().unwrap_or_default();
                     writeln!(self.out, "# {}: {}", closing.status.word(), one_line(message))?;
                 }
             }
-            Format::Json => {
+            RowFormat::Json => {
                 let end = if self.written == 0 { "],\n" } else { "\n  ],\n" };
                 self.out.write_all(end.as_bytes())?;
                 let Closing { invariants, events, status, message } = closing;
@@ -102,7 +102,7 @@ impl<W: Write> Rows<W> {
                 let (status, message) = (json!(status), json!(message));
                 write!(self.out, "  \"status\": {status},\n  \"message\": {message}\n}}\n")?;
             }
-            Format::Jsonl => {
+            RowFormat::Jsonl => {
                 serde_json::to_writer(&mut self.out, closing)?;
                 self.out.write_all(b"\n")?;
             }

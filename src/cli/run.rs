@@ -21,7 +21,7 @@ use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::output::{Output, OutputForm};
 use super::report::Header;
-use super::rows::Format;
+use super::rows::RowFormat;
 use super::{open, stderr};
 use crate::experiment::{Derived, Experiment, Setup, choose_method};
 use crate::integrate::{Method, Settings, Stepping};
@@ -89,7 +89,7 @@ pub(super) struct Arguments {
     observe: Vec<String>,
     /// How the rows are written.
     #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    format: RowFormat,
     /// Ends with exit code 1 where what the law of motion conserves has left its value by more than a millionth of what
     /// moves; the rows are written all the same.
     #[arg(long)]
@@ -190,12 +190,12 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         .map_err(|why| CommandError::WrongUse(why.to_string()))?;
     clock::check(&system, method, &experiment, &times)?;
     experiment.forget_past();
-    if arguments.format == Format::Csv {
+    if arguments.format == RowFormat::Csv {
         experiment.only_count_occurrences();
     }
     let form = match arguments.format {
-        Format::Csv => OutputForm::Text,
-        Format::Json | Format::Jsonl => OutputForm::Json,
+        RowFormat::Csv => OutputForm::Text,
+        RowFormat::Json | RowFormat::Jsonl => OutputForm::Json,
     };
     let out = Output::open(arguments.output.as_deref(), form)?;
     let (columns, strict) = (system.columns(), arguments.strict);

@@ -31,7 +31,7 @@ pub(super) struct StudyArguments {
     pub(super) motion: MotionOptions,
     /// How it is written.
     #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    format: StudyFormat,
     /// Writes to a file, which appears when it is complete and takes the place of an old one.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -39,7 +39,7 @@ pub(super) struct StudyArguments {
 
 /// How a result is written.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
-pub(super) enum Format {
+pub(super) enum StudyFormat {
     /// For reading.
     #[default]
     Text,
@@ -169,8 +169,8 @@ pub(super) fn write(
     interrupt: &Interrupt,
 ) -> Result<(), CommandError> {
     let (form, text) = match arguments.format {
-        Format::Text => (OutputForm::Text, text),
-        Format::Json => (OutputForm::Json, format!("{:#}\n", Value::Object(object))),
+        StudyFormat::Text => (OutputForm::Text, text),
+        StudyFormat::Json => (OutputForm::Json, format!("{:#}\n", Value::Object(object))),
     };
     let mut out = Output::open(arguments.output.as_deref(), form)?;
     out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;

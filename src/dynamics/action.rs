@@ -55,7 +55,7 @@ pub(super) fn compiled(
 }
 
 /// The action of a path on nodes with its derivatives by the inner nodes.
-pub(super) struct Expansion {
+pub(super) struct ActionExpansion {
     pub(super) action: f64,
     pub(super) gradient: DVector<f64>,
     pub(super) hessian: DMatrix<f64>,
@@ -198,7 +198,7 @@ impl Lagrangian {
         rule: &Lobatto,
         path: &DMatrix<f64>,
         duration: f64,
-    ) -> Option<Expansion> {
+    ) -> Option<ActionExpansion> {
         let (n, last) = (self.degrees, rule.nodes.len() - 1);
         let rate = 2.0 / duration;
         let velocities = path * rule.derivative.transpose() * rate;
@@ -248,6 +248,6 @@ impl Lagrangian {
         hessian.fill_upper_triangle_with_lower_triangle();
         let finite = action.is_finite()
             && gradient.iter().chain(hessian.iter()).all(|x: &f64| x.is_finite());
-        finite.then_some(Expansion { action, gradient, hessian, inertia })
+        finite.then_some(ActionExpansion { action, gradient, hessian, inertia })
     }
 }

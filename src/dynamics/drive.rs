@@ -5,7 +5,7 @@
 
 use crate::expr::{Expr, FunctionId, Node};
 use crate::mechanics::{Equations, Flow, Valuation};
-use crate::model::{Action, Model};
+use crate::model::{EventAction, Model};
 use crate::system::System;
 
 /// The most turns of the slowest part of a drive in its common period.
@@ -17,7 +17,7 @@ const WHOLE: f64 = 1e-9;
 /// The functions whose zeros let impulses act, and what these change.
 pub(super) fn acts(model: &Model) -> Vec<Expr> {
     let acting = model.events.iter().filter_map(|event| match event.action {
-        Action::Impulse(index) => Some((event.when, model.impulses.get(index)?)),
+        EventAction::Impulse(index) => Some((event.when, model.impulses.get(index)?)),
         _ => None,
     });
     acting.flat_map(|(when, impulse)| impulse.change.iter().copied().chain([when])).collect()

@@ -7,7 +7,7 @@ use super::drive::{acts, drive_period};
 use super::error::DynamicsError;
 use crate::expr::Expr;
 use crate::mechanics::Equations;
-use crate::model::{Action, Mechanics, Model};
+use crate::model::{EventAction, Mechanics, Model};
 use crate::num::math;
 use crate::system::{Form, MotionError, Rates, State, System};
 
@@ -251,7 +251,8 @@ fn refuse_acts(system: &System) -> Result<(), DynamicsError> {
             "impulses act on the way, across which derivatives of the motion are not computed",
         );
     }
-    let passive = |action: Action| matches!(action, Action::Mark | Action::Section(_));
+    let passive =
+        |action: EventAction| matches!(action, EventAction::Mark | EventAction::Section(_));
     if !system.discontinuities().events.iter().all(|event| passive(event.action)) {
         return unsuited("events act on the motion, across which its derivatives are not computed");
     }

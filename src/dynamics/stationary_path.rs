@@ -9,7 +9,7 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use super::action::{Expansion, Lagrangian};
+use super::action::{ActionExpansion, Lagrangian};
 use super::error::DynamicsError;
 use super::lobatto::Lobatto;
 
@@ -123,9 +123,9 @@ fn newton(
     rule: &Lobatto,
     mut path: DMatrix<f64>,
     duration: f64,
-) -> Option<(DMatrix<f64>, Expansion)> {
+) -> Option<(DMatrix<f64>, ActionExpansion)> {
     let (n, inner) = (path.nrows(), rule.nodes.len() - 2);
-    let norm = |expansion: &Expansion| {
+    let norm = |expansion: &ActionExpansion| {
         let parts = expansion.gradient.iter().enumerate();
         // the gradient is that of an integral: weights are taken out
         parts.map(|(i, g)| g * g / rule.weights[i / n + 1]).sum::<f64>().sqrt()
@@ -172,7 +172,12 @@ fn newton(
 }
 
 /// The Morse index of a stationary path.
-fn judged(rule: Lobatto, values: DMatrix<f64>, duration: f64, found: &Expansion) -> StationaryPath {
+fn judged(
+    rule: Lobatto,
+    values: DMatrix<f64>,
+    duration: f64,
+    found: &ActionExpansion,
+) -> StationaryPath {
     let n = values.nrows();
     let weight = |i: usize| (0.5 * duration * rule.weights[i / n + 1]).sqrt();
     let size = found.gradient.len();

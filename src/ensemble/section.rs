@@ -9,7 +9,7 @@ use super::Start;
 use crate::cancel::Cancel;
 use crate::expr::Expr;
 use crate::integrate::{Method, OccurrenceKind, Propagator, Reached, Settings};
-use crate::model::{Action, Direction, Event, Model};
+use crate::model::{Direction, Event, EventAction, Model};
 use crate::num::short;
 use crate::system::{MotionError, Observer, System};
 
@@ -80,7 +80,7 @@ pub fn add_section(model: &mut Model, when: Expr, direction: Direction) -> Strin
         name: name.clone(),
         when,
         direction,
-        action: Action::Mark,
+        action: EventAction::Mark,
         place: 0..0,
     });
     name

@@ -100,7 +100,8 @@ impl CompanionMotion {
     ) -> Result<CompanionMotion, crate::integrate::MethodError> {
         let channels = system.channels().len();
         let surfaces = system.discontinuities().events.iter();
-        let surfaces = surfaces.filter(|e| matches!(e.action, crate::model::Action::Section(_)));
+        let surfaces =
+            surfaces.filter(|e| matches!(e.action, crate::model::EventAction::Section(_)));
         Ok(CompanionMotion {
             number,
             origin,

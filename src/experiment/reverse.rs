@@ -19,7 +19,7 @@ use super::{AdvanceOutcome, Companion, Experiment};
 use crate::analysis::DistanceHistory;
 use crate::expr::Expr;
 use crate::integrate::Stepping;
-use crate::model::Action;
+use crate::model::EventAction;
 use crate::num::{math, short};
 
 impl Experiment {
@@ -51,7 +51,9 @@ impl Experiment {
             return Some("there is no motion to reverse".to_owned());
         }
         let happens = self.system().discontinuities();
-        let acts = |action: Action| matches!(action, Action::Impulse(_) | Action::Release(_));
+        let acts = |action: EventAction| {
+            matches!(action, EventAction::Impulse(_) | EventAction::Release(_))
+        };
         let event = happens.events.iter().find(|event| acts(event.action));
         let impulse = happens.impulses.iter().find(|impulse| impulse.scheduled);
         if let Some(name) =

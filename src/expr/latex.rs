@@ -2,7 +2,7 @@
 
 use super::node::{Expr, FunctionId, Node};
 use super::pool::Pool;
-use super::print::{Level, PrintedPiece, Printer, Style};
+use super::print::{BindingStrength, PrintedPiece, Printer, Style};
 use crate::num::Number;
 
 impl Pool {
@@ -36,7 +36,7 @@ impl Style for Latex {
                 None => format!("{x:?}"),
             },
         };
-        PrintedPiece { text, level: Level::Atom }
+        PrintedPiece { text, level: BindingStrength::Atom }
     }
 
     fn parenthesise(&self, inner: &str) -> String {
@@ -49,13 +49,13 @@ impl Style for Latex {
 
     fn fraction(&self, above: &PrintedPiece, below: &PrintedPiece) -> PrintedPiece {
         let text = format!("\\frac{{{}}}{{{}}}", above.text, below.text);
-        PrintedPiece { text, level: Level::Power }
+        PrintedPiece { text, level: BindingStrength::Power }
     }
 
     fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> PrintedPiece {
         if exponent == Number::HALF {
             let text = format!("\\sqrt{{{}}}", printer.piece(base).text);
-            return PrintedPiece { text, level: Level::Atom };
+            return PrintedPiece { text, level: BindingStrength::Atom };
         }
         if let (Node::Call(function, arguments), Some(n)) =
             (printer.pool.node(base), exponent.as_integer())
@@ -67,11 +67,14 @@ impl Style for Latex {
         }
         // a dotted symbol takes an exponent directly; a power or a fraction needs parentheses
         let exponent = self.number(exponent);
-        self.power(&printer.at_least(base, Level::Atom), &exponent)
+        self.power(&printer.at_least(base, BindingStrength::Atom), &exponent)
     }
 
     fn power(&self, base: &str, exponent: &PrintedPiece) -> PrintedPiece {
-        PrintedPiece { text: format!("{{{base}}}^{{{}}}", exponent.text), level: Level::Power }
+        PrintedPiece {
+            text: format!("{{{base}}}^{{{}}}", exponent.text),
+            level: BindingStrength::Power,
+        }
     }
 
     fn call(
@@ -89,11 +92,14 @@ impl Style for Latex {
         let text = match function {
             FunctionId::Abs => format!("\\left|{}\\right|", inner[0]),
             FunctionId::Exp => {
-                return PrintedPiece { text: format!("e^{{{}}}", inner[0]), level: Level::Power };
+                return PrintedPiece {
+                    text: format!("e^{{{}}}", inner[0]),
+                    level: BindingStrength::Power,
+                };
             }
             _ => format!("{}\\left({}\\right)", function.row().latex, inner.join(", ")),
         };
-        PrintedPiece { text, level: Level::Atom }
+        PrintedPiece { text, level: BindingStrength::Atom }
     }
 
     fn coefficient_in_front(&self, n: Number, has_denominator: bool) -> bool {
@@ -109,5 +115,5 @@ fn applied(printer: &Printer<'_>, name: &str, argument: Expr) -> PrintedPiece {
     } else {
         format!("{name}\\left({inner}\\right)")
     };
-    PrintedPiece { text, level: Level::Power }
+    PrintedPiece { text, level: BindingStrength::Power }
 }

@@ -4,7 +4,7 @@
 //! tree. Never here: the meaning of names; whoever asks gives their plain form.
 
 use super::notation::raised_digit;
-use super::print::Level;
+use super::print::BindingStrength;
 use super::syntax::{BinaryOperator, Syntax, SyntaxKind};
 use crate::num::Number;
 
@@ -58,34 +58,37 @@ impl Syntax {
         }
     }
 
-    fn written(&self, source: &str, names: Names<'_>) -> (String, Level) {
-        let at_least = |part: &Syntax, level: Level| {
+    fn written(&self, source: &str, names: Names<'_>) -> (String, BindingStrength) {
+        let at_least = |part: &Syntax, level: BindingStrength| {
             let (text, own) = part.written(source, names);
             if own < level { format!("({text})") } else { text }
         };
         match &self.kind {
             SyntaxKind::Number(n) => number(*n, source.get(self.span.start..self.span.end)),
-            SyntaxKind::Name(name, 0) if name == "π" => ("pi".to_owned(), Level::Atom),
-            SyntaxKind::Name(name, primes) => (names(name, *primes), Level::Atom),
+            SyntaxKind::Name(name, 0) if name == "π" => ("pi".to_owned(), BindingStrength::Atom),
+            SyntaxKind::Name(name, primes) => (names(name, *primes), BindingStrength::Atom),
             SyntaxKind::Call(name, _, arguments) => {
                 let all: Vec<String> = arguments.iter().map(|a| a.plain(source, names)).collect();
-                (format!("{name}({})", all.join(", ")), Level::Atom)
+                (format!("{name}({})", all.join(", ")), BindingStrength::Atom)
             }
             SyntaxKind::Negate(inner) => {
-                (format!("-{}", at_least(inner, Level::Power)), Level::Product)
+                (format!("-{}", at_least(inner, BindingStrength::Power)), BindingStrength::Product)
             }
             SyntaxKind::Power(base, exponent) => match &base.kind {
                 SyntaxKind::Name(name, 0) if name == "e" && names("e", 0) == EULER => {
-                    (format!("exp({})", exponent.plain(source, names)), Level::Atom)
+                    (format!("exp({})", exponent.plain(source, names)), BindingStrength::Atom)
                 }
                 _ => {
-                    let base = at_least(base, Level::Atom);
-                    (format!("{base}^{}", at_least(exponent, Level::Atom)), Level::Power)
+                    let base = at_least(base, BindingStrength::Atom);
+                    (
+                        format!("{base}^{}", at_least(exponent, BindingStrength::Atom)),
+                        BindingStrength::Power,
+                    )
                 }
             },
             SyntaxKind::Chain(first, rest) => {
                 let sum = matches!(rest[0].0, BinaryOperator::Add | BinaryOperator::Subtract);
-                let level = if sum { Level::Sum } else { Level::Product };
+                let level = if sum { BindingStrength::Sum } else { BindingStrength::Product };
                 // only the first part of a product may be a quotient: 1/2*m is (1/2)*m
                 let mut text = at_least(first, level);
                 for (operator, part) in rest {
@@ -95,7 +98,7 @@ impl Syntax {
                         BinaryOperator::Multiply | BinaryOperator::Apply => "*",
                         BinaryOperator::Divide => "/",
                     });
-                    let above = if sum { Level::Product } else { Level::Power };
+                    let above = if sum { BindingStrength::Product } else { BindingStrength::Power };
                     text.push_str(&at_least(part, above));
                 }
                 (text, level)
@@ -107,18 +110,18 @@ impl Syntax {
 /// What the names give for `e` where it is Euler's number.
 pub const EULER: &str = "exp(1)";
 
-fn number(n: Number, typed: Option<&str>) -> (String, Level) {
+fn number(n: Number, typed: Option<&str>) -> (String, BindingStrength) {
     let ten = typed.and_then(|t| t.split_once("·10").or_else(|| t.split_once("×10")));
     if let Some((mantissa, exponent)) = ten {
         let exponent: String = exponent.chars().filter_map(raised_digit).collect();
-        return (format!("{mantissa}e{exponent}"), Level::Atom);
+        return (format!("{mantissa}e{exponent}"), BindingStrength::Atom);
     }
     let typed = typed.filter(|t| t.is_ascii() && !t.starts_with('^'));
     match (typed, n) {
-        (Some(typed), _) => (typed.to_owned(), Level::Atom),
-        (None, Number::Rational(n, 1)) if n < 0 => (n.to_string(), Level::Sum),
-        (None, Number::Rational(n, 1)) => (n.to_string(), Level::Atom),
-        (None, Number::Rational(n, d)) => (format!("{n}/{d}"), Level::Product),
-        (None, Number::Real(x)) => (format!("{x:?}"), Level::Atom),
+        (Some(typed), _) => (typed.to_owned(), BindingStrength::Atom),
+        (None, Number::Rational(n, 1)) if n < 0 => (n.to_string(), BindingStrength::Sum),
+        (None, Number::Rational(n, 1)) => (n.to_string(), BindingStrength::Atom),
+        (None, Number::Rational(n, d)) => (format!("{n}/{d}"), BindingStrength::Product),
+        (None, Number::Real(x)) => (format!("{x:?}"), BindingStrength::Atom),
     }
 }

@@ -13,7 +13,7 @@ type OrderOfTerm = (Reverse<Rank>, bool, usize, bool, [Vec<Symbol>; 3], Expr);
 
 /// The binding strength of a written piece.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(super) enum Level {
+pub(super) enum BindingStrength {
     Sum,
     Product,
     Power,
@@ -23,7 +23,7 @@ pub(super) enum Level {
 /// A written piece.
 pub(super) struct PrintedPiece {
     pub(super) text: String,
-    pub(super) level: Level,
+    pub(super) level: BindingStrength,
 }
 
 /// The decisions of one notation.
@@ -41,19 +41,23 @@ pub(super) trait Style {
         let wrap = |piece: &PrintedPiece, level| {
             if piece.level < level { self.parenthesise(&piece.text) } else { piece.text.clone() }
         };
-        let text = format!("{}/{}", wrap(above, Level::Product), wrap(below, Level::Power));
-        PrintedPiece { text, level: Level::Product }
+        let text = format!(
+            "{}/{}",
+            wrap(above, BindingStrength::Product),
+            wrap(below, BindingStrength::Power)
+        );
+        PrintedPiece { text, level: BindingStrength::Product }
     }
     /// `base ^ exponent` for a positive numeric exponent other than one.
     fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> PrintedPiece;
     /// `base` to any power; on one line unless the style overrides it.
     fn power(&self, base: &str, exponent: &PrintedPiece) -> PrintedPiece {
-        let text = if exponent.level == Level::Atom {
+        let text = if exponent.level == BindingStrength::Atom {
             format!("{base}^{}", exponent.text)
         } else {
             format!("{base}^{}", self.parenthesise(&exponent.text))
         };
-        PrintedPiece { text, level: Level::Power }
+        PrintedPiece { text, level: BindingStrength::Power }
     }
     fn call(&self, printer: &Printer<'_>, function: FunctionId, arguments: &[Expr])
     -> PrintedPiece;
@@ -80,15 +84,17 @@ impl Printer<'_> {
     pub(super) fn piece(&self, e: Expr) -> PrintedPiece {
         match self.pool.node(e) {
             Node::Number(n) => self.signed_number(*n),
-            Node::Pi => PrintedPiece { text: self.style.pi().to_owned(), level: Level::Atom },
+            Node::Pi => {
+                PrintedPiece { text: self.style.pi().to_owned(), level: BindingStrength::Atom }
+            }
             Node::Symbol(_) => PrintedPiece {
                 text: self.style.symbol(self.pool, e).to_owned(),
-                level: Level::Atom,
+                level: BindingStrength::Atom,
             },
             Node::Sum(constant, terms) => self.sum(*constant, terms),
             Node::Product(c, factors) => self.product(*c, factors),
             Node::Power(base, exponent) => {
-                let base = self.at_least(*base, Level::Atom);
+                let base = self.at_least(*base, BindingStrength::Atom);
                 self.style.power(&base, &self.piece(*exponent))
             }
             Node::Call(function, arguments) => self.style.call(self, *function, arguments),
@@ -96,11 +102,11 @@ impl Printer<'_> {
     }
 
     /// The text of a part, in parentheses if it binds too weakly.
-    pub(super) fn at_least(&self, e: Expr, level: Level) -> String {
+    pub(super) fn at_least(&self, e: Expr, level: BindingStrength) -> String {
         self.wrap(self.piece(e), level)
     }
 
-    fn wrap(&self, piece: PrintedPiece, level: Level) -> String {
+    fn wrap(&self, piece: PrintedPiece, level: BindingStrength) -> String {
         if piece.level < level { self.style.parenthesise(&piece.text) } else { piece.text }
     }
 
@@ -108,8 +114,11 @@ impl Printer<'_> {
         if !n.is_negative() {
             return self.style.number(n);
         }
-        let positive = self.wrap(self.style.number(-n), Level::Product);
-        PrintedPiece { text: format!("{}{positive}", self.style.minus()), level: Level::Sum }
+        let positive = self.wrap(self.style.number(-n), BindingStrength::Product);
+        PrintedPiece {
+            text: format!("{}{positive}", self.style.minus()),
+            level: BindingStrength::Sum,
+        }
     }
 
     fn sum(&self, constant: Number, terms: &[(Number, Expr)]) -> PrintedPiece {
@@ -122,7 +131,7 @@ impl Printer<'_> {
         let mut parts: Vec<(bool, String)> =
             ordered.iter().map(|&(c, t)| (c.is_negative(), self.term(c.abs(), t))).collect();
         if !constant.is_zero() {
-            let text = self.wrap(self.style.number(constant.abs()), Level::Product);
+            let text = self.wrap(self.style.number(constant.abs()), BindingStrength::Product);
             parts.push((constant.is_negative(), text));
         }
         // a sum starts with a positive term if it has one
@@ -141,7 +150,7 @@ impl Printer<'_> {
             }
             text.push_str(part);
         }
-        PrintedPiece { text, level: Level::Sum }
+        PrintedPiece { text, level: BindingStrength::Sum }
     }
 
     /// `c · e` for a positive `c`, as a summand.
@@ -151,16 +160,16 @@ impl Printer<'_> {
             _ if c.is_one() => self.piece(e),
             _ => self.product(c, &[(e, Number::ONE)]),
         };
-        self.wrap(piece, Level::Product)
+        self.wrap(piece, BindingStrength::Product)
     }
 
     fn product(&self, c: Number, factors: &[(Expr, Number)]) -> PrintedPiece {
         if c.is_negative() {
             let positive = self.product(-c, factors);
-            let text = self.wrap(positive, Level::Product);
+            let text = self.wrap(positive, BindingStrength::Product);
             return PrintedPiece {
                 text: format!("{}{text}", self.style.minus()),
-                level: Level::Sum,
+                level: BindingStrength::Sum,
             };
         }
         let mut ordered = factors.to_vec();
@@ -188,10 +197,16 @@ impl Printer<'_> {
             let in_fraction = if number_below { &[] } else { first };
             let (over, under) =
                 (self.factors(coefficient, in_fraction), self.factors(under, &below));
-            let mut pieces = vec![self.wrap(self.style.fraction(&over, &under), Level::Power)];
+            let mut pieces =
+                vec![self.wrap(self.style.fraction(&over, &under), BindingStrength::Power)];
             let apart = if number_below { &above[..] } else { rest };
-            pieces.extend(apart.iter().map(|&factor| self.wrap(self.factor(factor), Level::Power)));
-            return PrintedPiece { text: self.style.join(&pieces), level: Level::Product };
+            pieces.extend(
+                apart.iter().map(|&factor| self.wrap(self.factor(factor), BindingStrength::Power)),
+            );
+            return PrintedPiece {
+                text: self.style.join(&pieces),
+                level: BindingStrength::Product,
+            };
         }
         let above = self.factors(coefficient, &above);
         if below.is_empty() && under.is_one() {
@@ -212,13 +227,15 @@ impl Printer<'_> {
         }
         let mut pieces = Vec::new();
         if !c.is_one() {
-            pieces.push(self.wrap(self.style.number(c), Level::Product));
+            pieces.push(self.wrap(self.style.number(c), BindingStrength::Product));
         }
         if let (true, &[(base, n)]) = (pieces.is_empty(), factors) {
             return self.factor((base, n));
         }
-        pieces.extend(factors.iter().map(|&factor| self.wrap(self.factor(factor), Level::Power)));
-        PrintedPiece { text: self.style.join(&pieces), level: Level::Product }
+        pieces.extend(
+            factors.iter().map(|&factor| self.wrap(self.factor(factor), BindingStrength::Power)),
+        );
+        PrintedPiece { text: self.style.join(&pieces), level: BindingStrength::Product }
     }
 
     /// The highest rank among a term's symbols; variables and constants count as one rank.

@@ -2,7 +2,7 @@
 
 use super::node::{Expr, FunctionId};
 use super::pool::Pool;
-use super::print::{Level, PrintedPiece, Printer, Style};
+use super::print::{BindingStrength, PrintedPiece, Printer, Style};
 use crate::num::Number;
 
 impl Pool {
@@ -39,11 +39,15 @@ impl Style for Text {
 
     fn number(&self, n: Number) -> PrintedPiece {
         match n {
-            Number::Rational(n, 1) => PrintedPiece { text: n.to_string(), level: Level::Atom },
-            Number::Rational(n, d) => {
-                PrintedPiece { text: format!("{n}/{d}"), level: Level::Product }
+            Number::Rational(n, 1) => {
+                PrintedPiece { text: n.to_string(), level: BindingStrength::Atom }
             }
-            Number::Real(x) => PrintedPiece { text: format!("{x:?}"), level: Level::Atom },
+            Number::Rational(n, d) => {
+                PrintedPiece { text: format!("{n}/{d}"), level: BindingStrength::Product }
+            }
+            Number::Real(x) => {
+                PrintedPiece { text: format!("{x:?}"), level: BindingStrength::Atom }
+            }
         }
     }
 
@@ -58,10 +62,10 @@ impl Style for Text {
     fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> PrintedPiece {
         if exponent == Number::HALF {
             let inner = printer.piece(base).text;
-            return PrintedPiece { text: format!("sqrt({inner})"), level: Level::Atom };
+            return PrintedPiece { text: format!("sqrt({inner})"), level: BindingStrength::Atom };
         }
         let exponent = self.number(exponent);
-        self.power(&printer.at_least(base, Level::Atom), &exponent)
+        self.power(&printer.at_least(base, BindingStrength::Atom), &exponent)
     }
 
     fn call(
@@ -72,7 +76,7 @@ impl Style for Text {
     ) -> PrintedPiece {
         let arguments: Vec<String> = arguments.iter().map(|&a| printer.piece(a).text).collect();
         let text = format!("{}({})", function.row().name, arguments.join(", "));
-        PrintedPiece { text, level: Level::Atom }
+        PrintedPiece { text, level: BindingStrength::Atom }
     }
 
     fn coefficient_in_front(&self, n: Number, has_denominator: bool) -> bool {

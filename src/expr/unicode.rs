@@ -4,7 +4,7 @@ use super::function::FUNCTIONS;
 use super::node::{Expr, FunctionId, Node};
 use super::notation::{FRACTIONS, raised_digit, superscript};
 use super::pool::Pool;
-use super::print::{Level, PrintedPiece, Printer, Style};
+use super::print::{BindingStrength, PrintedPiece, Printer, Style};
 use crate::num::Number;
 
 impl Pool {
@@ -66,17 +66,19 @@ impl Style for Unicode {
 
     fn number(&self, n: Number) -> PrintedPiece {
         if let Some(glyph) = glyph(n) {
-            return PrintedPiece { text: glyph.to_string(), level: Level::Atom };
+            return PrintedPiece { text: glyph.to_string(), level: BindingStrength::Atom };
         }
         match n {
-            Number::Rational(n, 1) => PrintedPiece { text: n.to_string(), level: Level::Atom },
+            Number::Rational(n, 1) => {
+                PrintedPiece { text: n.to_string(), level: BindingStrength::Atom }
+            }
             Number::Rational(_, d) if is_decimal(d) => {
-                PrintedPiece { text: n.value().to_string(), level: Level::Atom }
+                PrintedPiece { text: n.value().to_string(), level: BindingStrength::Atom }
             }
             Number::Rational(n, d) => {
-                PrintedPiece { text: format!("{n}/{d}"), level: Level::Product }
+                PrintedPiece { text: format!("{n}/{d}"), level: BindingStrength::Product }
             }
-            Number::Real(x) => PrintedPiece { text: scientific(x), level: Level::Atom },
+            Number::Real(x) => PrintedPiece { text: scientific(x), level: BindingStrength::Atom },
         }
     }
 
@@ -89,12 +91,12 @@ impl Style for Unicode {
         let wrap = |piece: &PrintedPiece, wrapped| {
             if wrapped { self.parenthesise(&piece.text) } else { piece.text.clone() }
         };
-        let bare = below.level >= Level::Power
+        let bare = below.level >= BindingStrength::Power
             && below.text.starts_with(|c: char| c.is_ascii_digit())
             && ends_bare(&above.text);
-        let above = wrap(above, above.level < Level::Product || bare);
-        let text = format!("{above}/{}", wrap(below, below.level < Level::Power));
-        PrintedPiece { text, level: Level::Product }
+        let above = wrap(above, above.level < BindingStrength::Product || bare);
+        let text = format!("{above}/{}", wrap(below, below.level < BindingStrength::Power));
+        PrintedPiece { text, level: BindingStrength::Product }
     }
 
     fn join(&self, factors: &[String]) -> String {
@@ -103,12 +105,12 @@ impl Style for Unicode {
 
     fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> PrintedPiece {
         if exponent == Number::HALF {
-            let text = format!("√{}", printer.at_least(base, Level::Atom));
-            return PrintedPiece { text, level: Level::Power };
+            let text = format!("√{}", printer.at_least(base, BindingStrength::Atom));
+            return PrintedPiece { text, level: BindingStrength::Power };
         }
         let Some(n) = exponent.as_integer() else {
             let exponent = self.number(exponent);
-            return self.power(&printer.at_least(base, Level::Atom), &exponent);
+            return self.power(&printer.at_least(base, BindingStrength::Atom), &exponent);
         };
         if let Node::Call(function, arguments) = printer.pool.node(base)
             && function.row().arity == 1
@@ -117,8 +119,8 @@ impl Style for Unicode {
             let name = format!("{}{}", function.row().unicode, superscript(n));
             return applied(printer, &name, arguments[0]);
         }
-        let text = format!("{}{}", printer.at_least(base, Level::Atom), superscript(n));
-        PrintedPiece { text, level: Level::Power }
+        let text = format!("{}{}", printer.at_least(base, BindingStrength::Atom), superscript(n));
+        PrintedPiece { text, level: BindingStrength::Power }
     }
 
     fn call(
@@ -132,7 +134,7 @@ impl Style for Unicode {
             // nested bars could open or close
             let text =
                 if inner.contains('|') { format!("abs({inner})") } else { format!("|{inner}|") };
-            return PrintedPiece { text, level: Level::Atom };
+            return PrintedPiece { text, level: BindingStrength::Atom };
         }
         if function == FunctionId::Exp && !printer.pool.shows("e") {
             return self.power("e", &printer.piece(arguments[0]));
@@ -142,7 +144,7 @@ impl Style for Unicode {
         }
         let arguments: Vec<String> = arguments.iter().map(|&a| printer.piece(a).text).collect();
         let text = format!("{}({})", function.row().unicode, arguments.join(", "));
-        PrintedPiece { text, level: Level::Atom }
+        PrintedPiece { text, level: BindingStrength::Atom }
     }
 
     fn coefficient_in_front(&self, n: Number, has_denominator: bool) -> bool {
@@ -164,10 +166,10 @@ fn ends_bare(text: &str) -> bool {
 /// `sin θ`, `sin(2 θ)`.
 fn applied(printer: &Printer<'_>, name: &str, argument: Expr) -> PrintedPiece {
     let inner = printer.piece(argument);
-    if inner.level == Level::Atom && !inner.text.contains(' ') {
-        PrintedPiece { text: format!("{name} {}", inner.text), level: Level::Power }
+    if inner.level == BindingStrength::Atom && !inner.text.contains(' ') {
+        PrintedPiece { text: format!("{name} {}", inner.text), level: BindingStrength::Power }
     } else {
-        PrintedPiece { text: format!("{name}({})", inner.text), level: Level::Atom }
+        PrintedPiece { text: format!("{name}({})", inner.text), level: BindingStrength::Atom }
     }
 }
 

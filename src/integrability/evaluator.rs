@@ -61,7 +61,7 @@ pub(super) struct ResidueEvaluator {
 
 /// The values at one point.
 #[derive(Clone, Debug)]
-pub(super) struct Point {
+pub(super) struct SamplePoint {
     pub(super) field: PrimeField,
     values: Vec<Residue>,
     /// cos for sin, cosh for sinh, and the reverse.
@@ -204,7 +204,7 @@ impl ResidueEvaluator {
         random: &mut Random,
         seed: u64,
         at: &dyn Fn(Symbol) -> Option<Residue>,
-    ) -> Option<Point> {
+    ) -> Option<SamplePoint> {
         let mut same = Random::new(seed);
         let mut circle = |fixed: &bool| -> Option<(Residue, Residue)> {
             let tau = if *fixed { same.residue(&field) } else { random.residue(&field) };
@@ -288,16 +288,16 @@ impl ResidueEvaluator {
                 }
             };
         }
-        Some(Point { field, values, companions })
+        Some(SamplePoint { field, values, companions })
     }
 
     /// The value of a compiled expression.
-    pub(super) fn value(&self, point: &Point, e: Expr) -> Residue {
+    pub(super) fn value(&self, point: &SamplePoint, e: Expr) -> Residue {
         point.values[self.index[&e]]
     }
 
     /// The value of a symbol, zero if it occurs nowhere.
-    pub(super) fn symbol_value(&self, point: &Point, symbol: Symbol) -> Residue {
+    pub(super) fn symbol_value(&self, point: &SamplePoint, symbol: Symbol) -> Residue {
         let is = |step: &Instruction| matches!(step, Instruction::Symbol(s) if *s == symbol);
         self.steps.iter().position(is).map_or(Residue::ZERO, |i| point.values[i])
     }
@@ -305,7 +305,7 @@ impl ResidueEvaluator {
     /// The derivatives of everything along a direction, given by the rate of each symbol.
     pub(super) fn rates(
         &self,
-        point: &Point,
+        point: &SamplePoint,
         seed: &dyn Fn(Symbol) -> Residue,
     ) -> Option<ResidueRates> {
         let field = &point.field;

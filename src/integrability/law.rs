@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use rustc_hash::FxHashMap;
 
 use super::echelon::{Echelon, solve};
-use super::evaluator::{Point, ResidueEvaluator, ResidueRates};
+use super::evaluator::{ResidueEvaluator, ResidueRates, SamplePoint};
 use super::random::Random;
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{Equations, Flow, body_values};
@@ -216,7 +216,7 @@ impl Law {
         evaluator: &ResidueEvaluator,
         field: PrimeField,
         state: &mut FxHashMap<Symbol, Residue>,
-        evaluate: &dyn Fn(&FxHashMap<Symbol, Residue>) -> Option<Point>,
+        evaluate: &dyn Fn(&FxHashMap<Symbol, Residue>) -> Option<SamplePoint>,
     ) -> Option<()> {
         let mut used: Vec<Symbol> = Vec::new();
         let holonomic: Vec<Expr> = rows.iter().filter_map(|row| row.position).collect();
@@ -290,7 +290,7 @@ impl Law {
     fn rates_at(
         &self,
         evaluator: &ResidueEvaluator,
-        point: &Point,
+        point: &SamplePoint,
         state: &FxHashMap<Symbol, Residue>,
     ) -> Option<FxHashMap<Symbol, Residue>> {
         let field = point.field;
@@ -329,7 +329,7 @@ impl Law {
     pub(super) fn independent(
         &self,
         evaluator: &ResidueEvaluator,
-        point: &Point,
+        point: &SamplePoint,
         functions: &[Expr],
     ) -> Option<Vec<bool>> {
         let field = point.field;
@@ -348,12 +348,12 @@ impl Law {
     }
 
     /// The dimension of the space of states at a point.
-    pub(super) fn dimension(&self, evaluator: &ResidueEvaluator, point: &Point) -> usize {
+    pub(super) fn dimension(&self, evaluator: &ResidueEvaluator, point: &SamplePoint) -> usize {
         self.directions(evaluator, point).len()
     }
 
     /// The directions in which a state may vary: all, or those along the constraints on positions and velocities.
-    fn directions(&self, evaluator: &ResidueEvaluator, point: &Point) -> Vec<Vec<Residue>> {
+    fn directions(&self, evaluator: &ResidueEvaluator, point: &SamplePoint) -> Vec<Vec<Residue>> {
         let field = point.field;
         let width = self.variables.len();
         let mut conditions = Echelon::new(field, width);
@@ -395,6 +395,6 @@ impl Law {
 /// A point of the state with the rates of everything there.
 #[derive(Clone, Debug)]
 pub(super) struct DrawnPoint {
-    pub(super) point: Point,
+    pub(super) point: SamplePoint,
     pub(super) rates: ResidueRates,
 }

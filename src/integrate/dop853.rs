@@ -12,7 +12,7 @@
 
 mod tableau;
 
-use self::tableau::{DENSE, FIFTH, METHOD_STAGES, STAGES, THIRD, Term};
+use self::tableau::{DENSE, FIFTH, METHOD_STAGES, STAGES, THIRD, WeightedStage};
 use super::method::{Method, MethodError, Preserves, Settings, Stepping};
 use super::stepper::Stepper;
 use super::{initial_step, roundoff};
@@ -183,7 +183,7 @@ impl DormandPrince {
         let State { time, values, .. } = &self.state;
         let size = |(x, slope): (&f64, &f64)| x.abs().max((step * slope).abs());
         let sizes: Vec<f64> = values.iter().zip(&self.slopes[0]).map(size).collect();
-        let place = roundoff::Place { time: *time, numbers: values, sizes: &sizes, step };
+        let place = roundoff::RatesPoint { time: *time, numbers: values, sizes: &sizes, step };
         if roundoff::measure(&mut self.rates, &place, &mut self.fresh).is_ok() {
             for (noise, fresh) in self.noise.iter_mut().zip(&self.fresh) {
                 *noise = noise.max(*fresh);
@@ -267,7 +267,7 @@ fn evaluate(
 }
 
 /// A weighted sum of the slopes of one number.
-fn sum(terms: &[Term], slopes: &[Vec<f64>], i: usize) -> f64 {
+fn sum(terms: &[WeightedStage], slopes: &[Vec<f64>], i: usize) -> f64 {
     terms.iter().map(|&(stage, coefficient)| coefficient * slopes[stage][i]).sum()
 }
 

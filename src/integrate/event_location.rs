@@ -11,7 +11,7 @@
 use super::Stepper;
 use super::clock::spacing;
 use super::located_event::{Crossing, LocatedEvent, first};
-use super::polynomial::Polynomial;
+use super::polynomial::StepPolynomial;
 use super::probe::Probe;
 use super::roots::sign_changes;
 use super::sampling::Sampling;
@@ -224,7 +224,7 @@ impl EventLocator {
         let mut passed = Vec::new();
         for event in 0..self.sides.len() {
             let coefficients = self.probe.event_functions().expanded(event);
-            let mut polynomial = Polynomial { coefficients, length, soonest };
+            let mut polynomial = StepPolynomial { coefficients, length, soonest };
             let doubtful = polynomial.coefficients[0] * self.sides[event] <= 0.0;
             if doubtful || polynomial.begins_at_zero() {
                 // the series has only the digits of an `f64`, which where its terms cancel (sin θ at π, slowly passed) may
@@ -243,7 +243,7 @@ impl EventLocator {
         &mut self,
         stepper: &mut dyn Stepper,
         event: usize,
-        polynomial: &Polynomial,
+        polynomial: &StepPolynomial,
         piece: &SeriesPiece,
         to: f64,
     ) -> Result<Vec<Crossing>, MotionError> {
@@ -289,7 +289,7 @@ impl EventLocator {
         &mut self,
         stepper: &mut dyn Stepper,
         event: usize,
-        polynomial: &Polynomial,
+        polynomial: &StepPolynomial,
         piece: &SeriesPiece,
         x: f64,
     ) -> Result<DoubleDouble, MotionError> {

@@ -185,7 +185,7 @@ impl Implicit {
             *size = state.values[i].abs().max(stage[i].abs()).max((step * slope[i]).abs());
         }
         let time = state.time + self.tableau.nodes[0].high * step;
-        let place = roundoff::Place { time, numbers: stage, sizes: &self.sizes, step };
+        let place = roundoff::RatesPoint { time, numbers: stage, sizes: &self.sizes, step };
         if roundoff::measure(&mut self.rates, &place, &mut self.noise).is_err() {
             self.noise.fill(0.0);
         }

@@ -14,7 +14,7 @@ const SIGNLESS: f64 = 1e-13;
 const TOUCH: f64 = 1e-14;
 
 /// A function on a piece of a step, as a polynomial in the time after the beginning of the piece.
-pub(super) struct Polynomial {
+pub(super) struct StepPolynomial {
     pub(super) coefficients: Vec<f64>,
     /// The length of the piece.
     pub(super) length: f64,
@@ -24,23 +24,23 @@ pub(super) struct Polynomial {
 
 /// The behaviour of a function on a piece.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) struct Course {
+pub(super) struct SignCourse {
     /// The sign at the beginning of the piece; zero for a function that vanishes identically.
     pub(super) side: f64,
     /// The sign changes, in order.
-    pub(super) changes: Vec<Change>,
+    pub(super) changes: Vec<SignChange>,
 }
 
 /// A change of sign.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct Change {
+pub(super) struct SignChange {
     /// The time after the beginning of the piece.
     pub(super) x: f64,
     /// The sign after it.
     pub(super) side: f64,
 }
 
-impl Polynomial {
+impl StepPolynomial {
     /// The size of all terms at the end of the piece.
     fn size(&self) -> f64 {
         self.coefficients.iter().rev().fold(0.0, |sum, c| sum * self.length + c.abs())
@@ -66,7 +66,7 @@ impl Polynomial {
     /// Follows the function; `known` is its last known sign, zero if unknown. A value at the
     /// beginning that may be a rounding error, of the function or of the time, is ignored unless it
     /// agrees with `known`.
-    pub(super) fn follow(&self, known: f64) -> Course {
+    pub(super) fn follow(&self, known: f64) -> SignCourse {
         let c = &self.coefficients[..];
         let doubtful = known == 0.0 || c[0] * known <= 0.0;
         let soon = value_and_slope(c, self.soonest).0;
@@ -79,15 +79,15 @@ impl Polynomial {
         let first = [soon].into_iter().chain(rest.iter().copied()).find(|x| *x != 0.0);
         let side = first.map_or(0.0, f64::signum);
         let found = sign_changes(rest, self.length).filter(|change| change.x > from);
-        let mut changes: Vec<Change> = Vec::new();
+        let mut changes: Vec<SignChange> = Vec::new();
         for change in found {
             let side = if change.rises { 1.0 } else { -1.0 };
             match changes.last() {
                 Some(last) if self.only_touches(last.x, change.x) => drop(changes.pop()),
-                _ => changes.push(Change { x: change.x, side }),
+                _ => changes.push(SignChange { x: change.x, side }),
             }
         }
-        Course { side, changes }
+        SignCourse { side, changes }
     }
 
     /// Whether the polynomial is no more than rounding between two of its roots.
@@ -101,12 +101,12 @@ impl Polynomial {
 mod tests {
     use super::*;
 
-    fn course(coefficients: &[f64], known: f64) -> Course {
+    fn course(coefficients: &[f64], known: f64) -> SignCourse {
         let coefficients = coefficients.to_vec();
-        Polynomial { coefficients, length: 1.0, soonest: 1e-15 }.follow(known)
+        StepPolynomial { coefficients, length: 1.0, soonest: 1e-15 }.follow(known)
     }
 
-    fn places(course: &Course) -> Vec<f64> {
+    fn places(course: &SignCourse) -> Vec<f64> {
         course.changes.iter().map(|change| change.x).collect()
     }
 
@@ -120,7 +120,7 @@ mod tests {
             assert_eq!(found.len(), 2, "{d}: {pair:?}");
             assert!(found.iter().zip(right).all(|(x, y)| (x - y).abs() < 1e-9), "{d}: {pair:?}");
         }
-        assert_eq!(course(&[0.25, -1.0, 1.0], 1.0), Course { side: 1.0, changes: Vec::new() });
+        assert_eq!(course(&[0.25, -1.0, 1.0], 1.0), SignCourse { side: 1.0, changes: Vec::new() });
         assert_eq!(course(&[-0.25, 1.0, -1.0], 0.0).side, -1.0);
     }
 
@@ -134,13 +134,13 @@ mod tests {
         }
         // a known sign is not doubted because of rounding …
         let passed = course(&[-1e-17, 1.0, 0.1], 1.0);
-        assert_eq!(passed, Course { side: 1.0, changes: Vec::new() });
+        assert_eq!(passed, SignCourse { side: 1.0, changes: Vec::new() });
         // … and a crossing between two pieces is detected
         assert_eq!(course(&[1e-17, -1.0, 0.1], 1.0).changes.len(), 1);
         assert_eq!(course(&[-1e-17, -1.0, 0.1], 1.0).side, -1.0);
         // the time of a crossing has been rounded to one just before it
         let steep = course(&[-5e-12, 1e4, -1e3], 1.0);
-        assert_eq!(steep, Course { side: 1.0, changes: Vec::new() });
+        assert_eq!(steep, SignCourse { side: 1.0, changes: Vec::new() });
     }
 
     #[test]

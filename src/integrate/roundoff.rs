@@ -14,7 +14,7 @@ const UNITS: [f64; 5] = [2.0, -3.0, 1.0, -2.0, 3.0];
 const WAYS: usize = 3;
 
 /// Where the rates are evaluated.
-pub(super) struct Place<'a> {
+pub(super) struct RatesPoint<'a> {
     pub(super) time: f64,
     pub(super) numbers: &'a [f64],
     /// The size of each number within the step.
@@ -29,7 +29,7 @@ pub(super) struct Place<'a> {
 /// rounding, and the measurement is discarded.
 pub(super) fn measure(
     rates: &mut Rates,
-    place: &Place<'_>,
+    place: &RatesPoint<'_>,
     noise: &mut [f64],
 ) -> Result<(), MotionError> {
     noise.fill(0.0);

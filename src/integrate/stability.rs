@@ -39,12 +39,12 @@ pub struct Unstable {
 }
 
 /// The factor by which a method multiplies a mode in one step, at z = hλ.
-pub(super) type Growth = fn(&[f64], [f64; 2]) -> f64;
+pub(super) type GrowthFactor = fn(&[f64], [f64; 2]) -> f64;
 
 /// How a method amplifies modes: the rule, and its weights.
 #[derive(Clone, Copy)]
 pub(super) struct Modes<'a> {
-    pub(super) growth: Growth,
+    pub(super) growth: GrowthFactor,
     pub(super) weights: &'a [f64],
 }
 

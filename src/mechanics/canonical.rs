@@ -1,7 +1,7 @@
 //! Transformations (q, p) → (Q, P): both directions where they can be written down, a point and
 //! its image where they cannot, and whether they are canonical.
 //!
-//! In: a transformation of a model. Out: a [`PhaseMap`] and its [`Verdict`]. Its matrix
+//! In: a transformation of a model. Out: a [`PhaseMap`] and its [`CanonicalVerdict`]. Its matrix
 //! M = ∂(Q, P)/∂(q, p) follows from second derivatives of the law, so that M 𝕁 Mᵀ − 𝕁 is at
 //! rounding where the map is canonical. Never here: motion.
 //! Source: *The Principles of Dynamics*, §§ 3.2.1, 3.3.
@@ -51,7 +51,7 @@ pub struct PhaseMap {
 
 /// Whether a map is canonical.
 #[derive(Clone, Debug)]
-pub struct Verdict {
+pub struct CanonicalVerdict {
     /// Whether it is: proved, or to rounding at the points tried.
     pub canonical: bool,
     /// Whether that is proved.
@@ -294,7 +294,7 @@ impl PhaseMap {
     }
 
     /// Whether the map is canonical.
-    pub fn verdict(&self, model: &Model, equations: &mut Equations) -> Verdict {
+    pub fn verdict(&self, model: &Model, equations: &mut Equations) -> CanonicalVerdict {
         let mut matrices: Vec<DMatrix<f64>> = Vec::new();
         let mut wild: Vec<DMatrix<f64>> = Vec::new();
         for at in self.images(model, equations, 2 * POINTS) {
@@ -311,7 +311,7 @@ impl PhaseMap {
             .iter()
             .map(|matrix| departure(matrix) / matrix.norm_squared().max(1.0))
             .reduce(f64::max);
-        let mut verdict = Verdict {
+        let mut verdict = CanonicalVerdict {
             canonical: relative.is_some_and(|r| r < CANONICAL),
             proved: false,
             residual,
@@ -342,7 +342,7 @@ impl PhaseMap {
     }
 
     /// Compares the brackets of an explicit map with those of canonical variables.
-    fn by_brackets(&self, equations: &mut Equations, verdict: &mut Verdict) {
+    fn by_brackets(&self, equations: &mut Equations, verdict: &mut CanonicalVerdict) {
         let n = self.implicit.new.len() / 2;
         let pool = &mut equations.pool;
         let mut all: Vec<(FailingBracket, Zero)> = Vec::new();

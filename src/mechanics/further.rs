@@ -4,7 +4,7 @@
 //! In: a model and its equations, whose pool grows. Out: [`Further`]. Never here: how any of it is written.
 
 use super::bracket::{bracket, in_phase_space};
-use super::canonical::{PhaseMap, Verdict};
+use super::canonical::{CanonicalVerdict, PhaseMap};
 use super::conservation::{Classed, class_of, classes};
 use super::constrain::with_reactions;
 use super::equations::{Equations, Flow, NoClosedForm};
@@ -39,7 +39,7 @@ pub struct TransformationReport {
     /// The map.
     pub map: PhaseMap,
     /// Whether it is canonical.
-    pub verdict: Verdict,
+    pub verdict: CanonicalVerdict,
     /// The old variables in terms of the new, if that can be written down.
     pub backwards: Option<Solution>,
     /// K(Q, P, t), or why there is none.

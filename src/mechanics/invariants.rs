@@ -8,7 +8,7 @@ use super::impulse_change::is_changed_by_impulse;
 use super::rate_of_change::ConservedBy;
 use super::symmetry;
 use crate::expr::{Expr, Symbol, Zero};
-use crate::model::{Action, Mechanics, Model, Observable};
+use crate::model::{EventAction, Mechanics, Model, Observable};
 
 /// Fills `cyclic` and `conserved`.
 pub(super) fn find(equations: &mut Equations, model: &Model) {
@@ -66,7 +66,7 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
         symmetry::find(equations, model, &rates);
     }
     // a consequence of a constraint is lost once the constraint is released
-    let released = model.events.iter().any(|e| matches!(e.action, Action::Release(_)));
+    let released = model.events.iter().any(|e| matches!(e.action, EventAction::Release(_)));
     for observable in &model.observables {
         name_observable(equations, model, observable, released);
     }

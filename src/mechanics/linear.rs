@@ -9,7 +9,7 @@ use crate::expr::{Expr, Pool, Zero};
 use crate::num::Number;
 
 /// The solution of A x = b.
-pub(super) struct Solution {
+pub(super) struct LinearSolution {
     /// x, if it is short enough to be read.
     pub(super) x: Result<Vec<Expr>, NoClosedForm>,
     /// b̃_k and d_k of b·A⁻¹b = Σ b̃_k²/d_k for symmetric A, the sum of squares that elimination
@@ -25,7 +25,7 @@ pub(super) fn solve(
     pool: &mut Pool,
     a: &[Vec<Expr>],
     b: &[Expr],
-) -> Result<Solution, NoClosedForm> {
+) -> Result<LinearSolution, NoClosedForm> {
     let n = b.len();
     let mut a = a.to_vec();
     let mut b = b.to_vec();
@@ -52,7 +52,7 @@ pub(super) fn solve(
     let x = substitute_back(pool, &a, &b, &pivots);
     let diagonal = pivots.iter().all(|&(r, c)| r == c);
     let squares = diagonal.then(|| pivots.iter().map(|&(r, _)| (b[r], a[r][r])).collect());
-    Ok(Solution { x, squares })
+    Ok(LinearSolution { x, squares })
 }
 
 /// Solves for x from the triangular system that elimination leaves.

@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 
-use super::canonical::{PhaseMap, Verdict, free_of};
+use super::canonical::{CanonicalVerdict, PhaseMap, free_of};
 use super::equations::{CLOSED_FORM_LIMIT, Equations, NoClosedForm};
 use super::isolate::Solution;
 use crate::expr::{Expr, Pool, Symbol, Zero};
@@ -27,7 +27,7 @@ impl PhaseMap {
         &self,
         model: &Model,
         equations: &mut Equations,
-        verdict: &Verdict,
+        verdict: &CanonicalVerdict,
         backwards: Option<&Solution>,
     ) -> Result<Expr, NoClosedForm> {
         let no = |why: &str| Err(NoClosedForm(why.to_owned()));

@@ -31,7 +31,7 @@ pub struct Event {
     /// Which crossings count.
     pub direction: Direction,
     /// The action it triggers.
-    pub action: Action,
+    pub action: EventAction,
     /// Its place in the file.
     pub place: SourceRange,
 }
@@ -61,7 +61,7 @@ impl Direction {
 
 /// The action of an event.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Action {
+pub enum EventAction {
     /// It is only recorded.
     Mark,
     /// The motion ends.

@@ -35,7 +35,7 @@ pub struct Recording {
     /// The timed output: bytes for a terminal and names of chapters.
     pub events: Vec<(Micros, RecordingEvent)>,
     /// The chapters.
-    pub markers: Vec<Marker>,
+    pub markers: Vec<ChapterMarker>,
     /// The screen at the end.
     pub last: Buffer,
     /// The actions and assertions.
@@ -55,7 +55,7 @@ pub enum RecordingEvent {
 
 /// A chapter.
 #[derive(Clone, Debug)]
-pub struct Marker {
+pub struct ChapterMarker {
     /// The name.
     pub name: String,
     /// The time of its beginning.
@@ -151,7 +151,7 @@ struct Take {
     look: RenderStyle,
     area: Size,
     events: Vec<(Micros, RecordingEvent)>,
-    markers: Vec<Marker>,
+    markers: Vec<ChapterMarker>,
     log: Vec<(Micros, TranscriptEntry)>,
     false_claims: Vec<Diagnostic>,
 }
@@ -179,7 +179,7 @@ impl Take {
                 let screen = self.performance.picture(&self.look);
                 self.events.push((now, RecordingEvent::Marker(name.clone())));
                 self.log.push((now, TranscriptEntry::Marker(self.markers.len())));
-                self.markers.push(Marker { name, time: now, screen });
+                self.markers.push(ChapterMarker { name, time: now, screen });
             }
             RunnerEvent::Lesson(place, _) => return Err(waits(place)),
             RunnerEvent::Overlay => return Ok(false),

@@ -10,7 +10,7 @@ use super::kkt::ConstraintSystem;
 use super::rhs::ProgramBuilder;
 use super::value::Evaluator;
 use crate::expr::{Expr, Symbol};
-use crate::model::{Action, Model};
+use crate::model::{EventAction, Model};
 use crate::num::DoubleDouble;
 
 /// What is known of the constraints before any state.
@@ -58,7 +58,7 @@ impl Constrained {
         let programs = ConstraintPrograms::of(builder)?;
         let enforced = independent_at_start(model, builder, &programs, inertia)?;
         let redundant = enforced.contains(&false);
-        let released = model.events.iter().any(|e| matches!(e.action, Action::Release(_)));
+        let released = model.events.iter().any(|e| matches!(e.action, EventAction::Release(_)));
         let switched = redundant || released;
         let kkt = ConstraintSystem::of(&mut builder.pool, builder.equations, switched, redundant);
         builder.parameters.extend(kkt.switches.iter().flat_map(|s| [s.held, s.active]));

@@ -8,7 +8,7 @@ use super::observables;
 use super::program::Program;
 use super::rhs::ProgramBuilder;
 use crate::expr::{Expr, FunctionId, Node, Symbol};
-use crate::model::{Action, Direction, Model};
+use crate::model::{Direction, EventAction, Model};
 
 /// The events and impulses of a motion.
 #[derive(Clone, Debug)]
@@ -38,7 +38,7 @@ pub struct CompiledEvent {
     /// The direction in which zeros count.
     pub direction: Direction,
     /// The action that an event triggers.
-    pub action: Action,
+    pub action: EventAction,
 }
 
 /// An impulse without its formulas.

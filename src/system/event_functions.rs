@@ -11,7 +11,7 @@ use super::resolution::Resolution;
 use super::series::Series;
 use super::value::Evaluator;
 use super::{MotionError, State, System};
-use crate::model::Action;
+use crate::model::EventAction;
 use crate::num::DoubleDouble;
 
 /// Evaluates the events' functions of one system at one set of parameters.
@@ -136,8 +136,9 @@ impl System {
     /// change nothing; they are located only where others are.
     #[must_use]
     pub fn without_marks(&self) -> System {
-        let mark =
-            |event: &CompiledEvent| matches!(event.action, Action::Mark | Action::Section(_));
+        let mark = |event: &CompiledEvent| {
+            matches!(event.action, EventAction::Mark | EventAction::Section(_))
+        };
         let mut system = self.clone();
         system.unmarked = self.discontinuities().events.iter().all(mark);
         system

@@ -21,7 +21,7 @@ use super::program::{Op, Program};
 use super::rates::Rates;
 use super::value::Evaluator;
 use super::{Form, MotionError, State, System};
-use crate::model::Action;
+use crate::model::EventAction;
 use crate::num::DoubleDouble;
 
 /// A surface is grazed if the rate of its function changes by its own size within this part of the
@@ -51,7 +51,7 @@ impl Saltation {
         let system = system.without_tangents();
         let discontinuities = system.discontinuities();
         let events = discontinuities.events.iter().enumerate();
-        let acting = events.filter(|(_, event)| matches!(event.action, Action::Impulse(_)));
+        let acting = events.filter(|(_, event)| matches!(event.action, EventAction::Impulse(_)));
         let acting: Vec<usize> = acting.map(|(i, _)| i).collect();
         let all: Vec<usize> = (0..discontinuities.change.outputs()).collect();
         let moving = system.moving();

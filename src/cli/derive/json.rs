@@ -8,7 +8,7 @@ use crate::expr::{Expr, Symbol};
 use crate::mechanics::{
     Further, GeneratingFunction, HamiltonJacobi, Holonomy, LeftSide, Line, Report, Separation,
 };
-use crate::model::{Action, Direction, Event, Model};
+use crate::model::{Direction, Event, EventAction, Model};
 
 pub(super) fn write(
     report: &Report<'_>,
@@ -293,11 +293,11 @@ fn events(model: &Model) -> Vec<Value> {
             Direction::Either => "either",
         };
         let action = match event.action {
-            Action::Mark => "mark".to_owned(),
-            Action::Section(_) => "section".to_owned(),
-            Action::Stop => "stop".to_owned(),
-            Action::Release(k) => format!("release:{}", model.constraints[k].name),
-            Action::Impulse(k) => format!("impulse:{}", model.impulses[k].name),
+            EventAction::Mark => "mark".to_owned(),
+            EventAction::Section(_) => "section".to_owned(),
+            EventAction::Stop => "stop".to_owned(),
+            EventAction::Release(k) => format!("release:{}", model.constraints[k].name),
+            EventAction::Impulse(k) => format!("impulse:{}", model.impulses[k].name),
         };
         json!({
             "name": event.name,

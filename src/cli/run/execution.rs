@@ -10,7 +10,7 @@ use super::super::failure::CommandError;
 use super::super::interrupt::Interrupt;
 use super::super::output::Output;
 use super::super::report::{Closing, Header, RunStatus};
-use super::super::rows::{Format, Rows};
+use super::super::rows::{RowFormat, Rows};
 use super::super::stderr;
 use super::adiabatic::Adiabatic;
 use super::invariants::Departure;
@@ -82,7 +82,7 @@ impl Run<'_> {
     /// Writes all rows and the report at the end.
     pub(super) fn write(
         mut self,
-        format: Format,
+        format: RowFormat,
         out: Output,
         header: &Header,
     ) -> Result<(), CommandError> {
@@ -106,7 +106,7 @@ impl Run<'_> {
         out.finish()?;
         cautions::after(&self.experiment);
         let event_log = self.experiment.occurrences();
-        if event_log.forgotten() > 0 && format != Format::Csv {
+        if event_log.forgotten() > 0 && format != RowFormat::Csv {
             let (count, forgotten) = (event_log.count(), event_log.forgotten());
             stderr::tell(&format!("of {count} events the first {forgotten} are not listed"));
         }
@@ -213,10 +213,10 @@ mod tests {
     use super::*;
 
     /// The end of a table whose run is stuck within a step.
-    fn ended(format: Format) -> String {
+    fn ended(format: RowFormat) -> String {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("out");
-        let form = if format == Format::Csv { OutputForm::Text } else { OutputForm::Json };
+        let form = if format == RowFormat::Csv { OutputForm::Text } else { OutputForm::Json };
         let out = Output::open(Some(&path), form).expect("it can be written");
         let header = Header {
             phaselab: "0",
@@ -236,12 +236,13 @@ mod tests {
     #[test]
     fn a_step_without_an_end_does_not_cost_the_rows_before_it() {
         assert!(
-            ended(Format::Csv).contains("\n0.0,1.0\n# stopped: stopped by a signal within a step")
+            ended(RowFormat::Csv)
+                .contains("\n0.0,1.0\n# stopped: stopped by a signal within a step")
         );
-        let read: Value = serde_json::from_str(&ended(Format::Json)).expect("JSON");
+        let read: Value = serde_json::from_str(&ended(RowFormat::Json)).expect("JSON");
         assert_eq!(read["rows"], serde_json::json!([[0.0, 1.0]]));
         assert_eq!(read["status"], "stopped");
-        assert_eq!(ended(Format::Jsonl).lines().count(), 3);
+        assert_eq!(ended(RowFormat::Jsonl).lines().count(), 3);
     }
 
     #[test]

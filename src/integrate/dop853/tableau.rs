@@ -4,14 +4,14 @@
 //! conditions.
 
 /// The index of a stage and the coefficient of its slope.
-pub(super) type Term = (usize, f64);
+pub(super) type WeightedStage = (usize, f64);
 
 /// One stage.
 pub(super) struct Stage {
     /// The time of the stage as a part of the step.
     pub(super) at: f64,
     /// The slopes it is computed from.
-    pub(super) from: &'static [Term],
+    pub(super) from: &'static [WeightedStage],
 }
 
 /// The number of stages of the method.
@@ -170,11 +170,11 @@ pub(super) const STAGES: [Stage; 16] = [
 ];
 
 /// The weights of an embedded method of order 3.
-pub(super) const THIRD: &[Term] =
+pub(super) const THIRD: &[WeightedStage] =
     &[(0, 0.244_094_488_188_976_4), (8, 0.733_846_688_281_611_8), (11, 0.022_058_823_529_411_766)];
 
 /// The weights of the error of an embedded method of order 5.
-pub(super) const FIFTH: &[Term] = &[
+pub(super) const FIFTH: &[WeightedStage] = &[
     (0, 0.013_120_044_994_194_88),
     (5, -1.225_156_446_376_204_4),
     (6, -0.495_758_949_657_250_2),
@@ -186,7 +186,7 @@ pub(super) const FIFTH: &[Term] = &[
 ];
 
 /// The highest four coefficients of the interpolant, in units of the step.
-pub(super) const DENSE: [&[Term]; 4] = [
+pub(super) const DENSE: [&[WeightedStage]; 4] = [
     &[
         (0, -8.428_938_276_109_013),
         (5, 0.566_714_953_519_377_7),
@@ -247,7 +247,7 @@ pub(super) const DENSE: [&[Term]; 4] = [
 
 #[cfg(test)]
 mod tests {
-    use super::{FIFTH, METHOD_STAGES, STAGES, THIRD, Term};
+    use super::{FIFTH, METHOD_STAGES, STAGES, THIRD, WeightedStage};
 
     /// A rooted tree, given by the subtrees of its root in a canonical order, so that equal trees
     /// compare equal.
@@ -310,7 +310,7 @@ mod tests {
     }
 
     /// The largest error of the conditions Σ b Φ(tree) = 1/γ(tree) of an order.
-    fn defect(b: &[Term], order: usize) -> f64 {
+    fn defect(b: &[WeightedStage], order: usize) -> f64 {
         let of = |tree: &Tree| {
             let weights = tree.weights();
             (b.iter().map(|&(i, b)| b * weights[i]).sum::<f64>() - 1.0 / tree.density()).abs()
@@ -345,8 +345,8 @@ mod tests {
     #[test]
     fn the_estimates_have_orders_five_and_three() {
         let error: Vec<f64> = (0..METHOD_STAGES).map(|i| coefficient(FIFTH, i)).collect();
-        let b: Vec<Term> = STAGES[METHOD_STAGES].from.to_vec();
-        let fifth: Vec<Term> =
+        let b: Vec<WeightedStage> = STAGES[METHOD_STAGES].from.to_vec();
+        let fifth: Vec<WeightedStage> =
             (0..METHOD_STAGES).map(|i| (i, coefficient(&b, i) - error[i])).collect();
         for (b, order) in [(fifth.as_slice(), 5), (THIRD, 3)] {
             for order in 1..=order {
@@ -357,7 +357,7 @@ mod tests {
         }
     }
 
-    fn coefficient(terms: &[Term], stage: usize) -> f64 {
+    fn coefficient(terms: &[WeightedStage], stage: usize) -> f64 {
         terms.iter().filter(|&&(i, _)| i == stage).map(|&(_, c)| c).sum()
     }
 }

@@ -5,7 +5,7 @@
 
 use super::Propagator;
 use crate::integrate::located_event::LocatedEvent;
-use crate::model::Action;
+use crate::model::EventAction;
 use crate::system::{MotionError, MotionErrorKind, State, System};
 
 /// An occurrence along a motion.
@@ -88,19 +88,19 @@ impl Propagator {
         self.check_accumulation(found)?;
         let trigger = self.system.discontinuities().events[found.event].clone();
         let kind = match trigger.action {
-            Action::Mark => OccurrenceKind::Mark,
-            Action::Section(section) => OccurrenceKind::Crossing(section),
-            Action::Stop => {
+            EventAction::Mark => OccurrenceKind::Mark,
+            EventAction::Section(section) => OccurrenceKind::Crossing(section),
+            EventAction::Stop => {
                 self.ended = true;
                 OccurrenceKind::Stop
             }
-            Action::Release(constraint) => {
+            EventAction::Release(constraint) => {
                 self.before.copy_from(&self.state);
                 let state = self.native_state()?;
                 self.release(constraint, &state)?;
                 OccurrenceKind::Release(constraint)
             }
-            Action::Impulse(impulse) => return self.impulse_at(impulse, Some(found.event)),
+            EventAction::Impulse(impulse) => return self.impulse_at(impulse, Some(found.event)),
         };
         Ok(Occurrence { name: trigger.name, time: found.exact.high, kind })
     }
@@ -134,7 +134,7 @@ impl Propagator {
         let time = found.exact.high;
         // a picture does not end a motion
         let action = self.system.discontinuities().events[found.event].action;
-        if matches!(action, Action::Section(_)) {
+        if matches!(action, EventAction::Section(_)) {
             return Ok(());
         }
         if !self.accumulation[found.event].record(time, self.start) {

@@ -42,7 +42,7 @@ pub(super) struct Kinks {
 }
 
 /// A surface met within a step.
-pub(super) struct Crossing {
+pub(super) struct KinkCrossing {
     /// The time after the series' origin, in its unit.
     pub(super) after: DoubleDouble,
     switches: Vec<usize>,
@@ -52,7 +52,7 @@ pub(super) struct Crossing {
 /// function.
 const LAST: f64 = 0.1;
 
-impl Crossing {
+impl KinkCrossing {
     /// Whether the series are still valid there, beyond the step they allow: those of the switches,
     /// and to this part those of every number.
     pub(super) fn is_known(&self, series: &Series, part: f64) -> bool {
@@ -124,7 +124,7 @@ impl Kinks {
     }
 
     /// The first surface that the series meets before `end`, in its unit of time.
-    pub(super) fn first(&self, series: &Series, end: f64) -> Option<Crossing> {
+    pub(super) fn first(&self, series: &Series, end: f64) -> Option<KinkCrossing> {
         // what matters to a direction is decided over as long a time as where the direction is chosen
         let reach = end.min(1.0);
         let met = |i: usize, end: f64| match series.sides()[i] {
@@ -148,13 +148,13 @@ impl Kinks {
             Side::Between => DoubleDouble::from(x),
             _ => self.polish(series, first, x),
         };
-        Some(Crossing { after, switches })
+        Some(KinkCrossing { after, switches })
     }
 
     /// Ends a step on a surface, or on none. Returns false if the time no longer advances.
     pub(super) fn arrive(
         &mut self,
-        crossing: Option<Crossing>,
+        crossing: Option<KinkCrossing>,
         series: &Series,
         state: &mut State,
     ) -> bool {

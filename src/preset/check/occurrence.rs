@@ -7,7 +7,7 @@ use super::names::report_twice;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::nearest;
 use crate::expr::Expr;
-use crate::model::{Action, Allowed, Direction, Event, Impulse, Mechanics, Scope};
+use crate::model::{Allowed, Direction, Event, EventAction, Impulse, Mechanics, Scope};
 use crate::preset::draft::{Draft, DraftEvent, DraftImpulse, Formula};
 use crate::printable::number;
 
@@ -145,7 +145,7 @@ impl Check<'_> {
                 name,
                 when: when.unwrap_or(Expr::ZERO),
                 direction,
-                action: action.unwrap_or(Action::Mark),
+                action: action.unwrap_or(EventAction::Mark),
                 place: event.when.as_ref().map_or(event.place.clone(), Spanned::span),
             });
         }
@@ -185,15 +185,15 @@ impl Check<'_> {
         }
     }
 
-    fn action(&mut self, written: &Spanned<String>) -> Option<Action> {
+    fn action(&mut self, written: &Spanned<String>) -> Option<EventAction> {
         let text = written.get_ref().trim();
         let (verb, object) = match text.split_once(':') {
             Some((verb, object)) => (verb.trim(), Some(object.trim())),
             None => (text, None),
         };
         let known: Vec<&str> = match (verb, object.filter(|name| !name.is_empty())) {
-            ("mark", None) if object.is_none() => return Some(Action::Mark),
-            ("stop", None) if object.is_none() => return Some(Action::Stop),
+            ("mark", None) if object.is_none() => return Some(EventAction::Mark),
+            ("stop", None) if object.is_none() => return Some(EventAction::Stop),
             ("release", Some(_)) => {
                 self.model.constraints.iter().map(|c| c.name.as_str()).collect()
             }
@@ -206,7 +206,11 @@ impl Check<'_> {
         let object = object.unwrap_or("");
         if let Some(index) = known.iter().position(|name| *name == object) {
             let release = verb == "release";
-            return Some(if release { Action::Release(index) } else { Action::Impulse(index) });
+            return Some(if release {
+                EventAction::Release(index)
+            } else {
+                EventAction::Impulse(index)
+            });
         }
         let kind = if verb == "release" { "constraint" } else { "impulse" };
         let help = match nearest(object, known.iter().copied()) {

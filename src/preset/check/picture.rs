@@ -10,8 +10,8 @@ use crate::ensemble::section_name;
 use crate::expr::{Expr, Symbol};
 use crate::instrument::Instrument;
 use crate::model::{
-    Action, Allowed, Channel, Direction, Event, Follow, Mechanics, Point, Scope, Shape, Variation,
-    View,
+    Allowed, Channel, Direction, Event, EventAction, Follow, Mechanics, Point, Scope, Shape,
+    Variation, View,
 };
 use crate::preset::draft::{
     DraftFollow, DraftSection, DraftShape, DraftShapeKind, DraftView, Formula, Formulas,
@@ -119,7 +119,7 @@ impl Check<'_> {
         }
         let name = section_name(&self.model);
         let index = self.model.sections.len();
-        let action = Action::Section(index);
+        let action = EventAction::Section(index);
         let place = place.clone();
         self.model.sections.push(Event { name, when, direction, action, place });
         Some((Channel { written: on.get_ref().trim().to_owned(), expression: when }, index))

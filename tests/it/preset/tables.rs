@@ -2,7 +2,7 @@
 
 use phaselab::expr::{Expr, Rank};
 use phaselab::model::{
-    Action, Allowed, AttitudeSource, BodyNames, Direction, Mechanics, Model, PieceOrientation,
+    Allowed, AttitudeSource, BodyNames, Direction, EventAction, Mechanics, Model, PieceOrientation,
     Scope, Shape, Solid, multiplier_name,
 };
 
@@ -182,10 +182,10 @@ action = "stop"
     assert_eq!(
         acts,
         [
-            ("floor", Direction::Either, Action::Mark),
-            ("lift-off", Direction::Falling, Action::Release(0)),
-            ("wall", Direction::Rising, Action::Impulse(0)),
-            ("end", Direction::Either, Action::Stop),
+            ("floor", Direction::Either, EventAction::Mark),
+            ("lift-off", Direction::Falling, EventAction::Release(0)),
+            ("wall", Direction::Rising, EventAction::Impulse(0)),
+            ("end", Direction::Either, EventAction::Stop),
         ]
     );
     assert_eq!(text(&model, model.events[0].when), "m*x - x''");
