@@ -10,6 +10,7 @@ mod carrier;
 mod conformal;
 mod conjugate;
 mod continuation;
+mod direction;
 mod drive;
 mod driven_orbit;
 mod equilibria;

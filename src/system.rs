@@ -7,6 +7,7 @@
 //! their equations of motion. Never here: steps in time, files, symbols after compiling.
 
 mod active_set;
+mod allowed_displacements;
 mod attitude;
 mod batch_series;
 mod batch_terms;
@@ -59,6 +60,7 @@ mod valuation;
 mod value;
 mod variational;
 
+pub use allowed_displacements::AllowedDisplacements;
 pub use batch_series::BatchSeries;
 pub use batch_terms::BatchTerms;
 pub use branch::Branch;

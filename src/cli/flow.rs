@@ -14,7 +14,8 @@ use crate::dynamics::{DynamicsError, FlowMap, flow_map};
 /// The tangent map M = ∂η(T)/∂η(0) of the flow, η = (q…, p…), or the variables of brackets, by the
 /// variational equations: its determinant beside the one that the divergence of the motion
 /// predicts, and the largest entry of |M𝕁Mᵀ − 𝕁|, which is at rounding where the map is
-/// canonical. With a method of fixed step it is the map of that method's own steps.
+/// canonical. With a method of fixed step it is the map of that method's own steps. Under constraints it
+/// is the map of the displacements that they allow.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -30,7 +31,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
-    let study = Study::open_with_impulses(&arguments.study, interrupt)?;
+    let study = Study::open_on_constraints(&arguments.study, interrupt)?;
     let until = study.until(arguments.until);
     interrupt.ends_by_itself(|| ());
     let mut bar = Bar::new(study.start.time, until);
@@ -52,6 +53,7 @@ fn object(study: &Study, map: &FlowMap, failure: Option<&DynamicsError>) -> Map<
     object.insert("t".to_owned(), json!(map.time));
     object.insert("state".to_owned(), state);
     object.insert("matrix".to_owned(), json!(rows));
+    object.insert("dimension".to_owned(), json!(map.dimension));
     object.insert("determinant".to_owned(), json!(map.determinant));
     object.insert("determinant_expected".to_owned(), json!(map.determinant_expected));
     object.insert("symplectic_residual".to_owned(), json!(map.symplectic_residual));
@@ -75,12 +77,24 @@ fn text(study: &Study, map: &FlowMap) -> String {
         names.iter().zip(variables).map(|(name, &x)| format!("{name} = {}", shown(x))).collect();
     let mut text = format!("t = {}: {}\n\n", shown(map.time), state.join(", "));
     text.push_str(&table(&rows));
-    let (found, expected) = (shown(map.determinant), shown(map.determinant_expected));
-    text.push_str(&format!("\ndet M = {found}, expected {expected}\n"));
-    if let (Some(residual), Some(rounding)) = (map.symplectic_residual, map.symplectic_rounding) {
+    text.push('\n');
+    if study.space.is_constrained() {
+        let (dimension, all) = (map.dimension, names.len());
         text.push_str(&format!(
-            "largest entry of |M𝕁Mᵀ − 𝕁|: {residual:.1e}, of which rounding may be {rounding:.0e}\n"
+            "M of the {dimension} of {all} displacements that the constraints allow\n"
         ));
+    }
+    if let (Some(found), Some(expected)) = (map.determinant, map.determinant_expected) {
+        text.push_str(&format!("det M = {}, expected {}\n", shown(found), shown(expected)));
+    }
+    match (map.symplectic_residual, map.symplectic_rounding) {
+        (Some(residual), Some(rounding)) => text.push_str(&format!(
+            "largest entry of |M𝕁Mᵀ − 𝕁|: {residual:.1e}, of which rounding may be {rounding:.0e}\n"
+        )),
+        (Some(residual), None) => text.push_str(&format!(
+            "largest entry of |Mᵀ𝕁M − Pᵀ𝕁P|, P the projection onto them: {residual:.1e}\n"
+        )),
+        _ => {}
     }
     text
 }

@@ -52,7 +52,7 @@ fn count(text: &str) -> Result<Count, String> {
 }
 
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
-    let study = Study::open_with_impulses(&arguments.study, interrupt)?;
+    let study = Study::open_on_constraints(&arguments.study, interrupt)?;
     let until = study.until(arguments.until);
     interrupt.ends_by_itself(|| ());
     let mut bar = Bar::new(study.start.time, until);

@@ -64,7 +64,7 @@ impl Study {
         arguments: &StudyArguments,
         interrupt: &Interrupt,
     ) -> Result<Study, CommandError> {
-        Study::read(arguments, interrupt, false)
+        Study::read(arguments, interrupt, PhaseSpace::of)
     }
 
     /// The same of a motion on which impulses may act.
@@ -72,19 +72,26 @@ impl Study {
         arguments: &StudyArguments,
         interrupt: &Interrupt,
     ) -> Result<Study, CommandError> {
-        Study::read(arguments, interrupt, true)
+        Study::read(arguments, interrupt, PhaseSpace::through_impulses)
+    }
+
+    /// The same of a motion on which impulses may act, or which constraints may hold.
+    pub(super) fn open_on_constraints(
+        arguments: &StudyArguments,
+        interrupt: &Interrupt,
+    ) -> Result<Study, CommandError> {
+        Study::read(arguments, interrupt, PhaseSpace::on_constraints)
     }
 
     fn read(
         arguments: &StudyArguments,
         interrupt: &Interrupt,
-        impulses: bool,
+        space: impl Fn(&Model, &Equations, &System, &[f64]) -> Result<PhaseSpace, DynamicsError>,
     ) -> Result<Study, CommandError> {
         let reading = arguments.motion.read()?;
         let laid = arguments.motion.compile(reading, &[], "", interrupt)?;
         let Laid { model, equations, system, start, method, settings } = laid;
-        let of = if impulses { PhaseSpace::through_impulses } else { PhaseSpace::of };
-        let space = of(&model, &equations, &system, &start.parameters).map_err(failed)?;
+        let space = space(&model, &equations, &system, &start.parameters).map_err(failed)?;
         let start = start
             .state(&system)
             .and_then(|state| space.state(&state))

@@ -3,8 +3,8 @@
 //! In: a phase space, a method, a state with vectors. Out: the state and the vectors later on.
 //! Never here: which vectors to carry, what becomes of them.
 //!
-//! Where impulses act, the motion is that of a [`Propagator`], and each impulse carries the vectors
-//! on by its [`Saltation`].
+//! Where impulses act or constraints hold, the motion is that of a [`Propagator`]. Each impulse carries the vectors on by its
+//! [`Saltation`]; the projection of states onto their constraints leaves vectors that the constraints allow as they are.
 
 use nalgebra::DMatrix;
 
@@ -25,15 +25,16 @@ pub struct Carrier {
     method: &'static Method,
     settings: Settings,
     stepper: Box<dyn Stepper>,
-    /// The motion where impulses act, in place of the stepper.
+    /// The motion where impulses act or constraints hold, in place of the stepper.
     jumping: Option<Jumping>,
     steps: u64,
 }
 
-/// A motion with impulses.
+/// A motion with impulses, or under constraints.
 struct Jumping {
     motion: Propagator,
-    saltation: Saltation,
+    /// The derivatives of the impulses; `None` where none act.
+    saltation: Option<Saltation>,
     begun: bool,
     /// The times at which the last step began and ended.
     span: (f64, f64),
@@ -53,22 +54,32 @@ impl Carrier {
     /// A motion with `count` vectors, which must then be started.
     ///
     /// # Errors
-    /// Returns an error if the method does not suit the system, or if an impulse has no derivative.
+    /// Returns an error if the method does not suit the system, if an impulse has no derivative, or if steps of fixed size end
+    /// with a projection onto constraints, which their map would have to be differentiated with.
     pub fn new(
         space: &PhaseSpace,
         method: &'static Method,
         settings: Settings,
         count: usize,
     ) -> Result<Carrier, DynamicsError> {
+        if space.is_constrained() && method.stepping == Stepping::Fixed {
+            let why = format!(
+                "each step of {} ends with a projection onto the constraints, whose derivative is not taken: use a method \
+                 with error control",
+                method.name
+            );
+            return Err(DynamicsError::Unsuited(why));
+        }
         let system = space.system().with_tangents(count);
         let stepper = (method.make)(&system, &settings)?;
         let mut jumping = None;
-        if space.has_jumps() {
+        if space.has_jumps() || space.is_constrained() {
             let parameters = space.parameters();
             let unsuited = |why: &str| DynamicsError::Unsuited(why.to_owned());
+            let saltation = space.has_jumps().then(|| Saltation::new(&system, parameters));
             jumping = Some(Jumping {
                 motion: Propagator::new(&system, method, settings, parameters)?,
-                saltation: Saltation::new(&system, parameters).map_err(unsuited)?,
+                saltation: saltation.transpose().map_err(unsuited)?,
                 begun: false,
                 span: (0.0, 0.0),
                 last: None,
@@ -232,7 +243,10 @@ fn vectors_of(system: &System, state: &State) -> DMatrix<f64> {
 impl Jumping {
     /// Carries the vectors through the impulse that has just acted on the state.
     fn jump(&mut self, space: &PhaseSpace, system: &System, name: &str) -> Result<(), MotionError> {
-        let Some(impulse) = self.motion.last_impulse() else { return Ok(()) };
+        let (Some(impulse), Some(saltation)) = (self.motion.last_impulse(), &mut self.saltation)
+        else {
+            return Ok(());
+        };
         let (before, after) = (self.motion.before().clone(), self.motion.state().clone());
         let caused = impulse.1.is_some();
         if self.last.is_some_and(|(time, by_event)| time == after.time && (by_event || caused)) {
@@ -245,7 +259,7 @@ impl Jumping {
         // a time in which the motion changes
         let scale = (after.time - self.since).min(STEPS * self.step.abs());
         self.since = after.time;
-        let rows = self.saltation.matrix(impulse, (&own_before, &own_after), scale)?;
+        let rows = saltation.matrix(impulse, (&own_before, &own_after), scale)?;
         let n = space.dimension();
         let matrix = DMatrix::from_row_slice(n, n, &rows);
         self.determinant *= matrix.determinant();

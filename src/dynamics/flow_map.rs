@@ -3,6 +3,11 @@
 //! In: a state. Out: M at a later time, how symplectic it is, its determinant beside the one that
 //! Liouville's theorem predicts, exp ∫ div f dt (V. I. Arnold, Mathematical Methods of Classical
 //! Mechanics, §16). Never here: what the map is used for.
+//!
+//! Under constraints M is taken of displacements that they allow, M = Dφ P with the projection P onto these. If the
+//! constraints are holonomic and nothing but L acts, the states form a symplectic manifold of their own, with the form 𝕁
+//! restricted to it, and the flow preserves that: Mᵀ𝕁M = Pᵀ𝕁P (Arnold, §§ 17, 37). The determinant is then that of the
+//! volumes which the form defines.
 
 use nalgebra::DMatrix;
 
@@ -30,14 +35,18 @@ pub struct FlowMap {
     pub state: State,
     /// ∂η_i(t)/∂η_j(0).
     pub matrix: DMatrix<f64>,
-    /// Its determinant.
-    pub determinant: f64,
+    /// The dimension of the displacements it is taken of: that of the space, less what constraints take away.
+    pub dimension: usize,
+    /// Its determinant, under constraints that of its volumes on them; `None` where these have no volume that H preserves.
+    pub determinant: Option<f64>,
     /// exp ∫ div f dt along the motion: 1 where nothing but H acts. Over impulses, times the
     /// determinants of their own derivatives.
-    pub determinant_expected: f64,
-    /// The largest entry of |M𝕁Mᵀ − 𝕁|; `None` if the variables are not canonical.
+    pub determinant_expected: Option<f64>,
+    /// The largest entry of |M𝕁Mᵀ − 𝕁|, under constraints of |Mᵀ𝕁M − Pᵀ𝕁P|; `None` if the variables are not canonical, or
+    /// no form is preserved on the constraints.
     pub symplectic_residual: Option<f64>,
-    /// What rounding may leave of it: that of M at the end, and that of every step, amplified by the flow after it.
+    /// What rounding may leave of it: that of M at the end, and that of every step, amplified by the flow after it; `None`
+    /// under constraints.
     pub symplectic_rounding: Option<f64>,
     /// The step or tolerance used.
     pub settings: Settings,
@@ -64,10 +73,12 @@ pub fn flow_map(
     }
     let n = space.dimension();
     let mut carrier = Carrier::new(space, method, settings, n)?;
-    carrier.start(start, &DMatrix::identity(n, n))?;
+    let (allowed, dimension) = space.allowed_displacements(start)?;
+    carrier.start(start, &allowed)?;
     let rule = gauss(if method.stepping == Stepping::Fixed { FEW_NODES } else { NODES });
-    let mut field = (!space.is_hamiltonian()).then(|| space.vector_field());
-    let canonical = space.form() == crate::system::Form::Momentum;
+    let free = !space.is_constrained();
+    let mut field = (free && !space.is_hamiltonian()).then(|| space.vector_field());
+    let canonical = free && space.form() == crate::system::Form::Momentum;
     let mut rounding = canonical.then(|| AmplifiedRounding::new(n));
     let forwards = until >= start.time;
     let (mut logarithm, mut failure, mut time) = (0.0, None, start.time);
@@ -93,6 +104,22 @@ pub fn flow_map(
         look(time);
     }
     let (state, matrix) = carrier.at(time)?;
+    if !free {
+        let preserved =
+            space.is_hamiltonian().then(|| on_constraints(&matrix, &allowed, dimension));
+        return Ok(FlowMap {
+            time,
+            dimension,
+            determinant: preserved.map(|(_, determinant)| determinant),
+            determinant_expected: preserved.map(|_| 1.0),
+            symplectic_residual: preserved.map(|(residual, _)| residual),
+            symplectic_rounding: None,
+            state,
+            matrix,
+            settings: carrier.settings(),
+            failure,
+        });
+    }
     let symplectic = rounding.map(|rounding| {
         let hamiltonian = space.is_hamiltonian();
         let left = rounding.left(&|m| {
@@ -106,8 +133,9 @@ pub fn flow_map(
     });
     Ok(FlowMap {
         time,
-        determinant: matrix.determinant(),
-        determinant_expected: math::exp(logarithm) * carrier.jump_determinant(),
+        dimension,
+        determinant: Some(matrix.determinant()),
+        determinant_expected: Some(math::exp(logarithm) * carrier.jump_determinant()),
         symplectic_residual: symplectic.map(|(residual, _)| residual),
         symplectic_rounding: symplectic.map(|(_, rounding)| rounding),
         state,
@@ -115,4 +143,24 @@ pub fn flow_map(
         settings: carrier.settings(),
         failure,
     })
+}
+
+/// The largest entry of |Mᵀ𝕁M − Pᵀ𝕁P|, and the factor by which M changes the volume that the form 𝕁 defines on the
+/// displacements of this dimension that P allows: √(det Mᵀ𝕁M/det Pᵀ𝕁P) in a basis of them.
+fn on_constraints(matrix: &DMatrix<f64>, allowed: &DMatrix<f64>, dimension: usize) -> (f64, f64) {
+    let n = matrix.nrows() / 2;
+    let form = |of: &DMatrix<f64>| {
+        let unit = DMatrix::from_fn(2 * n, 2 * n, |i, j| {
+            f64::from(i8::from(j == i + n) - i8::from(i == j + n))
+        });
+        of.transpose() * unit * of
+    };
+    let (after, before) = (form(matrix), form(allowed));
+    let residual = (&after - &before).amax();
+    // displacements whose images under P are independent: columns of the unit matrix, as pivoting chooses them
+    let mut chosen = DMatrix::identity(2 * n, 2 * n);
+    allowed.clone().col_piv_qr().p().permute_columns(&mut chosen);
+    let basis = chosen.columns(0, dimension);
+    let volume = |form: &DMatrix<f64>| (basis.transpose() * form * basis).determinant();
+    (residual, (volume(&after) / volume(&before)).sqrt())
 }

@@ -12,6 +12,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::carrier::Carrier;
+use super::direction::basis_of_range;
 use super::error::DynamicsError;
 use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings};
@@ -55,8 +56,11 @@ pub fn gali(
     look: &mut dyn FnMut(f64),
 ) -> Result<Gali, DynamicsError> {
     let n = space.dimension();
-    if !(2..=n).contains(&count) {
-        let why = format!("GALI takes from 2 to {n} tangent vectors here, as many as variables");
+    let (allowed, dimension) = space.allowed_displacements(start)?;
+    if !(2..=dimension).contains(&count) {
+        let why = format!(
+            "GALI takes from 2 to {dimension} tangent vectors here, as many as are independent"
+        );
         return Err(DynamicsError::Unsuited(why));
     }
     if until <= start.time {
@@ -67,7 +71,7 @@ pub fn gali(
     let general = DMatrix::from_fn(n, count, |i, j| {
         math::sin(1.0 + 2.4 * (i as f64 + 1.0) * (j as f64 + 1.0)) + f64::from(u8::from(i == j))
     });
-    let mut vectors = general.qr().q();
+    let mut vectors = (allowed * general).qr().q();
     let mut carrier = Carrier::new(space, method, settings, count)?;
     carrier.start(start, &vectors)?;
     let mut unit = DMatrix::<f64>::identity(count, count);
@@ -86,6 +90,12 @@ pub fn gali(
         let grown = vectors.column_iter().any(|v| !(1.0 / GROWN..GROWN).contains(&v.norm()));
         if !(grown || end - last >= round || end >= until) {
             continue;
+        }
+        if space.is_constrained() {
+            // what rounding has left outside grows, beside vectors that shrink
+            let (allowed, dimension) = space.allowed_displacements(&state)?;
+            let basis = basis_of_range(&allowed, dimension);
+            vectors = &basis * (basis.transpose() * vectors);
         }
         let (q, r) = positive(vectors.clone());
         unit = &r * unit;

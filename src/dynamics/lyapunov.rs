@@ -18,8 +18,9 @@
 use nalgebra::DVector;
 
 use super::carrier::Carrier;
+use super::direction::{Direction, basis_of_range};
 use super::error::DynamicsError;
-use super::phase_space::{PhaseSpace, VectorField};
+use super::phase_space::PhaseSpace;
 use super::transverse::{self, Removed};
 use crate::integrate::{Method, Settings};
 use crate::num::math;
@@ -46,9 +47,6 @@ const CHAOTIC: f64 = 5.0;
 
 /// A chaotic motion has grown by this many powers of e.
 const GROWTH: f64 = 8.0;
-
-/// A motion slower than this, relative to its size and to its linear rates, is at rest.
-const AT_REST: f64 = 1e-13;
 
 /// Whether neighbouring motions part exponentially.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -116,14 +114,19 @@ pub fn lyapunov(
         ));
     }
     let n = space.dimension();
-    let mut field = space.vector_field();
-    field.evaluate(start.time, space.variables(start))?;
-    let what = removed(space, start, &field);
-    let rates = field.rate();
-    let frame = transverse::frame(&rates, what, space.is_hamiltonian());
+    let mut direction = Direction::new(space);
+    let what = removed(space, direction.moves(start, until - start.time)?);
+    let rates = direction.at(start)?;
+    let (allowed, dimension) = space.allowed_displacements(start)?;
+    let frame = if space.is_constrained() {
+        transverse::frame_within(&basis_of_range(&allowed, dimension), &rates, what)
+    } else {
+        transverse::frame(&rates, what, space.is_hamiltonian())
+    };
     let count = frame.ncols();
     // one more vector, in general position, that is never turned: for MEGNO
     let free = DVector::from_fn(n, |i, _| 0.5 + math::sin(2.4 * (i as f64 + 1.0)).abs());
+    let free = allowed * free;
     let mut vectors = frame.insert_column(count, 0.0);
     vectors.set_column(count, &free.normalize());
     let mut carrier = Carrier::new(space, method, settings, count + 1)?;
@@ -149,11 +152,17 @@ pub fn lyapunov(
         let due = end - growth.times[growth.times.len() - 1] >= round || end >= until;
         let sizes = vectors.column_iter().map(|v| v.norm());
         if due || sizes.into_iter().any(|size| !(1.0 / GROWN..GROWN).contains(&size)) {
-            field.evaluate(end, space.variables(&state))?;
+            let rates = direction.at(&state)?;
             let free = vectors.column(count).into_owned();
             megno.rescale(free.norm());
             let mut turned = vectors.columns(0, count).into_owned();
-            let lengths = transverse::orthonormalise(&mut turned, &field.rate(), what);
+            let lengths = if space.is_constrained() {
+                let (allowed, dimension) = space.allowed_displacements(&state)?;
+                let basis = basis_of_range(&allowed, dimension);
+                transverse::orthonormalise_within(&mut turned, &basis, &rates, what)
+            } else {
+                transverse::orthonormalise(&mut turned, &rates, what)
+            };
             let last = &growth.logarithms[growth.logarithms.len() - 1];
             let now = last.iter().zip(&lengths).map(|(sum, x)| sum + math::ln(*x)).collect();
             growth.times.push(end);
@@ -175,9 +184,7 @@ pub fn lyapunov(
 const MEGNO_PARTS: u32 = 4;
 
 /// Which directions are taken out.
-fn removed(space: &PhaseSpace, start: &State, field: &VectorField) -> Removed {
-    let size = DVector::from_column_slice(space.variables(start)).norm().max(1.0);
-    let moves = field.rate().norm() > AT_REST * size * field.derivative().norm();
+fn removed(space: &PhaseSpace, moves: bool) -> Removed {
     match (space.is_hamiltonian(), moves && space.is_autonomous()) {
         (true, true) => Removed::FlowAndEnergy,
         (false, true) if space.is_conservative() => Removed::Flow,

@@ -23,6 +23,7 @@ pub struct PhaseSpace {
     /// The period of the drive, of a law that depends on time.
     drive: Option<f64>,
     jumps: bool,
+    constrained: bool,
     periods: Vec<Option<f64>>,
     cyclic: Vec<usize>,
 }
@@ -43,6 +44,25 @@ impl PhaseSpace {
         PhaseSpace::through_impulses(model, equations, system, parameters)
     }
 
+    /// The phase space of a system that constraints may hold. Its variables are not independent then: the states are those
+    /// that satisfy the constraints, and the displacements those of [`PhaseSpace::allowed_displacements`]. Where there are
+    /// no constraints, impulses may act on the motion.
+    ///
+    /// # Errors
+    /// Returns an error if the motion has no derivative everywhere else, or if impulses or events act on a motion that is
+    /// held to constraints.
+    pub fn on_constraints(
+        model: &Model,
+        equations: &Equations,
+        system: &System,
+        parameters: &[f64],
+    ) -> Result<PhaseSpace, DynamicsError> {
+        if system.constraints() > 0 {
+            refuse_acts(system)?;
+        }
+        PhaseSpace::read(model, equations, system, parameters)
+    }
+
     /// The phase space of a system on whose motion impulses may act, at their times or caused by
     /// events. Between them it may be Hamilton's; over them it counts as neither Hamilton's nor
     /// conservative.
@@ -50,6 +70,20 @@ impl PhaseSpace {
     /// # Errors
     /// Returns an error if the motion has no derivative everywhere else, or is held to constraints.
     pub fn through_impulses(
+        model: &Model,
+        equations: &Equations,
+        system: &System,
+        parameters: &[f64],
+    ) -> Result<PhaseSpace, DynamicsError> {
+        if system.constraints() > 0 {
+            let why =
+                "the motion is held to constraints, and this asks for independent coordinates";
+            return Err(DynamicsError::Unsuited(why.to_owned()));
+        }
+        PhaseSpace::read(model, equations, system, parameters)
+    }
+
+    fn read(
         model: &Model,
         equations: &Equations,
         system: &System,
@@ -83,9 +117,10 @@ impl PhaseSpace {
             system: system.without_tangents(),
             parameters: parameters.to_vec(),
             names,
-            hamiltonian: hamiltonian && !jumps,
+            hamiltonian: hamiltonian && !jumps && system.is_holonomic(),
             autonomous,
             jumps,
+            constrained: system.constraints() > 0,
             drive: (!autonomous)
                 .then(|| drive_period(model, equations, system, parameters))
                 .flatten(),
@@ -151,6 +186,28 @@ impl PhaseSpace {
     /// Whether impulses may act on the motion, or events end it.
     pub fn has_jumps(&self) -> bool {
         self.jumps
+    }
+
+    /// Whether constraints hold the motion, so that not all displacements are allowed.
+    pub fn is_constrained(&self) -> bool {
+        self.constrained
+    }
+
+    /// The displacements of a state that the constraints allow, in the variables of this space: the projection onto them,
+    /// and their dimension. Without constraints all are.
+    ///
+    /// # Errors
+    /// Returns an error where the constraints or the mass matrix are singular.
+    pub fn allowed_displacements(
+        &self,
+        state: &State,
+    ) -> Result<(DMatrix<f64>, usize), MotionError> {
+        let n = self.dimension();
+        if !self.constrained {
+            return Ok((DMatrix::identity(n, n), n));
+        }
+        let found = self.system.allowed_displacements(state, &self.parameters)?;
+        Ok((DMatrix::from_row_slice(n, n, &found.matrix), found.dimension))
     }
 
     /// The cyclic coordinates, by index.
@@ -222,12 +279,6 @@ impl PhaseSpace {
 /// Refuses what has no derivative at some places, where nothing here would notice.
 fn refuse(system: &System) -> Result<(), DynamicsError> {
     let unsuited = |why: &str| Err(DynamicsError::Unsuited(why.to_owned()));
-    if system.constraints() > 0 {
-        return unsuited(
-            "the motion is held to constraints, and derivatives of such motions are not computed: \
-             describe it by independent coordinates",
-        );
-    }
     if system.has_kinks() {
         return unsuited(
             "the forces have kinks or jumps (abs, sign, min, max, or a cut of atan2), across which \

@@ -4,10 +4,12 @@
 //! In: the rates f at a state. Out: an orthonormal frame of the directions that are left when f,
 //! and with a conserved H also ∇H = −𝕁f, are taken out. Where both are, the frame is symplectic,
 //! e₁ … eₘ, 𝕁eₘ … 𝕁e₁, in that order: a triangular matrix between two such frames has reciprocal
-//! diagonal entries in pairs, so that exponents come in pairs ±λ at every time. Never here: how the
-//! directions move.
+//! diagonal entries in pairs, so that exponents come in pairs ±λ at every time. Under constraints the frame is one of the
+//! displacements that they allow, and pairs hold in the mean. Never here: how the directions move.
 
 use nalgebra::{DMatrix, DVector};
+
+use super::direction::basis_of_range;
 
 /// Which directions are taken out.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -88,6 +90,28 @@ pub(super) fn frame(rates: &DVector<f64>, what: Removed, canonical: bool) -> DMa
     DMatrix::from_fn(n, first.len(), |i, j| first[j][i])
 }
 
+/// The same of displacements that constraints allow, those in the range of an orthonormal `basis`, in which the rates lie.
+pub(super) fn frame_within(
+    basis: &DMatrix<f64>,
+    rates: &DVector<f64>,
+    what: Removed,
+) -> DMatrix<f64> {
+    let mut left = DMatrix::identity(basis.ncols(), basis.ncols());
+    let taken = removed_within(basis, rates, what);
+    for unit in &taken {
+        left -= unit * unit.transpose();
+    }
+    let count = basis.ncols().saturating_sub(taken.len());
+    basis * basis_of_range(&left, count)
+}
+
+/// The unit vectors of what is taken out, in coordinates of an orthonormal basis. Of the gradient of H only what lies in the
+/// space matters, and there it is orthogonal to the rates too: fᵀ𝕁f = 0.
+fn removed_within(basis: &DMatrix<f64>, rates: &DVector<f64>, what: Removed) -> Vec<DVector<f64>> {
+    let inside = removed(rates, what).into_iter().map(|v| basis.transpose() * v);
+    inside.filter_map(|v| v.try_normalize(0.0)).collect()
+}
+
 /// Makes the columns of `vectors` orthonormal, one after the other, outside what is taken out at a
 /// place with these rates. Returns their lengths after those before them were taken out.
 pub(super) fn orthonormalise(
@@ -95,7 +119,24 @@ pub(super) fn orthonormalise(
     rates: &DVector<f64>,
     what: Removed,
 ) -> Vec<f64> {
-    let mut taken = removed(rates, what);
+    orthonormal(vectors, removed(rates, what))
+}
+
+/// The same of displacements that constraints allow: what rounding has left outside the range of `basis` is dropped.
+pub(super) fn orthonormalise_within(
+    vectors: &mut DMatrix<f64>,
+    basis: &DMatrix<f64>,
+    rates: &DVector<f64>,
+    what: Removed,
+) -> Vec<f64> {
+    let mut inside = basis.transpose() * &*vectors;
+    let lengths = orthonormal(&mut inside, removed_within(basis, rates, what));
+    *vectors = basis * inside;
+    lengths
+}
+
+/// Makes columns orthonormal, one after the other, outside the vectors `taken`.
+fn orthonormal(vectors: &mut DMatrix<f64>, mut taken: Vec<DVector<f64>>) -> Vec<f64> {
     let mut lengths = Vec::with_capacity(vectors.ncols());
     for mut column in vectors.column_iter_mut() {
         let mut v = DVector::from_column_slice(column.as_slice());

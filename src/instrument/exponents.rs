@@ -130,7 +130,8 @@ impl Instrument for Exponents {
         let length = first(present.physics) * f64::from(1 << doublings);
         let job = Job::new("exponents", move |progress| {
             let system = system.with_cancel(progress.token().clone());
-            let space = PhaseSpace::of(&model, &equations, &system, &conditions.parameters);
+            let space =
+                PhaseSpace::on_constraints(&model, &equations, &system, &conditions.parameters);
             let start = model.run.start;
             let found = space.map_err(|why| why.to_string()).and_then(|space| {
                 let state = state(&space, &conditions, start)?;

@@ -80,7 +80,7 @@ impl System {
         gained.then(|| self.with_holding(ActiveSet { active, enforced: better }))
     }
 
-    fn conditions(&self, parameters: &[f64], state: &State) -> Option<Conditions> {
+    pub(super) fn conditions(&self, parameters: &[f64], state: &State) -> Option<Conditions> {
         let constrained = self.constrained()?;
         let mut conditions = Conditions::new(&constrained.programs, self.constraints());
         conditions.set_parameters(&self.inputs(parameters));

@@ -21,17 +21,20 @@ pub(super) struct ConstraintPrograms {
     pub(super) sizes: Arc<Program>,
     /// The constraints on the velocities that have an f.
     pub(super) integrated: Vec<bool>,
+    /// The constraints that were written as f(q, t) = 0.
+    pub(super) holonomic: Vec<bool>,
 }
 
 impl ConstraintPrograms {
     pub(super) fn of(builder: &mut ProgramBuilder<'_>) -> Result<ConstraintPrograms, Symbol> {
         let mut values = Vec::new();
-        let mut integrated = Vec::new();
+        let (mut integrated, mut holonomic) = (Vec::new(), Vec::new());
         for (k, row) in builder.equations.constraints.iter().enumerate() {
             values.extend_from_slice(&row.row);
             values.push(row.rate);
             let known = integral(builder, k);
             integrated.push(known.is_some());
+            holonomic.push(row.position.is_some());
             let (f, g) = known.unwrap_or((row.position.unwrap_or(Expr::ZERO), Expr::ONE));
             values.extend([f, g]);
         }
@@ -39,7 +42,7 @@ impl ConstraintPrograms {
         let sizes = values.iter().flat_map(|&e| [pool.magnitude(e), pool.size_of_inputs(e)]);
         let sizes: Vec<Expr> = sizes.collect();
         let (values, sizes) = (program(builder, &values)?, program(builder, &sizes)?);
-        Ok(ConstraintPrograms { values, sizes, integrated })
+        Ok(ConstraintPrograms { values, sizes, integrated, holonomic })
     }
 }
 

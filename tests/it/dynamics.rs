@@ -1,6 +1,7 @@
 //! What the derivatives of a motion tell, against closed forms and published numbers.
 
 mod action;
+mod constrained;
 mod equilibria;
 mod event_orbits;
 mod family;
@@ -12,9 +13,11 @@ mod orbit;
 mod rotation;
 mod spectrum;
 
-use phaselab::dynamics::PhaseSpace;
+use phaselab::dynamics::{DynamicsError, PhaseSpace};
 use phaselab::integrate::{Method, Settings, method_named};
-use phaselab::system::{InitialOverride, State};
+use phaselab::mechanics::Equations;
+use phaselab::model::Model;
+use phaselab::system::{InitialOverride, State, System};
 
 use crate::hand::{loaded, lowered};
 
@@ -36,12 +39,22 @@ fn file(text: &str, start: &[f64]) -> Case {
 }
 
 fn case(loaded: &phaselab::app::Loaded, set: &[(&str, f64)], start: &[f64]) -> Case {
+    case_in(loaded, set, start, PhaseSpace::of)
+}
+
+/// The same in a phase space made in this way.
+fn case_in(
+    loaded: &phaselab::app::Loaded,
+    set: &[(&str, f64)],
+    start: &[f64],
+    space: impl Fn(&Model, &Equations, &System, &[f64]) -> Result<PhaseSpace, DynamicsError>,
+) -> Case {
     let mut parameters = loaded.model.parameter_values();
     for (name, value) in set {
         parameters[loaded.model.parameter(name).expect("a parameter")] = *value;
     }
     let (model, equations) = (&loaded.model, &loaded.equations);
-    let space = PhaseSpace::of(model, equations, &loaded.system, &parameters).unwrap();
+    let space = space(model, equations, &loaded.system, &parameters).unwrap();
     let n = loaded.system.degrees();
     let given: Vec<InitialOverride> = start
         .iter()

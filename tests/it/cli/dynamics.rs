@@ -146,7 +146,9 @@ fn virtual_work_vanishes_term_by_term() {
 #[test]
 fn what_has_no_derivative_ends_with_a_sentence() {
     for command in ["flow", "lyapunov", "orbit", "equilibria"] {
-        let done = phaselab(&[command, "pendulum-rod"]);
+        // under constraints some follow the displacements that these allow, others need independent coordinates
+        let words = [command, "pendulum-rod", "--method", "rk4", "--step", "0.1"];
+        let done = phaselab(if command == "equilibria" { &words[..2] } else { &words });
         assert_eq!((done.code, done.stdout.as_str()), (1, ""), "{command}");
         assert!(done.stderr.contains("constraints"), "{command}: {}", done.stderr);
         let done = phaselab(&[command, "pendulum", "--step", "0.1"]);
@@ -162,6 +164,22 @@ fn what_has_no_derivative_ends_with_a_sentence() {
     let found: serde_json::Value = serde_json::from_str(&done.stdout).unwrap();
     assert_eq!(found["status"], "faulted");
     assert!(found["t"].as_f64().unwrap() > 1.0 && found["message"].is_string());
+}
+
+#[test]
+fn constrained_motions_have_tangent_maps_and_exponents() {
+    let done = phaselab(&["flow", "neumann", "--until", "1", "--format", "json"]);
+    let found: serde_json::Value = serde_json::from_str(&done.stdout).unwrap();
+    assert_eq!((done.code, &found["dimension"]), (0, &4.into()));
+    assert!((found["determinant"].as_f64().unwrap() - 1.0).abs() < 1e-12);
+    assert!(found["symplectic_residual"].as_f64().unwrap() < 1e-13);
+    // a blade is not holonomic: nothing is claimed of volumes
+    let done = phaselab(&["flow", "knife-edge", "--until", "1"]);
+    assert_eq!(done.code, 0);
+    assert!(done.stdout.contains("M of the 5 of 6 displacements that the constraints allow"));
+    assert!(!done.stdout.contains("det M"), "{}", done.stdout);
+    let done = phaselab(&["lyapunov", "pendulum-rod", "--until", "20"]);
+    assert!(done.code == 0 && done.stdout.starts_with("regular"), "{}", done.stdout);
 }
 
 #[test]
