@@ -149,7 +149,7 @@ pub(super) const FILE: SchemaTable = SchemaTable {
 /// A coordinate.
 pub(super) const COORDINATE: SchemaTable = SchemaTable {
     head: "[coordinates]",
-    about: "The coordinates in order: `theta = { initial = 2.0 }`.",
+    about: "The coordinates in order: `theta = { initial = 2.0 }`, or `theta = 2.0`, its initial value alone.",
     keys: &[
         INITIAL,
         key(

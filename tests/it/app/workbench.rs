@@ -453,7 +453,7 @@ fn a_second_rebuild_before_the_first_was_seen_goes_on_with_the_same_motion() {
 fn leaving_keeps_the_text_and_coming_back_finds_it() {
     let mut app = edited();
     press(&mut app, "x y Esc");
-    assert!(app.notice.as_ref().unwrap().text.contains("not saved"));
+    assert!(app.notice.as_ref().unwrap().text.contains("unsaved changes"));
     assert!(app.overlay.is_none());
     // q in the editor is a letter, in the lab it leaves
     press(&mut app, "E q");

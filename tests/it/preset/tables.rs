@@ -288,6 +288,24 @@ brackets = [["x", "p_x", "1"]]
     assert!(plane.pool.depends(h, p.position) && !plane.pool.depends(h, x.momentum));
 }
 
+#[test]
+fn a_coordinate_may_be_given_by_its_initial_value_alone() {
+    let short = model(
+        r#"title = "short"
+[coordinates]
+x = 0.5
+y = "k/2"
+[parameters]
+k = 3.0
+[lagrangian]
+L = "1/2*(x'^2 + y'^2) - 1/2*k*(x^2 + y^2)"
+"#,
+    );
+    let initial: Vec<String> =
+        short.coordinates.iter().map(|coordinate| text(&short, coordinate.initial)).collect();
+    assert_eq!(initial, ["1/2", "k/2"]);
+}
+
 /// A rotating hammer: a head and a handle.
 const HAMMER: &str = r#"title = "Hammer"
 
