@@ -343,7 +343,7 @@ impl App {
         let Some(lab) = &self.lab else { return };
         let title = &lab.loaded.document.path;
         self.notice = Some(if there {
-            Notification::info(format!("{title} is there again."))
+            Notification::info(format!("{title} exists again."))
         } else {
             Notification::error(format!(
                 "{title} no longer exists; its last valid version keeps running."

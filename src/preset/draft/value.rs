@@ -83,8 +83,7 @@ pub(super) fn number(
         DeValue::Integer(_) | DeValue::Float(_) => digits(value, called, mistakes)?,
         DeValue::String(_) => {
             let message = format!("{called} must be a number, not a text in quotes");
-            mistakes
-                .push(Diagnostic::error(value.span(), message).with_help("leave the quotes away"));
+            mistakes.push(Diagnostic::error(value.span(), message).with_help("remove the quotes"));
             return None;
         }
         _ => {
