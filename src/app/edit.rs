@@ -161,7 +161,7 @@ impl App {
             EditCommand::FindNext => return self.find(),
             EditCommand::Diagnostic(sign) => {
                 if !buffer.step(sign) {
-                    return self.notify("There is no mistake.");
+                    return self.notify("There are no errors.");
                 }
                 false
             }

@@ -390,8 +390,8 @@ pub const KEYS: &[Binding] = &[
     row(Place::Menu, &[ENTER], Action::Accept, "select", "select the line"),
 
     row(Place::Workbench, &[ctrl('s')], Action::EditCommand(EditCommand::Save), "save", "save the file; for a shipped system, a copy under a name of your own"),
-    row(Place::Workbench, &[ctrl('n'), plain(KeyCode::F(8))], Action::EditCommand(EditCommand::Diagnostic(1)), "mistake", "go to the next mistake"),
-    row(Place::Workbench, &[ctrl('p')], Action::EditCommand(EditCommand::Diagnostic(-1)), "", "go to the previous mistake"),
+    row(Place::Workbench, &[ctrl('n'), plain(KeyCode::F(8))], Action::EditCommand(EditCommand::Diagnostic(1)), "error", "go to the next error"),
+    row(Place::Workbench, &[ctrl('p')], Action::EditCommand(EditCommand::Diagnostic(-1)), "", "go to the previous error"),
     row(Place::Workbench, &[ctrl('f')], Action::EditCommand(EditCommand::Find), "find", "search the text"),
     row(Place::Workbench, &[ctrl('g'), plain(KeyCode::F(3))], Action::EditCommand(EditCommand::FindNext), "", "find the next match"),
     row(Place::Workbench, &[ctrl('u')], Action::EditCommand(EditCommand::Undo), "undo", "undo the last change of the text"),

@@ -505,14 +505,14 @@ fn saving_what_has_a_mistake_says_so() {
     rest(&mut app);
     saved(&mut app);
     let with = told(&app);
-    assert!(with.starts_with("Saved: ./my.toml, with 1 mistake: "), "{with}");
+    assert!(with.starts_with("Saved: ./my.toml, with 1 error: "), "{with}");
     assert!(with.contains("thet"), "{with}");
     // one that was saved before it was checked
     replace(&mut app, "thet)", "thetta)");
     saved(&mut app);
     assert_eq!(told(&app), "Saved: ./my.toml");
     rest(&mut app);
-    assert!(told(&app).starts_with("Saved: ./my.toml, with 1 mistake: "), "{}", told(&app));
+    assert!(told(&app).starts_with("Saved: ./my.toml, with 1 error: "), "{}", told(&app));
     replace(&mut app, "thetta)", "theta)");
     saved(&mut app);
     rest(&mut app);
@@ -554,7 +554,7 @@ fn what_becomes_of_a_watched_file_is_reported() {
     assert_eq!(told(&app), "./my.toml no longer exists; its last valid version keeps running.");
     app.update(Event::FileThere(true));
     app.update(file(&text));
-    assert_eq!(told(&app), "./my.toml is there again.");
+    assert_eq!(told(&app), "./my.toml exists again.");
     app.update(file(&text.replace("9.81", "1.62")));
     rest(&mut app);
     assert_eq!(told(&app), "./my.toml: rebuilt in 7 ms; the motion continues.");
