@@ -22,6 +22,7 @@ impl Lesson {
     /// Handles a key.
     pub fn press(&mut self, key: KeyEvent) -> Pressed {
         let held = key.modifiers.contains(KeyModifiers::CONTROL);
+        self.share_keys();
         match key.code {
             KeyCode::Char('c') if held => return Pressed::Leave,
             // in the lab they close what lies on top first

@@ -10,7 +10,6 @@ use super::lesson::{Lesson, LessonStage, paragraph};
 use super::lesson_judge::{letter, pair, short};
 use super::lesson_order::steps_of_person;
 use super::lesson_question::{Question, QuestionKind};
-use crate::app::KeyHints;
 use crate::view::RenderStyle;
 use crate::view::lesson::{self, Paragraph, ParagraphKind, Speech};
 
@@ -22,8 +21,7 @@ impl Lesson {
     pub fn draw(&mut self, style: &RenderStyle, area: Rect, buffer: &mut Buffer) {
         let rows = self.pane_rows(area);
         let above = Rect { height: area.height - rows, ..area };
-        self.runner.lab.app.hints =
-            if self.has_lab() { KeyHints::LabInLesson } else { KeyHints::Hidden };
+        self.share_keys();
         self.runner.draw(style, above, buffer);
         let below = Rect { y: above.bottom(), height: rows, ..area };
         lesson::draw(style, &self.speech(), below, buffer);

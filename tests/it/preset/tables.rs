@@ -2,8 +2,8 @@
 
 use phaselab::expr::{Expr, Rank};
 use phaselab::model::{
-    Action, Allowed, AttitudeSource, BodyNames, Direction, Mechanics, Model, PieceOrientation,
-    Scope, Shape, Solid, multiplier_name,
+    Action, Allowed, AttitudeSource, BodyNames, Coordinate, Direction, Mechanics, Model,
+    PieceOrientation, Scope, Shape, Solid, multiplier_name,
 };
 
 use super::good::{checked, model, text, with};
@@ -290,20 +290,20 @@ brackets = [["x", "p_x", "1"]]
 
 #[test]
 fn a_coordinate_may_be_given_by_its_initial_value_alone() {
-    let short = model(
-        r#"title = "short"
-[coordinates]
-x = 0.5
-y = "k/2"
-[parameters]
-k = 3.0
-[lagrangian]
-L = "1/2*(x'^2 + y'^2) - 1/2*k*(x^2 + y^2)"
-"#,
-    );
-    let initial: Vec<String> =
-        short.coordinates.iter().map(|coordinate| text(&short, coordinate.initial)).collect();
-    assert_eq!(initial, ["1/2", "k/2"]);
+    let start = |x: &str, y: &str| {
+        let file = model(&format!(
+            "title = \"t\"\n[coordinates]\nx = {x}\ny = {y}\n[parameters]\nk = 3.0\n\
+             [lagrangian]\nL = \"1/2*(x'^2 + y'^2) - 1/2*k*(x^2 + y^2)\"\n"
+        ));
+        let values = |coordinate: &Coordinate| {
+            (text(&file, coordinate.initial), text(&file, coordinate.initial_rate))
+        };
+        file.coordinates.iter().map(values).collect::<Vec<_>>()
+    };
+    let short = start("0.5", "\"k/2\"");
+    assert_eq!(short, start("{ initial = 0.5 }", "{ initial = \"k/2\", velocity = 0 }"));
+    assert_eq!(short[0].0, "1/2");
+    assert_ne!(short, start("0.5", "\"k\""));
 }
 
 /// A rotating hammer: a head and a handle.
