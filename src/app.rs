@@ -87,7 +87,7 @@ pub use prompt::Prompt;
 pub use rate::RateMeter;
 pub use reading::Reading;
 pub use saved::Saved;
-pub use state::{App, Overlay};
+pub use state::{App, KeyHints, Overlay};
 pub use update::LONGEST_PASTE;
 pub use value::{ValueId, ValueInfo};
 pub use workbench::Workbench;

@@ -305,8 +305,8 @@ impl SourceBuffer {
             return Some(format!("Saved: {shown}"));
         };
         let count = match self.mistakes() {
-            1 => "1 mistake".to_owned(),
-            n => format!("{n} mistakes"),
+            1 => "1 error".to_owned(),
+            n => format!("{n} errors"),
         };
         let (row, column) = (diagnostic.from.row + 1, diagnostic.from.column + 1);
         Some(format!("Saved: {shown}, with {count}: {row}:{column} {}", diagnostic.message))

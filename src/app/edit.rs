@@ -161,7 +161,7 @@ impl App {
             EditCommand::FindNext => return self.find(),
             EditCommand::Diagnostic(sign) => {
                 if !buffer.step(sign) {
-                    return self.notify("There is no mistake.");
+                    return self.notify("There are no errors.");
                 }
                 false
             }
@@ -216,7 +216,7 @@ impl App {
         }
         let message = match (stopped, buffer.is_modified()) {
             (true, _) => format!("{} is no longer being checked; E resumes.", buffer.title),
-            (false, true) => format!("{} is not saved; E returns to it.", buffer.title),
+            (false, true) => format!("{} has unsaved changes; E returns to it.", buffer.title),
             (false, false) if self.lab.is_none() => return self.leave_alone(),
             (false, false) => return Vec::new(),
         };
@@ -322,7 +322,7 @@ impl App {
         if let Some(buffer) = self.own_buffer().filter(|buffer| !asked && buffer.is_modified()) {
             if buffer.on_disk != text {
                 let message = format!(
-                    "{} was changed by another program; your text here is not saved.",
+                    "{} was changed by another program; your text has unsaved changes.",
                     buffer.title
                 );
                 self.notice = Some(Notification::error(message));
@@ -343,7 +343,7 @@ impl App {
         let Some(lab) = &self.lab else { return };
         let title = &lab.loaded.document.path;
         self.notice = Some(if there {
-            Notification::info(format!("{title} is there again."))
+            Notification::info(format!("{title} exists again."))
         } else {
             Notification::error(format!(
                 "{title} no longer exists; its last valid version keeps running."

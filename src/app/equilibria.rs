@@ -32,7 +32,8 @@ impl App {
         if let Some(lab) = &mut self.lab {
             lab.equilibria.under_way = Some(UnderWay::new(&computation));
         }
-        self.notice = Some(Notification::info("Looking for equilibria; F again stops it."));
+        self.notice =
+            Some(Notification::info("Searching for equilibria; F again stops the search."));
         vec![Effect::Compute(computation)]
     }
 
@@ -53,7 +54,7 @@ impl App {
         Some(match found {
             Err(why) => self.notify(format!("Equilibria cannot be searched for here: {why}.")),
             Ok(found) if found.found.is_empty() => {
-                self.notify("There is no equilibrium in reach of where the motion is now.")
+                self.notify("There is no equilibrium near the current state.")
             }
             Ok(found) => {
                 search.found = Some(Arc::clone(found));
@@ -89,7 +90,7 @@ impl App {
             }
         }
         let menu = Menu::new(
-            "Equilibria and small oscillations: Enter begins there",
+            "Equilibria and small oscillations: Enter starts there",
             Choosing::Equilibrium,
             items,
         );

@@ -68,7 +68,7 @@ impl App {
             _ => return item,
         };
         Item {
-            about: format!("{}: in {name}, which then has the focus", item.about),
+            about: format!("{}: acts on {name}, which gets the focus", item.about),
             choice: Choice::ActionAt(row.place, row.action),
             ..item
         }
@@ -91,7 +91,7 @@ impl App {
     /// Returns why an action has no effect on the loaded system, or `None` if it has one.
     pub fn lack(&self, action: Action) -> Option<&'static str> {
         if let (Action::Mark, Some(Overlay::Menu(menu))) = (action, &self.overlay) {
-            return (!menu.takes_several()).then_some("one line is taken here");
+            return (!menu.takes_several()).then_some("only one line can be selected here");
         }
         let lab = self.lab.as_ref()?;
         match action {
@@ -186,7 +186,7 @@ fn moves(action: Action) -> bool {
 fn where_active(place: Place) -> &'static str {
     match place {
         Place::Always | Place::Anywhere => "it works while no text is being typed",
-        Place::Picker => "it is for the list of systems, to which Esc leads",
+        Place::Picker => "it is for the list of systems, which Esc opens",
         Place::Search => "it is for a search among the systems",
         Place::Experiment => "it is for a system that is open",
         Place::Lab => "it is for page 1, the lab",
@@ -194,7 +194,7 @@ fn where_active(place: Place) -> &'static str {
         Place::Plot => "it is for a plot; Tab focuses one",
         Place::Values => "it is for parameters or initial values; Tab focuses them",
         Place::Gauges => "it is for the gauges; Tab focuses them",
-        Place::Law => "it is for the law of motion, where not all of it is in view",
+        Place::Law => "it is for the law of motion, if it is longer than its pane",
         Place::Equations => "it is for page 2, the equations",
         Place::Text => "it is for pages of text",
         Place::Message => "it is for a file that cannot be opened",

@@ -5,13 +5,15 @@
 use super::keymap::Place;
 use super::speed::{faster, slower};
 use super::{
-    Action, App, ArrowDirection, Asker, Effect, Notification, Overlay, Page, Pane, Prompt, Purpose,
+    Action, App, ArrowDirection, Asker, Effect, KeyHints, Notification, Overlay, Page, Pane,
+    Prompt, Purpose,
 };
 use crate::experiment::{Command, Status};
 use crate::instrument::{Plot, Sight, Viewport};
 
-/// What the first Esc in the lab says.
+/// What the first Esc in the lab says, and in a lesson.
 const LEAVING: &str = "Esc again for the list of systems.";
+const LEAVING_LESSON: &str = "Esc again to leave the lesson.";
 
 impl App {
     /// Carries out an action. It does nothing if the action does not apply.
@@ -336,7 +338,8 @@ impl App {
             (Page::Picker, _) => self.picker.forget_search(),
             (Page::Lab, Some(lab)) if lab.zoomed => lab.zoomed = false,
             (Page::Lab, Some(_)) if !leaves => {
-                return self.notify(LEAVING);
+                let lesson = self.hints == KeyHints::LabInLesson;
+                return self.notify(if lesson { LEAVING_LESSON } else { LEAVING });
             }
             (Page::Lab, _) | (_, None) => {
                 self.notice = None;
@@ -359,7 +362,9 @@ impl App {
 
     /// Whether the last Esc has asked for another one, which leaves the lab.
     fn asked_to_leave(&self) -> bool {
-        self.notice.as_ref().is_some_and(|notice| notice.text == LEAVING)
+        self.notice
+            .as_ref()
+            .is_some_and(|notice| [LEAVING, LEAVING_LESSON].contains(&&*notice.text))
     }
 
     fn shift(&mut self, way: ArrowDirection) -> Vec<Effect> {

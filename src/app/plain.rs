@@ -23,7 +23,7 @@ impl App {
             self.notice = Some(Notification::info(if self.reading.automatic {
                 "It is reread every two seconds."
             } else {
-                "It stays as it is until Enter."
+                "It is left unchanged until Enter."
             }));
         }
         Vec::new()

@@ -220,9 +220,8 @@ impl App {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let Some((index, plot)) = lab.focused_plot() else { return Vec::new() };
         if !plot.kind.takes_seeds() {
-            return self.notify(
-                "Orbits are added to a section, and an ensemble begins anew; v chooses one.",
-            );
+            return self
+                .notify("n adds orbits to a section, or restarts an ensemble; v chooses one.");
         }
         let cursor = plot.viewport().and_then(|viewport| viewport.cursor);
         let through = reading.filter(|_| cursor.is_some());
@@ -240,7 +239,7 @@ impl App {
             let why = if plot.seeds.is_empty() {
                 "No orbits can be added here: points of this section cannot be starts."
             } else {
-                "No more orbits can be added; N removes those that were."
+                "No more orbits can be added; N removes those added."
             };
             return self.notify(why);
         }

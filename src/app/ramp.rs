@@ -29,7 +29,7 @@ impl RampWish {
         let (text, form) = named.unwrap_or((text, forms[0]));
         let parts = text.split_once(" in ").or_else(|| text.split_once(':'));
         let Some((to, duration)) = parts else {
-            return Err("Write where it goes and in which time: 2 in 60.".to_owned());
+            return Err("Write the final value and the duration: 2 in 60.".to_owned());
         };
         let to = number(model, parameters, to)?;
         let duration = number(model, parameters, duration)?;
@@ -48,7 +48,7 @@ impl App {
             return self.notify("A ramp changes a parameter: choose one.");
         };
         if lab.loaded.model.body.is_some() {
-            return self.notify("Parameters cannot change with the time beside a [body].");
+            return self.notify("Parameters cannot change with time in a file with a [body].");
         }
         self.open_field(Purpose::Ramp(index))
     }

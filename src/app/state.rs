@@ -53,6 +53,8 @@ pub struct App {
     pub workbench: Workbench,
     /// Whether the status and the keys are shown below the panes, which demos may leave out.
     pub footer: bool,
+    /// What the footer says of the keys.
+    pub hints: KeyHints,
     /// The available themes, each with a description.
     pub themes: Vec<(&'static str, &'static str)>,
     /// The theme chosen by the user, instead of the one at the start.
@@ -77,6 +79,17 @@ pub struct App {
     pub(super) mending: Option<String>,
     /// The session as it was when the user left the lab for the list of systems.
     pub(super) left: Option<Saved>,
+}
+
+/// What the footer says of the keys: never of one that does something else.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KeyHints {
+    /// The keys are the lab's.
+    Lab,
+    /// The keys are the lab's within a lesson, which the key for quitting leaves.
+    LabInLesson,
+    /// The keys are a lesson's, which says itself which they are.
+    Hidden,
 }
 
 /// Something that covers a page and takes its keys.
@@ -121,6 +134,7 @@ impl App {
             scroll: 0,
             workbench: Workbench::default(),
             footer: true,
+            hints: KeyHints::Lab,
             themes: Vec::new(),
             theme: None,
             reading: Reading::default(),

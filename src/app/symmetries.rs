@@ -74,7 +74,7 @@ impl App {
             lab.symmetries.awaited = Some(computation.ticket);
         }
         self.notice =
-            Some(Notification::info("Looking for symmetries of the equations of motion."));
+            Some(Notification::info("Searching for symmetries of the equations of motion."));
         vec![Effect::Compute(computation)]
     }
 

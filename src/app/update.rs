@@ -17,8 +17,8 @@ use crate::experiment::Snapshot;
 pub const LONGEST_PASTE: usize = 256 * 1024;
 
 /// Shown if the editor has no room for all of a paste.
-const LONG_TEXT: &str = "The pasted text was too long; as much of its beginning was taken as a \
-                         paste (256 KiB) and a file (1 MiB) can hold.";
+const LONG_TEXT: &str =
+    "The pasted text was too long and was cut: a paste may have 256 KiB, a file 1 MiB.";
 
 impl App {
     /// Handles an event, and returns the effects to perform.

@@ -82,7 +82,7 @@ fn incomplete(model: &Model, equations: &Equations) -> Option<Diagnostic> {
 fn denied(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     let wrong = |name: &str, place: &SourceRange| {
         let reason = &known(equations, name)?.reason;
-        let message = format!("`{name}` is said not to be conserved, but it is");
+        let message = format!("`{name}` is claimed not to be conserved, but it is");
         Some(Diagnostic::error(place.clone(), message).with_help(format!("why: {reason}")))
     };
     let denied = model.observables.iter().filter(|o| o.conserved == Some(false));

@@ -78,21 +78,21 @@ impl Claim {
             let rate = equations.pool.unicode(rate);
             help.push_str(&format!("; its rate of change is {rate}"));
         }
-        let message = format!("`{name}` is said to be conserved, but it is not");
+        let message = format!("`{name}` is claimed to be conserved, but it is not");
         Some(Diagnostic::error(self.place.clone(), message).with_help(help))
     }
 
     pub(super) fn mistake(&self, equations: &Equations, end: f64) -> Option<Diagnostic> {
         let Claim { name, .. } = self;
         if self.first.is_nan() {
-            let message = format!("`{name}` is said to be conserved, but it is not a number");
+            let message = format!("`{name}` is claimed to be conserved, but it is not a number");
             return Some(Diagnostic::error(self.place.clone(), message));
         }
         if self.farthest <= TOLERANCE * self.size {
             return None;
         }
         let drift = self.farthest / self.size;
-        let message = format!("`{name}` is said to be conserved, but it is not");
+        let message = format!("`{name}` is claimed to be conserved, but it is not");
         let mut help = format!("it drifts by {drift:.1e} of its size until t = {end}");
         if name == "energy" {
             let rate = equations.pool.unicode(equations.energy_rate);

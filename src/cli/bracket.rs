@@ -17,11 +17,11 @@ use crate::mechanics::{self, ChainRule, Equations, NoClosedForm, Recognised};
 use crate::model::{Channel, Model};
 use crate::system::{ChannelKind, InitialOverride, System};
 
-/// Take Poisson's bracket of two expressions.
+/// Compute the Poisson bracket of two expressions.
 ///
 /// [F, G] = Σ ∂F/∂q ∂G/∂p − ∂F/∂p ∂G/∂q, or ∇F · B ∇G where the file gives the brackets B of its
 /// variables; symbolically, and its value at the start. F and G may use whatever an observable
-/// may. Constraints are not looked at.
+/// may. Constraints are ignored.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

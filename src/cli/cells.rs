@@ -14,7 +14,7 @@ use crate::printable;
 pub(super) enum TableFormat {
     /// For reading: short numbers in columns.
     Text,
-    /// Comma-separated values, every digit; what is not a row stands in lines that begin with `#`.
+    /// Comma-separated values, every digit; anything else is in lines that begin with `#`.
     Csv,
     /// One JSON object.
     Json,

@@ -18,7 +18,7 @@ use crate::printable;
 /// Report all mistakes in files, and whether what they claim is true.
 ///
 /// Reports go to standard error. A file's claims (`conserved`, `[expect]`) are checked by
-/// integrating the motion. Without a mistake a terminal is told what was found, and
+/// integrating the motion. If there is none, what was found is shown on a terminal, and
 /// nothing else is written.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\

@@ -52,7 +52,7 @@ use crate::shell::options::{Words, with_defaults};
 /// A laboratory for analytical mechanics.
 ///
 /// Without a command it opens the laboratory on the screen, at a preset or a file, or at the
-/// picker where no name is given. A name with a `/` in it or ending in `.toml` is a file, any
+/// picker if no name is given. A name with a `/` in it or ending in `.toml` is a file, any
 /// other a preset; your own presets (in `phaselab/presets` of your configuration folder) come
 /// before shipped ones of the same name.
 #[derive(Debug, Parser)]

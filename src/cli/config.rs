@@ -10,7 +10,7 @@ use crate::printable;
 use crate::shell::config;
 use crate::shell::options::Words;
 
-/// Show where the configuration stands and what it may say, or look for mistakes in it.
+/// Show where the configuration belongs and what it may contain, or check it for mistakes it.
 ///
 /// The laboratory reads `phaselab/config.toml` in your configuration folder, if it is there. Its
 /// keys are the laboratory's options. An option on the command line wins over a variable of the
@@ -29,9 +29,9 @@ pub(super) struct Arguments {
 
 #[derive(Debug, clap::Subcommand)]
 enum Command {
-    /// Print a configuration that says what is so without one, with a comment on each key.
+    /// Print a configuration with all defaults and a comment on each key.
     PrintDefault,
-    /// Print where the configuration is looked for, whether it is there or not.
+    /// Print where the configuration file belongs, whether or not it exists.
     Path,
     /// Report every mistake in the configuration, or in a file that is to become one.
     Check {

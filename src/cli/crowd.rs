@@ -21,7 +21,7 @@ use crate::printable;
 /// How many orbits are computed at once.
 #[derive(Debug, clap::Args)]
 pub(super) struct Crowd {
-    /// The number of threads, all cores where it is left out; the output is the same.
+    /// The number of threads; by default all cores; the output is the same.
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
 }

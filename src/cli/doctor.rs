@@ -11,7 +11,7 @@ use crate::shell::diagnosis;
 use crate::view::card::card;
 use crate::view::glyphs::Glyphs;
 
-/// Report what the laboratory takes the terminal for, and why.
+/// Report what the laboratory knows about the terminal, and why.
 ///
 /// Nothing is asked of the terminal: the environment says it.
 #[derive(Debug, clap::Args)]

@@ -10,9 +10,9 @@ use crate::dynamics::{Equilibria, Equilibrium, Kind, VirtualWork, equilibria, wi
 
 /// Find equilibria and the small oscillations about them.
 ///
-/// Every place of rest around the start, with its kind (what the effective potential does there),
+/// Every equilibrium around the start, with its kind (what the effective potential does there),
 /// the eigenvalues of the linearised motion, frequencies and modes. Where a coordinate is cyclic it
-/// goes on with the momentum that it has at the start while all others rest (relative
+/// keeps moving with its momentum at the start while all others rest (relative
 /// equilibrium).
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -23,7 +23,7 @@ Examples:
 pub(super) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// The middle of the search, where it is not the start: a coordinate.
+    /// The centre of the search, if not the start: a coordinate.
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
     around: Vec<Assignment>,
 }

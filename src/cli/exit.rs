@@ -30,7 +30,7 @@ const fn exit(code: &'static str, when: &'static str) -> Exit {
 
 /// Every exit code, in order.
 pub const EXITS: &[Exit] = &[
-    exit("0", "success, also where nobody reads the output to its end (| head)"),
+    exit("0", "success, even if the output is not read to its end (| head)"),
     exit(
         "1",
         "failed: the motion met a fault (a singular mass matrix, a state that is not finite); \
@@ -51,7 +51,7 @@ pub const EXITS: &[Exit] = &[
     exit("129", "ended by a signal: the terminal has hung up"),
     exit("130", "ended by a signal: interrupted (Ctrl-C)"),
     exit("131", "ended by a signal: quit"),
-    exit("143", "ended by a signal: told to terminate"),
+    exit("143", "ended by a signal: asked to terminate"),
 ];
 
 /// The rows as lines of a help text, `width` characters wide.

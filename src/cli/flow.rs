@@ -25,7 +25,7 @@ Examples:
 pub(super) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// When to end; where it is left out, the file says, or 10 after the start.
+    /// When to end; by default as the file says, or 10 after the start.
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
     until: Option<f64>,
 }

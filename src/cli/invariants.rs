@@ -23,7 +23,7 @@ use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::printable;
 
-/// Find the constants of the motion that nobody wrote down.
+/// Find constants of the motion that the file does not name.
 ///
 /// Searches the polynomials in the momenta whose coefficients are polynomials in what the law is
 /// made of (coordinates, sines and cosines, roots, exponentials), by linear algebra modulo a prime;
@@ -39,10 +39,10 @@ pub(super) struct Arguments {
     /// A preset's name, or a file.
     #[arg(value_name = "PRESET|FILE")]
     name: OsString,
-    /// The greatest degree in the momenta; 6 where it is left out.
+    /// The greatest degree in the momenta; 6 by default.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=12))]
     degree: Option<u32>,
-    /// The seconds the search may take; 1 where it is left out, and no limit where a degree is
+    /// The seconds the search may take; 1 by default, and no limit where a degree is
     /// given.
     #[arg(long, value_name = "S", value_parser = number)]
     budget: Option<f64>,
@@ -58,7 +58,7 @@ pub(super) struct Arguments {
     /// How it is written.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
-    /// Writes to a file, which appears when it is complete and takes the place of an old one.
+    /// Writes to a file, which appears when it is complete and replaces an old one.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }

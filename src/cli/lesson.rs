@@ -31,7 +31,7 @@ pub(super) struct Lessons {
     /// A lesson's name, or a file.
     #[arg(value_name = "NAME|FILE")]
     lesson: Option<String>,
-    /// Begin at the beginning, wherever the lesson was left.
+    /// Start from the beginning instead of where you left the lesson.
     #[arg(long, requires = "lesson")]
     restart: bool,
     /// How the list is written.
@@ -57,7 +57,7 @@ Examples:
   phaselab tour
   phaselab tour --restart                from its beginning")]
 pub(super) struct Tour {
-    /// Begin at the beginning, wherever the tour was left.
+    /// Start from the beginning instead of where you left the tour.
     #[arg(long)]
     restart: bool,
 }

@@ -9,7 +9,7 @@ use super::run::progress::Bar;
 use super::study::{self, Study, StudyArguments, shown, table};
 use crate::dynamics::{Chaos, Gali, Lyapunov, Removed, gali, lyapunov};
 
-/// Measure how fast neighbouring motions part.
+/// Measure how fast neighbouring motions separate.
 ///
 /// All Lyapunov exponents with their uncertainty, the largest first, MEGNO (about 2 for regular
 /// motion, growing for chaotic), and a verdict with its reason: regular, chaotic, or undecided.
@@ -25,7 +25,7 @@ Examples:
 pub(super) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// When to end; where it is left out, the file says, or 10 after the start.
+    /// When to end; by default as the file says, or 10 after the start.
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
     until: Option<f64>,
     /// How many exponents are written, the largest first.

@@ -32,10 +32,10 @@ pub(super) struct MotionOptions {
     /// Sets an initial value: a coordinate `x`, a velocity `x'` or a momentum `p_x`.
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
     init: Vec<Assignment>,
-    /// The integrator, a name out of `phaselab methods`.
+    /// The integrator, a name from `phaselab methods`.
     #[arg(long, value_name = "NAME")]
     method: Option<String>,
-    /// The step of an integrator of fixed step.
+    /// The step of a fixed-step integrator.
     #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = number)]
     step: Option<f64>,
     /// The relative tolerance of an integrator that chooses its steps: a number, `fast` (1e-15, in plain `f64`) or

@@ -9,9 +9,9 @@ use super::output::{Output, OutputForm};
 use crate::preset::template;
 use crate::printable;
 
-/// Begin a system of your own: write a file that runs, with comments.
+/// Begin a system of your own: write a commented file that runs as it is.
 ///
-/// A file that exists is never written over.
+/// An existing file is never overwritten.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

@@ -14,7 +14,7 @@ use crate::dynamics::{
 };
 use crate::printable;
 
-/// Close the periodic orbit near the start.
+/// Find the periodic orbit near the start.
 ///
 /// Newton's method on the flow map finds the orbit of the start's energy, or of another energy or
 /// of a given period; where energy is not conserved, the limit cycle. Its multipliers are those of

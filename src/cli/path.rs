@@ -66,7 +66,7 @@ pub(super) struct Arguments {
     /// How the result is written.
     #[arg(long, value_enum, default_value_t = TableFormat::Text)]
     format: TableFormat,
-    /// Writes to a file, which appears when it is complete and takes the place of an old one.
+    /// Writes to a file, which appears when it is complete and replaces an old one.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }

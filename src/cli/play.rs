@@ -15,7 +15,7 @@ use crate::{file, printable};
 
 /// Play a cast (asciinema's, version 2 or 3) or a script of a demo on the terminal.
 ///
-/// Space holds it, `.` steps, `[` and `]` change the pace, the arrows go five seconds back and on,
+/// Space pauses, `.` steps, `[` and `]` change the speed, the arrows go back and forward by five seconds,
 /// Tab goes to the next chapter, Home to the beginning, End to the end, `c` shows or hides the line
 /// of controls, q leaves. Where no row is left below the cast that line stands over its last one,
 /// for a few seconds after each key. Whatever a cast holds, only its characters and colours reach

@@ -20,7 +20,7 @@ use crate::record::{Recording, Script, called, play, screenshot, transcript};
 /// Record a demo: a script of keys, waits and captions becomes a cast, the same on every machine.
 ///
 /// No terminal is needed, and nothing of this one matters: TERM, NO_COLOR, the locale, the time and
-/// the size of the window are not looked at. Without --script the preset's own demo is recorded. A
+/// the size of the window are ignored. Without --script the preset's own demo is recorded. A
 /// script whose claims (Assert) turn out false gives no cast.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -33,7 +33,7 @@ pub(super) struct Arguments {
     /// A preset's name, or a file.
     #[arg(value_name = "PRESET|FILE")]
     name: OsString,
-    /// The script; the preset's own demo where it is left out.
+    /// The script; by default the preset's own demo.
     #[arg(long, value_name = "FILE")]
     script: Option<PathBuf>,
     /// Columns and rows, where the script does not say them.
@@ -45,10 +45,10 @@ pub(super) struct Arguments {
     /// Takes a still as well: a drawing (.svg), text (.txt), or text with colours (.ans).
     #[arg(long, value_name = "FILE")]
     still: Option<PathBuf>,
-    /// The chapter the still is taken at; the end where it is left out.
+    /// The chapter the still is taken at; by default the end.
     #[arg(long, value_name = "MARKER", requires = "still")]
     at: Option<String>,
-    /// Writes to a file, which appears when it is complete and takes the place of an old one.
+    /// Writes to a file, which appears when it is complete and replaces an old one.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }

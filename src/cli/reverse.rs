@@ -22,7 +22,7 @@ use crate::printable;
 /// ε, which the way back multiplies by e^{λT}: a regular motion returns nearly to its start, a
 /// chaotic one to about ε e^{λT} of it, and none at all where that is as large as the motion. λ
 /// is the largest exponent of the reversed motion, −λₙ. Where there is no way back, as over
-/// impulses or dry friction, it is said why.
+/// impulses or dry friction, the reason is given.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -32,7 +32,7 @@ Examples:
 pub(super) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// When to reverse; where it is left out, the file says, or 10 after the start.
+    /// When to reverse; by default as the file says, or 10 after the start.
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
     until: Option<f64>,
 }

@@ -13,7 +13,7 @@ use crate::printable;
 /// How rows are written.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, clap::ValueEnum)]
 pub(super) enum RowFormat {
-    /// Comma-separated values; what is not a row stands in lines that begin with `#`.
+    /// Comma-separated values; anything else is in lines that begin with `#`.
     #[default]
     Csv,
     /// One JSON object.

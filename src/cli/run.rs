@@ -63,10 +63,10 @@ pub(super) struct Arguments {
     /// expression G of q and p. The column t is then ε, from 0; dq/dε = ∂G/∂p, dp/dε = −∂G/∂q.
     #[arg(long, value_name = "NAME|EXPR", allow_hyphen_values = true, conflicts_with = "ramp")]
     flow_of: Option<String>,
-    /// When to end; where it is left out, the file says, or 10 after the start.
+    /// When to end; by default as the file says, or 10 after the start.
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
     until: Option<f64>,
-    /// The time between two rows; 200 intervals where it is left out.
+    /// The time between two rows; by default 200 intervals.
     #[arg(long, value_name = "DT", allow_hyphen_values = true, value_parser = number)]
     #[arg(conflicts_with = "at")]
     every: Option<f64>,
@@ -74,10 +74,10 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "T,…", allow_hyphen_values = true, value_parser = number)]
     #[arg(value_delimiter = ',')]
     at: Option<Vec<f64>>,
-    /// The integrator, a name out of `phaselab methods`.
+    /// The integrator, a name from `phaselab methods`.
     #[arg(long, value_name = "NAME")]
     method: Option<String>,
-    /// The step of an integrator of fixed step.
+    /// The step of a fixed-step integrator.
     #[arg(long, value_name = "H", allow_hyphen_values = true, value_parser = number)]
     step: Option<f64>,
     /// The relative tolerance of an integrator that chooses its steps: a number, `fast` (1e-15, in plain `f64`) or
@@ -94,7 +94,7 @@ pub(super) struct Arguments {
     /// moves; the rows are written all the same.
     #[arg(long)]
     strict: bool,
-    /// Writes to a file, which appears when it is complete and takes the place of an old one.
+    /// Writes to a file, which appears when it is complete and replaces an old one.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }

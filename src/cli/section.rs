@@ -27,8 +27,8 @@ use crate::system::InitialOverride;
 ///
 /// One row a crossing: the orbit, the number of the crossing, the time, and the columns of `run`.
 /// Crossings are located on the dense output of the method, their times as exact as the method's
-/// own; a start on the surface is no crossing. A periodic function of the time makes a
-/// stroboscopic section. --rotation adds the mean part of a turn between two crossings, by weighted
+/// own; a start on the surface is not a crossing. A periodic function of the time makes a
+/// stroboscopic section. --rotation adds the mean fraction of a turn between two crossings, by weighted
 /// Birkhoff averages: a regular orbit has one with many digits, for a chaotic one none converges.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -75,7 +75,7 @@ pub(super) struct Arguments {
     /// How the crossings are written.
     #[arg(long, value_enum, default_value_t = TableFormat::Csv)]
     format: TableFormat,
-    /// Writes to a file, which appears when it is complete and takes the place of an old one.
+    /// Writes to a file, which appears when it is complete and replaces an old one.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }

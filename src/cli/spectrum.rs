@@ -26,7 +26,7 @@ const COLUMN: &str = "quantity";
 ///
 /// The lines of a quantity, the strongest first: found one after the other under a window, polished together,
 /// and named as combinations k·ω of as few fundamental frequencies as the system has. The quantity is taken at
-/// equal intervals from the start on; of an angle that goes round, its mean advance is taken away, and its mean rate
+/// equal intervals from the start; from an angle that advances, its mean advance is subtracted, and its mean rate
 /// (over 2π, the rotation number per unit of time) is given by a weighted average that converges fast.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -37,17 +37,17 @@ Examples:
 pub(super) struct Arguments {
     #[command(flatten)]
     study: StudyArguments,
-    /// The quantity: a coordinate, an observable, any expression; the first coordinate where it is left out.
+    /// The quantity: a coordinate, an observable, any expression; by default the first coordinate.
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     of: Option<String>,
-    /// When to end; where it is left out, after 90 seconds of the lab at the file's own speed.
+    /// When to end; by default after 90 seconds of the lab at the file's own speed.
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
     until: Option<f64>,
-    /// How many numbers are taken on the way, at equal intervals.
+    /// How many samples are taken, at equal intervals.
     #[arg(long, value_name = "N", default_value_t = COUNT,
           value_parser = clap::value_parser!(u32).range(64..=65_536))]
     count: u32,
-    /// How many lines are looked for.
+    /// How many lines to search for.
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=64))]
     lines: u32,
 }

@@ -33,7 +33,7 @@ use table::{MeasureName, SweepRow, SweepTable};
 /// Each column of the table, or axis of the grid, sets a parameter or an initial value. One row
 /// comes out for each: what was set, the status, the columns of `run` at the end, the drift of the
 /// energy, the measures. The bytes are the same whatever the number of threads. With -o the rows
-/// are kept in a journal beside the file until all are there, and --resume goes on after any end.
+/// are kept in a journal beside the file until all are there, and --resume continues after any interruption.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -51,7 +51,7 @@ pub(super) struct Arguments {
     /// An axis of a grid, evenly spaced; repeatable, the last varies fastest.
     #[arg(long, value_name = "NAME=FROM:TO:COUNT", allow_hyphen_values = true)]
     grid: Vec<GridAxis>,
-    /// When a run ends; where it is left out, the file says, or 10 after the start.
+    /// When a run ends; by default as the file says, or 10 after the start.
     #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number)]
     until: Option<f64>,
     /// One more column: period, period=EXPR, escape=EXPR, crossings=EXPR, lyapunov.
@@ -60,7 +60,7 @@ pub(super) struct Arguments {
     /// Every Nth row only, from the Ith on, for machines side by side.
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
-    /// Goes on with the sweep that -o names, where an earlier one was ended or killed.
+    /// Continues the sweep that -o names, after an earlier run was ended or killed.
     #[arg(long, requires = "output")]
     resume: bool,
     /// Puts all shards of one sweep together.
@@ -72,7 +72,7 @@ pub(super) struct Arguments {
     /// How the rows are written.
     #[arg(long, value_enum, default_value_t = TableFormat::Csv)]
     format: TableFormat,
-    /// Writes to a file, which appears when it is complete and takes the place of an old one.
+    /// Writes to a file, which appears when it is complete and replaces an old one.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }

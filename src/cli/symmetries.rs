@@ -38,7 +38,7 @@ pub(super) struct Arguments {
     /// A preset's name, or a file.
     #[arg(value_name = "PRESET|FILE")]
     name: OsString,
-    /// The seconds the search may take; 10 where it is left out.
+    /// The seconds the search may take; 10 by default.
     #[arg(long, value_name = "S", value_parser = number)]
     budget: Option<f64>,
     /// Sets a parameter.
@@ -47,7 +47,7 @@ pub(super) struct Arguments {
     /// How it is written.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
-    /// Writes to a file, which appears when it is complete and takes the place of an old one.
+    /// Writes to a file, which appears when it is complete and replaces an old one.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }

@@ -247,7 +247,7 @@ impl Experiment {
         let again = if count > 1 { format!(" and {} more", count - 1) } else { String::new() };
         Some(format!(
             "passed a singular configuration of the constraints at t = {time}{again}: motions branch \
-             there, and this one went on smoothly"
+             there, and this one continued smoothly"
         ))
     }
 

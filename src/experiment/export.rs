@@ -37,7 +37,7 @@ impl Export {
             missing.push("A constraint was released, so the file begins at the start.".to_owned());
         }
         if begun && all_active && model.impulses.iter().any(|impulse| impulse.period.is_some()) {
-            missing.push("Impulses that come again and again count from the new start.".to_owned());
+            missing.push("Periodic impulses count from the new start.".to_owned());
         }
         let mut edition = Rewrite {
             parameters: checkpoint.parameters.iter().map(|p| (p.name.clone(), p.value)).collect(),
@@ -88,7 +88,7 @@ impl Export {
 }
 
 /// The note for a file from which expectations were removed.
-const LEFT_OUT: &str = "What the file expects of the motion and no longer holds is left out.";
+const LEFT_OUT: &str = "Expectations of the file that no longer hold are left out.";
 
 /// The errors of a text, and a report if it cannot be opened at all.
 type Wrong = (Vec<Diagnostic>, Option<String>);

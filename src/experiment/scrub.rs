@@ -47,7 +47,7 @@ impl Experiment {
             motion.look_at_terms();
             self.scrubbed = Some(Box::new(Scrubbed { motion }));
         } else {
-            self.tell(format!("t = {} cannot be looked at again", short(time)));
+            self.tell(format!("t = {} can no longer be shown", short(time)));
         }
     }
 

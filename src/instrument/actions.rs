@@ -91,7 +91,7 @@ impl Instrument for ActionsPlot {
         }
         let offer = |(index, channel): (usize, usize)| Offer {
             label: format!("action variable of {}", model.coordinates[index].shown),
-            about: "J = ∮ p dq over the energy, with the separatrices; what a slow change leaves"
+            about: "J = ∮ p dq over the energy, with the separatrices; a slow change conserves it"
                 .to_owned(),
             columns: vec![vec![channel]],
             view: None,
@@ -226,7 +226,7 @@ impl Instrument for ActionsPlot {
             },
             Measure {
                 word: "change",
-                about: "by which part the action has changed since the start",
+                about: "by what fraction the action has changed since the start",
                 value: |_, _, answer| computed(answer)?.changes().map(|[action, _]| action),
             },
         ]
@@ -336,7 +336,7 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
     match &found.own.row {
         Err(why) => lines.push(why.to_string()),
         Ok(row) if row.kind == RegionKind::Unbounded => {
-            lines.push("the motion goes away and does not return".to_owned());
+            lines.push("the motion escapes and does not return".to_owned());
         }
         Ok(row) => {
             let [action, over] = [row.action, row.action / std::f64::consts::TAU].map(short);

@@ -65,7 +65,7 @@ impl Instrument for Ensemble {
         };
         let offer = |(x, y): (usize, usize)| Offer {
             label: format!("ensemble: {} against {}", physics.shown(y), physics.shown(x)),
-            about: "a cloud of starts carried by the flow, and the action ∫ p dq around it"
+            about: "an ensemble of starts carried by the flow, and the action ∫ p dq around it"
                 .to_owned(),
             columns: vec![vec![x], vec![y]],
             view: None,
@@ -198,7 +198,7 @@ impl Instrument for Ensemble {
             },
             Measure {
                 word: "off",
-                about: "how far the two are apart, as a part of what is expected",
+                about: "how far the two are apart, as a fraction of the expected value",
                 value: |_, present, answer| off(present, answer),
             },
             Measure {

@@ -272,7 +272,7 @@ fn described(answer: Option<&Answer>) -> Option<&Described> {
 /// What is said of the orbit, or why there is none.
 fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     let found = match found(answer).map(|found| &found.outcome) {
-        None => return vec!["looking for the periodic orbit near the motion".to_owned()],
+        None => return vec!["searching for the periodic orbit near the motion".to_owned()],
         Some(Err(why)) => return vec![why.clone()],
         Some(Ok(found)) => found,
     };

@@ -23,7 +23,7 @@ impl Instrument for Space {
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
         let offer = |columns| Offer {
             label: "motion in space".to_owned(),
-            about: "the picture of the thing itself".to_owned(),
+            about: "the system in space".to_owned(),
             columns,
             view: None,
             over: Vec::new(),

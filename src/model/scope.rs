@@ -251,7 +251,7 @@ impl Scope {
             return error.with_help(format!("names side by side are written apart: `{apart}`"));
         }
         if let Some(table) = table_of(name).filter(|_| primes == 0) {
-            let help = format!("{table} defines it; other names stand in [parameters]");
+            let help = format!("{table} defines it; other names belong in [parameters]");
             return error.with_help(help);
         }
         match nearest(name, known) {
@@ -313,9 +313,8 @@ impl Scope {
             Meaning::Defined(e) => e,
             Meaning::Later => {
                 let message = format!("`{name}` is not defined yet at this place");
-                return Err(
-                    SyntaxError::new(span, message).with_help("only what stands above may be used")
-                );
+                return Err(SyntaxError::new(span, message)
+                    .with_help("only what is defined above may be used"));
             }
         };
         if let Some((symbol, why)) = self.offender(pool, e) {

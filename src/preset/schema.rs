@@ -141,7 +141,7 @@ pub(super) const FILE: SchemaTable = SchemaTable {
         key("expect", Table(&EXPECT), "what the file claims of its motion"),
         key("frames", Tables(&FRAME), "frames that a picture may be seen from"),
         key("views", Kinds(&VIEW), "what the screen opens with"),
-        key("space", Table(&SPACE), "the picture of the thing itself"),
+        key("space", Table(&SPACE), "the system in space"),
         key("run", Table(&RUN), "how it is run"),
     ],
 };
@@ -149,7 +149,7 @@ pub(super) const FILE: SchemaTable = SchemaTable {
 /// A coordinate.
 pub(super) const COORDINATE: SchemaTable = SchemaTable {
     head: "[coordinates]",
-    about: "The coordinates in order: `theta = { initial = 2.0 }`.",
+    about: "The coordinates in order: `theta = { initial = 2.0 }`, or `theta = 2.0`, its initial value alone.",
     keys: &[
         INITIAL,
         key(

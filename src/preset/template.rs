@@ -5,10 +5,10 @@ pub fn template() -> &'static str {
     TEMPLATE
 }
 
-const TEMPLATE: &str = r#"# A system of your own. What is typed here runs as it stands; the title is the file's name unless one is given.
+const TEMPLATE: &str = r#"# A system of your own; it runs as it is. Without a title it is called by its file's name.
 # title = "Pendulum"
 
-[coordinates]                     # the state: each with its start, and what its velocity is there
+[coordinates]                     # each with its initial value and velocity; theta = 1.0 is enough
 theta = { symbol = "θ", unit = "rad", initial = 1.0, velocity = 0.0, period = "2*pi" }
 
 [parameters]                      # sliders of the lab: a number, or a table

@@ -49,7 +49,7 @@ pub(super) fn parse<'f>(text: &'f str, mistakes: &mut Diagnostics) -> Spanned<De
 fn steering(table: &DeTable<'_>, mistakes: &mut Diagnostics) {
     for (key, value) in table {
         if let Some(c) = key.get_ref().chars().find(|&c| printable::is_steering(c)) {
-            let message = format!("the character U+{:04X} may not stand in a name", c as u32);
+            let message = format!("the character U+{:04X} may not be used in a name", c as u32);
             mistakes.push(Diagnostic::error(key.span(), message));
             mistakes.lose_key(key.get_ref());
             mistakes.lose_value(key.span());

@@ -16,6 +16,7 @@ use super::lesson_question::{AnswerChoice, AnswerVerdict, GivenAnswer, Question,
 use super::recording::rows;
 use super::script::{Asked, Assert, LessonStep, Script, ScriptStep};
 use super::script_runner::{RunnerEvent, ScriptRunner};
+use crate::app::{KeyHints, Page};
 use crate::diagnostic::{Diagnostic, Document, SourceRange};
 use crate::view::lesson::{Paragraph, ParagraphKind};
 
@@ -145,6 +146,23 @@ impl Lesson {
             LessonStage::Task { .. } | LessonStage::Free => self.runner.lab.app.is_typing(),
             _ => false,
         }
+    }
+
+    /// Whether the lab is the person's.
+    pub(super) fn has_lab(&self) -> bool {
+        matches!(self.stage, LessonStage::Task { .. } | LessonStage::Free)
+    }
+
+    /// Gives the lab's keys to the person, or takes them for the lesson.
+    pub(super) fn share_keys(&mut self) {
+        self.runner.lab.app.hints =
+            if self.has_lab() { KeyHints::LabInLesson } else { KeyHints::Hidden };
+    }
+
+    /// Whether the person has left by a key or a click of the lab: it was quit, or exchanged for the list of systems.
+    pub fn is_left(&self) -> bool {
+        let lab = &self.runner.lab;
+        self.has_lab() && (lab.left || lab.app.page == Page::Picker)
     }
 
     /// Whether time passes.

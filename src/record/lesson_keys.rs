@@ -22,13 +22,12 @@ impl Lesson {
     /// Handles a key.
     pub fn press(&mut self, key: KeyEvent) -> Pressed {
         let held = key.modifiers.contains(KeyModifiers::CONTROL);
-        let typing = self.is_typing() && !matches!(self.stage, LessonStage::Typing(..));
-        let covered = self.runner.lab.app.overlay.is_some()
-            && matches!(self.stage, LessonStage::Task { .. } | LessonStage::Free);
+        self.share_keys();
         match key.code {
             KeyCode::Char('c') if held => return Pressed::Leave,
-            KeyCode::Char('q') if !held && !typing => return Pressed::Leave,
-            KeyCode::Esc if !covered => return Pressed::Leave,
+            // in the lab they close what lies on top first
+            KeyCode::Char('q') if !held && !self.has_lab() => return Pressed::Leave,
+            KeyCode::Esc if !self.has_lab() => return Pressed::Leave,
             _ => {}
         }
         let goes_on = matches!(key.code, KeyCode::Enter | KeyCode::Char(' ') | KeyCode::F(9));
@@ -89,6 +88,9 @@ impl Lesson {
             }
             LessonStage::Task { .. } | LessonStage::Free => {
                 self.runner.lab.happen(Event::Key(key));
+                if self.is_left() {
+                    return Pressed::Leave;
+                }
                 self.look_at_task();
             }
         }

@@ -21,6 +21,7 @@ impl Lesson {
     pub fn draw(&mut self, style: &RenderStyle, area: Rect, buffer: &mut Buffer) {
         let rows = self.pane_rows(area);
         let above = Rect { height: area.height - rows, ..area };
+        self.share_keys();
         self.runner.draw(style, above, buffer);
         let below = Rect { y: above.bottom(), height: rows, ..area };
         lesson::draw(style, &self.speech(), below, buffer);

@@ -357,9 +357,9 @@ impl ScriptReading {
                     return Err(Diagnostic::error(word.place.clone(), message).with_help(help));
                 }
                 if let Some(first) = self.given.insert(command.name, word.place.clone()) {
-                    let message = format!("`{}` is said twice", word.text);
+                    let message = format!("`{}` is given twice", word.text);
                     let mistake = Diagnostic::error(word.place.clone(), message);
-                    return Err(mistake.with_also(first, "it was said here"));
+                    return Err(mistake.with_also(first, "it was given here"));
                 }
                 say(&mut self.head);
             }

@@ -98,7 +98,7 @@ impl CastPlayer {
         cut.then(|| {
             format!(
                 "the cast is {columns}×{rows}, the window {width}×{height}: \
-                 enlarge it, or take a smaller font"
+                 enlarge it, or use a smaller font"
             )
         })
     }

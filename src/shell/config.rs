@@ -65,7 +65,7 @@ fn word(row: &OptionRow, entry: &Setting) -> Result<String, Diagnostic> {
         Plain::Text(text) if row.is_switch => {
             let mistake = at(format!("`{}` must be true or false, not a text", row.name));
             let quoted = ["true", "false"].contains(&text.as_str());
-            return Err(if quoted { mistake.with_help("leave the quotes away") } else { mistake });
+            return Err(if quoted { mistake.with_help("remove the quotes") } else { mistake });
         }
         Plain::Text(text) => text.clone(),
         Plain::Other(kind) => {
@@ -86,7 +86,7 @@ fn word(row: &OptionRow, entry: &Setting) -> Result<String, Diagnostic> {
 pub fn default_text() -> String {
     let mut text = "\
 # The configuration of phaselab: what the laboratory opens with.
-# It stands where `phaselab config path` says. An option on the command line
+# `phaselab config path` prints where it belongs. An option on the command line
 # wins over a variable of the environment (PHASELAB_FPS), and that over a key
 # here. Each key below has the value it has without this file.
 "

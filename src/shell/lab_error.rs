@@ -21,7 +21,7 @@ pub enum LabError {
     #[error(transparent)]
     SessionError(#[from] SessionError),
     /// The session could not be saved at the end.
-    #[error("the session is not saved: {}", printable::why(.0))]
+    #[error("the session could not be saved: {}", printable::why(.0))]
     Unsaved(std::io::Error),
     /// The log cannot be written.
     #[error(transparent)]

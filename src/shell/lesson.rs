@@ -45,7 +45,8 @@ impl<L: BorrowMut<Lesson>> Screen for LessonScreen<L> {
             let at = [mouse.column, mouse.row];
             let look = self.look.reduced(self.detail);
             self.lesson.borrow_mut().point(with_shift(mouse), &look, at);
-            return ScreenRequest::Nothing;
+            let left = self.lesson.borrow().is_left();
+            return if left { ScreenRequest::Quit } else { ScreenRequest::Nothing };
         }
         let Event::Key(key) = event else { return ScreenRequest::Nothing };
         if key.kind == KeyEventKind::Release {

@@ -51,10 +51,10 @@ const LONGEST: usize = 1 << 20;
 #[derive(Debug, thiserror::Error)]
 pub enum ProgressError {
     /// There is no home folder.
-    #[error("the progress in lessons is not saved: there is no home folder to save it in")]
+    #[error("the progress in lessons could not be saved: there is no home folder to save it in")]
     NoHome,
     /// The file cannot be read or written.
-    #[error("the progress in lessons is not saved: {}: {}", printable::path(.path), printable::why(.reason))]
+    #[error("the progress in lessons could not be saved: {}: {}", printable::path(.path), printable::why(.reason))]
     Refused {
         /// The file.
         path: PathBuf,
@@ -62,7 +62,7 @@ pub enum ProgressError {
         reason: io::Error,
     },
     /// The file is of a newer version, or it is damaged.
-    #[error("the progress in lessons is not saved: {} {what} and was left unchanged", printable::path(.path))]
+    #[error("the progress in lessons could not be saved: {} {what} and was left unchanged", printable::path(.path))]
     Unknown {
         /// The file.
         path: PathBuf,

@@ -47,7 +47,7 @@ pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
             _ => pool.unicode(e),
         }
     };
-    page.heading("Constants of the motion nobody wrote down");
+    page.heading("Further constants of the motion");
     if invariants.found.is_empty() && !invariants.is_exhausted() {
         page.words(Role::Dim, "None was found.");
     }

@@ -197,7 +197,7 @@ pub(super) fn departed(snapshot: &Snapshot, glyphs: Glyphs) -> Option<(Role, Str
 /// A sentence that explains a verdict.
 fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
     match verdict {
-        Verdict::Open => "the motion is too short to tell".to_owned(),
+        Verdict::Open => "the motion is too short for a verdict".to_owned(),
         Verdict::Exact(Growth::Level) => "at the rounding floor, and it stays there".to_owned(),
         Verdict::Exact(Growth::Root) => {
             "at the rounding floor, growing like √t: as good as rounding allows".to_owned()

@@ -16,7 +16,9 @@ use super::timeline;
 use super::values::typing;
 use super::wrap::words_in;
 use crate::app::keymap::{KEYS, Place};
-use crate::app::{Action, App, HitTarget, InputField, Lab, Overlay, Page, Pane, Purpose, ValueId};
+use crate::app::{
+    Action, App, HitTarget, InputField, KeyHints, Lab, Overlay, Page, Pane, Purpose, ValueId,
+};
 use crate::experiment::{Snapshot, Status};
 
 /// The pages of a loaded system and their keys.
@@ -216,7 +218,10 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         Some((text, role)) => (canvas.text(&text), role),
         None => (meaning, role),
     };
-    let mut hints = hints(canvas, app);
+    let mut hints = match app.hints {
+        KeyHints::Hidden => Vec::new(),
+        KeyHints::Lab | KeyHints::LabInLesson => hints(canvas, app),
+    };
     let long = |hint: &Hint| hint.spans.iter().map(|(text, _)| text.width()).sum::<usize>();
     let wide = |hints: &[Hint]| hints.iter().map(long).sum::<usize>() + 3 * hints.len();
     // The last two hints, help and quit, are always shown; the others are dropped to make room for the meaning.
@@ -327,7 +332,12 @@ fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
             Action::Quit => app.closes_with_quit(),
             _ => false,
         };
-        let word = if closes { "close" } else { row.hint };
+        let leaves = row.action == Action::Quit && app.hints == KeyHints::LabInLesson;
+        let word = match row.hint {
+            _ if closes => "close",
+            _ if leaves => "leave",
+            hint => hint,
+        };
         let word = canvas.span(Role::Dim, format!(" {word}"));
         Hint { spans: vec![canvas.span(Role::Accent, first), word], action: row.action }
     };

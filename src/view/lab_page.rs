@@ -249,7 +249,7 @@ fn stopped(canvas: &mut Canvas<'_>, area: Rect, fault: &Failure) {
         height,
     };
     canvas.clear(place);
-    let title = [canvas.span(Role::Bad, "The motion cannot go on")];
+    let title = [canvas.span(Role::Bad, "The motion cannot continue")];
     let inner = canvas.pane(place, &title, true);
     let inner = columns(inner, 1, inner.width.saturating_sub(2));
     for (index, line) in lines.iter().enumerate() {

@@ -234,7 +234,7 @@ fn summary(canvas: &mut Canvas<'_>, area: Rect, entry: &CatalogEntry) -> u16 {
 fn preview(canvas: &mut Canvas<'_>, area: Rect, app: &App, entry: &CatalogEntry) {
     let text = columns(area, 1, area.width.saturating_sub(2));
     if let Some(failure) = app.picker.failure.as_ref().filter(|f| f.name == entry.name) {
-        canvas.left(row(text, 0), Role::Bad, "This file has mistakes; Enter shows all of them.");
+        canvas.left(row(text, 0), Role::Bad, "This file has errors; Enter shows all of them.");
         for (index, line) in failure.message.lines().take(usize::from(text.height)).enumerate() {
             canvas.left(row(text, index + 2), Role::Text, line);
         }

@@ -101,7 +101,7 @@ fn lines(canvas: &Canvas<'_>, lab: &Lab, prompt: &Prompt, width: usize) -> Vec<V
                     (Zero::Proved, _) => (Role::Good, "It vanishes everywhere: proved."),
                     (Zero::Numerically, _) => (
                         Role::Warn,
-                        "It vanishes to rounding wherever it was tried; there is no proof.",
+                        "It vanishes to rounding at every point tried; there is no proof.",
                     ),
                     (Zero::Unknown, _) => {
                         (Role::Warn, "Whether it vanishes everywhere is not known.")
@@ -135,7 +135,7 @@ fn lines(canvas: &Canvas<'_>, lab: &Lab, prompt: &Prompt, width: usize) -> Vec<V
                     Class::Proved => (Role::Good, "Conserved: proved, dG/dt vanishes everywhere."),
                     Class::Numerically => (
                         Role::Warn,
-                        "Conserved, to rounding: dG/dt vanishes wherever it was tried; there is no proof.",
+                        "Conserved, to rounding: dG/dt vanishes at every point tried; there is no proof.",
                     ),
                     Class::AtTheseParameters => (
                         Role::Good,

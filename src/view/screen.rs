@@ -90,7 +90,7 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
         );
     }
     if let Some(Overlay::Message(failure)) = over {
-        let title = [canvas.span(Role::Title, format!("{} has mistakes", failure.name))];
+        let title = [canvas.span(Role::Title, format!("{} has errors", failure.name))];
         let inner = canvas.pane(area, &title, true);
         let mut page = TextPage::default();
         let lines = failure.message.lines();

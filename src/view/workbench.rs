@@ -36,7 +36,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, sheet: &Sourc
     let place = sheet.editor.cursor();
     let title = [
         canvas.span(Role::Title, &sheet.title),
-        canvas.span(Role::Warn, if sheet.is_modified() { "  not saved" } else { "" }),
+        canvas.span(Role::Warn, if sheet.is_modified() { "  unsaved" } else { "" }),
         canvas.span(Role::Dim, format!("  {}:{}", place.row + 1, place.column + 1)),
     ];
     let inner = canvas.pane(left, &title, true);

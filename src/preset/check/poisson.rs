@@ -30,7 +30,7 @@ impl Check<'_> {
                     first.get_ref(),
                     second.get_ref()
                 );
-                let help = "{b, a} is -{a, b}: one of them tells both";
+                let help = "{b, a} is -{a, b}: one of them gives both";
                 let mistake = Diagnostic::error(bracket.place.clone(), message).with_help(help);
                 self.mistakes.push(mistake.with_also(before.clone(), "the first time"));
                 continue;

@@ -76,7 +76,7 @@ pub(super) fn moving(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftMo
     if !top.has("coordinates") && !top.has("variables") {
         let key = if top.has("poisson") { "variables" } else { "coordinates" };
         let missing = Diagnostic::error(0..0, format!("the file has no {key}"));
-        let help = format!("write [{key}], and below it x = {{ initial = 1.0 }}");
+        let help = format!("write [{key}], and below it x = 1.0");
         top.lacks(key, missing.with_help(help));
     }
     let tables = ["coordinates", "variables"].map(|key| {
@@ -85,7 +85,7 @@ pub(super) fn moving(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftMo
             let what = key.trim_end_matches('s');
             let message = format!("there is no {what} here");
             let missing = Diagnostic::error(table.place.clone(), message);
-            mistakes.missing(key, missing.with_help("write x = { initial = 1.0 }"));
+            mistakes.missing(key, missing.with_help("write x = 1.0"));
         }
         Some(table)
     });
@@ -101,17 +101,19 @@ pub(super) fn moving(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftMo
     moving
 }
 
+/// A coordinate: its initial value alone, or a table.
 fn coordinate<'d>(
     name: Spanned<String>,
     entry: &'d Value<'d>,
     mistakes: &mut Diagnostics,
 ) -> DraftCoordinate {
     let called = format!("the coordinate `{}`", name.get_ref());
-    let shape = format!("{} = {{ initial = ... }}", name.get_ref());
-    let table = Table::of(entry, called, name.span(), &shape, mistakes);
     let mut coordinate = DraftCoordinate::unread(name);
-    let Some(table) = table else { return coordinate };
-    let mut table = table.with(&COORDINATE);
+    let DeValue::Table(entries) = entry.get_ref() else {
+        coordinate.initial = value::formula(entry, &called, mistakes);
+        return coordinate;
+    };
+    let mut table = Table::new(called, coordinate.name.span(), entries).with(&COORDINATE);
     coordinate.initial = table.formula("initial", mistakes);
     let mut rate = |key| {
         let (place, found) = table.take(key)?;

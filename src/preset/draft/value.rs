@@ -83,8 +83,7 @@ pub(super) fn number(
         DeValue::Integer(_) | DeValue::Float(_) => digits(value, called, mistakes)?,
         DeValue::String(_) => {
             let message = format!("{called} must be a number, not a text in quotes");
-            mistakes
-                .push(Diagnostic::error(value.span(), message).with_help("leave the quotes away"));
+            mistakes.push(Diagnostic::error(value.span(), message).with_help("remove the quotes"));
             return None;
         }
         _ => {
@@ -112,7 +111,7 @@ pub(super) fn constant(
     let Some(found) = found.filter(|x| x.is_finite()) else {
         let message = format!("{called} must be a finite number, or an expression of numbers");
         let help =
-            "write 2.5 or \"2*pi\"; what follows from other parameters stands in [definitions]";
+            "write 2.5 or \"2*pi\"; what follows from other parameters belongs in [definitions]";
         mistakes.push(Diagnostic::error(value.span(), message).with_help(help));
         return None;
     };

@@ -102,7 +102,7 @@ impl<'a> Line<'a> {
             return Err(if rest.is_empty() {
                 self.missing(what)
             } else {
-                Diagnostic::error(place, format!("{what} stands in quotes"))
+                Diagnostic::error(place, format!("{what} belongs in quotes"))
                     .with_help(format!("write it as \"{}\"", rest.trim_matches('"')))
             });
         };
@@ -117,7 +117,7 @@ impl<'a> Line<'a> {
                 '\\' if !escaped => escaped = true,
                 c if c.is_control() => {
                     let place = self.start + from + 1 + at..self.start + from + 2 + at;
-                    let message = "a character that cannot be shown stands in this text";
+                    let message = "this text has a character that cannot be shown";
                     return Err(Diagnostic::error(place, message));
                 }
                 c => {

@@ -167,7 +167,7 @@ impl Session {
         let unsaved = self.app.unsaved().iter().any(|text| text.name == failure.name);
         if let Some(place) = place.filter(|_| unsaved) {
             let place = place.display();
-            failure.message += &format!("\n\nThe text of it that is not saved is in {place}.\n");
+            failure.message += &format!("\n\nIts unsaved text is in {place}.\n");
         }
         failure
     }

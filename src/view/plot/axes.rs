@@ -230,9 +230,14 @@ impl StrokeContext<'_> {
         for row in y..y.saturating_add(height) {
             self.put(line, row, self.glyphs.pick("│", "|"), self.theme[Role::Border]);
         }
+        let mut labelled = None;
         for tick in &plan.y.marks {
             let Some(cell) = plan.frame.cell([plan.frame.x.middle(), tick.value]) else { continue };
             self.put(line, cell.y, self.glyphs.pick("┤", "+"), self.theme[Role::Border]);
+            // in a pane of few rows two ticks may share one, which has room for one label
+            if labelled.replace(cell.y) == Some(cell.y) {
+                continue;
+            }
             let width = tick.label.width() as u16;
             let start = line.saturating_sub(width).max(self.area.x);
             self.write(start, cell.y, &tick.label, self.theme[Role::Dim]);

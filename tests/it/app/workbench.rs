@@ -453,7 +453,7 @@ fn a_second_rebuild_before_the_first_was_seen_goes_on_with_the_same_motion() {
 fn leaving_keeps_the_text_and_coming_back_finds_it() {
     let mut app = edited();
     press(&mut app, "x y Esc");
-    assert!(app.notice.as_ref().unwrap().text.contains("not saved"));
+    assert!(app.notice.as_ref().unwrap().text.contains("unsaved changes"));
     assert!(app.overlay.is_none());
     // q in the editor is a letter, in the lab it leaves
     press(&mut app, "E q");
@@ -505,14 +505,14 @@ fn saving_what_has_a_mistake_says_so() {
     rest(&mut app);
     saved(&mut app);
     let with = told(&app);
-    assert!(with.starts_with("Saved: ./my.toml, with 1 mistake: "), "{with}");
+    assert!(with.starts_with("Saved: ./my.toml, with 1 error: "), "{with}");
     assert!(with.contains("thet"), "{with}");
     // one that was saved before it was checked
     replace(&mut app, "thet)", "thetta)");
     saved(&mut app);
     assert_eq!(told(&app), "Saved: ./my.toml");
     rest(&mut app);
-    assert!(told(&app).starts_with("Saved: ./my.toml, with 1 mistake: "), "{}", told(&app));
+    assert!(told(&app).starts_with("Saved: ./my.toml, with 1 error: "), "{}", told(&app));
     replace(&mut app, "thetta)", "theta)");
     saved(&mut app);
     rest(&mut app);
@@ -554,7 +554,7 @@ fn what_becomes_of_a_watched_file_is_reported() {
     assert_eq!(told(&app), "./my.toml no longer exists; its last valid version keeps running.");
     app.update(Event::FileThere(true));
     app.update(file(&text));
-    assert_eq!(told(&app), "./my.toml is there again.");
+    assert_eq!(told(&app), "./my.toml exists again.");
     app.update(file(&text.replace("9.81", "1.62")));
     rest(&mut app);
     assert_eq!(told(&app), "./my.toml: rebuilt in 7 ms; the motion continues.");

@@ -131,7 +131,7 @@ fn several_constraints_hide_nothing() {
     let engel = answers(&["x", "y", "z", "w"], &["y' - z*x'", "z' - w*x'"]);
     assert_eq!(engel[1], Some(false));
     assert_ne!(engel[0], Some(true));
-    // a constraint said twice makes every product of forms vanish, which proves nothing
+    // a constraint given twice makes every product of forms vanish, which proves nothing
     let twice = answers(&["x", "y", "z"], &["z' - y*x'", "2*z' - 2*y*x'"]);
     assert!(twice.iter().all(|answer| *answer != Some(true)), "{twice:?}");
     // held to a plane, what was not integrable is

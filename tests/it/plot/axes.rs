@@ -133,3 +133,23 @@ fn labels_keep_apart_and_inside() {
         assert!(labels.iter().all(|label| (1_000.0..=1_000.4).contains(label)), "{last}");
     }
 }
+
+#[test]
+fn ticks_that_share_a_row_have_one_label() {
+    let axes = Axes::new(
+        DrawnAxis::new("t", "s", Scale::linear(0.0, 10.0)),
+        DrawnAxis::new("x", "m", Scale::linear(-6.0, 6.0)),
+    );
+    for height in 5..12 {
+        let area = Rect::new(0, 0, 40, height);
+        let (buffer, _) = drawn(&axes, area, Glyphs::Ascii, ColourDepth::True);
+        let labels: Vec<String> = rows(&buffer)[1..usize::from(height) - 2]
+            .iter()
+            .filter_map(|row| Some(row.split_once('+')?.0.trim().to_owned()))
+            .collect();
+        assert!(!labels.is_empty(), "{height}");
+        let plain =
+            |label: &String| ["-6", "-5", "-4", "-2", "0", "2", "4", "5", "6"].contains(&&**label);
+        assert!(labels.iter().all(plain), "{height}: {labels:?}");
+    }
+}

@@ -2,8 +2,8 @@
 
 use phaselab::expr::{Expr, Rank};
 use phaselab::model::{
-    Allowed, AttitudeSource, BodyNames, Direction, EventAction, Mechanics, Model, PieceOrientation,
-    Scope, Shape, Solid, multiplier_name,
+    Allowed, AttitudeSource, BodyNames, Coordinate, Direction, EventAction, Mechanics, Model,
+    PieceOrientation, Scope, Shape, Solid, multiplier_name,
 };
 
 use super::good::{checked, model, text, with};
@@ -286,6 +286,24 @@ brackets = [["x", "p_x", "1"]]
     assert_ne!(x.momentum, p.position);
     let (_, h) = plane.mechanics.function();
     assert!(plane.pool.depends(h, p.position) && !plane.pool.depends(h, x.momentum));
+}
+
+#[test]
+fn a_coordinate_may_be_given_by_its_initial_value_alone() {
+    let start = |x: &str, y: &str| {
+        let file = model(&format!(
+            "title = \"t\"\n[coordinates]\nx = {x}\ny = {y}\n[parameters]\nk = 3.0\n\
+             [lagrangian]\nL = \"1/2*(x'^2 + y'^2) - 1/2*k*(x^2 + y^2)\"\n"
+        ));
+        let values = |coordinate: &Coordinate| {
+            (text(&file, coordinate.initial), text(&file, coordinate.initial_rate))
+        };
+        file.coordinates.iter().map(values).collect::<Vec<_>>()
+    };
+    let short = start("0.5", "\"k/2\"");
+    assert_eq!(short, start("{ initial = 0.5 }", "{ initial = \"k/2\", velocity = 0 }"));
+    assert_eq!(short[0].0, "1/2");
+    assert_ne!(short, start("0.5", "\"k\""));
 }
 
 /// A rotating hammer: a head and a handle.

@@ -6,6 +6,9 @@ use phaselab::record::script::ScriptStep;
 
 use super::{on_all_cores, replay, script, shipped};
 
+/// What a caption may have on a screen of 80 columns.
+const CAPTION: usize = 76;
+
 #[test]
 fn every_demo_is_of_a_preset_and_about_it() {
     let catalog = Catalog::with_folder(None);
@@ -14,6 +17,13 @@ fn every_demo_is_of_a_preset_and_about_it() {
         assert_eq!(script.head.open.expect("a system").text, name);
         assert!(catalog.find(name).is_ok(), "{name}");
         assert!(script.head.size.is_some(), "{name} says its size");
+        assert!(!script.head.footer, "{name} leaves the room of the footer to the picture");
+        for (_, step) in &script.steps {
+            if let ScriptStep::Caption(text) = step {
+                let long = text.chars().count();
+                assert!(long <= CAPTION, "{name}: {long} characters in `{text}`");
+            }
+        }
         let count = |wanted: fn(&ScriptStep) -> bool| {
             script.steps.iter().filter(|(_, step)| wanted(step)).count()
         };

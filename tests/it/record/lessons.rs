@@ -234,6 +234,55 @@ fn it_can_be_left_at_any_time_and_goes_on_there() {
 }
 
 #[test]
+fn the_footer_of_the_lab_shows_keys_only_where_they_do_what_it_says() {
+    let text = "Say \"first\"\nPredict \"How far?\" r within 0.1\nWait 2s\nOutcome\n\
+                Task \"do\" hint \"like this\" until e < 0.5\nSolution Down x3 Enter 0 Enter\n";
+    let mut lesson = taken(text);
+    let without = |lesson: &mut Lesson, stage: &str| {
+        pass(lesson, 0.5);
+        let shown = shown(lesson);
+        assert!(shown.contains(stage), "{stage}: {shown}");
+        for hint in ["? help", "choose", "change", "pause", "quit"] {
+            assert!(!shown.contains(hint), "{stage}: {hint}\n{shown}");
+        }
+    };
+    without(&mut lesson, "Enter continues");
+    keys(&mut lesson, "\n");
+    without(&mut lesson, "type a number");
+    keys(&mut lesson, "1\n");
+    without(&mut lesson, "watch what happens");
+    pass(&mut lesson, 4.0);
+    without(&mut lesson, "Enter continues");
+    keys(&mut lesson, "\n");
+    pass(&mut lesson, 0.5);
+    let task = shown(&mut lesson);
+    assert!(task.contains("? help   q leave"), "{task}");
+}
+
+#[test]
+fn in_a_task_q_and_esc_close_what_lies_on_top_before_they_leave() {
+    let text = "Wait 1s\nTask \"do\" hint \"like this\" until e < 0.5\n\
+                Solution Down x3 Enter 0 Enter\n";
+    let press = |lesson: &mut Lesson, code| lesson.press(KeyEvent::from(code));
+    let (q, esc) = (KeyCode::Char('q'), KeyCode::Esc);
+    for close in [q, esc] {
+        let mut lesson = taken(text);
+        pass(&mut lesson, 2.0);
+        keys(&mut lesson, "?");
+        assert!(shown(&mut lesson).contains("q close"));
+        assert_eq!(press(&mut lesson, close), Pressed::Taken);
+        assert!(shown(&mut lesson).contains("q leave"));
+        assert_eq!(press(&mut lesson, q), Pressed::Leave);
+    }
+    // one Esc too many does not leave, and says so
+    let mut lesson = taken(text);
+    pass(&mut lesson, 2.0);
+    assert_eq!(press(&mut lesson, esc), Pressed::Taken);
+    assert!(shown(&mut lesson).contains("Esc again to leave the lesson."));
+    assert_eq!(press(&mut lesson, esc), Pressed::Leave);
+}
+
+#[test]
 fn the_pane_lies_below_the_lab_and_is_readable_without_colour_and_in_ascii() {
     for name in lessons() {
         let source = lesson(name).expect("a lesson");

@@ -51,7 +51,7 @@ fn mistakes_stand_in_their_places() {
     check("Press Tba\nWait 1s", &["1:7 there is no key `Tba`; did you mean `Tab`?"]);
     check("Press x3", &["1:7 `x3` stands behind a key; as in Press Down x3"]);
     check("Press", &["1:6 here a key is missing"]);
-    check("Caption bare words", &["1:9 a text stands in quotes; write it as \"bare words\""]);
+    check("Caption bare words", &["1:9 a text belongs in quotes; write it as \"bare words\""]);
     check("Caption \"open", &["1:9 this text has no end; put a \" behind it"]);
     check(
         "Wait 1s\nSize 80x24",
@@ -59,7 +59,7 @@ fn mistakes_stand_in_their_places() {
             "2:1 `Size` comes too late: the demo has begun; what holds for the whole demo stands before what happens",
         ],
     );
-    check("Size 80x24\nSize 90x24\nWait 1s", &["2:1 `Size` is said twice"]);
+    check("Size 80x24\nSize 90x24\nWait 1s", &["2:1 `Size` is given twice"]);
     check("Size 80\nWait 1s", &["1:6 a size is written 100x30, columns and rows"]);
     check("Size 8x8\nWait 1s", &["1:6 a screen has from 40x11 to 400x150 characters"]);
     check("Theme drak\nWait 1s", &["1:7 `drak` is not a theme; did you mean `dark`?"]);

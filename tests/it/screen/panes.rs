@@ -324,7 +324,7 @@ fn status_and_fault_are_reported() {
     app.update(Event::Snapshot(Arc::new(seen)));
     let buffer = screen(&app, &rich(), (120, 40));
     for text in
-        ["stopped", "The motion cannot go on", "The bob left the world", "r back to the start"]
+        ["stopped", "The motion cannot continue", "The bob left the world", "r back to the start"]
     {
         assert!(find(&buffer, text).is_some(), "{text}");
     }

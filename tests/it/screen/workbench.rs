@@ -154,7 +154,7 @@ proptest! {
 #[test]
 fn what_is_reported_leaves_the_keys_in_sight() {
     let mut app = edited();
-    let told = "Saved: /home/somebody/a/long/way/to/a/file.toml, with 1 mistake: 12:3 no such name";
+    let told = "Saved: /home/somebody/a/long/way/to/a/file.toml, with 1 error: 12:3 no such name";
     for size in [(80, 24), (120, 40), (200, 60)] {
         for look in [rich(), plain()] {
             app.notice = None;

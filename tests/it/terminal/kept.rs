@@ -139,7 +139,7 @@ fn a_disk_that_is_full_at_the_end_is_reported() {
     lab.press("q");
     assert_eq!(lab.ends().0, 74);
     lab.assert_restored();
-    assert!(lab.text().contains("the session is not saved: cannot write"), "{}", lab.text());
+    assert!(lab.text().contains("the session could not be saved: cannot write"), "{}", lab.text());
 }
 
 #[test]

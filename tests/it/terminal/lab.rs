@@ -250,12 +250,12 @@ fn a_file_with_mistakes_is_shown_with_its_mistakes() {
     let text = "title = \"Wrong\"\n[coordinates]\nx = { initial = 1.0 }\n[lagrangian]\nL = \"y\"\n";
     fs::write(&path, text).expect("a file");
     let mut lab = Setup::new(PROGRAM, &[]).size(120, 40).argument(&path).start();
-    lab.shows("mistakes");
+    lab.shows("has errors");
     lab.shows("L = \"y\"");
     lab.shows("^");
     // the first q closes the report
     lab.press("q");
-    lab.until("it is closed", |lab| !lab.text().contains("has mistakes"));
+    lab.until("it is closed", |lab| !lab.text().contains("has errors"));
     quits(lab);
 }
 

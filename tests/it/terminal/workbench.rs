@@ -79,7 +79,7 @@ fn a_file_saved_elsewhere_is_taken_up_and_mistakes_do_not_stop_the_motion() {
     fs::remove_file(&place).expect("it goes");
     lab.shows("no longer exists");
     fs::write(&place, text).expect("it can be written");
-    lab.shows("is there again");
+    lab.shows("exists again");
     quits(lab);
 }
 
@@ -89,7 +89,7 @@ fn a_watched_file_that_is_wrong_at_first_opens_once_it_is_right() {
     let place = folder.path().join("own.toml");
     fs::write(&place, FILE.replace("k = 4.0", "kk = 4.0")).expect("it can be written");
     let mut lab = Setup::new(PROGRAM, &["--watch"]).argument(&place).size(120, 40).start();
-    lab.shows("own.toml has mistakes");
+    lab.shows("own.toml has errors");
     // another mistake, and then none
     fs::write(&place, format!("unknown = 1\n{FILE}")).expect("it can be written");
     lab.shows("`unknown`");
