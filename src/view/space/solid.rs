@@ -31,6 +31,29 @@ pub(super) fn cone(tip: [f64; 3], base: [f64; 3], radius: f64) -> Vec<Occluder> 
     [vec![Occluder::Face(rim.clone())], sides].concat()
 }
 
+/// The rims of a cylinder about the centres of its ends.
+pub(super) fn rims([from, to]: [[f64; 3]; 2], radius: f64) -> [Vec<[f64; 3]>; 2] {
+    let axis = [0, 1, 2].map(|k| to[k] - from[k]);
+    [from, to].map(|centre| circle(centre, radius, axis))
+}
+
+/// The straight lines at which a surface between two rims turns away from the eye, which looks along the third axis.
+pub(super) fn silhouette(low: &[[f64; 3]], high: &[[f64; 3]]) -> Vec<[[f64; 3]; 2]> {
+    let sides: Vec<[[f64; 3]; 2]> = low.iter().zip(high).map(|(a, b)| [*a, *b]).collect();
+    // Whichever rim is a point, the other one has sides of some length.
+    let faces_eye = |pair: &[[[f64; 3]; 2]]| {
+        let ([a, b], [c, d]) = (pair[0], pair[1]);
+        let along = |p: [f64; 3], q: [f64; 3]| [q[0] - p[0], q[1] - p[1]];
+        let up = along([0, 1, 2].map(|k| a[k] + c[k]), [0, 1, 2].map(|k| b[k] + d[k]));
+        let round = along([0, 1, 2].map(|k| a[k] + b[k]), [0, 1, 2].map(|k| c[k] + d[k]));
+        round[0] * up[1] > round[1] * up[0]
+    };
+    let facing: Vec<bool> = sides.windows(2).map(faces_eye).collect();
+    let count = facing.len();
+    let turns = (0..count).filter(|&i| facing[i] != facing[(i + count - 1) % count]);
+    turns.map(|i| sides[i]).collect()
+}
+
 /// The surface of a tube between two rims of the same number of points, with its ends.
 pub(super) fn tube(low: &[[f64; 3]], high: &[[f64; 3]], closed: bool) -> Vec<Occluder> {
     let pairs = low.windows(2).zip(high.windows(2));
