@@ -38,14 +38,14 @@ pub(super) fn shortened(text: &str, width: usize, mark: &str) -> String {
     if whole.len() == torn.len() && !rest.starts_with(char::is_whitespace) {
         whole = whole.rsplit_once(char::is_whitespace).map_or("", |(before, _)| before);
     }
+    let words = |text: &str| text.split_whitespace().next_back().map(str::to_lowercase);
+    while words(whole).is_some_and(|word| LINKS.contains(&word.as_str())) {
+        whole = whole.rsplit_once(char::is_whitespace).map_or("", |(before, _)| before).trim_end();
+    }
     if let Some((clause, further)) = whole.rsplit_once([',', ';'])
         && further.split_whitespace().count() < 2
     {
         whole = clause;
-    }
-    let words = |text: &str| text.split_whitespace().next_back().map(str::to_lowercase);
-    while words(whole).is_some_and(|word| LINKS.contains(&word.as_str())) {
-        whole = whole.rsplit_once(char::is_whitespace).map_or("", |(before, _)| before).trim_end();
     }
     let whole = whole.trim_end_matches(|c: char| ",;:–—".contains(c) || c.is_whitespace());
     let kept = if 2 * whole.width() >= room { whole } else { torn.trim_end() };
@@ -256,7 +256,9 @@ mod tests {
         assert_eq!(short("areal velocity seen from above", 28), "areal velocity seen…");
         assert_eq!(short("moment of inertia about an axis", 27), "moment of inertia…");
         assert_eq!(short("Charge in electric and magnetic fields", 30), "Charge in electric…");
-        assert_eq!(short("A Aᵀ = 1, det A = 1", 17), "A Aᵀ = 1…");
+        for width in 11..19 {
+            assert_eq!(short("A Aᵀ = 1, det A = 1", width), "A Aᵀ = 1…", "{width}");
+        }
         assert_eq!(short("centre of mass along x", 15), "centre of mass…");
         // A single word is torn, and so is one after too little.
         assert_eq!(short("Phasenraumvolumen", 9), "Phasenra…");

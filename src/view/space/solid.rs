@@ -61,3 +61,34 @@ pub(super) fn tube(low: &[[f64; 3]], high: &[[f64; 3]], closed: bool) -> Vec<Occ
     let ends = [low, high].map(|rim| Occluder::Face(rim.to_vec()));
     sides.chain(ends.into_iter().filter(|_| closed)).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{rims, silhouette};
+
+    /// The eye looks along the third axis, so that a cylinder across it has two edges at its radius.
+    #[test]
+    fn a_cylinder_has_an_edge_at_each_side_and_none_from_its_end() {
+        let [low, high] = rims([[0.0, -1.0, 0.0], [0.0, 1.0, 0.0]], 0.5);
+        let edges = silhouette(&low, &high);
+        assert_eq!(edges.len(), 2, "{edges:?}");
+        for [from, to] in edges {
+            assert!((from[0].abs() - 0.5).abs() < 0.01, "{from:?}");
+            assert!((from[0] - to[0]).abs() < 1e-12 && to[1] - from[1] > 1.9, "{from:?} {to:?}");
+        }
+        let [low, high] = rims([[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]], 0.5);
+        assert!(silhouette(&low, &high).is_empty());
+    }
+
+    /// From the side the edges of a cone end at the widest places of its rim; from a tip in front of the rim there are none.
+    #[test]
+    fn a_cone_has_edges_where_its_tip_lies_outside_its_rim() {
+        let rim = |base: [f64; 3]| rims([base, base.map(|v| 2.0 * v)], 0.5)[0].clone();
+        let upright = rim([0.0, 1.0, 0.0]);
+        let edges = silhouette(&vec![[0.0; 3]; upright.len()], &upright);
+        assert_eq!(edges.len(), 2);
+        assert!(edges.iter().all(|[tip, end]| *tip == [0.0; 3] && end[0].abs() > 0.49));
+        let towards = rim([0.1, 0.0, 1.0]);
+        assert!(silhouette(&vec![[0.0; 3]; towards.len()], &towards).is_empty());
+    }
+}
