@@ -47,6 +47,7 @@ mod screen;
 pub mod sgr;
 mod space;
 pub mod sparkline;
+mod tabs;
 mod text_page;
 pub mod theme;
 mod time_window;

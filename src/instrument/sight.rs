@@ -136,11 +136,13 @@ fn is_plane(shape: &Shape) -> bool {
         Shape::Circle { centre, normal, .. } | Shape::Disc { centre, normal, .. } => {
             flat(centre) && normal[0] == Expr::ZERO && normal[1] == Expr::ZERO
         }
-        Shape::Mass { at, .. } | Shape::Trace { at } => flat(at),
+        Shape::Mass { at, .. } | Shape::Trace { at } | Shape::Caption { at, .. } => flat(at),
         Shape::Vector { at, components, .. } => flat(at) && flat(components),
         Shape::Path { points } => points.iter().all(flat),
-        Shape::Plane { .. } | Shape::Body { .. } | Shape::Sphere { .. } | Shape::Cone { .. } => {
-            false
-        }
+        Shape::Plane { .. }
+        | Shape::Body { .. }
+        | Shape::Sphere { .. }
+        | Shape::Cone { .. }
+        | Shape::Cylinder { .. } => false,
     }
 }

@@ -133,6 +133,22 @@ pub enum Shape {
         /// The radius of its base.
         radius: Expr,
     },
+    /// A solid cylinder.
+    Cylinder {
+        /// The centre of one end.
+        from: Point,
+        /// The centre of the other end.
+        to: Point,
+        /// Its radius.
+        radius: Expr,
+    },
+    /// Words beside a point.
+    Caption {
+        /// Where they begin.
+        at: Point,
+        /// The words.
+        text: String,
+    },
     /// The pieces of the model's body, rotated by its attitude, with the principal axes.
     Body {
         /// Its centre of mass.

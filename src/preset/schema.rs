@@ -580,11 +580,15 @@ const SHAPE: SchemaTable = SchemaTable {
         key("disc", Point, "a filled disc about this centre"),
         key("sphere", Point, "a sphere about this centre, which hides what is behind it"),
         key("cone", Point, "a solid cone with this tip"),
+        key("cylinder", Point, "a solid cylinder from the centre of this end"),
+        key("caption", Point, "words beside this point"),
         key("body", Point, "the pieces of [body] about this centre of mass, turned by [attitude]"),
         key("to", Point, "the other end, the components, or the centre of the base")
-            .only(&["line", "spring", "vector", "cone"]),
+            .only(&["line", "spring", "vector", "cone", "cylinder"]),
         key("label", Text, "the name beside its tip").only(&["vector"]),
-        key("radius", Formula, "its radius").only(&["circle", "mass", "disc", "sphere", "cone"]),
+        key("text", Text, "the words").needed("write text = \"...\"").only(&["caption"]),
+        key("radius", Formula, "its radius")
+            .only(&["circle", "mass", "disc", "sphere", "cone", "cylinder"]),
         key("normal", Point, "what it is perpendicular to; z where not given")
             .only(&["circle", "plane", "disc"]),
         key("size", Formula, "how large it is").only(&["plane"]),

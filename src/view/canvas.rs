@@ -14,6 +14,7 @@ use super::colour::ColourDepth;
 use super::kept::Kept;
 use super::region::ScreenRegion;
 use super::theme::Role;
+use super::wrap::shortened;
 use crate::app::HitTarget;
 use crate::printable;
 
@@ -70,7 +71,7 @@ impl Canvas<'_> {
     /// number of columns written.
     pub(super) fn write(&mut self, at: Position, width: u16, text: &str, style: Style) -> u16 {
         let text = self.text(text);
-        let text = clipped(&text, width.into(), self.look.glyphs.pick("…", "~"));
+        let text = shortened(&text, width.into(), self.look.glyphs.pick("…", "~"));
         let inside = self.buffer.area.contains(at);
         let room = width.min(self.buffer.area.right().saturating_sub(at.x));
         if inside {
@@ -107,8 +108,11 @@ impl Canvas<'_> {
             }
             let at = Position::new(row.x + used, row.y);
             let text = self.look.glyphs.text(text);
-            let text = clipped(&text, usize::from(room - used), "");
-            used += self.write(at, room - used, &text, *style);
+            let short = shortened(&text, usize::from(room - used), "");
+            used += self.write(at, room - used, &short, *style);
+            if short.width() < text.width() {
+                break;
+            }
         }
         if let (true, false, Some((_, style))) = (cut, row.is_empty(), spans.last()) {
             used += self.write(Position::new(row.x + used, row.y), 1, mark, *style);
@@ -215,21 +219,4 @@ pub(super) fn row(area: Rect, index: usize) -> Rect {
 pub(super) fn columns(area: Rect, from: u16, width: u16) -> Rect {
     let from = from.min(area.width);
     Rect { x: area.x + from, width: width.min(area.width - from), ..area }
-}
-
-/// Returns the text cut to `width` columns, with `mark` in place of the rest.
-fn clipped(text: &str, width: usize, mark: &str) -> String {
-    if text.width() <= width {
-        return text.to_owned();
-    }
-    let room = width.saturating_sub(mark.width());
-    let mut out = String::new();
-    for character in text.chars() {
-        let longer = format!("{out}{character}");
-        if longer.width() > room {
-            break;
-        }
-        out = longer;
-    }
-    if width >= mark.width() { out + mark } else { String::new() }
 }

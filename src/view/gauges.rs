@@ -14,7 +14,7 @@ use super::plot::{Marker, Scale};
 use super::sparkline::Sparkline;
 use super::theme::Role;
 use super::values::window;
-use super::wrap::words;
+use super::wrap::{shortened, shortened_within, words};
 use crate::analysis::{Growth, Verdict};
 use crate::app::{HitTarget, Lab};
 use crate::experiment::{Gauge, Snapshot};
@@ -107,9 +107,9 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, selected: Opt
         let residual = is_residual(lab, gauge);
         if let Some(mut single) = single {
             single.drift = single.drift.filter(|_| !residual);
-            in_one_row(canvas, at, single, gauge, here);
+            in_one_row(canvas, at, single, (gauge, gauges), here);
         } else {
-            name_and_reason(canvas, at, (gauge, residual), here);
+            name_and_reason(canvas, at, (gauge, gauges, residual), here);
             let below = row(columns(area, 2, at.width), place * 2 + 1);
             numbers_and_history(canvas, below, (gauge, residual));
         }
@@ -222,7 +222,7 @@ fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
 fn name_and_reason(
     canvas: &mut Canvas<'_>,
     area: Rect,
-    (gauge, residual): (&Gauge, bool),
+    (gauge, all, residual): (&Gauge, &[Gauge], bool),
     here: bool,
 ) {
     let name_width = canvas.look.glyphs.pick(&gauge.shown, &gauge.name).width();
@@ -238,7 +238,7 @@ fn name_and_reason(
     let room = if full { IN_FULL + 2 } else { VERDICT };
     let used = verdict(canvas, columns(area, area.width.saturating_sub(room), room), gauge, words);
     let area = columns(area, 0, area.width.saturating_sub(used + 1));
-    let used = name(canvas, area, gauge, here) + 2;
+    let used = name(canvas, area, (gauge, all), here) + 2;
     // A reason is shown whole, or in a word.
     let reason = canvas.text(&number::with_minus_signs(&gauge.reason, canvas.look.glyphs));
     let in_a_word = match (residual, gauge.proved) {
@@ -279,13 +279,19 @@ fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, (gauge, residual): (
 }
 
 /// Draws name, value, drift and verdict in a single row.
-fn in_one_row(canvas: &mut Canvas<'_>, area: Rect, row: SingleRow, gauge: &Gauge, here: bool) {
+fn in_one_row(
+    canvas: &mut Canvas<'_>,
+    area: Rect,
+    row: SingleRow,
+    (gauge, all): (&Gauge, &[Gauge]),
+    here: bool,
+) {
     verdict(canvas, columns(area, row.verdict, VERDICT), gauge, word(&gauge.verdict));
     if let Some(at) = row.drift {
         drift(canvas, columns(area, at, SHORT_DRIFT), gauge);
     }
     value(canvas, columns(area, row.value, SHORT_VALUE), gauge, 4);
-    name(canvas, columns(area, 0, row.value.saturating_sub(1)), gauge, here);
+    name(canvas, columns(area, 0, row.value.saturating_sub(1)), (gauge, all), here);
 }
 
 /// Draws the words for the verdict at the right, with a sign if impulses have changed the value: after the words that refer
@@ -323,9 +329,18 @@ pub(super) fn finding(gauge: &Gauge, glyphs: Glyphs) -> String {
     }
 }
 
-fn name(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, here: bool) -> u16 {
-    let name = canvas.look.glyphs.pick(&gauge.shown, &gauge.name).clone();
-    canvas.left(area, if here { Role::Title } else { Role::Text }, &name)
+/// Writes the name of a gauge; if it is too long, with its last words where another one begins in the same way.
+fn name(canvas: &mut Canvas<'_>, area: Rect, (gauge, all): (&Gauge, &[Gauge]), here: bool) -> u16 {
+    let glyphs = canvas.look.glyphs;
+    let (room, mark) = (usize::from(area.width), glyphs.pick("…", "~"));
+    let short = |gauge: &Gauge| {
+        shortened(&canvas.text(glyphs.pick(&*gauge.shown, &*gauge.name)), room, mark)
+    };
+    let mut text = short(gauge);
+    if all.iter().filter(|other| short(other) == text).count() > 1 {
+        text = shortened_within(&canvas.text(glyphs.pick(&*gauge.shown, &*gauge.name)), room, mark);
+    }
+    canvas.left(area, if here { Role::Title } else { Role::Text }, &text)
 }
 
 fn value(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, digits: usize) {

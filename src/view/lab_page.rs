@@ -14,7 +14,7 @@ use super::text_page::draw_rows;
 use super::theme::Role;
 use super::values::{ValueList, window};
 use super::wrap::{capitalised, words};
-use super::{equations, gauges, picture};
+use super::{equations, gauges, picture, tabs};
 use crate::app::{
     App, DrawnPanes, HitTarget, InputField, Lab, LawInView, Overlay, Pane, PlotsInView, ValueId,
 };
@@ -52,7 +52,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) ->
             }
             Slot::Values(pane) => {
                 let both = [Pane::Parameters, Pane::Initial, Pane::Law];
-                let title = tabs(canvas, &both, pane);
+                let title = list_tabs(canvas, &both, pane);
                 if pane == Pane::Law {
                     in_view = law(canvas, place, lab, &title);
                 } else {
@@ -62,7 +62,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) ->
             }
             Slot::Lists(pane) => {
                 let all = [Pane::Parameters, Pane::Initial, Pane::Gauges, Pane::Law];
-                let title = tabs(canvas, &all, pane);
+                let title = list_tabs(canvas, &all, pane);
                 if pane == Pane::Law {
                     in_view = law(canvas, place, lab, &title);
                 } else {
@@ -102,7 +102,7 @@ fn since(canvas: &Canvas<'_>, lab: &Lab) -> Option<Span> {
 }
 
 /// The titles of lists that share a frame; the title of the shown one is highlighted.
-fn tabs(canvas: &Canvas<'_>, panes: &[Pane], shown: Pane) -> Vec<Span> {
+fn list_tabs(canvas: &Canvas<'_>, panes: &[Pane], shown: Pane) -> Vec<Span> {
     let mut spans = Vec::new();
     for pane in panes {
         if !spans.is_empty() {
@@ -206,12 +206,12 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize
     };
     // Between the corners, with a blank at each side.
     let room = usize::from(area.width.saturating_sub(6));
-    let tabs = picture::tabs(canvas, &q, (index, sharing), room);
+    let tabs = tabs::of(canvas, &q, (index, sharing), room);
     let mut title = match tabs {
         Some(tabs) => {
             let used = wide(&tabs) + 1;
             let own = picture::title(canvas, &q, plot, room.saturating_sub(used));
-            let label = picture::label(&q, plot);
+            let label = tabs::label(&q, plot);
             let rest = own.into_iter().filter(|(text, _)| text.trim() != label);
             let gap = canvas.span(Role::Dim, "  ");
             let whole: Vec<Span> = tabs.iter().cloned().chain([gap]).chain(rest).collect();

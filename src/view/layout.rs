@@ -135,11 +135,12 @@ fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let gauges = lab.snapshot.as_ref().map_or(0, |s| s.gauges.len()) as u16;
     let parameters = lab.count(ValueId::Parameter) as u16;
     // A frame takes two rows, a gauge two and the gauges' headings one; the meaning of the selected parameter takes
-    // two, and the reason of the selected gauge some more.
+    // two, and the reason of the selected gauge some more while there is one. Rows to spare are the law's.
+    let focused = if lab.focus == Pane::Gauges { REASON } else { 0 };
     let wants = [
         parameters + 2 + meaning(lab, area.width),
         lab.count(ValueId::Initial) as u16 + 2,
-        2 * gauges.max(1) + 3 + REASON,
+        2 * gauges.max(1) + 3 + focused,
     ];
     let mut heights = wants.map(|want| want.max(SHORTEST));
     let mut total: u16 = heights.iter().sum();
@@ -150,7 +151,6 @@ fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
         total -= 1;
     }
     // What two rows a gauge are not enough for is left to the law.
-    let focused = if lab.focus == Pane::Gauges { REASON } else { 0 };
     if heights[2] < 2 * gauges + 3 {
         heights[2] = heights[2].min((gauges + 3 + focused).max(SHORTEST));
     }

@@ -14,7 +14,7 @@ use super::picture;
 use super::quantity::Quantities;
 use super::theme::Role;
 use super::values::window;
-use super::wrap::{capitalised, words};
+use super::wrap::{capitalised, shortened, words};
 use crate::app::{Above, App, FuzzyMatch, HitTarget, Picker, Saved};
 use crate::preset::{CatalogEntry, PresetOrigin};
 
@@ -188,12 +188,7 @@ fn continuation(canvas: &Canvas<'_>, picker: &Picker, session: &Saved, width: us
     // Of a long title the beginning is enough; the time says which motion it is.
     let room = width.saturating_sub("Continue: ".len() + time.width());
     let mark = canvas.look.glyphs.pick("…", "~");
-    let title = if title.width() <= room {
-        title
-    } else {
-        title.chars().take(room.saturating_sub(1)).collect::<String>() + mark
-    };
-    format!("Continue: {title}{time}")
+    format!("Continue: {}{time}", shortened(&title, room, mark))
 }
 
 fn search(canvas: &mut Canvas<'_>, area: Rect, search: Option<&Input>) {

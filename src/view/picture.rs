@@ -53,44 +53,6 @@ pub(super) fn title(
     groups(pieces, room)
 }
 
-/// The name of a picture in a row of tabs.
-pub(super) fn label(q: &Quantities<'_>, plot: &Plot) -> String {
-    let heading = plot.kind.heading(plot, &q.present());
-    heading.map_or_else(|| "Picture".to_owned(), |heading| heading.title)
-}
-
-/// The names of the pictures that take turns in a frame, with a line between neighbours; names that occur twice are
-/// followed by the first quantity. If they do not fit, the place of the shown one among all; `None` if it is alone.
-pub(super) fn tabs(
-    canvas: &Canvas<'_>,
-    q: &Quantities<'_>,
-    (shown, sharing): (usize, &[usize]),
-    room: usize,
-) -> Option<Vec<Span>> {
-    if sharing.len() < 2 {
-        return None;
-    }
-    let plots = || sharing.iter().filter_map(|index| Some((*index, q.lab.plots.get(*index)?)));
-    let labels: Vec<String> = plots().map(|(_, plot)| label(q, plot)).collect();
-    let mut spans = Vec::new();
-    for ((index, plot), label) in plots().zip(&labels) {
-        if !spans.is_empty() {
-            spans.push(canvas.span(Role::Border, canvas.look.glyphs.pick(" │ ", " | ")));
-        }
-        let alike = labels.iter().filter(|other| *other == label).count() > 1;
-        let first = plot.column(0).filter(|_| alike);
-        let label = first.map_or_else(|| label.clone(), |c| format!("{label} {}", q.name(c)));
-        spans.push(canvas.span(if index == shown { Role::Title } else { Role::Dim }, label));
-    }
-    if wide(&spans) <= room {
-        return Some(spans);
-    }
-    let place = sharing.iter().position(|index| *index == shown)? + 1;
-    let own = label(q, q.lab.plots.get(shown)?);
-    let counted = canvas.span(Role::Dim, format!(" {place}/{}", sharing.len()));
-    Some(vec![canvas.span(Role::Title, own), counted])
-}
-
 /// An entry of a heading other than a curve.
 fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<Span> {
     let valued = |name: &str, value: f64| {

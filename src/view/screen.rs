@@ -135,7 +135,7 @@ fn text_page(canvas: &mut Canvas<'_>, area: Rect, (app, lab): (&App, &Lab), page
         Page::Equations => ("Equations", equations::document(lab, look)),
         Page::Notes => ("Notes", notes::document(lab, look)),
         _ => {
-            let numbers = Quantities::of(lab, look).map(|q| numbers::document(&q));
+            let numbers = Quantities::of(lab, look).map(|q| numbers::document(&q).balanced());
             ("Numbers", numbers.unwrap_or_default())
         }
     };

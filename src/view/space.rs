@@ -13,7 +13,7 @@ mod scene;
 mod solid;
 mod surface;
 
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::Rect;
 
 use super::canvas::Canvas;
 use super::companions;
@@ -25,7 +25,7 @@ use crate::expr::Symbol;
 use crate::instrument::CameraPose;
 use crate::model::{Point, Shape};
 use crate::num::math;
-use annotation::{compass, legend};
+use annotation::{Label, compass, legend};
 use body::Outline;
 use colours::colours;
 use reference_frame::ReferenceFrame;
@@ -94,17 +94,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
     let forces = artist.apparent(seen.map_or(&[], Vec::as_slice));
     let mechanics = artist.mechanics();
     artist.raster.draw(canvas.buffer);
-    for (tip, label) in std::mem::take(&mut artist.labels) {
-        let Some(at) = artist.frame.cell(tip) else { continue };
-        // Where there is no room beside the tip the label is above it, and ends at the edge.
-        let (mut x, mut y) = (at.x + 1, at.y);
-        let width = label.chars().count() as u16;
-        if x + width > area.right() {
-            x = area.right().saturating_sub(width).max(area.x);
-            y = if at.y > area.y { at.y - 1 } else { at.y + 1 };
-        }
-        canvas.write(Position { x, y }, area.right() - x, &label, canvas.style(Role::Accent));
-    }
+    annotation::labels(canvas, area, &artist.frame, &artist.labels);
     let mut lines = annotation::forces(canvas, &forces);
     lines.extend(mechanics.into_iter().flat_map(|both| annotation::mechanics(canvas, both)));
     legend(canvas, area, &lines);
@@ -132,8 +122,8 @@ struct ScenePainter<'a> {
     surfaces: Vec<(Pen, [f64; 2])>,
     /// How near to the eye the back and the front of the scene are; `None` in a plane.
     range: Option<[f64; 2]>,
-    /// The places of labels.
-    labels: Vec<([f64; 2], String)>,
+    /// Names beside points.
+    labels: Vec<Label>,
     /// The points that have a colour of their own.
     colours: Vec<Point>,
 }
@@ -189,15 +179,23 @@ impl ScenePainter<'_> {
                 self.spring(from, to, &solid);
             }
             Shape::Circle { centre, radius, normal } => {
+                let turns = !scene::rests(self.q, normal);
                 let (centre, normal) = (self.point(centre), self.direction(normal));
                 let rim = circle::circle(centre, self.q.number(*radius), normal);
-                self.curve(&rim, &solid);
+                // In space a circle that does not turn is part of the scenery.
+                self.curve(&rim, if self.range.is_none() || turns { &solid } else { &ground });
             }
             Shape::Mass { at, radius } => {
                 let radius = radius.map(|radius| self.q.number(radius));
                 self.mass(at, radius);
             }
             Shape::Trace { at } => self.track(at, kept),
+            Shape::Caption { at, text } => {
+                let at = self.point(at);
+                if !self.depth.hides_point(self.camera.project(at)) {
+                    self.label(at, None, text);
+                }
+            }
             Shape::Vector { at, components, label } => {
                 let (foot, along) = (self.point(at), self.direction(components));
                 let pen = Pen::new(theme[Role::Accent], SOLID);
@@ -205,8 +203,7 @@ impl ScenePainter<'_> {
                 let tip = [0, 1, 2].map(|k| foot[k] + along[k]);
                 let some = !label.is_empty() && along != [0.0; 3];
                 if some && !self.depth.hides_point(self.camera.project(tip)) {
-                    let tip = self.flat(tip);
-                    self.labels.push((tip, self.q.look.glyphs.text(label).into_owned()));
+                    self.label(tip, Some(foot), label);
                 }
             }
             Shape::Disc { centre, radius, normal } => {
@@ -219,6 +216,14 @@ impl ScenePainter<'_> {
                 let axis = [0, 1, 2].map(|k| base[k] - tip[k]);
                 let rim = circle::circle(base, self.q.number(*radius), axis);
                 self.curve(&rim, &solid);
+                self.silhouette(&vec![tip; rim.len()], &rim, &solid);
+            }
+            Shape::Cylinder { from, to, radius } => {
+                let ends = [self.point(from), self.point(to)];
+                let [low, high] = solid::rims(ends, self.q.number(*radius));
+                self.curve(&low, &solid);
+                self.curve(&high, &solid);
+                self.silhouette(&low, &high, &solid);
             }
             Shape::Sphere { centre, radius } => {
                 let centre = self.point(centre);
@@ -238,6 +243,14 @@ impl ScenePainter<'_> {
                 self.curve(&corners, &ground);
             }
         }
+    }
+
+    /// Writes words beside a point, away from another one.
+    fn label(&mut self, at: [f64; 3], foot: Option<[f64; 3]>, text: &str) {
+        let [tip, foot] = [at, foot.unwrap_or(at)].map(|point| self.flat(point));
+        let role = if foot == tip { Role::Text } else { Role::Accent };
+        let text = self.q.look.glyphs.text(text).into_owned();
+        self.labels.push(Label { tip, leftwards: tip[0] < foot[0], text, role });
     }
 
     /// The current position of a point of a shape in the reference frame.
@@ -265,6 +278,11 @@ impl ScenePainter<'_> {
     fn curve(&mut self, points: &[[f64; 3]], pen: &Pen) {
         let projection = self.camera.projection();
         let seen: Vec<_> = points.iter().map(|point| projection.of(*point)).collect();
+        self.in_view(&seen, pen);
+    }
+
+    /// Draws what is visible of a line through points in the coordinates of the camera.
+    fn in_view(&mut self, seen: &[[f64; 3]], pen: &Pen) {
         let Some([far, near]) = self.range else {
             let flat = seen.iter().map(|[x, y, _]| [*x, *y]);
             return self.raster.polyline(&self.frame, flat, pen);
@@ -278,12 +296,22 @@ impl ScenePainter<'_> {
                 Pen { style, fresh: (last - step) as u8, ..*pen }
             })
             .collect();
-        let line = self.depth.visible(&seen).into_iter().map(|[x, y, depth]| {
+        let line = self.depth.visible(seen).into_iter().map(|[x, y, depth]| {
             let share = (near - depth) / (near - far) * DISTANCES as f64;
             ([x, y], if share.is_finite() { share.clamp(0.0, last as f64) as usize } else { 0 })
         });
         let line: Vec<_> = line.collect();
         self.raster.polyline_in(&self.frame, line, &pens);
+    }
+
+    /// Draws where a surface between two rims turns away from the eye.
+    fn silhouette(&mut self, low: &[[f64; 3]], high: &[[f64; 3]], pen: &Pen) {
+        let projection = self.camera.projection();
+        let [low, high]: [Vec<_>; 2] =
+            [low, high].map(|rim| rim.iter().map(|point| projection.of(*point)).collect());
+        for [from, to] in solid::silhouette(&low, &high) {
+            self.in_view(&[from, to], pen);
+        }
     }
 
     /// A radius in cells, if it is large enough to be drawn.

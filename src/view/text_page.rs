@@ -31,6 +31,8 @@ const MARGIN: usize = 8;
 #[derive(Default)]
 pub(super) struct TextPage {
     blocks: Vec<TextBlock>,
+    /// Whether two columns are of equal length, even if one has room for everything.
+    balanced: bool,
 }
 
 enum TextBlock {
@@ -94,6 +96,11 @@ impl TextPage {
         self.blocks.push(TextBlock::Gap);
     }
 
+    /// The same page with two columns wherever it is wide enough, of equal length as far as its sections allow.
+    pub(super) fn balanced(self) -> Self {
+        Self { balanced: true, ..self }
+    }
+
     /// Draws the rows from `scroll` on.
     pub(super) fn draw(self, canvas: &mut Canvas<'_>, area: Rect, scroll: u16) -> Drawn {
         let rows = self.laid_out(canvas, area.width);
@@ -105,15 +112,20 @@ impl TextPage {
         let half = area.width.saturating_sub(BETWEEN) / 2;
         let height = usize::from(area.height);
         let whole = self.laid_out(canvas, area.width);
-        if area.width < TWO_COLUMNS || whole.len() <= height {
+        if area.width < TWO_COLUMNS || whole.len() <= height && !self.balanced {
             return draw_rows(canvas, area, scroll, &whole);
         }
         let lines = self.laid_out(canvas, half);
         let beyond = lines.len().saturating_sub(2 * height);
         let first = usize::from(scroll).min(beyond);
-        // A page that fits is parted at a gap, so that no section is torn; the lower the better.
-        let parted = (lines.len().saturating_sub(height)..=height).rev();
-        let gap = parted.clone().find(|at| lines.get(*at).is_some_and(Vec::is_empty));
+        // A page that fits is parted at a gap, so that no section is torn; the lower the better, or nearest the middle.
+        let mut gaps = (lines.len().saturating_sub(height)..=height)
+            .filter(|at| lines.get(*at).is_some_and(Vec::is_empty));
+        let gap = if self.balanced {
+            gaps.min_by_key(|at| (2 * at).abs_diff(lines.len()))
+        } else {
+            gaps.next_back()
+        };
         let (split, skipped) = match gap.filter(|_| beyond == 0) {
             Some(gap) => (gap, 1),
             None => (height, 0),

@@ -19,9 +19,8 @@ use crate::model;
 /// Columns of a number.
 const NUMBER: u16 = 10;
 
-/// The greatest widths of a name and of a unit.
+/// The greatest width of a name.
 const NAME: u16 = 12;
-const UNIT: u16 = 11;
 
 /// The columns of a list: as wide as its longest name and unit.
 struct ListColumns {
@@ -52,7 +51,7 @@ impl ValueList<'_> {
             return;
         }
         let about = self.about(area, count);
-        let grid = self.columns(canvas, count);
+        let grid = self.columns(canvas, count, area.width);
         let rows = usize::from(area.height).saturating_sub(about.len());
         let first = window(self.selected, count, rows);
         for index in first..count.min(first + rows) {
@@ -77,7 +76,8 @@ impl ValueList<'_> {
         lines
     }
 
-    fn columns(&self, canvas: &Canvas<'_>, count: usize) -> ListColumns {
+    /// The bars have what names, numbers and units leave.
+    fn columns(&self, canvas: &Canvas<'_>, count: usize, width: u16) -> ListColumns {
         let glyphs = canvas.look.glyphs;
         let facts: Vec<ValueInfo> =
             (0..count).filter_map(|i| self.lab.value_info((self.kind)(i))).collect();
@@ -86,8 +86,8 @@ impl ValueList<'_> {
             wide.unwrap_or(0).min(most)
         };
         let name = widest(&|f| glyphs.pick(&f.shown, &f.name).clone(), NAME);
-        let unit = widest(&|f| f.unit.clone(), UNIT);
         let number = 3 + name;
+        let unit = widest(&|f| f.unit.clone(), width.saturating_sub(number + NUMBER + 1));
         ListColumns { number, unit: number + NUMBER + 1, bar: number + NUMBER + unit + 3 }
     }
 

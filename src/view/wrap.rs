@@ -2,7 +2,7 @@
 //!
 //! In: text. Out: its lines. Never here: styles, or the positions of lines.
 
-use unicode_width::UnicodeWidthStr;
+use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 /// The lines of a paragraph, broken at spaces; a word longer than a line is broken anywhere.
 pub(super) fn words(text: &str, width: usize) -> Vec<String> {
@@ -18,6 +18,60 @@ pub(super) fn words_in(text: &str, width: usize, rows: usize) -> Vec<String> {
     }
     lines
 }
+
+/// The text in `width` columns, with `mark` in place of the rest. It ends with a whole word and says something: no article
+/// or preposition is left at its end, and no single word of a further clause. Only where that would leave less than half
+/// of the width is a word torn.
+pub(super) fn shortened(text: &str, width: usize, mark: &str) -> String {
+    if text.width() <= width {
+        return text.to_owned();
+    }
+    let Some(room) = width.checked_sub(mark.width()) else { return String::new() };
+    let mut used = 0;
+    let fits = |(_, character): &(usize, char)| {
+        used += character.width().unwrap_or(0);
+        used <= room
+    };
+    let end = text.char_indices().take_while(fits).map(|(at, c)| at + c.len_utf8()).last();
+    let (torn, rest) = text.split_at(end.unwrap_or(0));
+    let mut whole = torn.trim_end();
+    if whole.len() == torn.len() && !rest.starts_with(char::is_whitespace) {
+        whole = whole.rsplit_once(char::is_whitespace).map_or("", |(before, _)| before);
+    }
+    let words = |text: &str| text.split_whitespace().next_back().map(str::to_lowercase);
+    while words(whole).is_some_and(|word| LINKS.contains(&word.as_str())) {
+        whole = whole.rsplit_once(char::is_whitespace).map_or("", |(before, _)| before).trim_end();
+    }
+    if let Some((clause, further)) = whole.rsplit_once([',', ';'])
+        && further.split_whitespace().count() < 2
+    {
+        whole = clause;
+    }
+    let whole = whole.trim_end_matches(|c: char| ",;:–—".contains(c) || c.is_whitespace());
+    let kept = if 2 * whole.width() >= room { whole } else { torn.trim_end() };
+    format!("{kept}{mark}")
+}
+
+/// The same with its last words in place of those in the middle.
+pub(super) fn shortened_within(text: &str, width: usize, mark: &str) -> String {
+    let mut ends =
+        text.char_indices().filter(|(_, c)| c.is_whitespace()).map(|(at, _)| &text[at..]);
+    let room = |end: &str| width.checked_sub(end.width() + mark.width() + 1);
+    // Of the ends that leave as much room to the beginning the longest is taken.
+    let end = ends.find(|end| room(end).is_some_and(|room| room >= end.width()));
+    let Some(end) = end.filter(|_| text.width() > width) else {
+        return shortened(text, width, mark);
+    };
+    let begin = shortened(text, width - end.width(), mark);
+    format!("{begin}{end}")
+}
+
+/// Words that a shortened text does not end with.
+const LINKS: &[&str] = &[
+    "a", "about", "along", "an", "and", "as", "at", "by", "for", "from", "if", "in", "is", "its",
+    "of", "on", "one", "or", "per", "that", "the", "their", "through", "to", "when", "where",
+    "which", "with",
+];
 
 /// A line of an error report: a message is wrapped, below its first word if it is a note; source text and its marks
 /// stay as they are, because they stand in columns.
@@ -193,7 +247,37 @@ fn split(text: &str, room: usize) -> (String, String) {
 
 #[cfg(test)]
 mod tests {
-    use super::report_line;
+    use super::{report_line, shortened, shortened_within};
+
+    #[test]
+    fn a_shortened_text_ends_with_a_word_that_says_something() {
+        let short = |text: &str, width: usize| shortened(text, width, "…");
+        assert_eq!(short("energy", 6), "energy");
+        assert_eq!(short("areal velocity seen from above", 28), "areal velocity seen…");
+        assert_eq!(short("moment of inertia about an axis", 27), "moment of inertia…");
+        assert_eq!(short("Charge in electric and magnetic fields", 30), "Charge in electric…");
+        for width in 11..19 {
+            assert_eq!(short("A Aᵀ = 1, det A = 1", width), "A Aᵀ = 1…", "{width}");
+        }
+        assert_eq!(short("centre of mass along x", 15), "centre of mass…");
+        // A single word is torn, and so is one after too little.
+        assert_eq!(short("Phasenraumvolumen", 9), "Phasenra…");
+        assert_eq!(short("a Phasenraumvolumen", 9), "a Phasen…");
+        assert_eq!([short("energy", 1), short("energy", 0)], ["…", ""]);
+    }
+
+    #[test]
+    fn texts_that_begin_alike_keep_their_ends() {
+        let short = |text: &str, width: usize| shortened_within(text, width, "…");
+        assert_eq!(short("centre of mass along x", 17), "centre of mass… x");
+        assert_eq!(short("centre of mass along x", 22), "centre of mass along x");
+        for width in 0..24 {
+            for text in ["centre of mass along x", "x", "", " ", "a bc def ghij klmnop"] {
+                let short = short(text, width);
+                assert!(unicode_width::UnicodeWidthStr::width(&*short) <= width, "{short} {width}");
+            }
+        }
+    }
 
     #[test]
     fn a_report_wraps_its_messages_and_never_its_source() {

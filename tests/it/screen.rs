@@ -1,6 +1,7 @@
 //! The screen, from constructed snapshots: text and styles, any size, any terminal.
 
 mod cells;
+mod fit;
 mod golden;
 mod hit_test;
 mod labels;

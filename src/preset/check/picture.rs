@@ -286,6 +286,15 @@ impl Check<'_> {
                 let radius = self.size(radius.as_ref(), scope);
                 Some(Shape::Cone { tip: tip?, base: base?, radius: radius? })
             }
+            DraftShapeKind::Cylinder { from, to, radius } => {
+                let (from, to) = (self.point(from.as_ref(), scope), self.point(to.as_ref(), scope));
+                let radius = self.size(radius.as_ref(), scope);
+                Some(Shape::Cylinder { from: from?, to: to?, radius: radius? })
+            }
+            DraftShapeKind::Caption { at, text } => {
+                let at = self.point(at.as_ref(), scope);
+                Some(Shape::Caption { at: at?, text: text.clone() })
+            }
             DraftShapeKind::Vector { at, components, label } => {
                 let (at, components) =
                     (self.point(at.as_ref(), scope), self.point(components.as_ref(), scope));

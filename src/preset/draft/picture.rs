@@ -106,14 +106,23 @@ pub(in crate::preset) enum DraftShapeKind {
         base: Option<Formulas>,
         radius: Option<Formula>,
     },
+    Cylinder {
+        from: Option<Formulas>,
+        to: Option<Formulas>,
+        radius: Option<Formula>,
+    },
+    Caption {
+        at: Option<Formulas>,
+        text: String,
+    },
     Body {
         at: Option<Formulas>,
     },
 }
 
-const SHAPES: [&str; 12] = [
+const SHAPES: [&str; 14] = [
     "line", "spring", "trace", "circle", "mass", "path", "vector", "plane", "disc", "sphere",
-    "cone", "body",
+    "cone", "cylinder", "caption", "body",
 ];
 
 pub(super) fn views(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftView> {
@@ -325,6 +334,17 @@ fn shape(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftShape>
         "cone" => DraftShapeKind::Cone {
             tip: first,
             base: point(&mut table, "to", mistakes),
+            radius: size(&mut table, "radius", mistakes),
+        },
+        "caption" => {
+            if !table.has("text") {
+                table.lacks_key("text", "write text = \"...\"");
+            }
+            DraftShapeKind::Caption { at: first, text: table.line("text", mistakes) }
+        }
+        "cylinder" => DraftShapeKind::Cylinder {
+            from: first,
+            to: point(&mut table, "to", mistakes),
             radius: size(&mut table, "radius", mistakes),
         },
         _ => DraftShapeKind::Plane {

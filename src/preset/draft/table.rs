@@ -102,7 +102,7 @@ impl<'d> Table<'d> {
         found.map(|(written, value)| (written.span(), value))
     }
 
-    fn lacks_key(&mut self, key: &'static str, help: &str) {
+    pub(super) fn lacks_key(&mut self, key: &'static str, help: &str) {
         let message = format!("{} has no `{key}`", self.called);
         let mistake = Diagnostic::error(self.place.clone(), message);
         self.lacks(key, mistake.with_help(help));

@@ -3,7 +3,8 @@
 //!
 //! In: the camera, the forces present. Out: cells. Never here: the shapes.
 
-use ratatui::layout::Rect;
+use ratatui::layout::{Position, Rect};
+use unicode_width::UnicodeWidthStr;
 
 use crate::view::canvas::{Canvas, row};
 use crate::view::plot::{Camera, Pen, PlotFrame, Raster, Scale};
@@ -39,6 +40,32 @@ pub(super) fn compass(canvas: &mut Canvas<'_>, area: Rect, camera: &Camera) {
         if let Some(at) = frame.cell(tip) {
             canvas.write(at, 1, name, canvas.style(Role::Dim));
         }
+    }
+}
+
+/// A name beside a point.
+pub(super) struct Label {
+    /// The point in the coordinates of the picture.
+    pub(super) tip: [f64; 2],
+    /// Whether the name ends at the point: it stands away from the arrow that it belongs to.
+    pub(super) leftwards: bool,
+    pub(super) text: String,
+    pub(super) role: Role,
+}
+
+/// Writes names beside their points. Where there is no room on one side the name is above the point, and ends at the edge.
+pub(super) fn labels(canvas: &mut Canvas<'_>, area: Rect, frame: &PlotFrame, labels: &[Label]) {
+    for Label { tip, leftwards, text, role } in labels {
+        let Some(at) = frame.cell(*tip) else { continue };
+        let width = text.width() as u16;
+        let (mut x, mut y) = (at.x + 1, at.y);
+        if *leftwards && at.x >= area.x + width {
+            x = at.x - width;
+        } else if x + width > area.right() {
+            x = area.right().saturating_sub(width).max(area.x);
+            y = if at.y > area.y { at.y - 1 } else { at.y + 1 };
+        }
+        canvas.write(Position { x, y }, area.right() - x, text, canvas.style(*role));
     }
 }
 

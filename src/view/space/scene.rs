@@ -108,6 +108,8 @@ impl Scene {
                 self.add(reach(q, at, reached), radius);
             }
             Shape::Trace { at } => self.add(reach(q, at, reached), 0.0),
+            // Words need no room of their own: they end where the picture does.
+            Shape::Caption { .. } => {}
             Shape::Body { at } => {
                 let radius = Outline::of(q).map_or(0.0, |outline| outline.reach());
                 self.add(reach(q, at, reached), radius);
@@ -127,6 +129,11 @@ impl Scene {
             Shape::Cone { tip, base, radius } => {
                 self.add(reach(q, tip, reached), 0.0);
                 self.add(reach(q, base, reached), q.number(*radius).abs());
+            }
+            Shape::Cylinder { from, to, radius } => {
+                let radius = q.number(*radius).abs();
+                self.add(reach(q, from, reached), radius);
+                self.add(reach(q, to, reached), radius);
             }
             Shape::Vector { at, components, .. } => {
                 let foot = reach(q, at, reached);
@@ -212,7 +219,7 @@ fn swing(q: &Quantities<'_>, from: &Point, to: &Point, start: Span3) -> Span3 {
 }
 
 /// Whether a point is the same at all times.
-fn rests(q: &Quantities<'_>, point: &Point) -> bool {
+pub(super) fn rests(q: &Quantities<'_>, point: &Point) -> bool {
     point.iter().all(|expression| matches!(q.place(*expression), Source::Number(_)))
 }
 

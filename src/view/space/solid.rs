@@ -31,10 +31,64 @@ pub(super) fn cone(tip: [f64; 3], base: [f64; 3], radius: f64) -> Vec<Occluder> 
     [vec![Occluder::Face(rim.clone())], sides].concat()
 }
 
+/// The rims of a cylinder about the centres of its ends.
+pub(super) fn rims([from, to]: [[f64; 3]; 2], radius: f64) -> [Vec<[f64; 3]>; 2] {
+    let axis = [0, 1, 2].map(|k| to[k] - from[k]);
+    [from, to].map(|centre| circle(centre, radius, axis))
+}
+
+/// The straight lines at which a surface between two rims turns away from the eye, which looks along the third axis.
+pub(super) fn silhouette(low: &[[f64; 3]], high: &[[f64; 3]]) -> Vec<[[f64; 3]; 2]> {
+    let sides: Vec<[[f64; 3]; 2]> = low.iter().zip(high).map(|(a, b)| [*a, *b]).collect();
+    // Whichever rim is a point, the other one has sides of some length.
+    let faces_eye = |pair: &[[[f64; 3]; 2]]| {
+        let ([a, b], [c, d]) = (pair[0], pair[1]);
+        let along = |p: [f64; 3], q: [f64; 3]| [q[0] - p[0], q[1] - p[1]];
+        let up = along([0, 1, 2].map(|k| a[k] + c[k]), [0, 1, 2].map(|k| b[k] + d[k]));
+        let round = along([0, 1, 2].map(|k| a[k] + b[k]), [0, 1, 2].map(|k| c[k] + d[k]));
+        round[0] * up[1] > round[1] * up[0]
+    };
+    let facing: Vec<bool> = sides.windows(2).map(faces_eye).collect();
+    let count = facing.len();
+    let turns = (0..count).filter(|&i| facing[i] != facing[(i + count - 1) % count]);
+    turns.map(|i| sides[i]).collect()
+}
+
 /// The surface of a tube between two rims of the same number of points, with its ends.
 pub(super) fn tube(low: &[[f64; 3]], high: &[[f64; 3]], closed: bool) -> Vec<Occluder> {
     let pairs = low.windows(2).zip(high.windows(2));
     let sides = pairs.map(|(l, h)| Occluder::Face(vec![l[0], l[1], h[1], h[0]]));
     let ends = [low, high].map(|rim| Occluder::Face(rim.to_vec()));
     sides.chain(ends.into_iter().filter(|_| closed)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{rims, silhouette};
+
+    /// The eye looks along the third axis, so that a cylinder across it has two edges at its radius.
+    #[test]
+    fn a_cylinder_has_an_edge_at_each_side_and_none_from_its_end() {
+        let [low, high] = rims([[0.0, -1.0, 0.0], [0.0, 1.0, 0.0]], 0.5);
+        let edges = silhouette(&low, &high);
+        assert_eq!(edges.len(), 2, "{edges:?}");
+        for [from, to] in edges {
+            assert!((from[0].abs() - 0.5).abs() < 0.01, "{from:?}");
+            assert!((from[0] - to[0]).abs() < 1e-12 && to[1] - from[1] > 1.9, "{from:?} {to:?}");
+        }
+        let [low, high] = rims([[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]], 0.5);
+        assert!(silhouette(&low, &high).is_empty());
+    }
+
+    /// From the side the edges of a cone end at the widest places of its rim; from a tip in front of the rim there are none.
+    #[test]
+    fn a_cone_has_edges_where_its_tip_lies_outside_its_rim() {
+        let rim = |base: [f64; 3]| rims([base, base.map(|v| 2.0 * v)], 0.5)[0].clone();
+        let upright = rim([0.0, 1.0, 0.0]);
+        let edges = silhouette(&vec![[0.0; 3]; upright.len()], &upright);
+        assert_eq!(edges.len(), 2);
+        assert!(edges.iter().all(|[tip, end]| *tip == [0.0; 3] && end[0].abs() > 0.49));
+        let towards = rim([0.1, 0.0, 1.0]);
+        assert!(silhouette(&vec![[0.0; 3]; towards.len()], &towards).is_empty());
+    }
 }

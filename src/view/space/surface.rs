@@ -33,6 +33,11 @@ impl ScenePainter<'_> {
                 let (tip, base) = (self.point(tip), self.point(base));
                 (faint, solid::cone(tip, base, self.q.number(*radius)))
             }
+            Shape::Cylinder { from, to, radius } => {
+                let (from, to) = (self.point(from), self.point(to));
+                let [low, high] = solid::rims([from, to], self.q.number(*radius));
+                (faint, solid::tube(&low, &high, true))
+            }
             Shape::Sphere { centre, radius } => (
                 (faint.0, SPHERE),
                 vec![Occluder::Ball(self.point(centre), self.q.number(*radius).abs())],

@@ -415,11 +415,17 @@ shapes = [
   { sphere = ["0", "x", "0"], radius = "2" },
   { cone = ["0", "0", "0"], to = ["0", "0", "x"], radius = "1/4" },
   { vector = ["0", "0"], to = ["x", "0"], label = "v" },
+  { cylinder = ["0", "0", "x"], to = ["0", "1", "0"], radius = "1/8" },
+  { caption = ["x", "0", "0"], text = "the bob" },
 ]
 "#,
     ));
     let shapes = &file.space;
-    assert_eq!(shapes.len(), 4);
+    assert_eq!(shapes.len(), 6);
+    let Shape::Caption { at, text: words } = &shapes[5] else { panic!("{:?}", shapes[5]) };
+    assert_eq!((text(&file, at[0]).as_str(), words.as_str()), ("x", "the bob"));
+    let Shape::Cylinder { from, to, radius } = &shapes[4] else { panic!("{:?}", shapes[4]) };
+    assert_eq!([from[2], to[1], *radius].map(|e| text(&file, e)), ["x", "1", "1/8"]);
     let Shape::Disc { normal, .. } = &shapes[0] else { panic!("{:?}", shapes[0]) };
     assert_eq!(*normal, [Expr::ZERO, Expr::ZERO, Expr::ONE]);
     let Shape::Sphere { centre, radius } = &shapes[1] else { panic!("{:?}", shapes[1]) };

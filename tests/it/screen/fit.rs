@@ -1,0 +1,113 @@
+//! What fits into a pane: tabs that differ, names and units that are whole, rows that are not left empty.
+
+use std::sync::Arc;
+
+use phaselab::app::{App, Event};
+use phaselab::experiment::{Growth, Verdict};
+
+use super::{find, rich, rows, screen};
+use crate::hand::{catalog, gauge, loaded, press, snapshot};
+
+/// A preset in the lab, with a snapshot of its first second.
+fn opened(name: &str) -> App {
+    let loaded = loaded(name, 1);
+    let seen = snapshot(&loaded, 1.0);
+    let (mut app, _) = App::new(catalog(), Some(name));
+    app.update(Event::Loaded(Ok(loaded)));
+    app.update(Event::Snapshot(Arc::new(seen)));
+    app
+}
+
+/// The tabs in the titles of the left panes.
+fn tabs(rows: &[String]) -> Vec<Vec<String>> {
+    let titles = rows.iter().filter_map(|row| row.strip_prefix("╭─ "));
+    let titles = titles.filter_map(|row| row.split(" ─").next());
+    let named = titles.map(|title| {
+        let tabs = title.split(" │ ").map(|tab| tab.split("  ").next().unwrap_or(tab).trim());
+        tabs.map(str::to_owned).collect::<Vec<_>>()
+    });
+    named.filter(|tabs| tabs.len() > 1).collect()
+}
+
+#[test]
+fn tabs_of_a_frame_differ() {
+    for (name, two) in [
+        ("duffing", ["Phase x, x′", "Phase x, p_x"]),
+        ("driven-damped-pendulum", ["Phase θ, θ′", "Phase θ, p_θ"]),
+    ] {
+        let rows = rows(&screen(&opened(name), &rich(), (120, 40)));
+        let tabs = tabs(&rows);
+        assert_eq!(tabs.len(), 1, "{name}: {rows:#?}");
+        for (place, tab) in tabs[0].iter().enumerate() {
+            assert!(!tabs[0][..place].contains(tab), "{name}: {tabs:?}");
+        }
+        for tab in two {
+            assert!(tabs[0].iter().any(|other| other == tab), "{name}: {tab} in {tabs:?}");
+        }
+    }
+}
+
+/// The names of gauges are those of the shipped presets that were once torn.
+#[test]
+fn names_of_gauges_end_with_a_word() {
+    let mut app = opened("pendulum");
+    let lab = app.lab.as_ref().expect("a lab");
+    let mut seen = (**lab.snapshot.as_ref().expect("a snapshot")).clone();
+    let names = [
+        "least spin that sleeps",
+        "A Aᵀ = 1, det A = 1",
+        "areal velocity seen from above",
+        "centre of mass along x",
+        "centre of mass along y",
+        "E",
+        "p_x",
+        "p_y",
+        "p_z",
+    ];
+    let named = |name: &&str| gauge(name, name, 1.0, Verdict::Exact(Growth::Level));
+    seen.gauges = names.iter().map(named).collect::<Vec<_>>().into();
+    app.update(Event::Snapshot(Arc::new(seen)));
+    let text = rows(&screen(&app, &rich(), (120, 40))).join("\n");
+    for shown in
+        ["least spin…", "A Aᵀ = 1…", "areal velocity…", "centre of mass… x", "centre of mass… y"]
+    {
+        assert!(text.contains(&format!("  {shown} ")), "{shown}: {text}");
+    }
+}
+
+#[test]
+fn a_unit_is_whole_though_its_bar_is_shorter() {
+    for size in [(80, 24), (120, 40)] {
+        let text = rows(&screen(&opened("solar-system"), &rich(), size));
+        let row = text.iter().find(|row| row.contains("au³/(M☉ yr²)"));
+        assert!(row.is_some_and(|row| row.contains('●')), "{text:#?}");
+    }
+}
+
+/// While the law of motion is clipped the gauges have no row to spare: a heading and two rows for each in a frame.
+#[test]
+fn rows_to_spare_are_those_of_the_law() {
+    for name in ["harmonic-oscillator", "pendulum", "planet"] {
+        let app = opened(name);
+        let gauges = app.lab.as_ref().and_then(|lab| Some(lab.snapshot.as_ref()?.gauges.len()));
+        let buffer = screen(&app, &rich(), (120, 40));
+        let at = |title: &str| find(&buffer, title).unwrap_or_else(|| panic!("{name}: {title}")).1;
+        let height = usize::from(at("Law of motion") - at("Gauges"));
+        assert_eq!(height, 2 * gauges.expect("gauges") + 3, "{name}: {:#?}", rows(&buffer));
+        assert!(rows(&buffer).iter().any(|row| row.contains(" ↓ ─")), "{name} is clipped");
+    }
+}
+
+#[test]
+fn numbers_have_two_columns_where_they_are_wide() {
+    let mut app = opened("planet");
+    press(&mut app, "4");
+    let at = |size, heading: &str| {
+        let buffer = screen(&app, &rich(), size);
+        find(&buffer, heading).unwrap_or_else(|| panic!("{heading}: {:#?}", rows(&buffer)))
+    };
+    let [state, gauges] = ["State", "Gauges"].map(|heading| at((200, 60), heading));
+    assert!(state.0 < 20 && gauges.0 > 90, "{state:?} {gauges:?}");
+    let [state, gauges] = ["State", "Gauges"].map(|heading| at((120, 60), heading));
+    assert_eq!(state.0, gauges.0);
+}
