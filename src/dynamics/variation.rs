@@ -29,7 +29,7 @@ const SETTLED: f64 = 1e-13;
 const SIZE_SETTLED: f64 = 1e-3;
 
 /// The least number of parts where the paths beside the motion have corners: roots of what may vanish.
-const WITH_CORNERS: usize = 32;
+const WITH_CORNERS: usize = 16;
 
 /// An action beside a motion.
 #[derive(Clone, PartialEq, Debug)]

@@ -178,12 +178,14 @@ impl Instrument for ActionPlot {
 
     fn picture(
         &self,
-        _plot: &Plot,
+        plot: &Plot,
         present: &Present<'_>,
         [from, to]: [f64; 2],
         answer: Option<&Answer>,
     ) -> Option<Picture> {
-        let legend = (MOTION, Layer::Legend(sentences(answer, present.physics.model.run.start)));
+        let name = plot.column(0).map(|channel| present.physics.shown(channel));
+        let legend =
+            (MOTION, Layer::Legend(sentences(answer, (present.physics.model.run.start, name))));
         let named = |range, layers| {
             let letter = self.0.letter();
             let upwards = Upwards::Named(format!("{letter}(ε) − {letter}(0)"), range);
@@ -346,7 +348,7 @@ fn varied(answer: Option<&Answer>) -> Option<&VariedAction> {
 }
 
 /// What is said of the motion's action, or why it has none.
-fn sentences(answer: Option<&Answer>, begin: f64) -> Vec<String> {
+fn sentences(answer: Option<&Answer>, (begin, coordinate): (f64, Option<&str>)) -> Vec<String> {
     let Some(computed) = computed(answer) else { return vec!["being computed".to_owned()] };
     let found = match &computed.outcome {
         Err(why) => return vec![why.clone()],
@@ -356,7 +358,8 @@ fn sentences(answer: Option<&Answer>, begin: f64) -> Vec<String> {
     let at = |focus: &f64| format!("t = {}", short(begin + focus));
     let rest = match found.foci.as_deref() {
         Some(_) if computed.principle == Principle::PhaseSpace => {
-            vec!["stationary in q and p apart".to_owned(), nature(&found.varied)]
+            let name = coordinate.unwrap_or("q");
+            [vec![nature(&found.varied)], beside_by(&found.varied, name)].concat()
         }
         Some([]) if computed.principle == Principle::Maupertuis && found.degrees == 1 => {
             vec!["one coordinate: no other way at this H".to_owned()]
@@ -380,13 +383,23 @@ fn sentences(answer: Option<&Answer>, begin: f64) -> Vec<String> {
     [vec![action], rest].concat()
 }
 
+/// By how much the action in phase space is greater on the last curve of each kind, so that they are known without colours.
+fn beside_by(varied: &VariedAction, name: &str) -> Vec<String> {
+    let short = |x: f64| significant(x, 2, 1e-3..1e5).replace('-', "−");
+    let ends: Vec<[f64; 2]> =
+        varied.curves.iter().filter_map(|curve| curve.last().copied()).collect();
+    let [q, p, both] = ends[..] else { return Vec::new() };
+    let [q, p, both, epsilon] = [q[1], p[1], both[1], q[0]].map(short);
+    vec![format!("at ε = {epsilon}: {name} alone {q}, p alone {p}, p = ∂L/∂{name}′ {both}")]
+}
+
 /// Whether an action in phase space is greater or less on the curves beside the motion.
 fn nature(varied: &VariedAction) -> String {
     let rises = varied.curves.iter().flatten().map(|at| at[1]);
     let (least, greatest) =
         rises.fold((0.0_f64, 0.0_f64), |(lo, hi), rise| (lo.min(rise), hi.max(rise)));
     let word = match (least < 0.0, greatest > 0.0) {
-        (true, true) => "neither least nor greatest",
+        (true, true) => "stationary, neither least nor greatest",
         (true, false) => "greater than on these curves",
         (false, true) => "less than on these curves",
         (false, false) => "the same on these curves",
