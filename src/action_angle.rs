@@ -1,13 +1,16 @@
-//! Action variables of one coordinate: J = ∮ p dq, its period and frequency, the separatrices between kinds of motion.
+//! Action variables of one coordinate: J = ∮ p dq, its period and frequency, its angle variable, the
+//! separatrices between kinds of motion.
 //!
 //! In: a system that conserves its energy, or one held at an instant, a coordinate, an energy. Out: one row for each region
 //! in which the coordinate may move. Never here: names, files, pictures, what became of an action over a run.
 //! Source: *The Principles of Dynamics*, §§ 4.2, 4.3.
 
+mod angle;
 mod effective_potential;
 mod held;
 mod row;
 
+pub use angle::angle;
 pub use effective_potential::{AllowedInterval, EffectivePotential};
 pub use held::{HeldMotion, HeldSystem, NotHeld, OwnMotion, Separatrix};
 pub use row::{

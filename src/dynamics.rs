@@ -26,7 +26,6 @@ mod orbit;
 mod orbit_units;
 mod phase_space;
 mod principle;
-mod quadrature;
 mod rotation;
 mod spectrum;
 mod stationary_path;
@@ -37,7 +36,7 @@ mod virtual_work;
 pub use action::{Lagrangian, Path};
 pub use carrier::Carrier;
 pub use conformal::conformal_rate;
-pub use conjugate::conjugate_points;
+pub use conjugate::{conjugate_points, conjugate_points_at_energy};
 pub use continuation::family;
 pub use driven_orbit::driven_orbit;
 pub use equilibria::{
@@ -57,5 +56,7 @@ pub use spectrum::{
 };
 pub use stationary_path::{PathKind, StationaryPath, morse_index, stationary_path};
 pub use transverse::Removed;
-pub use variation::{VARIATIONS, VariedAction, varied_action};
+pub use variation::{
+    VARIATIONS, VariedAction, varied_abbreviated_action, varied_action, varied_phase_action,
+};
 pub use virtual_work::VirtualWork;

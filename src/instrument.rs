@@ -7,6 +7,7 @@
 
 mod action;
 mod actions;
+mod angle;
 mod answer;
 mod conditions;
 mod diagram;

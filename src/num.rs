@@ -5,7 +5,7 @@
 //! orbits. A [`Number`] is a constant in an
 //! expression. A [`PrimeField`] has the residues in which ranks are computed. [`math`] has the
 //! elementary functions, with the same bits on every machine. [`eigenvalues`] are those of a small
-//! matrix of `f64`. Never here: expressions, units, files.
+//! matrix of `f64`, [`gauss`] the nodes of a quadrature. Never here: expressions, units, files.
 
 mod batch;
 mod compensated;
@@ -20,6 +20,7 @@ mod instruction_set;
 pub mod math;
 mod number;
 mod prime_field;
+mod quadrature;
 mod real;
 
 pub use batch::{BATCH, Batch};
@@ -33,4 +34,5 @@ pub use horner::{Polynomial, polynomial, tails};
 pub use instruction_set::{Kernel, vectorized};
 pub use number::Number;
 pub use prime_field::{PRIMES, PrimeField, Residue, Unreduced, rational};
+pub use quadrature::gauss;
 pub use real::{Analytic, Real};

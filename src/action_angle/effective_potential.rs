@@ -128,6 +128,12 @@ impl<'a> EffectivePotential<'a> {
         Ok(start)
     }
 
+    /// |q̇| through a place with this energy.
+    pub(super) fn speed(&mut self, place: f64, energy: f64, root: Root) -> Result<f64, NotOnShell> {
+        let start = self.moving(place, energy, root)?;
+        Ok(self.observed(&start, ChannelKind::Velocity(self.coordinate))?.abs())
+    }
+
     /// p to the right less p to the left at a place, zero where the energy forbids it by rounding.
     pub(super) fn width(&mut self, place: f64, energy: f64) -> Result<f64, NotOnShell> {
         let momentum = |own: &mut Self, root| match own.moving(place, energy, root) {

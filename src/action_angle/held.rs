@@ -10,7 +10,7 @@ use std::collections::HashMap;
 
 use super::{
     ActionRow, ActionSystems, AllowedInterval, EffectivePotential, NoAction, RegionKind,
-    action_between, action_row,
+    action_between, action_row, angle,
 };
 use crate::cancel::Cancel;
 use crate::ensemble::{Start, add_section};
@@ -18,8 +18,7 @@ use crate::expr::{Expr, FunctionId, Pool, Symbol};
 use crate::integrate::{METHODS, Method, Settings};
 use crate::mechanics::{NoClosedForm, derive_for_motion};
 use crate::model::{
-    Channel, Direction, Event, EventAction, Expect, Impulse, Mechanics, Model, Parameter,
-    RangeSpacing,
+    Channel, Direction, Event, EventAction, Expect, Impulse, Model, Parameter, RangeSpacing,
 };
 use crate::num::Number;
 use crate::system::{ChannelKind, CompileError, InitialOverride, MotionError, System};
@@ -223,6 +222,23 @@ impl HeldMotion<'_> {
         Ok(OwnMotion { energy, row })
     }
 
+    /// The angle variable of the coordinate as the motion has it, in turns; `row` is its own.
+    ///
+    /// # Errors
+    /// Returns an error if the motion does not return, or the state cannot be observed.
+    pub fn angle(&mut self, row: &ActionRow) -> Result<f64, NoAction> {
+        let system = &self.held.turning;
+        let mut values = vec![0.0; system.columns()];
+        let observed = self.start.state(system).and_then(|state| {
+            system.observer(&self.start.parameters).observe_columns(&state, &mut values)
+        });
+        observed.map_err(|why| NoAction::NoReturn(why.to_string()))?;
+        let value = |kind| values[self.held.column(kind)];
+        let place = value(ChannelKind::Position(self.held.coordinate));
+        let velocity = value(ChannelKind::Velocity(self.held.coordinate));
+        angle(&mut self.potential, row, place, velocity)
+    }
+
     /// The rows of all regions of an energy in which the motion returns, from left to right.
     ///
     /// # Errors
@@ -276,20 +292,8 @@ fn hold_time(model: &mut Model) -> bool {
     let time = model.symbols.time;
     let map: HashMap<Symbol, Expr> = HashMap::from([(time, held)]);
     let Model { pool, mechanics, parameters, .. } = model;
-    let mut all: Vec<&mut Expr> = Vec::new();
-    match mechanics {
-        Mechanics::Lagrangian { lagrangian, dissipation, forces } => {
-            all.extend([lagrangian, dissipation]);
-            all.extend(forces);
-        }
-        Mechanics::Hamiltonian { hamiltonian, forces } => {
-            all.push(hamiltonian);
-            all.extend(forces);
-        }
-        Mechanics::Poisson { .. } => {}
-    }
     let mut depends = false;
-    for e in all {
+    for e in mechanics.expressions_mut() {
         depends |= pool.depends(*e, time);
         *e = pool.substitute(*e, &map);
     }

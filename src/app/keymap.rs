@@ -312,7 +312,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Plot, &[c('Y')], Action::Farther(AxisChoice::Upwards), "", "shrink the vertical axis"),
     row(Place::Plot, &[c('g')], Action::Log, "", "make the vertical axis logarithmic, or linear again"),
     row(Place::Plot, &[c('o')], Action::Equal, "", "equal scales on both axes, or fill the pane again"),
-    row(Place::Plot, &[c('Q')], Action::Active, "", "let a transformation move the point (the active view), or the coordinates again (the passive one)"),
+    row(Place::Plot, &[c('Q')], Action::Active, "", "let a transformation move the point (the active view), or the coordinates again (the passive one); the next principle of an action: Hamilton, Maupertuis, phase space"),
     row(Place::Plot, &[c('H')], Action::ByChaos, "", "colour the orbits of a section by whether they are regular or chaotic, or each in its own colour"),
     row(Place::Plot, &[c('c')], Action::Cursor, "cursor", "show or hide a cursor on the plot that reads coordinates"),
     row(Place::Plot, &[LEFT, c('h')], Action::Move(ArrowDirection::Left), "move", "move the window, or the cursor, to the left"),

@@ -192,8 +192,11 @@ impl App {
                 Some((_, plot)) if plot.kind.written().iter().any(|axis| axis.transformed) => {
                     self.with_viewport(|viewport| viewport.active = !viewport.active)
                 }
+                Some((_, plot)) if plot.kind.other().is_some() => self.with_plot(|plot, _| {
+                    plot.kind = plot.kind.other().unwrap_or(plot.kind);
+                }),
                 _ => self.notify(
-                    "Only a transformation moves the coordinates or the point; v chooses one.",
+                    "Only a transformation moves the coordinates or the point, and only an action has other principles; v chooses one.",
                 ),
             },
             Action::ByChaos => match lab.focused_plot() {

@@ -6,11 +6,11 @@ use nalgebra::{DMatrix, DVector};
 
 use super::error::DynamicsError;
 use super::lobatto::Lobatto;
-use super::quadrature::gauss;
+
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{Equations, body_constants};
 use crate::model::Model;
-use crate::num::DoubleDouble;
+use crate::num::{DoubleDouble, gauss};
 use crate::system::{Evaluator, Program};
 
 /// A Lagrangian at fixed parameters, as a function of (t, q, q̇).

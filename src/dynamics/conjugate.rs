@@ -1,8 +1,9 @@
 //! Conjugate points: where neighbouring motions from the same place meet again to first order.
 //!
 //! In: a motion from a state. Out: the times at which ∂q(t)/∂p(0) is singular, each as often as it
-//! loses rank. Never here: the path between two ends.
-//! Source: V. I. Arnold, Mathematical Methods of Classical Mechanics, app. 11.
+//! loses rank; or at which neighbouring ways of the same energy meet. Never here: the path between two ends.
+//! Source: V. I. Arnold, Mathematical Methods of Classical Mechanics, app. 11; of equal energy, where the envelope of the
+//! ways from a point is touched: C. G. J. Jacobi, Vorlesungen über Dynamik, 6th lecture.
 
 use nalgebra::DMatrix;
 
@@ -29,9 +30,57 @@ pub fn conjugate_points(
     duration: f64,
 ) -> Result<Vec<f64>, DynamicsError> {
     let n = space.dimension() / 2;
-    let mut carrier = Carrier::new(space, method, settings, n)?;
     let momenta = DMatrix::from_fn(2 * n, n, |i, j| if i == n + j { 1.0 } else { 0.0 });
-    carrier.start(start, &momenta)?;
+    singular(space, (method, settings), (start, &momenta), duration)
+}
+
+/// The times after the start, up to a duration, at which the ways of equal energy from the same place meet to first order: their
+/// envelope is touched. With one coordinate that is where it turns.
+///
+/// # Errors
+/// Returns an error if the motion cannot be followed, does not conserve its energy, or begins at rest.
+pub fn conjugate_points_at_energy(
+    space: &PhaseSpace,
+    (method, settings): (&'static Method, Settings),
+    start: &State,
+    duration: f64,
+) -> Result<Vec<f64>, DynamicsError> {
+    let unsuited = |why: &str| Err(DynamicsError::Unsuited(why.to_owned()));
+    if !(space.is_hamiltonian() && space.is_autonomous()) {
+        return unsuited("the energy of this motion is not conserved");
+    }
+    let n = space.dimension() / 2;
+    let mut field = space.vector_field();
+    field.evaluate(start.time, space.variables(start))?;
+    // along the motion its own rate is carried into its own rate
+    let rate = field.rate();
+    let velocity = rate.rows(0, n).into_owned();
+    let speed = velocity.norm();
+    if n > 1 && !speed.is_normal() {
+        return unsuited("the motion begins at rest, and its way has no direction there");
+    }
+    // δE = q̇·δp vanishes on what is perpendicular to q̇: the columns of a reflection that takes the first axis there
+    let mut mirror = velocity / speed;
+    mirror[0] += if mirror[0] < 0.0 { -1.0 } else { 1.0 };
+    let twice = 2.0 / mirror.norm_squared();
+    let vectors = DMatrix::from_fn(2 * n, n, |i, j| match (i.checked_sub(n), j) {
+        (_, 0) => rate[i],
+        (None, _) => 0.0,
+        (Some(i), j) => f64::from(u8::from(i == j)) - twice * mirror[i] * mirror[j],
+    });
+    singular(space, (method, settings), (start, &vectors), duration)
+}
+
+/// The times at which the upper half of the vectors that a motion carries is singular.
+fn singular(
+    space: &PhaseSpace,
+    (method, settings): (&'static Method, Settings),
+    (start, vectors): (&State, &DMatrix<f64>),
+    duration: f64,
+) -> Result<Vec<f64>, DynamicsError> {
+    let n = vectors.ncols();
+    let mut carrier = Carrier::new(space, method, settings, n)?;
+    carrier.start(start, vectors)?;
     let until = start.time + duration;
     let mut found: Vec<f64> = Vec::new();
     let mut largest = 0.0_f64;
@@ -72,7 +121,7 @@ pub fn conjugate_points(
     Ok(found)
 }
 
-/// ∂q/∂p(0) at a time within the last step.
+/// The upper half of the vectors, as ∂q/∂p(0), at a time within the last step.
 fn block(carrier: &mut Carrier, time: f64) -> Result<DMatrix<f64>, DynamicsError> {
     let (_, vectors) = carrier.at(time)?;
     let n = vectors.ncols();

@@ -15,9 +15,9 @@ use super::amplified_rounding::AmplifiedRounding;
 use super::carrier::Carrier;
 use super::error::DynamicsError;
 use super::phase_space::PhaseSpace;
-use super::quadrature::gauss;
+
 use crate::integrate::{Method, Settings, Stepping};
-use crate::num::math;
+use crate::num::{gauss, math};
 use crate::system::{MotionError, State};
 
 /// The nodes in a step at which the divergence is summed: a long step of a series, …

@@ -17,10 +17,10 @@ use super::flow_map::flow_map;
 use super::linear;
 use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
-use super::quadrature::gauss;
+
 use super::transverse::{self, Removed};
 use crate::integrate::{Method, Settings, Stepping};
-use crate::num::{DoubleDouble, math};
+use crate::num::{DoubleDouble, gauss, math};
 use crate::system::State;
 
 /// The maximal number of steps of Newton's method, and of halvings of one.

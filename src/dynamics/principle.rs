@@ -32,43 +32,76 @@ pub fn abbreviated_action(
     })
 }
 
-/// The same along the way of a path that is gone with an energy, at whatever time: ∫ 2 √((E − V) T) dt, where L = T − V. It is
-/// stationary on the way of a motion of that energy, among all ways between its ends (Jacobi).
+/// The same along the way of a path that is gone with an energy, at whatever time: ∫ (2 √((E + L₀) L₂) + L₁) dt, where L_k is the
+/// part of L of degree k in the velocities; ∫ 2 √((E − V) T) dt of L = T − V. It is stationary on the way of a motion of that
+/// energy, among all ways between its ends (Jacobi).
 ///
 /// # Errors
-/// Returns an error if L is no such difference, or the way leaves the region that the energy allows.
+/// Returns an error if L has other parts, or the way leaves the region that the energy allows.
 pub fn action_at_energy(
     lagrangian: &mut Lagrangian,
     path: &mut dyn Path,
     duration: f64,
     energy: f64,
 ) -> Result<f64, DynamicsError> {
-    let n = lagrangian.degrees();
-    let mut natural = !lagrangian.timed;
-    let mut allowed = true;
+    let mut lost = None;
     let found = lagrangian.integral(path, duration, Some(SETTLED), &mut |lagrangian, time, at| {
-        let mut state = at.to_vec();
-        let mut with = |factor: f64| {
-            (n..2 * n).for_each(|i| state[i] = factor * at[i]);
-            lagrangian.value(time, &state)
-        };
-        let (rest, once, back, twice) = (with(0.0), with(1.0), with(-1.0), with(2.0));
-        let kinetic = once - rest;
-        let off = (once - back).abs().max((twice - rest - 4.0 * kinetic).abs());
-        natural &= off <= QUADRATIC * (once.abs() + rest.abs() + twice.abs());
-        let left = energy + rest;
-        // at the ends of the region E − V is zero, but for rounding
-        let rounding = SETTLED * (energy.abs() + rest.abs());
-        allowed &= left >= -rounding;
-        2.0 * (left.max(0.0) * kinetic.max(0.0)).sqrt()
+        rate_at_energy(lagrangian, (time, at), energy).unwrap_or_else(|why| {
+            lost.get_or_insert(why);
+            f64::NAN
+        })
     });
-    match found {
-        _ if !natural => Err(unsuited(
-            "L is not T − V with T of the second degree in the velocities, or depends on the time",
-        )),
-        _ if !allowed => Err(unsuited("the path leaves the region that its energy allows")),
-        found => found,
+    match lost {
+        Some(why) => Err(why.into()),
+        None => found,
     }
+}
+
+/// Why a way has no abbreviated action at an energy.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum NotOnEnergy {
+    /// The law has none.
+    Law,
+    /// The energy forbids a place of it.
+    Forbidden,
+}
+
+impl From<NotOnEnergy> for DynamicsError {
+    fn from(why: NotOnEnergy) -> Self {
+        unsuited(match why {
+            NotOnEnergy::Law => {
+                "L is not of the second degree in the velocities, or depends on the time"
+            }
+            NotOnEnergy::Forbidden => "the path leaves the region that its energy allows",
+        })
+    }
+}
+
+/// 2 √((E + L₀) L₂) + L₁ at a time and a state of a path.
+pub(super) fn rate_at_energy(
+    lagrangian: &mut Lagrangian,
+    (time, at): (f64, &[f64]),
+    energy: f64,
+) -> Result<f64, NotOnEnergy> {
+    let n = lagrangian.degrees();
+    let mut state = at.to_vec();
+    let mut with = |factor: f64| {
+        (n..2 * n).for_each(|i| state[i] = factor * at[i]);
+        lagrangian.value(time, &state)
+    };
+    let (rest, once, back, twice) = (with(0.0), with(1.0), with(-1.0), with(2.0));
+    let (even, odd) = (f64::midpoint(once, back) - rest, 0.5 * (once - back));
+    let off = (twice - rest - 4.0 * even - 2.0 * odd).abs();
+    let size = twice.abs() + once.abs() + back.abs() + rest.abs();
+    if lagrangian.timed || off > QUADRATIC * size {
+        return Err(NotOnEnergy::Law);
+    }
+    let left = energy + rest;
+    // at the ends of the region E − V is zero, but for rounding
+    if left < -SETTLED * (energy.abs() + rest.abs()) {
+        return Err(NotOnEnergy::Forbidden);
+    }
+    Ok(2.0 * (left.max(0.0) * even.max(0.0)).sqrt() + odd)
 }
 
 /// A Hamiltonian at fixed parameters, as a function of (t, q, p).
@@ -114,11 +147,15 @@ impl Hamiltonian {
         lagrangian.integral(path, duration, None, &mut |_, time, at| {
             let (velocities, momenta) = (&at[n..2 * n], &at[2 * n..]);
             let product: f64 = momenta.iter().zip(velocities).map(|(p, v)| p * v).sum();
-            let point = [&at[..n], momenta].concat();
-            match self.value.evaluate(self.start + time, &point) {
-                Ok(()) => product - self.value.output(0),
-                Err(_) => f64::NAN,
-            }
+            product - self.value(time, &[&at[..n], momenta].concat())
         })
+    }
+
+    /// H at a time from the beginning of a path; NaN where it has no value.
+    pub(super) fn value(&mut self, time: f64, point: &[f64]) -> f64 {
+        match self.value.evaluate(self.start + time, point) {
+            Ok(()) => self.value.output(0),
+            Err(_) => f64::NAN,
+        }
     }
 }

@@ -1,18 +1,20 @@
-//! The action of a motion, and of the paths beside it that have the same ends.
+//! The three actions of a motion, and of what lies beside it with the same ends: Hamilton's ∫ L dt, the abbreviated one of
+//! Maupertuis at equal energy, and that in phase space, where q and p are varied apart.
 //!
-//! In: a Lagrangian, a motion, a coordinate. Out: S(ε) − S(0) of paths on which ε sin(kπs)/k is added
-//! to the coordinate, s from 0 to 1 along the path. To second order they are parabolas; that of the
-//! k-th opens downwards once the motion is so long that a shorter way round it exists (*The
-//! Principles of Dynamics*, § 3.5). Never here: the search for a path between two ends.
+//! In: a Lagrangian or a Hamiltonian, a motion, a coordinate. Out: the action of the motion, and by how much it is
+//! greater on paths on which ε sin(kπs)/k is added to the coordinate, s from 0 to 1 along the path. To second order these
+//! are parabolas; of Hamilton's action that of the k-th opens downwards once the motion is so long that a shorter way
+//! round it exists (*The Principles of Dynamics*, §§ 3.1.3, 3.5). Never here: the search for a path between two ends.
 
 use std::f64::consts::PI;
 
 use super::action::Lagrangian;
 use super::error::DynamicsError;
-use super::quadrature::gauss;
-use crate::num::math;
+use super::principle::{Hamiltonian, NotOnEnergy, rate_at_energy};
 
-/// The greatest k.
+use crate::num::{gauss, math};
+
+/// The greatest k, and the number of curves.
 pub const VARIATIONS: usize = 3;
 
 /// The number of values of ε on either side of 0.
@@ -26,51 +28,240 @@ const PARTS: [usize; 8] = [4, 8, 16, 32, 64, 128, 256, 512];
 const SETTLED: f64 = 1e-13;
 const SIZE_SETTLED: f64 = 1e-3;
 
-/// The action beside a motion.
+/// The least number of parts where the paths beside the motion have corners: roots of what may vanish.
+const WITH_CORNERS: usize = 16;
+
+/// An action beside a motion.
 #[derive(Clone, PartialEq, Debug)]
 pub struct VariedAction {
-    /// ∫ L dt along the motion.
+    /// That of the motion.
     pub action: f64,
-    /// For each k the points (ε, S(ε) − S(0)), in the units of the coordinate and of the action.
+    /// For each variation the points (ε, A(ε) − A(0)), in the units of the coordinate and of the action.
     pub curves: Vec<Vec<[f64; 2]>>,
 }
 
-/// The action of a motion of a duration, and of the paths on which a coordinate is varied by up to
-/// half of the range that it has on the way (by up to 1, if it rests). `motion` gives q and then q̇
-/// at ascending times from the beginning, or `None` where it cannot be followed.
+/// What gives q and then q̇ of a motion at ascending times from its beginning, or `None` where it cannot be followed.
+type Motion<'a> = &'a mut dyn FnMut(&[f64]) -> Option<Vec<Vec<f64>>>;
+
+/// The action ∫ L dt of a motion of a duration, and of the paths on which a coordinate is varied by up to half of the range that
+/// it has on the way (by up to 1, if it rests).
 ///
 /// # Errors
 /// Returns an error if the motion cannot be followed, L is not finite on it, or its integral does
 /// not settle.
 pub fn varied_action(
     lagrangian: &mut Lagrangian,
-    motion: &mut dyn FnMut(&[f64]) -> Option<Vec<Vec<f64>>>,
+    motion: Motion<'_>,
     coordinate: usize,
     duration: f64,
 ) -> Result<VariedAction, DynamicsError> {
-    let unsuited = |why: &str| DynamicsError::Unsuited(why.to_owned());
-    let (mut before, mut size_before) = (f64::NAN, f64::NAN);
-    for parts in PARTS {
-        let nodes = nodes(parts, duration);
-        let times: Vec<f64> = nodes.iter().map(|&(time, _)| time).collect();
-        let path = motion(&times).filter(|path| path.len() == nodes.len());
-        let path = path.ok_or_else(|| unsuited("the motion cannot be followed so far"))?;
-        let terms: Vec<f64> = (nodes.iter().zip(&path))
-            .map(|(&(time, weight), state)| weight * lagrangian.value(time, state))
-            .collect();
-        let action: f64 = terms.iter().sum();
-        if !action.is_finite() {
-            return Err(unsuited("L is not finite on this motion"));
-        }
-        let size: f64 = terms.iter().map(|term| term.abs()).sum();
-        let bounded = (size - size_before).abs() <= SIZE_SETTLED * size;
-        if bounded && (action - before).abs() <= SETTLED * size {
-            let curve = |k| curve(lagrangian, (&nodes, &path), (coordinate, k), duration);
-            return Ok(VariedAction { action, curves: (1..=VARIATIONS).map(curve).collect() });
-        }
-        (before, size_before) = (action, size);
+    let mut value = |time: f64, state: &[f64]| lagrangian.value(time, state);
+    let followed = Followed::of(motion, duration, 0, &mut value)?;
+    let variation = |k| Variation { coordinate, k };
+    let curve = |k| followed.curve(variation(k), &mut value);
+    Ok(VariedAction { action: followed.integral, curves: (1..=VARIATIONS).map(curve).collect() })
+}
+
+/// The abbreviated action ∫ Σ p dq of a motion, and of the same ways as of [`varied_action`], each gone with the energy of the
+/// motion, at whatever time. Where the energy forbids a way there is no point.
+///
+/// # Errors
+/// Returns an error if L is not of the second degree in the velocities or depends on the time, or the motion cannot be
+/// followed.
+pub fn varied_abbreviated_action(
+    lagrangian: &mut Lagrangian,
+    motion: Motion<'_>,
+    coordinate: usize,
+    duration: f64,
+) -> Result<VariedAction, DynamicsError> {
+    let mut own = |time: f64, state: &[f64]| {
+        let momenta = lagrangian.momenta(time, state);
+        product(&momenta, state)
+    };
+    let followed = Followed::of(motion, duration, WITH_CORNERS, &mut own)?;
+    let Some(((time, _), state)) = followed.nodes.first().zip(followed.path.first()) else {
+        return Err(unsuited("the motion cannot be followed so far"));
+    };
+    let energy = lagrangian.energy(*time, state);
+    let mut law = true;
+    let mut value =
+        |time: f64, state: &[f64]| match rate_at_energy(lagrangian, (time, state), energy) {
+            Ok(value) => value,
+            Err(why) => {
+                law &= why != NotOnEnergy::Law;
+                f64::NAN
+            }
+        };
+    let curve = |k| followed.curve(Variation { coordinate, k }, &mut value);
+    let curves = (1..=VARIATIONS).map(curve).collect();
+    if law {
+        Ok(VariedAction { action: followed.integral, curves })
+    } else {
+        Err(NotOnEnergy::Law.into())
     }
-    Err(unsuited("the integral of L along this motion does not settle: it is not smooth"))
+}
+
+/// The action in phase space ∫ (Σ p q̇ − H) dt of a motion, and of paths beside it: first with q varied alone, by ε sin πs;
+/// then with p varied alone, by ε c cos πs, whose ends are free; then with q varied and p = ∂L/∂q̇ with it, where it is
+/// Hamilton's. c is the ratio of the ranges that p and q have on the way.
+///
+/// # Errors
+/// Returns an error if the motion cannot be followed, or H has no value on it.
+pub fn varied_phase_action(
+    (hamiltonian, lagrangian): (&mut Hamiltonian, &mut Lagrangian),
+    motion: Motion<'_>,
+    coordinate: usize,
+    duration: f64,
+) -> Result<VariedAction, DynamicsError> {
+    let mut at = |time: f64, state: &[f64], momenta: &[f64]| {
+        let product = product(momenta, state);
+        product - hamiltonian.value(time, &[&state[..momenta.len()], momenta].concat())
+    };
+    let mut own = |time: f64, state: &[f64]| {
+        let momenta = lagrangian.momenta(time, state);
+        at(time, state, &momenta)
+    };
+    let followed = Followed::of(motion, duration, 0, &mut own)?;
+    let nodes = followed.nodes.iter().zip(&followed.path);
+    let momenta: Vec<Vec<f64>> =
+        nodes.map(|(&(time, _), state)| lagrangian.momenta(time, state)).collect();
+    let scale = half_range(&momenta, coordinate) / half_range(&followed.path, coordinate);
+    let variation = Variation { coordinate, k: 1 };
+    let mut curves = Vec::new();
+    for (with_q, with_p) in [(true, Beside::Kept), (false, Beside::Varied), (true, Beside::OfPath)]
+    {
+        let mut rise = |epsilon: f64| {
+            let terms = followed.nodes.iter().zip(followed.path.iter().zip(&momenta));
+            let terms = terms.map(|(&(time, weight), (state, own))| {
+                let size = if with_q { epsilon } else { 0.0 };
+                let varied = variation.of(state, (time, duration), size);
+                let mut p = own.clone();
+                match with_p {
+                    Beside::Kept => {}
+                    Beside::Varied => {
+                        p[coordinate] += epsilon * scale * math::cos(PI * time / duration);
+                    }
+                    Beside::OfPath => p = lagrangian.momenta(time, &varied),
+                }
+                weight * (at(time, &varied, &p) - at(time, state, own))
+            });
+            terms.sum::<f64>()
+        };
+        curves.push(followed.points(coordinate, &mut rise));
+    }
+    Ok(VariedAction { action: followed.integral, curves })
+}
+
+/// What becomes of the momenta.
+#[derive(Clone, Copy)]
+enum Beside {
+    /// They are those of the motion.
+    Kept,
+    /// They are varied by themselves.
+    Varied,
+    /// They are those of the velocities.
+    OfPath,
+}
+
+fn unsuited(why: &str) -> DynamicsError {
+    DynamicsError::Unsuited(why.to_owned())
+}
+
+/// Σ p q̇.
+fn product(momenta: &[f64], state: &[f64]) -> f64 {
+    momenta.iter().zip(&state[momenta.len()..]).map(|(p, v)| p * v).sum()
+}
+
+/// Half of the range of a number on the way; 1 if it stays.
+fn half_range(path: &[Vec<f64>], index: usize) -> f64 {
+    let (least, greatest) = path.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), q| {
+        (lo.min(q[index]), hi.max(q[index]))
+    });
+    let half = 0.5 * (greatest - least);
+    if half.is_normal() { half } else { 1.0 }
+}
+
+/// ε sin(kπs)/k, added to a coordinate.
+#[derive(Clone, Copy)]
+struct Variation {
+    coordinate: usize,
+    k: usize,
+}
+
+impl Variation {
+    /// q and q̇ of the varied path.
+    fn of(self, state: &[f64], (time, duration): (f64, f64), epsilon: f64) -> Vec<f64> {
+        let mut varied = state.to_vec();
+        let (k, n) = (self.k as f64, state.len() / 2);
+        let rate = k * PI / duration;
+        varied[self.coordinate] += epsilon / k * math::sin(rate * time);
+        varied[n + self.coordinate] += epsilon / k * rate * math::cos(rate * time);
+        varied
+    }
+}
+
+/// A motion at the nodes of a rule by which the integral of its action settles.
+struct Followed {
+    duration: f64,
+    /// Times and weights.
+    nodes: Vec<(f64, f64)>,
+    /// q and q̇ at each.
+    path: Vec<Vec<f64>>,
+    integral: f64,
+}
+
+impl Followed {
+    fn of(
+        motion: Motion<'_>,
+        duration: f64,
+        fewest: usize,
+        integrand: &mut dyn FnMut(f64, &[f64]) -> f64,
+    ) -> Result<Followed, DynamicsError> {
+        let (mut before, mut size_before) = (f64::NAN, f64::NAN);
+        for parts in PARTS.into_iter().filter(|&parts| parts >= fewest) {
+            let nodes = nodes(parts, duration);
+            let times: Vec<f64> = nodes.iter().map(|&(time, _)| time).collect();
+            let path = motion(&times).filter(|path| path.len() == nodes.len());
+            let path = path.ok_or_else(|| unsuited("the motion cannot be followed so far"))?;
+            let terms: Vec<f64> = (nodes.iter().zip(&path))
+                .map(|(&(time, weight), state)| weight * integrand(time, state))
+                .collect();
+            let integral: f64 = terms.iter().sum();
+            if !integral.is_finite() {
+                return Err(unsuited("L is not finite on this motion"));
+            }
+            let size: f64 = terms.iter().map(|term| term.abs()).sum();
+            let bounded = (size - size_before).abs() <= SIZE_SETTLED * size;
+            if bounded && (integral - before).abs() <= SETTLED * size {
+                return Ok(Followed { duration, nodes, path, integral });
+            }
+            (before, size_before) = (integral, size);
+        }
+        Err(unsuited("the integral of L along this motion does not settle: it is not smooth"))
+    }
+
+    /// A(ε) − A(0) of a variation, where there is an action.
+    fn curve(
+        &self,
+        variation: Variation,
+        integrand: &mut dyn FnMut(f64, &[f64]) -> f64,
+    ) -> Vec<[f64; 2]> {
+        let mut rise = |epsilon: f64| {
+            let terms = self.nodes.iter().zip(&self.path).map(|(&(time, weight), state)| {
+                let varied = variation.of(state, (time, self.duration), epsilon);
+                weight * (integrand(time, &varied) - integrand(time, state))
+            });
+            terms.sum::<f64>()
+        };
+        self.points(variation.coordinate, &mut rise)
+    }
+
+    /// The points (ε, rise) up to half of the range of a coordinate, where the rise is finite.
+    fn points(&self, coordinate: usize, rise: &mut dyn FnMut(f64) -> f64) -> Vec<[f64; 2]> {
+        let reach = half_range(&self.path, coordinate);
+        let epsilons = (-SIDE..=SIDE).map(|i| reach * f64::from(i) / f64::from(SIDE));
+        epsilons.map(|epsilon| [epsilon, rise(epsilon)]).filter(|at| at[1].is_finite()).collect()
+    }
 }
 
 /// The times and weights of the rule on so many parts of a duration.
@@ -81,32 +272,4 @@ fn nodes(parts: usize, duration: f64) -> Vec<(f64, f64)> {
     let part =
         |part| rule.iter().map(move |&(x, weight)| (width * (part as f64 + x), width * weight));
     (0..parts).flat_map(part).collect()
-}
-
-/// S(ε) − S(0) of the k-th variation of a coordinate, where L is finite.
-fn curve(
-    lagrangian: &mut Lagrangian,
-    (nodes, path): (&[(f64, f64)], &[Vec<f64>]),
-    (coordinate, k): (usize, usize),
-    duration: f64,
-) -> Vec<[f64; 2]> {
-    let n = lagrangian.degrees();
-    let (least, greatest) = path.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), q| {
-        (lo.min(q[coordinate]), hi.max(q[coordinate]))
-    });
-    let half = 0.5 * (greatest - least);
-    let reach = if half.is_normal() { half } else { 1.0 };
-    let rate = k as f64 * PI / duration;
-    let mut values = |epsilon: f64| {
-        let terms = nodes.iter().zip(path).map(|(&(time, weight), state)| {
-            let mut varied = state.clone();
-            let (sine, cosine) = (math::sin(rate * time), math::cos(rate * time));
-            varied[coordinate] += epsilon / k as f64 * sine;
-            varied[n + coordinate] += epsilon / k as f64 * rate * cosine;
-            weight * (lagrangian.value(time, &varied) - lagrangian.value(time, state))
-        });
-        terms.sum::<f64>()
-    };
-    let epsilons = (-SIDE..=SIDE).map(|i| reach * f64::from(i) / f64::from(SIDE));
-    epsilons.map(|epsilon| [epsilon, values(epsilon)]).filter(|at| at[1].is_finite()).collect()
 }

@@ -1,8 +1,11 @@
-//! `action`: Hamilton's principle on the running motion: the action of the paths beside it that have the same ends.
+//! `action`, `abbreviated`, `phase-action`: the three principles of stationary action on the running motion, each by the action
+//! of what lies beside it with the same ends.
 //!
-//! The job follows the motion from its initial values up to now, and adds ε sin(kπs)/k to one coordinate, s from 0 to 1
-//! on the way ([`varied_action`](crate::dynamics::varied_action)). Every curve S(ε) is level at ε = 0; the first turns
-//! over once the motion has passed a kinetic focus, and its action is no longer least.
+//! The job follows the motion from its initial values up to now. Hamilton's principle and that of Maupertuis add ε sin(kπs)/k
+//! to one coordinate, s from 0 to 1 on the way: the first takes every path in the same time, the second with the same energy. In
+//! phase space q and p are varied apart. Every curve is level at ε = 0; the first turns over once the motion has passed a
+//! kinetic focus, and its action is no longer least. Never here: the integrals (`dynamics`).
+//! Source: *The Principles of Dynamics*, §§ 0, 1.4.1, 3.1.3.
 
 use super::conditions::PlotConditions;
 use super::{
@@ -10,11 +13,14 @@ use super::{
     Physics, Picture, Plot, Present, Sign, Upwards,
 };
 use crate::dynamics::{
-    Lagrangian, PhaseSpace, VARIATIONS, VariedAction, conjugate_points, varied_action,
+    Hamiltonian, Lagrangian, PhaseSpace, VARIATIONS, VariedAction, conjugate_points,
+    conjugate_points_at_energy, varied_abbreviated_action, varied_action, varied_phase_action,
 };
 use crate::ensemble::SystemFlow;
 use crate::integrate::{Method, method_named};
 use crate::job::{Job, Progress};
+use crate::mechanics::Equations;
+use crate::model::Model;
 use crate::num::significant;
 use crate::system::ChannelKind;
 
@@ -27,11 +33,66 @@ const MOTION: Level = 2;
 const GRID: f64 = 0.25;
 const MOST: f64 = 240.0;
 
-/// The row.
-pub(super) struct ActionPlot;
+/// The row of a principle.
+pub(super) struct ActionPlot(pub(super) Principle);
+
+/// What is stationary on a motion, and among what.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Principle {
+    /// ∫ L dt among the paths of the same time.
+    Hamilton,
+    /// ∫ Σ p dq among the ways of the same energy.
+    Maupertuis,
+    /// ∫ (Σ p q̇ − H) dt among the curves in phase space.
+    PhaseSpace,
+}
+
+impl Principle {
+    /// The name of the action.
+    fn action(self) -> &'static str {
+        match self {
+            Principle::Hamilton => "action",
+            Principle::Maupertuis => "abbreviated action",
+            Principle::PhaseSpace => "action in phase space",
+        }
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Principle::Hamilton => {
+                "Hamilton's principle: the action of paths beside the motion, with its ends"
+            }
+            Principle::Maupertuis => {
+                "the principle of Maupertuis: ∫ p dq of the ways beside the motion, with its ends and energy"
+            }
+            Principle::PhaseSpace => {
+                "the principle in phase space: q and p are varied apart, the ends of p are free"
+            }
+        }
+    }
+
+    /// The letter of the action.
+    fn letter(self) -> &'static str {
+        match self {
+            Principle::Hamilton => "S",
+            Principle::Maupertuis => "W",
+            Principle::PhaseSpace => "A",
+        }
+    }
+
+    /// What the letter stands for.
+    fn integral(self) -> &'static str {
+        match self {
+            Principle::Hamilton => "∫ L dt",
+            Principle::Maupertuis => "∫ Σ p dq at equal H",
+            Principle::PhaseSpace => "∫ (Σ p q̇ − H) dt",
+        }
+    }
+}
 
 /// What was found, and of which motion.
 struct ComputedAction {
+    principle: Principle,
     conditions: PlotConditions,
     coordinate: usize,
     duration: f64,
@@ -41,14 +102,28 @@ struct ComputedAction {
 /// The action beside a motion.
 struct Beside {
     varied: VariedAction,
-    /// The times from its beginning at which it passes a kinetic focus; none are looked for where forces act that have
-    /// no potential, so that the motion does not make the action stationary.
+    /// The times from its beginning at which it passes a kinetic focus of the principle; none are looked for where forces
+    /// act that have no potential, so that the motion does not make the action stationary.
     foci: Option<Vec<f64>>,
+    /// The number of coordinates.
+    degrees: usize,
 }
 
 impl Instrument for ActionPlot {
     fn name(&self) -> &'static str {
-        "action"
+        match self.0 {
+            Principle::Hamilton => "action",
+            Principle::Maupertuis => "abbreviated",
+            Principle::PhaseSpace => "phase-action",
+        }
+    }
+
+    fn other(&self) -> Option<&'static dyn Instrument> {
+        Some(match self.0 {
+            Principle::Hamilton => &ActionPlot(Principle::Maupertuis),
+            Principle::Maupertuis => &ActionPlot(Principle::PhaseSpace),
+            Principle::PhaseSpace => &ActionPlot(Principle::Hamilton),
+        })
     }
 
     fn written(&self) -> &'static [Axis] {
@@ -57,9 +132,12 @@ impl Instrument for ActionPlot {
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
         let offer = |(index, channel): (usize, usize)| Offer {
-            label: format!("action, {} varied", physics.model.coordinates[index].shown),
-            about: "Hamilton's principle: the action of paths beside the motion, with its ends"
-                .to_owned(),
+            label: format!(
+                "{}, {} varied",
+                self.0.action(),
+                physics.model.coordinates[index].shown
+            ),
+            about: self.0.about().to_owned(),
             columns: vec![vec![channel]],
             view: None,
             over: Vec::new(),
@@ -68,13 +146,28 @@ impl Instrument for ActionPlot {
     }
 
     fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
-        format!("action, {} varied", plot.column(0).map_or("?", |channel| physics.shown(channel)))
+        let name = plot.column(0).map_or("?", |channel| physics.shown(channel));
+        format!("{}, {name} varied", self.0.action())
     }
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
         let name = present.physics.shown(plot.column(0)?);
-        let words = format!("{name} + ε sin(kπs)/k, s = 0 … 1 on the way, k = 1 … {VARIATIONS}");
-        Some(plot.heading(present.physics, "Action", vec![Entry::Words(words)]))
+        let entries = match self.0 {
+            Principle::Hamilton | Principle::Maupertuis => vec![Entry::Words(format!(
+                "{name} + ε sin(kπs)/k, s = 0 … 1 on the way, k = 1 … {VARIATIONS}"
+            ))],
+            Principle::PhaseSpace => vec![
+                Entry::Key(Ink::Curve(0), format!("{name} + ε sin πs")),
+                Entry::Key(Ink::Curve(1), "p + ε c cos πs".to_owned()),
+                Entry::Key(Ink::Curve(2), format!("{name}, p = ∂L/∂q̇ with it")),
+            ],
+        };
+        let kind = match self.0 {
+            Principle::Hamilton => "Action",
+            Principle::Maupertuis => "Abbreviated action",
+            Principle::PhaseSpace => "Action in phase space",
+        };
+        Some(plot.heading(present.physics, kind, entries))
     }
 
     fn across(&self, _plot: &Plot, _present: &Present<'_>, answer: Option<&Answer>) -> Across {
@@ -85,14 +178,17 @@ impl Instrument for ActionPlot {
 
     fn picture(
         &self,
-        _plot: &Plot,
+        plot: &Plot,
         present: &Present<'_>,
         [from, to]: [f64; 2],
         answer: Option<&Answer>,
     ) -> Option<Picture> {
-        let legend = (MOTION, Layer::Legend(sentences(answer, present.physics.model.run.start)));
+        let name = plot.column(0).map(|channel| present.physics.shown(channel));
+        let legend =
+            (MOTION, Layer::Legend(sentences(answer, (present.physics.model.run.start, name))));
         let named = |range, layers| {
-            let upwards = Upwards::Named("S(ε) − S(0)".to_owned(), range);
+            let letter = self.0.letter();
+            let upwards = Upwards::Named(format!("{letter}(ε) − {letter}(0)"), range);
             Some(Picture::Axes { upwards, layers, occurrences: None })
         };
         let Some(varied) = varied(answer) else { return named([0.0, 1.0], vec![legend]) };
@@ -118,9 +214,9 @@ impl Instrument for ActionPlot {
             return Need::Nothing;
         };
         let conditions = PlotConditions::of(present, &plot.seeds);
-        let duration = duration(present);
+        let (principle, duration) = (self.0, duration(present));
         let holds = |known: &ComputedAction| {
-            (known.coordinate, known.duration) == (coordinate, duration)
+            (known.principle, known.coordinate, known.duration) == (principle, coordinate, duration)
                 && known.conditions == conditions
         };
         if computed(answer).is_some_and(holds) {
@@ -133,14 +229,13 @@ impl Instrument for ActionPlot {
             let outcome = PhaseSpace::of(&model, &equations, &system, parameters)
                 .map_err(|why| why.to_string())
                 .and_then(|space| {
-                    let mut equations = (*equations).clone();
-                    let lagrangian = Lagrangian::of(&model, &mut equations, parameters);
-                    let lagrangian = lagrangian.map_err(|why| why.to_string())?;
+                    let mut own = (*equations).clone();
+                    let actions = Actions::of((&model, &mut own), parameters, principle)?;
                     let begin = model.run.start;
-                    beside(&space, lagrangian, (method, &conditions, begin), coordinate, duration)
+                    beside(&space, actions, (method, &conditions, begin), coordinate, duration)
                 });
             let conditions = conditions.clone();
-            Answer::new(ComputedAction { conditions, coordinate, duration, outcome })
+            Answer::new(ComputedAction { principle, conditions, coordinate, duration, outcome })
         }))
     }
 
@@ -148,7 +243,7 @@ impl Instrument for ActionPlot {
         &[
             Measure {
                 word: "value",
-                about: "∫ L dt of the motion up to now",
+                about: "the action of the motion up to now",
                 value: |_, _, answer| Some(varied(answer)?.action),
             },
             Measure {
@@ -165,10 +260,32 @@ impl Instrument for ActionPlot {
     }
 }
 
+/// The functions whose integral is the action of a principle.
+struct Actions {
+    lagrangian: Lagrangian,
+    principle: Principle,
+    /// Of the principle in phase space.
+    hamiltonian: Option<Hamiltonian>,
+}
+
+impl Actions {
+    fn of(
+        (model, equations): (&Model, &mut Equations),
+        parameters: &[f64],
+        principle: Principle,
+    ) -> Result<Actions, String> {
+        let lagrangian = Lagrangian::of(model, equations, parameters);
+        let lagrangian = lagrangian.map_err(|why| why.to_string())?;
+        let hamiltonian = (principle == Principle::PhaseSpace)
+            .then(|| Hamiltonian::of(model, equations, parameters).map_err(|why| why.to_string()));
+        Ok(Actions { lagrangian, principle, hamiltonian: hamiltonian.transpose()? })
+    }
+}
+
 /// The action beside a motion up to a duration.
 fn beside(
     space: &PhaseSpace,
-    mut lagrangian: Lagrangian,
+    mut actions: Actions,
     (method, conditions, begin): (&'static Method, &PlotConditions, f64),
     coordinate: usize,
     duration: f64,
@@ -187,16 +304,28 @@ fn beside(
         let carried = flow.carry(&start, &times, &channels);
         carried.end.map(|_| carried.seen)
     };
-    let varied = varied_action(&mut lagrangian, &mut motion, coordinate, duration);
+    let (lagrangian, principle) = (&mut actions.lagrangian, actions.principle);
+    let varied = match (principle, &mut actions.hamiltonian) {
+        (Principle::Maupertuis, _) => {
+            varied_abbreviated_action(lagrangian, &mut motion, coordinate, duration)
+        }
+        (Principle::PhaseSpace, Some(hamiltonian)) => {
+            varied_phase_action((hamiltonian, lagrangian), &mut motion, coordinate, duration)
+        }
+        _ => varied_action(lagrangian, &mut motion, coordinate, duration),
+    };
     let varied = varied.map_err(|why| why.to_string())?;
     let foci = if space.is_hamiltonian() {
         let state = space.state(&start).map_err(|fault| fault.to_string())?;
-        let foci = conjugate_points(space, method, &state, duration);
+        let foci = match principle {
+            Principle::Maupertuis => conjugate_points_at_energy(space, method, &state, duration),
+            _ => conjugate_points(space, method, &state, duration),
+        };
         Some(foci.map_err(|why| why.to_string())?)
     } else {
         None
     };
-    Ok(Beside { varied, foci })
+    Ok(Beside { varied, foci, degrees: n })
 }
 
 /// How long the path is: up to now, on a grid.
@@ -219,7 +348,7 @@ fn varied(answer: Option<&Answer>) -> Option<&VariedAction> {
 }
 
 /// What is said of the motion's action, or why it has none.
-fn sentences(answer: Option<&Answer>, begin: f64) -> Vec<String> {
+fn sentences(answer: Option<&Answer>, (begin, coordinate): (f64, Option<&str>)) -> Vec<String> {
     let Some(computed) = computed(answer) else { return vec!["being computed".to_owned()] };
     let found = match &computed.outcome {
         Err(why) => return vec![why.clone()],
@@ -228,6 +357,16 @@ fn sentences(answer: Option<&Answer>, begin: f64) -> Vec<String> {
     let short = |x: f64| significant(x, 5, 1e-3..1e5).replace('-', "−");
     let at = |focus: &f64| format!("t = {}", short(begin + focus));
     let rest = match found.foci.as_deref() {
+        Some(_) if computed.principle == Principle::PhaseSpace => {
+            let name = coordinate.unwrap_or("q");
+            [vec![nature(&found.varied)], beside_by(&found.varied, name)].concat()
+        }
+        Some([]) if computed.principle == Principle::Maupertuis && found.degrees == 1 => {
+            vec!["one coordinate: no other way at this H".to_owned()]
+        }
+        Some([]) if computed.principle == Principle::Maupertuis => {
+            vec!["least of all ways nearby".to_owned()]
+        }
         None => vec!["not stationary: forces act that have no potential".to_owned()],
         Some([]) => vec!["least of all paths nearby".to_owned()],
         Some([focus]) => {
@@ -238,6 +377,32 @@ fn sentences(answer: Option<&Answer>, begin: f64) -> Vec<String> {
             vec!["not least".to_owned(), format!("{count} kinetic foci from {}", at(first))]
         }
     };
-    let action = format!("S = {} up to {}", short(found.varied.action), at(&computed.duration));
+    let (letter, integral) = (computed.principle.letter(), computed.principle.integral());
+    let value = short(found.varied.action);
+    let action = format!("{letter} = {integral} = {value} up to {}", at(&computed.duration));
     [vec![action], rest].concat()
+}
+
+/// By how much the action in phase space is greater on the last curve of each kind, so that they are known without colours.
+fn beside_by(varied: &VariedAction, name: &str) -> Vec<String> {
+    let short = |x: f64| significant(x, 2, 1e-3..1e5).replace('-', "−");
+    let ends: Vec<[f64; 2]> =
+        varied.curves.iter().filter_map(|curve| curve.last().copied()).collect();
+    let [q, p, both] = ends[..] else { return Vec::new() };
+    let [q, p, both, epsilon] = [q[1], p[1], both[1], q[0]].map(short);
+    vec![format!("at ε = {epsilon}: {name} alone {q}, p alone {p}, p = ∂L/∂{name}′ {both}")]
+}
+
+/// Whether an action in phase space is greater or less on the curves beside the motion.
+fn nature(varied: &VariedAction) -> String {
+    let rises = varied.curves.iter().flatten().map(|at| at[1]);
+    let (least, greatest) =
+        rises.fold((0.0_f64, 0.0_f64), |(lo, hi), rise| (lo.min(rise), hi.max(rise)));
+    let word = match (least < 0.0, greatest > 0.0) {
+        (true, true) => "stationary, neither least nor greatest",
+        (true, false) => "greater than on these curves",
+        (false, true) => "less than on these curves",
+        (false, false) => "the same on these curves",
+    };
+    word.to_owned()
 }

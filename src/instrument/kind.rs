@@ -70,6 +70,11 @@ pub trait Instrument: Sync {
         self.is_section()
     }
 
+    /// The kind that a key shows in its place, with the same axes.
+    fn other(&self) -> Option<&'static dyn Instrument> {
+        None
+    }
+
     /// Whether it shows a view of the file, besides what is chosen. A kind without choices does.
     fn shows_a_view(&self) -> bool {
         self.chosen().is_empty() && !self.is_scene()

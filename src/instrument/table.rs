@@ -6,12 +6,12 @@
 use super::kind::{Instrument, Offer};
 use super::present::Physics;
 use super::{
-    action, actions, diagram, ensemble, exponents, legendre, map, orbit, phase, potential, section,
-    separation, space, spectrum, time, transformation,
+    action, actions, angle, diagram, ensemble, exponents, legendre, map, orbit, phase, potential,
+    section, separation, space, spectrum, time, transformation,
 };
 
 /// All kinds, in the order in which the lab opens with them.
-pub static INSTRUMENTS: [&dyn Instrument; 16] = [
+pub static INSTRUMENTS: [&dyn Instrument; 19] = [
     &space::Space,
     &phase::Phase,
     &transformation::Transformation,
@@ -24,7 +24,10 @@ pub static INSTRUMENTS: [&dyn Instrument; 16] = [
     &orbit::OrbitPlot,
     &spectrum::SpectrumPlot,
     &actions::ActionsPlot,
-    &action::ActionPlot,
+    &angle::AnglePlot,
+    &action::ActionPlot(action::Principle::Hamilton),
+    &action::ActionPlot(action::Principle::Maupertuis),
+    &action::ActionPlot(action::Principle::PhaseSpace),
     &legendre::LegendrePlot,
     &diagram::Diagram,
     &map::Map,

@@ -8,10 +8,12 @@
 
 mod branches;
 mod grid;
+mod judged;
 
 use std::sync::Arc;
 
 use self::branches::Branches;
+use self::judged::Judged;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, Present, Sign, Stroke, Upwards,
@@ -20,7 +22,6 @@ use crate::expr::{Expr, Pool, Symbol};
 use crate::job::Job;
 use crate::mechanics::{Equations, ImplicitMap, TransformationReport, Valuation, relations_of};
 use crate::model::Transformation as Law;
-use crate::num::significant;
 use crate::system::ChannelKind;
 
 /// The levels of the picture.
@@ -37,26 +38,22 @@ const DIM: f64 = 0.35;
 /// One of so many points of the grid may be out of the picture at each end of an axis.
 const OUTER: usize = 40;
 
+/// The grid of a map that depends on the time is found anew after so many seconds of the wall clock at the file's own speed.
+const STALE: f64 = 0.1;
+
 /// The row.
 pub(super) struct Transformation;
 
 /// What was found of a transformation, and where.
 struct Mapped {
     parameters: Vec<f64>,
+    /// When it was found, of a map that depends on the time.
+    time: Option<f64>,
     /// The range of the two old variables.
     window: Option<[[f64; 2]; 2]>,
     grid: Arc<Vec<Vec<[f64; 2]>>>,
     branches: Option<Arc<Branches>>,
     verdict: Option<Judged>,
-}
-
-/// What is known of a map.
-#[derive(Clone)]
-struct Judged {
-    /// The verdict, and K, in lines.
-    lines: Vec<String>,
-    canonical: bool,
-    residual: Option<f64>,
 }
 
 /// A transformation, and the two of its new variables that are shown.
@@ -190,6 +187,7 @@ impl Instrument for Transformation {
         let unwritten = implicit(equations, new)
             .filter(|map| map.new.len() == 2)
             .and_then(|map| old_variables(&equations.pool, present.physics, &map.relations));
+        let timed = depends_on_time(equations, model, (place, new));
         let axes = old.map(|(_, old)| old).or(unwritten);
         let wanted = axes.and_then(|old| {
             let [u, v] = old.map(|(_, channel)| present.bounds.get(channel).copied());
@@ -203,12 +201,18 @@ impl Instrument for Transformation {
             let left = |branches: &Arc<Branches>| old.is_none() && branches.has_left(&at());
             known.covers(wanted) && !known.branches.as_ref().is_some_and(left)
         };
-        if let Some(known) = known.filter(stays) {
+        let late = STALE * model.run.speed.abs();
+        let fresh = |known: &&Mapped| {
+            known.time.is_none_or(|time| (time..=time + late).contains(&present.time))
+        };
+        // the verdict does not wait for a grid that is found again and again
+        let known = known.filter(|known| stays(known) && (fresh(known) || verdict.is_none()));
+        if let Some(known) = known {
             if verdict.is_some() {
                 return Need::Held;
             }
             let (window, grid) = (known.window, Arc::clone(&known.grid));
-            let branches = known.branches.clone();
+            let (branches, time) = (known.branches.clone(), known.time);
             let (model, equations) = (Arc::clone(model), Arc::clone(equations));
             return Need::Job(Job::new("verdict", move |progress| {
                 let mut equations = (*equations).clone();
@@ -222,6 +226,7 @@ impl Instrument for Transformation {
                 let (parameters, grid) = (parameters.clone(), Arc::clone(&grid));
                 Answer::new(Mapped {
                     parameters,
+                    time,
                     window,
                     grid,
                     branches: branches.clone(),
@@ -238,7 +243,7 @@ impl Instrument for Transformation {
         let (model, equations) = (Arc::clone(model), Arc::clone(equations));
         let (at, written) = (with_image(plot, present), old.map(|(images, _)| images));
         let period = |axis| present.physics.system.period(plot.column(axis)?, present.parameters);
-        let periods = [period(0), period(1)];
+        let (periods, time) = ([period(0), period(1)], present.time);
         Need::Job(Job::new("grid", move |progress| {
             let axes = axes.zip(window).map(|(old, window)| (old.map(|(s, _)| s), window));
             let known = place.zip(axes).and_then(|(place, axes)| {
@@ -254,6 +259,7 @@ impl Instrument for Transformation {
             };
             Answer::new(Mapped {
                 parameters: parameters.clone(),
+                time: timed.then_some(time),
                 window,
                 grid: Arc::new(grid),
                 branches: branches.map(Arc::new),
@@ -340,6 +346,8 @@ fn active(
         judged(answer).map_or(&[][..], |judged| &judged.lines[..judged.lines.len().min(1)]);
     let lines = [vec![format!("({q}, {p}) → ({new_q}, {new_p})")], verdict.to_vec()].concat();
     let layers = vec![
+        (TRAIL, Layer::Companions(new)),
+        (TRAIL, Layer::Companions(old)),
         (TRAIL, Layer::Trail(new)),
         (TRAIL, Layer::Trail(old)),
         (GRID, Layer::Line(vec![point, image], faint)),
@@ -391,17 +399,6 @@ impl Mapped {
     }
 }
 
-impl Judged {
-    /// Nothing is said of what is no map.
-    fn of(pool: &Pool, report: Option<&TransformationReport>) -> Self {
-        Self {
-            lines: report.map_or_else(Vec::new, |report| lines(pool, report)),
-            canonical: report.is_some_and(|report| report.verdict.canonical),
-            residual: report.and_then(|report| report.verdict.residual),
-        }
-    }
-}
-
 /// The transformation whose new variables a plot shows.
 fn shown<'a>(plot: &Plot, physics: Physics<'a>) -> Option<Shown<'a>> {
     let name = |axis| Some(physics.system.channels().get(plot.column(axis)?)?.name.as_str());
@@ -416,13 +413,23 @@ fn shown<'a>(plot: &Plot, physics: Physics<'a>) -> Option<Shown<'a>> {
     })
 }
 
-/// The two old variables on which new ones, or their relations, depend, with their channels; `None` if there are others,
-/// or the time.
+/// Whether two new variables of a transformation are others at another time.
+fn depends_on_time(
+    equations: &Equations,
+    model: &crate::model::Model,
+    (place, new): (Option<usize>, [Symbol; 2]),
+) -> bool {
+    let known = place.and_then(|place| equations.supplements.transformations.get(place));
+    let forwards = known.and_then(Option::as_ref).into_iter().flatten();
+    let written = forwards.filter(|(s, _)| new.contains(s)).map(|(_, e)| *e);
+    let relations = implicit(equations, new).into_iter().flat_map(|map| &map.relations);
+    let mut all = written.chain(relations.copied());
+    all.any(|e| equations.pool.depends(e, model.symbols.time))
+}
+
+/// The two old variables on which new ones, or their relations, depend, with their channels; `None` if there are others.
 fn old_variables(pool: &Pool, physics: Physics<'_>, of: &[Expr]) -> Option<[(Symbol, usize); 2]> {
     let model = physics.model;
-    if of.iter().any(|&e| pool.depends_on_any(e, &[model.symbols.time])) {
-        return None;
-    }
     let coordinates = model.coordinates.iter().enumerate();
     let all = coordinates.flat_map(|(i, c)| {
         [(c.position, ChannelKind::Position(i)), (c.momentum, ChannelKind::Momentum(i))]
@@ -431,23 +438,4 @@ fn old_variables(pool: &Pool, physics: Physics<'_>, of: &[Expr]) -> Option<[(Sym
     let on: Vec<(Symbol, usize)> =
         on.map(|(s, kind)| Some((s, physics.channel(kind)?))).collect::<Option<_>>()?;
     on.try_into().ok()
-}
-
-/// What is said of a transformation.
-fn lines(pool: &Pool, report: &TransformationReport) -> Vec<String> {
-    let verdict = &report.verdict;
-    let off = verdict.residual.map_or_else(String::new, |x| significant(x, 1, 1e-3..1e3));
-    let mut lines = vec![match (verdict.canonical, verdict.proved) {
-        (true, true) => "canonical, proved".to_owned(),
-        (true, false) => format!("canonical to rounding: |M 𝕁 Mᵀ − 𝕁| = {off}"),
-        (false, _) => "not canonical".to_owned(),
-    }];
-    let failing = verdict.failing.iter().map(|bracket| {
-        let [a, b] = bracket.pair.map(|s| pool.symbol_info(s).unicode.clone());
-        format!("[{a}, {b}] = {}, not {}", pool.unicode(bracket.is), pool.unicode(bracket.expected))
-    });
-    lines.extend(failing);
-    lines.extend(verdict.valence.map(|c| format!("of valence {}", pool.unicode(c))));
-    lines.extend(report.hamiltonian.as_ref().ok().map(|k| format!("K = {}", pool.unicode(*k))));
-    lines
 }

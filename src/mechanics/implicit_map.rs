@@ -2,7 +2,8 @@
 //!
 //! In: an [`ImplicitMap`], a point, what its image may be near to. Out: the image by Newton's method. Never here: where the
 //! relations come from, motion.
-//! Source: *The Principles of Dynamics*, § 3.2.1.
+//! Source: *The Principles of Dynamics*, § 3.2.1; images beside known ones by deflation: P. E. Farrell, Á. Birkisson, S. W. Funke,
+//! SIAM J. Sci. Comput. 37 (2015) A2026.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -18,6 +19,12 @@ const NEAR: f64 = 0.5;
 
 /// Numbers of several sizes and signs.
 const SIZES: [f64; 7] = [0.7, -0.6, 1.9, 0.1, -1.7, 5.0, 30.0];
+
+/// Images are the same if they differ by less than this part of their size.
+const SAME: f64 = 1e-6;
+
+/// The steps of Newton's method with known images taken out.
+const DEFLATED: usize = 60;
 
 /// Multiples of a known image that may be near another.
 const FACTORS: [f64; 4] = [1.0, -1.0, 2.0, -0.5];
@@ -50,9 +57,10 @@ impl ImplicitMap {
         })
     }
 
-    /// A point with each of the images that are found from first guesses, some of them twice: from numbers of several
-    /// sizes, and from multiples of the image that it has.
-    pub fn images(&self, pool: &Pool, at: &Valuation) -> Vec<Valuation> {
+    /// A point with each of its images that are found, each once and at most so many: from first guesses of several sizes and
+    /// from multiples of the image that it has, then with those that are known taken out of the relations, until nothing
+    /// more is found.
+    pub fn images(&self, pool: &Pool, at: &Valuation, most: usize) -> Vec<Valuation> {
         let own: Vec<f64> = self.new.iter().map(|&s| at.at(s)).collect();
         let n = FACTORS.len();
         let multiples = (0..n * n).map(|k| {
@@ -60,11 +68,74 @@ impl ImplicitMap {
                 |i: usize| if i.is_multiple_of(2) { FACTORS[k % n] } else { FACTORS[k / n] };
             own.iter().enumerate().map(|(i, x)| x * factor(i)).collect::<Vec<f64>>()
         });
-        let all = multiples.chain(guesses(self.new.len()));
-        all.filter_map(|guess| {
-            self.newton(pool, at.clone().with(self.new.iter().copied().zip(guess)))
+        let all: Vec<Vec<f64>> = multiples.chain(guesses(self.new.len())).collect();
+        let with = |guess: &[f64]| at.clone().with(self.new.iter().copied().zip(guess.to_vec()));
+        let mut found: Vec<Valuation> = Vec::new();
+        for guess in &all {
+            if found.len() == most {
+                return found;
+            }
+            let image = self.newton(pool, with(guess));
+            found.extend(image.filter(|image| self.is_new(image, &found)));
+        }
+        for guess in &all {
+            while found.len() < most
+                && let Some(image) = self.deflated(pool, with(guess), &found)
+            {
+                found.push(image);
+            }
+        }
+        found
+    }
+
+    /// Whether an image is none of those known.
+    fn is_new(&self, image: &Valuation, known: &[Valuation]) -> bool {
+        known.iter().all(|other| {
+            self.new.iter().any(|&s| {
+                let (a, b) = (image.at(s), other.at(s));
+                (a - b).abs() > SAME * (1.0 + a.abs().max(b.abs()))
+            })
         })
-        .collect()
+    }
+
+    /// An image beside the known ones: Newton's method on the relations times Π (1 + 1/|x − xᵢ|²), which repels it from them.
+    fn deflated(&self, pool: &Pool, mut at: Valuation, known: &[Valuation]) -> Option<Valuation> {
+        for _ in 0..DEFLATED {
+            let left = DVector::from_iterator(
+                self.new.len(),
+                self.relations.iter().map(|&e| at.value(pool, e)),
+            );
+            let step = matrix_at(pool, &self.by_new, &at).full_piv_lu().solve(&left)?;
+            if !step.iter().all(|x| x.is_finite()) {
+                return None;
+            }
+            // the gradient of the logarithm of the product along the step: the step is as before, but for its length
+            let slope: f64 = known
+                .iter()
+                .map(|other| {
+                    let apart = self.new.iter().map(|&s| at.at(s) - other.at(s));
+                    let (square, along) =
+                        apart.zip(step.iter()).fold((0.0, 0.0), |(square, along), (x, d)| {
+                            (square + x * x, along + x * d)
+                        });
+                    -2.0 * along / (square * (square + 1.0))
+                })
+                .sum();
+            let length = 1.0 / (1.0 + slope);
+            let size = self.new.iter().map(|&s| at.at(s).abs()).fold(1.0, f64::max);
+            let settled = step.amax() <= 1e-10 * size;
+            let values: Vec<_> = self
+                .new
+                .iter()
+                .zip(step.iter())
+                .map(|(&s, d)| (s, at.at(s) - length * d))
+                .collect();
+            if settled || !values.iter().all(|(_, x)| x.is_finite()) {
+                break;
+            }
+            at = at.with(values);
+        }
+        self.newton(pool, at).filter(|image| self.is_new(image, known))
     }
 
     /// A point with its image on the branch of a near image, which the valuation has as values of the new variables;

@@ -147,6 +147,23 @@ impl Mechanics {
         }
     }
 
+    /// Every expression of the law, to be rewritten.
+    pub fn expressions_mut(&mut self) -> Vec<&mut Expr> {
+        match self {
+            Mechanics::Lagrangian { lagrangian, dissipation, forces } => {
+                [lagrangian, dissipation].into_iter().chain(forces).collect()
+            }
+            Mechanics::Hamiltonian { hamiltonian, forces } => {
+                std::iter::once(hamiltonian).chain(forces).collect()
+            }
+            Mechanics::Poisson { hamiltonian, brackets, casimirs, forces, .. } => {
+                let casimirs = casimirs.iter_mut().map(|casimir| &mut casimir.1);
+                let brackets = brackets.iter_mut().flatten();
+                std::iter::once(hamiltonian).chain(brackets).chain(casimirs).chain(forces).collect()
+            }
+        }
+    }
+
     /// Rayleigh's function; zero if there is none.
     pub fn dissipation(&self) -> Expr {
         match self {

@@ -5,7 +5,7 @@
 //! observables. Initial values keep the number that the parameter has at the start. Never here: motions.
 
 use super::ramped::Ramped;
-use super::{Allowed, Mechanics, Model, Scope};
+use super::{Allowed, Model, Scope};
 use crate::expr::Expr;
 
 /// A parameter's way from one value to another.
@@ -80,23 +80,7 @@ pub fn replace_by_ramps(model: &mut Model, ramps: &[Ramp]) -> Result<Ramped, Ram
     }
     let Model { pool, mechanics, constraints, impulses, events, observables, definitions, .. } =
         model;
-    let mut all: Vec<&mut Expr> = Vec::new();
-    match mechanics {
-        Mechanics::Lagrangian { lagrangian, dissipation, forces } => {
-            all.extend([lagrangian, dissipation]);
-            all.extend(forces);
-        }
-        Mechanics::Hamiltonian { hamiltonian, forces } => {
-            all.push(hamiltonian);
-            all.extend(forces);
-        }
-        Mechanics::Poisson { hamiltonian, brackets, casimirs, forces, .. } => {
-            all.push(hamiltonian);
-            all.extend(brackets.iter_mut().flatten());
-            all.extend(casimirs.iter_mut().map(|casimir| &mut casimir.1));
-            all.extend(forces);
-        }
-    }
+    let mut all: Vec<&mut Expr> = mechanics.expressions_mut();
     all.extend(constraints.iter_mut().map(|constraint| &mut constraint.expression));
     all.extend(impulses.iter_mut().flat_map(|impulse| &mut impulse.change));
     all.extend(events.iter_mut().map(|event| &mut event.when));

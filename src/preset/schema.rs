@@ -502,7 +502,7 @@ const VIEW: SchemaTable = SchemaTable {
         key(
             "kind",
             Text,
-            "`phase`, `space`, `time`, `potential`, `section`, `diagram`, `map`, `transformation`, `ensemble`, `orbit`, `spectrum`, `actions`, `action` or `legendre`",
+            "`phase`, `space`, `time`, `potential`, `section`, `diagram`, `map`, `transformation`, `ensemble`, `orbit`, `spectrum`, `actions`, `angle`, `action`, `abbreviated`, `phase-action` or `legendre`",
         )
         .needed("write kind = \"phase\", \"space\", \"time\", \"potential\" or \"section\""),
         key("title", Text, "what it is called"),
@@ -515,7 +515,10 @@ const VIEW: SchemaTable = SchemaTable {
             "ensemble",
             "orbit",
             "actions",
+            "angle",
             "action",
+            "abbreviated",
+            "phase-action",
             "legendre",
         ]),
         key("y", Formulas, "the vertical axis; several in a time series").only(&[

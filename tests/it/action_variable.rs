@@ -18,17 +18,22 @@ use crate::section::measure;
 struct Course {
     app: App,
     experiment: Experiment,
+    kind: &'static str,
 }
 
 impl Course {
     fn of(text: &str) -> Course {
-        let text = format!("{text}\n[[views]]\nkind = \"actions\"\nx = \"q\"\n");
+        Course::showing("actions", text)
+    }
+
+    fn showing(kind: &'static str, text: &str) -> Course {
+        let text = format!("{text}\n[[views]]\nkind = \"{kind}\"\nx = \"q\"\n");
         let app = begun(&text);
         let ready =
             Prepared::of(&Document::new("test", &text)).unwrap_or_else(|why| panic!("{why}"));
         let mut experiment = ready.experiment;
         experiment.set_epoch(1);
-        Course { app, experiment }
+        Course { app, experiment, kind }
     }
 
     fn go(&mut self, time: f64) {
@@ -39,7 +44,7 @@ impl Course {
 
     fn plot(&self) -> Plot {
         let plots = &self.app.lab.as_ref().unwrap().plots;
-        plots.iter().find(|plot| plot.kind.name() == "actions").expect("a picture").clone()
+        plots.iter().find(|plot| plot.kind.name() == self.kind).expect("a picture").clone()
     }
 
     fn measure(&self, word: &str) -> f64 {
@@ -184,6 +189,72 @@ fn what_has_no_action_is_told_why() {
     );
     course.go(1.0);
     assert!(course.told().contains("forces change the energy"), "{}", course.told());
+}
+
+/// Of an oscillator w is the polar angle of (−ω q, p) over a whole turn, and grows by ω/2π.
+#[test]
+fn the_angle_of_an_oscillator_is_that_of_its_ellipse() {
+    let mut course = Course::showing(
+        "angle",
+        "title = \"t\"\n[coordinates]\nq = { initial = 1.0, momentum = 0.5 }\n[hamiltonian]\nH = \"p_q^2/2 + 2*q^2\"\n",
+    );
+    let phase = 2.0_f64.atan2(0.5);
+    for time in [0.0, 0.4, 1.1, 1.9, 2.6, 3.5] {
+        course.go(time);
+        // q = A sin(2t + φ), p = 2 A cos(2t + φ), tan φ = 2 q₀/p₀
+        let (q, p) = (2.0 * time + phase).sin_cos();
+        near(course.measure("angle"), p.atan2(-q).rem_euclid(2.0 * PI) / (2.0 * PI), 1e-12);
+        near(course.measure("frequency"), 1.0 / PI, 1e-13);
+        near(course.measure("action"), PI * 2.125, 1e-12);
+    }
+    assert!(course.measure("residual") < 1e-12);
+}
+
+/// From rest at 2 rad, on the right, w begins at ½ and grows by t/(4 K(sin 1)), through many turning points.
+#[test]
+fn the_angle_of_a_pendulum_grows_evenly() {
+    let period = 8.349752926918494;
+    let mut course = Course::showing("angle", PENDULUM);
+    for i in 0..12 {
+        let time = 2.37 * f64::from(i);
+        course.go(time);
+        let off = course.measure("angle") - (0.5 + time / period);
+        near(off - off.round(), 0.0, 1e-10);
+    }
+    assert!(course.measure("residual") < 1e-10);
+    assert!(course.told().contains("ν = dE/dJ = 0.11976"), "{}", course.told());
+    let mut round = Course::showing("angle", &PENDULUM.replace("v = 0.0", "v = -3.0"));
+    for i in 0..8 {
+        round.go(1.21 * f64::from(i));
+    }
+    assert!(round.measure("residual") < 1e-11, "{}", round.measure("residual"));
+    assert!(round.measure("frequency") > 1.0 / period);
+}
+
+/// Of what separates the angle grows evenly, of what does not it does not, or has no action at all.
+#[test]
+fn the_angle_of_what_separates() {
+    let isochrone = "title = \"t\"\n[coordinates]\nq = { initial = 1.0, momentum = 0.2 }\nphi = { initial = 0.3, momentum = 0.5 }\n\
+                     [hamiltonian]\nH = \"p_q^2/2 + p_phi^2/(2*q^2) - 1/(1 + sqrt(1 + q^2))\"\n";
+    let mut course = Course::showing("angle", isochrone);
+    for i in 0..6 {
+        course.go(5.3 * f64::from(i));
+    }
+    let energy = 0.02 + 0.125 - 1.0 / (1.0 + 2.0_f64.sqrt());
+    near(course.measure("frequency"), (-2.0 * energy).powf(1.5) / (2.0 * PI), 1e-12);
+    assert!(course.measure("residual") < 1e-10, "{}", course.measure("residual"));
+    let coupled = "title = \"t\"\n[coordinates]\nq = { initial = 0.3, momentum = 0.1 }\ny = { initial = 0.2, momentum = 0.1 }\n\
+                   [hamiltonian]\nH = \"p_q^2/2 + p_y^2/2 + q^2/2 + y^2/2 + q^2*y - y^3/3\"\n";
+    let mut course = Course::showing("angle", coupled);
+    course.go(0.0);
+    assert!(course.told().contains("does not separate"), "{}", course.told());
+    // a law that depends on the time has the angle of the instant, and no line
+    let mut slow = Course::showing("angle", &tightened("60", RAMP));
+    for i in 0..4 {
+        slow.go(2.5 * f64::from(i));
+    }
+    assert!(slow.told().contains("depends on the time"), "{}", slow.told());
+    assert!(!slow.told().contains("of a turn"), "{}", slow.told());
 }
 
 /// A form that the whole of a time-dependent law has: the same motion by `[[ramps]]` and written out.

@@ -10,6 +10,7 @@ mod gali;
 mod impulses;
 mod lyapunov;
 mod orbit;
+mod principles;
 mod rotation;
 mod spectrum;
 

@@ -106,6 +106,11 @@ fn in_the_active_view_the_point_is_moved_and_the_coordinates_stay() {
     let (x, p) = (value("q"), value("p_q"));
     assert_eq!(arrow, [vec![[x, p], [new(0), new(1)]]]);
     assert!((new(0) - x).abs() > 1e-3 && (new(1) - p).abs() > 1e-3, "it is moved");
+    // motions beside the main one are moved with it
+    let picture = plot.kind.picture(&plot, &present, [0.0, 1.0], lab.answer(&plot));
+    let Some(Picture::Axes { layers, .. }) = picture else { panic!("it has axes") };
+    let beside = layers.iter().filter(|(_, layer)| matches!(layer, Layer::Companions(_)));
+    assert_eq!(beside.count(), 2);
     assert_eq!(words[0], "(q, p_q) → (Q₁, P₁)");
     assert_eq!(words[1], "canonical, proved");
     let heading = plot.kind.heading(&plot, &present).expect("a heading");
@@ -229,14 +234,17 @@ struct Course {
 impl Course {
     fn of(start: [f64; 2], function: &str) -> Course {
         let [q, p] = start;
-        let text = format!(
+        Course::with(&format!(
             "title = \"t\"\n[coordinates]\nq = {{ initial = {q}, momentum = {p} }}\n[hamiltonian]\n\
              H = \"p_q^2/2 + q^2/2\"\n[[transformations]]\nname = \"a\"\nkind = \"F2\"\nnew = [\"Q\", \"P\"]\n\
              F = \"{function}\"\n[[views]]\nkind = \"transformation\"\nx = \"Q\"\ny = \"P\"\n"
-        );
-        let app = begun(&text);
+        ))
+    }
+
+    fn with(text: &str) -> Course {
+        let app = begun(text);
         let ready =
-            Prepared::of(&Document::new("test", &text)).unwrap_or_else(|why| panic!("{why}"));
+            Prepared::of(&Document::new("test", text)).unwrap_or_else(|why| panic!("{why}"));
         let mut experiment = ready.experiment;
         experiment.set_epoch(1);
         Course { app, experiment }
@@ -308,6 +316,75 @@ fn both_square_roots_are_drawn() {
     single.go(0.2);
     let ([_, dim], others, words) = single.seen();
     assert!(dim.is_empty() && others.is_empty(), "{words:?}");
+}
+
+/// p = P⁵ − 5P³ + 5P = 2 T₅(P/2) has the five roots 2 cos((arccos(p/2) + 2πk)/5): each is an image, with Q = q ∂p/∂P.
+#[test]
+fn five_branches_are_drawn() {
+    let mut course = Course::of([0.3, 0.4], "q*(P^5 - 5*P^3 + 5*P)");
+    for time in [0.2, 0.9] {
+        course.go(time);
+        let ([whole, dim], others, words) = course.seen();
+        let [q, p, own] = ["q", "p_q", "P"].map(|name| course.value(name));
+        let root =
+            |k: i32| 2.0 * (((p / 2.0).acos() + std::f64::consts::TAU * f64::from(k)) / 5.0).cos();
+        let image = |root: f64| [q * (5.0 * root.powi(4) - 15.0 * root.powi(2) + 5.0), root];
+        let (mine, rest): (Vec<f64>, Vec<f64>) =
+            (0..5).map(root).partition(|root| (root - own).abs() < 1e-9);
+        assert_eq!((mine.len(), rest.len(), others.len()), (1, 4, 4), "{others:?}, {words:?}");
+        for root in rest {
+            let [x, y] = image(root);
+            let drawn = others.iter().filter(|at| (at[0] - x).hypot(at[1] - y) < 1e-9);
+            assert_eq!(drawn.count(), 1, "{root} in {others:?}");
+        }
+        assert!(words.iter().any(|line| line.contains("4 other branches")), "{words:?}");
+        // every branch has lines of its own: its P lies between two of the extrema of p, ±(√5 ± 1)/2
+        let ends = [-1.618033988749895, -0.6180339887498949, 0.6180339887498949, 1.618033988749895];
+        let branch = |at: &[f64; 2]| ends.iter().filter(|end| at[1] > **end).count();
+        let mut drawn: Vec<usize> = whole.iter().chain(&dim).flatten().map(branch).collect();
+        drawn.sort_unstable();
+        drawn.dedup();
+        assert_eq!(drawn, [0, 1, 2, 3, 4]);
+    }
+}
+
+/// Galilei: the grid of (q, p) is that of the instant, on which q = Q + u t or p = P + m u is constant.
+#[test]
+fn a_map_that_moves_has_the_grid_of_the_instant() {
+    let head = "title = \"t\"\n[coordinates]\nq = { initial = 0.3, momentum = 0.9 }\n[hamiltonian]\n\
+                H = \"p_q^2/2 + q^2/2\"\n[[transformations]]\nname = \"a\"\n";
+    let view = "\n[[views]]\nkind = \"transformation\"\nx = \"Q\"\ny = \"P\"\n";
+    let ways = [
+        "kind = \"F2\"\nnew = [\"Q\", \"P\"]\nF = \"(q - t/5)*P + q/5 - t/50\"",
+        "kind = \"explicit\"\nQ = { Q = \"q - t/5\" }\nP = { P = \"p_q - 1/5\" }",
+    ];
+    for way in ways {
+        let mut course = Course::with(&format!("{head}{way}{view}"));
+        for time in [7.0, 8.0, 9.5] {
+            course.go(time);
+            let ([whole, _], _, words) = course.seen();
+            assert_eq!(whole.len(), 14, "{words:?}");
+            // seven lines of the old q, within the motion and its margin, at this time
+            let reach = 1.3 * 0.9_f64.hypot(0.3) + 1e-9;
+            let mut levels = 0;
+            for line in &whole {
+                let old = |at: &[f64; 2]| at[0] + time / 5.0;
+                let (least, greatest) = line
+                    .iter()
+                    .map(old)
+                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), q| (lo.min(q), hi.max(q)));
+                assert!(least >= -reach && greatest <= reach, "{least} … {greatest} at {time}");
+                levels += usize::from(greatest - least < 1e-12);
+            }
+            assert_eq!(levels, 7);
+            // K = H + ∂F/∂t: p²/2 and the springs at Q + t/5
+            press(&mut course.app, "Wait");
+            let (_, _, words) = course.seen();
+            assert!(words[0].contains("canonical"), "{words:?}");
+            let k = words.iter().find(|line| line.starts_with("K = ")).expect("K").clone();
+            assert!(k.contains("⅕ t Q") && k.contains("½ P²") && k.contains("½ Q²"), "{k}");
+        }
+    }
 }
 
 /// p = P³ − 3P + sin P/10: beyond p ≈ ±2 the branch in the middle ends, and then each of the outer ones beyond the other side.

@@ -13,7 +13,7 @@ use crate::expr::Symbol;
 use crate::mechanics::{Equations, ImplicitMap, Valuation};
 
 /// So many other branches are drawn; where there are more, as of an angle without a period, none.
-const MOST: usize = 3;
+const MOST: usize = 7;
 
 /// The steps from a point of a grid to one next to it.
 const WAY: u32 = 8;
@@ -47,7 +47,8 @@ impl Branches {
         let (lines, main) = grid::solved(pool, &map, &at, (new, old));
         let of = |image: &Valuation| new.map(|s| image.at(s));
         let mut images = vec![at.clone()];
-        for image in map.images(pool, &at) {
+        // one more than is drawn tells that there are too many; those of whole turns are one
+        for image in map.images(pool, &at, 2 * MOST + 3) {
             if images.iter().all(|known| !same(of(known), of(&image), periods)) {
                 images.push(image);
             }

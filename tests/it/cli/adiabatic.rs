@@ -130,3 +130,65 @@ fn a_well_that_opens_halves_the_action() {
         assert_eq!(known["verdict"], "broken by the physics");
     }
 }
+
+/// Which well it is depends on the phase at which the ramp begins. The phases are those of half a period: over a whole one each
+/// well would have one half by the mirror q → −q alone, which is seen for itself.
+#[test]
+fn each_well_takes_half_of_the_phases() {
+    let ends = |grid: &str| -> Vec<f64> {
+        let set = ["--set=T=100", "--tolerance=fast", "--format=json"];
+        let words = [&["sweep", "opening-well", grid][..], &set[..]].concat();
+        let found = phaselab(&words).json();
+        let names = found["columns"].as_array().unwrap();
+        let [q, energy] = ["q", "energy"]
+            .map(|name| names.iter().position(|known| known == name).expect("a column"));
+        let rows = found["rows"].as_array().unwrap().iter();
+        let end = |row: &Value| {
+            assert!(row[energy].as_f64().unwrap() < 0.0, "it is in a well: {row}");
+            row[q].as_f64().unwrap()
+        };
+        rows.map(end).collect()
+    };
+    let found = ends("--grid=t0=0:3.564:200");
+    let right = found.iter().filter(|q| **q > 0.0).count();
+    // three standard deviations of chance
+    assert_eq!(found.len(), 200);
+    assert!((right as f64 / 200.0 - 0.5).abs() < 0.106, "{right} of 200");
+    // half a period later it is the other well
+    let later = ends("--grid=t0=3.58175:7.14575:200");
+    let mirrored = found.iter().zip(&later).filter(|(a, b)| a.signum() != b.signum()).count();
+    assert!(mirrored >= 196, "{mirrored} of 200");
+}
+
+/// The preset of the three ramps: ε, ε², and the closed form that is less than any power of ε.
+#[test]
+fn three_ramps_have_three_slopes() {
+    let changes = |n: u32| {
+        let (set, end) = (format!("n={n}"), format!("{}", 40 * (1 << n)));
+        let names = ["corner", "second", "smooth"];
+        let mut words = vec!["run", "three-ramps", "--set", &set, "--at", &end];
+        names.iter().for_each(|name| words.extend(["--observe", name]));
+        words.extend(["--format", "json"]);
+        let found = phaselab(&words).json();
+        let columns = found["columns"].as_array().unwrap();
+        names.map(|name| {
+            let place = columns.iter().position(|known| known == name).expect("a column");
+            found["rows"][0][place].as_f64().unwrap()
+        })
+    };
+    let [first, last] = [changes(0), changes(4)];
+    for (k, slope) in [(0, 1.0), (1, 2.0)] {
+        let found = (first[k] / last[k]).log2() / 4.0;
+        assert!((found - slope).abs() < 0.2, "{found} is not {slope}");
+    }
+    // N. D. Birrell and P. C. W. Davies, Quantum Fields in Curved Space, § 3.4: 2|αβ| with ρ = 8/T
+    for n in 0..3 {
+        let rho = 1.0 / f64::from(1 << n);
+        let sinh = |x: f64| (std::f64::consts::PI * x / rho).sinh();
+        let beta = sinh(0.5) * sinh(0.5) / (sinh(1.0) * sinh(2.0));
+        let exact = 2.0 * (beta * (1.0 + beta)).sqrt();
+        let found = changes(n)[2];
+        assert!((found / exact - 1.0).abs() < 1e-6, "{n}: {found} is not {exact}");
+    }
+    assert!(last[2] < 1e-12, "{}", last[2]);
+}

@@ -3,10 +3,10 @@
 //! In: a number of nodes. Out: nodes and weights on [0, 1]. The nodes are the zeros of Legendre's
 //! polynomial, found by Newton's iteration (W. H. Press et al., Numerical Recipes, 4.6).
 
-use crate::num::math;
+use super::math;
 
 /// The nodes and weights of the rule with `count` nodes on [0, 1].
-pub(super) fn gauss(count: usize) -> Vec<(f64, f64)> {
+pub fn gauss(count: usize) -> Vec<(f64, f64)> {
     (0..count).map(|i| node(count, i)).collect()
 }
 
