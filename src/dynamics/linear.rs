@@ -56,8 +56,13 @@ pub(super) fn null_vector(
     rank: usize,
 ) -> Option<Vec<Complex<f64>>> {
     let n = matrix.nrows();
+    // the power of two of the size, so that no digit changes and no square under- or overflows
+    let size = f64::from_bits(matrix.amax().max(omega).to_bits() & f64::INFINITY.to_bits());
+    if !size.is_normal() {
+        return None;
+    }
     let shifted = DMatrix::from_fn(n, n, |i, j| {
-        Complex::new(matrix[(i, j)], if i == j { -omega } else { 0.0 })
+        Complex::new(matrix[(i, j)] / size, if i == j { -omega / size } else { 0.0 })
     });
     // its right singular vectors
     let square = shifted.adjoint() * &shifted;
