@@ -47,7 +47,7 @@ const CHAOTIC: f64 = 5.0;
 /// A chaotic motion has grown by this many powers of e.
 const GROWTH: f64 = 8.0;
 
-/// A motion slower than this, relative to its size and to its linear rates, is at rest.
+/// A motion is at rest if each of its rates is less than this part of what its variables, by their size, may add to it.
 const AT_REST: f64 = 1e-13;
 
 /// Whether neighbouring motions part exponentially.
@@ -176,14 +176,29 @@ const MEGNO_PARTS: u32 = 4;
 
 /// Which directions are taken out.
 fn removed(space: &PhaseSpace, start: &State, field: &VectorField) -> Removed {
-    let size = DVector::from_column_slice(space.variables(start)).norm().max(1.0);
-    let moves = field.rate().norm() > AT_REST * size * field.derivative().norm();
+    let moves = moves(space, space.variables(start), field);
     match (space.is_hamiltonian(), moves && space.is_autonomous()) {
         (true, true) => Removed::FlowAndEnergy,
         (false, true) if space.is_conservative() => Removed::Flow,
         // with friction a motion may come to rest, and has no direction there
         _ => Removed::Nothing,
     }
+}
+
+/// Whether a state moves, in any units: one that is zero counts as large as the largest of its kind.
+fn moves(space: &PhaseSpace, variables: &[f64], field: &VectorField) -> bool {
+    let kinds = if space.is_hamiltonian() { 2 } else { 1 };
+    let kind = (variables.len() / kinds).max(1);
+    let largest = |part: &[f64]| part.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let sizes: Vec<f64> = variables
+        .chunks(kind)
+        .flat_map(|part| part.iter().map(|x| if *x == 0.0 { largest(part) } else { x.abs() }))
+        .collect();
+    let (rate, derivative) = (field.rate(), field.derivative());
+    (0..variables.len()).any(|i| {
+        let add = |(j, size): (usize, &f64)| derivative[(i, j)].abs() * size;
+        rate[i].abs() > AT_REST * sizes.iter().enumerate().map(add).sum::<f64>()
+    })
 }
 
 /// The mean exponential growth of nearby orbits.
