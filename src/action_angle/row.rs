@@ -95,6 +95,19 @@ pub enum NoAction {
         /// Where it would if the other coordinates did not act on it.
         expected: f64,
     },
+    /// The only coordinate turns before it comes to the other end.
+    #[error(
+        "the coordinate turned at {} and not at {}: between them the potential has wells narrower than the distance at which it \
+         is looked at there; an angle needs its `period` in the file",
+        short(*.found),
+        short(*.expected)
+    )]
+    NarrowWells {
+        /// Where it turned.
+        found: f64,
+        /// Where the next place beyond which the energy does not allow it was seen.
+        expected: f64,
+    },
     /// The motion came to no return.
     #[error("{0}")]
     NoReturn(String),
@@ -154,15 +167,19 @@ fn libration(
         return Ok(ActionRow { energy, kind, turning_points, action, period, mean_rate: None });
     }
     let start = potential.at_rest(left);
+    let one = systems.turning.degrees() == 1;
     let found = follow(systems, (systems.turning, systems.turns), &start, 2)?;
     for (row, expected) in found.iter().zip([right, left]) {
         let place = row[systems.column];
         if (place - expected).abs() > RETURNS * (right - left) {
-            return Err(NoAction::NotSeparable { found: place, expected });
+            return Err(if one {
+                NoAction::NarrowWells { found: place, expected }
+            } else {
+                NoAction::NotSeparable { found: place, expected }
+            });
         }
     }
     let (period, carried) = end(&found);
-    let one = systems.turning.degrees() == 1;
     let action = if one {
         carried + energy * period
     } else {

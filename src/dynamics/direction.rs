@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use super::phase_space::{PhaseSpace, VectorField};
 use crate::system::{Form, MotionError, Rates, State, System};
 
-/// A motion slower than this, relative to its size and to its linear rates, is at rest.
+/// A motion is at rest if each of its rates is less than this part of what its variables, by their size, may add to it.
 const AT_REST: f64 = 1e-13;
 
 /// The rates of change of the variables of a phase space.
@@ -59,16 +59,31 @@ impl Direction {
         }
     }
 
-    /// Whether the motion through a state moves: faster than rounding would explain, by the linear rates or, under
-    /// constraints, over this length of time.
+    /// Whether the motion through a state moves, in any units: one of its rates is more than rounding of the variables would
+    /// explain, by its linear rates or, under constraints, over this length of time.
     pub(super) fn moves(&mut self, state: &State, length: f64) -> Result<bool, MotionError> {
-        let size = DVector::from_column_slice(self.space.variables(state)).norm().max(1.0);
-        let speed = self.at(state)?.norm();
-        let rates = match &self.source {
-            Source::Free(field) => field.derivative().norm(),
-            Source::Constrained { .. } => 1.0 / length,
+        let rates = self.at(state)?;
+        let sizes = self.sizes(state);
+        let add = |i: usize| match &self.source {
+            Source::Free(field) => {
+                let derivative = field.derivative();
+                sizes.iter().enumerate().map(|(j, size)| derivative[(i, j)].abs() * size).sum()
+            }
+            Source::Constrained { .. } => sizes[i] / length,
         };
-        Ok(speed > AT_REST * size * rates)
+        Ok((0..rates.len()).any(|i| rates[i].abs() > AT_REST * add(i)))
+    }
+
+    /// The sizes of the variables; one that is zero counts as large as the largest of its kind.
+    fn sizes(&self, state: &State) -> Vec<f64> {
+        let variables = self.space.variables(state);
+        let kinds = if self.space.is_hamiltonian() { 2 } else { 1 };
+        let largest = |part: &[f64]| part.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let of = |part: &[f64]| {
+            let largest = largest(part);
+            part.iter().map(|x| if *x == 0.0 { largest } else { x.abs() }).collect::<Vec<_>>()
+        };
+        variables.chunks((variables.len() / kinds).max(1)).flat_map(of).collect()
     }
 }
 

@@ -324,13 +324,17 @@ impl<'a> EquilibriumSearch<'a> {
         } else {
             Some(true)
         };
-        let modes = if canonical { self.modes(&df, &eigenvalues, scale) } else { Vec::new() };
+        let modes = match self.look_in_units(&variables).filter(|_| canonical) {
+            Some((_, in_units)) => self.modes(&in_units, &eigenvalues, scale),
+            None => Vec::new(),
+        };
         let rates = self.cyclic.iter().map(|&i| (i, rate[i])).collect();
         let kind = canonical.then(|| kind(&df));
         let work = Vec::new();
         Ok(Some(Equilibrium { variables, energy, kind, eigenvalues, modes, stable, rates, work }))
     }
 
+    /// The modes, from ∂f/∂z in units.
     fn modes(&self, df: &DMatrix<f64>, eigenvalues: &[[f64; 2]], scale: f64) -> Vec<Mode> {
         let oscillates =
             |z: &&[f64; 2]| z[1] > VANISHES.sqrt() * scale && z[0].abs() <= VANISHES.sqrt() * scale;
@@ -345,11 +349,13 @@ impl<'a> EquilibriumSearch<'a> {
             let mut places = vec![0.0; self.degrees];
             let mut quarter = places.clone();
             let half = self.resting.len() / 2;
-            let largest =
-                vector[..half].iter().copied().max_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
+            let unit = |k: usize| self.units[self.resting[k]];
+            let largest = (0..half).max_by(|&a, &b| {
+                (vector[a].norm() * unit(a)).total_cmp(&(vector[b].norm() * unit(b)))
+            });
             let Some(largest) = largest else { continue };
-            for (&i, z) in self.resting[..half].iter().zip(&vector) {
-                let z = z / largest;
+            for (k, &i) in self.resting[..half].iter().enumerate() {
+                let z = vector[k] / vector[largest] * (unit(k) / unit(largest));
                 let clean = |x: f64| if x.abs() < 1e-12 { 0.0 } else { x };
                 (places[i], quarter[i]) = (clean(z.re), clean(z.im));
             }

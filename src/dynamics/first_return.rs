@@ -8,15 +8,15 @@ use super::carrier::Carrier;
 use super::error::DynamicsError;
 use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings, Stepping};
-use crate::num::DoubleDouble;
+use crate::num::{DoubleDouble, short};
 use crate::system::State;
 
 /// The steps in which a return to the start is looked for, of a series and of a fixed size.
 const LOOKED: u64 = 600;
 const LOOKED_FIXED: u64 = 20_000;
 
-/// A time later than any return.
-const ENDLESS: f64 = 1e20;
+/// A time later than any return, in any units; the square of a distance covered in it is a number.
+const ENDLESS: f64 = 1e150;
 
 /// Where impulses may act, a step ends so much later than it begins, or this much longer than the one before.
 const FIRST_LOOK: f64 = 1.0;
@@ -128,15 +128,16 @@ fn no_return(
 ) -> DynamicsError {
     let found = match best {
         Some((part, at)) => {
-            format!("came back no nearer than {:.0} % of it, after {at:.6}", 100.0 * part)
+            format!("came back no nearer than {:.0} % of it, after {}", 100.0 * part, short(at))
         }
         None => "only moved away from its start, or stays there".to_owned(),
     };
     let stopped = stopped.map_or(String::new(), |why| format!("; then {why}"));
     DynamicsError::Unsuited(format!(
-        "no periodic orbit to begin with: a return of ({}) to within {:.0} % of the farthest distance from the start was searched for over a time of {time:.6}, and the motion {found}{stopped}. Begin nearer to a periodic orbit, or give \
+        "no periodic orbit to begin with: a return of ({}) to within {:.0} % of the farthest distance from the start was searched for over a time of {}, and the motion {found}{stopped}. Begin nearer to a periodic orbit, or give \
          its period",
         space.names().join(", "),
-        100.0 * FAR
+        100.0 * FAR,
+        short(time)
     ))
 }

@@ -49,20 +49,53 @@ pub(super) fn kernel(matrix: &DMatrix<f64>, cut: f64) -> Vec<DVector<f64>> {
     (0..columns).filter(small).map(|i| vectors.row(i).transpose()).collect()
 }
 
-/// A unit vector that the matrix minus i ω takes to (nearly) zero, the `rank`-th best.
+/// A singular vector is a new one if this much of it lies outside those before it.
+const NEW: f64 = 0.1;
+
+/// A vector that the matrix minus i ω takes to (nearly) zero, the `rank`-th best.
 pub(super) fn null_vector(
     matrix: &DMatrix<f64>,
     omega: f64,
     rank: usize,
 ) -> Option<Vec<Complex<f64>>> {
     let n = matrix.nrows();
-    let shifted = DMatrix::from_fn(n, n, |i, j| {
-        Complex::new(matrix[(i, j)], if i == j { -omega } else { 0.0 })
+    // the power of two of the size, so that no digit changes and no square under- or overflows
+    let size = f64::from_bits(matrix.amax().max(omega).to_bits() & f64::INFINITY.to_bits());
+    if !size.is_normal() {
+        return None;
+    }
+    // the matrix of real and imaginary parts, of which each right singular vector v is one as v and as i v: several equal
+    // ones are mixed
+    let (shift, part) = (omega / size, |i: usize, j: usize| matrix[(i, j)] / size);
+    let parts = DMatrix::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
+        (true, true) => part(i, j),
+        (false, false) => part(i - n, j - n),
+        (true, false) if i + n == j => shift,
+        (false, true) if i == j + n => -shift,
+        _ => 0.0,
     });
-    // its right singular vectors
-    let square = shifted.adjoint() * &shifted;
+    let square = parts.transpose() * &parts;
     let eigen = SymmetricEigen::try_new(square, f64::EPSILON, SWEEPS)?;
-    let mut order: Vec<usize> = (0..n).collect();
+    let mut order: Vec<usize> = (0..2 * n).collect();
     order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
-    Some(eigen.eigenvectors.column(*order.get(rank)?).iter().copied().collect())
+    let mut found: Vec<DVector<Complex<f64>>> = Vec::new();
+    for k in order {
+        let both = eigen.eigenvectors.column(k);
+        let mut vector = DVector::from_fn(n, |i, _| Complex::new(both[i], both[i + n]));
+        for _ in 0..2 {
+            for one in &found {
+                let along = one.dotc(&vector);
+                vector -= one * along;
+            }
+        }
+        let length = vector.norm();
+        if length < NEW {
+            continue;
+        }
+        if found.len() == rank {
+            return Some(vector.iter().copied().collect());
+        }
+        found.push(vector.unscale(length));
+    }
+    None
 }

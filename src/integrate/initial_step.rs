@@ -20,8 +20,8 @@ const A_FEW: usize = 4;
 /// without end and are not representative.
 const SHORTEST: f64 = 1e-4;
 
-/// Longer than every time scale.
-const FAR: f64 = 1e20;
+/// Longer than every time scale, in any units; the square of a distance covered in it is a number.
+const FAR: f64 = 1e150;
 
 /// The time scale if it is undetermined: nothing changes, or only as a polynomial in time.
 const UNKNOWN: f64 = 1.0;

@@ -20,12 +20,15 @@ mod steep;
 mod step_screen;
 mod step_size;
 mod sticking;
+mod still;
+mod trial_velocities;
 
 pub(super) use batch::TaylorBatch;
 use collocation_step::CollocationStep;
 use kinks::Kinks;
 use step_size::{EXACT_BELOW, StepSize};
-use sticking::{Sticking, Still};
+use sticking::Sticking;
+use still::Still;
 
 use super::method::{Method, MethodError, Preserves, Settings, Stepping};
 use super::stepper::Stepper;
@@ -480,7 +483,9 @@ impl Taylor {
     /// Writes the state at a time within the last step into `out`.
     fn write_state(&mut self, time: DoubleDouble, out: &mut State) -> Result<(), MotionError> {
         if let Some(still) = &self.resting {
-            out.copy_from(&still.at(&mut self.rates, time)?);
+            let begin = still.step_begin();
+            let after = part_of_step(time - begin, self.state.exact_time() - begin);
+            out.copy_from(&still.at(&mut self.rates, begin + after)?);
             return Ok(());
         }
         let Some((from, toward)) = &self.leapt else {

@@ -462,3 +462,45 @@ fn two_kinks_at_one_place_are_passed_together() {
     let off = value(&taylor, "u") - value(&other, "u");
     assert!(off.abs() < 1e-6, "{off:e}");
 }
+
+/// A force that turns while it fades lets a body come to rest in a way whose steps vanish: their last ones are shorter than
+/// the last digit of the time, and rest is looked at at times that are rounded to it. The numbers: an integration in polar
+/// coordinates of the velocity (SciPy, Radau, rtol 1e-12), from each onset to the next rest.
+#[test]
+fn a_body_comes_to_rest_within_the_last_digit_of_the_time_and_starts_again() {
+    let text = "[coordinates]\nx = { initial = 0 }\ny = { initial = 0 }\n[lagrangian]\n\
+                L = \"1/2*(x'^2 + y'^2) + 0.4*x*sin(t) + 0.4*y*cos(1.7*t)*sin(t)\"\n\
+                dissipation = \"0.3*sqrt(x'^2 + y'^2)\"\n[run]\nuntil = 8\n";
+    let mut body = file(text);
+    for (time, expected) in [
+        (6.7, [-0.000_376_401_78, -0.084_166_982_8, 0.0, 0.0]),
+        (8.0, [0.058_915_781_268, -0.030_222_902_264, 0.139_781_562_94, 0.108_596_534_73]),
+        (10.0, [0.302_058_753_217, 0.004_940_736_016_6, 0.0, 0.0]),
+        (20.0, [-0.025_992_446_51, -0.014_801_659_656, 0.026_262_021_81, -0.020_824_475_553]),
+    ] {
+        run(&mut body, time);
+        for (name, expected) in ["x", "y", "x'", "y'"].into_iter().zip(expected) {
+            let found = value(&body, name);
+            assert!((found - expected).abs() < 2e-11, "{name} = {found} at t = {time}");
+        }
+    }
+}
+
+/// The step that a method of fixed size takes where none is given is a part of the motion's own time, in any unit of it.
+#[test]
+fn steps_that_nobody_gave_do_not_depend_on_units() {
+    let swung = |unit: f64| {
+        let text = format!(
+            "title = \"A pendulum\"\n[coordinates]\nq = {{ initial = 1.1 }}\n[lagrangian]\n\
+             L = \"1/2*({unit:e}*q')^2 + cos(q)\"\n"
+        );
+        let end = format!("--at={:e}", 10.0 * unit);
+        let rows = with_file(&text, &["run", "system.toml", "--method=rk4", &end]).success();
+        let last = rows.lines().rfind(|line| !line.starts_with('#')).expect("a row");
+        last.split(',').nth(1).expect("a column").parse::<f64>().expect("a number")
+    };
+    let natural = swung(1.0);
+    for unit in [1e-60, 1e15, 1e25, 1e60] {
+        assert!((swung(unit) - natural).abs() < 1e-8, "{unit:e}");
+    }
+}

@@ -4,8 +4,13 @@ use std::fmt::Write as _;
 
 use phaselab::analysis::{History, Verdict};
 use phaselab::diagnostic::Document;
+use phaselab::integrate::{METHODS, Settings};
 use phaselab::mechanics::derive;
 use phaselab::system::System;
+
+use crate::cli::with_file;
+use crate::experiment::{build, gauge, run};
+use crate::taylor::Run;
 
 /// The number of redundant constraints, of two in the plane whose directions differ by this angle.
 fn redundant(angle: &str) -> usize {
@@ -97,4 +102,156 @@ fn a_trend_is_clear_of_six_standard_errors() {
         let scatter = if (time * 64.0).floor() % 2.0 == 0.0 { 0.5 } else { -0.5 };
         scatter + errors * error * time / 0.75
     });
+}
+
+/// An oscillator from x = 0.3 with x' = 0.2, and what else the file has.
+fn oscillator(rest: &str) -> String {
+    format!(
+        "title = \"An oscillator\"\n[coordinates]\nx = {{ initial = 0.3, velocity = 0.2 }}\n[lagrangian]\n\
+         L = \"1/2*x'^2 - 1/2*x^2\"\n{rest}\n[run]\nuntil = 1\n"
+    )
+}
+
+/// Asserts that `check` accepts the file with the first number and refuses it, with these words, with the second.
+fn claimed([within, beyond]: [&str; 2], said: &str, text: impl Fn(&str) -> String) {
+    with_file(&text(within), &["check", "system.toml"]).success();
+    with_file(&text(beyond), &["check", "system.toml"]).fails(65, &[said]);
+}
+
+#[test]
+fn what_is_claimed_conserved_drifts_by_no_more_than_1e_10_of_its_terms() {
+    claimed(["0.9e-10", "1.1e-10"], "said to be conserved, but it is not", |drift| {
+        oscillator(&format!(
+            "[[observables]]\nname = \"one\"\nexpression = \"1 + {drift}*t\"\nconserved = true"
+        ))
+    });
+}
+
+#[test]
+fn a_claimed_bracket_is_off_by_no_more_than_1e_10_of_its_terms() {
+    // the two sides are terms of one size
+    claimed(["1.9e-10", "2.1e-10"], "is not what this says", |off| {
+        oscillator(&format!(
+            "[expect]\nbrackets = [{{ f = \"sin(x)\", g = \"p_x\", is = \"sqrt(1 - sin(x)^2)*(1 + {off})\" }}]"
+        ))
+    });
+}
+
+#[test]
+fn a_casimir_commutes_to_1e_10_of_its_terms() {
+    claimed(["1.9e-10", "2.1e-10"], "is no Casimir", |off| {
+        format!(
+            "title = \"A body\"\n[variables]\nL1 = {{ initial = 1 }}\nL2 = {{ initial = 2 }}\nL3 = {{ initial = 3 }}\n\
+             [poisson]\nH = \"L1^2/2 + L2^2/3 + L3^2/5\"\n\
+             brackets = [[\"L1\", \"L2\", \"-L3\"], [\"L2\", \"L3\", \"-L1\"], [\"L3\", \"L1\", \"-L2\"]]\n\
+             casimirs = {{ C = \"L1^2 + L2^2 + (1 + {off})*L3^2\" }}\n"
+        )
+    });
+}
+
+#[test]
+fn a_complete_integral_solves_its_equation_to_1e_10_of_its_terms() {
+    // H and α count three times in what is left, not once
+    claimed(["3e-10", "3.5e-10"], "does not solve", |off| {
+        oscillator(&format!(
+            "[hamilton_jacobi]\nS = \"1/2*x*sqrt(2*alpha - x^2) + alpha*asin(x/sqrt(2*alpha)) - alpha*t*(1 + {off})\"\n\
+             constants = [\"alpha\"]"
+        ))
+    });
+}
+
+#[test]
+fn a_start_is_on_its_constraints_to_1e_9_of_their_terms() {
+    claimed(["1.9e-9", "2.1e-9"], "do not keep the constraint `c`", |off| {
+        format!(
+            "title = \"Two\"\n[coordinates]\nx = {{ initial = 1, velocity = 0 }}\n\
+             y = {{ initial = \"1 + {off}\", velocity = 0 }}\n[lagrangian]\nL = \"1/2*x'^2 + 1/2*y'^2\"\n\
+             [[constraints]]\nname = \"c\"\nexpression = \"x - y\"\n[run]\nuntil = 1\n"
+        )
+    });
+}
+
+#[test]
+fn a_map_is_canonical_to_1e_10_of_its_tangent_map() {
+    // the squares of the tangent map's entries sum to 2
+    let derived = |off: &str| {
+        let text = oscillator(&format!(
+            "[[transformations]]\nname = \"m\"\nkind = \"explicit\"\nQ = {{ Q = \"x*(1 + {off})\" }}\nP = {{ P = \"p_x\" }}"
+        ));
+        with_file(&text, &["derive", "system.toml"]).success()
+    };
+    assert!(derived("1.9e-10").contains("canonical to rounding"));
+    assert!(derived("2.1e-10").contains("not canonical"));
+}
+
+/// The error of rk4 in an energy of ½ beside a constant: where the value has three digits fewer than the sum of its other
+/// terms, the drift is that of the sum, else it drowns in the rounding of the value.
+#[test]
+fn a_constant_is_left_out_of_a_drift_from_a_thousand_times_what_varies() {
+    let word = |constant: u32| {
+        let text = format!(
+            "title = \"An offset\"\n[coordinates]\nx = {{ initial = 1 }}\n[lagrangian]\n\
+             L = \"1/2*x'^2 - 1/2*x^2 - {constant}\"\n"
+        );
+        let mut experiment = build(&text, |setup| {
+            "rk4".clone_into(&mut setup.method);
+            setup.settings.step = Some(0.01);
+        });
+        run(&mut experiment, 10.0);
+        gauge(&experiment.snapshot(), "energy").verdict.word()
+    };
+    assert_eq!(word(0), "secular");
+    assert_eq!(word(490), "exact");
+    assert_eq!(word(510), "secular");
+}
+
+/// A motion's own time is that which three in four of 48 steps exceed: where a quarter of them lie behind a switch to fifty
+/// times the frequency, it is that of the fast motion.
+#[test]
+fn a_time_scale_is_that_of_forty_eight_steps() {
+    let text = |switch: f64| {
+        format!(
+            "title = \"Two rates\"\n[coordinates]\nx = {{ initial = 1 }}\n[lagrangian]\n\
+             L = \"1/2*x'^2 - (1/2 + 1250*(1 + sign(t - {switch:?})))*x^2\"\n"
+        )
+    };
+    // when the steps end at the tolerance at which they are looked at
+    let mut slow = Run::with(&text(1e6), Some(1e-9));
+    let ends: Vec<f64> = (0..48)
+        .map(|_| {
+            slow.stepper.step(1e5).unwrap();
+            slow.stepper.time()
+        })
+        .collect();
+    let step = |switch: f64| {
+        let rk4 = METHODS.iter().find(|method| method.name == "rk4").expect("a method");
+        let Run { system, parameters, .. } = Run::new(&text(switch));
+        let state = system.initial(0.0, &parameters, &[]).expect("regular");
+        let settings = Settings { step: None, tolerance: None };
+        let mut stepper = (rk4.make)(&system, &settings).expect("it fits every system");
+        stepper.start(&state, &parameters).expect("regular");
+        stepper.step(f64::INFINITY).expect("regular");
+        stepper.step_size()
+    };
+    let whole = step(1e6);
+    assert!(step(ends[32]) < 0.1 * whole, "{} {whole}", step(ends[32]));
+    assert!(step(ends[38]) > 0.5 * whole, "{} {whole}", step(ends[38]));
+}
+
+/// A body at rest, pulled by less than static friction: its forces are followed over 32 intervals of a step if what is between
+/// their ends is predicted to a fiftieth of them, which a sine of period 2π is up to intervals of 1.26.
+#[test]
+fn forces_at_rest_are_followed_where_they_are_predicted_to_a_fiftieth() {
+    let steps = |until: f64| {
+        let mut run = Run::new(
+            "title = \"Friction\"\n[coordinates]\nx = { initial = 0 }\ny = { initial = 0 }\n\
+             [lagrangian]\nL = \"1/2*x'^2 + 1/2*y'^2 + 0.2*x*sin(t)\"\n\
+             dissipation = \"0.3*sqrt(x'^2 + y'^2)\"\n",
+        );
+        assert_eq!(run.to(until)[..4], [0.0; 4]);
+        run.steps
+    };
+    let at_once = steps(20.0);
+    assert_eq!(steps(38.0), at_once);
+    assert!(steps(43.0) > at_once);
 }

@@ -12,6 +12,7 @@ use rustix::fs::{FlockOperation, flock};
 
 use super::identity::Identity;
 use crate::cli::failure::CommandError;
+use crate::file::check_regular;
 use crate::printable;
 
 /// A journal that is being written.
@@ -112,6 +113,9 @@ impl Journal {
         let failed = |error: io::Error| CommandError::writing(&name, &error);
         let mut file =
             OpenOptions::new().read(true).append(true).create(true).open(&path).map_err(failed)?;
+        // what is no file may never end
+        let about = file.metadata().map_err(failed)?;
+        check_regular(about.file_type()).map_err(failed)?;
         if flock(&file, FlockOperation::NonBlockingLockExclusive).is_err() {
             let message = format!("{name} is being written by another phaselab");
             return Err(CommandError::WrongUse(message));

@@ -2,14 +2,14 @@
 //!
 //! In: the files of all shards. Out: one file. Never here: rows computed.
 
-use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::identity::{Identity, Shard};
 use crate::cli::failure::CommandError;
 use crate::cli::output::{Output, OutputForm};
+use crate::file;
 use crate::printable;
-use std::io::Write;
 
 /// A shard that was read.
 struct Part {
@@ -66,7 +66,10 @@ pub(super) fn perform(paths: &[PathBuf], output: Option<&Path>) -> Result<(), Co
 }
 
 fn read(path: &Path) -> Result<Part, CommandError> {
-    let text = fs::read_to_string(path).map_err(|error| CommandError::reading(path, &error))?;
+    let failed = |error: io::Error| CommandError::reading(path, &error);
+    let (bytes, _) = file::read(path, u64::MAX).map_err(failed)?;
+    let text = String::from_utf8(bytes)
+        .map_err(|_| failed(io::Error::new(io::ErrorKind::InvalidData, "it is not UTF-8")))?;
     let no_shard = || {
         let path = printable::path(path);
         CommandError::WrongUse(format!("{path} is not a complete shard of a sweep"))

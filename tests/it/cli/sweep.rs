@@ -324,3 +324,20 @@ fn the_largest_exponent_is_a_measure_and_needs_no_expression() {
     let held = ["rolling-coin", "--grid=t=0:1:2", "--measure=lyapunov"];
     in_folder(home.path(), &held).fails(2, &["held to constraints"]);
 }
+
+/// What is read beside the system, shards and journals, may be no file: it is looked at first.
+#[test]
+fn shards_and_journals_that_have_no_end_are_refused() {
+    let home = tempfile::tempdir().unwrap();
+    let pipe = |name: &str| {
+        assert!(Command::new("mkfifo").arg(home.path().join(name)).status().unwrap().success());
+    };
+    pipe("shard.csv");
+    in_folder(home.path(), &["--merge", "shard.csv"]).fails(2, &["shard.csv", "a pipe"]);
+    for device in ["/dev/zero", "/dev/full"] {
+        in_folder(home.path(), &["--merge", device]).fails(2, &[device, "it is a device"]);
+    }
+    pipe("out.csv.journal");
+    let grid = ["pendulum", "--grid=theta=0:1:2", "--until=1", "-o", "out.csv"];
+    in_folder(home.path(), &grid).fails(74, &["out.csv.journal", "it is a pipe"]);
+}

@@ -180,3 +180,28 @@ fn two_wells_of_an_atom_are_two() {
         [Some(true), Some(false), Some(true)]
     );
 }
+
+/// Two equal frequencies in a plane have two modes, and any two that differ will do.
+#[test]
+fn modes_of_one_frequency_differ_in_any_units() {
+    for [length, time, energy] in
+        [[1.0, 1.0, 1.0], [5e-11, 2.4e-17, 4.4e-18], [3.1e19, 3.2e15, 2.7e41], [1.9e70, 1e60, 4e80]]
+    {
+        let [q, rate] = [format!("/{length:e}"), format!("*{:e}", time / length)];
+        let text = format!(
+            "title = \"two\"\n[coordinates]\nx = {{ initial = {:e} }}\ny = {{ initial = {:e} }}\n[lagrangian]\n\
+             L = \"{energy:e}*(1/2*((x'{rate})^2 + (y'{rate})^2) - 1/2*((x{q})^2 + (y{q})^2) - (x{q})^2*(y{q}) + 1/3*(y{q})^3)\"\n",
+            0.1 * length,
+            0.15 * length
+        );
+        let found = of(&file(&text, &[]));
+        let rest = found.iter().find(|one| one.kind == Some(Kind::Minimum)).expect("a minimum");
+        assert_eq!(rest.modes.len(), 2, "{text}");
+        for frequency in frequencies(rest) {
+            close(frequency * time, 1.0, 1e-9);
+        }
+        let [one, other] = [&rest.modes[0].in_phase, &rest.modes[1].in_phase];
+        let area = one[0] * other[1] - one[1] * other[0];
+        assert!(area.abs() > 0.1, "{:?}", rest.modes);
+    }
+}

@@ -90,3 +90,29 @@ fn an_unstable_equilibrium_has_the_exponents_of_its_eigenvalues() {
     assert!((found.exponents[0] - 2.0).abs() < 1e-3 && (found.exponents[3] + 2.0).abs() < 1e-3);
     assert!(found.exponents[1].abs() < 0.02 && found.pairing_residual.unwrap() < 1e-13);
 }
+
+/// What is taken out depends on whether the motion moves, not on its units.
+#[test]
+fn a_motion_in_atomic_units_is_no_rest() {
+    for [length, time, energy] in
+        [[1.0, 1.0, 1.0], [5e-11, 2.4e-17, 4.4e-18], [3.1e19, 3.2e15, 2.7e41]]
+    {
+        let [q, rate] = [format!("/{length:e}"), format!("*{:e}", time / length)];
+        let speed = length / time;
+        let text = format!(
+            "title = \"one\"\n[coordinates]\nx = {{ initial = {:e}, velocity = {:e} }}\n\
+             y = {{ initial = {:e}, velocity = {:e} }}\n[lagrangian]\n\
+             L = \"{energy:e}*(1/2*((x'{rate})^2 + (y'{rate})^2) - 1/2*((x{q})^2 + (y{q})^2) - (x{q})^2*(y{q}) + 1/3*(y{q})^3)\"\n",
+            0.1 * length,
+            0.2 * speed,
+            0.15 * length,
+            0.25 * speed
+        );
+        let found = of(&file(&text, &[]), 200.0 * time);
+        assert_eq!(found.removed, Removed::FlowAndEnergy, "{text}");
+        assert_eq!(found.exponents[1..3], [0.0; 2], "{text}");
+    }
+    // a body that stays where it is has no direction of its own
+    let rest = "title = \"top\"\n[coordinates]\nq = { initial = \"pi\" }\n[lagrangian]\nL = \"1/2*q'^2 + cos(q)\"\n";
+    assert_eq!(of(&file(rest, &[]), 20.0).removed, Removed::Nothing);
+}

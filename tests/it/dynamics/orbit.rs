@@ -167,3 +167,20 @@ fn an_orbit_does_not_depend_on_units() {
         assert!(found.closure < 1e-13 && !found.stable, "{}", found.closure);
     }
 }
+
+/// A return is searched for as long as the motion takes, in any unit of time.
+#[test]
+fn an_orbit_is_found_in_any_unit_of_time() {
+    let period = |unit: f64| {
+        let text = format!(
+            "title = \"slow\"\n[coordinates]\nq = {{ initial = 1.1 }}\n[lagrangian]\n\
+             L = \"1/2*({unit:e}*q')^2 + cos(q)\"\n"
+        );
+        let case = file(&text, &[]);
+        of(&case, None, Fixed::Energy(-(1.1_f64.cos()))).period / unit
+    };
+    let natural = period(1.0);
+    for unit in [1e-60, 1e25, 1e60] {
+        assert!((period(unit) / natural - 1.0).abs() < 1e-12, "{unit:e}");
+    }
+}
