@@ -22,8 +22,8 @@ use crate::printable;
 /// chaotic one to about ε e^{λT} of it, and none at all where that is as large as the motion. λ
 /// is the largest exponent of the reversed motion, −λₙ. ε is the tolerance, or the rounding where
 /// a step back is the inverse of one forwards. Of rk4, dop853 and symplectic-euler it is measured
-/// over steps there and back, and what is expected is the errors of all steps, carried by the
-/// flow. Where there is no way back, as over impulses or dry friction, it is said why.
+/// over steps there and back, and the return error is at most the errors of all steps, carried by
+/// the flow. Where there is no way back, as over impulses or dry friction, it is said why.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -224,7 +224,7 @@ impl Found {
             }
         }
         if let (Some(_), Some(expected)) = (self.returned.step, self.expected) {
-            text.push_str(&format!("of all steps, carried   {expected:.1e}\n"));
+            text.push_str(&format!("of all steps, carried   ≤ {expected:.1e}\n"));
         }
         text
     }
