@@ -8,6 +8,7 @@ mod crossing_log;
 mod history;
 mod inquiry;
 mod landscape;
+mod return_error;
 mod separation;
 mod verdict;
 
@@ -15,5 +16,6 @@ pub use crossing_log::CrossingLog;
 pub use history::{History, Stretch};
 pub use inquiry::{Inquiry, InquiryAnswer};
 pub use landscape::{Curve, Grid, Landscape, Plane};
+pub use return_error::expected_return;
 pub use separation::{DistanceHistory, Slope, distance};
 pub use verdict::{Growth, LEFT, LOST, Verdict, rounding_floor};

@@ -30,6 +30,7 @@ mod rotation;
 mod spectrum;
 mod stationary_path;
 mod transverse;
+mod turning;
 mod variation;
 mod virtual_work;
 

@@ -38,7 +38,7 @@ mod varied;
 
 pub use answer::{Answer, Need};
 pub use equilibria::{
-    FoundEquilibria, described, described_mode, displaced, equilibria_search, start_along,
+    FoundEquilibria, classes, described, described_mode, displaced, equilibria_search, start_along,
     start_at, value_at,
 };
 pub use exponents::largest_exponent;

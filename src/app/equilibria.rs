@@ -9,7 +9,8 @@ use super::{
 };
 use crate::dynamics::Equilibrium;
 use crate::instrument::{
-    Answer, FoundEquilibria, described, described_mode, equilibria_search, start_along, start_at,
+    Answer, FoundEquilibria, classes, described, described_mode, equilibria_search, start_along,
+    start_at,
 };
 use crate::job::{Job, Outcome, Share};
 
@@ -89,11 +90,14 @@ impl App {
                 items.push(Item::plain(label, about, Choice::Mode(index, mode)));
             }
         }
-        let menu = Menu::new(
-            "Equilibria and small oscillations: Enter starts there",
-            Choosing::Equilibrium,
-            items,
-        );
+        let periods = lab.equilibria.found.as_ref().map_or(&[][..], |found| &found.periods);
+        let title = match classes(present.physics, periods) {
+            Some(classes) => {
+                format!("Equilibria and small oscillations, {classes}: Enter starts there")
+            }
+            None => "Equilibria and small oscillations: Enter starts there".to_owned(),
+        };
+        let menu = Menu::new(title, Choosing::Equilibrium, items);
         self.overlay = Some(Overlay::Menu(menu));
         Vec::new()
     }

@@ -116,7 +116,7 @@ impl Lab {
         let measured = |plot: &Plot| largest_exponent(self.answer(plot)?);
         Some(Returned {
             gone: [(snapshot.time - seen.turned).abs(), (seen.start - seen.turned).abs()],
-            step_error: seen.step_error,
+            step_error: (seen.step_error, seen.step),
             distance: seen.distance,
             error: seen.error,
             exponent: self.plots.iter().find_map(measured),

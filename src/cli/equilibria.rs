@@ -71,6 +71,9 @@ fn object(study: &Study, found: &Equilibria) -> Map<String, Value> {
     };
     let all: Vec<Value> = found.found.iter().map(one).collect();
     object.insert("equilibria".to_owned(), Value::Array(all));
+    let names = study.space.names();
+    let periods = found.periods.iter().map(|&(i, period)| (names[i].clone(), period.into()));
+    object.insert("periods".to_owned(), Value::Object(periods.collect()));
     let status = if found.cancelled { "stopped" } else { "completed" };
     object.insert("status".to_owned(), status.into());
     object
@@ -140,6 +143,14 @@ fn text(study: &Study, found: &Equilibria) -> String {
             .collect();
         text.push_str(&table(&rows));
         text.push('\n');
+    }
+    if !found.periods.is_empty() {
+        let turn = |&(i, period): &(usize, f64)| format!("{} by {}", names[i], shown(period));
+        let turns: Vec<String> = found.periods.iter().map(turn).collect();
+        text.push_str(&format!(
+            "each stands for all that differ from it in {}\n",
+            turns.join(", or in ")
+        ));
     }
     text.truncate(text.trim_end().len());
     text.push('\n');

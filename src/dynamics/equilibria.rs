@@ -94,6 +94,8 @@ pub struct Equilibrium {
 pub struct Equilibria {
     /// The equilibria by energy.
     pub found: Vec<Equilibrium>,
+    /// The coordinates in which the law is periodic, with the period: of places that differ by it one is found.
+    pub periods: Vec<(usize, f64)>,
     /// Whether the search was cancelled.
     pub cancelled: bool,
 }
@@ -157,7 +159,8 @@ pub fn equilibria_watched(
         }
     }
     found.sort_by(|a, b| a.energy.total_cmp(&b.energy));
-    Ok(Equilibria { found, cancelled })
+    let periods = search.resting.iter().filter_map(|&i| Some((i, space.turns()[i]?))).collect();
+    Ok(Equilibria { found, periods, cancelled })
 }
 
 struct EquilibriumSearch<'a> {
@@ -196,7 +199,7 @@ impl<'a> EquilibriumSearch<'a> {
             } else if index > 0 {
                 let part = halton(index, PRIMES[k % PRIMES.len()]);
                 let centre = variables[i];
-                variables[i] += match self.space.periods()[i] {
+                variables[i] += match self.space.turns()[i] {
                     Some(period) => (part - 0.5) * period,
                     None => (2.0 * part - 1.0) * radius * (self.units[i] + centre.abs()),
                 };
@@ -273,7 +276,7 @@ impl<'a> EquilibriumSearch<'a> {
     fn accepted(&mut self, mut variables: Vec<f64>) -> Option<Vec<f64>> {
         let start = self.space.variables(self.start);
         for &i in &self.resting {
-            if let Some(period) = self.space.periods()[i] {
+            if let Some(period) = self.space.turns()[i] {
                 let turns = ((variables[i] - start[i]) / period).round();
                 variables[i] -= turns * period;
             }
@@ -296,7 +299,7 @@ impl<'a> EquilibriumSearch<'a> {
     fn alike(&self, a: &[f64], b: &[f64]) -> bool {
         self.resting.iter().all(|&i| {
             let mut apart = a[i] - b[i];
-            if let Some(period) = self.space.periods()[i] {
+            if let Some(period) = self.space.turns()[i] {
                 apart -= (apart / period).round() * period;
             }
             apart.abs() <= SAME * (self.units[i] + a[i].abs())
@@ -372,7 +375,7 @@ fn units(space: &PhaseSpace, start: &State, field: &mut VectorField) -> Vec<f64>
     let variables = space.variables(start);
     let n = space.dimension();
     let own = |i: usize| match variables[i].abs() {
-        size if size == 0.0 || ordinary(size) || space.periods()[i].is_some() => 1.0,
+        size if size == 0.0 || ordinary(size) || space.turns()[i].is_some() => 1.0,
         size => size,
     };
     let mut units: Vec<f64> = (0..n).map(own).collect();

@@ -115,7 +115,10 @@ pub(super) fn first_return(
     }
     match best {
         Some((part, time)) if part < FAR => Ok(time),
-        _ => Err(no_return(space, best, seen[seen.len() - 1].0 - start.time, stopped)),
+        _ => {
+            let rests = extent.iter().all(|extent| *extent == 0.0);
+            Err(no_return(space, best, seen[seen.len() - 1].0 - start.time, (rests, stopped)))
+        }
     }
 }
 
@@ -124,13 +127,18 @@ fn no_return(
     space: &PhaseSpace,
     best: Option<(f64, f64)>,
     time: f64,
-    stopped: Option<String>,
+    (rests, stopped): (bool, Option<String>),
 ) -> DynamicsError {
     let found = match best {
+        None if rests => {
+            return DynamicsError::Unsuited(
+                "no periodic orbit to begin with: the start is an equilibrium, from which nothing moves away".to_owned(),
+            );
+        }
         Some((part, at)) => {
             format!("came back no nearer than {:.0} % of it, after {}", 100.0 * part, short(at))
         }
-        None => "only moved away from its start, or stays there".to_owned(),
+        None => "only moved away from its start".to_owned(),
     };
     let stopped = stopped.map_or(String::new(), |why| format!("; then {why}"));
     DynamicsError::Unsuited(format!(

@@ -20,7 +20,7 @@ use super::phase_space::PhaseSpace;
 
 use super::transverse::{self, Removed};
 use crate::integrate::{Method, Settings, Stepping};
-use crate::num::{DoubleDouble, gauss, math};
+use crate::num::{DoubleDouble, gauss, math, short};
 use crate::system::State;
 
 /// The maximal number of steps of Newton's method, and of halvings of one.
@@ -32,6 +32,9 @@ const SETTLINGS: usize = 6;
 
 /// An orbit is closed up to this part of its size.
 const CLOSED: f64 = 1e-9;
+
+/// What moves less than this part of its size in a period rests.
+const STILL: f64 = 1e-6;
 
 /// A residual below this part of the size is rounding.
 const ROUNDING: f64 = 2e-15;
@@ -233,6 +236,7 @@ impl Newton<'_> {
         let (mut state, mut time) = (start.clone(), period);
         let mut look = self.look(&state, time)?;
         let mut residual = self.residual(&look);
+        let speed = look.rates[0].norm();
         let mut stalled = 0;
         for _ in 0..STEPS {
             if residual <= ROUNDING * look.size || stalled > 1 {
@@ -251,14 +255,35 @@ impl Newton<'_> {
             stalled = if better > slow * residual { stalled + 1 } else { 0 };
             (state, time, look, residual) = (there, later, found, better);
         }
-        // rest is an equilibrium; under a drive it may be one of the orbits that have its period
+        // rest is an equilibrium; under a drive it may be one of the orbits that have its period. At the origin a state is as
+        // small as its rates, and what does not close is compared with what the search began with
         let turned = time / self.units.time();
-        let still = self.space.is_autonomous() && look.rates[0].norm() * turned < 1e-6 * look.size;
-        if residual > CLOSED * look.size || still {
-            return Err(no_orbit(residual, time));
+        let (moved, open) = (look.rates[0].norm() * turned, residual > CLOSED * look.size);
+        let still = moved < STILL * look.size || open && moved <= STILL * speed;
+        if self.space.is_autonomous() && still {
+            return Err(self.rest(&state));
+        }
+        if open {
+            return Err(no_orbit(residual / look.size, time));
         }
         let settings = look.settings;
         Ok(Closed { state, period: time, residual, monodromy: look.monodromy, settings })
+    }
+
+    /// What was found is an equilibrium, which closes after any time.
+    fn rest(&self, state: &State) -> DynamicsError {
+        let variables = self.space.variables(state);
+        let sizes = self.units.scaled(&DVector::from_column_slice(variables));
+        let place: Vec<String> = (self.space.names().iter().zip(variables).zip(sizes.iter()))
+            .map(|((name, value), size)| {
+                format!("{name} = {}", short(if size.abs() <= STILL { 0.0 } else { *value }))
+            })
+            .collect();
+        unsuited(&format!(
+            "no periodic orbit was found near the start: the search ended at the equilibrium {}; begin farther from it, or \
+             with another period or energy",
+            place.join(", ")
+        ))
     }
 
     /// The state and the period after a correction, or a part of it, that leaves less missing; the period within five times
@@ -274,7 +299,7 @@ impl Newton<'_> {
         let (matrix, right) = self.equations(look);
         let residual = self.residual(look);
         let Some(step) = linear::least_squares(&matrix, &right, 1e-11 * matrix.amax() + cut) else {
-            return Err(no_orbit(residual, time));
+            return Err(no_orbit(residual / look.size, time));
         };
         let change = self.units.unscaled(&step.rows(0, n).into_owned());
         let mut part = 1.0;
@@ -412,9 +437,11 @@ impl Newton<'_> {
     }
 }
 
-fn no_orbit(residual: f64, period: f64) -> DynamicsError {
+/// None was found: by how much the best one misses itself, as a part of its size, and its period.
+fn no_orbit(missed: f64, period: f64) -> DynamicsError {
     DynamicsError::Unsuited(format!(
-        "no periodic orbit was found near the start: the best one misses itself by {residual:.1e} \
-         of its size after {period:.6}"
+        "no periodic orbit was found near the start: the best one misses itself by {missed:.1e} \
+         of its size after {}",
+        short(period)
     ))
 }

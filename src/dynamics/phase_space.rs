@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::drive::{acts, drive_period};
+use super::drive::{acts, coordinate_period, drive_period};
 use super::error::DynamicsError;
 use crate::expr::Expr;
 use crate::mechanics::Equations;
@@ -25,6 +25,8 @@ pub struct PhaseSpace {
     jumps: bool,
     constrained: bool,
     periods: Vec<Option<f64>>,
+    /// The period of the law in each coordinate.
+    turns: Vec<Option<f64>>,
     cyclic: Vec<usize>,
 }
 
@@ -112,6 +114,12 @@ impl PhaseSpace {
         let autonomous = timeless && !acts_by_the_clock(system) && !moving;
         let mut periods: Vec<Option<f64>> =
             (0..degrees).map(|i| system.period(i, parameters)).collect();
+        let mut turns = periods.clone();
+        for (i, turn) in turns.iter_mut().enumerate().filter(|(i, _)| !equations.cyclic.contains(i))
+        {
+            *turn = turn.or_else(|| coordinate_period(model, equations, parameters, i));
+        }
+        turns.resize(names.len(), None);
         periods.resize(names.len(), None);
         Ok(PhaseSpace {
             system: system.without_tangents(),
@@ -126,6 +134,7 @@ impl PhaseSpace {
                 .flatten(),
             conservative: autonomous && !jumps && equations.energy_rate == Expr::ZERO,
             periods,
+            turns,
             cyclic: equations.cyclic.clone(),
         })
     }
@@ -218,6 +227,11 @@ impl PhaseSpace {
     /// The period of each variable, if it has one.
     pub fn periods(&self) -> &[Option<f64>] {
         &self.periods
+    }
+
+    /// The period of the law in each variable: its own, or what the sines and cosines have in common by which alone it enters.
+    pub fn turns(&self) -> &[Option<f64>] {
+        &self.turns
     }
 
     /// A state in the variables of this space.

@@ -7,9 +7,8 @@
 //! two of the plane: the coordinate, from the surface, and a rate, from the energy (M. Hénon and C. Heiles, Astronomical
 //! Journal 69, 73 (1964)). On a stroboscope, a surface of the time alone, a system of one degree of freedom has none.
 
-use super::{EnergyShell, NotOnShell, Root, Start};
+use super::{EnergyShell, NotInPlane, PhaseShift, Root, Start};
 use crate::model::{Direction, Model};
-use crate::num::short;
 use crate::system::{ChannelKind, InitialOverride, MotionError, Observer, System};
 
 /// A plane of section at one energy and one set of parameters.
@@ -44,23 +43,6 @@ enum Surface {
         /// Whether the initial values lie on it.
         begins: bool,
     },
-}
-
-/// Why a point of a plane is no start.
-#[derive(Clone, PartialEq, Debug, thiserror::Error)]
-pub enum NotInPlane {
-    /// The energy forbids the point, or does not determine the start.
-    #[error(transparent)]
-    Shell(#[from] NotOnShell),
-    /// There is no state.
-    #[error(transparent)]
-    NoState(#[from] MotionError),
-    /// The motions through it cross in the other direction.
-    #[error("no motion of this energy crosses the surface there in the direction that is shown")]
-    OtherDirection,
-    /// The motion begins at another phase of the drive.
-    #[error("the picture shows another phase of the drive than that of the start, t = {}", short(*.0))]
-    OtherPhase(f64),
 }
 
 /// The largest value of a surface's expression, relative to its change over a period, at which it counts as zero.
@@ -165,7 +147,12 @@ impl SectionPlane {
         }
     }
 
-    /// The start whose orbit begins at a point of the plane.
+    /// Whether initial values at a point of the plane lie at another phase than its points do, and need a [`PhaseShift`].
+    pub fn is_at_another_phase(&self) -> bool {
+        matches!(self.surface, Surface::Stroboscope { begins: false })
+    }
+
+    /// The start whose orbit begins at a point of the plane; of a stroboscope its initial values, at whatever phase.
     ///
     /// # Errors
     /// Returns an error if the energy forbids the point, or if no motion crosses there in the direction shown.
@@ -197,20 +184,23 @@ impl SectionPlane {
         Err(NotInPlane::OtherDirection)
     }
 
-    /// The initial values of a motion that begins at a point of the picture.
+    /// The start of a motion that passes a point of the picture: at once, or at the first instant of a stroboscope, from which
+    /// the point was carried back.
     ///
     /// # Errors
-    /// Returns the errors of [`SectionPlane::start`], or an error if initial values lie at another phase of the drive.
-    pub fn beginning(
+    /// Returns the errors of [`SectionPlane::start`] and [`PhaseShift::back`], or an error if a shift is needed and not given.
+    pub fn through(
         &self,
         system: &System,
-        at: [f64; 2],
-    ) -> Result<Vec<InitialOverride>, NotInPlane> {
-        if let Surface::Stroboscope { begins: false } = self.surface {
-            return Err(NotInPlane::OtherPhase(self.time));
+        observer: &mut Observer,
+        (at, shift): ([f64; 2], Option<&PhaseShift>),
+    ) -> Result<Start, NotInPlane> {
+        let start = self.start(system, observer, at)?;
+        match shift {
+            _ if !self.is_at_another_phase() => Ok(start),
+            Some(shift) => shift.back(system, &start),
+            None => Err(NotInPlane::OtherPhase(self.time)),
         }
-        let mut observer = system.observer(&self.parameters);
-        Ok(self.start(system, &mut observer, at)?.overrides)
     }
 
     /// A start without the rate that the energy determines.

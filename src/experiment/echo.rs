@@ -4,6 +4,9 @@
 //! distance is the return error. Every step of both adds an error of size ε, which the way back to t multiplies by e^{λT}, T
 //! the time gone back: a chaotic motion returns to ε e^{λT} of where it began, a regular one to about ε.
 //!
+//! That error is the tolerance, or the rounding of a method whose step back is the inverse of one forwards. Of any other method
+//! the error of truncation is much larger than both, and it is measured: the motion is taken back over steps of the run.
+//!
 //! In: an observed motion that has ended, times. Out: its values at those times, the distance. Never here: how a motion runs
 //! backwards.
 
@@ -12,9 +15,13 @@ use std::sync::Arc;
 use super::observed_motion::ObservedMotion;
 use super::{Companion, CompanionOrigin, Return, Trail};
 use crate::analysis::{CrossingLog, DistanceHistory, distance};
+use crate::integrate::{Preserves, Stepping};
 
 /// Half the distance between 1 and the next number.
 const ROUNDING: f64 = 1.110_223_024_625_156_5e-16;
+
+/// The places of the run at which the error of a step is measured.
+const MEASURED: usize = 24;
 
 /// The run before time was reversed.
 pub(super) struct Echo {
@@ -31,6 +38,8 @@ pub(super) struct Echo {
     distance: Option<f64>,
     error: Option<f64>,
     step_error: f64,
+    /// The mean size of a step, where its error was measured.
+    step: Option<f64>,
 }
 
 impl Echo {
@@ -50,10 +59,43 @@ impl Echo {
             start,
             distance: None,
             error: None,
+            step: None,
             step_error: run.tolerance().unwrap_or(ROUNDING) * size.sqrt(),
             run,
             trail,
         })
+    }
+
+    /// Measures the error of a step by a motion that goes back over some of the steps of the run, where neither the tolerance
+    /// nor rounding is that error.
+    pub(super) fn measure_step(
+        &mut self,
+        mut back: ObservedMotion,
+        horizon: f64,
+        (variables, periods): (&[usize], &[Option<f64>]),
+    ) {
+        let method = self.run.method();
+        if method.preserves == Preserves::SymplecticReversible || method.order.is_none() {
+            return;
+        }
+        let pick = |values: &[f64]| -> Vec<f64> { variables.iter().map(|&i| values[i]).collect() };
+        let step = self.run.step_size().abs();
+        let (mut error, mut steps, mut passed) = (0.0, 0.0, 0.0);
+        for [from, to] in self.run.log.sample(MEASURED) {
+            let times = [&from, &to].map(|known| self.run.sign() * known.state.time);
+            let Some(begun) = self.run.values_at(&from.state) else { continue };
+            if !back.take_back((&to.state, step), times[0], horizon) {
+                continue;
+            }
+            error += distance(&pick(&begun), &pick(back.values()), periods);
+            steps += (to.steps - from.steps) as f64;
+            passed += (times[1] - times[0]).abs();
+        }
+        // steps of a size of their own miss on the way back once more
+        let both = if method.stepping == Stepping::Adaptive { 2.0 } else { 1.0 };
+        if steps > 0.0 && error.is_finite() {
+            (self.step_error, self.step) = (both * error / steps, Some(passed / steps));
+        }
     }
 
     /// Whether the run before has been at a time.
@@ -98,6 +140,7 @@ impl Echo {
             turned: self.turned,
             start: self.start,
             step_error: self.step_error,
+            step: self.step,
             distance: self.distance,
             error: self.error,
         }

@@ -81,6 +81,32 @@ impl ObservedMotion {
         self.begin_at(known).is_ok() && self.go_on_to(self.sign * time, horizon)
     }
 
+    /// Goes from a state of the run the other way to a time before it, by the same fixed step. Returns whether it came there.
+    pub(super) fn take_back(
+        &mut self,
+        (state, step): (&State, f64),
+        time: f64,
+        horizon: f64,
+    ) -> bool {
+        let mut state = state.clone();
+        (state.time, state.time_carry) = (-state.time, -state.time_carry);
+        let start = state.time;
+        let known = KnownStep { state, steps: 0, step, released: Vec::new(), start };
+        self.look_at(time, &known, horizon)
+    }
+
+    /// The value of every channel at a state of this motion.
+    pub(super) fn values_at(&mut self, state: &State) -> Option<Vec<f64>> {
+        let known = KnownStep {
+            state: state.clone(),
+            steps: 0,
+            step: self.inner.step_size().abs(),
+            released: self.released(),
+            start: state.time,
+        };
+        (self.begin_at(&known).is_ok() && self.look().is_ok()).then(|| self.values().to_vec())
+    }
+
     fn begin_at(&mut self, known: &KnownStep) -> Result<(), MotionError> {
         let KnownStep { state, steps, step, released, start } = known;
         self.inner.restore_with_step(state, *step, (*start, released))?;

@@ -20,7 +20,7 @@ use crate::analysis::DistanceHistory;
 use crate::expr::Expr;
 use crate::integrate::Stepping;
 use crate::model::EventAction;
-use crate::num::{math, short};
+use crate::num::short;
 
 impl Experiment {
     /// Reverses time.
@@ -33,7 +33,13 @@ impl Experiment {
             Err(why) => return self.tell(why),
         };
         let variables = self.variables();
-        self.echo = Echo::of(run, self.recorder.trail(), &variables).map(Box::new);
+        let mut echo = Echo::of(run, self.recorder.trail(), &variables);
+        let parameters = &self.setup.parameters;
+        if let (Some(echo), Ok(back)) = (&mut echo, self.motion.twin(parameters)) {
+            let periods = self.periods(&variables);
+            echo.measure_step(back, HORIZON * self.setup.spacing, (&variables, &periods));
+        }
+        self.echo = echo.map(Box::new);
         self.ended = None;
         self.occurrences.clear();
         self.crossings.clear();
@@ -149,13 +155,16 @@ impl Experiment {
         canonical(self.system())
     }
 
+    fn periods(&self, variables: &[usize]) -> Vec<Option<f64>> {
+        let (system, parameters) = (self.motion.system(), &self.setup.parameters);
+        variables.iter().map(|&i| system.period(i, parameters)).collect()
+    }
+
     /// Compares the motion with the run before, where that has been.
     pub(super) fn compare_with_echo(&mut self) {
         let variables = self.variables();
+        let periods = self.periods(&variables);
         let Some(echo) = &mut self.echo else { return };
-        let (system, parameters) = (self.motion.system(), &self.setup.parameters);
-        let periods: Vec<Option<f64>> =
-            variables.iter().map(|&i| system.period(i, parameters)).collect();
         let now = (self.motion.time(), self.motion.values());
         echo.compare(now, HORIZON * self.setup.spacing, (&variables, &periods));
     }
@@ -181,9 +190,11 @@ impl Experiment {
                 self.tell(format!("back at t = {start}: where it began, to the last bit"));
             }
             (Some(error), Some(slope)) => {
-                let expected = returned.step_error * math::exp(slope.rate.max(0.0) * gone);
+                let expected = returned.expected(slope.rate.max(0.0), gone);
+                let sum =
+                    if returned.step.is_some() { "ε Σ e^λt over all steps" } else { "ε e^λT" };
                 self.tell(format!(
-                    "back at t = {start}: {} from where it began; a step errs by ε ≈ {}, and ε e^λT = {} with λ ≈ {}, T = {}",
+                    "back at t = {start}: {} from where it began; a step errs by ε ≈ {}, and {sum} = {} with λ ≈ {}, T = {}",
                     short(error),
                     short(returned.step_error),
                     short(expected),

@@ -79,6 +79,20 @@ impl StepLog {
         self.known.front().map(|known| known.state.time)
     }
 
+    /// Pairs of neighbouring states between which no impulse acted, spread over all that is known, up to so many.
+    pub(super) fn sample(&self, most: usize) -> Vec<[LoggedState; 2]> {
+        let pairs = self.known.len().saturating_sub(1);
+        let count = pairs.min(most);
+        let pair = |k: usize| {
+            let first = k * pairs / count;
+            [self.known[first].clone(), self.known[first + 1].clone()]
+        };
+        let even = |[from, to]: &[LoggedState; 2]| {
+            from.impulses == to.impulses && to.steps > from.steps && to.state.time > from.state.time
+        };
+        (0..count).map(pair).filter(even).collect()
+    }
+
     /// The last state at or before a time. Nothing is forgotten.
     pub(super) fn at(&self, time: f64) -> Option<&LoggedState> {
         let after = self.known.partition_point(|known| known.state.time <= time);

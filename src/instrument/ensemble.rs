@@ -27,8 +27,8 @@ use cloud::{Cloud, CloudFrame, Task};
 use origin::CloudOrigin;
 
 /// The levels of the picture.
-const CLOUD: Level = 0;
-const CURVE: Level = 2;
+const CURVE: Level = 0;
+const CLOUD: Level = 2;
 const NOW: Level = 4;
 
 /// What is beyond the extent of a cloud is this part of it.
@@ -98,15 +98,15 @@ impl Instrument for Ensemble {
         let channels = [plot.column(0)?, plot.column(1)?];
         let mut layers = Vec::new();
         if let Some(frame) = shown(present, answer) {
-            layers.push((CLOUD, Layer::Cloud(Arc::clone(&frame.cloud))));
             layers.push((CURVE, Layer::Line(frame.curve.to_vec(), Ink::Curve(1).into())));
+            layers.push((CLOUD, Layer::Cloud(Arc::clone(&frame.cloud))));
         }
         let now = channels.map(|channel| present.value(channel));
         layers.push((NOW, Layer::Point(now, Sign::Disc, Ink::Accent)));
         let upwards = Upwards::Annotated {
             channel: channels[1],
             range: range(plot, present, answer, 1),
-            words: sentence(present, answer),
+            words: [sentence(present, answer), outside_in_words(plot, present, answer)].concat(),
         };
         Some(Picture::Axes { upwards, layers, occurrences: None })
     }
@@ -185,6 +185,11 @@ impl Instrument for Ensemble {
                     let points = &shown(present, answer)?.cloud;
                     Some(points.iter().filter(|at| at[0].is_finite()).count() as f64)
                 },
+            },
+            Measure {
+                word: "outside",
+                about: "how many points are beyond the window that holds the bulk, or lost",
+                value: |plot, present, answer| outside(plot, present, answer).map(|n| n as f64),
             },
             Measure {
                 word: "action",
@@ -289,7 +294,29 @@ fn sentence(present: &Present<'_>, answer: Option<&Answer>) -> String {
     }
 }
 
-/// The range of an axis: of all that was seen of the cloud, or a turn.
+/// How many points of the cloud are outside the window, or could not be followed.
+fn outside(plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Option<usize> {
+    let frame = shown(present, answer)?;
+    let window = [range(plot, present, answer, 0)?, range(plot, present, answer, 1)?];
+    let turns = [0, 1].map(|axis| {
+        let channel = plot.column(axis)?;
+        present.physics.system.period(channel, present.parameters)
+    });
+    let holds = |(axis, x): (usize, &f64)| {
+        let [lo, hi] = window[axis];
+        (lo..=hi).contains(x) || turns[axis].is_some() && x.is_finite()
+    };
+    Some(frame.cloud.iter().filter(|at| !at.iter().enumerate().all(holds)).count())
+}
+
+fn outside_in_words(plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> String {
+    match outside(plot, present, answer) {
+        None | Some(0) => String::new(),
+        Some(count) => format!(", {count} outside"),
+    }
+}
+
+/// The range of an axis: of all that was seen of the bulk of the cloud, or a turn.
 fn range(
     plot: &Plot,
     present: &Present<'_>,

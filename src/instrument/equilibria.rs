@@ -21,6 +21,8 @@ const AMPLITUDE: f64 = 0.1;
 pub struct FoundEquilibria {
     /// The equilibria by energy.
     pub found: Vec<Equilibrium>,
+    /// The coordinates in which the law is periodic, with the period: of places that differ by it one is found.
+    pub periods: Vec<(usize, f64)>,
     /// The parameters.
     pub parameters: Vec<f64>,
 }
@@ -45,9 +47,10 @@ pub fn equilibria_search(
             progress.reach(done as u64);
         };
         let found = equilibria_watched(&space, &state, &mut look).map_err(|why| why.to_string())?;
-        let (mut found, parameters) = (found.found, start.parameters.clone());
+        let (periods, parameters) = (found.periods, start.parameters.clone());
+        let mut found = found.found;
         with_virtual_work((&model, &equations), &parameters, &mut found);
-        Ok(FoundEquilibria { found, parameters })
+        Ok(FoundEquilibria { found, periods, parameters })
     }
 }
 
@@ -145,6 +148,15 @@ pub fn described(physics: Physics<'_>, one: &Equilibrium) -> (String, String) {
         if modes.is_empty() { String::new() } else { format!(", ω = {}", modes.join(", ")) };
     let energy = short(one.energy);
     (format!("{}: {stable} {kind}", places.join(", ")), format!("E = {energy}{modes}"))
+}
+
+/// The coordinates in which each stands for others, in words.
+pub fn classes(physics: Physics<'_>, periods: &[(usize, f64)]) -> Option<String> {
+    let shown = |&(i, _): &(usize, f64)| {
+        physics.channel(ChannelKind::Position(i)).map(|channel| physics.shown(channel).to_owned())
+    };
+    let names: Vec<String> = periods.iter().filter_map(shown).collect();
+    (!names.is_empty()).then(|| format!("one for each turn of {}", names.join(", ")))
 }
 
 /// The coordinate along which a virtual displacement is taken.

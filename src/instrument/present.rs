@@ -56,8 +56,8 @@ pub struct Present<'a> {
 pub struct Returned {
     /// The time gone back, and back to the start of the run before.
     pub gone: [f64; 2],
-    /// ε, the error of a step.
-    pub step_error: f64,
+    /// ε, the error of a step, and the mean size of a step where that error was measured.
+    pub step_error: (f64, Option<f64>),
     /// The distance from the run before at the same time.
     pub distance: Option<f64>,
     /// The return error: the distance from the start.

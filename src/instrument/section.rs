@@ -13,8 +13,9 @@ use super::{
     Offer, Physics, Picture, Plot, Present, Seed, Sign, Upwards,
 };
 use crate::dynamics::{Rotation, rotation};
-use crate::ensemble::{SectionPlan, SectionPlane};
+use crate::ensemble::{NotInPlane, PhaseShift, SectionPlan, SectionPlane};
 use crate::expr::Expr;
+use crate::integrate::method_named;
 use crate::job::Job;
 use crate::mechanics::Valuation;
 use crate::model::{Direction, View};
@@ -153,8 +154,8 @@ impl Instrument for SectionPlot {
         at: [f64; 2],
     ) -> Result<Vec<InitialOverride>, NoStart> {
         let plane = plane(plot, present).ok_or(NoStart::Nothing)?;
-        let found = plane.beginning(present.physics.system, at);
-        found.map_err(|why| NoStart::Refused(capitalised(&why.to_string())))
+        let given = beginning(plot, present, &plane, at);
+        given.map_err(|why| NoStart::Refused(capitalised(&why.to_string())))
     }
 
     fn seed(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Option<Seed> {
@@ -175,7 +176,7 @@ impl Instrument for SectionPlot {
             return Need::Nothing;
         };
         let (Some(x), Some(y), Some(method)) =
-            (plot.column(0), plot.column(1), crate::integrate::method_named(present.method))
+            (plot.column(0), plot.column(1), method_named(present.method))
         else {
             return Need::Nothing;
         };
@@ -199,6 +200,7 @@ impl Instrument for SectionPlot {
         let task = Task {
             plane,
             // the token of the motion is not that of a picture
+            law: (Arc::clone(model), Arc::clone(equations)),
             system: Arc::clone(system),
             method,
             conditions: known.map_or(conditions, |known| known.conditions.clone()),
@@ -361,6 +363,29 @@ fn plane(plot: &Plot, present: &Present<'_>) -> Option<SectionPlane> {
     let at = (model.run.start, present.parameters, energy);
     let plane = SectionPlane::new((model, system), section, axes, at);
     plane.filter(|plane| energy.is_finite() || !plane.is_bounded())
+}
+
+/// The initial values of a motion that passes a point of the picture.
+fn beginning(
+    plot: &Plot,
+    present: &Present<'_>,
+    plane: &SectionPlane,
+    at: [f64; 2],
+) -> Result<Vec<InitialOverride>, NotInPlane> {
+    let Physics { model, equations, system } = present.physics;
+    let mut observer = system.observer(present.parameters);
+    let section = view(plot, present.physics).and_then(|view| view.section);
+    let shift = match (section, method_named(present.method)) {
+        (Some(section), Some(method)) if plane.is_at_another_phase() => {
+            let event = &model.sections[section].name;
+            let start = plane.start(system, &mut observer, at)?;
+            let backwards = system.reversed(model, equations)?;
+            let method = (method, present.settings);
+            Some(PhaseShift::new((system, backwards), method, &start, event)?)
+        }
+        _ => None,
+    };
+    Ok(plane.through(system, &mut observer, (at, shift.as_ref()))?.overrides)
 }
 
 /// The range that the file gives an axis, if it shows the same quantity.

@@ -9,12 +9,15 @@ use super::{
     Across, Answer, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Offer,
     Physics, Picture, Plot, Present, Returned, Stroke, Upwards,
 };
-use crate::analysis::{DistanceHistory as Distances, Slope};
+use crate::analysis::{DistanceHistory as Distances, Slope, expected_return};
 use crate::num::significant;
 
 /// The levels of the picture.
 const CURVES: Level = 1;
 const SLOPE: Level = 2;
+
+/// The pieces of the line of what is expected.
+const PARTS: u32 = 60;
 
 /// The row.
 pub(super) struct SeparationPlot;
@@ -140,12 +143,12 @@ impl Instrument for SeparationPlot {
     }
 }
 
-/// λ and ε e^{λT} after a time gone back: λ is that of an instrument, or else the slope of ln d. No distance is seen below
+/// λ and the error that is expected after a time gone back, ε e^{λT} or the sum of all steps': λ is that of an instrument, or else the slope of ln d. No distance is seen below
 /// the rounding of what is compared.
 fn expected(present: &Present<'_>, returned: Returned, gone: f64) -> Option<(f64, f64)> {
     let slope = || newest(present)?.2.map(|slope| slope.rate);
     let rate = returned.exponent.or_else(slope)?;
-    Some((rate, returned.step_error * crate::num::math::exp(rate.max(0.0) * gone)))
+    Some((rate, expected_return(returned.step_error, rate.max(0.0), gone)))
 }
 
 /// What stands above the distance of a motion that goes back.
@@ -157,13 +160,18 @@ fn return_heading(present: &Present<'_>, returned: Returned) -> Heading {
         (None, None) => {}
     }
     if let Some((rate, value)) = expected(present, returned, returned.gone[0]) {
-        entries.push(Entry::Number("ε e^λT =".to_owned(), value));
+        entries.push(Entry::Number(format!("{} =", growth(returned)), value));
         entries.push(Entry::Number("λ ≈".to_owned(), rate));
     }
     Heading { title: "Return error ln d".to_owned(), given: false, entries }
 }
 
-/// The distance from the run before over the time gone back, with ε e^{λT}.
+/// What the error is expected to be, in a few words.
+fn growth(returned: Returned) -> &'static str {
+    if returned.step_error.1.is_some() { "ε Σ e^λt" } else { "ε e^λT" }
+}
+
+/// The distance from the run before over the time gone back, with what is expected of it.
 fn way_back(present: &Present<'_>, returned: Returned, mut layers: Vec<(Level, Layer)>) -> Picture {
     let all = returned.gone[1];
     let mut name = match returned.distance {
@@ -172,14 +180,22 @@ fn way_back(present: &Present<'_>, returned: Returned, mut layers: Vec<(Level, L
     };
     let mut range = range(present, 1);
     let ln = crate::num::math::ln;
-    if let (Some((rate, _)), true) = (expected(present, returned, all), returned.step_error > 0.0) {
-        let ends = [0.0, all].map(|gone| [gone, ln(returned.step_error) + rate.max(0.0) * gone]);
+    let (error, step) = returned.step_error;
+    if let (Some((rate, _)), true) = (expected(present, returned, all), error > 0.0) {
+        let first = step.unwrap_or(0.0).min(all);
+        let at = |k: u32| {
+            let gone = first + (all - first) * f64::from(k) / f64::from(PARTS);
+            [gone, ln(expected_return(returned.step_error, rate.max(0.0), gone))]
+        };
+        let line: Vec<[f64; 2]> = (0..=PARTS).map(at).collect();
+        let (low, high) = (line[0][1], line[PARTS as usize][1]);
         let stroke = Stroke { ink: Ink::Accent, covering: Some(0.5) };
-        layers.push((SLOPE, Layer::Line(ends.to_vec(), stroke)));
-        let [low, high] = range.unwrap_or([ends[0][1], ends[1][1]]);
-        range = Some([low.min(ends[0][1]), high.max(ends[1][1])]);
-        let written = [rate, returned.step_error].map(|x| significant(x, 3, 1e-4..1e4));
-        name = format!("ln d   line: ε e^λT, λ = {}, ε = {}", written[0], written[1]);
+        layers.push((SLOPE, Layer::Line(line, stroke)));
+        let seen = range.unwrap_or([low, high]);
+        range = Some([seen[0].min(low), seen[1].max(high)]);
+        let written = [rate, error].map(|x| significant(x, 3, 1e-4..1e4));
+        let growth = growth(returned);
+        name = format!("ln d   line: {growth}, λ = {}, ε = {}", written[0], written[1]);
     }
     let upwards = Upwards::Named(name, range.unwrap_or([-40.0, 0.0]));
     Picture::Axes { upwards, layers, occurrences: None }

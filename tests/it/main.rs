@@ -44,6 +44,7 @@ mod rigid_body;
 mod screen;
 mod section;
 mod starts;
+mod stroboscope;
 mod system;
 mod tangent;
 mod taylor;

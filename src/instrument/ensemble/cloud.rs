@@ -28,6 +28,9 @@ const FIRST_FRAMES: usize = 4;
 /// The states of a cloud that are looked at for the rate at which areas shrink.
 const PROBES: usize = 16;
 
+/// How far from the middle half of the cloud its bulk reaches, in widths of that half. Evenly spread points reach half of one.
+const FENCES: f64 = 3.0;
+
 /// A cloud under way.
 pub(super) struct Cloud {
     pub(super) conditions: PlotConditions,
@@ -43,7 +46,7 @@ pub(super) struct Cloud {
     pub(super) first: Option<Circulation>,
     /// The rate at which it changes, if that is known.
     pub(super) rate: Option<f64>,
-    /// The extent of all that was seen.
+    /// The extent of the bulk in all that was seen.
     pub(super) extent: [[f64; 2]; 2],
     pub(super) failure: Option<String>,
 }
@@ -226,12 +229,26 @@ impl Task {
     }
 }
 
-/// The extent of all that was seen, with what is in these frames.
+/// The extent of the bulk in all that was seen, with what is in these frames. Few that escape do not make it wider: a point
+/// belongs to the bulk that is no farther from the middle half of the cloud than [`FENCES`] of its width.
 fn extent(known: Option<[[f64; 2]; 2]>, frames: &[CloudFrame]) -> [[f64; 2]; 2] {
     let mut extent = known.unwrap_or([[f64::INFINITY, f64::NEG_INFINITY]; 2]);
     for frame in frames {
-        for at in frame.cloud.iter().chain(frame.curve.iter()) {
-            for (ends, x) in extent.iter_mut().zip(at) {
+        for (axis, ends) in extent.iter_mut().enumerate() {
+            let finite = |at: &[f64; 2]| Some(at[axis]).filter(|x| x.is_finite());
+            let mut seen: Vec<f64> = frame.cloud.iter().filter_map(finite).collect();
+            if seen.is_empty() {
+                seen = frame.curve.iter().filter_map(finite).collect();
+            }
+            seen.sort_by(f64::total_cmp);
+            let (Some(lower), Some(upper)) =
+                (seen.get(seen.len() / 4), seen.get(3 * seen.len() / 4))
+            else {
+                continue;
+            };
+            let fence = FENCES * (upper - lower);
+            let bulk = lower - fence..=upper + fence;
+            for x in seen.iter().filter(|x| bulk.contains(x)) {
                 *ends = [ends[0].min(*x), ends[1].max(*x)];
             }
         }

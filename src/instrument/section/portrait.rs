@@ -6,10 +6,14 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::dynamics::{NoRotation, Rotation, rotation};
-use crate::ensemble::{Crossings, Region, SectionPlan, SectionPlane, crossings, in_order, spread};
+use crate::ensemble::{
+    Crossings, PhaseShift, Region, SectionPlan, SectionPlane, crossings, in_order, spread,
+};
 use crate::instrument::{Present, Seed};
 use crate::integrate::{Method, Settings};
 use crate::job::Progress;
+use crate::mechanics::Equations;
+use crate::model::Model;
 use crate::system::{ChannelKind, System};
 
 /// The orbits of a picture at first and those of each addition, and the crossings of each.
@@ -95,6 +99,8 @@ impl SectionConditions {
 /// What a job computes: the orbits of a picture at first, or those of its next addition.
 pub(super) struct Task {
     pub(super) plane: SectionPlane,
+    /// The law by which a stroboscope's points are carried back to the phase of the initial values.
+    pub(super) law: (Arc<Model>, Arc<Equations>),
     pub(super) system: Arc<System>,
     pub(super) method: &'static Method,
     pub(super) conditions: SectionConditions,
@@ -138,9 +144,10 @@ impl Task {
         let pending = (points.split_off(points.len().min(PART)), count);
         let plan = SectionPlan { count: Some(count), ..self.plan.clone() };
         progress.expect(points.len() as u64);
+        let shift = points.first().and_then(|&at| self.shift(&system, at));
         let one = |i: usize| {
             let mut observer = system.observer(self.plane.parameters());
-            match self.plane.start(&system, &mut observer, points[i]) {
+            match self.plane.through(&system, &mut observer, (points[i], shift.as_ref())) {
                 Ok(start) => {
                     let settings = self.conditions.settings;
                     let found = crossings(&system, self.method, settings, &start, &plan);
@@ -163,6 +170,18 @@ impl Task {
         let _ = in_order(0, points.len(), progress.token(), one, take);
         let seeds = self.seeds.clone();
         Portrait { conditions: self.conditions.clone(), seeds, region, orbits, pending }
+    }
+
+    /// The flow from the phase of the points to that of the initial values, where the two differ.
+    fn shift(&self, system: &System, at: [f64; 2]) -> Option<PhaseShift> {
+        if !self.plane.is_at_another_phase() {
+            return None;
+        }
+        let mut observer = system.observer(self.plane.parameters());
+        let start = self.plane.start(system, &mut observer, at).ok()?;
+        let backwards = system.reversed(&self.law.0, &self.law.1).ok()?;
+        let method = (self.method, self.conditions.settings);
+        PhaseShift::new((system, backwards), method, &start, &self.plan.event).ok()
     }
 
     /// Points of a window that are starts.

@@ -194,6 +194,19 @@ fn the_orbit_of_a_kicked_system_closes_over_its_kicks() {
     let done = phaselab(&["orbit", "bouncing-ball"]);
     assert!(done.code == 1 && done.stderr.contains("no periodic orbit"), "{}", done.stderr);
     assert!(done.stdout.is_empty());
+    // what rests closes after any time, and is no orbit
+    let rest =
+        ["orbit", "henon-heiles", "--init", "y=0.001", "--init", "p_x=0.001", "--period", "3"];
+    let done = phaselab(&rest);
+    let place = "ended at the equilibrium x = 0, y = 0, p_x = 0, p_y = 0;";
+    assert!(done.code == 1 && done.stderr.contains(place), "{}", done.stderr);
+    assert!(!done.stderr.contains("misses itself"), "{}", done.stderr);
+    let done = phaselab(&["orbit", "pendulum", "--init", "theta=0"]);
+    assert!(
+        done.code == 1 && done.stderr.contains("the start is an equilibrium"),
+        "{}",
+        done.stderr
+    );
     // one that loses none comes back after 2 √(2 h/g)
     let ball = ["orbit", "bouncing-ball", "--set", "eps=1", "--set", "vx=0", "--format", "json"];
     let period = phaselab(&ball).json()["period"].as_f64().unwrap();

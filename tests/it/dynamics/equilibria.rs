@@ -205,3 +205,36 @@ fn modes_of_one_frequency_differ_in_any_units() {
         assert!(area.abs() > 0.1, "{:?}", rest.modes);
     }
 }
+
+/// Where a coordinate enters by sines and cosines alone, places a turn apart are one, also where the file gives it no period:
+/// cos θ = g/(l φ'²) of the conical pendulum and its mirror image. A constant torque tells them apart by their energy.
+#[test]
+fn of_places_a_turn_apart_one_is_found() {
+    let case = preset("spherical-pendulum", &[], &[]);
+    let found = equilibria(&case.space, &case.start).unwrap();
+    let tau = std::f64::consts::TAU;
+    assert_eq!(found.periods, [(0, tau)]);
+    assert_eq!(found.found.len(), 2);
+    for one in &found.found {
+        let (_, turning) = one.rates[0];
+        close(one.variables[0].cos() * turning * turning, 9.81, 1e-11);
+    }
+    close(found.found[0].variables[0] + found.found[1].variables[0], 0.0, 1e-12);
+    let text = |term: &str| {
+        format!(
+            "title = \"t\"\n[coordinates]\nx = {{ initial = 0.5, momentum = 0 }}\n[hamiltonian]\n\
+             H = \"1/2*p_x^2 - cos(2*x) - cos(3*x)/4{term}\"\n"
+        )
+    };
+    // V' = 2 sin 2x + ¾ sin 3x has a common period 2π and, by its changes of sign, four zeros in it
+    let case = file(&text(""), &[]);
+    let found = equilibria(&case.space, &case.start).unwrap();
+    assert_eq!(found.periods, [(0, tau)]);
+    let slope = |x: f64| 2.0 * (2.0 * x).sin() + 0.75 * (3.0 * x).sin();
+    let grid = |k: u32| 0.001 + tau * f64::from(k) / 4000.0;
+    let changes = (0..4000).filter(|&k| slope(grid(k)) * slope(grid(k + 1)) < 0.0).count();
+    assert_eq!(found.found.len(), changes);
+    let case = file(&text(" - x/10"), &[]);
+    let found = equilibria(&case.space, &case.start).unwrap();
+    assert!(found.periods.is_empty() && found.found.len() > 4, "{found:?}");
+}

@@ -9,6 +9,11 @@ use crate::view::glyphs::Glyphs;
 use crate::view::plot::scale::PlotFrame;
 use crate::view::theme::Shade;
 
+/// Where a curve was drawn before, the cloud takes its colour from this density on, as a part of the fullest on the logarithmic
+/// scale: the edge of a wide cloud is left to the curve around it, a thin cloud is seen though the curve goes through all its
+/// cells.
+const DENSE: f64 = 0.55;
+
 /// ASCII characters from sparse to dense.
 const DENSITY: [char; 9] = ['.', ':', '-', '=', '+', '*', 'o', '#', '@'];
 
@@ -45,7 +50,11 @@ impl Raster {
             let level = math::ln_1p(f64::from(count)) / math::ln_1p(f64::from(fullest));
             let step = |steps: usize| ((level * steps as f64) as usize).min(steps - 1);
             let pen = Pen::aged(ramp[step(ramp.len())], layer, step(ramp.len()));
+            let edge = cell.dots != 0 && cell.rank.0 < pen.layer && level < DENSE;
             cell.dots |= dots;
+            if edge {
+                continue;
+            }
             if pen.layer >= cell.rank.0 {
                 cell.upper = if pen.layer > cell.rank.0 { dots } else { cell.upper | dots };
             }
