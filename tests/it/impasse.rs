@@ -504,3 +504,17 @@ fn steps_that_nobody_gave_do_not_depend_on_units() {
         assert!((swung(unit) - natural).abs() < 1e-8, "{unit:e}");
     }
 }
+
+/// A start on a kink that a root hides stops a method that does not locate kinks before its first step.
+#[test]
+fn a_start_on_a_hidden_kink_is_reported_with_the_method_that_passes_it() {
+    let text = "[coordinates]\nu = { initial = 0.321, velocity = -0.432 }\nv = { initial = 0, velocity = 0.689 }\n[lagrangian]\n\
+                L = \"0.5*u'^2 + 0.5*v'^2 + 0.581*exp(-v^2) - 1.466*(v^2)^0.5\"\n";
+    let message = fault(by("dop853", None, text), 1.0);
+    assert!(message.contains("at t = 0,") && message.ends_with("taylor passes it"), "{message}");
+    let mut taylor = file(text);
+    run(&mut taylor, 1.0);
+    let mut written = file(&text.replace("(v^2)^0.5", "abs(v)"));
+    run(&mut written, 1.0);
+    assert!((value(&taylor, "v") - value(&written, "v")).abs() < 1e-13);
+}

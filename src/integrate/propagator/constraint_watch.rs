@@ -8,7 +8,7 @@
 
 use super::Propagator;
 use super::singularity_record::SingularityRecord;
-use crate::integrate::{Settings, Stepper, Stepping, method_named};
+use crate::integrate::{Settings, Stepper, Stepping, initial_step, method_named};
 use crate::num::math;
 use crate::system::{
     ConstraintProjector, Directions, Form, MotionError, MotionErrorKind, Passage, State,
@@ -177,7 +177,11 @@ impl Propagator {
         let mut ways = Vec::new();
         for (from, part) in [(&self.watch.regular, 1.0), (&self.watch.begun, BEYOND)] {
             let Some(from) = from else { continue };
-            let way = (part * (time - from.time)).max(2.0 * self.stepper.step_size());
+            let mut way = (part * (time - from.time)).max(2.0 * self.stepper.step_size());
+            if way == 0.0 && !self.method.locates_kinks {
+                // it begins on a kink that this method does not know, and has not taken a step
+                way = initial_step::of(&self.system, from, &self.parameters);
+            }
             if way > 0.0 && time >= from.time && (time + way).is_finite() {
                 ways.push((from.clone(), time + way));
             }
