@@ -20,8 +20,8 @@ pub(super) fn words_in(text: &str, width: usize, rows: usize) -> Vec<String> {
 }
 
 /// The text in `width` columns, with `mark` in place of the rest. It ends with a whole word and says something: no article
-/// or preposition is left at its end, and no single word of a further clause. Only where that would leave less than half
-/// of the width is a word torn.
+/// or preposition is left at its end, and no single word of a further clause. Where that would leave less than a third
+/// of the width the last words stay; only where these are less too is a word torn.
 pub(super) fn shortened(text: &str, width: usize, mark: &str) -> String {
     if text.width() <= width {
         return text.to_owned();
@@ -38,6 +38,7 @@ pub(super) fn shortened(text: &str, width: usize, mark: &str) -> String {
     if whole.len() == torn.len() && !rest.starts_with(char::is_whitespace) {
         whole = whole.rsplit_once(char::is_whitespace).map_or("", |(before, _)| before);
     }
+    let words_only = whole;
     let words = |text: &str| text.split_whitespace().next_back().map(str::to_lowercase);
     while words(whole).is_some_and(|word| LINKS.contains(&word.as_str())) {
         whole = whole.rsplit_once(char::is_whitespace).map_or("", |(before, _)| before).trim_end();
@@ -48,7 +49,8 @@ pub(super) fn shortened(text: &str, width: usize, mark: &str) -> String {
         whole = clause;
     }
     let whole = whole.trim_end_matches(|c: char| ",;:–—".contains(c) || c.is_whitespace());
-    let kept = if 2 * whole.width() >= room { whole } else { torn.trim_end() };
+    let enough = |text: &&str| 3 * text.width() >= room;
+    let kept = [whole, words_only].into_iter().find(enough).unwrap_or_else(|| torn.trim_end());
     format!("{kept}{mark}")
 }
 
@@ -68,9 +70,9 @@ pub(super) fn shortened_within(text: &str, width: usize, mark: &str) -> String {
 
 /// Words that a shortened text does not end with.
 const LINKS: &[&str] = &[
-    "a", "about", "along", "an", "and", "as", "at", "by", "for", "from", "if", "in", "is", "its",
-    "of", "on", "one", "or", "per", "that", "the", "their", "through", "to", "when", "where",
-    "which", "with",
+    "=", "+", "−", "a", "about", "along", "an", "and", "as", "at", "by", "for", "from", "if", "in",
+    "is", "its", "of", "on", "one", "or", "per", "that", "the", "their", "through", "to", "when",
+    "where", "which", "with",
 ];
 
 /// A line of an error report: a message is wrapped, below its first word if it is a note; source text and its marks
@@ -260,6 +262,9 @@ mod tests {
             assert_eq!(short("A Aᵀ = 1, det A = 1", width), "A Aᵀ = 1…", "{width}");
         }
         assert_eq!(short("centre of mass along x", 15), "centre of mass…");
+        assert_eq!(short("moment of inertia about a transverse axis", 36), "moment of inertia…");
+        assert_eq!(short("moment on the bearing", 17), "moment…");
+        assert_eq!(short("blow of the hinge, when the pin holds", 17), "blow of the…");
         // A single word is torn, and so is one after too little.
         assert_eq!(short("Phasenraumvolumen", 9), "Phasenra…");
         assert_eq!(short("a Phasenraumvolumen", 9), "a Phasen…");
