@@ -470,12 +470,12 @@ fn a_full_disk_ends_a_recording_and_keeps_what_was_recorded() {
 #[test]
 fn a_cast_is_played_on_the_terminal() {
     let mut player = lab(&["play", "pendulum"]).start();
-    player.shows("Let go from one degree");
+    player.shows("Released from 1°");
     player.shows(" of 0:");
     player.press(" ");
     player.shows("‖");
     player.press("\x1b[F");
-    player.shows("Energy is measured");
+    player.shows("Since the last change the energy");
     player.press("q");
     assert_eq!(player.ends().0, 0);
     player.assert_restored();
@@ -487,11 +487,11 @@ fn a_demo_ends_by_itself_and_its_last_picture_stays() {
     demo.shows("nothing but a Lagrangian is given");
     demo.until("it has the screen for itself", |demo| demo.screen().alternate_screen());
     demo.shows("Equations of motion");
-    demo.shows("the energy is kept to the last digits");
+    demo.shows("the energy is conserved to the last digit");
     assert_eq!(demo.ends().0, 0);
     demo.assert_restored();
     let left = demo.text();
-    for part in ["Motion", "Gauges", "20 m/s²", "the energy is kept to the last digits"] {
+    for part in ["Motion", "Gauges", "20 m/s²", "the energy is conserved to the last digit"] {
         assert!(left.contains(part), "{left}");
     }
     assert!(demo.sent().contains("\x1b[?2026h"));
@@ -500,11 +500,11 @@ fn a_demo_ends_by_itself_and_its_last_picture_stays() {
 #[test]
 fn a_demo_can_be_held_and_left() {
     let mut demo = Setup::new(PROGRAM, &["pendulum", "--demo"]).start();
-    demo.shows("Let go from one degree");
+    demo.shows("Released from 1°");
     demo.press(" ");
     demo.quiet(Duration::from_millis(500));
     demo.press(" ");
-    demo.shows("From 170 degrees");
+    demo.shows("From 170°");
     demo.press("q");
     assert_eq!(demo.ends().0, 0);
     demo.assert_restored();
