@@ -23,8 +23,9 @@ const SIZES: [f64; 7] = [0.7, -0.6, 1.9, 0.1, -1.7, 5.0, 30.0];
 /// Images are the same if they differ by less than this part of their size.
 const SAME: f64 = 1e-6;
 
-/// The steps of Newton's method with known images taken out.
-const DEFLATED: usize = 60;
+/// The steps of Newton's method with known images taken out, and the guesses that it begins with.
+const DEFLATED: usize = 30;
+const BEGINNINGS: usize = 8;
 
 /// Multiples of a known image that may be near another.
 const FACTORS: [f64; 4] = [1.0, -1.0, 2.0, -0.5];
@@ -78,9 +79,9 @@ impl ImplicitMap {
             let image = self.newton(pool, with(guess));
             found.extend(image.filter(|image| self.is_new(image, &found)));
         }
-        for guess in &all {
+        for guess in guesses(self.new.len()).take(BEGINNINGS) {
             while found.len() < most
-                && let Some(image) = self.deflated(pool, with(guess), &found)
+                && let Some(image) = self.deflated(pool, with(&guess), &found)
             {
                 found.push(image);
             }
