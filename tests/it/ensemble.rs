@@ -254,7 +254,7 @@ fn finish(app: &mut App, mut effects: Vec<Effect>) {
 }
 
 /// The lab with a motion and the picture of its cloud, and the motion.
-fn opened(ready: Prepared) -> (App, usize, phaselab::experiment::Experiment) {
+pub(crate) fn opened(ready: Prepared) -> (App, usize, phaselab::experiment::Experiment) {
     let Prepared { document, model, equations, system, mut experiment } = ready;
     experiment.set_epoch(1);
     experiment.advance(0.01, u64::MAX);
@@ -272,20 +272,20 @@ fn opened(ready: Prepared) -> (App, usize, phaselab::experiment::Experiment) {
     (app, 0, experiment)
 }
 
-fn see(app: &mut App, experiment: &mut phaselab::experiment::Experiment, time: f64) {
+pub(crate) fn see(app: &mut App, experiment: &mut phaselab::experiment::Experiment, time: f64) {
     experiment.advance(time, u64::MAX);
     let effects = app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
     finish(app, effects);
 }
 
-fn measure(app: &App, word: &str) -> Option<f64> {
+pub(crate) fn measure(app: &App, word: &str) -> Option<f64> {
     let lab = app.lab.as_ref().unwrap();
     let plot = &lab.plots[0];
     let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
     (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot))
 }
 
-fn cloud(app: &App) -> Vec<[f64; 2]> {
+pub(crate) fn cloud(app: &App) -> Vec<[f64; 2]> {
     let lab = app.lab.as_ref().unwrap();
     let (plot, present) = (&lab.plots[0], lab.present().unwrap());
     let picture = plot.kind.picture(plot, &present, [f64::NAN; 2], lab.answer(plot));

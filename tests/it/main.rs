@@ -16,6 +16,7 @@ mod double;
 mod dynamics;
 mod elementary;
 mod ensemble;
+mod escaping_cloud;
 mod experiment;
 mod expr;
 mod expr_parse;

@@ -239,6 +239,39 @@ fn a_denser_cell_has_a_later_shade_and_in_ascii_a_heavier_character() {
     assert_eq!(rows(&buffer), [".=o@"]);
 }
 
+/// A curve around a wide cloud is seen at its edge; a cloud so thin that the curve goes through most of its cells is seen itself.
+#[test]
+fn a_thin_cloud_is_seen_in_place_of_the_curve_around_it() {
+    let cloud =
+        [Shade { style: Style::new().fg(Color::Indexed(7)), coverage: 1.0, dash: Dash::Full }];
+    let area = Rect::new(0, 0, 40, 20);
+    let curve = Pen { style: Style::new().fg(Color::Indexed(1)), ..PLAIN };
+    for glyphs in [Glyphs::Braille, Glyphs::Ascii] {
+        let seen = |half: f64| {
+            let corners = [[0.1, -half], [0.9, -half], [0.9, half], [0.1, half], [0.1, -half]];
+            let corners = corners.map(|[x, y]| [x, 0.5 + y]);
+            let points = (0..2000).map(|i| {
+                let n = f64::from(i);
+                let [x, y] =
+                    [(n * 0.754_877_666_246_692_7).fract(), (n * 0.569_840_290_998_053_2).fract()];
+                [0.1 + 0.8 * x, 0.5 + half * (2.0 * y - 1.0)]
+            });
+            let buffer = drawn(area, glyphs, |raster| {
+                raster.polyline(&unit(area), corners.iter().copied(), &curve);
+                raster.cloud(&unit(area), points, &cloud, 2);
+            });
+            let of = |index: u8| {
+                area.positions().filter(|at| buffer[*at].fg == Color::Indexed(index)).count()
+            };
+            [of(1), of(7)]
+        };
+        let [edge, inside] = seen(0.4);
+        assert!(edge > 20 && inside > 3 * edge, "{edge} {inside}");
+        let [edge, inside] = seen(0.001);
+        assert!(inside >= 30 && edge <= 2, "{edge} {inside}");
+    }
+}
+
 #[test]
 fn every_pattern_of_dots_has_a_character_of_its_own() {
     for glyphs in Glyphs::ALL.into_iter().filter(|glyphs| !glyphs.is_ascii()) {

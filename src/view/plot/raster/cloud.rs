@@ -3,16 +3,16 @@
 //! In: points in data coordinates and a ramp. Out: dots where the points are, styled by density. Never here: a single
 //! point's history.
 
-use super::{Pen, Raster};
+use super::{Cell, Pen, Raster};
 use crate::num::math;
 use crate::view::glyphs::Glyphs;
 use crate::view::plot::scale::PlotFrame;
 use crate::view::theme::Shade;
 
-/// Where a curve was drawn before, the cloud takes its colour from this density on, as a part of the fullest on the logarithmic
-/// scale: the edge of a wide cloud is left to the curve around it, a thin cloud is seen though the curve goes through all its
-/// cells.
-const DENSE: f64 = 0.55;
+/// Where a curve was drawn before, a wide cloud takes its colour from this density on, as a part of the fullest on the
+/// logarithmic scale: its edge is left to the curve around it. A thin cloud, of whose cells the curve goes through most, hides
+/// it: nothing else would be seen of it.
+const DENSE: f64 = 0.65;
 
 /// ASCII characters from sparse to dense.
 const DENSITY: [char; 9] = ['.', ':', '-', '=', '+', '*', 'o', '#', '@'];
@@ -43,6 +43,9 @@ impl Raster {
         if fullest == 0 || ramp.is_empty() {
             return;
         }
+        let covered = |cell: &Cell| cell.dots != 0 && cell.rank.0 < layer;
+        let occupied = || self.cells.iter().zip(&counts).filter(|(_, (count, _))| *count > 0);
+        let thin = 2 * occupied().filter(|(cell, _)| covered(cell)).count() > occupied().count();
         for (cell, (count, dots)) in self.cells.iter_mut().zip(counts) {
             if count == 0 {
                 continue;
@@ -50,7 +53,7 @@ impl Raster {
             let level = math::ln_1p(f64::from(count)) / math::ln_1p(f64::from(fullest));
             let step = |steps: usize| ((level * steps as f64) as usize).min(steps - 1);
             let pen = Pen::aged(ramp[step(ramp.len())], layer, step(ramp.len()));
-            let edge = cell.dots != 0 && cell.rank.0 < pen.layer && level < DENSE;
+            let edge = !thin && covered(cell) && level < DENSE;
             cell.dots |= dots;
             if edge {
                 continue;
