@@ -30,7 +30,7 @@ pub use eigenvalues::eigenvalues;
 pub use extended_range::ExtendedRange;
 pub use finite::all_finite;
 pub use format::{short, significant};
-pub use horner::{Polynomial, polynomial, tails};
+pub use horner::{Polynomial, polynomial, slope_tails, tails};
 pub use instruction_set::{Kernel, vectorized};
 pub use number::Number;
 pub use prime_field::{PRIMES, PrimeField, Residue, Unreduced, rational};

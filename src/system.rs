@@ -26,6 +26,7 @@ mod error_report;
 mod event_functions;
 mod exact;
 mod expansion;
+mod finishing_pass;
 mod growth;
 mod image;
 mod impulse;

@@ -40,6 +40,23 @@ pub fn tails<const N: usize>(high: [&[f64]; N], x: f64) -> [f64; N] {
     sums
 }
 
+/// The same of the slopes of these polynomials, whose term of order `first` is the first of `high`.
+#[inline(always)]
+pub fn slope_tails<const N: usize>(high: [&[f64]; N], first: usize, x: f64) -> [f64; N] {
+    let mut length = usize::MAX;
+    for lane in 0..N {
+        length = length.min(high[lane].len());
+    }
+    let mut sums = [0.0; N];
+    for j in (0..length).rev() {
+        let order = (first + j) as f64;
+        for lane in 0..N {
+            sums[lane] = sums[lane] * x + high[lane][j] * order;
+        }
+    }
+    sums
+}
+
 impl Polynomial<'_> {
     /// The sum of the terms after those of low order, over the power of the first of them.
     #[inline(always)]
@@ -51,6 +68,18 @@ impl Polynomial<'_> {
     /// The polynomial, from that sum. `high` is read only where the argument is no `f64`.
     #[inline(always)]
     pub fn with_tail<const FUSED: bool>(self, tail: f64) -> DoubleDouble {
+        let [slope] = if self.x.low == 0.0 {
+            [0.0]
+        } else {
+            slope_tails([self.high], self.low.len(), self.x.high)
+        };
+        self.with_tails::<FUSED>(tail, slope)
+    }
+
+    /// The polynomial, from that sum and the one of its slope, which is read only where the argument
+    /// is no `f64`.
+    #[inline(always)]
+    pub fn with_tails<const FUSED: bool>(self, tail: f64, slope: f64) -> DoubleDouble {
         let x = self.x.high;
         let (mut sum, mut errors) = (tail, 0.0);
         for c in self.low.iter().rev() {
@@ -60,7 +89,9 @@ impl Polynomial<'_> {
             errors = errors * x + (product.low + next.low + c.low);
         }
         if self.x.low != 0.0 {
-            errors += self.x.low * slope(self.low, self.high, x);
+            let low = self.low.iter().enumerate().skip(1).rev();
+            let slope = low.fold(slope, |sum, (j, c)| sum * x + c.high * j as f64);
+            errors += self.x.low * slope;
         }
         DoubleDouble::sum(sum, errors)
     }
@@ -74,16 +105,6 @@ impl Kernel for Polynomial<'_> {
         let tail = self.tail();
         self.with_tail::<FUSED>(tail)
     }
-}
-
-/// The derivative of the polynomial.
-#[inline(always)]
-fn slope(low: &[DoubleDouble], high: &[f64], x: f64) -> f64 {
-    let n = low.len();
-    let high = high.iter().enumerate().rev();
-    let tail = high.fold(0.0, |sum, (j, c)| sum * x + c * (n + j) as f64);
-    let low = low.iter().enumerate().skip(1).rev();
-    low.fold(tail, |sum, (j, c)| sum * x + c.high * j as f64)
 }
 
 #[cfg(test)]

@@ -181,7 +181,7 @@ impl Program {
     }
 
     /// Calls `visit` on each register that an operation reads.
-    fn each_operand(&self, register: Register, visit: &mut dyn FnMut(Register)) {
+    pub(super) fn each_operand(&self, register: Register, visit: &mut dyn FnMut(Register)) {
         let mut all = |list: &[Register]| list.iter().for_each(|&r| visit(r));
         match self.ops[register as usize] {
             Op::Time | Op::Constant(_) | Op::Parameter(_) | Op::Input(_) => {}

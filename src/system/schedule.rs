@@ -5,7 +5,7 @@
 //! ```text
 //!   orders 0 … k−1 of all registers          order k of the inputs
 //!          │                                        │
-//!   1. inner products: every convolution     2. finishing pass, operation by operation:
+//!   1. inner products: every convolution     2. finishing pass, run by run of one kind:
 //!      Σ_{j=1}^{k−1} a_j b_{k−j}, all in         the products left over, a_0 b_k + a_k b_0,
 //!      one batch of equal length        ──▶      sums, divisions, solutions of linear equations
 //! ```
@@ -15,6 +15,9 @@
 
 use std::collections::HashMap;
 
+use super::finishing_pass::{
+    Integral, Product, Related, Run, Scale, Sign, Solution, Sorter, Step, Sum,
+};
 use super::program::{Op, Program, Register};
 use crate::expr::{BilinearEquation, Divisor, Operand, Rule};
 use crate::num::DoubleDouble;
@@ -101,65 +104,12 @@ pub(super) enum Direct {
     Slope(Factor, Register),
 }
 
-/// The sign of a term.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Sign {
-    Plus,
-    Minus,
-}
-
-/// One operation of the finishing pass.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Step {
-    Time(Register),
-    Linear {
-        register: Register,
-        first: u32,
-        count: u32,
-    },
-    Scale {
-        register: Register,
-        fixed: Register,
-        varying: Register,
-    },
-    Product {
-        register: Register,
-        left: Register,
-        right: Register,
-        product: u32,
-    },
-    Square {
-        register: Register,
-        of: Register,
-        product: u32,
-    },
-    Relation {
-        register: Register,
-        relation: u32,
-    },
-    /// A relation of frequent shape, `k f_k = ± Σ j a_j b_{k−j}`: f′ = ± a′ b, as sine and cosine are.
-    Integral {
-        register: Register,
-        sign: Sign,
-        slope: Register,
-        factor: Register,
-        product: u32,
-    },
-    /// The inner products are those of the varying entries of the matrix, row by row.
-    Solve {
-        register: Register,
-        block: u32,
-        product: u32,
-    },
-    /// An operation that is evaluated by itself.
-    Alone(Register),
-}
-
 /// The schedule of one program.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Schedule {
     pub(super) pairs: Vec<Pair>,
-    pub(super) steps: Vec<Step>,
+    /// The operations of the finishing pass.
+    pub(super) runs: Vec<Run>,
     pub(super) relations: Vec<Relation>,
     pub(super) summands: Vec<Summand>,
     /// The registers whose slope enters an inner product.
@@ -171,19 +121,21 @@ impl Schedule {
         let mut writer = ScheduleWriter {
             program,
             schedule: Schedule::default(),
+            sorter: Sorter::new(program.ops.len()),
             pairs: HashMap::new(),
             slopes: HashMap::new(),
         };
         for &register in &program.body {
             writer.write(register);
         }
-        writer.schedule
+        Schedule { runs: writer.sorter.runs(), ..writer.schedule }
     }
 }
 
 struct ScheduleWriter<'a> {
     program: &'a Program,
     schedule: Schedule,
+    sorter: Sorter,
     /// The places of pairs and of slopes.
     pairs: HashMap<Pair, u32>,
     slopes: HashMap<Register, u32>,
@@ -201,17 +153,17 @@ impl ScheduleWriter<'_> {
     fn write(&mut self, register: Register) {
         let step = match self.program.ops[register as usize] {
             Op::Time => Step::Time(register),
-            Op::Linear { first, count, .. } => Step::Linear { register, first, count },
-            Op::Scale(fixed, varying) => Step::Scale { register, fixed, varying },
+            Op::Linear { first, count, .. } => Step::Sum(Sum { register, first, count }),
+            Op::Scale(fixed, varying) => Step::Scale(Scale { register, fixed, varying }),
             Op::Multiply(left, right) => match self.product(false, left, right) {
-                Some(product) => Step::Product { register, left, right, product },
+                Some(product) => Step::Product(Product { register, left, right, product }),
                 None => {
                     let summand = self.summand(Factor::Plus, false, (left, right), register);
                     self.relation(register, Direct::None, &[summand], Denominator::One, None)
                 }
             },
             Op::Square(of) => match self.product(false, of, of) {
-                Some(product) => Step::Square { register, of, product },
+                Some(product) => Step::Product(Product { register, left: of, right: of, product }),
                 None => return,
             },
             Op::Divide(a, b) => {
@@ -244,19 +196,32 @@ impl ScheduleWriter<'_> {
                 for (own, form) in order.map(|i| forms[i]) {
                     if let Some(form) = form {
                         let step = self.form(own, register, arguments, &form);
-                        self.schedule.steps.push(step);
+                        self.add(step, register, 1);
                     }
                 }
                 return;
             }
             Op::Solve(block) => {
                 let product = self.products_of_block(register, block as usize);
-                Step::Solve { register, block, product }
+                let solution = Step::Solution(Solution { register, block, product });
+                self.add(solution, register, self.program.blocks[block as usize].size());
+                return;
             }
             Op::ParametricPower(..) | Op::Select { .. } => Step::Alone(register),
             Op::Constant(_) | Op::Parameter(_) | Op::Input(_) | Op::Written => return,
         };
-        self.schedule.steps.push(step);
+        self.add(step, register, 1);
+    }
+
+    /// Adds a step of an operation that writes `count` registers.
+    fn add(&mut self, step: Step, operation: Register, count: usize) {
+        let mut needs = Vec::new();
+        self.program.each_operand(operation, &mut |operand| needs.push(operand));
+        if let Op::Call(..) = self.program.ops[operation as usize] {
+            // a function and its companion may need each other
+            needs.extend([operation, operation + 1]);
+        }
+        self.sorter.add(step, count, needs);
     }
 
     /// The recurrence of a function or of its companion, `register`; `value` is the function.
@@ -308,13 +273,13 @@ impl ScheduleWriter<'_> {
             && let (Some(product), Ends::LastSlope(slope, factor)) = (only.product, only.ends)
             && let Some(sign) = only.factor.sign()
         {
-            return Step::Integral { register, sign, slope, factor, product };
+            return Step::Integral(Integral { register, sign, slope, factor, product });
         }
         let (first, count) = (schedule.summands.len() as u32, summands.len() as u32);
         schedule.summands.extend_from_slice(summands);
         let relation = schedule.relations.len() as u32;
         schedule.relations.push(Relation { direct, first, count, denominator, vanishing });
-        Step::Relation { register, relation }
+        Step::Related(Related { register, relation })
     }
 
     /// A convolution in the recurrence of `own`.

@@ -16,7 +16,8 @@ use super::state::State;
 use super::underflow;
 use crate::expr::FunctionId;
 use crate::num::{
-    DoubleDouble, ExtendedRange, Kernel, Polynomial, all_finite, polynomial, tails, vectorized,
+    DoubleDouble, ExtendedRange, Kernel, Polynomial, all_finite, polynomial, slope_tails, tails,
+    vectorized,
 };
 
 /// The series of all numbers of a state, in the native form of its system.
@@ -336,10 +337,12 @@ impl Kernel for Sum<'_> {
                 series[lane] = high(of(lane));
             }
             let tails = tails(series, x.high);
-            for (lane, &tail) in (0..count - group).zip(&tails) {
+            let exact = x.low == 0.0;
+            let slopes = if exact { [0.0; TOGETHER] } else { slope_tails(series, first, x.high) };
+            for (lane, (&tail, &slope)) in (0..count - group).zip(tails.iter().zip(&slopes)) {
                 let i = group + lane;
                 let polynomial = Polynomial { low: low(i), high: series[lane], x };
-                out.set(i, polynomial.with_tail::<FUSED>(tail));
+                out.set(i, polynomial.with_tails::<FUSED>(tail, slope));
             }
         }
     }

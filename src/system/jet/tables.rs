@@ -9,9 +9,10 @@ use super::operands::Operands;
 use super::series_index::SeriesIndex;
 use super::side::Side;
 use crate::num::{Analytic, Real};
+use crate::system::finishing_pass::{Integral, Product, Related, Run, Scale, Sign, Solution, Sum};
 use crate::system::parametric_power;
 use crate::system::program::{Block, Op, Program, Register, Singular};
-use crate::system::schedule::{Denominator, Direct, Ends, Factor, Relation, Schedule, Sign, Step};
+use crate::system::schedule::{Denominator, Direct, Ends, Factor, Relation, Schedule};
 use crate::system::solve::Factored;
 use crate::system::value::value_of;
 
@@ -158,13 +159,11 @@ impl<R: Coefficient> Tables<R> {
         k: usize,
         rate: R,
     ) {
-        let mut steps = schedule.steps.iter();
-        while let Some(step) = self.finish_plainly::<FUSED>(schedule, &mut steps, k, rate) {
-            match step {
-                Step::Solve { register, block, product } => {
-                    self.solve(program, (register, block as usize, product as usize), k);
-                }
-                Step::Alone(register) => {
+        let mut runs = schedule.runs.iter();
+        while let Some(run) = self.finish_plainly::<FUSED>(schedule, &mut runs, k, rate) {
+            match *run {
+                Run::Solution(solution) => self.solve(program, solution, k),
+                Run::Alone(register) => {
                     let coefficient = R::alone(self, program, register, k);
                     self.rows[k * self.width + register as usize] = coefficient;
                 }
@@ -176,69 +175,73 @@ impl<R: Coefficient> Tables<R> {
     /// Finishes the operations that are a formula each, up to the first that is not, which is
     /// returned.
     #[inline(always)]
-    fn finish_plainly<const FUSED: bool>(
+    fn finish_plainly<'a, const FUSED: bool>(
         &mut self,
         schedule: &Schedule,
-        steps: &mut std::slice::Iter<'_, Step>,
+        runs: &mut std::slice::Iter<'a, Run>,
         k: usize,
         rate: R,
-    ) -> Option<Step> {
+    ) -> Option<&'a Run> {
         // as slices, whose places need not be looked up again after each number that is stored
         let width = self.width;
         let (below, now) = self.rows.split_at_mut(k * width);
         let (values, now) = (&below[..width], &mut now[..width]);
         let (products, terms) = (self.operands.products(), &self.terms[..]);
         let at = |r: Register| r as usize;
-        for step in steps {
-            let (register, x) = match *step {
-                Step::Time(register) => (register, rate),
-                Step::Linear { register, first, count } => {
-                    let terms = &terms[first as usize..(first + count) as usize];
-                    let sum = terms.iter().fold(R::ZERO, |sum, &(term, factor)| {
-                        sum + now[at(term)].times::<FUSED>(factor)
-                    });
-                    (register, sum)
+        for run in runs {
+            match run {
+                Run::Time(register) => now[at(*register)] = rate,
+                Run::Scales(run) => {
+                    for &Scale { register, fixed, varying } in run {
+                        now[at(register)] = values[at(fixed)].times::<FUSED>(now[at(varying)]);
+                    }
                 }
-                Step::Scale { register, fixed, varying } => {
-                    (register, values[at(fixed)].times::<FUSED>(now[at(varying)]))
+                Run::Products(run) => {
+                    for &Product { register, left, right, product } in run {
+                        let ends = values[at(left)].times::<FUSED>(now[at(right)])
+                            + now[at(left)].times::<FUSED>(values[at(right)]);
+                        now[at(register)] = products[at(product)] + ends;
+                    }
                 }
-                Step::Product { register, left, right, product } => {
-                    let ends = values[at(left)].times::<FUSED>(now[at(right)])
-                        + now[at(left)].times::<FUSED>(values[at(right)]);
-                    (register, products[at(product)] + ends)
+                Run::Related(run) => {
+                    for &Related { register, relation } in run {
+                        let relation = &schedule.relations[at(relation)];
+                        let x = related::<R, FUSED>(schedule, relation, (values, now, products), k);
+                        now[at(register)] = match relation.vanishing.map(at) {
+                            Some(a) => {
+                                let below = below.chunks_exact(width).map(|row| row[a]);
+                                x.unless_vanishing(std::iter::once(now[a]).chain(below))
+                            }
+                            None => x,
+                        };
+                    }
                 }
-                Step::Square { register, of, product } => {
-                    let ends = values[at(of)].times::<FUSED>(now[at(of)]);
-                    (register, products[at(product)] + (ends + ends))
+                Run::Integrals(run) => {
+                    for &Integral { register, sign, slope, factor, product } in run {
+                        let last = now[at(slope)].times::<FUSED>(values[at(factor)]) * k as f64;
+                        let sum = products[at(product)] + last;
+                        let sum = if sign == Sign::Minus { -sum } else { sum };
+                        now[at(register)] = (R::ZERO + sum).over(k);
+                    }
                 }
-                Step::Relation { register, relation } => {
-                    let relation = &schedule.relations[at(relation)];
-                    let x = related::<R, FUSED>(schedule, relation, (values, now, products), k);
-                    let x = match relation.vanishing.map(at) {
-                        Some(a) => {
-                            let below = below.chunks_exact(width).map(|row| row[a]);
-                            x.unless_vanishing(std::iter::once(now[a]).chain(below))
-                        }
-                        None => x,
-                    };
-                    (register, x)
+                Run::Sums(run) => {
+                    for &Sum { register, first, count } in run {
+                        let terms = &terms[first as usize..][..count as usize];
+                        now[at(register)] = terms.iter().fold(R::ZERO, |sum, &(term, factor)| {
+                            sum + now[at(term)].times::<FUSED>(factor)
+                        });
+                    }
                 }
-                Step::Integral { register, sign, slope, factor, product } => {
-                    let last = now[at(slope)].times::<FUSED>(values[at(factor)]) * k as f64;
-                    let sum = products[at(product)] + last;
-                    let sum = if sign == Sign::Minus { -sum } else { sum };
-                    (register, (R::ZERO + sum).over(k))
-                }
-                Step::Solve { .. } | Step::Alone(_) => return Some(*step),
-            };
-            now[at(register)] = x;
+                Run::Solution(_) | Run::Alone(_) => return Some(run),
+            }
         }
         None
     }
 
     /// `M_0 a_k = f_k − Σ_{j≥1} M_j a_{k−j}`.
-    fn solve(&mut self, program: &Program, at: (Register, usize, usize), k: usize) {
-        let (register, block, mut product) = at;
+    fn solve(&mut self, program: &Program, solution: Solution, k: usize) {
+        let Solution { register, block, product } = solution;
+        let (block, mut product) = (block as usize, product as usize);
         let Block { matrix, right, .. } = &program.blocks[block];
         let (n, first) = (right.len(), register as usize);
         let (below, now) = self.rows.split_at_mut(k * self.width);
