@@ -211,7 +211,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Always, &[ctrl('l')], Action::Repaint, "", "redraw the screen"),
 
     row(Place::Anywhere, &[c('?'), plain(KeyCode::F(1))], Action::Help, "help", "show these keys"),
-    row(Place::Anywhere, &[c('q')], Action::Quit, "quit", "close what lies on top, or quit; the session is saved"),
+    row(Place::Anywhere, &[c('q')], Action::Quit, "quit", "close what lies on top, or leave; the session is saved"),
     row(Place::Anywhere, &[c(':')], Action::Palette, "", "search all actions by name"),
     row(Place::Anywhere, &[c('T')], Action::ChooseTheme, "", "choose the theme: the colours of the screen"),
     row(Place::Anywhere, &[plain(KeyCode::F(2))], Action::Guides, "", "lessons and demos: take or watch one here; q returns"),

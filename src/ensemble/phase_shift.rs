@@ -70,7 +70,7 @@ impl PhaseShift {
     pub fn back(&self, system: &System, given: &Start) -> Result<Start, NotInPlane> {
         let parameters = &self.parameters;
         let there = Start { time: self.instant, ..given.clone() }.state(system)?;
-        let state = self.carried(reversed(&there))?;
+        let state = self.carried(&reversed(&there))?;
         let state = system.convert(&state, system.form(), parameters)?;
         let count = 2 * system.degrees();
         let values = state.values.iter().take(count).enumerate();
@@ -79,10 +79,10 @@ impl PhaseShift {
     }
 
     /// The state of the reversed system at the time of the initial values, dated by that time.
-    fn carried(&self, state: State) -> Result<State, NotInPlane> {
+    fn carried(&self, state: &State) -> Result<State, NotInPlane> {
         let parameters = &self.parameters;
         let mut motion = Propagator::new(&self.backwards, self.method, self.settings, parameters)?;
-        motion.begin(&state, parameters)?;
+        motion.begin(state, parameters)?;
         let (end, mut budget) = (-self.time, STEPS);
         loop {
             match motion.reach(end, end, &mut budget)? {

@@ -33,7 +33,7 @@ pub(super) struct Product {
     pub(super) register: Register,
     pub(super) left: Register,
     pub(super) right: Register,
-    pub(super) product: u32,
+    pub(super) inner: u32,
 }
 
 /// An operation with a relation of the schedule's table.
@@ -50,7 +50,7 @@ pub(super) struct Integral {
     pub(super) sign: Sign,
     pub(super) slope: Register,
     pub(super) factor: Register,
-    pub(super) product: u32,
+    pub(super) inner: u32,
 }
 
 /// A sum of multiples, a range of the program's table of terms.
@@ -66,7 +66,7 @@ pub(super) struct Sum {
 pub(super) struct Solution {
     pub(super) register: Register,
     pub(super) block: u32,
-    pub(super) product: u32,
+    pub(super) inner: u32,
 }
 
 /// One operation.
@@ -185,7 +185,7 @@ mod tests {
     use super::*;
 
     fn product(register: Register, left: Register, right: Register) -> (Step, Vec<Register>) {
-        (Step::Product(Product { register, left, right, product: 0 }), vec![left, right])
+        (Step::Product(Product { register, left, right, inner: 0 }), vec![left, right])
     }
 
     fn scale(register: Register, varying: Register) -> (Step, Vec<Register>) {
@@ -239,7 +239,7 @@ mod tests {
     #[test]
     fn a_solution_is_known_in_all_its_registers() {
         let mut sorter = Sorter::new(8);
-        sorter.add(Step::Solution(Solution { register: 2, block: 0, product: 0 }), 2, [0, 1]);
+        sorter.add(Step::Solution(Solution { register: 2, block: 0, inner: 0 }), 2, [0, 1]);
         let (step, needs) = product(4, 3, 3);
         sorter.add(step, 1, needs);
         let runs = sorter.runs();

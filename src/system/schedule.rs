@@ -156,14 +156,14 @@ impl ScheduleWriter<'_> {
             Op::Linear { first, count, .. } => Step::Sum(Sum { register, first, count }),
             Op::Scale(fixed, varying) => Step::Scale(Scale { register, fixed, varying }),
             Op::Multiply(left, right) => match self.product(false, left, right) {
-                Some(product) => Step::Product(Product { register, left, right, product }),
+                Some(inner) => Step::Product(Product { register, left, right, inner }),
                 None => {
                     let summand = self.summand(Factor::Plus, false, (left, right), register);
                     self.relation(register, Direct::None, &[summand], Denominator::One, None)
                 }
             },
             Op::Square(of) => match self.product(false, of, of) {
-                Some(product) => Step::Product(Product { register, left: of, right: of, product }),
+                Some(inner) => Step::Product(Product { register, left: of, right: of, inner }),
                 None => return,
             },
             Op::Divide(a, b) => {
@@ -202,8 +202,8 @@ impl ScheduleWriter<'_> {
                 return;
             }
             Op::Solve(block) => {
-                let product = self.products_of_block(register, block as usize);
-                let solution = Step::Solution(Solution { register, block, product });
+                let inner = self.products_of_block(register, block as usize);
+                let solution = Step::Solution(Solution { register, block, inner });
                 self.add(solution, register, self.program.blocks[block as usize].size());
                 return;
             }
@@ -270,10 +270,10 @@ impl ScheduleWriter<'_> {
         let schedule = &mut self.schedule;
         let plain = (direct, denominator, vanishing);
         if let ((Direct::None, Denominator::Order, None), [only]) = (plain, summands)
-            && let (Some(product), Ends::LastSlope(slope, factor)) = (only.product, only.ends)
+            && let (Some(inner), Ends::LastSlope(slope, factor)) = (only.product, only.ends)
             && let Some(sign) = only.factor.sign()
         {
-            return Step::Integral(Integral { register, sign, slope, factor, product });
+            return Step::Integral(Integral { register, sign, slope, factor, inner });
         }
         let (first, count) = (schedule.summands.len() as u32, summands.len() as u32);
         schedule.summands.extend_from_slice(summands);

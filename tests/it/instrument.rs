@@ -57,7 +57,9 @@ fn every_kind_has_a_name_of_its_own() {
     let different: BTreeSet<&str> = names.iter().copied().collect();
     assert_eq!(different.len(), names.len(), "{names:?}");
     for kind in INSTRUMENTS {
-        assert!(kind.name().chars().all(|c| c.is_ascii_lowercase()), "{kind:?}");
+        let mut words = kind.name().split('-');
+        let plain = |word: &str| !word.is_empty() && word.chars().all(|c| c.is_ascii_lowercase());
+        assert!(words.all(plain), "{kind:?}");
         assert!(named(kind.name()).is_some_and(|found| found == kind));
         let keys: BTreeSet<&str> = kind.written().iter().map(|axis| axis.key).collect();
         assert_eq!(keys.len(), kind.written().len(), "{kind:?} has an axis twice");

@@ -120,7 +120,7 @@ fn claimed([within, beyond]: [&str; 2], said: &str, text: impl Fn(&str) -> Strin
 
 #[test]
 fn what_is_claimed_conserved_drifts_by_no_more_than_1e_10_of_its_terms() {
-    claimed(["0.9e-10", "1.1e-10"], "said to be conserved, but it is not", |drift| {
+    claimed(["0.9e-10", "1.1e-10"], "claimed to be conserved, but it is not", |drift| {
         oscillator(&format!(
             "[[observables]]\nname = \"one\"\nexpression = \"1 + {drift}*t\"\nconserved = true"
         ))

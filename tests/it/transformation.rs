@@ -382,9 +382,10 @@ fn a_map_that_moves_has_the_grid_of_the_instant() {
             assert!(words[0].contains("canonical"), "{words:?}");
             let k = words.iter().find(|line| line.starts_with("K = ")).expect("K").clone();
             // K = ½ P² + ½ (Q + t/5)² by hand, of the explicit map but for what depends on no variable
-            let parts: &[&str] = match way.starts_with("kind = \"F2\"") {
-                true => &["½ P²", "½ Q²", "⅕ t Q"],
-                false => &["(5 Q + t)²", "(5 P + 1)²", "− ⅕ P"],
+            let parts = if way.starts_with("kind = \"F2\"") {
+                ["½ P²", "½ Q²", "⅕ t Q"]
+            } else {
+                ["(5 Q + t)²", "(5 P + 1)²", "− ⅕ P"]
             };
             assert!(parts.iter().all(|part| k.contains(part)), "{k}");
         }

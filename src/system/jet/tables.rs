@@ -197,10 +197,10 @@ impl<R: Coefficient> Tables<R> {
                     }
                 }
                 Run::Products(run) => {
-                    for &Product { register, left, right, product } in run {
+                    for &Product { register, left, right, inner } in run {
                         let ends = values[at(left)].times::<FUSED>(now[at(right)])
                             + now[at(left)].times::<FUSED>(values[at(right)]);
-                        now[at(register)] = products[at(product)] + ends;
+                        now[at(register)] = products[at(inner)] + ends;
                     }
                 }
                 Run::Related(run) => {
@@ -217,9 +217,9 @@ impl<R: Coefficient> Tables<R> {
                     }
                 }
                 Run::Integrals(run) => {
-                    for &Integral { register, sign, slope, factor, product } in run {
+                    for &Integral { register, sign, slope, factor, inner } in run {
                         let last = now[at(slope)].times::<FUSED>(values[at(factor)]) * k as f64;
-                        let sum = products[at(product)] + last;
+                        let sum = products[at(inner)] + last;
                         let sum = if sign == Sign::Minus { -sum } else { sum };
                         now[at(register)] = (R::ZERO + sum).over(k);
                     }
@@ -240,8 +240,8 @@ impl<R: Coefficient> Tables<R> {
 
     /// `M_0 a_k = f_k − Σ_{j≥1} M_j a_{k−j}`.
     fn solve(&mut self, program: &Program, solution: Solution, k: usize) {
-        let Solution { register, block, product } = solution;
-        let (block, mut product) = (block as usize, product as usize);
+        let Solution { register, block, inner } = solution;
+        let (block, mut product) = (block as usize, inner as usize);
         let Block { matrix, right, .. } = &program.blocks[block];
         let (n, first) = (right.len(), register as usize);
         let (below, now) = self.rows.split_at_mut(k * self.width);

@@ -59,7 +59,7 @@ fn a_ramp_that_is_typed_is_a_part_of_the_text() {
 #[test]
 fn what_is_no_ramp_is_refused() {
     for (typed, why) in [
-        ("2", "in which time"),
+        ("2", "the duration"),
         ("2 in 0", "more than zero"),
         ("two in 3", "is not a number"),
         ("2 in 3 cubical", "is not a number"),

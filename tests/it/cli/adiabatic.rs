@@ -177,7 +177,9 @@ fn three_ramps_have_three_slopes() {
         let (set, end) = (format!("n={n}"), format!("{}", 40 * (1 << n)));
         let names = ["corner", "second", "smooth"];
         let mut words = vec!["run", "three-ramps", "--set", &set, "--at", &end];
-        names.iter().for_each(|name| words.extend(["--observe", name]));
+        for name in &names {
+            words.extend(["--observe", name]);
+        }
         words.extend(["--format", "json"]);
         let found = phaselab(&words).json();
         let columns = found["columns"].as_array().unwrap();

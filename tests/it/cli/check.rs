@@ -49,7 +49,7 @@ fn a_false_claim_of_conservation_is_a_mistake_where_it_stands() {
         claim("[[observables]]\nname = \"speed\"\nexpression = \"theta'\"\nconserved = true");
     with_file(&file, &["check", "system.toml"]).fails(
         65,
-        &["`speed` is said to be conserved, but it is not", "conserved = true", "drifts by"],
+        &["`speed` is claimed to be conserved, but it is not", "conserved = true", "drifts by"],
     );
     let file = claim("[expect]\nconserves = [\"energy\", \"p_theta\"]");
     with_file(&file, &["check", "system.toml"])
@@ -71,7 +71,7 @@ fn what_is_conserved_may_not_be_denied() {
     let file =
         claim("[[observables]]\nname = \"half\"\nexpression = \"energy/2\"\nconserved = false");
     with_file(&file, &["check", "system.toml"])
-        .fails(65, &["`half` is said not to be conserved, but it is"]);
+        .fails(65, &["`half` is claimed not to be conserved, but it is"]);
 }
 
 #[test]
@@ -238,7 +238,7 @@ fn a_claim_that_holds_by_a_short_run_only_is_false() {
     with_file(&barrier("[expect]\nconserves = [\"p_x\"]"), &["check", "system.toml"]).fails(
         65,
         &[
-            "`p_x` is said to be conserved, but it is not",
+            "`p_x` is claimed to be conserved, but it is not",
             "only keeps its value to rounding until t = 3",
         ],
     );
@@ -259,5 +259,5 @@ fn what_is_conserved_is_checked_until_an_event_ends_the_motion() {
     };
     with_file(&file("max(x, 0)^2*exp(-(x + 5)^2)"), &["check", "system.toml"]).success();
     with_file(&file("sin(t)*x"), &["check", "system.toml"])
-        .fails(65, &["`energy` is said to be conserved, but it is not"]);
+        .fails(65, &["`energy` is claimed to be conserved, but it is not"]);
 }

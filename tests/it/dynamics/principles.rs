@@ -58,9 +58,9 @@ fn without_forces_the_abbreviated_action_is_the_length_of_the_way() {
     assert!((found.action - speed * speed * duration).abs() < 1e-13);
     for (k, curve) in (1..).zip(&found.curves) {
         assert_eq!(curve.len(), 25);
+        let k = f64::from(k);
         for &[epsilon, rise] in curve {
-            let way =
-                |s: f64| [speed * duration * s, epsilon / k as f64 * (k as f64 * PI * s).sin()];
+            let way = |s: f64| [speed * duration * s, epsilon / k * (k * PI * s).sin()];
             let exact = speed * (chords(way)[0] - speed * duration);
             assert!((rise - exact).abs() < 1e-9, "{k} {epsilon}: {rise} is not {exact}");
         }
