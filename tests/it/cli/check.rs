@@ -53,7 +53,7 @@ fn a_false_claim_of_conservation_is_a_mistake_where_it_stands() {
     );
     let file = claim("[expect]\nconserves = [\"energy\", \"p_theta\"]");
     with_file(&file, &["check", "system.toml"])
-        .fails(65, &["`p_theta` is said to be conserved", "1 mistake"]);
+        .fails(65, &["`p_theta` is claimed to be conserved", "1 mistake"]);
 }
 
 #[test]
