@@ -87,14 +87,15 @@ fn text(study: &Study, map: &FlowMap) -> String {
     if let (Some(found), Some(expected)) = (map.determinant, map.determinant_expected) {
         text.push_str(&format!("det M = {}, expected {}\n", shown(found), shown(expected)));
     }
-    match (map.symplectic_residual, map.symplectic_rounding) {
-        (Some(residual), Some(rounding)) => text.push_str(&format!(
-            "largest entry of |M𝕁Mᵀ − 𝕁|: {residual:.1e}, of which rounding may be {rounding:.0e}\n"
-        )),
-        (Some(residual), None) => text.push_str(&format!(
-            "largest entry of |Mᵀ𝕁M − Pᵀ𝕁P|, P the projection onto them: {residual:.1e}\n"
-        )),
-        _ => {}
+    if let (Some(residual), Some(rounding)) = (map.symplectic_residual, map.symplectic_rounding) {
+        let form = if study.space.is_constrained() {
+            "|Mᵀ𝕁M − Pᵀ𝕁P|, P the projection onto them"
+        } else {
+            "|M𝕁Mᵀ − 𝕁|"
+        };
+        text.push_str(&format!(
+            "largest entry of {form}: {residual:.1e}, of which rounding may be {rounding:.0e}\n"
+        ));
     }
     text
 }

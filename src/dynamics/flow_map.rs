@@ -45,8 +45,8 @@ pub struct FlowMap {
     /// The largest entry of |M𝕁Mᵀ − 𝕁|, under constraints of |Mᵀ𝕁M − Pᵀ𝕁P|; `None` if the variables are not canonical, or
     /// no form is preserved on the constraints.
     pub symplectic_residual: Option<f64>,
-    /// What rounding may leave of it: that of M at the end, and that of every step, amplified by the flow after it; `None`
-    /// under constraints.
+    /// What rounding may leave of it: that of M at the end, and that of every step, amplified by the flow after it; under
+    /// constraints that of M and P alone.
     pub symplectic_rounding: Option<f64>,
     /// The step or tolerance used.
     pub settings: Settings,
@@ -112,8 +112,8 @@ pub fn flow_map(
             dimension,
             determinant: preserved.map(|(_, determinant)| determinant),
             determinant_expected: preserved.map(|_| 1.0),
-            symplectic_residual: preserved.map(|(residual, _)| residual),
-            symplectic_rounding: None,
+            symplectic_residual: preserved.map(|((residual, _), _)| residual),
+            symplectic_rounding: preserved.map(|((_, rounding), _)| rounding),
             state,
             matrix,
             settings: carrier.settings(),
@@ -145,22 +145,30 @@ pub fn flow_map(
     })
 }
 
-/// The largest entry of |Mᵀ𝕁M − Pᵀ𝕁P|, and the factor by which M changes the volume that the form 𝕁 defines on the
-/// displacements of this dimension that P allows: √(det Mᵀ𝕁M/det Pᵀ𝕁P) in a basis of them.
-fn on_constraints(matrix: &DMatrix<f64>, allowed: &DMatrix<f64>, dimension: usize) -> (f64, f64) {
+/// The largest entry of |Mᵀ𝕁M − Pᵀ𝕁P| with what rounding may leave of that entry, ε times its entry of |M|ᵀ|𝕁||M| + |P|ᵀ|𝕁||P|:
+/// entries have units. Then the factor by which M changes the volume that the form 𝕁 defines on the displacements of this
+/// dimension that P allows: √(det Mᵀ𝕁M/det Pᵀ𝕁P) in a basis of them.
+fn on_constraints(
+    matrix: &DMatrix<f64>,
+    allowed: &DMatrix<f64>,
+    dimension: usize,
+) -> ((f64, f64), f64) {
     let n = matrix.nrows() / 2;
-    let form = |of: &DMatrix<f64>| {
-        let unit = DMatrix::from_fn(2 * n, 2 * n, |i, j| {
-            f64::from(i8::from(j == i + n) - i8::from(i == j + n))
-        });
-        of.transpose() * unit * of
-    };
+    let unit = DMatrix::from_fn(2 * n, 2 * n, |i, j| {
+        f64::from(i8::from(j == i + n) - i8::from(i == j + n))
+    });
+    let form = |of: &DMatrix<f64>| of.transpose() * &unit * of;
+    let sizes = |of: &DMatrix<f64>| of.abs().transpose() * unit.abs() * of.abs();
     let (after, before) = (form(matrix), form(allowed));
-    let residual = (&after - &before).amax();
+    let off = (&after - &before).abs();
+    let bounds = (sizes(matrix) + sizes(allowed)) * f64::EPSILON;
+    let residual = off.amax();
+    let of_the_largest = off.iter().zip(&bounds).filter(|(entry, _)| **entry == residual);
+    let rounding = of_the_largest.map(|(_, &bound)| bound).fold(f64::INFINITY, f64::min);
     // displacements whose images under P are independent: columns of the unit matrix, as pivoting chooses them
     let mut chosen = DMatrix::identity(2 * n, 2 * n);
     allowed.clone().col_piv_qr().p().permute_columns(&mut chosen);
     let basis = chosen.columns(0, dimension);
     let volume = |form: &DMatrix<f64>| (basis.transpose() * form * basis).determinant();
-    (residual, (volume(&after) / volume(&before)).sqrt())
+    ((residual, rounding), (volume(&after) / volume(&before)).sqrt())
 }

@@ -66,6 +66,25 @@ fn a_pendulum_on_a_rod_has_the_tangent_map_of_its_angle() {
     assert!(found.symplectic_residual.unwrap() < 1e-13);
 }
 
+/// Entries of the form have units: in those of atoms and of galaxies they are 1e13 and 1e22, and so is their rounding.
+#[test]
+fn the_residual_of_the_form_is_its_rounding_in_any_units() {
+    for [m, l, w] in [[1.0, 1.0, 1.0], [1e-30, 5e-11, 1e17], [1e40, 1e19, 1e-17]] {
+        let text = format!(
+            "title = \"t\"\n[coordinates]\nx = {{ initial = \"l*sin(0.7)\", velocity = \"1.3*w*l*cos(0.7)\" }}\n\
+             y = {{ initial = \"-l*cos(0.7)\", velocity = \"1.3*w*l*sin(0.7)\" }}\n\
+             [parameters]\nm = {m:e}\nl = {l:e}\nw = {w:e}\n\
+             [lagrangian]\nL = \"1/2*m*(x'^2 + y'^2) - m*w^2*l*y\"\n\
+             [[constraints]]\nname = \"rod\"\nexpression = \"x^2 + y^2 - l^2\"\n"
+        );
+        let found = map(&held(&text), 3.0 / w);
+        let (residual, rounding) =
+            (found.symplectic_residual.unwrap(), found.symplectic_rounding.unwrap());
+        assert!(residual < 10.0 * rounding, "{m:e}: {residual:e} {rounding:e}");
+        assert!((found.determinant.unwrap() - 1.0).abs() < 1e-13, "{m:e}");
+    }
+}
+
 #[test]
 fn two_rods_have_the_tangent_map_of_two_angles() {
     let rods = "title = \"t\"\n[coordinates]\nx1 = { initial = \"sin(a)\", velocity = 0 }\n\
