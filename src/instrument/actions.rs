@@ -7,6 +7,7 @@
 
 use std::sync::Arc;
 
+use super::motion_state::MotionState;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, Present, Sign, Upwards,
@@ -158,19 +159,8 @@ impl Instrument for ActionsPlot {
     }
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
-        let Physics { model, system, .. } = present.physics;
-        let Some(channel) = plot.column(0) else { return Need::Nothing };
-        let ChannelKind::Position(coordinate) = system.channels()[channel].kind else {
-            return Need::Nothing;
-        };
-        let degrees = model.coordinates.len();
-        let values = |kind: fn(usize) -> ChannelKind| -> Vec<f64> {
-            let of = |i| present.physics.channel(kind(i)).map_or(f64::NAN, |c| present.value(c));
-            (0..degrees).map(of).collect()
-        };
-        let (positions, momenta) = (values(ChannelKind::Position), values(ChannelKind::Momentum));
-        let (parameters, initial) = (present.parameters.to_vec(), present.initial.to_vec());
-        let time = present.time;
+        let Some(state) = MotionState::of(plot, present) else { return Need::Nothing };
+        let MotionState { coordinate, time, parameters, initial, positions, momenta } = state;
         let known = computed(answer).filter(|known| known.coordinate == coordinate);
         let same = known.filter(|known| known.parameters == parameters && known.initial == initial);
         if same.is_some_and(|known| known.holds_at(time)) {
@@ -178,7 +168,7 @@ impl Instrument for ActionsPlot {
         }
         let held = known.map(|known| known.held.clone());
         let past = same.map_or_else(Vec::new, |known| known.past.clone());
-        let model = Arc::clone(model);
+        let model = Arc::clone(present.physics.model);
         Need::Job(Job::new("actions", move |progress: &Progress| {
             let held = held.clone().unwrap_or_else(|| {
                 HeldSystem::of(&model, coordinate, SETTINGS, progress.token())
