@@ -95,8 +95,9 @@ impl Pool {
 
     /// Replaces symbols by expressions, all simultaneously.
     pub fn substitute(&mut self, e: Expr, replacements: &HashMap<Symbol, Expr>) -> Expr {
+        let set = SymbolSet::of_all(replacements.keys().copied());
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
-        for part in self.reachable(&[e]) {
+        for part in self.reachable_until(&[e], |part| !self.may_hold(part, set)) {
             if self.is_stopped() {
                 return e;
             }
@@ -106,7 +107,7 @@ impl Pool {
             };
             done.insert(part, replaced);
         }
-        done[&e]
+        done.get(&e).copied().unwrap_or(e)
     }
 }
 

@@ -31,18 +31,24 @@ impl Pool {
     fn expand_top(&mut self, e: Expr, most: usize) -> Expr {
         let shared = self.shared(e);
         let (c, factors) = match &*shared {
-            Node::Product(c, factors) => (*c, factors.to_vec()),
+            Node::Product(c, factors) => (*c, factors),
             Node::Sum(constant, terms) => {
-                let terms: Vec<(Number, Expr)> =
+                let expanded: Vec<(Number, Expr)> =
                     terms.iter().map(|&(c, t)| (c, self.expand_top(t, most))).collect();
-                return self.linear(*constant, &terms);
+                if *expanded == **terms {
+                    return e;
+                }
+                return self.linear(*constant, &expanded);
             }
             _ => return e,
         };
+        if !factors.iter().any(|&(base, _)| matches!(self.node(base), Node::Sum(..))) {
+            return e;
+        }
         let mut single: Vec<(Expr, Number)> = Vec::new();
         let mut sums: Vec<Expr> = Vec::new();
         let mut size = 1_usize;
-        for &(base, n) in &factors {
+        for &(base, n) in factors {
             match (self.node(base), n.as_integer()) {
                 (Node::Sum(_, terms), Some(k @ 1..=12)) => {
                     for _ in 0..k {
@@ -163,28 +169,33 @@ impl Pool {
     /// Replaces `cos²u → 1 − sin²u` and `cosh²u → 1 + sinh²u` in an expanded expression, and
     /// multiplies out again.
     pub(super) fn reduce_squares(&mut self, e: Expr, most: usize) -> Expr {
-        let mut terms = Vec::new();
-        for (c, term) in self.summands(e) {
-            let factors = match &*self.shared(term) {
-                Node::Product(k, factors) if k.is_one() => factors.to_vec(),
-                _ => vec![(term, Number::ONE)],
+        let mut terms = self.summands(e);
+        let mut any = false;
+        for (_, term) in &mut terms {
+            let shared = self.shared(*term);
+            let factors = match &*shared {
+                Node::Product(k, factors) if k.is_one() => factors,
+                _ => &[(*term, Number::ONE)][..],
             };
             let mut reduced = Vec::new();
-            let mut changed = false;
-            for (base, n) in factors {
-                let Some((square, k)) = self.square_of(base, n) else {
+            for (i, &(base, n)) in factors.iter().enumerate() {
+                if let Some((square, k)) = self.square_of(base, n) {
+                    if reduced.is_empty() {
+                        reduced.extend_from_slice(&factors[..i]);
+                    }
+                    reduced.push((square, Number::integer(k.div_euclid(2))));
+                    reduced.push((base, Number::integer(k.rem_euclid(2))));
+                } else if !reduced.is_empty() {
                     reduced.push((base, n));
-                    continue;
-                };
-                changed = true;
-                reduced.push((square, Number::integer(k.div_euclid(2))));
-                reduced.push((base, Number::integer(k.rem_euclid(2))));
+                }
             }
-            let term = if changed { self.monomial(Number::ONE, &reduced) } else { term };
-            let term = if changed { self.expand_top(term, most) } else { term };
-            terms.push((c, term));
+            if !reduced.is_empty() {
+                let product = self.monomial(Number::ONE, &reduced);
+                *term = self.expand_top(product, most);
+                any = true;
+            }
         }
-        self.linear(Number::ZERO, &terms)
+        if any { self.linear(Number::ZERO, &terms) } else { e }
     }
 
     /// For `cos^n u`, `n ≥ 2`: `cos²u` in terms of sines, and `n`. Likewise for `cosh`.

@@ -19,11 +19,11 @@ impl Syntax {
 
     /// Returns whether the source text is in plain form already: every factor after the first stands behind a `*` or
     /// `/`, every argument in parentheses. `has_e`: the name `e` is one of the file's own, not Euler's number.
-    pub fn is_plain(&self, source: &str, has_e: bool) -> bool {
+    pub fn is_plain(&self, source: &str, has_e: &dyn Fn() -> bool) -> bool {
         source.is_ascii() && self.is_plain_inside(source, has_e)
     }
 
-    fn is_plain_inside(&self, source: &str, has_e: bool) -> bool {
+    fn is_plain_inside(&self, source: &str, has_e: &dyn Fn() -> bool) -> bool {
         let between = |left: &Syntax, right: &Syntax| {
             source[left.span.end..right.span.start].trim_matches(|c: char| c != '*' && c != '/')
         };
@@ -39,7 +39,7 @@ impl Syntax {
                 let euler = matches!(&base.kind, SyntaxKind::Name(name, 0) if name == "e");
                 // the power of sin^2(x) stands inside
                 let inside = exponent.span.start < base.span.end;
-                (has_e || !euler)
+                (!euler || has_e())
                     && !inside
                     && base.is_plain_inside(source, has_e)
                     && exponent.is_plain_inside(source, has_e)

@@ -26,8 +26,9 @@ pub struct Pool {
     measures: Vec<NodeMeasure>,
     /// The handles, found by the hashes of their nodes.
     index: HashTable<Expr>,
-    symbols: Vec<SymbolInfo>,
-    names: FxHashMap<String, Symbol>,
+    /// The symbols and their names, which clones share until one of them adds to them.
+    symbols: Arc<Vec<SymbolInfo>>,
+    names: Arc<FxHashMap<String, Symbol>>,
     size: usize,
     full: bool,
     cancel: Cancel,
@@ -49,8 +50,8 @@ impl Pool {
             nodes: Vec::new(),
             measures: Vec::new(),
             index: HashTable::new(),
-            symbols: Vec::new(),
-            names: FxHashMap::default(),
+            symbols: Arc::default(),
+            names: Arc::default(),
             size: 0,
             full: false,
             cancel: Cancel::new(),
@@ -64,7 +65,7 @@ impl Pool {
 
     /// A pool with the same symbols and no other expression.
     pub(super) fn with_the_same_symbols(&self) -> Pool {
-        Pool { symbols: self.symbols.clone(), names: self.names.clone(), ..Pool::new() }
+        Pool { symbols: Arc::clone(&self.symbols), names: Arc::clone(&self.names), ..Pool::new() }
     }
 
     /// Radicands of even roots that powers have removed, such as x in (√x)². They are nonnegative
@@ -153,8 +154,8 @@ impl Pool {
             rank: Rank::Constant,
         };
         let symbol = Symbol(self.symbols.len() as u32);
-        self.symbols.push(info);
-        self.names.insert(name.to_owned(), symbol);
+        Arc::make_mut(&mut self.symbols).push(info);
+        Arc::make_mut(&mut self.names).insert(name.to_owned(), symbol);
         symbol
     }
 
@@ -173,9 +174,14 @@ impl Pool {
         &self.symbols[symbol.index()]
     }
 
+    /// The notations of all symbols as they are now, in the order of introduction.
+    pub fn symbol_infos(&self) -> Arc<Vec<SymbolInfo>> {
+        Arc::clone(&self.symbols)
+    }
+
     /// Changes the Unicode and LaTeX notation of a symbol; its name stays the same.
     pub fn describe(&mut self, symbol: Symbol, unicode: &str, latex: &str, rank: Rank) {
-        let info = &mut self.symbols[symbol.index()];
+        let info = &mut Arc::make_mut(&mut self.symbols)[symbol.index()];
         unicode.clone_into(&mut info.unicode);
         latex.clone_into(&mut info.latex);
         info.rank = rank;

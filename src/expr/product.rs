@@ -57,28 +57,24 @@ impl Pool {
         loop {
             self.note_roots(&factors);
             merge(&mut factors);
-            let mut settled = true;
-            let mut next: Vec<Factor> = Vec::with_capacity(factors.len());
-            for &(base, exponent) in &factors {
-                match self.settle(base, exponent) {
-                    None => next.push((base, exponent)),
-                    Some((c, _))
-                        if !exponent.is_one()
-                            && matches!(self.node(base), Node::Product(..) | Node::Sum(..))
-                            && leaves_range(coefficient, c) =>
-                    {
-                        next.push((base, exponent));
-                    }
-                    Some((c, opened)) => {
-                        coefficient = coefficient * c;
-                        next.extend(opened);
-                        settled = false;
-                    }
+            // the factors anew, from the first that is rewritten on
+            let mut next: Option<Vec<Factor>> = None;
+            for (i, &(base, exponent)) in factors.iter().enumerate() {
+                let opened = self.settle(base, exponent).filter(|(c, _)| {
+                    exponent.is_one()
+                        || !matches!(self.node(base), Node::Product(..) | Node::Sum(..))
+                        || !leaves_range(coefficient, *c)
+                });
+                if let Some((c, opened)) = opened {
+                    coefficient = coefficient * c;
+                    next.get_or_insert_with(|| factors[..i].to_vec()).extend(opened);
+                } else if let Some(next) = &mut next {
+                    next.push((base, exponent));
                 }
             }
-            settled &= !self.join_exponentials(&mut next);
-            factors = next;
-            if settled {
+            let opened = next.is_some();
+            factors = next.unwrap_or(factors);
+            if !self.join_exponentials(&mut factors) && !opened {
                 break;
             }
         }
@@ -123,6 +119,9 @@ impl Pool {
     /// Rewrites a factor that is not canonical under its exponent: `Some((c, factors))` means
     /// `base^exponent = c · Π factors`, `None` that the factor stays.
     fn settle(&mut self, base: Expr, exponent: Number) -> Option<(Number, Vec<Factor>)> {
+        if let Node::Symbol(_) | Node::Pi = self.node(base) {
+            return None;
+        }
         let integer = exponent.as_integer();
         match &*self.shared(base) {
             Node::Number(n) => self.settle_number(*n, exponent),
@@ -235,18 +234,17 @@ fn is_root(exponent: Number) -> bool {
 /// Sorts by base and adds the exponents of equal bases.
 fn merge(factors: &mut Vec<Factor>) {
     factors.sort_unstable_by_key(|&(base, _)| base);
-    let mut merged: Vec<Factor> = Vec::with_capacity(factors.len());
-    for &(base, exponent) in factors.iter() {
-        match merged.last_mut() {
-            Some((last, total)) if *last == base => *total = *total + exponent,
-            _ => merged.push((base, exponent)),
+    factors.dedup_by(|&mut (base, exponent), (last, total)| {
+        let is_equal = *last == base;
+        if is_equal {
+            *total = *total + exponent;
         }
-    }
-    for (_, exponent) in &mut merged {
+        is_equal
+    });
+    for (_, exponent) in factors.iter_mut() {
         *exponent = exponent.canonical();
     }
-    merged.retain(|(_, exponent)| !exponent.is_zero());
-    *factors = merged;
+    factors.retain(|(_, exponent)| !exponent.is_zero());
 }
 
 /// The factor to be taken out of a sum: the common divisor of its coefficients and, if `signed`,

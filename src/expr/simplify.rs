@@ -110,15 +110,13 @@ impl Pool {
         if !constant.is_zero() {
             return e;
         }
-        let lists: Vec<Vec<(Expr, Number)>> = terms
-            .iter()
-            .map(|&(_, term)| match self.node(term) {
-                Node::Product(k, factors) if k.is_one() => factors.to_vec(),
-                _ => vec![(term, Number::ONE)],
-            })
-            .collect();
-        let mut common = lists[0].clone();
-        for list in &lists[1..] {
+        let mut common = self.factors_of(terms[0].1);
+        for &(_, term) in &terms[1..] {
+            let alone = [(term, Number::ONE)];
+            let list = match self.node(term) {
+                Node::Product(k, factors) if k.is_one() => &**factors,
+                _ => &alone,
+            };
             common.retain_mut(|(base, n)| match list.iter().find(|(b, _)| b == base) {
                 Some((_, m)) if m.is_negative() == n.is_negative() => {
                     *n = if n.is_negative() { (*n).max(*m) } else { (*n).min(*m) };
@@ -126,16 +124,15 @@ impl Pool {
                 }
                 _ => false,
             });
-        }
-        if common.is_empty() {
-            return e;
+            if common.is_empty() {
+                return e;
+            }
         }
         let inverse: Vec<(Expr, Number)> = common.iter().map(|&(b, n)| (b, -n)).collect();
         let inner: Vec<(Number, Expr)> = terms
             .iter()
-            .zip(&lists)
-            .map(|(&(c, _), list)| {
-                let mut list = list.clone();
+            .map(|&(c, term)| {
+                let mut list = self.factors_of(term);
                 list.extend_from_slice(&inverse);
                 (c, self.monomial(Number::ONE, &list))
             })
@@ -144,5 +141,13 @@ impl Pool {
         let inner = self.join_terms(inner);
         common.push((inner, Number::ONE));
         self.monomial(Number::ONE, &common)
+    }
+
+    /// The factors of a term of a sum; what is not a product is its own only factor.
+    fn factors_of(&self, term: Expr) -> Vec<(Expr, Number)> {
+        match self.node(term) {
+            Node::Product(k, factors) if k.is_one() => factors.to_vec(),
+            _ => vec![(term, Number::ONE)],
+        }
     }
 }

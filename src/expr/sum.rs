@@ -34,42 +34,46 @@ impl Pool {
     /// `constant + Σ coefficient · expression`, the general constructor of sums.
     pub fn linear(&mut self, constant: Number, parts: &[(Number, Expr)]) -> Expr {
         let mut constant = constant;
-        let mut terms: Vec<(Expr, Number)> = Vec::with_capacity(parts.len());
+        let mut terms: Vec<(Number, Expr)> = Vec::with_capacity(parts.len());
         for &(c, e) in parts {
             if c.is_zero() {
+                continue;
+            }
+            if let Node::Symbol(_) | Node::Call(..) = self.node(e) {
+                terms.push((c, e));
                 continue;
             }
             match &*self.shared(e) {
                 Node::Number(n) => constant = constant + c * *n,
                 Node::Sum(inner, list) => {
                     constant = constant + c * *inner;
-                    terms.extend(list.iter().map(|&(k, t)| (t, c * k)));
+                    terms.extend(list.iter().map(|&(k, t)| (c * k, t)));
                 }
                 Node::Product(k, factors) if !k.is_one() => {
                     let bare = self.finish_product(Number::ONE, factors.to_vec());
-                    terms.push((bare, c * *k));
+                    terms.push((c * *k, bare));
                 }
-                _ => terms.push((e, c)),
+                _ => terms.push((c, e)),
             }
         }
-        terms.sort_unstable_by_key(|&(e, _)| e);
-        let mut merged: Vec<(Number, Expr)> = Vec::with_capacity(terms.len());
-        for (e, c) in terms {
-            match merged.last_mut() {
-                Some((total, last)) if *last == e => *total = *total + c,
-                _ => merged.push((c, e)),
+        terms.sort_unstable_by_key(|&(_, e)| e);
+        terms.dedup_by(|&mut (c, e), (total, last)| {
+            let is_equal = *last == e;
+            if is_equal {
+                *total = *total + c;
             }
-        }
+            is_equal
+        });
         // sums of reals may equal a number that has an exact form: 1 − 1e-22 is the number one
         let constant = constant.canonical();
-        for (c, _) in &mut merged {
+        for (c, _) in &mut terms {
             *c = c.canonical();
         }
-        merged.retain(|(c, _)| !c.is_zero());
-        match merged.as_slice() {
+        terms.retain(|(c, _)| !c.is_zero());
+        match terms.as_slice() {
             [] => self.number(constant),
             &[(c, e)] if constant.is_zero() => self.scaled_term(c, e),
-            _ => self.intern(Node::Sum(constant, merged.into_boxed_slice())),
+            _ => self.intern(Node::Sum(constant, terms.into_boxed_slice())),
         }
     }
 

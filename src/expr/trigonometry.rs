@@ -1,14 +1,12 @@
 //! Combining two terms of a sum: `R cos²u + R sin²u → R`, `R − R sin²u → R cos²u`, the hyperbolic
 //! analogues, and the addition theorems in reverse, `R cos a cos b + R sin a sin b → R cos(a − b)`.
 
-use rustc_hash::FxHashMap;
-
 use super::node::{Expr, FunctionId, Node};
 use super::pool::Pool;
 use crate::num::Number;
 
-/// The terms of a sum with their coefficients.
-type Terms = FxHashMap<Expr, Number>;
+/// The terms of a sum with their coefficients, as [`Pool::summands`] lists them.
+type Terms = [(Number, Expr)];
 /// Another term of the sum, and the term that results from combining it with the first.
 type Join = (Expr, (Number, Expr));
 
@@ -28,9 +26,9 @@ impl Pool {
         if terms.len() < 2 {
             return None;
         }
-        let all: Terms = terms.iter().map(|&(c, t)| (t, c)).collect();
         for &(c, term) in &terms {
-            let join = self.join_square(term, c, &all).or_else(|| self.join_angles(term, c, &all));
+            let join =
+                self.join_square(term, c, &terms).or_else(|| self.join_angles(term, c, &terms));
             if let Some((other, joined)) = join {
                 let mut left: Vec<(Number, Expr)> =
                     terms.iter().copied().filter(|&(_, t)| t != term && t != other).collect();
@@ -45,7 +43,8 @@ impl Pool {
     /// combine it with.
     fn join_square(&mut self, term: Expr, c: Number, all: &Terms) -> Option<Join> {
         use FunctionId::{Cos, Cosh, Sin, Sinh};
-        let factors = self.plain_factors(term)?;
+        let shared = self.shared(term);
+        let factors = plain_factors(&shared)?;
         for (i, &(base, n)) in factors.iter().enumerate() {
             if n.as_integer().is_none_or(|n| n < 2) {
                 continue;
@@ -60,18 +59,18 @@ impl Pool {
                 _ => continue,
             };
             let u = u[0];
-            let mut rest = factors.clone();
+            let mut rest = factors.to_vec();
             rest[i].1 = n + Number::integer(-2);
             let rest = self.monomial(Number::ONE, &rest);
             let call = self.call(partner, &[u]);
             let squared = [(call, Number::integer(2)), (rest, Number::ONE)];
             let partner = self.monomial(Number::ONE, &squared);
             // c f² + d g² = c a for d = −c b
-            if all.get(&partner).is_some_and(|&d| (c * b + d).is_zero()) {
+            if coefficient(all, partner).is_some_and(|d| (c * b + d).is_zero()) {
                 return Some((partner, (c * a, rest)));
             }
             // c f² + d = c b g² for d = −c a
-            if all.get(&rest).is_some_and(|&d| (c * a + d).is_zero()) {
+            if coefficient(all, rest).is_some_and(|d| (c * a + d).is_zero()) {
                 return Some((rest, (c * b, partner)));
             }
         }
@@ -82,7 +81,8 @@ impl Pool {
     /// with.
     fn join_angles(&mut self, term: Expr, c: Number, all: &Terms) -> Option<Join> {
         use FunctionId::{Cos, Sin};
-        let factors = self.plain_factors(term)?;
+        let shared = self.shared(term);
+        let factors = plain_factors(&shared)?;
         let circular: Vec<(usize, FunctionId, Expr)> = factors
             .iter()
             .enumerate()
@@ -99,7 +99,7 @@ impl Pool {
                     continue;
                 }
                 let (f_partner, g_partner) = if f == Cos { (Sin, Sin) } else { (Cos, Sin) };
-                let mut rest = factors.clone();
+                let mut rest = factors.to_vec();
                 for k in [i, j] {
                     rest[k].1 = rest[k].1 + Number::MINUS_ONE;
                 }
@@ -107,7 +107,7 @@ impl Pool {
                 let f_partner = self.call(f_partner, &[a]);
                 let g_partner = self.call(g_partner, &[b]);
                 let other = self.product(&[f_partner, g_partner, rest]);
-                let Some(&d) = all.get(&other) else { continue };
+                let Some(d) = coefficient(all, other) else { continue };
                 // cos a cos b ± sin a sin b = cos(a ∓ b), sin a cos b ± cos a sin b = sin(a ± b)
                 let plus = match (d == c, d == -c) {
                     (true, _) => f == Sin,
@@ -121,12 +121,24 @@ impl Pool {
         }
         None
     }
+}
 
-    /// The factors of a product that has no coefficient.
-    fn plain_factors(&self, term: Expr) -> Option<Vec<(Expr, Number)>> {
-        match self.node(term) {
-            Node::Product(c, factors) if c.is_one() => Some(factors.to_vec()),
-            _ => None,
-        }
+/// The factors of a product that has no coefficient.
+fn plain_factors(term: &Node) -> Option<&[(Expr, Number)]> {
+    match term {
+        Node::Product(c, factors) if c.is_one() => Some(factors),
+        _ => None,
     }
+}
+
+/// The coefficient of a term: they ascend, but for the constant at the end.
+fn coefficient(all: &Terms, term: Expr) -> Option<Number> {
+    let (ascending, constant) = match all {
+        [ascending @ .., (c, Expr::ONE)] => (ascending, Some(*c)),
+        _ => (all, None),
+    };
+    if term == Expr::ONE {
+        return constant;
+    }
+    ascending.binary_search_by_key(&term, |&(_, t)| t).ok().map(|i| ascending[i].0)
 }

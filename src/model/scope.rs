@@ -6,11 +6,17 @@ mod meaning;
 mod notation;
 mod plain;
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::cell::OnceCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use rustc_hash::FxHashMap;
 
 use super::{Attitude, BodyNames, Mechanics, Model, multiplier_name};
 use crate::diagnostic::nearest;
-use crate::expr::{Expr, FUNCTIONS, Node, Pool, Resolve, Span, Symbol, SyntaxError, parse_all};
+use crate::expr::{
+    Expr, FUNCTIONS, Node, Pool, Resolve, Span, Symbol, SymbolInfo, SyntaxError, parse_all,
+};
 
 pub use allowed::Allowed;
 
@@ -31,10 +37,12 @@ pub struct Scope {
     allowed: Allowed,
     place: String,
     names: BTreeMap<String, Meaning>,
-    kinds: HashMap<Symbol, SymbolRole>,
-    offenders: HashMap<Expr, Option<Symbol>>,
-    /// The names as the screen shows them.
-    shown: ShownNames,
+    kinds: FxHashMap<Symbol, SymbolRole>,
+    offenders: FxHashMap<Expr, Option<Symbol>>,
+    /// How the symbols of the model are shown.
+    infos: Arc<Vec<SymbolInfo>>,
+    /// The names as the screen shows them, once something is not a name of the file.
+    shown: OnceCell<ShownNames>,
     /// The plain form of the last expression read, if it was written in the notation of the screen.
     pub plain: Option<String>,
     /// The number of mistakes found, including those that are not reported.
@@ -52,7 +60,7 @@ impl Scope {
     /// place as `place`: "the Lagrangian", "an initial value".
     pub fn new(model: &Model, allowed: Allowed, place: &str) -> Scope {
         let mut names = BTreeMap::new();
-        let mut kinds = HashMap::new();
+        let mut kinds = FxHashMap::default();
         let common = model.symbols;
         let mut constant = |name: &str, symbol, kind: Option<SymbolRole>| {
             names.insert(name.to_owned(), Meaning::Symbol(symbol));
@@ -109,15 +117,15 @@ impl Scope {
         for o in &model.observables {
             names.entry(o.name.clone()).or_insert(Meaning::Defined(o.expression));
         }
-        let shown = ShownNames::of(model, &names);
         Scope {
-            shown,
+            infos: model.pool.symbol_infos(),
+            shown: OnceCell::new(),
             plain: None,
             allowed,
             place: place.to_owned(),
             names,
             kinds,
-            offenders: HashMap::new(),
+            offenders: FxHashMap::default(),
             mistake_count: 0,
             poisson: model.is_poisson(),
             mistakes: Vec::new(),
@@ -134,6 +142,7 @@ impl Scope {
     /// Adds a name for an expression (a definition, an earlier observable, the parameter of a
     /// path).
     pub fn define(&mut self, name: &str, e: Expr) {
+        self.shown.take();
         self.names.insert(name.to_owned(), Meaning::Defined(e));
     }
 
@@ -145,7 +154,13 @@ impl Scope {
     /// Adds a name that is defined further down. Until [`Scope::define`] gives it a meaning, its
     /// use is reported as a mistake of its own kind.
     pub fn announce(&mut self, name: &str) {
+        self.shown.take();
         self.names.entry(name.to_owned()).or_insert(Meaning::Later);
+    }
+
+    /// The names as the screen shows them.
+    fn shown(&self) -> &ShownNames {
+        self.shown.get_or_init(|| ShownNames::of(&self.infos, &self.names))
     }
 
     /// Returns whether a name is known here, whether or not it may be used.
@@ -393,7 +408,7 @@ impl Resolve for Scope {
     }
 
     fn is_variable(&self, name: &str) -> bool {
-        self.knows(name) || self.shown.has(name)
+        self.knows(name) || self.shown().has(name)
     }
 
     fn is_constant(&self, name: &str) -> bool {

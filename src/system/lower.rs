@@ -2,8 +2,9 @@
 //! subexpressions share a register, and operations that depend only on parameters are collected
 //! separately.
 
-use std::collections::HashMap;
 use std::sync::Arc;
+
+use rustc_hash::FxHashMap;
 
 use super::program::{Block, Guard, Op, Program, Register, Term};
 use crate::expr::{Expr, FunctionId, Pool, Symbol};
@@ -15,10 +16,10 @@ pub(super) struct Lowering<'a> {
     pub(super) pool: &'a mut Pool,
     pub(super) program: Program,
     /// The register of every expression lowered, and of every symbol bound.
-    pub(super) known: HashMap<Expr, Register>,
+    pub(super) known: FxHashMap<Expr, Register>,
     /// The register of every operation emitted: equal operations share one.
-    written: HashMap<Op, Register>,
-    constants: HashMap<(u64, u64), u32>,
+    written: FxHashMap<Op, Register>,
+    constants: FxHashMap<(u64, u64), u32>,
     /// The expression of each switch.
     pub(super) switches: Vec<Expr>,
     pub(super) unknown: Option<Symbol>,
@@ -32,9 +33,9 @@ impl<'a> Lowering<'a> {
         let mut lowering = Lowering {
             pool,
             program: Program::default(),
-            known: HashMap::new(),
-            written: HashMap::new(),
-            constants: HashMap::new(),
+            known: FxHashMap::default(),
+            written: FxHashMap::default(),
+            constants: FxHashMap::default(),
             switches: Vec::new(),
             unknown: None,
             cuts: false,

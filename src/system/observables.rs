@@ -1,8 +1,9 @@
 //! The list of channels, and the programs that compute them: one in double-double for tables and
 //! diagnostics, one in `f64` for drawing only.
 
-use std::collections::HashMap;
 use std::sync::Arc;
+
+use rustc_hash::FxHashMap;
 
 use super::channel::{Channel, ChannelKind};
 use super::image::ImageProgram;
@@ -21,7 +22,7 @@ pub(super) struct Observables {
     /// The number of leading channels that are the columns of a run.
     pub(super) columns: usize,
     /// The channel of each expression.
-    pub(super) index: HashMap<Expr, usize>,
+    pub(super) index: FxHashMap<Expr, usize>,
     /// The leading channels, as functions of (q, native rates, action, work).
     pub(super) precise: Arc<Program>,
     /// The other channels, of the same inputs.
@@ -35,7 +36,7 @@ pub(super) struct Observables {
 pub(super) struct ObservableList {
     channels: Vec<Channel>,
     expressions: Vec<Option<Expr>>,
-    index: HashMap<Expr, usize>,
+    index: FxHashMap<Expr, usize>,
     columns: usize,
     precise: usize,
 }

@@ -13,7 +13,7 @@
 //! The first phase needs nothing of order k, so no number is loaded right after it was stored. Where
 //! the slope of the left operand of a convolution enters, its terms are j a_j.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::finishing_pass::{
     Integral, Product, Related, Run, Scale, Sign, Solution, Sorter, Step, Sum,
@@ -122,8 +122,8 @@ impl Schedule {
             program,
             schedule: Schedule::default(),
             sorter: Sorter::new(program.ops.len()),
-            pairs: HashMap::new(),
-            slopes: HashMap::new(),
+            pairs: FxHashMap::default(),
+            slopes: FxHashMap::default(),
         };
         for &register in &program.body {
             writer.write(register);
@@ -137,12 +137,16 @@ struct ScheduleWriter<'a> {
     schedule: Schedule,
     sorter: Sorter,
     /// The places of pairs and of slopes.
-    pairs: HashMap<Pair, u32>,
-    slopes: HashMap<Register, u32>,
+    pairs: FxHashMap<Pair, u32>,
+    slopes: FxHashMap<Register, u32>,
 }
 
 /// The place of a register in a list, to which it is added where it is new.
-fn place(list: &mut Vec<Register>, known: &mut HashMap<Register, u32>, register: Register) -> u32 {
+fn place(
+    list: &mut Vec<Register>,
+    known: &mut FxHashMap<Register, u32>,
+    register: Register,
+) -> u32 {
     *known.entry(register).or_insert_with(|| {
         list.push(register);
         list.len() as u32 - 1

@@ -8,8 +8,9 @@
 //! The rules are those of forward differentiation (A. Griewank, A. Walther, Evaluating Derivatives,
 //! SIAM 2008, chapter 3). A function with a kink has the derivative of the branch that is taken.
 
-use std::collections::HashMap;
 use std::sync::Arc;
+
+use rustc_hash::FxHashMap;
 
 use super::program::{Block, Op, PARAMETRIC_POWER_BITS, Program, Register, Term};
 use crate::expr::FunctionId;
@@ -110,9 +111,9 @@ impl Program {
 struct Builder {
     program: Program,
     /// The operations appended, so that equal ones share a register.
-    written: HashMap<Op, Register>,
+    written: FxHashMap<Op, Register>,
     /// The derivative of a function by its argument, where it is a register of its own.
-    slopes: HashMap<Register, Register>,
+    slopes: FxHashMap<Register, Register>,
 }
 
 /// A derivative: the register of its value, or `None` if it is zero.
@@ -120,7 +121,11 @@ type Delta = Option<Register>;
 
 impl Builder {
     fn new(program: &Program) -> Builder {
-        Builder { program: program.clone(), written: HashMap::new(), slopes: HashMap::new() }
+        Builder {
+            program: program.clone(),
+            written: FxHashMap::default(),
+            slopes: FxHashMap::default(),
+        }
     }
 
     /// The derivatives of all needed registers of `primal` along a vector.

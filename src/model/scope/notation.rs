@@ -1,13 +1,12 @@
 //! Names as the screen shows them (`θ₁`, `pₓ`, `φ̇₀`), which may be typed wherever the name in the file may.
 //!
-//! In: the names of a scope and how the model shows them. Out: the names in the file for a shown one. Never here: which of
+//! In: the names of a scope and how their symbols are shown. Out: the names in the file for a shown one. Never here: which of
 //! them is meant.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::meaning::Meaning;
-use crate::expr::{unicode_name, without_dots};
-use crate::model::Model;
+use crate::expr::{Symbol, SymbolInfo, unicode_name, without_dots};
 
 /// The names in the file for what the screen shows, by the shown name and its primes.
 #[derive(Clone, Debug, Default)]
@@ -16,7 +15,8 @@ pub(super) struct ShownNames {
 }
 
 impl ShownNames {
-    pub(super) fn of(model: &Model, names: &BTreeMap<String, Meaning>) -> ShownNames {
+    pub(super) fn of(infos: &[SymbolInfo], names: &BTreeMap<String, Meaning>) -> ShownNames {
+        let unicode = |symbol: Symbol| &infos[symbol.index()].unicode;
         let mut shown = ShownNames::default();
         for (name, meaning) in names {
             let symbol = match meaning {
@@ -25,11 +25,10 @@ impl ShownNames {
                 | Meaning::Other([symbol, _]) => *symbol,
                 Meaning::Defined(_) | Meaning::Later => continue,
             };
-            shown.add(&model.pool.symbol_info(symbol).unicode, name);
+            shown.add(unicode(symbol), name);
             if let Meaning::Position([_, velocity, acceleration]) = meaning {
                 for (primes, symbol) in [("'", velocity), ("''", acceleration)] {
-                    let unicode = &model.pool.symbol_info(*symbol).unicode;
-                    shown.add(unicode, &format!("{name}{primes}"));
+                    shown.add(unicode(*symbol), &format!("{name}{primes}"));
                 }
             }
         }

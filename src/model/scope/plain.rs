@@ -27,9 +27,9 @@ impl Scope {
             return Ok((name.to_owned(), primes));
         }
         let typed = primes;
-        let (found, primes) = match self.shown.find(name, primes) {
+        let (found, primes) = match self.shown().find(name, primes) {
             Some(found) => (found, 0),
-            None => match self.shown.find(name, 0) {
+            None => match self.shown().find(name, 0) {
                 Some(found) => (found, primes),
                 None => return Ok((name.to_owned(), primes)),
             },
@@ -59,12 +59,12 @@ impl Scope {
 
     /// The plain form of an expression, if it was not written so.
     pub(super) fn plain_form(&self, text: &str, syntax: &Syntax) -> Option<String> {
-        let has_e = self.names.contains_key("e") || self.shown.has("e");
-        if syntax.is_plain(text, has_e) {
+        let has_e = || self.names.contains_key("e") || self.shown().has("e");
+        if syntax.is_plain(text, &has_e) {
             return None;
         }
         Some(syntax.plain(text, &|name, primes| {
-            if name == "e" && primes == 0 && !has_e {
+            if name == "e" && primes == 0 && !has_e() {
                 return EULER.to_owned();
             }
             let (name, primes) = self
@@ -79,7 +79,7 @@ impl Scope {
         if name.len() > LONGEST_APART {
             return None;
         }
-        let known = |piece: &str| self.knows(piece) || self.shown.has(piece);
+        let known = |piece: &str| self.knows(piece) || self.shown().has(piece);
         let mut pieces: Vec<&str> = Vec::new();
         let mut rest = name;
         while !rest.is_empty() {
