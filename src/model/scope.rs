@@ -142,8 +142,9 @@ impl Scope {
     /// Adds a name for an expression (a definition, an earlier observable, the parameter of a
     /// path).
     pub fn define(&mut self, name: &str, e: Expr) {
-        self.shown.take();
-        self.names.insert(name.to_owned(), Meaning::Defined(e));
+        if self.names.insert(name.to_owned(), Meaning::Defined(e)).is_none() {
+            self.shown.take();
+        }
     }
 
     /// Allows a symbol wherever it stands.

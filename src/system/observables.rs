@@ -290,6 +290,9 @@ fn program_with(
         let image = lowering.input();
         lowering.bind(symbol, image);
     }
+    if channels.is_empty() {
+        return lowering.finish(Vec::new());
+    }
     bind_derived(&mut lowering, equations, &kkt, accelerated, &accelerations, &used);
     let energy = lowering.variable(equations.symbols.energy);
     let outputs: Vec<Register> = channels
