@@ -1,0 +1,81 @@
+//! The tables of what is observed, and of what the file claims of its motion.
+//!
+//! In: nothing. Out: their keys. Never here: whether a claim holds.
+
+use super::key::ValueKind::{Flag, Formula, List, Number, Text, Texts};
+use super::key::{AT, EXPRESSION, NAME, SOURCE, SchemaTable, WITHIN, key};
+
+pub(super) const OBSERVABLE: SchemaTable = SchemaTable {
+    head: "[[observables]]",
+    about: "Each may use those above it.",
+    keys: &[NAME, EXPRESSION, key("conserved", Flag, "a claim that it is; checked")],
+};
+
+pub(super) const EXPECT: SchemaTable = SchemaTable {
+    head: "[expect]",
+    about: "The file's own test.",
+    keys: &[
+        key("conserves", Texts, "`energy`, momenta, Casimirs, observables, expressions"),
+        key("values", List(&EXPECTED_VALUE), "values at times"),
+        key("events", List(&EXPECTED_EVENT), "when something happens"),
+        key("count", List(&EXPECTED_COUNT), "how often it happens"),
+        key("brackets", List(&EXPECTED_BRACKET), "what brackets are"),
+        key(
+            "invariants",
+            Number,
+            "how many independent constants without time are found, H among them",
+        ),
+        key("degree", Number, "up to which degree in the momenta they are searched; else 2"),
+    ],
+};
+
+/// An expected value.
+pub(in crate::preset) const EXPECTED_VALUE: SchemaTable = SchemaTable {
+    head: "`values` of [expect]",
+    about: "What an expression is at a time.",
+    keys: &[
+        key("name", Text, "what it is called"),
+        EXPRESSION,
+        AT,
+        key("is", Number, "what it is then").needed("give the number: is = 2.0"),
+        WITHIN,
+        SOURCE,
+    ],
+};
+
+/// An expected event.
+pub(in crate::preset) const EXPECTED_EVENT: SchemaTable = SchemaTable {
+    head: "`events` of [expect]",
+    about: "When an event or an impulse happens.",
+    keys: &[
+        NAME,
+        key("nth", Number, "which of them; the first where not given"),
+        AT,
+        WITHIN,
+        SOURCE,
+    ],
+};
+
+/// An expected count.
+pub(in crate::preset) const EXPECTED_COUNT: SchemaTable = SchemaTable {
+    head: "`count` of [expect]",
+    about: "How often it has happened by a time.",
+    keys: &[
+        NAME,
+        key("until", Number, "the time").needed("give the time: until = 10.0").unit("time"),
+        key("is", Number, "how often").needed("give the number: is = 3"),
+        SOURCE,
+    ],
+};
+
+/// An expected bracket.
+pub(in crate::preset) const EXPECTED_BRACKET: SchemaTable = SchemaTable {
+    head: "`brackets` of [expect]",
+    about: "What the bracket of two expressions is.",
+    keys: &[
+        key("f", Formula, "the first").needed("write f = \"...\""),
+        key("g", Formula, "the second").needed("write g = \"...\""),
+        key("is", Formula, "what [f, g] is").needed("write is = \"...\""),
+        SOURCE,
+    ],
+};

@@ -1,0 +1,143 @@
+//! What a table of the file is made of: its keys, the kinds of their values, and the keys that several tables have.
+//!
+//! In: nothing. Out: [`Key`], [`SchemaTable`]. Never here: the tables.
+
+use ValueKind::{
+    Brackets, Constant, Flag, Formula, Formulas, Kinds, List, Named, Names, Number, Point, Table,
+    Tables, Text, Texts, Triple,
+};
+
+/// A table of the file, or of a list in it.
+#[derive(Debug)]
+pub(in crate::preset) struct SchemaTable {
+    /// Its heading: `[run]`, `[[events]]`, or what its entries are called.
+    pub(in crate::preset) head: &'static str,
+    /// Its purpose.
+    pub(in crate::preset) about: &'static str,
+    /// Its keys in the order of reporting; empty if the file chooses the names.
+    pub(in crate::preset) keys: &'static [Key],
+}
+
+/// A key of a table.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::preset) struct Key {
+    /// Its name.
+    pub(in crate::preset) name: &'static str,
+    /// The kind of its value.
+    pub(in crate::preset) kind: ValueKind,
+    /// The unit of its number; empty if it has none, or if the file determines it.
+    pub(in crate::preset) unit: &'static str,
+    /// The kinds of entries that may have it; empty for all.
+    pub(in crate::preset) only: &'static [&'static str],
+    /// What to write if it is missing; `None` if it is optional.
+    pub(in crate::preset) missing: Option<&'static str>,
+    /// Its purpose, on one line.
+    pub(in crate::preset) help: &'static str,
+}
+
+/// The kind of a value.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::preset) enum ValueKind {
+    /// A text in quotes.
+    Text,
+    /// A list of texts.
+    Texts,
+    /// `true` or `false`.
+    Flag,
+    /// A number.
+    Number,
+    /// A number, or an expression of numbers in quotes.
+    Constant,
+    /// A number or an expression in quotes.
+    Formula,
+    /// One or more formulas.
+    Formulas,
+    /// A list of two or three expressions.
+    Point,
+    /// A list of three expressions.
+    Triple,
+    /// Names chosen by the file, each with an expression.
+    Names,
+    /// A list of `[a, b, {a, b}]`.
+    Brackets,
+    /// A table.
+    Table(&'static SchemaTable),
+    /// A table of names chosen by the file, each with such a table.
+    Named(&'static SchemaTable),
+    /// Tables, each under a heading in double brackets.
+    Tables(&'static SchemaTable),
+    /// Tables of several kinds, whose keys are known to their own readers.
+    Kinds(&'static SchemaTable),
+    /// A list of tables in braces.
+    List(&'static SchemaTable),
+}
+
+pub(super) const fn key(name: &'static str, kind: ValueKind, help: &'static str) -> Key {
+    Key { name, kind, unit: "", only: &[], missing: None, help }
+}
+
+impl Key {
+    pub(super) const fn needed(self, missing: &'static str) -> Key {
+        Key { missing: Some(missing), ..self }
+    }
+
+    pub(super) const fn only(self, only: &'static [&'static str]) -> Key {
+        Key { only, ..self }
+    }
+
+    pub(super) const fn unit(self, unit: &'static str) -> Key {
+        Key { unit, ..self }
+    }
+}
+
+pub(super) const NAME: Key = key("name", Text, "what it is called").needed("write name = \"...\"");
+pub(super) const ABOUT: Key = key("about", Text, "what it is, shown beside it");
+pub(super) const UNIT: Key = key("unit", Text, "its unit, for show");
+pub(super) const SYMBOL: Key = key("symbol", Text, "the letters it is shown by");
+pub(super) const SOURCE: Key = key("source", Text, "where the claim is from");
+pub(super) const WITHIN: Key =
+    key("within", Number, "the absolute tolerance; 1e-10 where not given");
+pub(super) const PERIOD: Key =
+    key("period", Formula, "after which it is the same again; for drawing and rotations");
+pub(super) const INITIAL: Key =
+    key("initial", Formula, "its value at the start").needed("give its value at the start");
+pub(super) const EXPRESSION: Key =
+    key("expression", Formula, "what it is").needed("write expression = \"...\"");
+pub(super) const AT: Key =
+    key("at", Number, "the time").needed("give the time: at = 1.0").unit("time");
+pub(super) const FORCES: Key =
+    key("forces", Names, "generalised forces that come from no potential");
+pub(super) const H: Key = key("H", Formula, "the Hamiltonian").needed("write H = \"T + V\"");
+
+impl ValueKind {
+    /// A short description of the kind.
+    pub(super) fn words(self) -> &'static str {
+        match self {
+            Text => "text",
+            Texts => "list of texts",
+            Flag => "`true` or `false`",
+            Number => "number",
+            Constant => "number, or expression of numbers",
+            Formula => "expression",
+            Formulas => "expression, or list of them",
+            Point => "two or three expressions",
+            Triple => "three expressions",
+            Names => "names, each with an expression",
+            Brackets => "list of `[a, b, {a, b}]`",
+            Table(_) => "table",
+            Named(_) => "names, each with a table or a value",
+            Tables(_) | Kinds(_) => "tables",
+            List(_) => "list of tables",
+        }
+    }
+
+    /// The nested table, if there is one.
+    pub(in crate::preset) fn section(self) -> Option<&'static SchemaTable> {
+        match self {
+            Table(section) | Named(section) | Tables(section) | Kinds(section) | List(section) => {
+                Some(section)
+            }
+            _ => None,
+        }
+    }
+}

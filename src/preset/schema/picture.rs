@@ -1,0 +1,135 @@
+//! The tables of what is drawn: frames, views, the system in space and its shapes.
+//!
+//! In: nothing. Out: their keys. Never here: what a picture looks like.
+
+use super::key::ValueKind::{Flag, Formula, Formulas, List, Number, Point, Text, Triple};
+use super::key::{NAME, SchemaTable, key};
+
+pub(super) const FRAME: SchemaTable = SchemaTable {
+    head: "[[frames]]",
+    about: "It turns and moves, or is that of the body.",
+    keys: &[
+        NAME,
+        key("attitude", Flag, "`true` for the frame of the body"),
+        key("axis", Triple, "about what it turns; z where not given"),
+        key("angle", Formula, "by how much, of q and t; needed without `attitude`").unit("rad"),
+        key("origin", Triple, "where it is"),
+        key("particles", List(&PARTICLE), "on which apparent forces are drawn"),
+    ],
+};
+
+/// A particle of a frame.
+pub(in crate::preset) const PARTICLE: SchemaTable = SchemaTable {
+    head: "`particles` of a frame",
+    about: "On which the apparent forces are drawn.",
+    keys: &[
+        key("at", Triple, "where it is").needed("write at = [\"...\", \"...\", \"...\"]"),
+        key("mass", Formula, "its mass").needed("write mass = \"...\""),
+    ],
+};
+
+pub(super) const VIEW: SchemaTable = SchemaTable {
+    head: "[[views]]",
+    about: "A `potential` is `y` over the coordinate `x`, all else held.",
+    keys: &[
+        key(
+            "kind",
+            Text,
+            "`phase`, `space`, `time`, `potential`, `section`, `diagram`, `map`, `transformation`, `ensemble`, `orbit`, `spectrum`, `actions`, `angle`, `action`, `abbreviated`, `phase-action` or `legendre`",
+        )
+        .needed("write kind = \"phase\", \"space\", \"time\", \"potential\" or \"section\""),
+        key("title", Text, "what it is called"),
+        key("x", Formula, "the horizontal axis").only(&[
+            "phase",
+            "potential",
+            "section",
+            "map",
+            "transformation",
+            "ensemble",
+            "orbit",
+            "actions",
+            "angle",
+            "action",
+            "abbreviated",
+            "phase-action",
+            "legendre",
+        ]),
+        key("y", Formulas, "the vertical axis; several in a time series").only(&[
+            "phase",
+            "time",
+            "potential",
+            "section",
+            "diagram",
+            "map",
+            "transformation",
+            "ensemble",
+            "orbit",
+            "spectrum",
+        ]),
+        key("over", Text, "the parameter over whose range it runs")
+            .needed("write over = \"...\", a parameter")
+            .only(&["diagram"]),
+        key("on", Formula, "vanishes on the surface of section")
+            .needed("write on = \"...\", which vanishes on the surface")
+            .only(&["section", "diagram", "map"]),
+        key("direction", Text, "of the crossings: `rising`, `falling` or `either`; `rising`")
+            .only(&["section", "diagram", "map"]),
+        key("x_range", Formulas, "the two ends of the horizontal axis")
+            .only(&["section", "diagram", "map"]),
+        key("y_range", Formulas, "the two ends of the vertical axis")
+            .only(&["section", "diagram", "map"]),
+        key("of", Formula, "the quantity at the end of the motions; without it and `on` the largest exponent")
+            .only(&["map"]),
+        key("until", Formula, "the time at which the motions end").only(&["map"]),
+        key("frame", Text, "the frame it is seen from").only(&["space"]),
+        key("shapes", List(&SHAPE), "what is drawn in place of the shapes of [space]")
+            .only(&["space"]),
+    ],
+};
+
+pub(super) const SPACE: SchemaTable = SchemaTable {
+    head: "[space]",
+    about: "Points have two or three expressions, z up.",
+    keys: &[
+        key("shapes", List(&SHAPE), "what is drawn"),
+        key(
+            "follow",
+            Point,
+            "the point in the middle of the picture; else all of the motion is shown",
+        ),
+        key("reach", Formula, "how far the picture reaches from `follow`"),
+    ],
+};
+
+pub(super) const SHAPE: SchemaTable = SchemaTable {
+    head: "a shape",
+    about: "Its kind is a key of its own.",
+    keys: &[
+        key("line", Point, "a line from here"),
+        key("spring", Point, "a spring from here"),
+        key("trace", Point, "the track that this point leaves"),
+        key("circle", Point, "a circle about this centre"),
+        key("mass", Point, "a mass here"),
+        key("path", Point, "a curve in its own parameter `s`"),
+        key("vector", Point, "a vector from here"),
+        key("plane", Point, "a plane about this point"),
+        key("disc", Point, "a filled disc about this centre"),
+        key("sphere", Point, "a sphere about this centre, which hides what is behind it"),
+        key("cone", Point, "a solid cone with this tip"),
+        key("cylinder", Point, "a solid cylinder from the centre of this end"),
+        key("caption", Point, "words beside this point"),
+        key("body", Point, "the pieces of [body] about this centre of mass, turned by [attitude]"),
+        key("to", Point, "the other end, the components, or the centre of the base")
+            .only(&["line", "spring", "vector", "cone", "cylinder"]),
+        key("label", Text, "the name beside its tip").only(&["vector"]),
+        key("text", Text, "the words").needed("write text = \"...\"").only(&["caption"]),
+        key("radius", Formula, "its radius")
+            .only(&["circle", "mass", "disc", "sphere", "cone", "cylinder"]),
+        key("normal", Point, "what it is perpendicular to; z where not given")
+            .only(&["circle", "plane", "disc"]),
+        key("size", Formula, "how large it is").only(&["plane"]),
+        key("from", Formula, "where `s` begins").only(&["path"]),
+        key("to", Formula, "where `s` ends").only(&["path"]),
+        key("samples", Number, "how many points are drawn").only(&["path"]),
+    ],
+};
