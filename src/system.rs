@@ -5,6 +5,29 @@
 //! ([`System::initial`]), transfers states when parameters change ([`System::change_parameters`]),
 //! computes the observables of a state ([`System::observer`]) and gives the steppers of `integrate`
 //! their equations of motion. Never here: steps in time, files, symbols after compiling.
+//!
+//! ```text
+//!   expressions of the equations
+//!        │ rhs, observables, terms, legendre, discontinuities, constraint_programs: which program computes what
+//!        │ lower, node: every canonical node becomes a few operations
+//!        ▼
+//!   Program (program)  one flat list; what depends on parameters alone stands in front of it
+//!        │   tangent: its derivative, a program again     split_step: both halves of a splitting step in one list
+//!        │
+//!        ├──────────────── values ────────────────┐  ┌───────── Taylor coefficients ─────────┐
+//!        ▼                                        │  │                                       ▼
+//!   Evaluator (value)                             │  │     schedule: inner products first,
+//!     f64, double-double, batches of orbits       │  │     finishing_pass: then the rest, sorted by kind
+//!        ▼                                        │  │     jet: order k of all registers, f64 … batches
+//!   rates, exact       motion of every method     │  │                                       ▼
+//!   observe            channels of a state        │  │     growth, series, batch_series
+//!   term_watch, batch_terms   conserved terms     │  │     expansion: events along a step
+//!   event_functions    signs of events            │  │     resolution: how far a series tells
+//!        └────────────────────────────────────────┘  └───────────────────────────────────────┘
+//!
+//!   Around them: conversion (initial states, velocities ↔ momenta), constrained, projection and active_set
+//!   (constraints), impulse and saltation (jumps), image (maps that are solved for), error (why a motion ends).
+//! ```
 
 mod active_set;
 mod allowed_displacements;
