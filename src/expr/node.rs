@@ -79,7 +79,7 @@ impl Node {
     }
 
     /// Calls `f` with every part of this node.
-    pub(super) fn for_each_part(&self, mut f: impl FnMut(Expr)) {
+    pub fn for_each_part(&self, mut f: impl FnMut(Expr)) {
         match self {
             Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
             Node::Sum(_, terms) => terms.iter().for_each(|&(_, e)| f(e)),

@@ -87,7 +87,7 @@ impl Pool {
     }
 
     /// The node of a handle, shared so that the pool may grow meanwhile.
-    pub(super) fn shared(&self, e: Expr) -> Arc<Node> {
+    pub fn shared(&self, e: Expr) -> Arc<Node> {
         Arc::clone(&self.nodes[e.index()])
     }
 

@@ -86,7 +86,7 @@ impl<'a> Lowering<'a> {
                 self.known.insert(e, register);
             } else {
                 stack.push((e, true));
-                stack.extend(self.pool.node(e).parts().into_iter().map(|part| (part, false)));
+                self.pool.node(e).for_each_part(|part| stack.push((part, false)));
             }
         }
         self.known[&e]

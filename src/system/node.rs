@@ -14,24 +14,24 @@ const STEEP: i64 = 8;
 
 impl Lowering<'_> {
     pub(super) fn lower_node(&mut self, e: Expr) -> Register {
-        match self.pool.node(e).clone() {
+        match &*self.pool.shared(e) {
             Node::Number(n) => self.constant(n.double()),
             Node::Pi => self.constant(DoubleDouble::PI),
-            Node::Symbol(symbol) => {
+            &Node::Symbol(symbol) => {
                 self.unknown.get_or_insert(symbol);
                 self.constant(DoubleDouble::from(f64::NAN))
             }
             Node::Sum(constant, terms) => {
                 let terms: Vec<(Number, Register)> =
                     terms.iter().map(|(c, t)| (*c, self.known[t])).collect();
-                self.linear(constant, &terms)
+                self.linear(*constant, &terms)
             }
-            Node::Product(coefficient, factors) => self.lower_product(coefficient, &factors),
+            Node::Product(coefficient, factors) => self.lower_product(*coefficient, factors),
             Node::Power(base, exponent) => {
-                let (base, exponent) = (self.known[&base], self.known[&exponent]);
+                let (base, exponent) = (self.known[base], self.known[exponent]);
                 self.lower_power(base, exponent)
             }
-            Node::Call(function, arguments) => self.lower_call(function, &arguments),
+            Node::Call(function, arguments) => self.lower_call(*function, arguments),
         }
     }
 
@@ -94,12 +94,21 @@ impl Lowering<'_> {
     /// `(b² c)^α = |b|^{2α} c^α`, and an odd power of `|b|` is `sign(b)` times that of `b`, so that
     /// `x/√(x²)` is a sign even where it is 0/0. The kink at `b = 0` becomes one that is located.
     fn open_squares(&mut self, coefficient: Number, factors: &[(Expr, Number)]) -> Option<Expr> {
+        let may_open = |&(base, exponent): &(Expr, Number)| match self.pool.node(base) {
+            Node::Product(..) => exponent.as_integer().is_none(),
+            Node::Call(FunctionId::Abs, _) => true,
+            _ => false,
+        };
+        if !factors.iter().any(may_open) {
+            return None;
+        }
         let even = |n: Number| n.as_integer().is_some_and(|n| n % 2 == 0);
         let mut opened = Vec::new();
         let mut any = false;
         for &(base, exponent) in factors {
-            let inner = match self.pool.node(base).clone() {
-                Node::Product(c, inner) if exponent.as_integer().is_none() => (c, inner),
+            let shared = self.pool.shared(base);
+            let inner = match &*shared {
+                Node::Product(c, inner) if exponent.as_integer().is_none() => (*c, inner),
                 Node::Call(FunctionId::Abs, arguments) => {
                     let b = arguments[0];
                     let own = factors.iter().find(|&&(other, _)| other == b).map(|&(_, m)| m);
