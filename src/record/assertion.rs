@@ -161,7 +161,12 @@ pub(super) fn column(app: &App, of: &LineText) -> Result<usize, Diagnostic> {
     })
 }
 
-fn measured(app: &App, measure: AssertedNumber, of: &LineText) -> Result<f64, Diagnostic> {
+/// The number that is measured of a name or an expression now.
+pub(super) fn measured(
+    app: &App,
+    measure: AssertedNumber,
+    of: &LineText,
+) -> Result<f64, Diagnostic> {
     if measure == AssertedNumber::Value {
         return value(app, of);
     }
