@@ -233,7 +233,7 @@ pub enum EditCommand {
     Find,
     /// Search for it again.
     FindNext,
-    /// Go to the next mistake (+1) or the previous one (−1).
+    /// Go to the next error (+1) or the previous one (−1).
     Diagnostic(i8),
     /// Cut the selection, or the line.
     Cut,

@@ -114,7 +114,7 @@ impl Experiment {
         Ok(std::mem::replace(&mut self.motion, motion))
     }
 
-    /// Goes on backwards from a state that was taken up, without a run before it.
+    /// Continues backwards from a state that was restored, without a run before it.
     pub(super) fn go_on_backwards(&mut self) {
         match self.turn() {
             Ok(_) => {

@@ -52,7 +52,7 @@ impl Experiment {
     }
 
     /// Does what a command means while the past is looked at. Returns whether that was all: otherwise the motion has been
-    /// taken back to the time looked at, or is about to begin again.
+    /// carried back to the time looked at, or is about to begin again.
     pub(super) fn scrubs(&mut self, command: &Command) -> bool {
         let Some(scrubbed) = &self.scrubbed else { return false };
         let (time, sign) = (scrubbed.motion.time(), self.motion.sign());

@@ -29,7 +29,7 @@ const MOST_MONOMIALS: usize = 150;
 /// The number of combinations that are tried.
 const MOST_TRIED: usize = 40;
 
-/// The number of orders of monomials in which short combinations are looked for.
+/// The number of orders of monomials in which short combinations are searched for.
 const ORDERS: usize = 6;
 
 /// Rows beyond the rank that have to add nothing.

@@ -31,13 +31,13 @@ pub struct Lesson {
     pub(super) question: Option<Question>,
     /// The answers so far, those of earlier visits not included.
     pub(super) verdicts: Vec<AnswerVerdict>,
-    /// Claims (`Assert`) that were found false; looked for only where nobody watches.
+    /// Claims (`Assert`) that were found false; searched for only where nobody watches.
     pub(super) false_claims: Vec<Diagnostic>,
     /// What was said last.
     pub(super) said: Vec<Paragraph>,
     /// The time that may have passed, of the clock of the lab.
     time: Micros,
-    /// The step from which a later visit may go on.
+    /// The step from which a later visit may continue.
     safe: usize,
     /// Whether the lab is still as the person left it after a task.
     pub(super) personal: bool,
@@ -77,7 +77,7 @@ impl Lesson {
     /// Begins a lesson for a person.
     ///
     /// # Errors
-    /// Returns the mistakes of the script, or that its system cannot be opened.
+    /// Returns the errors of the script, or that its system cannot be opened.
     pub fn watched(
         script: Script,
         document: &Document,
@@ -116,10 +116,10 @@ impl Lesson {
         })
     }
 
-    /// Goes on to a place where an earlier visit ended, without waiting for anybody on the way.
+    /// Continues to a place where an earlier visit ended, without waiting for anybody on the way.
     ///
     /// # Errors
-    /// Returns a mistake of the script that only its system reveals.
+    /// Returns an error of the script that only its system reveals.
     pub fn resume(&mut self, place: usize) -> Result<(), Diagnostic> {
         while self.runner.next < place && !matches!(self.stage, LessonStage::Ended) {
             match self.runner.beat()? {
@@ -135,7 +135,7 @@ impl Lesson {
         Ok(())
     }
 
-    /// The place from which a later visit may go on.
+    /// The place from which a later visit may continue.
     pub fn place(&self) -> usize {
         self.safe
     }
@@ -184,7 +184,7 @@ impl Lesson {
     /// Lets time pass. Returns whether anything visible has changed.
     ///
     /// # Errors
-    /// Returns a mistake of the script that only its system reveals.
+    /// Returns an error of the script that only its system reveals.
     pub fn advance(&mut self, elapsed: Micros) -> Result<bool, Diagnostic> {
         match self.stage {
             LessonStage::Playing => {
@@ -384,7 +384,7 @@ impl Lesson {
         self.stage = LessonStage::Ended;
     }
 
-    /// Goes on from what was said.
+    /// Continues from what was said.
     pub(super) fn go_on(&mut self) {
         self.look_back();
         let last = self.runner.next.checked_sub(1).and_then(|at| self.runner.script.steps.get(at));

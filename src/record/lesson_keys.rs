@@ -1,6 +1,6 @@
-//! The keys of a lesson: to go on, to answer, to leave; in a task all others are the lab's.
+//! The keys of a lesson: to continue, to answer, to leave; in a task all others are the lab's.
 //!
-//! In: a key. Out: a [`Lesson`] that has gone on, or that the person leaves. Never here: what is right.
+//! In: a key. Out: a [`Lesson`] that has continued, or that the person leaves. Never here: what is right.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
@@ -12,7 +12,7 @@ use crate::view::lesson::ParagraphKind;
 /// What a key did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pressed {
-    /// The lesson goes on.
+    /// The lesson continues.
     Taken,
     /// The person leaves.
     Leave,

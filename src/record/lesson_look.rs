@@ -1,4 +1,4 @@
-//! Looking around while a lesson speaks or asks: other panes and pages, without the motion or the lesson going on.
+//! Looking around while a lesson speaks or asks: other panes and pages, while motion and lesson stand still.
 //!
 //! In: a key. Out: another view of the lab, and the view of before once the lesson continues. Never here: the keys of
 //! the lesson.

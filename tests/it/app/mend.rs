@@ -1,4 +1,4 @@
-//! Texts edited while no system runs: a wrong file where its mistakes are shown, and a new system.
+//! Texts edited while no system runs: a wrong file where its errors are shown, and a new system.
 
 use std::path::PathBuf;
 use std::time::Duration;
