@@ -47,6 +47,14 @@ impl App {
         let title = format!("{NEW_SYSTEM}.toml");
         let (text, of) = (template().to_owned(), template().to_owned());
         self.edit_alone(Unsaved { name: NEW_SYSTEM.to_owned(), title, place: None, text, of });
+        // It opens at the law, as every system does.
+        if let Some(buffer) = self.workbench.top_mut()
+            && let Some(before) = template().find("\nL = ")
+            && !buffer.is_modified()
+        {
+            let law = buffer.editor.caret_at(before + 1);
+            buffer.editor.go(law);
+        }
         Vec::new()
     }
 

@@ -261,3 +261,13 @@ fn what_is_conserved_is_checked_until_an_event_ends_the_motion() {
     with_file(&file("sin(t)*x"), &["check", "system.toml"])
         .fails(65, &["`energy` is claimed to be conserved, but it is not"]);
 }
+
+#[test]
+fn a_shipped_system_is_checked_by_its_name() {
+    assert_eq!(phaselab(&["check", "harmonic-oscillator"]).success(), "");
+    phaselab(&["check", "harmonic-oscilator"]).fails(
+        2,
+        &["there is no preset `harmonic-oscilator`; did you mean `harmonic-oscillator`?"],
+    );
+    phaselab(&["check", "./harmonic-oscillator"]).fails(2, &["cannot read ./harmonic-oscillator"]);
+}
