@@ -11,7 +11,7 @@ use crate::model::{Allowed, Scope};
 use crate::num::significant;
 
 /// The most characters of a quantity in a sentence; a longer one says nothing to whoever has not written it.
-const LONGEST: usize = 40;
+const LONGEST: usize = 24;
 
 /// What a true claim has found, or `None` if it cannot be said in few words.
 pub(super) fn in_words(claim: &Assert, app: &App) -> Option<String> {

@@ -83,7 +83,8 @@ impl Lesson {
                 // the last digits of what vanishes say nothing
                 let shown = |at: &[f64; 2]| {
                     let known = |k: usize| at[k].abs() > ROUNDING * prediction.axes[k].within;
-                    pair([0, 1].map(|k| if known(k) { at[k] } else { 0.0 }))
+                    let at = [0, 1].map(|k| short(if known(k) { at[k] } else { 0.0 }));
+                    format!("{} = {}, {} = {}", names[0], at[0], names[1], at[1])
                 };
                 let [own, found] = [own, found].map(shown);
                 format!("{word}: you predicted {own}; it is {found} (right within {x} and {y}).")
@@ -203,9 +204,4 @@ pub(super) fn letter(index: usize, text: &str) -> String {
 /// A number with four digits, for display only.
 pub(super) fn short(x: f64) -> String {
     significant(x, 4, 1e-3..1e6)
-}
-
-/// A point, for display only.
-pub(super) fn pair([x, y]: [f64; 2]) -> String {
-    format!("({}, {})", short(x), short(y))
 }

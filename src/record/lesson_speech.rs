@@ -7,7 +7,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::lesson::{Lesson, LessonStage, paragraph};
-use super::lesson_judge::{letter, pair, short};
+use super::lesson_judge::{letter, short};
 use super::lesson_order::steps_of_person;
 use super::lesson_question::{Question, QuestionKind};
 use crate::view::RenderStyle;
@@ -137,7 +137,9 @@ impl Question {
                 format!("Your prediction: {}", short(*number))
             }
             QuestionKind::Place { prediction, .. } => match prediction.points.last() {
-                Some(at) if !prediction.is_curve => format!("Your prediction: {}", pair(*at)),
+                Some(_) if !prediction.is_curve => {
+                    "Your prediction: the point in the picture".to_owned()
+                }
                 _ => "Your prediction: the curve in the picture".to_owned(),
             },
             _ => String::new(),
