@@ -133,7 +133,7 @@ pub enum Action {
     Active,
     /// Colours the orbits of a section by whether they are regular, or each in its own colour.
     ByChaos,
-    /// Keep the present run beside what follows.
+    /// Keep the current run beside what follows.
     Pin,
     /// Remove all motions beside the main one.
     ClearCompanions,

@@ -1,6 +1,6 @@
 //! A look at the recorded past, which changes nothing: the motion stays where it is, and what was recorded stays too.
 //!
-//! In: a time between the first step that is known and the present. Out: a snapshot of that time, exact by dense output. Never
+//! In: a time between the first step that is known and now. Out: a snapshot of that time, exact by dense output. Never
 //! here: the step that takes the motion itself back (`rewind`).
 
 use super::course::HORIZON;

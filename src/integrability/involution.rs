@@ -54,7 +54,7 @@ pub struct Commuting {
     pub expression: Expr,
     /// Its coefficients, and the indices of the constants that are multiplied.
     pub terms: Vec<(Number, Vec<usize>)>,
-    /// Whether it commutes for all values of the parameters, and not only for the present ones.
+    /// Whether it commutes for all values of the parameters, and not only for the current ones.
     pub for_all_parameters: bool,
 }
 
