@@ -11,14 +11,17 @@ const TEMPLATE: &str = r#"# A system of your own; it runs as it is.
 [coordinates]                     # theta = 1.0 is enough; θ is shown
 theta = { initial = 1.0, velocity = 0.0, unit = "rad", period = "2*pi" }
 
-[parameters]                      # sliders of the lab; l = 1.0 is enough
-g = { value = 9.81, min = 0, max = 30, unit = "m/s²", about = "gravity" }
+[parameters]                      # sliders of the lab; or m = 1.0
+g = { value = 9.81, min = 0, max = 30, unit = "m/s²" }
 l = { value = 1, min = 0.1, max = 5, unit = "m", about = "length" }
 m = { value = 1, min = 0.1, max = 5, unit = "kg", about = "mass" }
 
-[lagrangian]                      # θ′ or theta' is the velocity
-L = "½ m l² θ′² + m g l cos θ"    # or [hamiltonian] with H and p_theta
+[lagrangian]                      # θ′ or theta' is the velocity of θ
+L = "½ m l² θ′² + m g l cos θ"
 # dissipation = "½ c θ′²"         # friction, by Rayleigh's function
+
+# [hamiltonian]                   # or this; momentum for velocity
+# H = "½ p_θ²/(m l²) - m g l cos θ"
 
 [space]                           # a picture: points are [x, y, z]
 shapes = [
