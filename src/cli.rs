@@ -1,6 +1,6 @@
 //! The command line: one file per subcommand, each built on the same stages as the laboratory.
 //!
-//! In: arguments. Out: data on standard output (and nothing else there), mistakes and messages on
+//! In: arguments. Out: data on standard output (and nothing else there), errors and messages on
 //! standard error, an exit code of [`EXITS`]. If the reader closes the pipe early (`| head`), a
 //! command ends quietly and successfully. Never here: mechanics, the integration of a motion.
 

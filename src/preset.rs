@@ -1,4 +1,4 @@
-//! The preset file: its text in, a checked [`Model`](crate::model::Model) or every mistake with its range out.
+//! The preset file: its text in, a checked [`Model`](crate::model::Model) or every error with its range out.
 //!
 //! The stages: [`Document`](crate::diagnostic::Document) (a file's text, within limits) → `toml` (TOML with spans) →
 //! `draft` (as written, with names unresolved) → `check` (names resolved, expressions parsed) → [`Model`](crate::model::Model). There is

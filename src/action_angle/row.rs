@@ -54,7 +54,7 @@ pub struct ActionRow {
 }
 
 impl ActionRow {
-    /// Ω = 2π ν; of a cyclic coordinate without a period, which goes on and on, its mean rate. NaN where the motion does not
+    /// Ω = 2π ν; of a cyclic coordinate without a period, which keeps moving, its mean rate. NaN where the motion does not
     /// return.
     pub fn angular_frequency(&self) -> f64 {
         match (self.kind, self.mean_rate) {

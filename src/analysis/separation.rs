@@ -1,4 +1,4 @@
-//! How far two motions are from each other as time goes on, and how fast their distance grows.
+//! How far two motions are from each other as time passes, and how fast their distance grows.
 //!
 //! The distance is that of the canonical variables (q, p), or of the variables of brackets, in the units of the file; a
 //! coordinate with a period takes the shorter way round. Near each other, neighbours part like e^{λt}: λ is the slope of

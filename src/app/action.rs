@@ -133,7 +133,7 @@ pub enum Action {
     Active,
     /// Colours the orbits of a section by whether they are regular, or each in its own colour.
     ByChaos,
-    /// Keep the present run beside what follows.
+    /// Keep the current run beside what follows.
     Pin,
     /// Remove all motions beside the main one.
     ClearCompanions,
@@ -233,7 +233,7 @@ pub enum EditCommand {
     Find,
     /// Search for it again.
     FindNext,
-    /// Go to the next mistake (+1) or the previous one (−1).
+    /// Go to the next error (+1) or the previous one (−1).
     Diagnostic(i8),
     /// Cut the selection, or the line.
     Cut,

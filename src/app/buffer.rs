@@ -19,7 +19,7 @@ use crate::diagnostic::{Diagnostic, Severity};
 /// How long typing must pause before the text is checked.
 const REST: Duration = Duration::from_millis(150);
 
-/// How long to wait before re-reading a file with mistakes, since another program may still be writing it.
+/// How long to wait before re-reading a file with errors, since another program may still be writing it.
 const PATIENCE: Duration = Duration::from_millis(700);
 
 /// A check that takes longer than this is one that the user would rather stop than wait for.
@@ -59,7 +59,7 @@ pub struct SourceBuffer {
     /// Whether the next save overwrites the file although another program has changed it.
     pub(super) overrule: bool,
     pub(super) sought: String,
-    /// Whether it was saved before it was checked; mistakes found later are then reported.
+    /// Whether it was saved before it was checked; errors found later are then reported.
     pub(super) unlooked: bool,
 }
 
@@ -101,7 +101,7 @@ pub enum BufferState {
     Runs(Option<Duration>),
     /// It has changed and has not been checked yet.
     Changed,
-    /// It has mistakes; the last correct version is running.
+    /// It has errors; the last correct version is running.
     Wrong,
     /// Another system is open; the text is checked again when it is reopened.
     Left,
@@ -287,7 +287,7 @@ impl SourceBuffer {
         if of == Some(self.revision) { Found::Newest } else { Found::Older }
     }
 
-    /// Stores the mistakes found, unless the text may be an incomplete file that is read once more.
+    /// Stores the errors found, unless the text may be an incomplete file that is read once more.
     pub(super) fn is_wrong(&mut self, mistakes: &[Diagnostic]) {
         if self.half {
             (self.half, self.rest) = (false, Some(PATIENCE));
@@ -297,7 +297,7 @@ impl SourceBuffer {
         }
     }
 
-    /// Returns the warning for a text that is saved with mistakes, or before they were found.
+    /// Returns the warning for a text that is saved with errors, or before they were found.
     pub(super) fn saved_as(&self) -> Option<String> {
         let shown = self.place.as_ref()?.display();
         let diagnostic = self.diagnostics.iter().find(|diagnostic| !diagnostic.warning);
@@ -344,14 +344,14 @@ impl SourceBuffer {
         self.diagnostics = mistakes.iter().map(diagnostic).collect();
     }
 
-    /// Goes to the first mistake.
+    /// Goes to the first error.
     pub(super) fn step_to_first(&mut self) {
         if let Some(from) = self.diagnostics.iter().map(|diagnostic| diagnostic.from).min() {
             self.editor.go(from);
         }
     }
 
-    /// Goes to the next mistake (+1) or the previous one (−1). Returns whether there is one.
+    /// Goes to the next error (+1) or the previous one (−1). Returns whether there is one.
     pub(super) fn step(&mut self, sign: i8) -> bool {
         let cursor = self.editor.cursor();
         let mut places = self.diagnostics.iter().map(|diagnostic| diagnostic.from);

@@ -70,7 +70,7 @@ impl App {
         Vec::new()
     }
 
-    /// Shows the periodic orbit near the motion; where it is shown already, it is looked for near where the motion is now.
+    /// Shows the periodic orbit near the motion; where it is shown already, it is searched for near where the motion is now.
     pub(super) fn find_orbit(&mut self) -> Vec<Effect> {
         let shown = self.lab.as_ref().and_then(|lab| lab.focused_plot());
         if shown.is_some_and(|(_, plot)| plot.kind.name() == "orbit") {

@@ -52,7 +52,7 @@ impl App {
         }
     }
 
-    /// Returns a line about the file's mistakes while its editor is closed.
+    /// Returns a line about the file's errors while its editor is closed.
     pub fn banner(&self) -> Option<String> {
         let buffer = self.own_buffer().filter(|_| self.overlay.is_none())?;
         let diagnostic =
@@ -392,7 +392,7 @@ impl App {
                 }
                 self.rebuilt(loaded)
             }
-            // Mistakes of a text that has changed since are out of date.
+            // Errors of a text that has changed since are out of date.
             (Err(_), Found::Older) => Vec::new(),
             (Err(mistakes), Found::Newest) => {
                 buffer.is_wrong(&mistakes);

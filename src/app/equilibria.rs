@@ -15,7 +15,7 @@ use crate::instrument::{
 use crate::job::{Job, Outcome, Share};
 
 impl App {
-    /// Lists the equilibria, looks for them first, or stops looking.
+    /// Lists the equilibria, searches for them first, or stops searching.
     pub(super) fn find_equilibria(&mut self) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         if lab.equilibria.under_way.take().is_some() {

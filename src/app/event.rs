@@ -156,7 +156,7 @@ pub enum Effect {
 pub struct CheckedText {
     /// The ticket of the check.
     pub ticket: u64,
-    /// The system it describes, already running, or its mistakes.
+    /// The system it describes, already running, or its errors.
     pub outcome: Result<Loaded, Vec<Diagnostic>>,
     /// How long the check took.
     pub took: Duration,

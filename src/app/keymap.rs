@@ -241,7 +241,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c(',')], Action::StepBack, "", "pause and go back by one frame, exactly to where the motion was"),
     row(Place::Experiment, &[c('Z')], Action::Reverse, "", "reverse time: from here on the motion runs backwards by the same method, and is compared with where it was"),
     row(Place::Experiment, &[c('(')], Action::LookEarlier, "", "pause and look at an earlier time of the recorded past; so does the mouse on the time bar"),
-    row(Place::Experiment, &[c(')')], Action::LookLater, "", "look at a later time, up to the present; what acts on the motion continues it from the time shown"),
+    row(Place::Experiment, &[c(')')], Action::LookLater, "", "look at a later time, up to the current one; what acts on the motion continues it from the time shown"),
     row(Place::Experiment, &[c(';')], Action::MarkTime, "", "set a mark at the time shown, or remove the one there"),
     row(Place::Experiment, &[c('\'')], Action::GoToMark, "", "go to the previous mark, from the first to the last"),
     row(Place::Experiment, &[c('"')], Action::GoToNextMark, "", "go to the next mark, from the last to the first"),

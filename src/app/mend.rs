@@ -1,6 +1,6 @@
 //! Texts edited while no system runs: a file that is wrong, and a new system.
 //!
-//! In: the name of a file with mistakes, its text; the template. Out: the editor, at the first mistake; the lab, as soon as
+//! In: the name of a file with errors, its text; the template. Out: the editor, at the first error; the lab, as soon as
 //! a text has none. Never here: how a text is checked, or files.
 
 use std::path::PathBuf;
@@ -12,7 +12,7 @@ use crate::experiment::Command;
 use crate::preset::{PresetOrigin, is_path, template};
 
 impl App {
-    /// Asks for the text of the file whose mistakes are shown.
+    /// Asks for the text of the file whose errors are shown.
     pub(super) fn mend_file(&mut self) -> Vec<Effect> {
         let Some(name) = self.failed_system().map(str::to_owned) else { return Vec::new() };
         let Some(place) = self.place_of(&name) else {
@@ -34,7 +34,7 @@ impl App {
         }
     }
 
-    /// Opens the editor with the text of a wrong file; its check says where the mistakes are.
+    /// Opens the editor with the text of a wrong file; its check says where the errors are.
     pub(super) fn edit_wrong(&mut self, name: String, text: &str) {
         let place = self.place_of(&name);
         let title = place.as_ref().map_or_else(|| name.clone(), |p| p.display().to_string());
@@ -47,6 +47,14 @@ impl App {
         let title = format!("{NEW_SYSTEM}.toml");
         let (text, of) = (template().to_owned(), template().to_owned());
         self.edit_alone(Unsaved { name: NEW_SYSTEM.to_owned(), title, place: None, text, of });
+        // It opens at the law, as every system does.
+        if let Some(buffer) = self.workbench.top_mut()
+            && let Some(before) = template().find("\nL = ")
+            && !buffer.is_modified()
+        {
+            let law = buffer.editor.caret_at(before + 1);
+            buffer.editor.go(law);
+        }
         Vec::new()
     }
 
@@ -64,7 +72,7 @@ impl App {
         (self.page, self.overlay, self.scroll) = (Page::Lab, Some(Overlay::Workbench), 0);
     }
 
-    /// Begins the motion of a text edited without a system, as soon as it has no mistakes.
+    /// Begins the motion of a text edited without a system, as soon as it has no errors.
     pub(super) fn mended(&mut self, loaded: Loaded) -> Vec<Effect> {
         self.lab = Some(Lab::new(loaded));
         self.meter.forget();

@@ -190,7 +190,7 @@ mod tests {
         };
         let points: Vec<_> = (0..=8).map(|k| on_circle(f64::from(k) / 8.0)).collect();
         let line = curve([1.0, 1.0], &points).line();
-        // at the two ends the curve does not know how to go on
+        // at the two ends the curve does not know how to continue
         let inner = &line[PIECES..line.len() - PIECES];
         let worst =
             inner.iter().map(|[x, y]| (math::hypot(*x, *y) - 1.0).abs()).fold(0.0, f64::max);

@@ -75,7 +75,7 @@ pub struct App {
     pub(super) asked: Option<(String, bool)>,
     /// The session to resume once its system is loaded.
     pub(super) resuming: Option<Saved>,
-    /// The wrong file whose text was asked for, until its first mistake is shown.
+    /// The wrong file whose text was asked for, until its first error is shown.
     pub(super) mending: Option<String>,
     /// The session as it was when the user left the lab for the list of systems.
     pub(super) left: Option<Saved>,

@@ -54,7 +54,7 @@ impl Lab {
 }
 
 impl App {
-    /// Lists the symmetries, or looks for them first.
+    /// Lists the symmetries, or searches for them first.
     pub(super) fn find_symmetries(&mut self) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };
         if lab.found_symmetries().is_some() {

@@ -1,6 +1,6 @@
-//! `phaselab check`: every mistake in files, and whether their claims are true.
+//! `phaselab check`: every error in files, and whether their claims are true.
 
-use std::io::{IsTerminal, stdout};
+use std::io::{ErrorKind, IsTerminal, stdout};
 use std::path::PathBuf;
 
 use clap::ValueEnum;
@@ -13,9 +13,10 @@ use crate::claims::false_claims;
 use crate::diagnostic::{Diagnostic, Document, Severity};
 use crate::experiment::Derived;
 use crate::mechanics::{ConservedKind, Report};
+use crate::preset::is_path;
 use crate::printable;
 
-/// Report all mistakes in files, and whether what they claim is true.
+/// Report all errors in files, and whether what they claim is true.
 ///
 /// Reports go to standard error. A file's claims (`conserved`, `[expect]`) are checked by
 /// integrating the motion. If there is none, what was found is shown on a terminal, and
@@ -25,12 +26,12 @@ use crate::printable;
 Examples:
   phaselab check my/system.toml          every mistake with a caret, and what would be right
   phaselab check my/*.toml && echo fine
-  phaselab check --format json my/system.toml | jq '.files[].mistakes'")]
+  phaselab check --format json my/system.toml | jq '.files[].diagnostics'")]
 pub(super) struct Arguments {
-    /// The files.
+    /// The files, or the names of systems.
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
-    /// How the mistakes are reported.
+    /// How they are reported.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
 }
@@ -48,7 +49,10 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let mut files = Vec::new();
     let mut errors = 0;
     for path in &arguments.files {
-        let document = Document::open(path).map_err(|why| CommandError::reading(path, &why))?;
+        let document = match Document::open(path) {
+            Err(why) if why.kind() == ErrorKind::NotFound && !is_path(path) => open::find(path)?,
+            read => read.map_err(|why| CommandError::reading(path, &why))?,
+        };
         let (mistakes, found) = findings(&document);
         errors += mistakes.iter().filter(|m| m.severity == Severity::Error).count();
         match arguments.format {
@@ -57,7 +61,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
                 let found = found.filter(|_| mistakes.is_empty() && stdout().is_terminal());
                 if let Some(found) = found {
                     let name = printable::path(path);
-                    Output::print(OutputForm::Text, &format!("{name}: no mistakes; {found}\n"))?;
+                    Output::print(OutputForm::Text, &format!("{name}: no errors; {found}\n"))?;
                 }
             }
             Format::Json => files.push(object(&document, &mistakes)),
@@ -75,7 +79,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     }
 }
 
-/// All mistakes of a file: those of its text, otherwise of its equations, otherwise of its claims; and what it describes.
+/// All errors of a file: those of its text, otherwise of its equations, otherwise of its claims; and what it describes.
 fn findings(document: &Document) -> (Vec<Diagnostic>, Option<String>) {
     let checked = match document.read() {
         Ok(checked) => checked,
@@ -138,5 +142,5 @@ fn object(document: &Document, mistakes: &[Diagnostic]) -> Value {
             })
         })
         .collect();
-    json!({ "file": document.path, "mistakes": mistakes })
+    json!({ "file": document.path, "diagnostics": mistakes })
 }

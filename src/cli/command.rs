@@ -124,7 +124,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let arguments = match parse(command(), &words) {
         Ok(arguments) => arguments,
         Err(error) => {
-            // a request for help is not a mistake
+            // a request for help is not an error
             if let Some(message) = misspelt(&words).filter(|_| error.use_stderr()) {
                 stderr::tell(&message);
                 return CommandError::WrongUse(message).code();
@@ -267,7 +267,7 @@ fn misspelt(words: &[OsString]) -> Option<String> {
     if let Some(near) = nearest(first, names.iter().copied()) {
         return Some(format!("there is no command `{shown}`; did you mean `{near}`?"));
     }
-    // an option after a preset's name belongs to the lab, and its mistakes are reported there
+    // an option after a preset's name belongs to the lab, and its errors are reported there
     if is_path(first) || second.as_encoded_bytes().starts_with(b"-") {
         return None;
     }

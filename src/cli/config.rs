@@ -1,4 +1,4 @@
-//! `phaselab config`: the path of the configuration, its keys, and its mistakes.
+//! `phaselab config`: the path of the configuration, its keys, and its errors.
 
 use std::path::PathBuf;
 
@@ -10,7 +10,7 @@ use crate::printable;
 use crate::shell::config;
 use crate::shell::options::Words;
 
-/// Show where the configuration belongs and what it may contain, or check it for mistakes it.
+/// Show where the configuration belongs and what it may contain, or check it for errors.
 ///
 /// The laboratory reads `phaselab/config.toml` in your configuration folder, if it is there. Its
 /// keys are the laboratory's options. An option on the command line wins over a variable of the
@@ -21,7 +21,7 @@ use crate::shell::options::Words;
 Examples:
   phaselab config path                 where it belongs
   phaselab config print-default        one to begin with
-  phaselab config check                look for mistakes in it")]
+  phaselab config check                check it for errors")]
 pub(super) struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -33,7 +33,7 @@ enum Command {
     PrintDefault,
     /// Print where the configuration file belongs, whether or not it exists.
     Path,
-    /// Report every mistake in the configuration, or in a file that is to become one.
+    /// Report every error in the configuration, or in a file that is to become one.
     Check {
         /// The file to look at in place of the configuration.
         #[arg(value_name = "FILE")]
@@ -60,7 +60,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     }
 }
 
-/// The options of the configuration, empty if there is none. Its mistakes are shown with their
+/// The options of the configuration, empty if there is none. Its errors are shown with their
 /// ranges.
 pub(super) fn options() -> Result<Words, CommandError> {
     find()?.map_or(Ok(Words::new()), |document| read(&document))

@@ -1,4 +1,4 @@
-//! `phaselab script check`: every mistake of scripts, and whether their claims are true.
+//! `phaselab script check`: every error of scripts, and whether their claims are true.
 
 use std::path::PathBuf;
 
@@ -21,7 +21,7 @@ pub(super) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Report every mistake in scripts, and whether what they claim is true.
+    /// Report every error in scripts, and whether what they claim is true.
     ///
     /// Reports go to standard error. A script that says which system it is about (Open) is played
     /// to its end, without writing anything.

@@ -32,7 +32,7 @@ pub(super) fn scripted(source: &Document) -> Result<(Script, Document, String), 
         return Err(CommandError::WrongFile(what));
     };
     let document = open::find(&system.text)?;
-    // the mistakes of the system are reported for the system's own file
+    // the errors of the system are reported for the system's own file
     open::read(&document)?;
     let name = called(&system.text).to_owned();
     Ok((script, document, name))
@@ -46,7 +46,7 @@ mod tests {
     #[test]
     fn the_tour_is_short_and_true() {
         let source = source(None).expect("there is one");
-        let (script, system, name) = scripted(&source).expect("without mistakes");
+        let (script, system, name) = scripted(&source).expect("without errors");
         let recording = play(&script, &system, &name, (80, 24)).expect("it can be played");
         assert_eq!(recording.false_claims, []);
         assert!((8..=15).contains(&(recording.end / 1_000_000)), "{}", recording.end);

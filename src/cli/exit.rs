@@ -33,7 +33,7 @@ pub const EXITS: &[Exit] = &[
     exit("0", "success, even if the output is not read to its end (| head)"),
     exit(
         "1",
-        "failed: the motion met a fault (a singular mass matrix, a state that is not finite); \
+        "failed: the motion could not continue (a singular mass matrix, a state that is not finite); \
          the rows so far are written",
     ),
     exit(
@@ -43,7 +43,7 @@ pub const EXITS: &[Exit] = &[
     ),
     exit(
         "65",
-        "a file is wrong: a system, a script, the configuration; its mistakes are reported in their \
+        "a file is wrong: a system, a script, the configuration; its errors are reported in their \
          places",
     ),
     exit("74", "output could not be written; a file that stood there is as it was"),

@@ -10,11 +10,11 @@ use crate::printable;
 /// Why a command stops early.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) enum CommandError {
-    /// The request could not be fulfilled because of a fault.
+    /// The request could not be fulfilled because of an error.
     CouldNot(String),
     /// Wrong usage: an unknown name, an invalid value, no terminal.
     WrongUse(String),
-    /// The file is wrong; its mistakes are already reported, or are in the text.
+    /// The file is wrong; its errors are already reported, or are in the text.
     WrongFile(String),
     /// Output could not be written.
     CouldNotWrite(String),

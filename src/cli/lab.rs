@@ -79,7 +79,7 @@ pub(super) fn perform(
     how_it_ended(ended)
 }
 
-/// Performs a demo on the terminal. Its last picture stays, and mistakes in its script are reported after the
+/// Performs a demo on the terminal. Its last picture stays, and errors in its script are reported after the
 /// terminal is restored.
 fn perform_demo(
     arguments: &Arguments,

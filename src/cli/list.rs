@@ -12,7 +12,7 @@ use crate::printable;
 /// List the presets by chapter and topic.
 ///
 /// Your own, in `phaselab/presets` of your configuration folder, are among them; one that cannot be
-/// used stands there with its mistake.
+/// used stands there with its error.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -133,6 +133,6 @@ fn object(entry: &CatalogEntry) -> Value {
         "source": entry.info.source,
         "chapter": entry.info.chapter,
         "file": path,
-        "mistake": entry.fault,
+        "error": entry.fault,
     })
 }

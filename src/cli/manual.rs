@@ -41,7 +41,7 @@ const FILES: &[(&str, &str)] = &[
     ),
     (
         "~/.local/state/phaselab/texts.toml",
-        "Texts that were being edited and not saved; they are there when their systems are edited again.",
+        "Texts with unsaved changes; they are there when their systems are edited again.",
     ),
 ];
 

@@ -22,7 +22,7 @@ pub(super) fn find(name: impl AsRef<OsStr>) -> Result<Document, CommandError> {
     preset::find(name).map_err(|why| CommandError::WrongUse(why.to_string()))
 }
 
-/// Reads a document. Its mistakes are shown with their ranges.
+/// Reads a document. Its errors are shown with their ranges.
 pub(super) fn read(document: &Document) -> Result<Model, CommandError> {
     match document.read() {
         Ok(checked) => Ok(checked.model),
@@ -40,7 +40,7 @@ pub(super) fn derive(document: &Document, model: Model) -> Result<Derived, Comma
     if mistakes.is_empty() { Ok(derived) } else { Err(refuse(document, &mistakes)) }
 }
 
-/// The mistake of a file whose method is not in the table.
+/// The error of a file whose method is not in the table.
 pub(super) fn unknown_method(model: &Model) -> Option<Diagnostic> {
     let name = &model.run.method;
     if name == AUTO || method_named(name).is_some() {
@@ -57,7 +57,7 @@ pub(super) fn unknown_method(model: &Model) -> Option<Diagnostic> {
     })
 }
 
-/// The mistake of a file whose method does not suit the system, or does not take the given
+/// The error of a file whose method does not suit the system, or does not take the given
 /// tolerance or step.
 pub(super) fn unfit_method(model: &Model, system: &System) -> Option<Diagnostic> {
     let run = &model.run;
@@ -74,16 +74,16 @@ pub(super) fn unfit_method(model: &Model, system: &System) -> Option<Diagnostic>
     Some(at(&run.settings_place, why.to_string()))
 }
 
-/// Shows the mistakes of a file with their ranges.
+/// Shows the errors of a file with their ranges.
 pub(super) fn refuse(document: &Document, mistakes: &[Diagnostic]) -> CommandError {
     stderr::show(&document.report(mistakes, stderr::has_colour()));
     CommandError::WrongFile(count(mistakes.len(), &document.path))
 }
 
-/// `2 mistakes in pendulum.toml`.
+/// `2 errors in pendulum.toml`.
 pub(super) fn count(mistakes: usize, path: &str) -> String {
     match mistakes {
-        1 => format!("1 mistake in {path}"),
-        n => format!("{n} mistakes in {path}"),
+        1 => format!("1 error in {path}"),
+        n => format!("{n} errors in {path}"),
     }
 }

@@ -147,7 +147,7 @@ pub(super) fn recorded(
     name: &str,
     size: Option<(u16, u16)>,
 ) -> Result<Recording, CommandError> {
-    // the mistakes of the system are reported for the system's own file
+    // the errors of the system are reported for the system's own file
     open::read(system)?;
     let size = size.unwrap_or((80, 24));
     play(script, system, called(name), size).map_err(|mistakes| located(source, &mistakes))
@@ -162,7 +162,7 @@ pub(super) fn hold(source: &Document, recording: &Recording) -> Result<(), Comma
     }
 }
 
-/// Shows mistakes with their ranges.
+/// Shows errors with their ranges.
 pub(super) fn located(source: &Document, mistakes: &[Diagnostic]) -> CommandError {
     open::refuse(source, mistakes)
 }

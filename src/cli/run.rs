@@ -162,7 +162,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     for name in system.redundant() {
         stderr::tell(&format!("the constraint `{name}` repeats what those before it say"));
     }
-    // if all settings are the file's, an unsuitable method is the file's mistake
+    // if all settings are the file's, an unsuitable method is the file's error
     let of_file =
         arguments.method.is_none() && (arguments.step, arguments.tolerance) == (None, None);
     if of_file && let Some(mistake) = open::unfit_method(&model, &system) {

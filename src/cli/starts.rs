@@ -159,7 +159,7 @@ impl Starts {
     }
 }
 
-/// A mistake in comma-separated values, in words.
+/// An error in comma-separated values, in words.
 fn wrong_line(why: &csv::Error) -> String {
     match why.kind() {
         csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {

@@ -17,7 +17,7 @@ pub struct Document {
     pub path: String,
     /// The text, with invalid UTF-8 replaced by `�`.
     pub text: String,
-    /// A mistake that prevents the text from being read at all.
+    /// An error that prevents the text from being read at all.
     unreadable: Option<Diagnostic>,
 }
 
@@ -77,7 +77,7 @@ impl Document {
         Path::new(&self.path).file_stem()?.to_str().filter(|stem| !stem.is_empty())
     }
 
-    /// A mistake in its bytes that prevents the text from being read at all.
+    /// An error in its bytes that prevents the text from being read at all.
     pub fn unreadable(&self) -> Option<&Diagnostic> {
         self.unreadable.as_ref()
     }
@@ -91,7 +91,7 @@ impl Document {
         (line, column)
     }
 
-    /// Formats mistakes found in the document, see [`report()`].
+    /// Formats errors found in the document, see [`report()`].
     pub fn report(&self, mistakes: &[Diagnostic], colour: bool) -> String {
         report(&self.text, &self.path, mistakes, colour)
     }

@@ -1,11 +1,11 @@
-//! A mistake in a file, with its place and a correction, and the list that collects mistakes.
+//! An error in a file, with its place and a correction, and the list that collects errors.
 
 use std::collections::BTreeSet;
 
 /// A range of bytes in the text of a file.
 pub type SourceRange = std::ops::Range<usize>;
 
-/// The severity of a mistake.
+/// The severity of an error.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Severity {
     /// The file cannot be used.
@@ -14,7 +14,7 @@ pub enum Severity {
     Warning,
 }
 
-/// A mistake in a file.
+/// An error in a file.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("{message}")]
 pub struct Diagnostic {
@@ -31,7 +31,7 @@ pub struct Diagnostic {
 }
 
 impl Diagnostic {
-    /// Creates a mistake that makes the file unusable.
+    /// Creates an error that makes the file unusable.
     pub fn error(place: SourceRange, message: impl Into<String>) -> Diagnostic {
         let message = message.into();
         Diagnostic { severity: Severity::Error, place, message, help: None, also: None }
@@ -60,10 +60,10 @@ impl Diagnostic {
 /// The largest number of characters in a message: a name in a file may fill the whole file.
 const LONGEST: usize = 400;
 
-/// The largest number of mistakes stored: a file with a million of them would fill the memory.
+/// The largest number of errors stored: a file with a million of them would fill the memory.
 const MOST: usize = 100;
 
-/// The mistakes of one file. It also records what TOML syntax errors may have hidden, so that
+/// The errors of one file. It also records what TOML syntax errors may have hidden, so that
 /// nothing is reported as missing because of them.
 #[derive(Default, Debug)]
 pub struct Diagnostics {
@@ -71,7 +71,7 @@ pub struct Diagnostics {
     left_out: usize,
     /// Keys lost in TOML syntax errors.
     lost_keys: BTreeSet<String>,
-    /// Values with TOML syntax errors; no further mistakes are reported in them.
+    /// Values with TOML syntax errors; no further errors are reported in them.
     lost_values: Vec<SourceRange>,
     /// Whether any part of the file may be lost.
     lost_track: bool,
@@ -80,7 +80,7 @@ pub struct Diagnostics {
 }
 
 impl Diagnostics {
-    /// Records a mistake.
+    /// Records an error.
     pub fn push(&mut self, mut mistake: Diagnostic) {
         shorten(&mut mistake.message);
         if let Some(help) = &mut mistake.help {
@@ -145,24 +145,24 @@ impl Diagnostics {
         std::mem::take(&mut self.plain)
     }
 
-    /// All mistakes, in the order of their places.
+    /// All errors, in the order of their places.
     pub fn into_list(mut self) -> Vec<Diagnostic> {
         self.sort();
         if self.left_out > 0 {
             let place = self.list.last().map_or(0..0, |m| m.place.clone());
-            let message = format!("{} more mistakes are not listed", self.left_out);
+            let message = format!("{} more errors are not listed", self.left_out);
             self.list.push(Diagnostic::error(place, message));
         }
         self.list
     }
 
-    /// All mistakes in the order of their places, if none makes the file unusable.
+    /// All errors in the order of their places, if none makes the file unusable.
     pub fn into_warnings(mut self) -> Vec<Diagnostic> {
         self.sort();
         self.list
     }
 
-    /// Returns whether there is a mistake that makes the file unusable.
+    /// Returns whether there is an error that makes the file unusable.
     pub fn any_error(&self) -> bool {
         self.list.iter().any(|m| m.severity == Severity::Error)
     }

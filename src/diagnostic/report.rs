@@ -1,4 +1,4 @@
-//! Formatting of mistakes for the reader: file, line and column, the line itself, a caret under the
+//! Formatting of errors for the reader: file, line and column, the line itself, a caret under the
 //! place, the reason, and a correction.
 
 use annotate_snippets::{Annotation, AnnotationKind, Level, Origin, Renderer, Snippet};
@@ -16,7 +16,7 @@ const LONGEST_SENTENCE: usize = 420;
 /// The largest distance at which a related place is shown.
 const FARTHEST: usize = 65_536;
 
-/// Formats mistakes found in `text`, the content of `path`, each followed by an empty line. Without
+/// Formats errors found in `text`, the content of `path`, each followed by an empty line. Without
 /// colour the frame around the file's own lines is ASCII. Characters that would control a terminal
 /// are escaped.
 pub fn report(text: &str, path: &str, mistakes: &[Diagnostic], colour: bool) -> String {

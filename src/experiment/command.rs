@@ -14,12 +14,12 @@ pub enum Command {
     /// Advances by this many single steps while paused. A single step is one frame, 1/60 s of wall
     /// time, at the current speed.
     Step(u32),
-    /// Pauses, and takes the motion back by this many single steps.
+    /// Pauses, and carries the motion back by this many single steps.
     StepBack(u32),
-    /// Pauses, and looks at a time in the recorded past. The next command that acts on the motion takes it up there; a time
-    /// from the present on leads back to the present.
+    /// Pauses, and looks at a time in the recorded past. The next command that acts on the motion continues it there; a time
+    /// not before the current one leads back to it.
     LookAt(f64),
-    /// Reverses time: from the present state on the motion runs the other way, by the same method.
+    /// Reverses time: from the current state on the motion runs the other way, by the same method.
     Reverse,
     /// Sets the simulated seconds per second of wall time; infinite for as fast as possible.
     Speed(f64),
@@ -64,7 +64,7 @@ pub enum Command {
     AddStart(Vec<InitialOverride>),
     /// Adds a motion that begins close beside the main one.
     AddNeighbour,
-    /// Keeps the present run, with its parameters and its method, beside what follows.
+    /// Keeps the current run, with its parameters and its method, beside what follows.
     Pin,
     /// Removes all motions beside the main one.
     ClearCompanions,

@@ -60,7 +60,7 @@ pub struct Companion {
     pub trail: Trail,
     /// Its crossings of the surfaces of section.
     pub crossings: CrossingLog,
-    /// Why it does not go on.
+    /// Why it does not continue.
     pub message: Option<String>,
 }
 
@@ -172,7 +172,7 @@ impl CompanionMotion {
 
     /// The main motion has a new row.
     pub(super) fn expect(&mut self, due: Due) {
-        // it has been there before the main motion was taken back
+        // it has been there before the main motion was carried back
         if self.message.is_some() || due.0 < self.motion.state().time {
             return;
         }
@@ -265,7 +265,7 @@ impl CompanionMotion {
         Arc::clone(&self.separation)
     }
 
-    /// What is seen of it at the time of the main motion, which may have been taken back.
+    /// What is seen of it at the time of the main motion, which may have been carried back.
     pub(super) fn shown(&self, now: f64) -> Companion {
         let whole = self.recorder.trail();
         let time = self.motion.state().time;

@@ -66,7 +66,7 @@ impl Experiment {
         self.companions.all.push(one);
     }
 
-    /// Keeps the present run, with all its values, beside whatever follows.
+    /// Keeps the current run, with all its values, beside whatever follows.
     pub(super) fn pin(&mut self) {
         if !self.motion.has_begun() || self.fault.is_some() {
             return self.tell("there is no motion to pin".to_owned());

@@ -235,7 +235,7 @@ impl Experiment {
         self.crossings.only_count();
     }
 
-    /// Remembers no states between steps from now on: the motion cannot be taken back.
+    /// Remembers no states between steps from now on: the motion cannot be carried back.
     pub fn forget_past(&mut self) {
         self.motion.forget_past();
     }

@@ -5,7 +5,7 @@
 //! the time gone back: a chaotic motion returns to ε e^{λT} of where it began, a regular one to about ε.
 //!
 //! That error is the tolerance, or the rounding of a method whose step back is the inverse of one forwards. Of any other method
-//! the error of truncation is much larger than both, and it is measured: the motion is taken back over steps of the run.
+//! the error of truncation is much larger than both, and it is measured: the motion is carried back over steps of the run.
 //!
 //! In: an observed motion that has ended, times. Out: its values at those times, the distance. Never here: how a motion runs
 //! backwards.

@@ -56,7 +56,7 @@ impl ObservedMotion {
         })
     }
 
-    /// Remembers no states between steps from now on: the motion cannot be taken back.
+    /// Remembers no states between steps from now on: the motion cannot be carried back.
     pub(super) fn forget_past(&mut self) {
         self.log.turn_off();
     }
@@ -169,8 +169,8 @@ impl ObservedMotion {
     }
 
     /// Lets the gauges sample the last step: at its end, and also within it if rows may be farther apart than steps
-    /// and the method is as accurate there as at the ends. A state that cannot be observed is skipped; its fault
-    /// appears again when it is requested. Where events are looked for in several pieces of a step, its end is free of
+    /// and the method is as accurate there as at the ends. A state that cannot be observed is skipped; its error
+    /// appears again when it is requested. Where events are searched for in several pieces of a step, its end is free of
     /// them only after the last.
     fn look_at_step(&mut self, gauges: &mut Gauges, spacing: f64, new: bool) {
         let (begin, end) = self.inner.undisturbed();
@@ -258,7 +258,7 @@ impl ObservedMotion {
         self.observer = self.inner.system().observer(&parameters);
     }
 
-    /// Advances to the end of what was computed before a fault.
+    /// Advances to the end of what was computed before an error.
     pub(super) fn reach_end(&mut self) -> Result<(), MotionError> {
         self.inner.reach_computed()?;
         self.look()
@@ -287,7 +287,7 @@ impl ObservedMotion {
         parted
     }
 
-    /// A fault of this motion at its time.
+    /// An error of this motion at its time.
     pub(super) fn dated(&self, fault: MotionError) -> MotionError {
         MotionError { time: self.sign * fault.time, ..fault }
     }

@@ -67,7 +67,7 @@ pub struct Prepared {
 pub struct PrepareError {
     /// A report for the user, in one or more lines.
     pub report: String,
-    /// Each mistake with its range; one without a range has the beginning of the file.
+    /// Each error with its range; one without a range has the beginning of the file.
     pub mistakes: Vec<Diagnostic>,
 }
 
@@ -84,7 +84,7 @@ impl Prepared {
     /// Reads, derives, compiles and sets up.
     ///
     /// # Errors
-    /// Returns every mistake of the file with its range, or the reason why there are no equations or no suitable
+    /// Returns every error of the file with its range, or the reason why there are no equations or no suitable
     /// method.
     pub fn of(document: &Document) -> Result<Prepared, PrepareError> {
         Prepared::with(document, &Cancel::new())

@@ -1,4 +1,4 @@
-//! Time reversed: from the present state on, the same law runs the other way, by the same method.
+//! Time reversed: from the current state on, the same law runs the other way, by the same method.
 //!
 //! The system run backwards ([`System::reversed`]) has −t for its time and the opposite rates of change; all that carries a
 //! motion on, events and constraints among it, is the same. What was recorded stays as the run before (`echo`), and the
@@ -114,7 +114,7 @@ impl Experiment {
         Ok(std::mem::replace(&mut self.motion, motion))
     }
 
-    /// Goes on backwards from a state that was taken up, without a run before it.
+    /// Continues backwards from a state that was restored, without a run before it.
     pub(super) fn go_on_backwards(&mut self) {
         match self.turn() {
             Ok(_) => {

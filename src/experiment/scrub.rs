@@ -1,6 +1,6 @@
 //! A look at the recorded past, which changes nothing: the motion stays where it is, and what was recorded stays too.
 //!
-//! In: a time between the first step that is known and the present. Out: a snapshot of that time, exact by dense output. Never
+//! In: a time between the first step that is known and now. Out: a snapshot of that time, exact by dense output. Never
 //! here: the step that takes the motion itself back (`rewind`).
 
 use super::course::HORIZON;
@@ -52,7 +52,7 @@ impl Experiment {
     }
 
     /// Does what a command means while the past is looked at. Returns whether that was all: otherwise the motion has been
-    /// taken back to the time looked at, or is about to begin again.
+    /// carried back to the time looked at, or is about to begin again.
     pub(super) fn scrubs(&mut self, command: &Command) -> bool {
         let Some(scrubbed) = &self.scrubbed else { return false };
         let (time, sign) = (scrubbed.motion.time(), self.motion.sign());

@@ -1,7 +1,7 @@
-//! The states between which the steps of a motion were taken, so that it can be taken back to any time in between.
+//! The states between which the steps of a motion were taken, so that it can be carried back to any time in between.
 //!
 //! A method that begins again at such a state takes the same step as before, whose dense output then gives the state
-//! inside: what is seen when time is taken back is what was there. (`dop853` remembers the size of the step before, so
+//! inside: what is seen when time goes back is what was there. (`dop853` remembers the size of the step before, so
 //! that its states agree within its tolerance.)
 //!
 //! In: states at the ends of steps. Out: the last of them before a time. Never here: how the motion begins again.

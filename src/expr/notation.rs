@@ -63,6 +63,23 @@ pub fn latex_name(name: &str) -> String {
     if subscript.is_empty() { stem } else { format!("{stem}_{{{}}}", latex_name(subscript)) }
 }
 
+/// The plain name of which this is the notation: `θ₁` → `theta1`. `None` if a character has none.
+pub fn plain_name(shown: &str) -> Option<String> {
+    let mut name = String::new();
+    for c in shown.chars() {
+        if let Some((letter, _)) = GREEK.iter().find(|(_, g)| g.chars().eq([c])) {
+            name.push_str(letter);
+        } else if let Some(digit) = ('0'..='9').find(|&d| subscript_character(d) == Some(c)) {
+            name.push(digit);
+        } else if c.is_ascii_alphanumeric() || c == '_' {
+            name.push(c);
+        } else {
+            return None;
+        }
+    }
+    Some(name).filter(|name| unicode_name(name) == shown)
+}
+
 /// LaTeX for a Unicode symbol from a file (`θ`, `I₁`), with letters by their names.
 pub fn latex_of_unicode(shown: &str) -> String {
     let mut latex = String::new();

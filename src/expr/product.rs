@@ -1,6 +1,6 @@
 //! Products and powers in canonical form: exponents of equal bases collected, numbers combined,
 //! sums in them primitive, exponentials joined. No rule changes a value where the original has one:
-//! `sqrt(x^2)` stays as it is.
+//! `sqrt(x^2)` is left unchanged.
 
 use super::node::{Expr, FunctionId, Node};
 use super::pool::Pool;

@@ -16,7 +16,7 @@ pub struct Span {
     pub end: usize,
 }
 
-/// A mistake in one expression, with its place and a correction.
+/// An error in one expression, with its place and a correction.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 #[error("{message}")]
 pub struct SyntaxError {
@@ -29,7 +29,7 @@ pub struct SyntaxError {
 }
 
 impl SyntaxError {
-    /// Creates a mistake without a correction.
+    /// Creates an error without a correction.
     pub fn new(span: Span, message: impl Into<String>) -> SyntaxError {
         SyntaxError { span, message: message.into(), help: None }
     }
@@ -83,7 +83,7 @@ pub enum SyntaxKind {
 
 /// Resolves the names in an expression.
 pub trait Resolve {
-    /// The expression for a name with this many primes, or `None` after reporting a mistake.
+    /// The expression for a name with this many primes, or `None` after reporting an error.
     fn name(&mut self, pool: &mut Pool, name: &str, primes: usize, span: Span) -> Option<Expr>;
     /// Returns whether a name is known as something other than a function.
     fn is_variable(&self, name: &str) -> bool;
@@ -91,14 +91,14 @@ pub trait Resolve {
     fn is_constant(&self, _name: &str) -> bool {
         false
     }
-    /// Records a mistake.
+    /// Records an error.
     fn complain(&mut self, error: SyntaxError);
 }
 
 impl Syntax {
-    /// Converts the tree to a canonical expression. All mistakes go to the resolver. If there is
+    /// Converts the tree to a canonical expression. All errors go to the resolver. If there is
     /// one, the result is not usable; in it, unknown names become symbols, so that they cause no
-    /// further mistakes.
+    /// further errors.
     pub fn lower(&self, pool: &mut Pool, names: &mut dyn Resolve) -> Expr {
         match &self.kind {
             SyntaxKind::Number(n) => pool.number(*n),

@@ -109,7 +109,7 @@ fn name(text: &str, start: usize) -> (String, usize, usize) {
     (on_the_line(&name), primes, at)
 }
 
-/// Returns whether the marks so far are dots above a letter, after which a name goes on: `ẋ_1`.
+/// Returns whether the marks so far are dots above a letter, after which a name continues: `ẋ_1`.
 fn after_dot(so_far: &str) -> bool {
     !so_far.contains(['\'', '′', '″'])
 }

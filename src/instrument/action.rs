@@ -102,7 +102,7 @@ struct ComputedAction {
 /// The action beside a motion.
 struct Beside {
     varied: VariedAction,
-    /// The times from its beginning at which it passes a kinetic focus of the principle; none are looked for where forces
+    /// The times from its beginning at which it passes a kinetic focus of the principle; none are searched for where forces
     /// act that have no potential, so that the motion does not make the action stationary.
     foci: Option<Vec<f64>>,
     /// The number of coordinates.

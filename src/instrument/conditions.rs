@@ -1,6 +1,6 @@
 //! What the result of a job depends on: when it changes, the job is begun anew.
 //!
-//! In: the present, what was added. Out: [`PlotConditions`], to be compared. Never here: what is computed.
+//! In: the current state, what was added. Out: [`PlotConditions`], to be compared. Never here: what is computed.
 
 use super::{Present, Seed};
 use crate::integrate::Settings;

@@ -168,7 +168,7 @@ impl Instrument for Ensemble {
             conditions,
             origin,
             now: present.time,
-            // what was known beyond the present time is gone on from
+            // what was known beyond the current time is continued from
             known: answer.filter(|_| known.is_some_and(|known| known.began(present.time))).cloned(),
         };
         let job = Job::new("cloud", move |progress| Answer::new(task.next(progress)));

@@ -27,7 +27,7 @@ pub struct FoundEquilibria {
     pub parameters: Vec<f64>,
 }
 
-/// The search around the current state, as the work of a job; its failure is a sentence.
+/// The search around the current state, as the work of a job; its error is a sentence.
 pub fn equilibria_search(
     present: &Present<'_>,
 ) -> impl Fn(&Progress) -> Result<FoundEquilibria, String> + Send + Sync + 'static {
@@ -76,7 +76,7 @@ pub fn value_at(physics: Physics<'_>, one: &Equilibrium, channel: usize) -> Opti
     let n = physics.system.degrees();
     let rate = |i: usize| one.rates.iter().find(|(cyclic, _)| *cyclic == i).map(|(_, rate)| *rate);
     match physics.system.channels().get(channel)?.kind {
-        // a cyclic coordinate goes on
+        // a cyclic coordinate keeps moving
         ChannelKind::Position(i) if rate(i).is_none() => one.variables.get(i).copied(),
         ChannelKind::Velocity(i) => Some(rate(i).unwrap_or(0.0)),
         ChannelKind::Momentum(i) => one.variables.get(n + i).copied(),

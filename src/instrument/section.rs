@@ -213,7 +213,7 @@ impl Instrument for SectionPlot {
             },
             columns: [x, y],
             transient: if dissipates(present.physics) { TRANSIENT } else { 0 },
-            // orbits of a picture that was begun go on in it
+            // orbits of a picture that was begun continue in it
             known: known.map(|known| Begun {
                 region: known.region.clone(),
                 orbits: known.orbits.clone(),

@@ -26,7 +26,7 @@ const LINES: Level = 2;
 const SECONDS: f64 = 90.0;
 const COUNT: usize = 2048;
 
-/// The most lines that are looked for, and that are listed.
+/// The most lines that are searched for, and that are listed.
 const MOST: usize = 10;
 const TOLD: usize = 6;
 
@@ -211,7 +211,7 @@ fn mean(answer: Option<&Answer>) -> Option<MeanRate> {
 /// What is said of the lines, or why there are none.
 fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     let lines = match found(answer).map(|found| &found.outcome) {
-        None => return vec!["looking for lines".to_owned()],
+        None => return vec!["searching for lines".to_owned()],
         Some(Err(why)) => return vec![why.clone()],
         Some(Ok((lines, _))) => lines,
     };

@@ -34,7 +34,7 @@ impl Instrument for Time {
     fn offers(&self, _physics: Physics<'_>) -> Vec<Offer> {
         vec![Offer {
             label: "t".to_owned(),
-            about: "time, with one or several quantities upwards".to_owned(),
+            about: "one or several quantities over time".to_owned(),
             columns: Columns::new(),
             view: None,
             over: Vec::new(),

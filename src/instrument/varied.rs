@@ -1,6 +1,6 @@
 //! What a picture of many motions runs over, parameters and initial values, and what all of them have in common.
 //!
-//! In: a plot, the present. Out: the range of each variation and the part of it that is seen, the conditions on which the
+//! In: a plot, the current state. Out: the range of each variation and the part of it that is seen, the conditions on which the
 //! result depends, the start of the motion at given numbers. Never here: what is computed of it.
 
 use std::sync::Arc;

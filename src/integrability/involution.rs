@@ -29,7 +29,7 @@ const MOST_MONOMIALS: usize = 150;
 /// The number of combinations that are tried.
 const MOST_TRIED: usize = 40;
 
-/// The number of orders of monomials in which short combinations are looked for.
+/// The number of orders of monomials in which short combinations are searched for.
 const ORDERS: usize = 6;
 
 /// Rows beyond the rank that have to add nothing.
@@ -54,7 +54,7 @@ pub struct Commuting {
     pub expression: Expr,
     /// Its coefficients, and the indices of the constants that are multiplied.
     pub terms: Vec<(Number, Vec<usize>)>,
-    /// Whether it commutes for all values of the parameters, and not only for the present ones.
+    /// Whether it commutes for all values of the parameters, and not only for the current ones.
     pub for_all_parameters: bool,
 }
 

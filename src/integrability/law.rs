@@ -48,7 +48,7 @@ impl LawConstraint {
     }
 }
 
-/// A law of motion for which constants of the motion are looked for.
+/// A law of motion for which constants of the motion are searched for.
 #[derive(Clone, Debug)]
 pub(super) struct Law {
     /// The variables of the state; of canonical ones all positions come first.

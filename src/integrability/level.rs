@@ -26,7 +26,7 @@ const SPARE: usize = 12;
 /// The number of points drawn in vain before the search is given up.
 const TRIES: usize = 2_000;
 
-/// The number of orders of columns in which sparse vectors are looked for.
+/// The number of orders of columns in which sparse vectors are searched for.
 const ORDERS: usize = 10;
 
 /// Why a level has no answer.

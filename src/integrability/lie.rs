@@ -42,7 +42,7 @@ pub struct PointSymmetry {
     /// Whether it is one of Noether's: it changes L dt by a total derivative. `None` where neither answer is proved, or
     /// there is no Lagrangian that is the whole law.
     pub noether: Option<bool>,
-    /// Whether it is so for all values of the parameters, and not only at the present ones.
+    /// Whether it is so for all values of the parameters, and not only at the current ones.
     pub for_all_parameters: bool,
     /// Of a scaling t → λ^a t, q_i → λ^{b_i} q_i: a and the b_i.
     pub scaling: Option<Vec<Number>>,

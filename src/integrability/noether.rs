@@ -50,7 +50,7 @@ pub struct Symmetry {
     pub conserved: Expr,
     /// Whether that is proved symbolically.
     pub proved: bool,
-    /// Whether it is so for all values of the parameters, and not only at the present ones.
+    /// Whether it is so for all values of the parameters, and not only at the current ones.
     pub for_all_parameters: bool,
     /// Whether an impulse of the file may change the constant.
     pub between_impulses: bool,

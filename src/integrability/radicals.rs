@@ -62,7 +62,7 @@ fn square_free(number: Number) -> Option<i64> {
     Some(free)
 }
 
-/// The largest factor that is looked for in a number under a root.
+/// The largest factor that is searched for in a number under a root.
 const LARGEST_FACTOR: i64 = 10_000;
 
 /// The largest number of different square roots of numbers.

@@ -327,7 +327,7 @@ impl<'a> Search<'a> {
         proved.then_some(expression)
     }
 
-    /// The proof of a constant for the present values of the parameters.
+    /// The proof of a constant for the current values of the parameters.
     fn proof_here(&self, model: &Model, equations: &mut Equations, here: Expr) -> Proof {
         let positions = &self.law.variables[..self.law.positions];
         let proved = match self.law.rate(&mut equations.pool, here) {

@@ -28,7 +28,7 @@ impl Equations {
         self.separation();
     }
 
-    /// Returns whether a closed form has not been looked for yet.
+    /// Returns whether a closed form has not been searched for yet.
     pub fn has_pending_forms(&self) -> bool {
         self.pending.solved
             || self.pending.transform

@@ -64,7 +64,7 @@ pub struct Equations {
     /// H = T(p) + V(q, t), if H separates in this way and no force acts, which splitting methods
     /// need; see [`Equations::separable`].
     pub separable: Result<Separable, NoClosedForm>,
-    /// Which of the closed forms have not been looked for yet.
+    /// Which of the closed forms have not been searched for yet.
     pub(super) pending: Pending,
     /// What acts beside the law, so that the motion does not follow from H alone.
     pub(super) beside: Option<&'static str>,
@@ -285,7 +285,7 @@ pub struct Separable {
     pub momentum_rates: Vec<Expr>,
 }
 
-/// The closed forms that have not been looked for yet.
+/// The closed forms that have not been searched for yet.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub(super) struct Pending {
     /// q̈ and λ.
@@ -302,7 +302,7 @@ pub(super) struct Pending {
 pub struct NoClosedForm(pub String);
 
 impl NoClosedForm {
-    /// The error in the place of a closed form that has not been looked for yet.
+    /// The error in the place of a closed form that has not been searched for yet.
     pub(super) fn pending() -> NoClosedForm {
         NoClosedForm("it has not been derived yet".to_owned())
     }

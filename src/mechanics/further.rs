@@ -44,7 +44,7 @@ pub struct TransformationReport {
     pub backwards: Option<Solution>,
     /// K(Q, P, t), or why there is none.
     pub hamiltonian: Result<Expr, NoClosedForm>,
-    /// Its generating functions of each type, if it is canonical and they can be looked for.
+    /// Its generating functions of each type, if it is canonical and they can be searched for.
     pub functions: Vec<GeneratingFunction>,
 }
 

@@ -28,10 +28,10 @@ use notation::ShownNames;
 /// allowed in a text, with a call, a sum, a product and a power in each.
 const DEPTH_LIMIT: usize = 4 * 256;
 
-/// The largest number of mistakes reported at one place.
+/// The largest number of errors reported at one place.
 const MOST_MISTAKES: usize = 100;
 
-/// The names of a model that may be used at one place, and the mistakes found there.
+/// The names of a model that may be used at one place, and the errors found there.
 #[derive(Clone, Debug)]
 pub struct Scope {
     allowed: Allowed,
@@ -45,11 +45,11 @@ pub struct Scope {
     shown: OnceCell<ShownNames>,
     /// The plain form of the last expression read, if it was written in the notation of the screen.
     pub plain: Option<String>,
-    /// The number of mistakes found, including those that are not reported.
+    /// The number of errors found, including those that are not reported.
     mistake_count: usize,
     /// Whether the coordinates are variables of a Poisson system, which have no momenta.
     poisson: bool,
-    /// The mistakes found so far; the caller takes them out to report them.
+    /// The errors found so far; the caller takes them out to report them.
     pub mistakes: Vec<SyntaxError>,
     /// The names used so far, so that unused ones can be reported.
     pub used: BTreeSet<String>,
@@ -153,7 +153,7 @@ impl Scope {
     }
 
     /// Adds a name that is defined further down. Until [`Scope::define`] gives it a meaning, its
-    /// use is reported as a mistake of its own kind.
+    /// use is reported as an error of its own kind.
     pub fn announce(&mut self, name: &str) {
         self.shown.take();
         self.names.entry(name.to_owned()).or_insert(Meaning::Later);
@@ -169,7 +169,7 @@ impl Scope {
         self.names.contains_key(name)
     }
 
-    /// Reads an expression in this scope. Returns `None` if there were mistakes, which are then in
+    /// Reads an expression in this scope. Returns `None` if there were errors, which are then in
     /// [`Scope::mistakes`].
     pub fn read(&mut self, pool: &mut Pool, text: &str) -> Option<Expr> {
         let before = self.mistake_count;

@@ -56,7 +56,7 @@ pub struct MeasuredOrbit<'a> {
 }
 
 impl MeasuredOrbit<'_> {
-    /// The zeros on the orbit, at most `count`, up to its end or to a fault; `None` if it was cancelled.
+    /// The zeros on the orbit, at most `count`, up to its end or to an error; `None` if it was cancelled.
     fn zeros(&self, count: Option<u64>) -> Option<Crossings> {
         let plan = SectionPlan {
             event: self.event.to_owned(),

@@ -2,7 +2,7 @@
 //! of the same name.
 //!
 //! In: the folder `presets/` at build time, and the user's folder. Out: the entries, and the [`Document`] behind a
-//! name or path. An invalid user file is listed with its mistake. Never here: whether a shipped preset is correct,
+//! name or path. An invalid user file is listed with its error. Never here: whether a shipped preset is correct,
 //! which the tests ensure.
 
 mod entry;

@@ -1,7 +1,7 @@
 //! Draft → Model: names are claimed once each, expressions parsed in their scope, and numbers
 //! validated.
 //!
-//! In: the file as written. Out: the model, unless the mistakes prevent one; all mistakes, with
+//! In: the file as written. Out: the model, unless errors prevent one; all diagnostics, with
 //! byte ranges of the file. Never here: the mechanics that follow, and whether the file's claims
 //! about itself are true.
 
@@ -32,7 +32,7 @@ use crate::model::{Allowed, Model, Scope};
 use names::Names;
 
 /// Checks a draft. Returns `None` if a model cannot even be begun. The model may be used only if no
-/// mistake is an error.
+/// diagnostic is an error.
 pub(super) fn check(
     file: &str,
     draft: &Draft,
@@ -100,7 +100,7 @@ struct Check<'c> {
 }
 
 impl Check<'_> {
-    /// Parses an expression; its mistakes get their range in the file.
+    /// Parses an expression; its errors get their range in the file.
     fn formula(&mut self, scope: &mut Scope, called: &str, formula: &Formula) -> Option<Expr> {
         if self.model.pool.is_full() {
             // already reported

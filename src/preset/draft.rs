@@ -2,7 +2,7 @@
 //!
 //! In: TOML with spans. Out: a [`Draft`], in which every text and number has its range and no name
 //! is resolved. An unknown key, a value of the wrong kind and a missing part of an entry are
-//! mistakes. (serde would stop at the first of them, so the tables are walked here.) Never here:
+//! errors. (serde would stop at the first of them, so the tables are walked here.) Never here:
 //! expressions, the meaning of names, the validity of numbers.
 
 mod body;
@@ -138,7 +138,7 @@ pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Diagnostics) -> D
     draft
 }
 
-/// Reads only the head of the file, for a list of presets. Mistakes are ignored.
+/// Reads only the head of the file, for a list of presets. Errors are ignored.
 pub(super) fn read_head(file: &Spanned<DeTable<'_>>) -> Info {
     let mut top = Table::new("the file", 0..0, file.get_ref());
     read_info(&mut top, &mut Diagnostics::default())

@@ -1,4 +1,4 @@
-//! Reads a preset: its text in, a checked model or all its mistakes out.
+//! Reads a preset: its text in, a checked model or all its errors out.
 
 use super::{check, draft, toml_errors};
 use crate::cancel::Cancel;
@@ -40,7 +40,7 @@ impl Checked {
 /// Reads a preset.
 ///
 /// # Errors
-/// Returns all mistakes of the file, warnings included, in the order of their ranges. The list is
+/// Returns all diagnostics of the file, warnings included, in the order of their ranges. The list is
 /// never empty.
 pub fn read(text: &str) -> Result<Checked, Vec<Diagnostic>> {
     read_with(text, &Cancel::new())
@@ -64,7 +64,7 @@ pub fn read_with(text: &str, cancel: &Cancel) -> Result<Checked, Vec<Diagnostic>
     conclude(mistakes, model)
 }
 
-/// Returns the model with its warnings, or all mistakes if one of them is an error.
+/// Returns the model with its warnings, or all diagnostics if one of them is an error.
 fn conclude(mut mistakes: Diagnostics, model: Option<Model>) -> Result<Checked, Vec<Diagnostic>> {
     match model {
         Some(mut model) if !mistakes.any_error() => {
@@ -83,7 +83,7 @@ impl Document {
     /// Reads the preset in this document.
     ///
     /// # Errors
-    /// Returns all its mistakes, see [`read`](read).
+    /// Returns all its errors, see [`read`](read).
     pub fn read(&self) -> Result<Checked, Vec<Diagnostic>> {
         self.read_with(&Cancel::new())
     }
@@ -92,7 +92,7 @@ impl Document {
     /// model.
     ///
     /// # Errors
-    /// Returns all its mistakes, see [`read`](read).
+    /// Returns all its errors, see [`read`](read).
     pub fn read_with(&self, cancel: &Cancel) -> Result<Checked, Vec<Diagnostic>> {
         match self.unreadable() {
             Some(mistake) => Err(vec![mistake.clone()]),

@@ -194,7 +194,7 @@ fn push(file: &mut DocumentMut, key: &str, table: Table) {
     match file.entry(key).or_insert(Item::ArrayOfTables(ArrayOfTables::new())) {
         Item::Value(Value::Array(list)) => list.push(table.into_inline_table()),
         Item::ArrayOfTables(list) => list.push(table),
-        // what is no list is a mistake, which is reported
+        // what is no list is an error, which is reported
         _ => {}
     }
 }

@@ -1,5 +1,5 @@
 //! A flat file of keys with plain values, such as a configuration. It is read with the same care as a preset, and its
-//! mistakes are reported in the same words.
+//! errors are reported in the same words.
 //!
 //! In: a [`Document`] and its allowed keys. Out: the values as written, each with its range. Never here: what a key
 //! is for.

@@ -5,20 +5,23 @@ pub fn template() -> &'static str {
     TEMPLATE
 }
 
-const TEMPLATE: &str = r#"# A system of your own; it runs as it is. Without a title it is called by its file's name.
-# title = "Pendulum"
+const TEMPLATE: &str = r#"# A system of your own; it runs as it is.
+# title = "Pendulum"              # without a title: the file's name
 
-[coordinates]                     # each with its initial value and velocity; theta = 1.0 is enough
-theta = { symbol = "θ", unit = "rad", initial = 1.0, velocity = 0.0, period = "2*pi" }
+[coordinates]                     # theta = 1.0 is enough; θ is shown
+theta = { initial = 1.0, velocity = 0.0, unit = "rad", period = "2*pi" }
 
-[parameters]                      # sliders of the lab: a number, or a table
-g = { value = 9.81, min = 0.0, max = 30.0, unit = "m/s²", about = "gravity" }
-l = { value = 1.0, min = 0.1, max = 5.0, unit = "m", about = "length of the rod" }
-m = { value = 1.0, min = 0.1, max = 5.0, unit = "kg", about = "mass of the bob" }
+[parameters]                      # sliders of the lab; or m = 1.0
+g = { value = 9.81, min = 0, max = 30, unit = "m/s²" }
+l = { value = 1, min = 0.1, max = 5, unit = "m", about = "length" }
+m = { value = 1, min = 0.1, max = 5, unit = "kg", about = "mass" }
 
-[lagrangian]                      # θ′ (or theta') is the velocity of θ; or write [hamiltonian] and H with p_theta
+[lagrangian]                      # θ′ or theta' is the velocity of θ
 L = "½ m l² θ′² + m g l cos θ"
 # dissipation = "½ c θ′²"         # friction, by Rayleigh's function
+
+# [hamiltonian]                   # or this; momentum for velocity
+# H = "½ p_θ²/(m l²) - m g l cos θ"
 
 [space]                           # a picture: points are [x, y, z]
 shapes = [

@@ -1,5 +1,5 @@
 //! TOML's own grammar: text in, tables with spans out. Errors are reported in our own words, and as much of the file
-//! as possible is recovered, so that its other mistakes can be reported as well.
+//! as possible is recovered, so that its other errors can be reported as well.
 //!
 //! The message for an error depends on its context (between tokens, in a key, in a value, in a table), on what was
 //! expected there, and on the text at its range; never on the parser's own words.
@@ -13,6 +13,7 @@ use toml_parser::{Expected, ParseError, Source};
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Diagnostics;
 use crate::diagnostic::SourceRange;
+use crate::expr::plain_name;
 use crate::printable;
 
 /// Parses the file as a table. Whatever is not TOML is reported, then dropped or patched.
@@ -45,7 +46,7 @@ pub(super) fn parse<'f>(text: &'f str, mistakes: &mut Diagnostics) -> Spanned<De
     table
 }
 
-/// Reports every name and text that contains a terminal control character; no further mistakes are reported for it.
+/// Reports every name and text that contains a terminal control character; no further errors are reported for it.
 fn steering(table: &DeTable<'_>, mistakes: &mut Diagnostics) {
     for (key, value) in table {
         if let Some(c) = key.get_ref().chars().find(|&c| printable::is_steering(c)) {
@@ -130,7 +131,7 @@ fn slips(text: &str) -> Vec<Slip> {
                 (
                     EventKind::SimpleKey,
                     None | Some(Encoding::MlBasicString | Encoding::MlLiteralString),
-                ) => in_key(place),
+                ) => in_key(raw.as_str(), place),
                 (_, None) => in_plain_value(raw.as_str(), place),
                 (_, Some(quotes)) => in_quotes(text, place, quotes),
             });
@@ -183,11 +184,15 @@ fn between_tokens(text: &str, error: &ParseError) -> Slip {
     Slip::new(place, message, Loses::Track)
 }
 
-fn in_key(place: SourceRange) -> Slip {
+/// The error of a key in other characters; `key` is all of it.
+fn in_key(key: &str, place: SourceRange) -> Slip {
     if place.is_empty() {
         return Slip::new(place, "a key is missing here", Loses::Track);
     }
-    let help = "letters to be shown are given by `symbol`: theta = { symbol = \"θ\" }";
+    let help = plain_name(key).map_or_else(
+        || "letters to be shown are given by `symbol`: theta = { symbol = \"θ\" }".to_owned(),
+        |plain| format!("write {plain}, which is shown as {key}"),
+    );
     Slip::new(place, "a key is made of ASCII letters, digits, `_` and `-`", Loses::Value).help(help)
 }
 

@@ -1,6 +1,6 @@
 //! Evaluates an `Assert` of a script.
 //!
-//! In: an assertion, the application. Out: whether it is true, with a sentence that gives the values; or a mistake if
+//! In: an assertion, the application. Out: whether it is true, with a sentence that gives the values; or an error if
 //! it names something that does not exist. Never here: when it is evaluated.
 
 use crate::app::{App, Lab};
@@ -161,7 +161,12 @@ pub(super) fn column(app: &App, of: &LineText) -> Result<usize, Diagnostic> {
     })
 }
 
-fn measured(app: &App, measure: AssertedNumber, of: &LineText) -> Result<f64, Diagnostic> {
+/// The number that is measured of a name or an expression now.
+pub(super) fn measured(
+    app: &App,
+    measure: AssertedNumber,
+    of: &LineText,
+) -> Result<f64, Diagnostic> {
     if measure == AssertedNumber::Value {
         return value(app, of);
     }
@@ -212,7 +217,7 @@ pub(super) fn value(app: &App, written: &LineText) -> Result<f64, Diagnostic> {
     let Some(e) = scope.read(&mut pool, &written.text) else {
         let mistake = scope.mistakes.into_iter().next();
         return Err(mistake.map_or_else(
-            || Diagnostic::error(written.place.clone(), "this is no expression"),
+            || Diagnostic::error(written.place.clone(), "this is not an expression"),
             |mistake| {
                 let start = written.place.start;
                 let place = start + mistake.span.start..start + mistake.span.end;
@@ -262,7 +267,7 @@ fn measured_of_plot(lab: &Lab, written: &LineText) -> Result<Option<f64>, Diagno
     }
 }
 
-/// A mistake about something that does not exist, with the nearest name that does.
+/// An error about something that does not exist, with the nearest name that does.
 pub(super) fn missing<'a>(
     kind: &str,
     name: &LineText,

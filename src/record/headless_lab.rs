@@ -214,7 +214,7 @@ impl HeadlessLab {
         Loaded { name, epoch: self.epoch, model, equations, system, document }
     }
 
-    /// Checks a text being edited; one without mistakes runs at once.
+    /// Checks a text being edited; one without errors runs at once.
     fn check(&mut self, ticket: u64, title: String, text: String) {
         let Some(name) = self.app.checked_system().filter(|_| self.app.awaits(ticket)) else {
             return;

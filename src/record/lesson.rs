@@ -11,6 +11,8 @@ use ratatui::layout::Size;
 use super::assertion::AssertionResult;
 use super::clock::Micros;
 use super::headless_lab::Budget;
+use super::lesson_finding::in_words;
+use super::lesson_look::LessonView;
 use super::lesson_order::mistakes_in;
 use super::lesson_question::{AnswerChoice, AnswerVerdict, GivenAnswer, Question, QuestionKind};
 use super::recording::rows;
@@ -29,14 +31,20 @@ pub struct Lesson {
     pub(super) question: Option<Question>,
     /// The answers so far, those of earlier visits not included.
     pub(super) verdicts: Vec<AnswerVerdict>,
-    /// Claims (`Assert`) that were found false; looked for only where nobody watches.
+    /// Claims (`Assert`) that were found false; searched for only where nobody watches.
     pub(super) false_claims: Vec<Diagnostic>,
     /// What was said last.
     pub(super) said: Vec<Paragraph>,
     /// The time that may have passed, of the clock of the lab.
     time: Micros,
-    /// The step from which a later visit may go on.
+    /// The step from which a later visit may continue.
     safe: usize,
+    /// Whether the lab is still as the person left it after a task.
+    pub(super) personal: bool,
+    /// What was seen before somebody looked around.
+    pub(super) view: Option<LessonView>,
+    /// What is said of a key that does nothing.
+    pub(super) notice: Option<String>,
     unattended: bool,
 }
 
@@ -69,7 +77,7 @@ impl Lesson {
     /// Begins a lesson for a person.
     ///
     /// # Errors
-    /// Returns the mistakes of the script, or that its system cannot be opened.
+    /// Returns the errors of the script, or that its system cannot be opened.
     pub fn watched(
         script: Script,
         document: &Document,
@@ -101,14 +109,17 @@ impl Lesson {
             said: Vec::new(),
             time: 0,
             safe: 0,
+            personal: false,
+            view: None,
+            notice: None,
             unattended: budget.is_unattended(),
         })
     }
 
-    /// Goes on to a place where an earlier visit ended, without waiting for anybody on the way.
+    /// Continues to a place where an earlier visit ended, without waiting for anybody on the way.
     ///
     /// # Errors
-    /// Returns a mistake of the script that only its system reveals.
+    /// Returns an error of the script that only its system reveals.
     pub fn resume(&mut self, place: usize) -> Result<(), Diagnostic> {
         while self.runner.next < place && !matches!(self.stage, LessonStage::Ended) {
             match self.runner.beat()? {
@@ -124,7 +135,7 @@ impl Lesson {
         Ok(())
     }
 
-    /// The place from which a later visit may go on.
+    /// The place from which a later visit may continue.
     pub fn place(&self) -> usize {
         self.safe
     }
@@ -173,7 +184,7 @@ impl Lesson {
     /// Lets time pass. Returns whether anything visible has changed.
     ///
     /// # Errors
-    /// Returns a mistake of the script that only its system reveals.
+    /// Returns an error of the script that only its system reveals.
     pub fn advance(&mut self, elapsed: Micros) -> Result<bool, Diagnostic> {
         match self.stage {
             LessonStage::Playing => {
@@ -202,6 +213,15 @@ impl Lesson {
 
     /// Performs the next action of the script.
     pub(super) fn beat(&mut self) -> Result<(), Diagnostic> {
+        // what is said of a task is said of what the person did
+        let next = self.runner.script.steps.get(self.runner.next).map(|(_, step)| step);
+        let is_said = matches!(
+            next,
+            None | Some(ScriptStep::Lesson(LessonStep::Say(_) | LessonStep::Solution(_)))
+        );
+        if self.personal && !is_said {
+            self.begin_anew();
+        }
         match self.runner.beat()? {
             RunnerEvent::Lesson(place, step) => self.take(place, step)?,
             RunnerEvent::Claim(place, claim) if self.unattended => {
@@ -330,18 +350,19 @@ impl Lesson {
     /// Ends a task whose claim holds.
     pub(super) fn look_at_task(&mut self) {
         let LessonStage::Task { claim, .. } = &self.stage else { return };
+        // whoever types has not finished
+        if self.runner.lab.app.is_typing() {
+            return;
+        }
         // in another system, or before anything has happened, a claim need not have a meaning: it does not hold
         let Ok(finding) = self.find(claim) else { return };
         if finding.holds {
-            let found = format!("Done: {}.", finding.sentence);
-            self.said.push(paragraph(ParagraphKind::Right, found));
-            self.begin_anew_later();
+            let found = in_words(claim, &self.runner.lab.app);
+            let done = found.map_or_else(|| "Done.".to_owned(), |found| format!("Done: {found}."));
+            self.said.push(paragraph(ParagraphKind::Right, done));
+            self.runner.hold(true);
+            self.stage = LessonStage::Said;
         }
-    }
-
-    fn begin_anew_later(&mut self) {
-        self.runner.hold(true);
-        self.stage = LessonStage::Said;
     }
 
     /// Opens the system again as its file says, so that what follows does not depend on what the person did.
@@ -350,27 +371,27 @@ impl Lesson {
         self.runner.lab.app.footer = self.runner.script.head.footer;
         self.runner.keys.clear();
         self.time = 0;
+        self.personal = false;
     }
 
     fn end(&mut self) {
         let (right, all) = self.score();
         let text = match all {
             0 => "This is the end of the lesson.".to_owned(),
-            _ => format!("This is the end of the lesson: {right} of {all} predictions were right."),
+            _ => format!("This is the end of the lesson. Right predictions: {right} of {all}."),
         };
         self.said = vec![paragraph(ParagraphKind::Text, text)];
         self.stage = LessonStage::Ended;
     }
 
-    /// Goes on from what was said.
+    /// Continues from what was said.
     pub(super) fn go_on(&mut self) {
+        self.look_back();
         let last = self.runner.next.checked_sub(1).and_then(|at| self.runner.script.steps.get(at));
         let personal = |step: &ScriptStep| {
             matches!(step, ScriptStep::Lesson(LessonStep::Task { .. } | LessonStep::Free(_)))
         };
-        if last.is_some_and(|(_, step)| personal(step)) {
-            self.begin_anew();
-        }
+        self.personal |= last.is_some_and(|(_, step)| personal(step));
         self.runner.hold(false);
         self.stage = LessonStage::Playing;
     }

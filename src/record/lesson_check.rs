@@ -9,7 +9,7 @@ use super::script::{LessonStep, Script, ScriptStep};
 use crate::app::Event;
 use crate::diagnostic::{Diagnostic, Document};
 
-/// What was found in a lesson without mistakes.
+/// What was found in a lesson without errors.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LessonReport {
     /// The number of questions.

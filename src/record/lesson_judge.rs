@@ -5,6 +5,7 @@
 
 use super::assertion::{self, AssertionResult};
 use super::lesson::{Lesson, paragraph};
+use super::lesson_finding::in_words;
 use super::lesson_question::{AnswerChoice, Truth};
 use super::script::{AskedAxis, LineText};
 use crate::app::{PredictedAxis, Prediction};
@@ -39,9 +40,12 @@ impl Lesson {
             let other = letter(other, &options[other].text);
             said.push(paragraph(ParagraphKind::Text, format!("It is {other}")));
         }
-        if let Some(at) = holds.iter().position(|holds| *holds) {
-            let found = format!("Found: {}.", findings[at].sentence);
-            said.push(paragraph(ParagraphKind::Quiet, found));
+        let holding =
+            options.iter().zip(&holds).find_map(|(option, holds)| holds.then_some(option));
+        if let Some(found) =
+            holding.and_then(|option| in_words(&option.claim, &self.runner.lab.app))
+        {
+            said.push(paragraph(ParagraphKind::Quiet, format!("Found: {found}.")));
         }
         Ok((said, (right, Truth::Options(holds))))
     }
@@ -58,7 +62,7 @@ impl Lesson {
         let right = (number - value).abs() <= within;
         let (kind, word) = spoken(right);
         let (number, found, near) = (short(number), short(value), short(within));
-        let text = format!("{word}: you predicted {number}, it is {found} (right within {near}).");
+        let text = format!("{word}: you predicted {number}; it is {found} (right within {near}).");
         Ok((vec![paragraph(kind, text)], (right, Truth::Value(value, within))))
     }
 
@@ -79,19 +83,29 @@ impl Lesson {
                 // the last digits of what vanishes say nothing
                 let shown = |at: &[f64; 2]| {
                     let known = |k: usize| at[k].abs() > ROUNDING * prediction.axes[k].within;
-                    pair([0, 1].map(|k| if known(k) { at[k] } else { 0.0 }))
+                    let at = [0, 1].map(|k| short(if known(k) { at[k] } else { 0.0 }));
+                    format!("{} = {}, {} = {}", names[0], at[0], names[1], at[1])
                 };
                 let [own, found] = [own, found].map(shown);
-                format!("{word}: you predicted {own}, it is {found} (right within {x} and {y}).")
+                format!("{word}: you predicted {own}; it is {found} (right within {x} and {y}).")
             }
-            _ if right => format!("{word}: your curve stays as near to the motion as was asked."),
+            _ if right => format!(
+                "{word}: your curve is within {x} in {} and {y} in {} of the motion.",
+                names[0], names[1]
+            ),
             _ => {
-                let times = short(distance.unwrap_or(f64::INFINITY));
                 let [across, upwards] = names;
-                format!(
-                    "{word}: your curve is up to {times} times as far from the motion as is \
-                     right ({x} along {across}, {y} along {upwards})."
-                )
+                let right = format!("right within {x} in {across} and {y} in {upwards}");
+                match distance {
+                    Some(distance) => {
+                        let times = significant(distance, 2, 1e-3..1e6);
+                        format!(
+                            "{word}: your curve is off by up to {times} times what counts as \
+                             right ({right})."
+                        )
+                    }
+                    None => format!("{word}: your curve is not near the motion ({right})."),
+                }
             }
         };
         (vec![paragraph(kind, text)], (right, Truth::Place(found.clone())), found)
@@ -190,9 +204,4 @@ pub(super) fn letter(index: usize, text: &str) -> String {
 /// A number with four digits, for display only.
 pub(super) fn short(x: f64) -> String {
     significant(x, 4, 1e-3..1e6)
-}
-
-/// A point, for display only.
-pub(super) fn pair([x, y]: [f64; 2]) -> String {
-    format!("({}, {})", short(x), short(y))
 }

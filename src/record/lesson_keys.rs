@@ -1,18 +1,18 @@
-//! The keys of a lesson: to go on, to answer, to leave; in a task all others are the lab's.
+//! The keys of a lesson: to continue, to answer, to leave; in a task all others are the lab's.
 //!
-//! In: a key. Out: a [`Lesson`] that has gone on, or that the person leaves. Never here: what is right.
+//! In: a key. Out: a [`Lesson`] that has continued, or that the person leaves. Never here: what is right.
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::lesson::{Lesson, LessonStage, paragraph};
 use super::lesson_question::{GivenAnswer, QuestionKind};
-use crate::app::Event;
+use crate::app::{Event, key as keys};
 use crate::view::lesson::ParagraphKind;
 
 /// What a key did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pressed {
-    /// The lesson goes on.
+    /// The lesson continues.
     Taken,
     /// The person leaves.
     Leave,
@@ -23,20 +23,32 @@ impl Lesson {
     pub fn press(&mut self, key: KeyEvent) -> Pressed {
         let held = key.modifiers.contains(KeyModifiers::CONTROL);
         self.share_keys();
+        let notice = self.notice.take();
         match key.code {
             KeyCode::Char('c') if held => return Pressed::Leave,
             // in the lab they close what lies on top first
             KeyCode::Char('q') if !held && !self.has_lab() => return Pressed::Leave,
-            KeyCode::Esc if !self.has_lab() => return Pressed::Leave,
+            KeyCode::Esc if !self.has_lab() => {
+                if notice.as_deref() == Some(ESC_AGAIN) {
+                    return Pressed::Leave;
+                }
+                self.notice = Some(ESC_AGAIN.to_owned());
+                return Pressed::Taken;
+            }
             _ => {}
+        }
+        let nothing = format!("{} does nothing here", keys::name(&key));
+        let reads = matches!(self.stage, LessonStage::Said | LessonStage::Choosing(_));
+        if reads && self.look_around(key) {
+            return Pressed::Taken;
         }
         let goes_on = matches!(key.code, KeyCode::Enter | KeyCode::Char(' ') | KeyCode::F(9));
         match &mut self.stage {
-            LessonStage::Playing => {}
             LessonStage::Said if goes_on => self.go_on(),
-            LessonStage::Said => {}
             LessonStage::Ended if goes_on => return Pressed::Leave,
-            LessonStage::Ended => {}
+            LessonStage::Playing | LessonStage::Said | LessonStage::Ended => {
+                self.notice = Some(nothing);
+            }
             LessonStage::Choosing(selected) => {
                 let Some(QuestionKind::Choice { options, .. }) =
                     self.question.as_ref().map(|question| &question.kind)
@@ -54,7 +66,7 @@ impl Lesson {
                         let chosen = *selected;
                         self.commit(GivenAnswer::Option(chosen));
                     }
-                    _ => {}
+                    _ => self.notice = Some(nothing),
                 }
             }
             LessonStage::Typing(text, wrong) => match key.code {
@@ -70,11 +82,16 @@ impl Lesson {
                     Some(number) => self.commit(GivenAnswer::Number(number)),
                     None => *wrong = Some("This is not a number; write it as 1.5 or 3/2.".into()),
                 },
-                _ => {}
+                KeyCode::Tab | KeyCode::BackTab => {
+                    self.look_around(key);
+                }
+                _ => self.notice = Some(nothing),
             },
             LessonStage::Pointing(wrong) => {
                 *wrong = None;
-                self.set_point(key);
+                if !self.set_point(key) {
+                    self.notice = Some(nothing);
+                }
             }
             LessonStage::Free if key.code == KeyCode::F(9) => self.go_on(),
             LessonStage::Task { hinted, hint, .. } if key.code == KeyCode::F(9) => {
@@ -97,6 +114,9 @@ impl Lesson {
         Pressed::Taken
     }
 }
+
+/// Said of Esc, which would leave in the middle of a sentence.
+const ESC_AGAIN: &str = "Esc again leaves";
 
 /// The most characters of a number that is typed.
 const LONGEST_NUMBER: usize = 24;

@@ -1,6 +1,6 @@
 //! The order of the lines of a lesson, and how much each says at once.
 //!
-//! In: a [`Script`]. Out: the mistakes in its order, and the paragraphs that its pane has to hold. Never here: playing it.
+//! In: a [`Script`]. Out: the errors in its order, and the paragraphs that its pane has to hold. Never here: playing it.
 
 use super::script::{LessonStep, Script, ScriptStep};
 use crate::diagnostic::{Diagnostic, SourceRange};
@@ -12,7 +12,7 @@ const MOST_ROWS: u16 = 11;
 /// The most options of a question.
 const MOST_OPTIONS: usize = 6;
 
-/// The mistakes in the order of a lesson.
+/// The errors in the order of a lesson.
 pub(super) fn mistakes_in(script: &Script) -> Vec<Diagnostic> {
     let mut mistakes = Vec::new();
     let mut wrong = |place: &SourceRange, message: &str, help: &str| {

@@ -16,8 +16,8 @@ use crate::view::{Painter, RenderStyle, hit_test};
 const MOST_POINTS: usize = 40;
 
 impl Lesson {
-    /// Handles a key while a point or a curve is set.
-    pub(super) fn set_point(&mut self, key: KeyEvent) {
+    /// Handles a key while a point or a curve is set. Returns whether it does anything.
+    pub(super) fn set_point(&mut self, key: KeyEvent) -> bool {
         let is_curve = self.predicted().is_some_and(|prediction| prediction.is_curve);
         match key.code {
             KeyCode::Left
@@ -50,8 +50,9 @@ impl Lesson {
                     self.commit(GivenAnswer::Points(vec![at]));
                 }
             }
-            _ => {}
+            _ => return false,
         }
+        true
     }
 
     fn predicted(&mut self) -> Option<&mut Prediction> {

@@ -7,7 +7,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::lesson::{Lesson, LessonStage, paragraph};
-use super::lesson_judge::{letter, pair, short};
+use super::lesson_judge::{letter, short};
 use super::lesson_order::steps_of_person;
 use super::lesson_question::{Question, QuestionKind};
 use crate::view::RenderStyle;
@@ -48,7 +48,7 @@ impl Lesson {
                 }
                 None => "watch · q leaves",
             },
-            LessonStage::Said => "Enter continues · q leaves",
+            LessonStage::Said => "Enter continues · Tab next pane · q leaves",
             LessonStage::Ended => "Enter leaves",
             LessonStage::Free => "the lab is yours · F9 continues · q leaves",
             LessonStage::Task { hint, .. } => match hint {
@@ -58,7 +58,7 @@ impl Lesson {
             LessonStage::Choosing(selected) => {
                 said =
                     self.question.as_ref().map_or(Vec::new(), |question| question.asked(*selected));
-                "↑ ↓ choose · Enter commits · q leaves"
+                "↑ ↓ choose · Enter commits · Tab next pane · q leaves"
             }
             LessonStage::Pointing(wrong) => {
                 let question = self.question.as_ref();
@@ -66,7 +66,7 @@ impl Lesson {
                 said.push(paragraph(ParagraphKind::Selected, self.pointed()));
                 said.extend(wrong.iter().map(|why| paragraph(ParagraphKind::Wrong, why.clone())));
                 if question.is_some_and(Question::is_curve) {
-                    "arrows, mouse · Space sets a point · Backspace · Enter commits · q leaves"
+                    "arrows, mouse · Space sets a point · Enter commits · Backspace · q leaves"
                 } else {
                     "arrows or mouse · Enter commits · q leaves"
                 }
@@ -76,12 +76,16 @@ impl Lesson {
                 said = vec![paragraph(ParagraphKind::Text, question.unwrap_or_default())];
                 said.push(paragraph(ParagraphKind::Selected, format!("{text}_")));
                 said.extend(wrong.iter().map(|why| paragraph(ParagraphKind::Wrong, why.clone())));
-                "type a number · Enter commits · q leaves"
+                "type a number · Enter commits · Tab next pane · q leaves"
             }
         };
         let all = self.runner.script.steps.len();
         let place = format!("{} %", 100 * self.runner.next.min(all) / all.max(1));
-        Speech { title: self.title.clone(), place, paragraphs: said, keys: keys.to_owned() }
+        let keys = match &self.notice {
+            Some(notice) => format!("{notice} · {keys}"),
+            None => keys.to_owned(),
+        };
+        Speech { title: self.title.clone(), place, paragraphs: said, keys }
     }
 }
 
@@ -97,6 +101,7 @@ impl Lesson {
         let cursor = format!("{x} = {}, {y} = {}", short(at[0]), short(at[1]));
         match prediction.points.len() {
             _ if !prediction.is_curve => cursor,
+            0 => format!("{cursor}; no point is set yet"),
             1 => format!("{cursor}; 1 point is set"),
             many => format!("{cursor}; {many} points are set"),
         }
@@ -132,7 +137,9 @@ impl Question {
                 format!("Your prediction: {}", short(*number))
             }
             QuestionKind::Place { prediction, .. } => match prediction.points.last() {
-                Some(at) if !prediction.is_curve => format!("Your prediction: {}", pair(*at)),
+                Some(_) if !prediction.is_curve => {
+                    "Your prediction: the point in the picture".to_owned()
+                }
                 _ => "Your prediction: the curve in the picture".to_owned(),
             },
             _ => String::new(),

@@ -1,6 +1,6 @@
 //! Recordings: a complete performance of a script.
 //!
-//! In: a [`Script`], a document. Out: a [`Recording`], or the mistakes that only playing reveals. Never here: what a
+//! In: a [`Script`], a document. Out: a [`Recording`], or the errors that only playing reveals. Never here: what a
 //! line of a script does, or the format of a cast.
 
 use std::io;
@@ -80,7 +80,7 @@ pub enum TranscriptEntry {
 /// `called` is the system's name on the screen; `size` is the screen size if the script does not give one.
 ///
 /// # Errors
-/// Returns the mistakes of the script that only its system and its screen reveal.
+/// Returns the errors of the script that only its system and its screen reveal.
 pub fn play(
     script: &Script,
     document: &Document,

@@ -1,6 +1,6 @@
 //! The script of a demo: one action per line, in order.
 //!
-//! In: text. Out: a [`Script`], or every mistake with its range and a correction. [`COMMANDS`] has one row for each
+//! In: text. Out: a [`Script`], or every error with its range and a correction. [`COMMANDS`] has one row for each
 //! word that a line may begin with; README and the suggestions come from it. Never here: what a name of the script
 //! means in a system, or playing it.
 
@@ -264,7 +264,7 @@ impl Script {
     /// Reads a script.
     ///
     /// # Errors
-    /// Returns every mistake with its range.
+    /// Returns every error with its range.
     pub fn read(document: &Document) -> Result<Script, Vec<Diagnostic>> {
         if let Some(mistake) = document.unreadable() {
             return Err(vec![mistake.clone()]);
@@ -328,7 +328,7 @@ pub(super) enum Said {
     Step(ScriptStep),
 }
 
-/// At most this many mistakes are reported.
+/// At most this many errors are reported.
 const MOST_MISTAKES: usize = 100;
 
 impl ScriptReading {

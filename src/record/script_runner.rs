@@ -100,7 +100,7 @@ impl ScriptRunner {
         lab.app.footer = script.head.footer;
         if lab.app.lab.is_none() {
             let place = script.head.open.as_ref().map_or(0..0, |open| open.place.clone());
-            let message = format!("`{called}` cannot be opened: it has mistakes");
+            let message = format!("`{called}` cannot be opened: it has errors");
             return Err(Diagnostic::error(place, message));
         }
         Ok(ScriptRunner {
@@ -121,7 +121,7 @@ impl ScriptRunner {
     /// Starts a live performance.
     ///
     /// # Errors
-    /// Returns the mistake for which the system cannot be opened.
+    /// Returns the error for which the system cannot be opened.
     pub fn watched(
         script: Script,
         document: &Document,
@@ -135,7 +135,7 @@ impl ScriptRunner {
     /// demo may show less on a screen of another size.
     ///
     /// # Errors
-    /// Returns a mistake of the script that only its system reveals.
+    /// Returns an error of the script that only its system reveals.
     pub fn go_on(&mut self, time: Micros) -> Result<bool, Diagnostic> {
         while !self.begun || self.lab.clock.next() <= time {
             match self.beat()? {

@@ -234,7 +234,7 @@ impl CastPlayer {
         let keys = [
             format!("space {pause}  q quit"),
             "← → 5 s".to_owned(),
-            "[ ] pace".to_owned(),
+            "[ ] speed".to_owned(),
             "Tab S-Tab chapter".to_owned(),
             "c hide".to_owned(),
             format!("Home{rest}"),

@@ -1,6 +1,6 @@
 //! The checker: builds an experiment from a text being edited, in the background, so that no key waits for it.
 //!
-//! In: a text. Out: the experiment or the text's mistakes, and the time taken. Only one text is checked at a time:
+//! In: a text. Out: the experiment or the text's errors, and the time taken. Only one text is checked at a time:
 //! a new check cancels the previous one. Never here: the stages themselves.
 
 use std::time::{Duration, Instant};

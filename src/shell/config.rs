@@ -1,6 +1,6 @@
 //! The configuration: a file of the user's with default options for the laboratory.
 //!
-//! In: `phaselab/config.toml` in the XDG configuration folder, if it exists. Out: [`Words`], or every mistake with
+//! In: `phaselab/config.toml` in the XDG configuration folder, if it exists. Out: [`Words`], or every error with
 //! its position. Never here: what an option does.
 
 use std::fmt::Write as _;
@@ -39,7 +39,7 @@ pub fn find() -> io::Result<Option<Document>> {
 /// Parses a configuration.
 ///
 /// # Errors
-/// Returns all its mistakes, ordered by position.
+/// Returns all its errors, ordered by position.
 pub fn read(document: &Document) -> Result<Words, Vec<Diagnostic>> {
     let mut words = Words::new();
     let names: Vec<&str> = rows().iter().map(|row| row.name.as_str()).collect();

@@ -5,7 +5,7 @@
 //!
 //! The sequences are parsed by `vte`, the parser of alacritty's terminal; a timeout distinguishes a lone Esc.
 //!
-//! It replaces crossterm's own reader because of that reader's defects in version 0.29. Each row was observed on a
+//! It replaces crossterm's own reader because of that reader's bugs in version 0.29. Each row was observed on a
 //! pseudo-terminal, and has its upstream thread (crossterm-rs/crossterm) and the test that covers it here. Once all
 //! of them are fixed upstream, this file can go: `event::poll` and `event::read` fit behind [`EventSource`].
 //!

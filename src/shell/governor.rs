@@ -296,7 +296,7 @@ mod tests {
         fn of(name: &str, depth: ColourDepth, (width, height): (u16, u16)) -> Self {
             let catalog = Catalog::with_folder(None);
             let document = catalog.find(name).expect("a shipped preset");
-            let ready = Prepared::of(&document).expect("a preset without mistakes");
+            let ready = Prepared::of(&document).expect("a preset without errors");
             let Prepared { document, model, equations, system, mut experiment } = ready;
             let name = name.to_owned();
             experiment.set_epoch(1);

@@ -22,7 +22,7 @@ use crate::record::Lesson;
 pub struct LessonMark {
     /// Whether it was taken to its end.
     pub finished: bool,
-    /// The step at which a later visit goes on; 0 is the beginning.
+    /// The step at which a later visit continues; 0 is the beginning.
     pub step: usize,
 }
 

@@ -65,7 +65,7 @@ pub(super) struct Session {
     sides: HashMap<Asker, SideJob<Answer>>,
     /// A warning to repeat when the first system is loaded, since loading clears notifications.
     warning: Option<String>,
-    /// The last fault logged.
+    /// The last error logged.
     fault: Option<String>,
     /// The lesson or demo that has the screen.
     guided: Option<Guided>,
@@ -288,7 +288,7 @@ impl Screen for Session {
     }
 
     /// Nothing changes while time is paused and nobody is at work. Whatever comes later all the same, such as the text
-    /// of a watched file, is looked for now and then.
+    /// of a watched file, is checked now and then.
     fn rest(&self) -> Option<Duration> {
         let app = &self.app;
         let paused = app.snapshot().is_some_and(|snapshot| snapshot.status != Status::Running);

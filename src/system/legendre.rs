@@ -100,7 +100,7 @@ pub(super) struct Legendre {
     /// (q, native rates).
     state: Vec<DoubleDouble>,
     newton: Newton,
-    /// Whether solutions are looked for near the guess only.
+    /// Whether solutions are searched for near the guess only.
     pub(super) near_only: bool,
 }
 

@@ -46,7 +46,7 @@ impl ConstraintProjector {
     }
 
     /// Takes what the constraints on the velocities keep constant from a state where a motion begins
-    /// or goes on.
+    /// or continues.
     pub fn take_levels(&mut self, state: &State) {
         self.load(state);
         let conditions = self.projection.conditions();

@@ -30,7 +30,7 @@ pub(super) fn ink(theme: &Theme, number: usize) -> Style {
     theme.curve(series(number))
 }
 
-/// Draws the past of two channels of each, and its number at the present point.
+/// Draws the past of two channels of each, and its number at the current point.
 pub(super) fn trails(
     canvas: &mut Canvas<'_>,
     raster: &mut Raster,

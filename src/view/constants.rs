@@ -77,7 +77,7 @@ pub(super) fn found(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
         let names = relations.commuting_names(&findings.names).join(", ");
         page.words(Role::Dim, look.glyphs.text(&format!("In involution: {names} (proved).")));
     }
-    // where nothing was looked for, the ansatz says nothing
+    // where nothing was searched for, the ansatz says nothing
     let needless = invariants.found.is_empty() && invariants.is_exhausted();
     if let Some(searched) = invariants.searched.last().filter(|_| !needless) {
         let family = if look.glyphs.is_ascii() { &searched.family } else { &searched.shown };

@@ -36,7 +36,7 @@ struct KeptStyle {
     glyphs: Glyphs,
 }
 
-/// Something kept, and whether the present frame needed it.
+/// Something kept, and whether the current frame needed it.
 #[derive(Debug)]
 struct Held<Key, Value> {
     key: Key,
@@ -236,7 +236,7 @@ fn same(a: &[f64], b: &[f64]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
 }
 
-/// The times from which the rows of a trail have each age, for its rows and the present after them.
+/// The times from which the rows of a trail have each age, for its rows and the current state after them.
 pub(super) fn since(rows: &Trail, ages: usize) -> Vec<f64> {
     let count = rows.len() + 1;
     let begins =

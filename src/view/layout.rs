@@ -208,7 +208,12 @@ fn plot_slot(lab: &Lab) -> Slot {
     let focused = matches!(lab.focus, Pane::Plot(_)).then_some(lab.focus);
     // If there is room for one picture only, it is the scene.
     let motion = lab.plots.iter().position(|plot| plot.kind.is_scene());
-    Slot::Pane(focused.unwrap_or(Pane::Plot(motion.unwrap_or(0))))
+    // What was predicted stays beside its outcome.
+    let predicted = lab
+        .prediction
+        .as_ref()
+        .and_then(|prediction| lab.plots.iter().position(|plot| prediction.is_on(plot)));
+    Slot::Pane(focused.unwrap_or(Pane::Plot(predicted.or(motion).unwrap_or(0))))
 }
 
 /// The list shown if there is room for only one.

@@ -4,9 +4,11 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use unicode_width::UnicodeWidthStr;
 
 use super::RenderStyle;
 use super::canvas::{Canvas, columns, row};
+use super::number::{with_minus_signs, with_powers};
 use super::theme::Role;
 use super::wrap::words;
 
@@ -64,6 +66,19 @@ fn room(width: u16) -> usize {
     usize::from(width.saturating_sub(MARGINS + MARK)).max(1)
 }
 
+/// The keys that fit in a width: the last but one go first.
+fn fitting(keys: &str, room: usize) -> String {
+    let mut parts: Vec<&str> = keys.split(BETWEEN).collect();
+    let width = |parts: &[&str]| parts.join(BETWEEN).width();
+    while width(&parts) > room && parts.len() > 2 {
+        parts.remove(parts.len() - 2);
+    }
+    parts.join(BETWEEN)
+}
+
+/// What stands between two keys.
+const BETWEEN: &str = " · ";
+
 /// Draws the pane.
 pub fn draw(look: &RenderStyle, speech: &Speech, area: Rect, buffer: &mut Buffer) {
     let mut canvas = Canvas::over(buffer, look);
@@ -74,8 +89,9 @@ pub fn draw(look: &RenderStyle, speech: &Speech, area: Rect, buffer: &mut Buffer
     ];
     let inner = canvas.pane(area, &title, true);
     let below = Rect { y: area.bottom().saturating_sub(1), height: area.height.min(1), ..area };
-    let keys = format!(" {} ", speech.keys);
-    canvas.right(columns(below, 2, below.width.saturating_sub(4)), Role::Accent, &keys);
+    let below = columns(below, 2, below.width.saturating_sub(4));
+    let keys = fitting(&speech.keys, usize::from(below.width).saturating_sub(2));
+    canvas.right(below, Role::Accent, &format!(" {keys} "));
     let mut used = 0;
     for Paragraph { kind, text } in &speech.paragraphs {
         let (role, mark) = match kind {
@@ -86,7 +102,11 @@ pub fn draw(look: &RenderStyle, speech: &Speech, area: Rect, buffer: &mut Buffer
             ParagraphKind::Right => (Role::Good, look.glyphs.pick("✓", "+")),
             ParagraphKind::Wrong => (Role::Bad, look.glyphs.pick("✗", "x")),
         };
-        let text = canvas.text(text);
+        let text = match kind {
+            ParagraphKind::Selected => text.clone(),
+            _ => with_powers(&with_minus_signs(text, look.glyphs), look.glyphs),
+        };
+        let text = canvas.text(&text);
         for (index, line) in words(&text, room(area.width)).iter().enumerate() {
             let row = row(inner, used);
             if index == 0 {

@@ -12,7 +12,7 @@ use super::layout::split_rows;
 use super::theme::Role;
 use super::values::window;
 use super::wrap::{capitalised, words, words_in};
-use crate::app::{Choice, FuzzyMatch, HitTarget, Item, Menu};
+use crate::app::{Choice, Choosing, FuzzyMatch, HitTarget, Item, Menu};
 
 /// Draws the list in the middle of an area, with the meaning of the selected item below it.
 pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
@@ -64,7 +64,13 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
         }
     }
     if shown.is_empty() {
-        canvas.left(columns(row(list, 0), 2, list.width), Role::Dim, "no match");
+        let text = match menu.purpose {
+            Choosing::Contents { .. } | Choosing::Axis { .. } => {
+                "no match; an expression is shown once the file has it as an observable (E)"
+            }
+            _ => "no match",
+        };
+        canvas.left(columns(row(list, 0), 2, list.width), Role::Dim, text);
     }
     if let Some((_, item)) = menu.current() {
         let (role, text) = match &item.unavailable {

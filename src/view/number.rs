@@ -68,6 +68,38 @@ pub fn with_minus_signs(text: &str, glyphs: Glyphs) -> String {
     out
 }
 
+/// Replaces the exponent of a number in a text by a power of ten: `2.1e-11` → `2.1×10⁻¹¹`.
+pub fn with_powers(text: &str, glyphs: Glyphs) -> String {
+    if glyphs.is_ascii() {
+        return text.to_owned();
+    }
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(at) = rest.find('e') {
+        let (before, after) = (&rest[..at], &rest[at + 1..]);
+        let digits = after.strip_prefix(['-', '−']).unwrap_or(after);
+        let end = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());
+        let sign = if digits.len() < after.len() { -1 } else { 1 };
+        let joins = digits[end..].starts_with(|c: char| c.is_alphanumeric() || c == '_');
+        let word = before.rfind(|c: char| !c.is_ascii_digit() && c != '.').map(|at| &before[at..]);
+        let is_number = before.ends_with(|c: char| c.is_ascii_digit())
+            && !word.is_some_and(|word| word.starts_with(|c: char| c.is_alphabetic() || c == '_'));
+        match digits[..end].parse::<i32>() {
+            Ok(exponent) if is_number && !joins => {
+                out.push_str(before);
+                out.push_str(&power(sign * exponent, glyphs));
+                rest = &digits[end..];
+            }
+            _ => {
+                out.push_str(&rest[..=at]);
+                rest = after;
+            }
+        }
+    }
+    out.push_str(rest);
+    out
+}
+
 /// Formats a power of ten as a factor: `×10⁻³`, or `x1e-3`.
 pub fn power(exponent: i32, glyphs: Glyphs) -> String {
     if glyphs.is_ascii() { format!("x1e{exponent}") } else { format!("×10{}", raised(exponent)) }

@@ -20,7 +20,7 @@ use super::picker;
 use super::plain;
 use super::prompt;
 use super::quantity::Quantities;
-use super::text_page::TextPage;
+use super::text_page::{TextPage, measure};
 use super::theme::Role;
 use super::workbench;
 use super::wrap;
@@ -94,7 +94,8 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
         let inner = canvas.pane(area, &title, true);
         let mut page = TextPage::default();
         let lines = failure.message.lines();
-        for line in lines.flat_map(|line| wrap::report_line(line, inner.width.into())) {
+        let width = measure(inner.width);
+        for line in lines.flat_map(|line| wrap::report_line(line, width.into())) {
             page.row(vec![(Role::Text, line)]);
         }
         canvas.target(area, HitTarget::Text);

@@ -270,7 +270,7 @@ pub(super) fn draw_rows(
 }
 
 /// The width of a page's rows in an area of this width.
-fn measure(width: u16) -> u16 {
+pub(super) fn measure(width: u16) -> u16 {
     width.saturating_sub(3).min(MEASURE)
 }
 

@@ -1,4 +1,4 @@
-//! The configuration: its contents, the reports on its mistakes, and the precedence of settings.
+//! The configuration: its contents, the reports on its errors, and the precedence of settings.
 //!
 //! Each file of `tests/bad-config` has its exact expected report beside it; `UPDATE_EXPECT=1` rewrites the reports.
 //! Review them afterwards.
@@ -76,7 +76,7 @@ fn a_wrong_configuration_leaves_the_lab_closed() {
     let home = home("color = \"auto\"\nfsp = 30\n");
     let lab = done(program(home.path()).arg("pendulum"));
     let place = format!("{}/.config/phaselab/config.toml:2:1", home.path().display());
-    lab.fails(65, &[&place, "fsp = 30", "^^^", "did you mean `fps`?", "1 mistake in"]);
+    lab.fails(65, &[&place, "fsp = 30", "^^^", "did you mean `fps`?", "1 error in"]);
     // a command without a screen does not read it
     let listed = done(program(home.path()).args(["methods"])).success();
     assert!(listed.contains("taylor"));

@@ -1,4 +1,4 @@
-//! The grammar of expressions: grouping, exact numbers, and the message for each mistake.
+//! The grammar of expressions: grouping, exact numbers, and the message for each error.
 
 use phaselab::expr::{Expr, Pool, Resolve, Span, Syntax, SyntaxError, parse};
 use phaselab::num::Number;
@@ -94,7 +94,7 @@ fn numbers_are_exact_where_they_fit() {
     check("123456789012345678901234567890", Number::Real(1.234_567_890_123_456_8e29));
 }
 
-/// The single mistake of a text: `start..end message; help`.
+/// The single error of a text: `start..end message; help`.
 fn slip(text: &str) -> String {
     let error = parse(text).expect_err(text);
     assert!(text.get(error.span.start..error.span.end).is_some(), "{text}: {:?}", error.span);

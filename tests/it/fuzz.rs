@@ -1,5 +1,5 @@
 //! Untrusted input: presets, expressions, terminal bytes, casts, sessions, configurations and scripts, randomly mutated.
-//! No input makes the program panic or hang; mistakes have positions; what is read and written is read back equal.
+//! No input makes the program panic or hang; errors have positions; what is read and written is read back equal.
 //!
 //! `tests/corpus/<target>` contains the seed inputs, each of which is first checked unchanged; they include inputs that
 //! once failed. The mutations are the same in every run. `PHASELAB_FUZZ_SECONDS=600 cargo test fuzz` tests each target

@@ -32,7 +32,7 @@ fn model() -> Model {
     read(FILE).unwrap().model
 }
 
-/// The expression of a text, or its mistakes with their corrections.
+/// The expression of a text, or its errors with their corrections.
 fn typed(model: &Model, pool: &mut Pool, text: &str) -> Result<Expr, Vec<String>> {
     let mut scope = Scope::new(model, Allowed::Observable, "an observable");
     scope.read(pool, text).ok_or_else(|| {

@@ -1,4 +1,4 @@
-//! Preset files: their contents, the exact report on every mistake, and the catalog.
+//! Preset files: their contents, the exact report on every error, and the catalog.
 
 mod bad;
 mod catalog;

@@ -101,7 +101,7 @@ pub(super) fn discard(output: &Path) {
 }
 
 impl Journal {
-    /// Begins a journal, or goes on with one. Returns with it the line of each place that is known.
+    /// Begins a journal, or continues one. Returns with it the line of each place that is known.
     pub(super) fn open(
         output: &Path,
         identity: &Identity,
@@ -113,7 +113,7 @@ impl Journal {
         let failed = |error: io::Error| CommandError::writing(&name, &error);
         let mut file =
             OpenOptions::new().read(true).append(true).create(true).open(&path).map_err(failed)?;
-        // what is no file may never end
+        // what is not a file may never end
         let about = file.metadata().map_err(failed)?;
         check_regular(about.file_type()).map_err(failed)?;
         if flock(&file, FlockOperation::NonBlockingLockExclusive).is_err() {

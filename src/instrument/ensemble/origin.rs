@@ -1,6 +1,6 @@
 //! Where a cloud begins: a disc or a box in the plane of two quantities, around the motion, or the shell of its energy.
 //!
-//! In: the plot, the present, a window that was chosen. Out: an [`CloudOrigin`]: points within it and on its boundary, and the states
+//! In: the plot, the current state, a window that was chosen. Out: an [`CloudOrigin`]: points within it and on its boundary, and the states
 //! they stand for. Never here: how they are carried.
 
 use super::super::equilibria::given;

@@ -131,7 +131,7 @@ impl Task {
         );
         let mut orbits = begun.map_or_else(Vec::new, |begun| begun.orbits.clone());
         let (mut points, count) = match (self.seed, begun) {
-            // each addition goes on where the one before ended
+            // each addition continues where the one before ended
             (Some(Seed::Spread(window)), _) => {
                 (self.starts(&system, &region, window, self.seeds.len() * BATCH * TRIES), COUNT)
             }

@@ -32,7 +32,7 @@ pub struct CatalogEntry {
     pub origin: PresetOrigin,
     /// The title, summary, topics and chapter, without the notes.
     pub info: Info,
-    /// The first mistake of an invalid preset, as `file:line:column: reason`.
+    /// The first error of an invalid preset, as `file:line:column: reason`.
     pub fault: Option<String>,
 }
 
@@ -55,7 +55,7 @@ impl CatalogEntry {
         }
     }
 
-    /// An entry for a file in the user's folder. The whole file is read, so that its mistakes can
+    /// An entry for a file in the user's folder. The whole file is read, so that its errors can
     /// be reported.
     pub(super) fn of_user(folder: &Path, path: &Path) -> CatalogEntry {
         let mut entry = CatalogEntry {

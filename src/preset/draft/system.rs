@@ -61,7 +61,7 @@ pub(in crate::preset) struct DraftRamp {
     pub(in crate::preset) form: Option<Spanned<String>>,
 }
 
-/// The coordinates and variables as written; a file may have both tables by mistake.
+/// The coordinates and variables as written; a file may have both tables by error.
 pub(in crate::preset) struct DraftMoving {
     /// The coordinates or variables in order.
     pub(in crate::preset) all: Vec<DraftCoordinate>,

@@ -1,4 +1,4 @@
-//! A reader of one table of the file. Keys are requested by name, and a key that was never requested is a mistake.
+//! A reader of one table of the file. Keys are requested by name, and a key that was never requested is an error.
 
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
@@ -167,7 +167,7 @@ impl<'d> Table<'d> {
     ) -> Option<Spanned<f64>> {
         debug_assert!(
             self.agrees(key, |kind| matches!(kind, ValueKind::Number)),
-            "{key} is no number"
+            "{key} is not a number"
         );
         let (_, found) = self.take(key)?;
         value::number(found, &format!("`{key}`"), mistakes)

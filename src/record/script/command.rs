@@ -56,15 +56,15 @@ pub const COMMANDS: &[CommandRow] = &[
     row("Look", "Look at EXPR", "pause and look at a time of the recorded past; what acts on the motion continues it from there", look),
     row("Caption", "Caption \"TEXT\"", "write a line below the screen; without a text, remove it", caption),
     row("Marker", "Marker \"NAME\"", "begin a chapter: players can jump to it, and stills can be taken of it", marker),
-    row("Assert", "Assert CLAIM", "claim something about this moment; the demo is an error if it is false", assert),
+    row("Assert", "Assert CLAIM", "claim something about this moment; a false claim is an error", assert),
     row("Say", "Say \"TEXT\"", "lesson: say something, and wait for a key; the motion waits too", say),
-    row("Ask", "Ask \"QUESTION\"", "lesson: ask; the options follow on the lines below, and `Outcome` says who is right", ask),
+    row("Ask", "Ask \"QUESTION\"", "lesson: ask; the options follow on the lines below, and `Outcome` says which is right", ask),
     row("Option", "Option \"TEXT\" [why \"TEXT\"] if CLAIM", "lesson: an option of the question above, right if the claim holds at the outcome; `why` is shown to whoever chooses it wrongly", option),
     row("Predict", "Predict \"QUESTION\" EXPR within EPS", "lesson: ask for a number, the value of EXPR at the outcome; a `point` or `curve` of a plot is set by its cursor", predict),
     row("Outcome", "Outcome", "lesson: compare the answer to the last question with what has happened since", outcome),
-    row("Task", "Task \"TEXT\" [hint \"TEXT\"] until CLAIM", "lesson: give the lab to the person until the claim holds; afterwards the system restarts as its file says", task),
+    row("Task", "Task \"TEXT\" [hint \"TEXT\"] until CLAIM", "lesson: give the lab to the person until the claim holds; after what is said of it, the system restarts as its file says", task),
     row("Solution", "Solution KEY [xN] [KEY …]", "lesson: the keys that fulfil the task above, which `lesson check` presses", solution),
-    row("Free", "Free \"TEXT\"", "lesson: give the lab to the person until F9; afterwards the system restarts as its file says", free),
+    row("Free", "Free \"TEXT\"", "lesson: give the lab to the person until F9; after what is said of it, the system restarts as its file says", free),
 ];
 
 fn head(say: impl FnOnce(&mut super::ScriptHeader) + 'static) -> Said {

@@ -76,7 +76,7 @@ impl<'a> Line<'a> {
         self.word().ok_or_else(|| self.missing(what))
     }
 
-    /// A mistake at the end of the line.
+    /// An error at the end of the line.
     pub(super) fn missing(&self, what: &str) -> Diagnostic {
         let end = self.start + self.text.len();
         Diagnostic::error(end..end, format!("here {what} is missing"))

@@ -47,7 +47,7 @@ impl Session {
         self.update(Event::GuideLeft { guides, wrong });
     }
 
-    /// Hands what the lesson or demo asks of the terminal on; where it ends, the lab goes on.
+    /// Hands what the lesson or demo asks of the terminal on; where it ends, the lab continues.
     pub(super) fn asked_by_guide(&mut self, request: ScreenRequest) -> ScreenRequest {
         if request == ScreenRequest::Quit {
             self.leave_guide();

@@ -87,7 +87,7 @@ impl Session {
         busy
     }
 
-    /// Logs each fault of the motion once.
+    /// Logs each error of the motion once.
     pub(super) fn report_faults(&mut self) {
         let fault = match self.app.snapshot().map(|snapshot| &snapshot.status) {
             Some(Status::Failed(fault)) => {

@@ -9,7 +9,7 @@ use crate::system::program::Program;
 use crate::system::solve::Factored;
 
 /// A matrix for each orbit, whose pivots are its own. Where it is singular its solutions are NaN,
-/// and the other orbits go on.
+/// and the other orbits continue.
 #[derive(Clone, Debug)]
 pub struct FactoredBatch {
     lanes: [Factored<f64>; BATCH],

@@ -14,7 +14,7 @@
 use crate::num::Analytic;
 use crate::system::schedule::Pair;
 
-/// The operands of all inner products, and the products of the present order.
+/// The operands of all inner products, and the products of the current order.
 #[derive(Clone, Debug)]
 pub(super) struct Operands<R: Analytic> {
     /// The number of orders.
@@ -69,7 +69,7 @@ impl<R: Analytic> Operands<R> {
         }
     }
 
-    /// The inner products of the present order.
+    /// The inner products of the current order.
     #[inline(always)]
     pub(super) fn products(&self) -> &[R] {
         &self.products

@@ -1,4 +1,4 @@
-//! Texts edited while no system runs: a wrong file where its mistakes are shown, and a new system.
+//! Texts edited while no system runs: a wrong file where its errors are shown, and a new system.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -100,6 +100,12 @@ fn a_new_system_begins_from_the_template_and_writes_nothing() {
     let buffer = app.open_buffer().expect("the editor is open");
     assert_eq!(buffer.editor.text(), template());
     assert!(buffer.place.is_none() && !buffer.is_modified());
+    let line = template().lines().nth(buffer.editor.cursor().row);
+    assert!(line.is_some_and(|line| line.starts_with("L = ")), "at the law: {line:?}");
+    // beside the numbers of the lines all of it is seen on 80 columns
+    assert!(template().lines().all(
+        |line| line.chars().count() <= 72 && (!line.starts_with("L = ") || line.ends_with('"'))
+    ));
     assert!(app.lab.is_some(), "it moves");
     assert_eq!(app.saved().map(|saved| saved.open), Some("pendulum".to_owned()));
     assert!(app.picker.session().is_some(), "what was left can be continued");
@@ -114,4 +120,22 @@ fn a_new_system_begins_from_the_template_and_writes_nothing() {
         other => panic!("{other:?}"),
     };
     assert_eq!(name, "my-system");
+}
+
+#[test]
+fn a_long_help_is_wrapped_and_not_cut() {
+    let help = "write `(1/2) m` or `1/(2 m)`; read from left to right, all of it is `1/2*(M + m)*x'^2 + m*l*x'*theta'*cos(theta)`";
+    let message = format!("error: it can be read in two ways\n   = help: {help}\n");
+    for width in 80..=120 {
+        let (mut app, _) = App::new(catalog(), Some("./wrong.toml"));
+        let message = message.clone();
+        app.update(Event::Loaded(Err(LoadError { name: "./wrong.toml".to_owned(), message })));
+        let area = ratatui::layout::Rect::new(0, 0, width, 24);
+        let mut buffer = ratatui::buffer::Buffer::empty(area);
+        phaselab::view::draw(&app, &rich(), area, &mut buffer);
+        let text = rows(&buffer).join(" ");
+        let words: Vec<&str> = text.split_whitespace().filter(|word| *word != "│").collect();
+        let help: Vec<&str> = help.split_whitespace().collect();
+        assert!(words.windows(help.len()).any(|words| words == help), "{width}: {text}");
+    }
 }

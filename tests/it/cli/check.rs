@@ -1,4 +1,4 @@
-//! `check`: mistakes in the text, and false claims.
+//! `check`: errors in the text, and false claims.
 
 use super::{PENDULUM, phaselab, with_file};
 
@@ -21,7 +21,7 @@ fn mistakes_are_shown_at_their_places_with_exit_65() {
             "there is no function `cso`",
             "`cos`",
             "`k`",
-            "2 mistakes in system.toml",
+            "2 errors in system.toml",
         ],
     );
 }
@@ -53,7 +53,7 @@ fn a_false_claim_of_conservation_is_a_mistake_where_it_stands() {
     );
     let file = claim("[expect]\nconserves = [\"energy\", \"p_theta\"]");
     with_file(&file, &["check", "system.toml"])
-        .fails(65, &["`p_theta` is claimed to be conserved", "1 mistake"]);
+        .fails(65, &["`p_theta` is claimed to be conserved", "1 error"]);
 }
 
 #[test]
@@ -105,7 +105,7 @@ fn several_files_are_all_checked() {
     let done = with_file(PENDULUM, &["check", "system.toml", "system.toml"]);
     assert_eq!(done.success(), "");
     let wrong = PENDULUM.replace("m*cos", "n*cos");
-    with_file(&wrong, &["check", "system.toml", "system.toml"]).fails(65, &["mistakes in 2 files"]);
+    with_file(&wrong, &["check", "system.toml", "system.toml"]).fails(65, &["errors in 2 files"]);
 }
 
 #[test]
@@ -114,7 +114,7 @@ fn json_goes_to_standard_output() {
     let done = with_file(&wrong, &["check", "system.toml", "--format", "json"]);
     assert_eq!(done.code, 65);
     let object: serde_json::Value = serde_json::from_str(&done.stdout).expect("JSON");
-    let mistake = &object["files"][0]["mistakes"][0];
+    let mistake = &object["files"][0]["diagnostics"][0];
     assert_eq!(mistake["severity"], "error");
     assert_eq!((mistake["line"].as_u64(), mistake["column"].as_u64()), (Some(12), Some(23)));
     assert!(mistake["message"].as_str().is_some_and(|m| m.contains("`n`")), "{object}");
@@ -260,4 +260,14 @@ fn what_is_conserved_is_checked_until_an_event_ends_the_motion() {
     with_file(&file("max(x, 0)^2*exp(-(x + 5)^2)"), &["check", "system.toml"]).success();
     with_file(&file("sin(t)*x"), &["check", "system.toml"])
         .fails(65, &["`energy` is claimed to be conserved, but it is not"]);
+}
+
+#[test]
+fn a_shipped_system_is_checked_by_its_name() {
+    assert_eq!(phaselab(&["check", "harmonic-oscillator"]).success(), "");
+    phaselab(&["check", "harmonic-oscilator"]).fails(
+        2,
+        &["there is no preset `harmonic-oscilator`; did you mean `harmonic-oscillator`?"],
+    );
+    phaselab(&["check", "./harmonic-oscillator"]).fails(2, &["cannot read ./harmonic-oscillator"]);
 }

@@ -122,14 +122,14 @@ fn no_text_of_a_file_steers_the_terminal() {
                 let output = harmless(home.path(), &words(arguments), &[65]);
                 if arguments.contains(&"check") && arguments.contains(&"json") {
                     let read: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-                    assert!(!read["files"][0]["mistakes"].as_array().unwrap().is_empty());
+                    assert!(!read["files"][0]["diagnostics"].as_array().unwrap().is_empty());
                 }
             }
         }
     }
 }
 
-/// The content of a comment does not matter until its line is shown because of another mistake.
+/// The content of a comment does not matter until its line is shown because of another error.
 #[test]
 fn a_comment_beside_a_mistake_is_written_out_and_the_caret_stands_under_its_place() {
     let home = tempfile::tempdir().unwrap();

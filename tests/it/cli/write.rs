@@ -140,3 +140,47 @@ fn a_signal_ends_a_run_with_its_rows_written() {
     let written = fs::read_to_string(home.path().join("out.csv")).expect("the file is there");
     assert!(written.ends_with("# stopped: stopped by a signal\n"), "{written}");
 }
+
+/// Whatever a command writes: where nobody reads any more it ends quietly, and where there is no room it says so.
+#[cfg(unix)]
+#[test]
+fn all_commands_end_alike_where_their_output_ends() {
+    let home = folder();
+    let commands: [&[&str]; 14] = [
+        &["list"],
+        &["--help"],
+        &["run", "--help"],
+        &["man"],
+        &["completions", "bash"],
+        &["doctor"],
+        &["methods"],
+        &["lessons"],
+        &["theme", "list"],
+        &["config", "print-default"],
+        &["derive", "system.toml"],
+        &["check", "--format", "json", "system.toml"],
+        &["equilibria", "system.toml"],
+        &["run", "system.toml", "--until", "1"],
+    ];
+    for arguments in commands {
+        let into = |stdout: Stdio| {
+            let output = std::process::Command::new(assert_cmd::cargo::cargo_bin("phaselab"))
+                .args(arguments)
+                .current_dir(home.path())
+                .env("HOME", home.path())
+                .stdout(stdout)
+                .stderr(Stdio::piped())
+                .spawn()
+                .and_then(std::process::Child::wait_with_output)
+                .expect("the program can be started");
+            (output.status.code(), String::from_utf8(output.stderr).expect("UTF-8"))
+        };
+        let (reader, writer) = std::io::pipe().expect("a pipe");
+        drop(reader);
+        assert_eq!(into(Stdio::from(writer)), (Some(0), String::new()), "{arguments:?}");
+        let full = fs::File::options().write(true).open("/dev/full").expect("a full device");
+        let (code, message) = into(Stdio::from(full));
+        assert_eq!(code, Some(74), "{arguments:?}: {message}");
+        assert!(message.contains("cannot write standard output"), "{arguments:?}: {message}");
+    }
+}

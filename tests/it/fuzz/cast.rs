@@ -1,4 +1,4 @@
-//! Casts: mistakes have lines; a cast is read back equal after writing, in both versions; and it can be played.
+//! Casts: errors have lines; a cast is read back equal after writing, in both versions; and it can be played.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! Configurations: mistakes lie in the text, and settings can be written and read back.
+//! Configurations: errors lie in the text, and settings can be written and read back.
 
 use std::fmt::Write as _;
 

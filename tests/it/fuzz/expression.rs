@@ -1,4 +1,4 @@
-//! Expressions: mistakes lie in the text; an expression is read back equal after printing, and has a derivative.
+//! Expressions: errors lie in the text; an expression is read back equal after printing, and has a derivative.
 
 use phaselab::expr::{Expr, FUNCTIONS, Pool, Resolve, Span, SyntaxError, parse, without_dots};
 
@@ -48,7 +48,7 @@ pub(crate) const WORDS: &[&str] = &[
 /// The most nodes of an expression that is worked with: reading it is fast, but it is read hundreds of times.
 const LARGEST: usize = 400;
 
-/// A scope in which every name is a variable; it collects mistakes.
+/// A scope in which every name is a variable; it collects errors.
 #[derive(Default)]
 struct AnyName(Vec<SyntaxError>);
 

@@ -1,4 +1,4 @@
-//! Presets: mistakes lie in the text; a valid file runs or reports why not, and is still valid after it is written.
+//! Presets: errors lie in the text; a valid file runs or reports why not, and is still valid after it is written.
 
 use phaselab::diagnostic::{Diagnostic, Document};
 use phaselab::experiment::{Export, Prepared};
@@ -43,7 +43,7 @@ pub(crate) const WORDS: &[&str] = &[
 const RUN: u64 = 4;
 const SHORT: usize = 3000;
 
-/// Asserts that there are mistakes, and that each lies in the text and can be rendered.
+/// Asserts that there are errors, and that each lies in the text and can be rendered.
 pub(super) fn are_placed(document: &Document, mistakes: &[Diagnostic]) {
     assert!(!mistakes.is_empty());
     for mistake in mistakes {

@@ -1,4 +1,4 @@
-//! Scripts of demos: mistakes lie in the text, and a script is read back equal.
+//! Scripts of demos: errors lie in the text, and a script is read back equal.
 
 use phaselab::diagnostic::Document;
 use phaselab::record::Script;

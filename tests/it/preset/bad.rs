@@ -1,4 +1,4 @@
-//! Every mistake of the corpus `tests/bad`: each file has its exact expected report beside it.
+//! Every error of the corpus `tests/bad`: each file has its exact expected report beside it.
 //! `UPDATE_EXPECT=1` rewrites the reports; review them afterwards.
 
 use std::fs;

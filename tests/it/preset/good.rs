@@ -10,7 +10,7 @@ use phaselab::preset::{Catalog, Checked, PresetOrigin, read};
 
 use super::GOOD;
 
-/// Reads a text without mistakes, or fails with its report.
+/// Reads a text without errors, or fails with its report.
 pub(super) fn checked(text: &str) -> Checked {
     match read(text) {
         Ok(checked) => checked,
@@ -18,7 +18,7 @@ pub(super) fn checked(text: &str) -> Checked {
     }
 }
 
-/// Reads a text without mistakes or warnings.
+/// Reads a text without errors or warnings.
 pub(super) fn model(text: &str) -> Model {
     let Checked { model, warnings, .. } = checked(text);
     assert!(warnings.is_empty(), "{}", report(text, "test.toml", &warnings, false));
@@ -364,7 +364,7 @@ fn the_method_keeps_its_place() {
     assert_eq!(&written[run.method_place.unwrap()], "\"rk5\"");
 }
 
-/// Every kind of TOML quotation gives the same expression, and mistakes in it have their exact position.
+/// Every kind of TOML quotation gives the same expression, and errors in it have their exact position.
 #[test]
 fn places_pass_through_quotes_and_escapes() {
     for quoted in [

@@ -12,7 +12,7 @@ use proptest::sample::Index;
 use super::GOOD;
 use crate::hand::catalog;
 
-/// Reads bytes and renders all mistakes in them; all positions lie in the text.
+/// Reads bytes and renders all errors in them; all positions lie in the text.
 fn survive(bytes: &[u8]) {
     let document = Document::from_bytes("hostile.toml", bytes);
     let mistakes = match document.read() {
@@ -102,7 +102,7 @@ proptest! {
     }
 }
 
-/// The only mistake of a text.
+/// The only error of a text.
 fn only(text: &str) -> Diagnostic {
     let mistakes = read(text).unwrap_err();
     assert_eq!(mistakes.len(), 1, "{}", report(text, "test.toml", &mistakes, false));
@@ -164,7 +164,7 @@ fn a_mebibyte_of_mistakes_is_reported_in_a_hundred() {
     });
     let mistakes = read(&(keys + GOOD)).unwrap_err();
     assert_eq!(mistakes.len(), 101);
-    assert_eq!(mistakes[100].message, "19900 more mistakes are not listed");
+    assert_eq!(mistakes[100].message, "19900 more errors are not listed");
 }
 
 #[test]

@@ -105,7 +105,7 @@ fn a_scope_tells_what_was_used() {
     assert!(scope.knows("length") && !scope.knows("width"));
 }
 
-/// A name that is announced gives a separate kind of mistake until it is defined.
+/// A name that is announced gives a separate kind of error until it is defined.
 #[test]
 fn announced_names_wait_for_their_definition() {
     let mut model = oscillator();

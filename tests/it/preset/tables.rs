@@ -192,7 +192,7 @@ action = "stop"
     assert_eq!(&file[model.events[1].place.clone()], "\"lambda_no_slip\"");
 }
 
-/// An impulse at the start or before it is allowed, but probably a mistake.
+/// An impulse at the start or before it is allowed, but probably an error.
 #[test]
 fn an_impulse_that_is_not_after_the_start_is_a_warning() {
     for (at, place) in [("-1", "before the start"), ("0", "the start itself")] {

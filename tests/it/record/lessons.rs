@@ -108,8 +108,8 @@ fn shipped_lessons_ask_for_a_value_and_end_with_the_lab() {
 fn an_answer_is_committed_before_the_outcome_and_shown_beside_it() {
     // at the aphelion r = a (1 + e) = 1.6
     for (typed, verdict) in [
-        ("1.55", "+ Right: you predicted 1.55, it is 1.6"),
-        ("2", "x Not so: you predicted 2, it is 1.6"),
+        ("1.55", "+ Right: you predicted 1.55; it is 1.6"),
+        ("2", "x Not so: you predicted 2; it is 1.6"),
     ] {
         let mut lesson = taken(HALF);
         pass(&mut lesson, 9.0);
@@ -203,6 +203,11 @@ fn it_can_be_left_at_any_time_and_goes_on_there() {
     for leave in [KeyCode::Esc, KeyCode::Char('q')] {
         let mut lesson = taken(HALF);
         pass(&mut lesson, 1.0);
+        if leave == KeyCode::Esc {
+            // one Esc too many does not leave, and says so
+            assert_eq!(lesson.press(KeyEvent::from(leave)), Pressed::Taken);
+            assert!(shown(&mut lesson).contains("Esc again leaves"));
+        }
         assert_eq!(
             (lesson.press(KeyEvent::from(leave)), lesson.is_finished()),
             (Pressed::Leave, false)
@@ -334,4 +339,76 @@ fn a_point_is_set_by_the_cursor_committed_and_kept_beside_the_outcome() {
     pass(&mut lesson, 4.0);
     let after = wide(&mut lesson);
     assert!(after.contains("predicted") && after.contains("found"), "{after}");
+}
+
+#[test]
+fn what_was_predicted_stays_in_view_where_there_is_room_for_one_picture() {
+    let mut lesson = taken(
+        "Predict \"Where?\" point r from 0 to 2 and p_r within 0.1 and 1\nWait 3s\nOutcome\nSay \"after\"\n",
+    );
+    pass(&mut lesson, 0.1);
+    shown(&mut lesson);
+    keys(&mut lesson, "\n");
+    pass(&mut lesson, 1.0);
+    let under_way = shown(&mut lesson);
+    assert!(under_way.contains("Phase") && under_way.contains("p_r ["), "{under_way}");
+    pass(&mut lesson, 3.0);
+    let outcome = shown(&mut lesson);
+    assert!(outcome.contains("predicted") && outcome.contains("found"), "{outcome}");
+}
+
+#[test]
+fn what_is_said_after_a_task_is_said_of_what_the_person_did() {
+    let mut lesson = taken(
+        "Task \"do\" until e < 0.5\nSolution Down x3 Enter 0 Enter\nSay \"so\"\nWait 1s\nSay \"then\"\n",
+    );
+    pass(&mut lesson, 1.0);
+    let e = |lesson: &mut Lesson| {
+        let shown = shown(lesson);
+        let row =
+            shown.lines().find(|row| row.contains("  e  ")).expect("the parameter e").to_owned();
+        row.split("  e  ")
+            .nth(1)
+            .expect("its value")
+            .split_whitespace()
+            .next()
+            .expect("a value")
+            .to_owned()
+    };
+    for _ in 0..3 {
+        lesson.press(KeyEvent::from(KeyCode::Down));
+    }
+    // whoever types is not interrupted
+    keys(&mut lesson, "\n0.2");
+    pass(&mut lesson, 1.0);
+    assert!(!shown(&mut lesson).contains("Done"));
+    keys(&mut lesson, "\n");
+    assert!(shown(&mut lesson).contains("Done: e is 0.2, below 0.5."));
+    keys(&mut lesson, "\n");
+    pass(&mut lesson, 1.0);
+    assert!(shown(&mut lesson).contains("so"));
+    keys(&mut lesson, "\n");
+    pass(&mut lesson, 2.0);
+    assert!(shown(&mut lesson).contains("then"));
+    assert_eq!(e(&mut lesson), "0.6");
+}
+
+#[test]
+fn whoever_reads_may_look_around_and_comes_back() {
+    let mut lesson = taken("Say \"first\"\nSay \"second\"\nWait 1s\n");
+    pass(&mut lesson, 0.5);
+    let before = shown(&mut lesson);
+    lesson.press(KeyEvent::from(KeyCode::BackTab));
+    keys(&mut lesson, "2");
+    let equations = shown(&mut lesson);
+    assert!(
+        equations.contains("Equations of motion") || equations.contains("Lagrangian"),
+        "{equations}"
+    );
+    keys(&mut lesson, "x");
+    assert!(shown(&mut lesson).contains("x does nothing here"));
+    keys(&mut lesson, "\n");
+    pass(&mut lesson, 0.5);
+    let picture = |shown: &str| shown.lines().take(15).map(str::to_owned).collect::<Vec<_>>();
+    assert_eq!(picture(&shown(&mut lesson)), picture(&before));
 }

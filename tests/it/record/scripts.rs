@@ -1,4 +1,4 @@
-//! Scripts: their contents, and the reports on mistakes.
+//! Scripts: their contents, and the reports on errors.
 
 use phaselab::diagnostic::{Diagnostic, Document};
 use phaselab::preset::Catalog;
@@ -7,7 +7,7 @@ use phaselab::record::{Script, play, transcript};
 
 use super::{played, script};
 
-/// The mistakes of a script as `line:column message; help`.
+/// The errors of a script as `line:column message; help`.
 fn mistakes(text: &str) -> Vec<String> {
     let document = Document::new("test.demo", text);
     let tell = |mistake: &Diagnostic| {

@@ -1,4 +1,4 @@
-//! The workbench on the screen: the cursor always visible, mistakes marked, any size, ASCII.
+//! The workbench on the screen: the cursor always visible, errors marked, any size, ASCII.
 
 use phaselab::app::{App, BufferDiagnostic, BufferState, Caret, Event, Notification};
 use phaselab::view::RenderStyle;

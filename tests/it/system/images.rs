@@ -87,7 +87,7 @@ fn a_branch_is_followed_to_its_caustic_and_another_beyond() {
     }
 }
 
-/// What has no image at all stays what it was: a mistake, not a column without values.
+/// What has no image at all stays what it was: an error, not a column without values.
 #[test]
 fn a_function_that_gives_no_map_is_refused() {
     let text = format!("{HEAD}kind = \"F2\"\nF = \"q^2 + P^2\"\n{VIEWS}");

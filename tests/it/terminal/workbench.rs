@@ -1,4 +1,4 @@
-//! The workbench as a user experiences it: typing, mistakes, saving, and a file changed in another editor.
+//! The workbench as a user experiences it: typing, errors, saving, and a file changed in another editor.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -90,7 +90,7 @@ fn a_watched_file_that_is_wrong_at_first_opens_once_it_is_right() {
     fs::write(&place, FILE.replace("k = 4.0", "kk = 4.0")).expect("it can be written");
     let mut lab = Setup::new(PROGRAM, &["--watch"]).argument(&place).size(120, 40).start();
     lab.shows("own.toml has errors");
-    // another mistake, and then none
+    // another error, and then none
     fs::write(&place, format!("unknown = 1\n{FILE}")).expect("it can be written");
     lab.shows("`unknown`");
     fs::write(&place, FILE).expect("it can be written");

@@ -17,7 +17,7 @@ use crate::view::theme::{Dash, Shade};
 /// The number of dots in a cell at most.
 const DOTS: usize = 8;
 
-/// The stamp of the present, which is drawn but not kept.
+/// The stamp of the current state, which is drawn but not kept.
 const NOW: f64 = f64::INFINITY;
 
 /// What a stroke leaves on a dot.
@@ -52,7 +52,7 @@ pub struct Ages<'a> {
     pub ramp: &'a [Shade],
     /// The layer.
     pub layer: u8,
-    /// The surfaces that hide a part of the trail, and how near to the eye the present point is.
+    /// The surfaces that hide a part of the trail, and how near to the eye the current point is.
     pub behind: Option<(&'a DepthBuffer, f64)>,
 }
 
@@ -96,7 +96,7 @@ impl KeptTrail {
         });
     }
 
-    /// Draws the trail and a last stroke to the present point.
+    /// Draws the trail and a last stroke to the current point.
     pub fn draw(&self, raster: &mut Raster, ages: Ages<'_>, present: [f64; 2]) {
         let pens: Vec<Pen> = (ages.ramp.iter().enumerate())
             .map(|(age, shade)| Pen::aged(*shade, ages.layer, age))
