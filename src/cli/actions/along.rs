@@ -48,8 +48,11 @@ pub(super) fn perform(
     }
     interrupt.ends_by_itself(|| ());
     let along = followed(&laid, (index, until, arguments.count), interrupt)?;
-    if let (Some(signal), true) = (interrupt.signal(), along.moments.is_empty()) {
-        return Err(CommandError::Signal(signal));
+    if along.moments.is_empty() {
+        return Err(match (interrupt.signal(), along.why) {
+            (Some(signal), _) => CommandError::Signal(signal),
+            (None, why) => CommandError::CouldNot(why.unwrap_or_default()),
+        });
     }
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
     crowd::write(out, &along.written(arguments.format, &laid), interrupt)?;
