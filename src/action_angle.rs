@@ -8,11 +8,13 @@
 mod angle;
 mod effective_potential;
 mod held;
+mod moment;
 mod row;
 
 pub use angle::angle;
 pub use effective_potential::{AllowedInterval, EffectivePotential};
 pub use held::{HeldMotion, HeldSystem, NotHeld, OwnMotion, Separatrix};
+pub use moment::AngleMoment;
 pub use row::{
     ActionRow, ActionSystems, NoAction, RegionKind, action_between, action_row, cyclic_row,
 };

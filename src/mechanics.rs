@@ -6,6 +6,7 @@
 mod attitude;
 mod bracket;
 mod canonical;
+mod chart;
 mod closed_forms;
 mod conservation;
 mod constrain;
@@ -22,6 +23,7 @@ mod generator;
 mod group;
 mod hamilton;
 mod hamilton_jacobi;
+mod image_rates;
 mod implicit_map;
 mod impulse_change;
 mod invariants;
@@ -53,6 +55,7 @@ mod valuation;
 
 pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise};
 pub use canonical::{CanonicalVerdict, FailingBracket, PhaseMap};
+pub use chart::ChartBracket;
 pub use conservation::{Class, Classed, class_of, classes};
 pub use constrain::with_reactions;
 pub use derive::{derive, derive_for_motion};

@@ -7,7 +7,9 @@
 use crate::cancel::Cancel;
 use crate::diagnostic::SourceRange;
 use crate::expr::{Expr, Symbol, SyntaxError, Zero};
-use crate::mechanics::{self, ChainRule, Class, Equations, NoClosedForm, Recognised};
+use crate::mechanics::{
+    self, ChainRule, ChartBracket, Class, Equations, NoClosedForm, Recognised, Valuation,
+};
 use crate::model::{Allowed, Model, Observable, Scope};
 
 /// A question that was understood, and its answer.
@@ -32,6 +34,8 @@ pub enum InquiryAnswer {
         recognised: Option<Recognised>,
         /// Its numerical values, if there is no closed form.
         rule: Option<Box<ChainRule>>,
+        /// The bracket in the new variables of each transformation of the file.
+        charts: Vec<ChartBracket>,
     },
     /// Whether an expression is conserved.
     Conservation {
@@ -98,10 +102,24 @@ impl Inquiry {
         self.equations.pool.weight(e)
     }
 
+    /// The variables of a chart, as formulas show them.
+    pub fn variables(&self, chart: &ChartBracket, unicode: bool) -> String {
+        let shown = |&symbol: &Symbol| {
+            let info = self.equations.pool.symbol_info(symbol);
+            if unicode { info.unicode.clone() } else { info.name.clone() }
+        };
+        chart.variables.iter().map(shown).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The value of the bracket in a chart at a point.
+    pub fn value_in(&self, chart: &ChartBracket, at: &Valuation) -> Option<f64> {
+        chart.value(&self.equations, at)
+    }
+
     /// The value of the bracket, or of the rate, for these values of the symbols, or `None` if it
     /// has none.
     pub fn value(&self, at: &dyn Fn(Symbol) -> f64) -> Option<f64> {
-        let of = |e: Expr| Some(self.equations.pool.evaluate(e, at)).filter(|v| v.is_finite());
+        let of = |e: Expr| self.equations.value_with_images(e, at);
         match &self.answer {
             InquiryAnswer::Bracket { bracket: Ok(e), .. }
             | InquiryAnswer::Conservation { rate: Ok(e), .. } => of(*e),
@@ -175,7 +193,8 @@ fn bracket(model: &Model, equations: &mut Equations, sides: [Expr; 2]) -> Inquir
         Ok(e) => (mechanics::recognise(model, equations, *e), None),
         Err(_) => (None, ChainRule::of(equations, f, g).ok().map(Box::new)),
     };
-    InquiryAnswer::Bracket { sides, bracket, recognised, rule }
+    let charts = ChartBracket::all(model, equations, sides);
+    InquiryAnswer::Bracket { sides, bracket, recognised, rule, charts }
 }
 
 fn conservation(model: &Model, equations: &mut Equations, of: Expr) -> InquiryAnswer {

@@ -1,5 +1,7 @@
 //! `phaselab actions`: action, period and frequency of one coordinate.
 
+mod along;
+
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
@@ -31,12 +33,19 @@ use crate::system::ChannelKind;
 /// in which the start lies. Of several coordinates one is taken in which the system separates;
 /// of a cyclic one the frequency is that of its mean advance; where it has no period, and so no action,
 /// the angular frequency is its mean rate.
+///
+/// With --until the motion is followed: in place of that table, action, frequency and the angle
+/// variable w = ∂S/∂J, in turns, at times up to then, and how far w is from growing evenly, w₀ + ν (t − t₀).
+/// w is a quadrature over places, ν the time of a return. Of a law that depends on the time they are those of the
+/// system held at each instant: the action is then its adiabatic invariant.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   phaselab actions pendulum
   phaselab actions double-well --energy=-1/8,0.5 --format json
-  phaselab actions planet --coordinate r")]
+  phaselab actions planet --coordinate r
+  phaselab actions pendulum-action --until 20 --count 40
+  phaselab actions slow-oscillator --until 80 --format csv")]
 pub(super) struct Arguments {
     #[command(flatten)]
     motion: MotionOptions,
@@ -47,6 +56,13 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "E,…", allow_hyphen_values = true, value_parser = number)]
     #[arg(value_delimiter = ',')]
     energy: Option<Vec<f64>>,
+    /// Follows the motion until then: the angle variable and its growth.
+    #[arg(long, value_name = "T", allow_hyphen_values = true, value_parser = number, conflicts_with = "energy")]
+    until: Option<f64>,
+    /// Into how many equal intervals the time until then is divided.
+    #[arg(long, value_name = "N", default_value_t = 24, requires = "until")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    count: u32,
     /// How the table is written.
     #[arg(long, value_enum, default_value_t = TableFormat::Text)]
     format: TableFormat,
@@ -64,6 +80,9 @@ struct Separatrix {
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let reading = arguments.motion.read()?;
     let index = coordinate(&reading.model, arguments.coordinate.as_deref())?;
+    if let Some(until) = arguments.until {
+        return along::perform(arguments, reading, (index, until), interrupt);
+    }
     let name = reading.model.coordinates[index].name.clone();
     let motion = &arguments.motion;
     let along = partner(motion, &reading, index, interrupt)?;

@@ -259,7 +259,33 @@ pub(super) fn expression(
     written: &str,
     called: &str,
 ) -> Result<Expr, CommandError> {
+    read(Scope::new(model, Allowed::Observable, "an observable"), pool, written, called)
+}
+
+/// The same, with H as the energy if the file does not use that name.
+pub(super) fn expression_with_energy(
+    model: &Model,
+    pool: &mut Pool,
+    written: &str,
+    called: &str,
+) -> Result<Expr, CommandError> {
     let mut scope = Scope::new(model, Allowed::Observable, "an observable");
+    let taken = model.parameter("H").is_some()
+        || model.coordinate("H").is_some()
+        || model.definitions.iter().any(|(name, _)| name == "H")
+        || model.observables.iter().any(|o| o.name == "H");
+    if !taken {
+        scope.define("H", pool.variable(model.symbols.energy));
+    }
+    read(scope, pool, written, called)
+}
+
+fn read(
+    mut scope: Scope,
+    pool: &mut Pool,
+    written: &str,
+    called: &str,
+) -> Result<Expr, CommandError> {
     if let Some(e) = scope.read(pool, written) {
         return Ok(e);
     }

@@ -12,8 +12,10 @@ use super::open;
 use super::output::Output;
 use super::script::MathScript;
 use crate::experiment::Derived;
-use crate::expr::{Expr, Zero};
-use crate::mechanics::{self, ChainRule, Equations, NoClosedForm, Recognised};
+use crate::expr::{Expr, Symbol, Zero};
+use crate::mechanics::{
+    self, ChainRule, ChartBracket, Equations, NoClosedForm, Recognised, Valuation,
+};
 use crate::model::{Channel, Model};
 use crate::system::{ChannelKind, InitialOverride, System};
 
@@ -21,7 +23,8 @@ use crate::system::{ChannelKind, InitialOverride, System};
 ///
 /// [F, G] = Σ ∂F/∂q ∂G/∂p − ∂F/∂p ∂G/∂q, or ∇F · B ∇G where the file gives the brackets B of its
 /// variables; symbolically, and its value at the start. F and G may use whatever an observable
-/// may. Constraints are ignored.
+/// may; H is the energy. Where the file has transformations, the same bracket follows in the new variables of each: it
+/// is equal where the map is canonical. Constraints are ignored.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -56,8 +59,8 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     model.run.start = assignment::start(&model, &parameters, &arguments.init)?;
     let mut derived = open::derive(&document, model)?;
     let Derived { model, equations } = &mut derived;
-    let f = assignment::expression(model, &mut equations.pool, &arguments.f, "F")?;
-    let g = assignment::expression(model, &mut equations.pool, &arguments.g, "G")?;
+    let f = assignment::expression_with_energy(model, &mut equations.pool, &arguments.f, "F")?;
+    let g = assignment::expression_with_energy(model, &mut equations.pool, &arguments.g, "G")?;
 
     let expression = mechanics::bracket(model, equations, f, g);
     let recognised = match &expression {
@@ -69,8 +72,16 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
         Ok(e) => start.value(&derived, *e),
         Err(_) => start.value_by_chain_rule(&mut derived, f, g),
     };
+    let Derived { model, equations } = &mut derived;
+    let charts = ChartBracket::all(model, equations, [f, g]);
+    let here = if charts.is_empty() { None } else { start.valuation(&derived).ok() };
     let Derived { model, equations } = &derived;
-    let answer = BracketReport { arguments, model, f, g, expression, recognised, value };
+    let charts = charts.into_iter().map(|chart| {
+        let value = here.as_ref().and_then(|here| chart.value(equations, here));
+        (chart, value)
+    });
+    let charts = charts.collect();
+    let answer = BracketReport { arguments, model, f, g, expression, recognised, value, charts };
     let text = match arguments.format {
         Format::Text => answer.text(equations, MathScript::of_locale()),
         Format::Latex => answer.latex(equations),
@@ -93,6 +104,14 @@ impl BracketPoint {
         let values = self.values(&derived.model, &system)?;
         let extra = system.channels().iter().position(|c| c.kind == ChannelKind::Extra(0));
         finite(extra.map(|i| values[i]))
+    }
+
+    /// The values of all symbols at the start.
+    fn valuation(&self, derived: &Derived) -> Result<Valuation, String> {
+        let system = derived.compile(&[]).map_err(|e| e.to_string())?;
+        let Derived { model, equations } = derived;
+        let values = self.values(model, &system)?;
+        Ok(system.valuation((model, equations), model.run.start, &self.parameters, &values))
     }
 
     /// The value of \[f, g\] if the velocities are not known as functions of the momenta.
@@ -130,6 +149,8 @@ struct BracketReport<'a> {
     expression: Result<Expr, NoClosedForm>,
     recognised: Option<Recognised>,
     value: Result<f64, String>,
+    /// The bracket in the new variables of each transformation, and its value at the start.
+    charts: Vec<(ChartBracket, Option<f64>)>,
 }
 
 /// The note for a system with constraints.
@@ -167,6 +188,17 @@ impl BracketReport<'_> {
             Err(why) => script.words(why),
         };
         text.push_str(&format!("at the start: {value}\n"));
+        for (chart, value) in &self.charts {
+            let shown = |&s: &Symbol| equations.pool.symbol_info(s).clone();
+            let infos = chart.variables.iter().map(shown);
+            let names: Vec<String> = infos.map(|info| script.words(&info.unicode)).collect();
+            let value = value.and_then(shortest).unwrap_or_else(|| "not known".to_owned());
+            text.push_str(&format!("in {} of {}: ", names.join(", "), chart.name));
+            match chart.bracket {
+                Ok(e) => text.push_str(&format!("{}; at the start: {value}\n", math(e))),
+                Err(_) => text.push_str(&format!("at the start {value}\n")),
+            }
+        }
         if !self.model.constraints.is_empty() {
             text.push_str(&format!("({UNCONSTRAINED})\n"));
         }
@@ -209,6 +241,18 @@ impl BracketReport<'_> {
             "recognised": recognised,
             "value": self.value.as_ref().ok(),
         });
+        if !self.charts.is_empty() {
+            let name = |&s: &Symbol| equations.pool.symbol_info(s).name.clone();
+            let charts = self.charts.iter().map(|(chart, value)| {
+                json!({
+                    "transformation": chart.name,
+                    "variables": chart.variables.iter().map(name).collect::<Vec<_>>(),
+                    "bracket": chart.bracket.as_ref().map_or(Value::Null, |e| text(*e)),
+                    "value": value,
+                })
+            });
+            object["charts"] = charts.collect();
+        }
         let bracket = self.expression.as_ref().err().map(|why| format!("bracket: {why}"));
         let value = self.value.as_ref().err().map(|why| format!("value: {why}"));
         let why: Vec<String> = bracket.into_iter().chain(value).collect();

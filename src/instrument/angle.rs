@@ -13,7 +13,7 @@ use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, Present, Sign, Upwards,
 };
-use crate::action_angle::HeldSystem;
+use crate::action_angle::{AngleMoment, HeldSystem};
 use crate::integrate::Settings;
 use crate::job::{Job, Progress};
 use crate::num::significant;
@@ -35,16 +35,6 @@ const SETTINGS: Settings = Settings { step: None, tolerance: Some(1e-15) };
 /// The row.
 pub(super) struct AnglePlot;
 
-/// The motion at an instant.
-#[derive(Clone, Copy, PartialEq, Debug)]
-struct Moment {
-    time: f64,
-    /// w, in turns, without a jump.
-    angle: f64,
-    frequency: f64,
-    action: f64,
-}
-
 /// What was found, and of what.
 struct Computed {
     coordinate: usize,
@@ -54,7 +44,7 @@ struct Computed {
     held: Result<Arc<HeldSystem>, String>,
     /// Why there is no angle now.
     lost: Option<String>,
-    past: Vec<Moment>,
+    past: Vec<AngleMoment>,
 }
 
 impl Instrument for AnglePlot {
@@ -149,15 +139,11 @@ impl Instrument for AnglePlot {
                     .map(Arc::new)
                     .map_err(|why| why.to_string())
             });
-            let found = held.as_ref().map_err(Clone::clone).and_then(|held| {
-                let at = held.at(time, &parameters, [&positions, &momenta]);
-                let mut motion = at.map_err(|why| why.to_string())?;
-                let own = motion.own().map_err(|why| why.to_string())?;
-                let row = own.row.map_err(|why| why.to_string())?;
-                let angle = motion.angle(&row).map_err(|why| why.to_string())?;
-                Ok(Moment { time, angle, frequency: 1.0 / row.period, action: row.action })
-            });
-            let mut past: Vec<Moment> =
+            let found = held
+                .as_ref()
+                .map_err(Clone::clone)
+                .and_then(|held| AngleMoment::of(held, time, &parameters, [&positions, &momenta]));
+            let mut past: Vec<AngleMoment> =
                 past.iter().copied().filter(|moment| moment.time < time).collect();
             let lost = match found {
                 Ok(found) => {
@@ -200,16 +186,6 @@ impl Instrument for AnglePlot {
     }
 }
 
-impl Moment {
-    /// The same with as many whole turns as have gone by since another.
-    fn after(self, last: Option<&Moment>) -> Moment {
-        let Some(last) = last else { return self };
-        let mean = f64::midpoint(last.frequency, self.frequency);
-        let expected = last.angle + mean * (self.time - last.time);
-        Moment { angle: self.angle + (expected - self.angle).round(), ..self }
-    }
-}
-
 impl Computed {
     /// Whether it is still what is to be seen at a time.
     fn holds_at(&self, time: f64) -> bool {
@@ -225,13 +201,13 @@ impl Computed {
     fn line(&self) -> Option<impl Fn(f64) -> f64 + use<>> {
         let first = *self.past.first()?;
         let still = self.held.as_ref().is_ok_and(|held| !held.depends_on_time());
-        still.then_some(move |time| first.angle + first.frequency * (time - first.time))
+        still.then_some(move |time| first.even(time))
     }
 
     /// How far w is from it now, and at most so far.
     fn residual(&self) -> Option<[f64; 2]> {
         let line = self.line()?;
-        let off = |moment: &Moment| moment.angle - line(moment.time);
+        let off = |moment: &AngleMoment| moment.angle - line(moment.time);
         let largest = self.past.iter().map(|moment| off(moment).abs()).fold(0.0, f64::max);
         Some([off(self.past.last()?), largest])
     }

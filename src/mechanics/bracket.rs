@@ -33,9 +33,10 @@ pub fn bracket(
 ) -> Result<Expr, NoClosedForm> {
     let f = in_phase_space(equations, f)?;
     let g = in_phase_space(equations, g)?;
-    let seeds = flow_of(model, equations, g);
+    let seeds = flow_of(model, equations, g)?;
+    let sum = equations.derivation(f, &seeds)?;
+    let sum = equations.in_generating_variables(sum)?;
     let pool = &mut equations.pool;
-    let sum = pool.derivation(f, &seeds);
     let sum = zero_if_proved(pool, sum);
     Ok(pool.simplify(sum))
 }
@@ -52,7 +53,9 @@ pub fn rate_by_bracket(
     let hamiltonian = equations.hamiltonian().clone()?;
     let auxiliary = bracket(model, equations, f, hamiltonian)?;
     let f = in_phase_space(equations, f)?;
-    let own = equations.pool.derivative(f, equations.symbols.time);
+    let by_time = [(equations.symbols.time, Expr::ONE)];
+    let own = equations.derivation(f, &by_time)?;
+    let own = equations.in_generating_variables(own)?;
     let rate = equations.pool.add(auxiliary, own);
     let rate = zero_if_proved(&mut equations.pool, rate);
     Ok(equations.pool.simplify(rate))
@@ -114,11 +117,18 @@ fn unknown(what: &str, by: &str, why: &NoClosedForm) -> NoClosedForm {
 }
 
 /// The derivation f ↦ \[f, g\]: the image of each variable of phase space.
-fn flow_of(model: &Model, equations: &mut Equations, g: Expr) -> Vec<(Symbol, Expr)> {
+///
+/// # Errors
+/// Returns an error if g contains new variables of a map whose derivatives are too long to be read.
+fn flow_of(
+    model: &Model,
+    equations: &mut Equations,
+    g: Expr,
+) -> Result<Vec<(Symbol, Expr)>, NoClosedForm> {
     let coordinates = equations.coordinates.clone();
-    let pool = &mut equations.pool;
     let mut seeds = Vec::new();
     if let Mechanics::Poisson { brackets, .. } = &model.mechanics {
+        let pool = &mut equations.pool;
         let slopes: Vec<Expr> =
             coordinates.iter().map(|c| pool.derivative(g, c.position)).collect();
         for (c, row) in coordinates.iter().zip(brackets) {
@@ -128,12 +138,13 @@ fn flow_of(model: &Model, equations: &mut Equations, g: Expr) -> Vec<(Symbol, Ex
         }
     } else {
         for c in &coordinates {
-            let (by_q, by_p) = (pool.derivative(g, c.position), pool.derivative(g, c.momentum));
+            let by_q = equations.derivation(g, &[(c.position, Expr::ONE)])?;
+            let by_p = equations.derivation(g, &[(c.momentum, Expr::ONE)])?;
             seeds.push((c.position, by_p));
-            seeds.push((c.momentum, pool.neg(by_q)));
+            seeds.push((c.momentum, equations.pool.neg(by_q)));
         }
     }
-    seeds
+    Ok(seeds)
 }
 
 /// \[f, g\] at points (q, q̇, t) of a Lagrangian system, by the chain rule. Only L needs to be

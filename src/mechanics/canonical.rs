@@ -90,12 +90,14 @@ impl PhaseMap {
             .chain(model.coordinates.iter().map(|c| c.momentum))
             .collect();
         let mut relations = Vec::new();
+        let mut all_own = Vec::new();
         let mut function_rate = None;
         let mut near_identity = vec![false; given.new.len()];
         match &given.law {
             TransformationLaw::Explicit { positions, momenta } => {
                 for (&symbol, &e) in new.iter().zip(positions.iter().chain(momenta)) {
                     let variable = pool.variable(symbol);
+                    all_own.push(symbol);
                     relations.push(pool.sub(variable, e));
                 }
             }
@@ -110,6 +112,7 @@ impl PhaseMap {
                         (c.position, c.momentum, Number::ONE)
                     };
                     let derivative = pool.derivative(*function, slope);
+                    all_own.push(own);
                     let own = pool.variable(own);
                     relations
                         .push(pool.linear(Number::ZERO, &[(Number::ONE, own), (sign, derivative)]));
@@ -119,6 +122,7 @@ impl PhaseMap {
                         (position, momentum, Number::MINUS_ONE)
                     };
                     let derivative = pool.derivative(*function, slope);
+                    all_own.push(own);
                     let own = pool.variable(own);
                     relations
                         .push(pool.linear(Number::ZERO, &[(Number::ONE, own), (sign, derivative)]));
@@ -137,7 +141,7 @@ impl PhaseMap {
         PhaseMap {
             name,
             old,
-            implicit: ImplicitMap { new, relations, by_new },
+            implicit: ImplicitMap { new, relations, by_new, own: all_own },
             function_rate,
             forwards: None,
             near_identity,

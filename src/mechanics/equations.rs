@@ -81,6 +81,9 @@ pub struct ImplicitMap {
     pub relations: Vec<Expr>,
     /// Their derivatives with respect to the new variables, a row for each relation.
     pub by_new: Vec<Vec<Expr>>,
+    /// The variable that each relation gives, as itself less the relation, in terms of those of the generating function; of
+    /// an explicit map the new variables.
+    pub own: Vec<Symbol>,
 }
 
 /// What is integrated, drawn or derived alongside the equations of motion without affecting them.

@@ -26,7 +26,9 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
         let forwards = law.as_ref().ok().and_then(|law| {
             let given = Transformation { law: law.clone(), ..given.clone() };
             let map = PhaseMap::relations(&mut equations.pool, model, &given);
-            map.find_forwards(model, equations)
+            let mut found = map.find_forwards(model, equations)?;
+            found.sort_by_key(|(symbol, _)| map.implicit.new.iter().position(|s| s == symbol));
+            Some(found)
         });
         if let (Ok(law), None) = (&law, &forwards)
             && given.new.iter().flatten().all(|symbol| shared.contains(symbol))

@@ -226,7 +226,17 @@ impl Equations {
             seeds.push((c.position, self.pool.variable(c.velocity)));
             seeds.push((c.momentum, rate));
         }
-        let rate = self.pool.derivation(g, &seeds);
+        let rate = self.derivation(g, &seeds).ok()?;
+        if self.has_images(g) {
+            if self.pool.depends(g, self.symbols.energy) {
+                return None;
+            }
+            // in q and p, from which the new variables follow
+            let known = self.velocities().clone().ok()?;
+            let map = self.coordinates.iter().map(|c| c.velocity).zip(known).collect();
+            let rate = self.pool.substitute(rate, &map);
+            return self.in_generating_variables(rate).ok();
+        }
         let mut opened: HashMap<Symbol, Expr> =
             self.coordinates.iter().map(|c| c.momentum).zip(self.momenta.clone()).collect();
         opened.insert(self.symbols.energy, self.energy);
@@ -245,6 +255,9 @@ impl Equations {
             if self.multipliers().is_ok() {
                 return Some(self.open(rate));
             }
+        }
+        if self.is_lagrangian() && self.has_images(observable) {
+            return None;
         }
         let g = self.open(observable);
         let solved = self.solved().clone().ok()?;
@@ -270,6 +283,7 @@ impl Equations {
                 seeds.push((c.velocity, acceleration));
             }
         }
-        Some(self.pool.derivation(g, &seeds))
+        let rate = self.derivation(g, &seeds).ok()?;
+        self.in_generating_variables(rate).ok()
     }
 }

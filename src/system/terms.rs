@@ -71,6 +71,7 @@ impl ConservedTerms {
             .flat_map(|c| [c.acceleration, c.momentum, c.velocity])
             .filter(|symbol| !rates.contains(symbol))
             .chain(equations.constraints.iter().map(|row| row.multiplier))
+            .chain(equations.supplements.implicit_maps.iter().flat_map(|(map, _)| map.new.clone()))
             .collect();
         for e in all {
             let e = equations.open(e);

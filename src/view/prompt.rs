@@ -12,7 +12,7 @@ use super::wrap::{formula, words};
 use crate::analysis::{Inquiry, InquiryAnswer};
 use crate::app::{Lab, Prompt};
 use crate::expr::{Expr, Zero};
-use crate::mechanics::Class;
+use crate::mechanics::{ChartBracket, Class};
 
 /// Expressions with more nodes than this are not written out.
 const MOST: u64 = 1_000;
@@ -76,7 +76,7 @@ fn lines(canvas: &Canvas<'_>, lab: &Lab, prompt: &Prompt, width: usize) -> Vec<V
         }
         (None, None) => page.words(Role::Dim, HELP),
         (None, Some((asked, inquiry))) => match &inquiry.answer {
-            InquiryAnswer::Bracket { bracket, recognised, .. } => {
+            InquiryAnswer::Bracket { bracket, recognised, charts, .. } => {
                 let (open, close) =
                     if lab.loaded.model.is_poisson() { ("{", "}") } else { ("[", "]") };
                 let asked =
@@ -113,6 +113,9 @@ fn lines(canvas: &Canvas<'_>, lab: &Lab, prompt: &Prompt, width: usize) -> Vec<V
                     (Zero::No, _) => (Role::Text, "It does not vanish."),
                 };
                 page.words(role, verdict);
+                for chart in charts {
+                    page.chart(lab, inquiry, chart);
+                }
                 if !lab.loaded.model.constraints.is_empty() {
                     let what = "This is the bracket of the phase space without the constraints. Whether something is \
                         conserved along the motion is asked with one expression.";
@@ -207,6 +210,20 @@ impl PromptRows<'_, '_> {
     fn value(&mut self, what: &str, lab: &Lab, inquiry: &Inquiry) {
         let now = lab.valuation();
         let value = inquiry.value(&|symbol| now.at(symbol));
+        self.number(what, value);
+    }
+
+    /// The bracket in the new variables of a transformation: its value and, if it is known, its form.
+    fn chart(&mut self, lab: &Lab, inquiry: &Inquiry, chart: &ChartBracket) {
+        let variables = inquiry.variables(chart, !self.canvas.look.glyphs.is_ascii());
+        let what = self.canvas.text(&format!("In {variables} of `{}`", chart.name));
+        self.number(&what, inquiry.value_in(chart, &lab.valuation()));
+        if let Ok(e) = chart.bracket {
+            self.formula(inquiry, "", e);
+        }
+    }
+
+    fn number(&mut self, what: &str, value: Option<f64>) {
         let text = value.map_or_else(
             || "not known here".to_owned(),
             |value| readable(value, 10, self.canvas.look.glyphs),

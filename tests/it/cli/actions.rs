@@ -248,3 +248,92 @@ fn wells_too_narrow_to_be_seen_are_named_and_no_other_reason_is_given() {
     refused.fails(1, &["wells narrower", "`period`"]);
     with_file(&angle(", period = \"2*pi\""), &arguments).success();
 }
+
+/// The motion of a preset followed by `actions --until`: rows by the names of their columns.
+fn along(arguments: &[&str]) -> (Value, Vec<Vec<f64>>, Vec<String>) {
+    let words = [&["actions"], arguments, &["--format=json"]].concat();
+    let object = phaselab(&words).json();
+    let part = &object["along"];
+    let names = part["columns"].as_array().expect("columns").iter();
+    let names = names.map(|name| name.as_str().expect("a name").to_owned()).collect();
+    let rows = part["rows"].as_array().expect("rows").iter().map(|row| {
+        row.as_array().expect("a row").iter().map(|x| x.as_f64().expect("a number")).collect()
+    });
+    (part.clone(), rows.collect(), names)
+}
+
+/// w grows by one in a period, 4 K(k) of a libration and 2 k K(k) of a rotation, wherever it is looked at.
+#[test]
+fn the_angle_variable_grows_evenly() {
+    // 4 K(sin 1), 16 (E − k′² K); and with θ′ = 3 at θ = 0, k = 2/3: 2 k K(k), 8 E(k)/k
+    let cases: [(&[&str], f64, f64); 2] = [
+        (&[], 8.349_752_926_918_494, 10.039_416_280_433_402),
+        (
+            &["--init", "theta=0", "--init", "theta'=3"],
+            2.412_889_993_982_118,
+            16.537_247_254_799_795,
+        ),
+    ];
+    for (start, period, action) in cases {
+        let words = [&["pendulum-action", "--until=20", "--count=10"], start].concat();
+        let (part, rows, names) = along(&words);
+        assert_eq!(names, ["t", "theta", "energy", "action", "frequency", "angle", "residual"]);
+        assert_eq!((rows.len(), &part["depends_on_time"]), (11, &false.into()));
+        assert!(part["largest_residual"].as_f64().unwrap() < 1e-9, "{part}");
+        for (k, row) in rows.iter().enumerate() {
+            let time = 2.0 * k as f64;
+            assert!((row[0] - time).abs() < 1e-15);
+            assert!((row[3] - action).abs() < 1e-9, "{row:?}");
+            assert!((row[4] - 1.0 / period).abs() < 1e-10, "{row:?}");
+            assert!((row[5] - rows[0][5] - time / period).abs() < 1e-9, "{row:?}");
+        }
+    }
+}
+
+/// Of a law that depends on the time: those of the system held at each instant. Of an oscillator J = 2π E/ω, ν = ω/2π and
+/// w = atan2(p, −m ω q)/2π, 0 where it turns on the left.
+#[test]
+fn along_a_ramp_action_and_angle_are_those_of_the_instant() {
+    let (part, rows, names) = along(&["slow-oscillator", "--until=80", "--count=40"]);
+    assert_eq!(names.last().map(String::as_str), Some("angle"));
+    assert_eq!((&part["depends_on_time"], &part["largest_residual"]), (&true.into(), &Value::Null));
+    let turns = 2.0 * PI;
+    for row in &rows {
+        let [time, q, energy, action, frequency, angle] = row[..] else { panic!("{row:?}") };
+        let u = ((time - 10.0) / 60.0).clamp(0.0, 1.0);
+        let omega = 1.0 + u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
+        assert!((frequency - omega / turns).abs() < 1e-11, "{row:?}");
+        assert!((action - turns * energy / omega).abs() < 1e-10, "{row:?}");
+        let turned = -q * omega / (2.0 * energy).sqrt();
+        assert!(((turns * angle).cos() - turned).abs() < 1e-6, "{row:?}");
+    }
+    let [first, last] = [&rows[0], &rows[40]];
+    assert!((last[3] / first[3] - 1.0).abs() < 1e-4 && last[2] / first[2] > 1.99);
+    // no turn is lost: 5 s and 5 s at the ends, and the mean of ω between
+    let gone = last[5] - first[5];
+    assert!((gone * turns - (10.0 + 90.0 + 20.0)).abs() < 0.01 * turns, "{gone}");
+}
+
+#[test]
+fn what_has_no_angle_along_its_motion_is_told_so() {
+    let refused = |arguments: &[&str], code: i32, said: &[&str]| {
+        phaselab(&[&["actions"], arguments].concat()).fails(code, said);
+    };
+    refused(&["pendulum", "--until=0"], 2, &["not after"]);
+    refused(&["pendulum", "--until=1", "--energy=1"], 2, &["--energy"]);
+    refused(&["pendulum", "--count=3"], 2, &["--until"]);
+    refused(&["henon-heiles", "--coordinate=x", "--until=1"], 1, &["does not separate"]);
+    refused(&["damped-pendulum", "--until=1"], 1, &["forces change the energy"]);
+    let csv = phaselab(&[
+        "actions",
+        "isochrone",
+        "--coordinate=r",
+        "--until=50",
+        "--count=4",
+        "--format=csv",
+    ]);
+    let csv = csv.success();
+    let mut rows = csv.lines().filter(|line| !line.starts_with('#'));
+    assert_eq!(rows.next(), Some("t,r,energy,action,frequency,angle,residual"));
+    assert_eq!(rows.count(), 5);
+}

@@ -86,3 +86,105 @@ fn wrong_words_get_a_caret() {
     phaselab(&["bracket", "pendulum", "theta"]).fails(2, &["<G>"]);
     phaselab(&["bracket", "pendulum", "theta", "1", "--set", "q=1"]).fails(2, &["no parameter"]);
 }
+
+/// A map without a closed form, at any time: its brackets follow from derivatives of its relations.
+#[test]
+fn new_variables_without_a_closed_form_have_their_brackets() {
+    let file = r#"
+title = "A map without a closed form"
+[coordinates]
+q = { initial = 0.7, momentum = 0.4 }
+[parameters]
+a = 0.1
+[hamiltonian]
+H = "p_q^2/2 + q^2/2"
+[[transformations]]
+name = "wave"
+kind = "F2"
+F = "q*P + a*sin(q)*cos(P)*(1 + t)"
+"#;
+    let bracket = |f: &str, g: &str| {
+        let words = ["bracket", "system.toml", f, g, "--init", "t=2", "--format", "json"];
+        with_file(file, &words).json()
+    };
+    let canonical = bracket("Q", "P");
+    assert_eq!((&canonical["bracket"], &canonical["value"]), (&json!("1"), &json!(1.0)));
+    assert_eq!(bracket("P", "P^2")["recognised"]["how"], "proved");
+    // p = P + a (1 + t) cos q cos P and Q = q − a (1 + t) sin q sin P, solved here by iteration
+    let (q, p, b) = (0.7_f64, 0.4_f64, 0.3_f64);
+    let new = |q: f64, p: f64| {
+        let momentum = (0..200).fold(p, |x, _| p - b * q.cos() * x.cos());
+        [q - b * q.sin() * momentum.sin(), momentum]
+    };
+    let h = 1e-5;
+    let slope = |k: usize, [dq, dp]: [f64; 2]| {
+        (new(q + h * dq, p + h * dp)[k] - new(q - h * dq, p - h * dp)[k]) / (2.0 * h)
+    };
+    let cases = [
+        (bracket("q", "P"), slope(1, [0.0, 1.0])),
+        (bracket("q", "Q"), slope(0, [0.0, 1.0])),
+        (bracket("Q", "p_q"), slope(0, [1.0, 0.0])),
+        (bracket("P", "H"), p * slope(1, [1.0, 0.0]) - q * slope(1, [0.0, 1.0])),
+    ];
+    for (found, expected) in cases {
+        let value = found["value"].as_f64().expect("a value");
+        assert!((value - expected).abs() < 1e-8, "{found} is not {expected}");
+        // and the same in the new variables, since the map is canonical
+        let there = found["charts"][0]["value"].as_f64().expect("a value");
+        assert!((there - value).abs() < 1e-12, "{found}");
+    }
+}
+
+/// The bracket in the variables of a map: equal where it is canonical, with the time in it too, and another where it is not.
+#[test]
+fn a_bracket_is_told_in_the_new_variables_of_each_transformation() {
+    let charts = |preset: &str, f: &str, g: &str, more: &[&str]| {
+        let words = [&["bracket", preset, f, g, "--format", "json"], more].concat();
+        let object = phaselab(&words).json();
+        let charts = object["charts"].as_array().expect("charts").clone();
+        let value = object["value"].as_f64().expect("a value");
+        let all = charts.into_iter().map(|chart| {
+            let name = chart["transformation"].as_str().expect("a name").to_owned();
+            (name, chart["bracket"].clone(), chart["value"].as_f64().expect("a value"))
+        });
+        (value, all.collect::<Vec<_>>())
+    };
+    let near = |found: f64, expected: f64| {
+        assert!((found - expected).abs() < 1e-12, "{found} is not {expected}");
+    };
+    let at = ["--init", "t=2", "--set", "Omega=0.3"];
+    // [X, p_x] = cos Ωt, and with p_x of the moving axes too; [x p_x, y] and its like do not know of the time
+    for (f, g, expected) in [
+        ("X", "p_x", 0.6_f64.cos()),
+        ("Y", "p_x", -0.6_f64.sin()),
+        ("x1*p1", "p2^2 + x1", 1.0 - 0.2 * 2.0),
+        ("PX", "H", -0.6_f64.cos()),
+    ] {
+        let (value, charts) = charts("moving-axes", f, g, &at);
+        // x1 = x − u t at x = 1, u = 0.2: [x₁ p₁, x₁] = −x₁
+        let expected = if f == "x1*p1" { -(1.0 - 0.4) } else { expected };
+        near(value, expected);
+        assert_eq!(charts.len(), 2);
+        for (name, written, there) in charts {
+            assert!(written.is_string(), "{name}: {written}");
+            near(there, expected);
+        }
+    }
+    // m = 1, ω = 2, q = 1, p = ½: θ = atan2(q, p) and r are not canonical, [θ, r] = 1/r; X = λ q, Y = μ p with λ = 3, μ = ½
+    let (value, charts) = charts("angle-of-the-oscillator", "theta", "r", &["--set", "lambda=3"]);
+    near(value, 1.0 / 1.25_f64.sqrt());
+    let found = |name: &str| charts.iter().find(|chart| chart.0 == name).expect("a chart").clone();
+    near(found("action-angle").2, value);
+    near(found("euler").2, value);
+    assert_eq!(found("polar").1, "1");
+    near(found("polar").2, 1.0);
+    near(found("scaled").2, value / 1.5);
+    let text = phaselab(&["bracket", "moving-axes", "X", "p_x", "--init", "t=2"]).success();
+    assert!(
+        text.contains("in X, Y, PX, PY of rotating axes: cos(Ω t); at the start: 0.82533"),
+        "{text}"
+    );
+    // what no transformation is in has no other charts
+    let plain = phaselab(&["bracket", "planet", "p_theta", "energy"]).success();
+    assert!(!plain.contains(" of "), "{plain}");
+}

@@ -311,3 +311,39 @@ fn a_law_too_large_is_refused_before_it_is_expanded() {
     assert!(why.to_string().contains("1000000 nodes"), "{why}");
     assert!(before < 2000, "the text itself is small: {before}");
 }
+
+/// New variables of a map without a closed form change as its relations do: where p = P + ⅒ sin P, P is conserved if p is, and
+/// is not if p is not; Q moves.
+#[test]
+fn new_variables_without_a_closed_form_are_judged_by_their_relations() {
+    let by = |law: &str, start: &str, function: &str, observable: &str| {
+        let rest = format!(
+            "{law}\n[[transformations]]\nname = \"map\"\nkind = \"F2\"\nF = \"{function}\""
+        );
+        class(&format!("q = {{ initial = 0.3, {start} }}"), &rest, observable)
+    };
+    let stretched = "q*(P + 1/10*sin(P))";
+    let wave = "q*P + 1/10*sin(q)*cos(P)*(1 + t)";
+    // p = √(2 h(P) − q²) with h = P + ⅒ sin P: h(P) is the energy of the oscillator
+    let root = "sqrt(2*(P + 1/10*sin(P)) - q^2)";
+    let action = format!("1/2*q*{root} + (P + 1/10*sin(P))*asin(q/sqrt(2*(P + 1/10*sin(P))))");
+    for (law, start) in [("hamiltonian", "momentum"), ("lagrangian", "velocity")] {
+        let [free, bound] = if law == "hamiltonian" {
+            ["H = \"p_q^2/2\"", "H = \"p_q^2/2 + q^2/2\""]
+        } else {
+            ["L = \"q'^2/2\"", "L = \"q'^2/2 - q^2/2\""]
+        };
+        let [free, bound] = [free, bound].map(|written| format!("[{law}]\n{written}"));
+        let start = format!("{start} = 0.9");
+        let class =
+            |law: &str, function: &str, observable: &str| by(law, &start, function, observable);
+        assert_eq!(class(&free, stretched, "P"), Class::Proved, "{free}");
+        assert_eq!(class(&free, stretched, "P^2 + cos(P)"), Class::Proved, "{free}");
+        assert_eq!(class(&free, stretched, "Q"), Class::Changing, "{free}");
+        assert_eq!(class(&bound, stretched, "P"), Class::Changing, "{bound}");
+        assert_eq!(class(&free, wave, "P"), Class::Changing, "{free}");
+        assert_eq!(class(&bound, wave, "Q"), Class::Changing, "{bound}");
+        assert_ne!(class(&bound, &action, "P"), Class::Changing, "{bound}");
+        assert_eq!(class(&bound, &action, "Q"), Class::Changing, "{bound}");
+    }
+}

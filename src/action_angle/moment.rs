@@ -1,0 +1,55 @@
+//! A motion at an instant by action and angle, and its angle counted on from an earlier one.
+//!
+//! In: a held system, the state of a motion. Out: energy, action, frequency, and w in turns. Never here: the motion between.
+//! Source: *The Principles of Dynamics*, § 4.2.
+
+use super::HeldSystem;
+
+/// The motion of one coordinate at an instant.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct AngleMoment {
+    /// The time.
+    pub time: f64,
+    /// w = ∂S/∂J, in turns; from 0 to 1 until it is counted on.
+    pub angle: f64,
+    /// ν = dE/dJ.
+    pub frequency: f64,
+    /// ∮ p dq.
+    pub action: f64,
+    /// The energy.
+    pub energy: f64,
+}
+
+impl AngleMoment {
+    /// The motion at coordinates and momenta.
+    ///
+    /// # Errors
+    /// Returns an error if the motion does not return, or has no such state.
+    pub fn of(
+        held: &HeldSystem,
+        time: f64,
+        parameters: &[f64],
+        state: [&[f64]; 2],
+    ) -> Result<AngleMoment, String> {
+        let mut motion = held.at(time, parameters, state).map_err(|why| why.to_string())?;
+        let own = motion.own().map_err(|why| why.to_string())?;
+        let row = own.row.map_err(|why| why.to_string())?;
+        let angle = motion.angle(&row).map_err(|why| why.to_string())?;
+        let (action, energy) = (row.action, own.energy);
+        Ok(AngleMoment { time, angle, frequency: 1.0 / row.period, action, energy })
+    }
+
+    /// The same with as many whole turns as have gone by since another.
+    #[must_use]
+    pub fn after(self, last: Option<&AngleMoment>) -> AngleMoment {
+        let Some(last) = last else { return self };
+        let mean = f64::midpoint(last.frequency, self.frequency);
+        let expected = last.angle + mean * (self.time - last.time);
+        AngleMoment { angle: self.angle + (expected - self.angle).round(), ..self }
+    }
+
+    /// The angle at a time of a motion that goes on evenly from here, w + ν (t − t₀).
+    pub fn even(&self, time: f64) -> f64 {
+        self.angle + self.frequency * (time - self.time)
+    }
+}

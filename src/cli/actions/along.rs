@@ -1,0 +1,180 @@
+//! The action and the angle variable of one coordinate along its motion.
+//!
+//! In: a motion, times. Out: at each time energy, action, frequency and w = ∂S/∂J, and how far w is from growing evenly. Of a
+//! law that depends on the time they are those of the system held at that instant. Never here: how they are computed.
+//! Source: *The Principles of Dynamics*, §§ 4.2, 4.3.
+
+use serde_json::{Value, json};
+
+use super::Arguments;
+use crate::action_angle::{AngleMoment, HeldSystem};
+use crate::cli::cells::{self, TableCell, TableFormat};
+use crate::cli::crowd::{self, Tally};
+use crate::cli::decimal::divisions;
+use crate::cli::failure::CommandError;
+use crate::cli::interrupt::Interrupt;
+use crate::cli::motion_options::{Laid, ModelReading};
+use crate::cli::output::Output;
+use crate::ensemble::SystemFlow;
+use crate::integrate::Settings;
+use crate::printable;
+use crate::system::ChannelKind;
+
+/// The settings of the motions by which returns are located.
+const SETTINGS: Settings = Settings { step: None, tolerance: Some(1e-15) };
+
+/// The rows, and whether the law depends on the time.
+struct Along {
+    coordinate: String,
+    places: Vec<f64>,
+    moments: Vec<AngleMoment>,
+    depends_on_time: bool,
+    /// Why it ends before its time.
+    why: Option<String>,
+}
+
+/// Follows the motion of a coordinate until a time.
+pub(super) fn perform(
+    arguments: &Arguments,
+    reading: ModelReading,
+    (index, until): (usize, f64),
+    interrupt: &Interrupt,
+) -> Result<(), CommandError> {
+    let laid = arguments.motion.compile(reading, &[], "", interrupt)?;
+    if until <= laid.start.time {
+        let [until, start] = [until, laid.start.time].map(printable::number);
+        let message = format!("the motion begins at {start}; --until {until} is not after it");
+        return Err(CommandError::WrongUse(message));
+    }
+    interrupt.ends_by_itself(|| ());
+    let along = followed(&laid, (index, until, arguments.count), interrupt)?;
+    if along.moments.is_empty() {
+        return Err(match (interrupt.signal(), along.why) {
+            (Some(signal), _) => CommandError::Signal(signal),
+            (None, why) => CommandError::CouldNot(why.unwrap_or_default()),
+        });
+    }
+    let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
+    crowd::write(out, &along.written(arguments.format, &laid), interrupt)?;
+    match (interrupt.signal(), along.why) {
+        (Some(signal), _) => Err(CommandError::Signal(signal)),
+        (None, Some(why)) => Err(CommandError::CouldNot(why)),
+        (None, None) => Ok(()),
+    }
+}
+
+fn followed(
+    laid: &Laid,
+    (index, until, count): (usize, f64, u32),
+    interrupt: &Interrupt,
+) -> Result<Along, CommandError> {
+    let could_not = |why: String| CommandError::CouldNot(why);
+    let (system, start) = (&laid.system, &laid.start);
+    let held = HeldSystem::of(&laid.model, index, SETTINGS, interrupt.cancel())
+        .map_err(|why| could_not(why.to_string()))?;
+    let degrees = laid.model.coordinates.len();
+    let kinds =
+        (0..degrees).map(ChannelKind::Position).chain((0..degrees).map(ChannelKind::Momentum));
+    let channels: Option<Vec<usize>> =
+        kinds.map(|kind| system.channels().iter().position(|c| c.kind == kind)).collect();
+    let channels = channels.ok_or_else(|| could_not("the motion has no momenta".to_owned()))?;
+    let state = start.state(system).map_err(|why| could_not(why.to_string()))?;
+    let flow = SystemFlow {
+        system: system.clone(),
+        method: (laid.method, laid.settings),
+        parameters: start.parameters.clone(),
+        start: start.time,
+    };
+    let times: Vec<f64> = divisions(start.time, until, count).collect();
+    let seen = flow.carry(&state, &times, &channels).seen;
+    let mut along = Along {
+        coordinate: laid.model.coordinates[index].name.clone(),
+        places: Vec::new(),
+        moments: Vec::new(),
+        depends_on_time: held.depends_on_time(),
+        why: None,
+    };
+    let mut tally = Tally::new(0, times.len());
+    for (&time, values) in times.iter().zip(&seen) {
+        if interrupt.signal().is_some() {
+            return Ok(along);
+        }
+        let (positions, momenta) = values.split_at(degrees);
+        match AngleMoment::of(&held, time, &start.parameters, [positions, momenta]) {
+            Ok(moment) => {
+                along.places.push(positions[index]);
+                along.moments.push(moment.after(along.moments.last()));
+            }
+            Err(why) => {
+                let at = printable::number(time);
+                along.why = Some(format!("there is no angle variable at t = {at}: {why}"));
+                return Ok(along);
+            }
+        }
+        tally.add();
+    }
+    if seen.len() < times.len() {
+        let at = printable::number(times[seen.len()]);
+        along.why = Some(format!("the motion ends before t = {at}"));
+    }
+    Ok(along)
+}
+
+impl Along {
+    /// How far w is from w₀ + ν (t − t₀) at each time; none where the law depends on the time.
+    fn residuals(&self) -> Option<Vec<f64>> {
+        let first = self.moments.first().filter(|_| !self.depends_on_time)?;
+        Some(self.moments.iter().map(|moment| moment.angle - first.even(moment.time)).collect())
+    }
+
+    fn written(&self, format: TableFormat, laid: &Laid) -> String {
+        let residuals = self.residuals();
+        let mut names = vec!["t", &self.coordinate, "energy", "action", "frequency", "angle"];
+        if residuals.is_some() {
+            names.push("residual");
+        }
+        let row = |k: usize| {
+            let AngleMoment { time, angle, frequency, action, energy } = self.moments[k];
+            let mut row = vec![time, self.places[k], energy, action, frequency, angle];
+            row.extend(residuals.as_ref().map(|all| all[k]));
+            row
+        };
+        let rows: Vec<Vec<f64>> = (0..self.moments.len()).map(row).collect();
+        let largest = residuals.as_ref().map(|all| all.iter().fold(0.0_f64, |m, x| m.max(x.abs())));
+        if format == TableFormat::Json {
+            let mut members = crowd::members(&laid.header());
+            let along = json!({
+                "columns": names,
+                "rows": rows,
+                "depends_on_time": self.depends_on_time,
+                "largest_residual": largest,
+            });
+            members.insert("along".to_owned(), along);
+            let (status, message) = match &self.why {
+                None => ("completed", Value::Null),
+                Some(why) => ("faulted", why.clone().into()),
+            };
+            members.insert("status".to_owned(), status.into());
+            members.insert("message".to_owned(), message);
+            return cells::object(&members);
+        }
+        let names: Vec<String> = names.into_iter().map(str::to_owned).collect();
+        let table: Vec<Vec<TableCell>> =
+            rows.into_iter().map(|row| row.into_iter().map(TableCell::Number).collect()).collect();
+        if format == TableFormat::Csv {
+            return crowd::lead(&laid.header())
+                + &cells::record(names)
+                + &cells::csv(table.iter().map(Vec::as_slice));
+        }
+        let told = match largest {
+            Some(largest) => format!(
+                "w = w0 + frequency*(t - t0) to {} of a turn\n",
+                crate::num::short(largest)
+            ),
+            None => "the law depends on the time: action, frequency and angle are those of the system held \
+                     at each instant\n"
+                .to_owned(),
+        };
+        cells::text(&names, &table) + &told
+    }
+}

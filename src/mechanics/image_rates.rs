@@ -1,0 +1,122 @@
+//! How the new variables of a map without a closed form change, as derivatives of the relations of the map: a derivation D of
+//! the old variables and the time takes the new ones to ξ′ with Σ ∂R/∂ξ ξ′ + D R = 0.
+//!
+//! In: a derivation, an expression of old and new variables. Out: the same derivation with the new variables in it; an
+//! expression in the variables of the generating function, which are independent, so that what vanishes is seen to vanish.
+//! Never here: images of points.
+//! Source: *The Principles of Dynamics*, § 3.2.1.
+
+use std::collections::HashMap;
+
+use super::equations::{Equations, ImplicitMap, NoClosedForm};
+use super::linear;
+use super::valuation::Valuation;
+use crate::expr::{Expr, Pool, Symbol};
+
+impl Equations {
+    /// The maps without a closed form on whose new variables an expression depends.
+    fn implicit_maps_of(&self, e: Expr) -> Vec<ImplicitMap> {
+        let all = self.supplements.implicit_maps.iter().map(|(map, _)| map);
+        all.filter(|map| self.pool.depends_on_any(e, &map.new)).cloned().collect()
+    }
+
+    /// Whether an expression depends on the new variables of a map without a closed form.
+    pub(super) fn has_images(&self, e: Expr) -> bool {
+        !self.implicit_maps_of(e).is_empty()
+    }
+
+    /// The derivation of an expression that may depend on new variables of maps without a closed form; `seeds` has the images
+    /// of all other symbols that change, the momenta among them.
+    ///
+    /// # Errors
+    /// Returns an error if the derivatives of such a map are too long to be read.
+    pub(super) fn derivation(
+        &mut self,
+        e: Expr,
+        seeds: &[(Symbol, Expr)],
+    ) -> Result<Expr, NoClosedForm> {
+        let mut seeds = seeds.to_vec();
+        for map in self.implicit_maps_of(e) {
+            let (sought, given): (Vec<Symbol>, Vec<Symbol>) =
+                map.new.iter().copied().partition(|symbol| !map.own.contains(symbol));
+            let relation_of = |own: &Symbol| map.own.iter().position(|known| known == own);
+            // the relations that give old variables have only the new ones of the function in them
+            let rows: Vec<usize> =
+                (0..map.own.len()).filter(|&row| !map.new.contains(&map.own[row])).collect();
+            let pool = &mut self.pool;
+            let minus_change = |pool: &mut Pool, row: usize, seeds: &[(Symbol, Expr)]| {
+                let change = pool.derivation(map.relations[row], seeds);
+                pool.neg(change)
+            };
+            let mut matrix = Vec::new();
+            for &row in &rows {
+                let relation = map.relations[row];
+                matrix.push(sought.iter().map(|&s| pool.derivative(relation, s)).collect());
+            }
+            let right: Vec<Expr> =
+                rows.iter().map(|&row| minus_change(pool, row, &seeds)).collect();
+            let rates = linear::solve(pool, &matrix, &right)?.x?;
+            seeds.extend(sought.into_iter().zip(rates));
+            // and the others give the rest of the new variables one by one
+            let known = seeds.clone();
+            for symbol in given {
+                if let Some(row) = relation_of(&symbol) {
+                    seeds.push((symbol, minus_change(pool, row, &known)));
+                }
+            }
+        }
+        Ok(self.pool.derivation(e, &seeds))
+    }
+
+    /// A point of (q, p, t) with the images of the maps without a closed form, each on the branch of its image near the start
+    /// if that leads there.
+    pub(super) fn with_images(&self, mut point: Valuation) -> Valuation {
+        for (map, near_start) in &self.supplements.implicit_maps {
+            if let Some(image) = map.search(&self.pool, &point, near_start.clone()) {
+                point = point.with(map.new.iter().map(|&symbol| (symbol, image.at(symbol))));
+            }
+        }
+        point
+    }
+
+    /// The value of an expression that may depend on new variables of maps without a closed form; `at` has those of all other
+    /// symbols. `None` if it has none.
+    pub fn value_with_images(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> Option<f64> {
+        let value = if self.has_images(e) {
+            let used = self.supplements.implicit_maps.iter().flat_map(|(map, _)| &map.relations);
+            let used: Vec<Expr> = used.copied().chain([e]).collect();
+            let symbols = used.iter().flat_map(|&e| self.pool.symbols_of(e));
+            let known = symbols.map(|symbol| (symbol, at(symbol))).filter(|(_, x)| !x.is_nan());
+            let point = Valuation::default().with(known);
+            self.with_images(point).value(&self.pool, e)
+        } else {
+            self.pool.evaluate(e, at)
+        };
+        Some(value).filter(|value| value.is_finite())
+    }
+
+    /// An expression of (q, p, t) and new variables, in terms of the variables of the generating function by which these are
+    /// given.
+    ///
+    /// # Errors
+    /// Returns an error if there are several such functions: their variables are not independent.
+    pub(super) fn in_generating_variables(&mut self, e: Expr) -> Result<Expr, NoClosedForm> {
+        let maps = self.implicit_maps_of(e);
+        let map = match &maps[..] {
+            [] => return Ok(e),
+            [map] => map,
+            _ => {
+                let why = "it contains new variables of several maps without a closed form";
+                return Err(NoClosedForm(why.to_owned()));
+            }
+        };
+        let pool = &mut self.pool;
+        let mut given = HashMap::new();
+        for (&own, &relation) in map.own.iter().zip(&map.relations) {
+            let variable = pool.variable(own);
+            given.insert(own, pool.sub(variable, relation));
+        }
+        let e = pool.substitute(e, &given);
+        Ok(pool.simplify(e))
+    }
+}
