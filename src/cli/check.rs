@@ -26,7 +26,7 @@ use crate::printable;
 Examples:
   phaselab check my/system.toml          every mistake with a caret, and what would be right
   phaselab check my/*.toml && echo fine
-  phaselab check --format json my/system.toml | jq '.files[].diagnostics'")]
+  phaselab check --format json my/system.toml | jq '.files[].mistakes'")]
 pub(super) struct Arguments {
     /// The files, or the names of systems.
     #[arg(value_name = "FILE", required = true)]
@@ -142,5 +142,5 @@ fn object(document: &Document, mistakes: &[Diagnostic]) -> Value {
             })
         })
         .collect();
-    json!({ "file": document.path, "diagnostics": mistakes })
+    json!({ "file": document.path, "mistakes": mistakes })
 }

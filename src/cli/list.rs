@@ -133,6 +133,6 @@ fn object(entry: &CatalogEntry) -> Value {
         "source": entry.info.source,
         "chapter": entry.info.chapter,
         "file": path,
-        "error": entry.fault,
+        "mistake": entry.fault,
     })
 }

@@ -114,7 +114,7 @@ fn json_goes_to_standard_output() {
     let done = with_file(&wrong, &["check", "system.toml", "--format", "json"]);
     assert_eq!(done.code, 65);
     let object: serde_json::Value = serde_json::from_str(&done.stdout).expect("JSON");
-    let mistake = &object["files"][0]["diagnostics"][0];
+    let mistake = &object["files"][0]["mistakes"][0];
     assert_eq!(mistake["severity"], "error");
     assert_eq!((mistake["line"].as_u64(), mistake["column"].as_u64()), (Some(12), Some(23)));
     assert!(mistake["message"].as_str().is_some_and(|m| m.contains("`n`")), "{object}");

@@ -122,7 +122,7 @@ fn no_text_of_a_file_steers_the_terminal() {
                 let output = harmless(home.path(), &words(arguments), &[65]);
                 if arguments.contains(&"check") && arguments.contains(&"json") {
                     let read: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-                    assert!(!read["files"][0]["diagnostics"].as_array().unwrap().is_empty());
+                    assert!(!read["files"][0]["mistakes"].as_array().unwrap().is_empty());
                 }
             }
         }

@@ -16,7 +16,7 @@ fn every_preset_stands_in_the_list() {
         assert_eq!(object["name"], entry.name.as_str());
         assert_eq!(object["title"], entry.info.title.as_str());
         assert_eq!(object["topics"][0], entry.topic());
-        assert!(object["error"].is_null());
+        assert!(object["mistake"].is_null());
     }
 }
 
