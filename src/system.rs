@@ -52,6 +52,8 @@ mod separability;
 mod series;
 mod solve;
 mod split_step;
+mod stage_list;
+mod stage_machine;
 mod state;
 mod tangent;
 mod term_watch;

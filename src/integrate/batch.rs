@@ -9,7 +9,7 @@ use super::lane_status::LaneStatus;
 use super::method::{Method, Settings};
 use super::taylor::TaylorBatch;
 use crate::num::BATCH;
-use crate::system::{MotionError, State, System};
+use crate::system::{Form, MotionError, State, System};
 
 /// Orbits side by side.
 pub struct BatchPropagator {
@@ -38,6 +38,11 @@ impl BatchPropagator {
     fn can_begin(&self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
         let state = self.system.convert(state, self.system.form(), parameters)?;
         self.system.check_energy(&state, parameters)
+    }
+
+    /// The form of the states.
+    pub fn form(&self) -> Form {
+        self.system.form()
     }
 
     /// Empties a lane.

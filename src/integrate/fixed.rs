@@ -5,8 +5,9 @@ use super::clock::spacing;
 use super::initial_step;
 use super::method::{MethodError, Settings};
 use super::stability::{self, Modes, Unstable};
+use super::step_block::StepBlock;
 use super::stepper::Stepper;
-use crate::num::{DoubleDouble, accumulate};
+use crate::num::{Analytic, BATCH, Batch, DoubleDouble, accumulate};
 use crate::system::{Form, MotionError, MotionErrorKind, State, System};
 
 /// The default step, as a part of the motion's [time scale](super::initial_step::of).
@@ -26,16 +27,19 @@ pub(super) trait Scheme: Clone + Send {
     /// The form of its states.
     fn form(&self) -> Form;
 
-    /// Sets the parameters and forgets the motion so far.
+    /// Sets the parameters and [forgets](Scheme::forget) the motion so far.
     fn begin(&mut self, parameters: &[f64]);
 
     /// Moves the numbers of `state` by one step. The time of `state` is that of the beginning of
     /// the step and is not changed.
     fn advance(&mut self, step: f64, state: &mut State) -> Result<(), MotionError>;
 
-    /// Moves the numbers of `state` by as many steps, with the same result as one by one. Returns
+    /// Forgets the motion so far.
+    fn forget(&mut self) {}
+
+    /// Moves the numbers of a state by as many steps, with the same result as one by one. Returns
     /// false, with the state unchanged, if they must be taken one by one.
-    fn advance_many(&mut self, _step: f64, _count: u64, _state: &mut State) -> bool {
+    fn advance_many(&mut self, _step: f64, _count: u64, _states: ManySteps<'_>) -> bool {
         false
     }
 
@@ -53,6 +57,15 @@ pub(super) trait Scheme: Clone + Send {
 
     /// The rates of change at the numbers of a state.
     fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError>;
+}
+
+/// What many steps begin with and write.
+pub(super) struct ManySteps<'a> {
+    pub(super) state: &'a mut State,
+    /// The state before the last step.
+    pub(super) before: &'a mut State,
+    /// The numbers at the end of each, a step in each lane.
+    pub(super) seen: Option<&'a mut [Batch]>,
 }
 
 /// A motion in equal steps.
@@ -77,6 +90,8 @@ pub(super) struct FixedStep<S> {
     before: State,
     state: State,
     next: State,
+    /// The state before the last of many steps, until it is known that they could be taken.
+    earlier: State,
 }
 
 impl<S: Scheme> FixedStep<S> {
@@ -107,6 +122,7 @@ impl<S: Scheme> FixedStep<S> {
             unstable: None,
             before: state.clone(),
             next: state.clone(),
+            earlier: state.clone(),
             state,
         })
     }
@@ -117,47 +133,92 @@ impl<S: Scheme> FixedStep<S> {
         self.origin = self.state.exact_time();
         self.count = 0.0;
         self.scheme.begin(&self.parameters);
+        self.aside.begin(&self.parameters);
         self.in_batches = true;
+    }
+
+    /// The number of steps before the next check of stability; zero if it is due.
+    fn unchecked(&self) -> u64 {
+        match self.taken {
+            0 => 0,
+            n if n < STEPS_PER_CHECK => n.next_power_of_two() - n,
+            n => n.next_multiple_of(STEPS_PER_CHECK) - n,
+        }
     }
 
     /// Checks occasionally whether the step is stable at the current state, until it is not.
     fn check_stability(&mut self) {
-        let n = self.taken;
-        let due = n.is_multiple_of(STEPS_PER_CHECK) || (n < STEPS_PER_CHECK && n.is_power_of_two());
+        let due = self.unchecked() == 0;
         self.taken += 1;
         if !due || self.unstable.is_some() || self.scheme.modes().is_none() {
             return;
         }
         let (time, step, moving) = (self.state.time, self.step.high, self.system.moving());
-        self.aside.begin(&self.parameters);
         let rates = |numbers: &[f64], out: &mut [f64]| self.aside.rates(time, numbers, out).is_ok();
         let z = stability::eigenvalues(&self.state.values, moving, step, rates);
         let limit = self.scheme.modes().and_then(|modes| modes.limit(&z, step));
         self.unstable = limit.map(|limit| Unstable { time, step: step.abs(), limit });
     }
 
-    /// Takes many steps at once: all before the last one to `time`, at most `most`, up to the next
+    /// The time after `count` more steps.
+    fn time_after(&self, count: u64) -> DoubleDouble {
+        self.origin + self.step * (self.count + count as f64)
+    }
+
+    /// The number of steps, at least one and at most `most`, after which `time` is reached or passed.
+    fn steps_to(&self, time: f64, most: u64) -> u64 {
+        let way = (time - self.origin.high) / self.step.high - self.count;
+        let reached = |count: u64| (self.time_after(count).high - time) * self.step.high >= 0.0;
+        // a quotient that is negative or not a number counts as zero
+        let mut count = (way.ceil() as u64).clamp(1, most);
+        while count > 1 && reached(count - 1) {
+            count -= 1;
+        }
+        while count < most && way < most as f64 && !reached(count) {
+            count += 1;
+        }
+        count
+    }
+
+    /// Takes many steps at once: until `time` is reached or passed, at most `most`, up to the next
     /// check of stability. Returns their number, which is zero if the next step must be taken by
     /// itself.
-    fn batch(&mut self, time: f64, most: u64) -> u64 {
-        let way = (time - self.origin.high) / self.step.high - self.count - 2.0;
-        let unchecked = STEPS_PER_CHECK - self.taken % STEPS_PER_CHECK;
-        let begins = self.taken.is_multiple_of(STEPS_PER_CHECK) || self.taken < STEPS_PER_CHECK;
-        // a quotient that is negative or not a number counts as zero
-        let count = (way as u64).min(most).min(unchecked);
-        let last = self.origin + self.step * (self.count + count as f64);
+    fn batch(&mut self, time: f64, most: u64, seen: Option<&mut StepBlock>) -> u64 {
+        let forwards = time > self.state.time;
+        let most = most.min(self.unchecked());
+        if most == 0 || !self.in_batches || (self.step.high > 0.0) != forwards {
+            return 0;
+        }
+        let count = self.steps_to(time, most);
+        let (last, last_but_one) = (self.time_after(count), self.time_after(count - 1));
         let digits = DIGITS_PER_STEP * spacing(last.high.abs().max(self.state.time.abs()));
-        if begins || count < 2 || self.step.high.abs() < digits {
+        if self.step.high.abs() < digits {
             return 0;
         }
         self.next.copy_from(&self.state);
-        if !self.scheme.advance_many(self.step.high, count, &mut self.next) {
+        let FixedStep { scheme, next: state, earlier: before, .. } = self;
+        let (mut block, mut numbers) = (seen, None);
+        if let Some(block) = &mut block {
+            numbers = Some(block.numbers.as_mut_slice());
+        }
+        let states = ManySteps { state, before, seen: numbers };
+        if !scheme.advance_many(self.step.high, count, states) {
             self.in_batches = false;
             return 0;
         }
+        if let Some(block) = block {
+            block.begin = self.state.time;
+            block.count = count as usize;
+            for (lane, after) in (1..=count).enumerate() {
+                block.times.0[lane] = self.time_after(after).high;
+            }
+        }
         (self.next.time, self.next.time_carry) = (last.high, last.low);
+        if count > 1 {
+            (self.earlier.time, self.earlier.time_carry) = (last_but_one.high, last_but_one.low);
+        }
         std::mem::swap(&mut self.state, &mut self.next);
-        self.before.copy_from(&self.state);
+        std::mem::swap(&mut self.before, &mut self.earlier);
         self.count += count as f64;
         self.taken += count;
         count
@@ -225,14 +286,21 @@ impl<S: Scheme> Stepper for FixedStep<S> {
     fn steps(&mut self, time: f64, limit: f64, budget: &mut u64) -> Result<(), MotionError> {
         let forwards = time > self.state.time;
         while *budget > 0 && self.state.time != time && (self.state.time < time) == forwards {
-            // the last step of all is taken by itself
-            if self.in_batches && (self.step.high > 0.0) == forwards {
-                *budget -= self.batch(time, *budget - 1);
+            let many = self.batch(time, *budget, None);
+            *budget -= many.max(1);
+            if many == 0 {
+                self.step(limit)?;
             }
-            *budget -= 1;
-            self.step(limit)?;
         }
         Ok(())
+    }
+
+    fn steps_seen(&mut self, time: f64, most: u64, block: &mut StepBlock) -> u64 {
+        if self.state.time == time {
+            return 0;
+        }
+        block.numbers.resize(self.state.values.len(), Batch::ZERO);
+        self.batch(time, most.min(BATCH as u64), Some(block))
     }
 
     fn replace_state(&mut self, state: &State) {
@@ -256,7 +324,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         if time == self.before.time {
             return Ok(());
         }
-        self.aside.begin(&self.parameters);
+        self.aside.forget();
         self.aside.go_on_from(&self.scheme);
         let step = DoubleDouble::written(time) - self.before.exact_time();
         self.aside.advance(step.high, out)?;

@@ -5,7 +5,7 @@
 //!
 //! Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, I.1.4, II.4, II.5.
 
-use super::fixed::{FixedStep, Scheme, add};
+use super::fixed::{FixedStep, ManySteps, Scheme, add};
 use super::method::{Method, MethodError, Settings, StepperResult};
 use super::stability::Modes;
 use crate::system::{Form, MotionError, Rates, SplitStep, State, System};
@@ -32,7 +32,8 @@ pub(super) fn make(
     let zeros = vec![0.0; system.state_len()];
     let many = SplitStep::new(&drift, &kick, &weights);
     let (velocity, force) = (zeros.clone(), zeros);
-    let scheme = Splitting { drift, kick, many, weights, velocity, force, known: false };
+    let before = State::new(0.0, Form::Momentum, Vec::new());
+    let scheme = Splitting { drift, kick, many, before, weights, velocity, force, known: false };
     Ok(Box::new(FixedStep::new(method.name, system, settings, scheme)?))
 }
 
@@ -42,6 +43,7 @@ struct Splitting {
     kick: Rates,
     /// Many steps at once, where they can be a list of instructions.
     many: Option<SplitStep>,
+    before: State,
     weights: Vec<f64>,
     velocity: Vec<f64>,
     force: Vec<f64>,
@@ -64,13 +66,27 @@ impl Scheme for Splitting {
         self.known = false;
     }
 
-    fn advance_many(&mut self, step: f64, count: u64, state: &mut State) -> bool {
+    fn forget(&mut self) {
+        self.known = false;
+    }
+
+    fn advance_many(&mut self, step: f64, count: u64, states: ManySteps<'_>) -> bool {
         let Some(many) = &mut self.many else { return false };
         self.known = false;
-        many.advance(step, count, state)
+        let ManySteps { state, before, seen } = states;
+        match seen {
+            Some(seen) => many.advance_seen(step, count, state, before, seen),
+            None => many.advance(step, count, state, before),
+        }
     }
 
     fn advance(&mut self, step: f64, state: &mut State) -> Result<(), MotionError> {
+        if let Some(many) = &mut self.many
+            && many.advance(step, 1, state, &mut self.before)
+        {
+            self.known = false;
+            return Ok(());
+        }
         if !self.known {
             self.kick.evaluate(state.time, &state.values, &mut self.force)?;
         }

@@ -146,7 +146,7 @@ impl RunPlan {
             plan: self,
             runs,
             watches: std::array::from_fn(|_| watch.clone()),
-            terms: self.system.batch_terms(),
+            terms: self.system.batch_terms(batch.form()),
             alone: Vec::new(),
             done: &mut done,
         };
