@@ -6,6 +6,7 @@
 mod batch;
 mod clock;
 mod dop853;
+mod equal_steps;
 mod event_location;
 mod fixed;
 mod gauss;
@@ -25,6 +26,7 @@ mod roots;
 mod roundoff;
 mod sampling;
 mod splitting;
+mod splitting_batch;
 mod stability;
 mod step_block;
 mod stepper;

@@ -10,6 +10,7 @@ mod active_set;
 mod allowed_displacements;
 mod attitude;
 mod batch_series;
+mod batch_split_step;
 mod batch_terms;
 mod branch;
 mod channel;
@@ -65,6 +66,7 @@ mod variational;
 
 pub use allowed_displacements::AllowedDisplacements;
 pub use batch_series::BatchSeries;
+pub use batch_split_step::BatchSplitStep;
 pub use batch_terms::BatchTerms;
 pub use branch::Branch;
 pub use channel::{Channel, ChannelKind};

@@ -1,8 +1,7 @@
 //! The common part of all methods of fixed step: counting of time, direction, dense output, default
 //! step and stability. A method itself is a [`Scheme`].
 
-use super::clock::spacing;
-use super::initial_step;
+use super::equal_steps::EqualSteps;
 use super::method::{MethodError, Settings};
 use super::stability::{self, Modes, Unstable};
 use super::step_block::StepBlock;
@@ -10,17 +9,8 @@ use super::stepper::Stepper;
 use crate::num::{Analytic, BATCH, Batch, DoubleDouble, accumulate};
 use crate::system::{Form, MotionError, MotionErrorKind, State, System};
 
-/// The default step, as a part of the motion's [time scale](super::initial_step::of).
-const PART_OF_PACE: f64 = 1.0 / 10.0;
-
-/// The largest number of steps that can be counted.
-const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
-
 /// Stability is checked after 1, 2, 4, … steps, and then at intervals of this many steps.
 const STEPS_PER_CHECK: u64 = 256;
-
-/// The steps in a row that must change the time by more than this many of its last digits.
-const DIGITS_PER_STEP: f64 = 4.0;
 
 /// One step of a method.
 pub(super) trait Scheme: Clone + Send {
@@ -77,11 +67,7 @@ pub(super) struct FixedStep<S> {
     aside: S,
     parameters: Vec<f64>,
     asked: Option<f64>,
-    /// The step; negative if the motion runs backwards.
-    step: DoubleDouble,
-    /// The time at which counting began, and the steps since: time is counted, not summed.
-    origin: DoubleDouble,
-    count: f64,
+    steps: EqualSteps,
     /// The number of steps since the start, and an instability found on the way.
     taken: u64,
     /// Whether steps may be taken many at once, until it is seen that they may not.
@@ -114,9 +100,7 @@ impl<S: Scheme> FixedStep<S> {
             scheme,
             parameters: Vec::new(),
             asked: settings.step,
-            step: DoubleDouble::ZERO,
-            origin: DoubleDouble::ZERO,
-            count: 0.0,
+            steps: EqualSteps::new(DoubleDouble::ZERO, DoubleDouble::ZERO),
             taken: 0,
             in_batches: true,
             unstable: None,
@@ -129,9 +113,7 @@ impl<S: Scheme> FixedStep<S> {
 
     /// Restarts the count at the current time with another step.
     fn count_from_here(&mut self, step: DoubleDouble) {
-        self.step = step;
-        self.origin = self.state.exact_time();
-        self.count = 0.0;
+        self.steps = EqualSteps::new(self.state.exact_time(), step);
         self.scheme.begin(&self.parameters);
         self.aside.begin(&self.parameters);
         self.in_batches = true;
@@ -150,34 +132,14 @@ impl<S: Scheme> FixedStep<S> {
     fn check_stability(&mut self) {
         let due = self.unchecked() == 0;
         self.taken += 1;
-        if !due || self.unstable.is_some() || self.scheme.modes().is_none() {
+        if !due || self.unstable.is_some() {
             return;
         }
-        let (time, step, moving) = (self.state.time, self.step.high, self.system.moving());
+        let Some(modes) = self.scheme.modes() else { return };
+        let (time, step, moving) = (self.state.time, self.steps.step.high, self.system.moving());
         let rates = |numbers: &[f64], out: &mut [f64]| self.aside.rates(time, numbers, out).is_ok();
-        let z = stability::eigenvalues(&self.state.values, moving, step, rates);
-        let limit = self.scheme.modes().and_then(|modes| modes.limit(&z, step));
+        let limit = stability::limit(modes, (&self.state.values, moving), step, rates);
         self.unstable = limit.map(|limit| Unstable { time, step: step.abs(), limit });
-    }
-
-    /// The time after `count` more steps.
-    fn time_after(&self, count: u64) -> DoubleDouble {
-        self.origin + self.step * (self.count + count as f64)
-    }
-
-    /// The number of steps, at least one and at most `most`, after which `time` is reached or passed.
-    fn steps_to(&self, time: f64, most: u64) -> u64 {
-        let way = (time - self.origin.high) / self.step.high - self.count;
-        let reached = |count: u64| (self.time_after(count).high - time) * self.step.high >= 0.0;
-        // a quotient that is negative or not a number counts as zero
-        let mut count = (way.ceil() as u64).clamp(1, most);
-        while count > 1 && reached(count - 1) {
-            count -= 1;
-        }
-        while count < most && way < most as f64 && !reached(count) {
-            count += 1;
-        }
-        count
     }
 
     /// Takes many steps at once: until `time` is reached or passed, at most `most`, up to the next
@@ -186,13 +148,11 @@ impl<S: Scheme> FixedStep<S> {
     fn batch(&mut self, time: f64, most: u64, seen: Option<&mut StepBlock>) -> u64 {
         let forwards = time > self.state.time;
         let most = most.min(self.unchecked());
-        if most == 0 || !self.in_batches || (self.step.high > 0.0) != forwards {
+        if most == 0 || !self.in_batches || (self.steps.step.high > 0.0) != forwards {
             return 0;
         }
-        let count = self.steps_to(time, most);
-        let (last, last_but_one) = (self.time_after(count), self.time_after(count - 1));
-        let digits = DIGITS_PER_STEP * spacing(last.high.abs().max(self.state.time.abs()));
-        if self.step.high.abs() < digits {
+        let count = self.steps.to(time, most);
+        if !self.steps.are_distinct(count, self.state.time) {
             return 0;
         }
         self.next.copy_from(&self.state);
@@ -202,7 +162,7 @@ impl<S: Scheme> FixedStep<S> {
             numbers = Some(block.numbers.as_mut_slice());
         }
         let states = ManySteps { state, before, seen: numbers };
-        if !scheme.advance_many(self.step.high, count, states) {
+        if !scheme.advance_many(self.steps.step.high, count, states) {
             self.in_batches = false;
             return 0;
         }
@@ -210,16 +170,16 @@ impl<S: Scheme> FixedStep<S> {
             block.begin = self.state.time;
             block.count = count as usize;
             for (lane, after) in (1..=count).enumerate() {
-                block.times.0[lane] = self.time_after(after).high;
+                block.times.0[lane] = self.steps.time_after(after).high;
             }
         }
-        (self.next.time, self.next.time_carry) = (last.high, last.low);
+        self.next.set_time(self.steps.time_after(count));
         if count > 1 {
-            (self.earlier.time, self.earlier.time_carry) = (last_but_one.high, last_but_one.low);
+            self.earlier.set_time(self.steps.time_after(count - 1));
         }
         std::mem::swap(&mut self.state, &mut self.next);
         std::mem::swap(&mut self.before, &mut self.earlier);
-        self.count += count as f64;
+        self.steps.take(count);
         self.taken += count;
         count
     }
@@ -227,11 +187,10 @@ impl<S: Scheme> FixedStep<S> {
     /// Returns an error on cancellation, or if there are more steps to the limit than can be
     /// counted.
     fn may_step(&self, limit: f64) -> Result<(), MotionError> {
-        let way = (limit - self.origin.high).abs() / self.step.high.abs();
         let kind = if self.system.cancel().is_cancelled() {
             MotionErrorKind::Cancelled
-        } else if limit.is_finite() && way > MOST_STEPS {
-            MotionErrorKind::TooManySteps(self.step.high.abs(), limit)
+        } else if self.steps.are_too_many(limit) {
+            MotionErrorKind::TooManySteps(self.steps.step.high.abs(), limit)
         } else {
             return Ok(());
         };
@@ -245,14 +204,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         self.before.copy_from(&self.state);
         self.parameters.clear();
         self.parameters.extend_from_slice(parameters);
-        let step = match self.asked {
-            Some(step) => DoubleDouble::written(step),
-            None => {
-                let pace = initial_step::of(&self.system, state, parameters) * PART_OF_PACE;
-                // two digits are enough, and times are then short decimals
-                DoubleDouble::written(format!("{pace:.1e}").parse().unwrap_or(pace))
-            }
-        };
+        let step = EqualSteps::step_of(self.asked, &self.system, state, parameters);
         self.count_from_here(step);
         self.scheme.begin_near(state);
         self.taken = 0;
@@ -263,21 +215,21 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         if self.state.time == limit {
             return Ok(());
         }
-        if (limit > self.state.time) != (self.step.high > 0.0) {
-            self.count_from_here(-self.step);
+        if (limit > self.state.time) != (self.steps.step.high > 0.0) {
+            self.count_from_here(-self.steps.step);
         }
         self.may_step(limit)?;
         self.check_stability();
         self.next.copy_from(&self.state);
-        self.scheme.advance(self.step.high, &mut self.next)?;
-        let time = self.origin + self.step * (self.count + 1.0);
-        (self.next.time, self.next.time_carry) = (time.high, time.low);
+        self.scheme.advance(self.steps.step.high, &mut self.next)?;
+        let time = self.steps.time_after(1);
+        self.next.set_time(time);
         if time.high == self.state.time {
-            let kind = MotionErrorKind::StepUnderflow(self.step.high);
+            let kind = MotionErrorKind::StepUnderflow(self.steps.step.high);
             return Err(self.system.fault(kind, time.high, &self.state.values));
         }
         self.system.check_finite(&self.next)?;
-        self.count += 1.0;
+        self.steps.take(1);
         std::mem::swap(&mut self.before, &mut self.state);
         std::mem::swap(&mut self.state, &mut self.next);
         Ok(())
@@ -333,7 +285,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
     }
 
     fn step_size(&self) -> f64 {
-        self.step.high
+        self.steps.step.high
     }
 
     fn unstable(&self) -> Option<Unstable> {

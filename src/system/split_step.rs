@@ -25,12 +25,10 @@ impl SplitStep {
     /// The steps of the rates under T alone and under V alone, with these weights. Returns `None`
     /// where there is no [list](StageList) of them.
     pub fn new(drift: &Rates, kick: &Rates, weights: &[f64]) -> Option<SplitStep> {
-        Some(SplitStep {
-            stages: StageList::new(drift, kick, weights)?,
-            halves: [drift.clone(), kick.clone()],
-            registers: Registers::new(),
-            suits: false,
-        })
+        let stages = StageList::new(drift, kick, weights)?;
+        let registers = Registers::of(&stages);
+        let halves = [drift.clone(), kick.clone()];
+        Some(SplitStep { halves, stages, registers, suits: false })
     }
 
     /// Sets the parameters. Must be called before the first step.

@@ -41,6 +41,19 @@ pub(super) enum Instruction {
         sum: u8,
         to: u8,
     },
+    /// The same where a term is a product.
+    Products1 {
+        sum: u8,
+        to: u8,
+    },
+    Products2 {
+        sum: u8,
+        to: u8,
+    },
+    Products3 {
+        sum: u8,
+        to: u8,
+    },
     /// A longer sum.
     Sum {
         sum: u8,
@@ -70,7 +83,7 @@ pub(super) enum Instruction {
         operation: Register,
         to: u8,
     },
-    /// Adds `factor · rate` to as many numbers from this one on.
+    /// Adds `factor · rate` to some numbers.
     Move {
         factor: u8,
         moved: Moved,
@@ -90,6 +103,14 @@ pub(super) struct Moved {
     pub(super) count: u8,
 }
 
+impl Moved {
+    /// Whether they fill no more than one [`CHUNK`].
+    #[inline(always)]
+    pub(super) fn is_short(self) -> bool {
+        usize::from(self.count) <= CHUNK
+    }
+}
+
 /// One half of the motion.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Half {
@@ -99,15 +120,16 @@ pub(super) enum Half {
 
 use Half::{Drift, Kick};
 
-/// `constant + Σ coefficient · register`.
+/// `constant + Σ coefficient · (register · register)`; the second register of a term that is no
+/// product holds a one.
 #[derive(Clone, Debug)]
 pub(super) struct Sum {
     pub(super) constant: f64,
     /// The first terms.
     pub(super) coefficients: [f64; 3],
-    pub(super) registers: [u8; 3],
+    pub(super) registers: [[u8; 2]; 3],
     /// The terms after these.
-    pub(super) further: Vec<(f64, u8)>,
+    pub(super) further: Vec<(f64, [u8; 2])>,
 }
 
 /// The instructions of one method and system.
@@ -121,6 +143,8 @@ pub(super) struct StageList {
     /// The register of every number of a state.
     pub(super) numbers: Vec<u8>,
     pub(super) sums: Vec<Sum>,
+    /// The register that holds a one.
+    pub(super) one: u8,
     pub(super) open: Vec<Instruction>,
     pub(super) step: Vec<Instruction>,
     pub(super) end: Vec<Instruction>,
@@ -142,6 +166,7 @@ impl StageList {
             fixed: Vec::new(),
             numbers: vec![0; count],
             sums: Vec::new(),
+            one: 0,
             open: Vec::new(),
             step: Vec::new(),
             end: Vec::new(),
@@ -161,6 +186,7 @@ impl StageList {
                 list.numbers[i] = first + k as u8;
             }
         }
+        list.one = list.room_for_one()?;
         let (drift_operations, drifted) = list.lower(Drift, drift, [&own[0], &both])?;
         let (kick_operations, kicked) = list.lower(Kick, kick, [&own[1], &both])?;
         list.put_together((&drift_operations, &drifted), (&kick_operations, &kicked))?;
@@ -187,7 +213,8 @@ impl StageList {
         groups: [&[usize]; 2],
     ) -> Option<(Vec<Instruction>, Vec<Moved>)> {
         let program = Arc::clone(&rates.program);
-        let needed = needed(&program)?;
+        let mut needed = needed(&program)?;
+        let factors = take_products(&program, &mut needed);
         let mut places: Vec<Option<u8>> = vec![None; program.ops.len()];
         for (i, &r) in program.inputs.iter().enumerate() {
             places[r as usize] = Some(self.numbers.get(i).copied().unwrap_or_default());
@@ -230,7 +257,7 @@ impl StageList {
         let places: Vec<u8> = places.into_iter().map(Option::unwrap_or_default).collect();
         let mut list = Vec::new();
         for r in (0..program.ops.len()).filter(|&r| needed[r] && !program.fixed[r]) {
-            list.extend(self.lowered(half, &program, r as Register, &places)?);
+            list.extend(self.lowered(half, &program, r as Register, (&places, &factors))?);
         }
         let copy = |(r, to): (Register, u8)| Instruction::Copy { a: places[r as usize], to };
         list.extend(copies.into_iter().map(copy));
@@ -264,7 +291,7 @@ impl StageList {
         half: Half,
         program: &Program,
         operation: Register,
-        places: &[u8],
+        (places, factors): (&[u8], &[Option<[Register; 2]>]),
     ) -> Option<Option<Instruction>> {
         let at = |r: Register| places[r as usize];
         let to = at(operation);
@@ -273,24 +300,33 @@ impl StageList {
             Op::Time | Op::Solve(_) => return None,
             Op::Linear { constant, first, count } => {
                 let terms = &program.terms[first as usize..(first + count) as usize];
-                let mut terms = terms.iter().map(|t| (t.coefficient.high, at(t.register)));
+                let one = self.one;
+                let mut terms = terms.iter().map(|term| {
+                    let factors = factors[term.register as usize];
+                    let registers = factors.map_or([at(term.register), one], |f| f.map(at));
+                    (term.coefficient.high, registers)
+                });
                 let mut sum = Sum {
                     constant: program.constants[constant as usize].high,
                     coefficients: [0.0; 3],
-                    registers: [0; 3],
+                    registers: [[one; 2]; 3],
                     further: Vec::new(),
                 };
                 for (k, term) in terms.by_ref().take(3).enumerate() {
                     (sum.coefficients[k], sum.registers[k]) = term;
                 }
                 sum.further = terms.collect();
+                let products = sum.registers.iter().any(|[_, second]| *second != one);
                 self.sums.push(sum);
                 let sum = u8::try_from(self.sums.len() - 1).ok()?;
-                match count {
-                    1 => Instruction::Sum1 { sum, to },
-                    2 => Instruction::Sum2 { sum, to },
-                    3 => Instruction::Sum3 { sum, to },
-                    0 => return None,
+                match (count, products) {
+                    (0, _) => return None,
+                    (1, false) => Instruction::Sum1 { sum, to },
+                    (2, false) => Instruction::Sum2 { sum, to },
+                    (3, false) => Instruction::Sum3 { sum, to },
+                    (1, true) => Instruction::Products1 { sum, to },
+                    (2, true) => Instruction::Products2 { sum, to },
+                    (3, true) => Instruction::Products3 { sum, to },
                     _ => Instruction::Sum { sum, to },
                 }
             }
@@ -370,4 +406,26 @@ fn needed(program: &Program) -> Option<Vec<bool>> {
         program.each_operand(r as Register, &mut |operand| needed[operand as usize] = true);
     }
     Some(needed)
+}
+
+/// The factors of each product that a single sum reads, and nothing else; the product itself is no longer
+/// needed.
+fn take_products(program: &Program, needed: &mut [bool]) -> Vec<Option<[Register; 2]>> {
+    let mut readers = vec![0; program.ops.len()];
+    program.outputs.iter().for_each(|&r| readers[r as usize] += 2);
+    for r in (0..program.ops.len()).filter(|&r| needed[r] && !program.fixed[r]) {
+        // what is no sum counts twice
+        let weight = if matches!(program.ops[r], Op::Linear { .. }) { 1 } else { 2 };
+        program.each_operand(r as Register, &mut |a| readers[a as usize] += weight);
+    }
+    let mut factors = vec![None; program.ops.len()];
+    for r in (0..program.ops.len()).filter(|&r| readers[r] == 1 && !program.fixed[r]) {
+        factors[r] = match program.ops[r] {
+            Op::Scale(a, b) | Op::Multiply(a, b) => Some([a, b]),
+            Op::Square(a) => Some([a, a]),
+            _ => None,
+        };
+        needed[r] &= factors[r].is_none();
+    }
+    factors
 }

@@ -4,7 +4,7 @@
 //! give. Never here: which steps, numbers that leave the range of `f64`.
 
 use super::program::Register;
-use super::stage_list::{CHUNK, Half, Instruction, Moved, REGISTERS, StageList, Sum};
+use super::stage_list::{CHUNK, Half, Instruction, Moved, REGISTERS, StageList};
 use super::value::value_of;
 use crate::num::{Analytic, Batch, Kernel};
 
@@ -46,9 +46,12 @@ pub(super) struct Registers<R> {
 }
 
 impl<R: StageNumber> Registers<R> {
-    pub(super) fn new() -> Registers<R> {
+    /// The registers of a list.
+    pub(super) fn of(stages: &StageList) -> Registers<R> {
         let zeros = || Box::new([R::ZERO; REGISTERS]);
-        Registers { values: zeros(), carries: zeros(), factors: zeros() }
+        let mut registers = Registers { values: zeros(), carries: zeros(), factors: zeros() };
+        registers.values[usize::from(stages.one)] = R::ONE;
+        registers
     }
 
     #[inline(always)]
@@ -56,22 +59,19 @@ impl<R: StageNumber> Registers<R> {
         let at = usize::from;
         for instruction in list {
             match *instruction {
-                Instruction::Sum1 { sum, to } => {
-                    self.values[at(to)] = self.first_terms::<1>(&stages.sums[at(sum)]);
-                }
-                Instruction::Sum2 { sum, to } => {
-                    self.values[at(to)] = self.first_terms::<2>(&stages.sums[at(sum)]);
-                }
-                Instruction::Sum3 { sum, to } => {
-                    self.values[at(to)] = self.first_terms::<3>(&stages.sums[at(sum)]);
-                }
+                Instruction::Sum1 { sum, to } => self.sum::<1, false>(stages, sum, to),
+                Instruction::Sum2 { sum, to } => self.sum::<2, false>(stages, sum, to),
+                Instruction::Sum3 { sum, to } => self.sum::<3, false>(stages, sum, to),
+                Instruction::Products1 { sum, to } => self.sum::<1, true>(stages, sum, to),
+                Instruction::Products2 { sum, to } => self.sum::<2, true>(stages, sum, to),
+                Instruction::Products3 { sum, to } => self.sum::<3, true>(stages, sum, to),
                 Instruction::Sum { sum, to } => {
-                    let terms = &stages.sums[at(sum)];
-                    let mut sum = self.first_terms::<3>(terms);
-                    for &(coefficient, r) in &terms.further {
-                        sum = sum + self.values[at(r)] * coefficient;
+                    self.sum::<3, true>(stages, sum, to);
+                    let mut value = self.values[at(to)];
+                    for &(coefficient, [a, b]) in &stages.sums[at(sum)].further {
+                        value = value + self.values[at(a)] * self.values[at(b)] * coefficient;
                     }
-                    self.values[at(to)] = sum;
+                    self.values[at(to)] = value;
                 }
                 Instruction::Multiply { a, b, to } => {
                     self.values[at(to)] = self.values[at(a)] * self.values[at(b)];
@@ -84,50 +84,73 @@ impl<R: StageNumber> Registers<R> {
                 Instruction::Other { half, operation, to } => {
                     self.other(stages, half, operation, to);
                 }
-                Instruction::Move { factor, moved } => self.add(self.factors[at(factor)], moved),
-                Instruction::MoveTwice { factors: [last, first], moved } => {
-                    self.add(self.factors[at(last)], moved);
-                    self.add(self.factors[at(first)], moved);
+                Instruction::Move { factor, moved } => {
+                    self.add([self.factors[at(factor)]], moved);
+                }
+                Instruction::MoveTwice { factors, moved } => {
+                    self.add(factors.map(|factor| self.factors[at(factor)]), moved);
                 }
             }
         }
     }
 
+    /// Sets a register to the first terms of a sum.
     #[inline(always)]
-    fn first_terms<const COUNT: usize>(&self, sum: &Sum) -> R {
+    fn sum<const COUNT: usize, const PRODUCTS: bool>(
+        &mut self,
+        stages: &StageList,
+        sum: u8,
+        to: u8,
+    ) {
+        let sum = &stages.sums[usize::from(sum)];
         let mut value = R::of(sum.constant.into());
         for k in 0..COUNT {
-            value = value + self.values[usize::from(sum.registers[k])] * sum.coefficients[k];
+            let [a, b] = sum.registers[k].map(usize::from);
+            let term = if PRODUCTS { self.values[a] * self.values[b] } else { self.values[a] };
+            value = value + term * sum.coefficients[k];
         }
-        value
+        self.values[usize::from(to)] = value;
     }
 
-    /// Adds multiples of rates to numbers, with compensated sums: what
+    /// Adds multiples of rates to numbers, one after the other, with compensated sums: what
     /// [`accumulate`](crate::num::accumulate) does with each.
     #[inline(always)]
-    fn add(&mut self, factor: R, Moved { number, rate, count }: Moved) {
+    fn add<const TIMES: usize>(&mut self, factors: [R; TIMES], moved: Moved) {
+        let Moved { number, rate, count } = moved;
         let (number, rate, count) = (usize::from(number), usize::from(rate), usize::from(count));
         if !R::BY_CHUNKS {
             for k in 0..count {
                 let (n, r) = ((number + k) % REGISTERS, (rate + k) % REGISTERS);
-                let (value, carry) = (self.values[n], self.carries[n]);
-                (self.values[n], self.carries[n]) =
-                    accumulated(value, carry, factor, self.values[r]);
+                let (mut value, mut carry, rate) =
+                    (self.values[n], self.carries[n], self.values[r]);
+                for factor in factors {
+                    (value, carry) = accumulated(value, carry, factor, rate);
+                }
+                (self.values[n], self.carries[n]) = (value, carry);
             }
-            return;
+        } else if moved.is_short() {
+            self.add_chunk(factors, number / CHUNK, rate / CHUNK);
+        } else {
+            for k in 0..count.div_ceil(CHUNK) {
+                self.add_chunk(factors, number / CHUNK + k, rate / CHUNK + k);
+            }
         }
-        for k in 0..count.div_ceil(CHUNK) {
-            const CHUNKS: usize = REGISTERS / CHUNK;
-            let (n, r) = ((number / CHUNK + k) % CHUNKS, (rate / CHUNK + k) % CHUNKS);
-            let (values, _) = self.values.as_chunks_mut::<CHUNK>();
-            let (carries, _) = self.carries.as_chunks_mut::<CHUNK>();
-            let rates = values[r];
-            let (mut moved, mut left) = (values[n], carries[n]);
+    }
+
+    /// The same for one chunk.
+    #[inline(always)]
+    fn add_chunk<const TIMES: usize>(&mut self, factors: [R; TIMES], number: usize, rate: usize) {
+        const CHUNKS: usize = REGISTERS / CHUNK;
+        let (n, r) = (number % CHUNKS, rate % CHUNKS);
+        let (values, _) = self.values.as_chunks_mut::<CHUNK>();
+        let (carries, _) = self.carries.as_chunks_mut::<CHUNK>();
+        let (rates, mut moved, mut left) = (values[r], values[n], carries[n]);
+        for factor in factors {
             for i in 0..CHUNK {
                 (moved[i], left[i]) = accumulated(moved[i], left[i], factor, rates[i]);
             }
-            (values[n], carries[n]) = (moved, left);
         }
+        (values[n], carries[n]) = (moved, left);
     }
 
     #[inline(never)]
