@@ -212,6 +212,11 @@ impl Follower for CarriedTogether<'_> {
         self.look(orbit, lane, batch)
     }
 
+    fn next_look(&self, orbit: usize) -> f64 {
+        let seen = self.carried[orbit].as_ref().map_or(0, |one| one.seen.len());
+        self.times.get(seen).copied().unwrap_or(f64::NEG_INFINITY)
+    }
+
     fn look(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
         let Some(one) = &mut self.carried[orbit] else { return OrbitCourse::Over };
         let Some(&last) = self.times.last() else {

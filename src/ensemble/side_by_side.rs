@@ -20,6 +20,11 @@ pub trait Follower {
     /// Puts an orbit into a lane.
     fn begin(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse;
 
+    /// The time up to which an orbit that is under way need not be looked at.
+    fn next_look(&self, _orbit: usize) -> f64 {
+        f64::NEG_INFINITY
+    }
+
     /// Looks at all lanes after a step, before each orbit is looked at by itself.
     fn look_at_all(&mut self, _batch: &BatchPropagator) {}
 
@@ -54,7 +59,8 @@ pub fn side_by_side(
         if places.iter().all(Option::is_none) {
             return true;
         }
-        if !batch.step(&limits) {
+        let look = |place: Option<usize>| place.map_or(f64::INFINITY, |i| follower.next_look(i));
+        if !batch.steps_unseen(&limits, &places.map(look)) {
             return false;
         }
         follower.look_at_all(batch);

@@ -18,9 +18,10 @@ use crate::analysis::rounding_floor;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Conserved, Equations, Valuation, casimir_rate};
 use crate::model::{Mechanics, Model};
-use crate::system::{ChannelKind, System, TermWatch};
+use crate::num::BATCH;
+use crate::system::{BatchTerms, ChannelKind, System, TermWatch};
 use followed::Followed;
-use invariant_monitor::{InvariantMonitor, LEDGER, Subject};
+use invariant_monitor::{InvariantMonitor, LEDGER, StepEnd, Subject};
 
 /// Rounding errors are measured once per this many samples.
 const MEASURED: u64 = 16;
@@ -246,6 +247,23 @@ impl Gauges {
     pub(super) fn step(&mut self, time: f64, steps: u64, terms: &TermWatch, dense: bool) {
         let floor = self.floor(steps);
         self.monitors.iter_mut().for_each(|monitor| monitor.step(time, terms, floor, dense));
+    }
+
+    /// Records the terms at the ends of several steps. Each is given by its time and whether rows lie within it; `steps`
+    /// is the count after the first.
+    pub(super) fn steps(
+        &mut self,
+        steps: u64,
+        ends: impl Iterator<Item = (f64, bool)>,
+        terms: &BatchTerms,
+    ) {
+        let mut known = [StepEnd { time: 0.0, floor: 0.0, dense: false }; BATCH];
+        let mut count = 0;
+        for ((end, (time, dense)), steps) in known.iter_mut().zip(ends).zip(steps..) {
+            *end = StepEnd { time, floor: self.floor(steps), dense };
+            count += 1;
+        }
+        self.monitors.iter_mut().for_each(|monitor| monitor.steps(terms, &known[..count]));
     }
 
     /// The rounding error that a value of size 1 may have gathered since the reference.

@@ -43,17 +43,22 @@ impl ObservedMotion {
         settings: Settings,
         parameters: &[f64],
     ) -> Result<ObservedMotion, MethodError> {
+        let inner = integrate::Propagator::new(system, method, settings, parameters)?;
         Ok(ObservedMotion {
             sign: if system.is_backwards() { -1.0 } else { 1.0 },
-            inner: integrate::Propagator::new(system, method, settings, parameters)?,
             observer: system.observer(parameters),
             values: vec![f64::NAN; system.channels().len()],
             lost: vec![false; system.channels().len()],
             residuals: Vec::new(),
             holdings: 0,
-            watch: StepSampler::of(system, parameters),
+            watch: StepSampler::of(system, inner.computed().form, parameters),
+            inner,
             log: StepLog::default(),
         })
+    }
+
+    fn new_watch(&self, parameters: &[f64]) -> StepSampler {
+        StepSampler::of(self.inner.system(), self.inner.computed().form, parameters)
     }
 
     /// Remembers no states between steps from now on: the motion cannot be carried back.
@@ -80,7 +85,7 @@ impl ObservedMotion {
         self.log.clear();
         self.inner.begin(state, parameters)?;
         self.observer = self.inner.system().observer(parameters);
-        self.watch = StepSampler::of(self.inner.system(), parameters);
+        self.watch = self.new_watch(parameters);
         self.log.push(self.inner.state(), self.inner.steps());
         self.look()
     }
@@ -96,7 +101,7 @@ impl ObservedMotion {
         self.log.clear();
         self.inner.restore(state, parameters, start, released)?;
         self.observer = self.inner.system().observer(parameters);
-        self.watch = StepSampler::of(self.inner.system(), parameters);
+        self.watch = self.new_watch(parameters);
         self.log.push(self.inner.state(), self.inner.steps());
         self.look()
     }
@@ -129,7 +134,7 @@ impl ObservedMotion {
         self.watch.pending = false;
         self.log.push(self.inner.state(), self.inner.steps());
         self.observer.set_parameters(parameters);
-        self.watch.terms.set_parameters(parameters);
+        self.watch.set_parameters(parameters);
         self.look()
     }
 
@@ -144,6 +149,7 @@ impl ObservedMotion {
         (gauges, spacing): (&mut Gauges, f64),
     ) -> Result<Reached, MotionError> {
         loop {
+            *budget -= self.several_steps(time, *budget, gauges, spacing);
             let (before, mut one) = (self.inner.steps(), (*budget).min(1));
             let reached = self.inner.reach(time, limit, &mut one)?;
             let new = self.inner.steps() != before;
@@ -166,6 +172,53 @@ impl ObservedMotion {
             }
             return Ok(reached);
         }
+    }
+
+    /// Takes several steps at once until `time` is reached or passed, where nobody looks between them but the gauges,
+    /// which see the end of each. Returns their number.
+    fn several_steps(&mut self, time: f64, budget: u64, gauges: &mut Gauges, spacing: f64) -> u64 {
+        let time = time.min(self.watch.next);
+        let mut left = budget;
+        while left > 0 && !self.watch.pending && self.inner.computed().time < time {
+            let StepSampler { batch_terms: Some(terms), block, next, terms: single, .. } =
+                &mut self.watch
+            else {
+                break;
+            };
+            let steps = self.inner.steps();
+            let most = left.min(self.log.steps_to_next(steps, EQUAL_STEPS));
+            let taken = self.inner.steps_seen(time, most, block);
+            if taken == 0 {
+                break;
+            }
+            left -= taken;
+            let (block, sign) = (&*block, self.sign);
+            let dense = |step: usize| {
+                let (begin, end) = block.interval(step);
+                (end - begin).abs() >= spacing
+            };
+            // the step after which the channels are sampled is the last
+            let last = block.count - 1;
+            let due = !dense(last) && block.times.0[last] >= *next;
+            let count = if due { last } else { block.count };
+            terms.look_at_numbers(block.times, &block.numbers);
+            if terms.are_regular(count) {
+                let ends = (0..count).map(|i| (sign * block.times.0[i], dense(i)));
+                gauges.steps(steps + 1, ends, terms);
+            } else {
+                let form = self.inner.computed().form;
+                for (i, steps) in (0..count).zip(steps + 1..) {
+                    if single.look(&block.state(i, form)) {
+                        gauges.step(sign * block.times.0[i], steps, single, dense(i));
+                    }
+                }
+            }
+            if due {
+                self.look_at_step(gauges, spacing, true);
+            }
+            self.log_step();
+        }
+        budget - left
     }
 
     /// Lets the gauges sample the last step: at its end, and also within it if rows may be farther apart than steps

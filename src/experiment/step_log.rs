@@ -45,6 +45,11 @@ impl StepLog {
         self.off = true;
     }
 
+    /// The number of steps before the next that is logged, if one of so many is.
+    pub(super) fn steps_to_next(&self, steps: u64, apart: u64) -> u64 {
+        if self.off { u64::MAX } else { apart - steps % apart }
+    }
+
     /// Adds the state at the end of a step.
     pub(super) fn push(&mut self, state: &State, steps: u64) {
         if state.values.is_empty() || self.off {

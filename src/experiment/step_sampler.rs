@@ -2,7 +2,9 @@
 //!
 //! In: the terms of a system. Out: times within steps, registers for states and channels. Never here: gauges.
 
-use crate::system::{State, System, TermWatch};
+use crate::integrate::StepBlock;
+use crate::num::BATCH;
+use crate::system::{BatchTerms, Form, State, System, TermWatch};
 
 /// The fractional part of the golden ratio.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
@@ -16,20 +18,36 @@ pub(super) struct StepSampler {
     pub(super) pending: bool,
     /// A number in (0, 1) that never repeats, so that the sampling times do not resonate with any period.
     golden: f64,
+    /// Steps between which nobody looks, and their terms where these can be evaluated together.
+    pub(super) block: StepBlock,
+    pub(super) batch_terms: Option<BatchTerms>,
     /// An intermediate state and its channels.
     pub(super) state: State,
     pub(super) values: Vec<f64>,
 }
 
 impl StepSampler {
-    pub(super) fn of(system: &System, parameters: &[f64]) -> StepSampler {
-        StepSampler {
+    /// Samples the motion of a system by a method whose states have this form.
+    pub(super) fn of(system: &System, form: Form, parameters: &[f64]) -> StepSampler {
+        let mut sampler = StepSampler {
+            block: StepBlock::default(),
+            batch_terms: system.batch_terms(form),
             terms: system.term_watch(parameters),
             next: f64::NEG_INFINITY,
             pending: false,
             golden: 0.5,
             state: State::new(0.0, system.form(), Vec::new()),
             values: vec![f64::NAN; system.channels().len()],
+        };
+        sampler.set_parameters(parameters);
+        sampler
+    }
+
+    /// Sets the parameters.
+    pub(super) fn set_parameters(&mut self, parameters: &[f64]) {
+        self.terms.set_parameters(parameters);
+        if let Some(terms) = &mut self.batch_terms {
+            (0..BATCH).for_each(|lane| terms.set_parameters(lane, parameters));
         }
     }
 

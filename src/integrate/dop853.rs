@@ -59,6 +59,7 @@ pub(super) const METHOD: Method = Method {
             stepped over, not located. Hairer, Nørsett & Wanner, Solving Ordinary Differential \
             Equations I, II.5.",
     fits: |_| Ok(()),
+    leapfrogs: Vec::new,
     make: |system, settings| Ok(Box::new(DormandPrince::new(system, settings)?)),
 };
 

@@ -1,41 +1,35 @@
 //! The common part of all methods of fixed step: counting of time, direction, dense output, default
 //! step and stability. A method itself is a [`Scheme`].
 
-use super::clock::spacing;
-use super::initial_step;
+use super::equal_steps::EqualSteps;
 use super::method::{MethodError, Settings};
 use super::stability::{self, Modes, Unstable};
+use super::step_block::StepBlock;
 use super::stepper::Stepper;
-use crate::num::{DoubleDouble, accumulate};
+use crate::num::{Analytic, BATCH, Batch, DoubleDouble, accumulate};
 use crate::system::{Form, MotionError, MotionErrorKind, State, System};
-
-/// The default step, as a part of the motion's [time scale](super::initial_step::of).
-const PART_OF_PACE: f64 = 1.0 / 10.0;
-
-/// The largest number of steps that can be counted.
-const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
 
 /// Stability is checked after 1, 2, 4, … steps, and then at intervals of this many steps.
 const STEPS_PER_CHECK: u64 = 256;
-
-/// The steps in a row that must change the time by more than this many of its last digits.
-const DIGITS_PER_STEP: f64 = 4.0;
 
 /// One step of a method.
 pub(super) trait Scheme: Clone + Send {
     /// The form of its states.
     fn form(&self) -> Form;
 
-    /// Sets the parameters and forgets the motion so far.
+    /// Sets the parameters and [forgets](Scheme::forget) the motion so far.
     fn begin(&mut self, parameters: &[f64]);
 
     /// Moves the numbers of `state` by one step. The time of `state` is that of the beginning of
     /// the step and is not changed.
     fn advance(&mut self, step: f64, state: &mut State) -> Result<(), MotionError>;
 
-    /// Moves the numbers of `state` by as many steps, with the same result as one by one. Returns
+    /// Forgets the motion so far.
+    fn forget(&mut self) {}
+
+    /// Moves the numbers of a state by as many steps, with the same result as one by one. Returns
     /// false, with the state unchanged, if they must be taken one by one.
-    fn advance_many(&mut self, _step: f64, _count: u64, _state: &mut State) -> bool {
+    fn advance_many(&mut self, _step: f64, _count: u64, _states: ManySteps<'_>) -> bool {
         false
     }
 
@@ -55,6 +49,15 @@ pub(super) trait Scheme: Clone + Send {
     fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError>;
 }
 
+/// What many steps begin with and write.
+pub(super) struct ManySteps<'a> {
+    pub(super) state: &'a mut State,
+    /// The state before the last step.
+    pub(super) before: &'a mut State,
+    /// The numbers at the end of each, a step in each lane.
+    pub(super) seen: Option<&'a mut [Batch]>,
+}
+
 /// A motion in equal steps.
 pub(super) struct FixedStep<S> {
     system: System,
@@ -64,11 +67,7 @@ pub(super) struct FixedStep<S> {
     aside: S,
     parameters: Vec<f64>,
     asked: Option<f64>,
-    /// The step; negative if the motion runs backwards.
-    step: DoubleDouble,
-    /// The time at which counting began, and the steps since: time is counted, not summed.
-    origin: DoubleDouble,
-    count: f64,
+    steps: EqualSteps,
     /// The number of steps since the start, and an instability found on the way.
     taken: u64,
     /// Whether steps may be taken many at once, until it is seen that they may not.
@@ -77,6 +76,8 @@ pub(super) struct FixedStep<S> {
     before: State,
     state: State,
     next: State,
+    /// The state before the last of many steps, until it is known that they could be taken.
+    earlier: State,
 }
 
 impl<S: Scheme> FixedStep<S> {
@@ -99,66 +100,86 @@ impl<S: Scheme> FixedStep<S> {
             scheme,
             parameters: Vec::new(),
             asked: settings.step,
-            step: DoubleDouble::ZERO,
-            origin: DoubleDouble::ZERO,
-            count: 0.0,
+            steps: EqualSteps::new(DoubleDouble::ZERO, DoubleDouble::ZERO),
             taken: 0,
             in_batches: true,
             unstable: None,
             before: state.clone(),
             next: state.clone(),
+            earlier: state.clone(),
             state,
         })
     }
 
     /// Restarts the count at the current time with another step.
     fn count_from_here(&mut self, step: DoubleDouble) {
-        self.step = step;
-        self.origin = self.state.exact_time();
-        self.count = 0.0;
+        self.steps = EqualSteps::new(self.state.exact_time(), step);
         self.scheme.begin(&self.parameters);
+        self.aside.begin(&self.parameters);
         self.in_batches = true;
+    }
+
+    /// The number of steps before the next check of stability; zero if it is due.
+    fn unchecked(&self) -> u64 {
+        match self.taken {
+            0 => 0,
+            n if n < STEPS_PER_CHECK => n.next_power_of_two() - n,
+            n => n.next_multiple_of(STEPS_PER_CHECK) - n,
+        }
     }
 
     /// Checks occasionally whether the step is stable at the current state, until it is not.
     fn check_stability(&mut self) {
-        let n = self.taken;
-        let due = n.is_multiple_of(STEPS_PER_CHECK) || (n < STEPS_PER_CHECK && n.is_power_of_two());
+        let due = self.unchecked() == 0;
         self.taken += 1;
-        if !due || self.unstable.is_some() || self.scheme.modes().is_none() {
+        if !due || self.unstable.is_some() {
             return;
         }
-        let (time, step, moving) = (self.state.time, self.step.high, self.system.moving());
-        self.aside.begin(&self.parameters);
+        let Some(modes) = self.scheme.modes() else { return };
+        let (time, step, moving) = (self.state.time, self.steps.step.high, self.system.moving());
         let rates = |numbers: &[f64], out: &mut [f64]| self.aside.rates(time, numbers, out).is_ok();
-        let z = stability::eigenvalues(&self.state.values, moving, step, rates);
-        let limit = self.scheme.modes().and_then(|modes| modes.limit(&z, step));
+        let limit = stability::limit(modes, (&self.state.values, moving), step, rates);
         self.unstable = limit.map(|limit| Unstable { time, step: step.abs(), limit });
     }
 
-    /// Takes many steps at once: all before the last one to `time`, at most `most`, up to the next
+    /// Takes many steps at once: until `time` is reached or passed, at most `most`, up to the next
     /// check of stability. Returns their number, which is zero if the next step must be taken by
     /// itself.
-    fn batch(&mut self, time: f64, most: u64) -> u64 {
-        let way = (time - self.origin.high) / self.step.high - self.count - 2.0;
-        let unchecked = STEPS_PER_CHECK - self.taken % STEPS_PER_CHECK;
-        let begins = self.taken.is_multiple_of(STEPS_PER_CHECK) || self.taken < STEPS_PER_CHECK;
-        // a quotient that is negative or not a number counts as zero
-        let count = (way as u64).min(most).min(unchecked);
-        let last = self.origin + self.step * (self.count + count as f64);
-        let digits = DIGITS_PER_STEP * spacing(last.high.abs().max(self.state.time.abs()));
-        if begins || count < 2 || self.step.high.abs() < digits {
+    fn batch(&mut self, time: f64, most: u64, seen: Option<&mut StepBlock>) -> u64 {
+        let forwards = time > self.state.time;
+        let most = most.min(self.unchecked());
+        if most == 0 || !self.in_batches || (self.steps.step.high > 0.0) != forwards {
+            return 0;
+        }
+        let count = self.steps.to(time, most);
+        if !self.steps.are_distinct(count, self.state.time) {
             return 0;
         }
         self.next.copy_from(&self.state);
-        if !self.scheme.advance_many(self.step.high, count, &mut self.next) {
+        let FixedStep { scheme, next: state, earlier: before, .. } = self;
+        let (mut block, mut numbers) = (seen, None);
+        if let Some(block) = &mut block {
+            numbers = Some(block.numbers.as_mut_slice());
+        }
+        let states = ManySteps { state, before, seen: numbers };
+        if !scheme.advance_many(self.steps.step.high, count, states) {
             self.in_batches = false;
             return 0;
         }
-        (self.next.time, self.next.time_carry) = (last.high, last.low);
+        if let Some(block) = block {
+            block.begin = self.state.time;
+            block.count = count as usize;
+            for (lane, after) in (1..=count).enumerate() {
+                block.times.0[lane] = self.steps.time_after(after).high;
+            }
+        }
+        self.next.set_time(self.steps.time_after(count));
+        if count > 1 {
+            self.earlier.set_time(self.steps.time_after(count - 1));
+        }
         std::mem::swap(&mut self.state, &mut self.next);
-        self.before.copy_from(&self.state);
-        self.count += count as f64;
+        std::mem::swap(&mut self.before, &mut self.earlier);
+        self.steps.take(count);
         self.taken += count;
         count
     }
@@ -166,11 +187,10 @@ impl<S: Scheme> FixedStep<S> {
     /// Returns an error on cancellation, or if there are more steps to the limit than can be
     /// counted.
     fn may_step(&self, limit: f64) -> Result<(), MotionError> {
-        let way = (limit - self.origin.high).abs() / self.step.high.abs();
         let kind = if self.system.cancel().is_cancelled() {
             MotionErrorKind::Cancelled
-        } else if limit.is_finite() && way > MOST_STEPS {
-            MotionErrorKind::TooManySteps(self.step.high.abs(), limit)
+        } else if self.steps.are_too_many(limit) {
+            MotionErrorKind::TooManySteps(self.steps.step.high.abs(), limit)
         } else {
             return Ok(());
         };
@@ -184,14 +204,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         self.before.copy_from(&self.state);
         self.parameters.clear();
         self.parameters.extend_from_slice(parameters);
-        let step = match self.asked {
-            Some(step) => DoubleDouble::written(step),
-            None => {
-                let pace = initial_step::of(&self.system, state, parameters) * PART_OF_PACE;
-                // two digits are enough, and times are then short decimals
-                DoubleDouble::written(format!("{pace:.1e}").parse().unwrap_or(pace))
-            }
-        };
+        let step = EqualSteps::step_of(self.asked, &self.system, state, parameters);
         self.count_from_here(step);
         self.scheme.begin_near(state);
         self.taken = 0;
@@ -202,21 +215,21 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         if self.state.time == limit {
             return Ok(());
         }
-        if (limit > self.state.time) != (self.step.high > 0.0) {
-            self.count_from_here(-self.step);
+        if (limit > self.state.time) != (self.steps.step.high > 0.0) {
+            self.count_from_here(-self.steps.step);
         }
         self.may_step(limit)?;
         self.check_stability();
         self.next.copy_from(&self.state);
-        self.scheme.advance(self.step.high, &mut self.next)?;
-        let time = self.origin + self.step * (self.count + 1.0);
-        (self.next.time, self.next.time_carry) = (time.high, time.low);
+        self.scheme.advance(self.steps.step.high, &mut self.next)?;
+        let time = self.steps.time_after(1);
+        self.next.set_time(time);
         if time.high == self.state.time {
-            let kind = MotionErrorKind::StepUnderflow(self.step.high);
+            let kind = MotionErrorKind::StepUnderflow(self.steps.step.high);
             return Err(self.system.fault(kind, time.high, &self.state.values));
         }
         self.system.check_finite(&self.next)?;
-        self.count += 1.0;
+        self.steps.take(1);
         std::mem::swap(&mut self.before, &mut self.state);
         std::mem::swap(&mut self.state, &mut self.next);
         Ok(())
@@ -225,14 +238,21 @@ impl<S: Scheme> Stepper for FixedStep<S> {
     fn steps(&mut self, time: f64, limit: f64, budget: &mut u64) -> Result<(), MotionError> {
         let forwards = time > self.state.time;
         while *budget > 0 && self.state.time != time && (self.state.time < time) == forwards {
-            // the last step of all is taken by itself
-            if self.in_batches && (self.step.high > 0.0) == forwards {
-                *budget -= self.batch(time, *budget - 1);
+            let many = self.batch(time, *budget, None);
+            *budget -= many.max(1);
+            if many == 0 {
+                self.step(limit)?;
             }
-            *budget -= 1;
-            self.step(limit)?;
         }
         Ok(())
+    }
+
+    fn steps_seen(&mut self, time: f64, most: u64, block: &mut StepBlock) -> u64 {
+        if self.state.time == time {
+            return 0;
+        }
+        block.numbers.resize(self.state.values.len(), Batch::ZERO);
+        self.batch(time, most.min(BATCH as u64), Some(block))
     }
 
     fn replace_state(&mut self, state: &State) {
@@ -256,7 +276,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         if time == self.before.time {
             return Ok(());
         }
-        self.aside.begin(&self.parameters);
+        self.aside.forget();
         self.aside.go_on_from(&self.scheme);
         let step = DoubleDouble::written(time) - self.before.exact_time();
         self.aside.advance(step.high, out)?;
@@ -265,7 +285,7 @@ impl<S: Scheme> Stepper for FixedStep<S> {
     }
 
     fn step_size(&self) -> f64 {
-        self.step.high
+        self.steps.step.high
     }
 
     fn unstable(&self) -> Option<Unstable> {

@@ -22,6 +22,7 @@ pub(super) const FOURTH_ORDER: Method = Method {
             momenta, whatever its H; for brackets it keeps every quadratic Casimir. Hairer, Lubich & Wanner, Geometric Numerical Integration, \
             II.1.3.",
     fits: |system| implicit::fits(&FOURTH_ORDER, system),
+    leapfrogs: Vec::new,
     make: |system, settings| {
         implicit::fits(&FOURTH_ORDER, system)?;
         let scheme = Implicit::new(system, tableau::of_two_stages());
@@ -41,6 +42,7 @@ pub(super) const SIXTH_ORDER: Method = Method {
             momenta, whatever its H; for brackets it keeps every quadratic Casimir. Hairer, Lubich & Wanner, Geometric Numerical Integration, \
             II.1.3.",
     fits: |system| implicit::fits(&SIXTH_ORDER, system),
+    leapfrogs: Vec::new,
     make: |system, settings| {
         implicit::fits(&SIXTH_ORDER, system)?;
         let scheme = Implicit::new(system, tableau::of_three_stages());

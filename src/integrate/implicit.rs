@@ -234,6 +234,10 @@ impl Scheme for Implicit {
         self.contiguous = false;
     }
 
+    fn forget(&mut self) {
+        self.contiguous = false;
+    }
+
     fn begin_near(&mut self, native: &State) {
         self.rates.begin_near(native);
     }

@@ -17,5 +17,6 @@ pub(super) const METHOD: Method = Method {
             little and does not drift. Hairer, Lubich & Wanner, Geometric Numerical Integration, \
             I.1.4.",
     fits: |system| splitting::fits(&METHOD, system),
-    make: |system, settings| splitting::make(&METHOD, system, settings, vec![1.0]),
+    leapfrogs: || vec![1.0],
+    make: |system, settings| splitting::make(&METHOD, system, settings),
 };

@@ -25,6 +25,8 @@ pub struct Method {
     pub about: &'static str,
     /// Checks whether it can be used for a system.
     pub fits: fn(&System) -> Result<(), MethodError>,
+    /// The lengths of the leapfrogs that a step is composed of, as parts of it; none for another method.
+    pub leapfrogs: fn() -> Vec<f64>,
     /// Creates a stepper for a system.
     pub make: fn(&System, &Settings) -> StepperResult,
 }

@@ -12,7 +12,7 @@ use super::event_location::EventLocator;
 use super::impulse_schedule::ImpulseSchedule;
 use super::located_event::LocatedEvent;
 use super::zeno::AccumulationDetector;
-use super::{Method, MethodError, Settings, Stepper, Stepping, Unstable};
+use super::{Method, MethodError, Settings, StepBlock, Stepper, Stepping, Unstable};
 use crate::num::DoubleDouble;
 use crate::system::{
     Branch, ConstraintProjector, Form, MotionError, MotionErrorKind, State, System,
@@ -370,6 +370,21 @@ impl Propagator {
         self.steps += most - *budget - u64::from(outcome.is_err());
         self.clear = self.stepper.time();
         outcome
+    }
+
+    /// Takes at most `most` steps between which nothing can happen, until `time` is reached or passed,
+    /// and writes the end of each into `block`. Returns their number, which is zero if the next step
+    /// must be taken by itself.
+    pub fn steps_seen(&mut self, time: f64, most: u64, block: &mut StepBlock) -> u64 {
+        if self.ended || self.stepper.time() > self.clear || !self.is_undisturbed() {
+            return 0;
+        }
+        let taken = self.stepper.steps_seen(time, most, block);
+        if taken > 0 {
+            self.steps += taken;
+            self.clear = self.stepper.time();
+        }
+        taken
     }
 
     fn step(&mut self, limit: f64) -> Result<(), MotionError> {

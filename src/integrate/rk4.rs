@@ -24,6 +24,7 @@ pub(super) const METHOD: Method = Method {
             loses energy steadily. Hairer, Nørsett & Wanner, Solving Ordinary Differential \
             Equations I, table II.1.2.",
     fits: |_| Ok(()),
+    leapfrogs: Vec::new,
     make: |system, settings| {
         Ok(Box::new(FixedStep::new(METHOD.name, system, settings, RungeKutta::new(system))?))
     },
@@ -80,7 +81,7 @@ impl Scheme for RungeKutta {
     }
 
     fn modes(&self) -> Option<Modes<'_>> {
-        Some(Modes { growth: |_, z| growth(z), weights: &[] })
+        Some(Modes { growth: |_, z| growth(z), weights: &[], harmless: 0.0 })
     }
 
     fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError> {

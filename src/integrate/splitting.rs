@@ -5,9 +5,9 @@
 //!
 //! Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, I.1.4, II.4, II.5.
 
-use super::fixed::{FixedStep, Scheme, add};
+use super::fixed::{FixedStep, ManySteps, Scheme, add};
 use super::method::{Method, MethodError, Settings, StepperResult};
-use super::stability::Modes;
+use super::stability::{self, Modes};
 use crate::system::{Form, MotionError, Rates, SplitStep, State, System};
 
 /// What it requires of a system.
@@ -18,36 +18,54 @@ pub(super) fn fits(method: &Method, system: &System) -> Result<(), MethodError> 
     system.separable().map_err(|why| MethodError { method: method.name, reason: why.to_owned() })
 }
 
-/// Creates a stepper from `weights`, the parts of the step in order.
-pub(super) fn make(
-    method: &Method,
-    system: &System,
-    settings: &Settings,
-    weights: Vec<f64>,
-) -> StepperResult {
+/// Creates a stepper from the leapfrogs of a method.
+pub(super) fn make(method: &Method, system: &System, settings: &Settings) -> StepperResult {
     fits(method, system)?;
-    let Some((drift, kick)) = system.split_rates() else {
+    let Some(scheme) = Splitting::new(system, (method.leapfrogs)()) else {
         return Err(MethodError { method: method.name, reason: format!("{NEEDS} does not hold") });
     };
-    let zeros = vec![0.0; system.state_len()];
-    let many = SplitStep::new(&drift, &kick, &weights);
-    let (velocity, force) = (zeros.clone(), zeros);
-    let scheme = Splitting { drift, kick, many, weights, velocity, force, known: false };
     Ok(Box::new(FixedStep::new(method.name, system, settings, scheme)?))
 }
 
+/// A composition of leapfrogs.
 #[derive(Clone)]
-struct Splitting {
+pub(super) struct Splitting {
     drift: Rates,
     kick: Rates,
     /// Many steps at once, where they can be a list of instructions.
     many: Option<SplitStep>,
+    before: State,
     weights: Vec<f64>,
+    /// No mode with |z| up to this is amplified.
+    harmless: f64,
     velocity: Vec<f64>,
     force: Vec<f64>,
     /// Whether `force` is that of the current positions: that of the last kick, which changed only
     /// momenta.
     known: bool,
+}
+
+impl Splitting {
+    /// The composition from `weights`, the parts of the step in order; `None` where H does not
+    /// separate.
+    pub(super) fn new(system: &System, weights: Vec<f64>) -> Option<Splitting> {
+        let (drift, kick) = system.split_rates()?;
+        let (velocity, force) = (vec![0.0; system.state_len()], vec![0.0; system.state_len()]);
+        let many = SplitStep::new(&drift, &kick, &weights);
+        let before = State::new(0.0, Form::Momentum, Vec::new());
+        let harmless = stability::harmless(growth, &weights);
+        Some(Splitting {
+            harmless,
+            drift,
+            kick,
+            many,
+            before,
+            weights,
+            velocity,
+            force,
+            known: false,
+        })
+    }
 }
 
 impl Scheme for Splitting {
@@ -64,13 +82,27 @@ impl Scheme for Splitting {
         self.known = false;
     }
 
-    fn advance_many(&mut self, step: f64, count: u64, state: &mut State) -> bool {
+    fn forget(&mut self) {
+        self.known = false;
+    }
+
+    fn advance_many(&mut self, step: f64, count: u64, states: ManySteps<'_>) -> bool {
         let Some(many) = &mut self.many else { return false };
         self.known = false;
-        many.advance(step, count, state)
+        let ManySteps { state, before, seen } = states;
+        match seen {
+            Some(seen) => many.advance_seen(step, count, state, before, seen),
+            None => many.advance(step, count, state, before),
+        }
     }
 
     fn advance(&mut self, step: f64, state: &mut State) -> Result<(), MotionError> {
+        if let Some(many) = &mut self.many
+            && many.advance(step, 1, state, &mut self.before)
+        {
+            self.known = false;
+            return Ok(());
+        }
         if !self.known {
             self.kick.evaluate(state.time, &state.values, &mut self.force)?;
         }
@@ -90,7 +122,7 @@ impl Scheme for Splitting {
     }
 
     fn modes(&self) -> Option<Modes<'_>> {
-        Some(Modes { growth, weights: &self.weights })
+        Some(Modes { growth, weights: &self.weights, harmless: self.harmless })
     }
 
     fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError> {

@@ -5,7 +5,7 @@
 //! exceeds 1 for a mode that does not grow by itself, the step is too long, and the motion is wrong
 //! whatever its local error.
 //!
-//! In: rates, a state, a step. Out: the longest step that is stable there. Never here: errors of
+//! In: rates, a state, a step. Out: the longest step that is stable there, if this one is not. Never here: errors of
 //! stable steps.
 //!
 //! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, IV.2.
@@ -46,6 +46,23 @@ pub(super) type GrowthFactor = fn(&[f64], [f64; 2]) -> f64;
 pub(super) struct Modes<'a> {
     pub(super) growth: GrowthFactor,
     pub(super) weights: &'a [f64],
+    /// No mode with |z| up to this is amplified.
+    pub(super) harmless: f64,
+}
+
+/// The distance between two values of |z| at which amplification is looked for.
+const APART: f64 = 1.0 / 32.0;
+
+/// A mode is harmless up to this part of the least |z| that is amplified, and up to this |z|: an
+/// oscillation of π a step comes back with the opposite sign, where the least error amplifies it.
+const SAFE: f64 = 0.9;
+const FARTHEST: f64 = 2.5;
+
+/// The |z| up to which no oscillation is amplified by a method that does not judge other modes.
+pub(super) fn harmless(growth: GrowthFactor, weights: &[f64]) -> f64 {
+    let steps = (1..).map(|k| APART * f64::from(k));
+    let stable = |z: &f64| *z <= FARTHEST && growth(weights, [0.0, *z]) <= 1.0 + GROWS / 2.0;
+    SAFE * steps.take_while(stable).last().unwrap_or(0.0)
 }
 
 impl Modes<'_> {
@@ -73,17 +90,32 @@ impl Modes<'_> {
     }
 }
 
-/// The eigenvalues of the rates at a state, times the step; empty if they cannot be found. `rates`
-/// gives the rates of the leading `moving` numbers.
-pub(super) fn eigenvalues(
+/// The longest stable step at a state, if `step` is not stable. `rates` gives the rates of the leading
+/// `moving` numbers.
+pub(super) fn limit(
+    modes: Modes<'_>,
+    (numbers, moving): (&[f64], usize),
+    step: f64,
+    rates: impl FnMut(&[f64], &mut [f64]) -> bool,
+) -> Option<f64> {
+    let matrix = linearised(numbers, moving, step, rates)?;
+    // no eigenvalue is larger than a norm
+    if matrix.norm() <= modes.harmless {
+        return None;
+    }
+    modes.limit(&num::eigenvalues(matrix), step)
+}
+
+/// The rates at a state, linearised, times the step; `None` if there are none.
+fn linearised(
     numbers: &[f64],
     moving: usize,
     step: f64,
     mut rates: impl FnMut(&[f64], &mut [f64]) -> bool,
-) -> Vec<[f64; 2]> {
+) -> Option<DMatrix<f64>> {
     let (mut here, mut there) = (vec![0.0; numbers.len()], vec![0.0; numbers.len()]);
     if !rates(numbers, &mut here) {
-        return Vec::new();
+        return None;
     }
     let mut matrix = DMatrix::zeros(moving, moving);
     let mut moved = numbers.to_vec();
@@ -99,7 +131,7 @@ pub(super) fn eigenvalues(
         }
         moved[j] = x;
     }
-    num::eigenvalues(matrix)
+    Some(matrix)
 }
 
 #[cfg(test)]
@@ -108,7 +140,7 @@ mod tests {
 
     /// A method that amplifies modes as Euler's explicit rule does.
     const EULER: Modes<'static> =
-        Modes { growth: |_, [re, im]| math::hypot(1.0 + re, im), weights: &[] };
+        Modes { growth: |_, [re, im]| math::hypot(1.0 + re, im), weights: &[], harmless: 0.0 };
 
     #[test]
     fn a_mode_that_falls_is_stable_up_to_two() {

@@ -1,6 +1,6 @@
 //! The interface of every method.
 
-use super::Unstable;
+use super::{StepBlock, Unstable};
 use crate::num::DoubleDouble;
 use crate::system::{Form, MotionError, Series, State};
 
@@ -27,6 +27,13 @@ pub trait Stepper: Send {
             self.step(limit)?;
         }
         Ok(())
+    }
+
+    /// Takes at most `most` steps in the direction of time, and at most as many as a block has lanes,
+    /// until `time` is reached or passed, and writes the end of each into `block`. Returns their
+    /// number, which is zero if the next step must be taken by itself.
+    fn steps_seen(&mut self, _time: f64, _most: u64, _block: &mut StepBlock) -> u64 {
+        0
     }
 
     /// Continues from a state that differs from the one at the end of the last step by rounding

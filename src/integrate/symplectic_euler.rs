@@ -38,6 +38,7 @@ pub(super) const METHOD: Method = Method {
             iteration elsewhere. Rough but symplectic; not reversible. Hairer, Lubich & Wanner, \
             Geometric Numerical Integration, VI.3.1, VI.5.3.",
     fits,
+    leapfrogs: Vec::new,
     make: |system, settings| {
         fits(system)?;
         Ok(match system.split_rates() {
@@ -89,7 +90,7 @@ impl Scheme for KickDrift {
     }
 
     fn modes(&self) -> Option<Modes<'_>> {
-        Some(Modes { growth: splitting::growth, weights: &WEIGHTS })
+        Some(Modes { growth: splitting::growth, weights: &WEIGHTS, harmless: 0.0 })
     }
 
     fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError> {

@@ -55,6 +55,7 @@ pub(super) const METHOD: Method = Method {
             the lowest terms carried in double-double. Errors stay at the last digit shown, kinks \
             are located. Jorba & Zou, Experimental Mathematics 14 (2005) 99.",
     fits: |_| Ok(()),
+    leapfrogs: Vec::new,
     make: |system, settings| Ok(Box::new(Taylor::new(system, settings)?)),
 };
 

@@ -33,10 +33,8 @@ pub(super) const FOURTH_ORDER: Method = Method {
     about: "Three leapfrogs, the middle one backwards: order 4 without a drift of energy. \
             Yoshida, Physics Letters A 150 (1990) 262, eq. 4.1.",
     fits: |system| splitting::fits(&FOURTH_ORDER, system),
-    make: |system, settings| {
-        let outer = 1.0 / (2.0 - math::cbrt(2.0));
-        splitting::make(&FOURTH_ORDER, system, settings, palindrome(&[outer]))
-    },
+    leapfrogs: || palindrome(&[1.0 / (2.0 - math::cbrt(2.0))]),
+    make: |system, settings| splitting::make(&FOURTH_ORDER, system, settings),
 };
 
 pub(super) const SIXTH_ORDER: Method = Method {
@@ -50,7 +48,8 @@ pub(super) const SIXTH_ORDER: Method = Method {
     about: "Seven leapfrogs of different length: order 6 without a drift of energy. Yoshida, \
             Physics Letters A 150 (1990) 262, solution A.",
     fits: |system| splitting::fits(&SIXTH_ORDER, system),
-    make: |system, settings| splitting::make(&SIXTH_ORDER, system, settings, palindrome(&SIXTH)),
+    leapfrogs: || palindrome(&SIXTH),
+    make: |system, settings| splitting::make(&SIXTH_ORDER, system, settings),
 };
 
 pub(super) const EIGHTH_ORDER: Method = Method {
@@ -64,11 +63,38 @@ pub(super) const EIGHTH_ORDER: Method = Method {
     about: "Fifteen leapfrogs of different length: order 8 without a drift of energy, for small \
             errors at large steps. Yoshida, Physics Letters A 150 (1990) 262, solution D.",
     fits: |system| splitting::fits(&EIGHTH_ORDER, system),
-    make: |system, settings| splitting::make(&EIGHTH_ORDER, system, settings, palindrome(&EIGHTH)),
+    leapfrogs: || palindrome(&EIGHTH),
+    make: |system, settings| splitting::make(&EIGHTH_ORDER, system, settings),
 };
 
 /// The weights `outer`, one that brings their sum to 1, and `outer` reversed.
 fn palindrome(outer: &[f64]) -> Vec<f64> {
     let middle = 1.0 - 2.0 * outer.iter().sum::<f64>();
     outer.iter().copied().chain([middle]).chain(outer.iter().rev().copied()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::integrate::stability::{self, Modes};
+
+    #[test]
+    fn what_is_harmless_is_not_amplified() {
+        for method in [FOURTH_ORDER, SIXTH_ORDER, EIGHTH_ORDER] {
+            let weights = (method.leapfrogs)();
+            let growth = splitting::growth;
+            let harmless = stability::harmless(growth, &weights);
+            assert!((0.3..2.0).contains(&harmless), "{} {harmless}", method.name);
+            let modes = Modes { growth, weights: &weights, harmless };
+            for k in 0..=20_000 {
+                let z = harmless * f64::from(k) / 20_000.0;
+                for direction in [[0.0, 1.0], [-0.05, 0.99], [0.0009, 0.9999], [-1.0, 0.0]] {
+                    let z = direction.map(|part| part * z);
+                    assert_eq!(modes.limit(&[z], 1.0), None, "{} {z:?}", method.name);
+                }
+            }
+            // and not much more is
+            assert!(modes.limit(&[[0.0, 1.5 * harmless]], 1.0).is_some(), "{}", method.name);
+        }
+    }
 }

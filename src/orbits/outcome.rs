@@ -12,7 +12,7 @@ use crate::integrate::{BatchPropagator, LaneStatus, Settings, method_named};
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::num::{BATCH, short};
-use crate::system::{BatchTerms, System};
+use crate::system::{BatchTerms, State, System};
 
 /// What all runs have in common.
 #[derive(Clone)]
@@ -146,7 +146,8 @@ impl RunPlan {
             plan: self,
             runs,
             watches: std::array::from_fn(|_| watch.clone()),
-            terms: self.system.batch_terms(),
+            terms: self.system.batch_terms(batch.form()),
+            last: State::new(0.0, batch.form(), Vec::new()),
             alone: Vec::new(),
             done: &mut done,
         };
@@ -171,6 +172,8 @@ struct RunTogether<'a, D: FnMut(usize, RunOutcome)> {
     watches: [DriftWatch; BATCH],
     /// The terms of all lanes, where they can be evaluated together.
     terms: Option<BatchTerms>,
+    /// The state at the end of a run.
+    last: State,
     /// Those that have to be followed alone.
     alone: Vec<usize>,
     done: &'a mut D,
@@ -213,12 +216,14 @@ impl<D: FnMut(usize, RunOutcome)> Follower for RunTogether<'_, D> {
         if state.time < end {
             return OrbitCourse::Until(end);
         }
-        match watch.end(state) {
+        // a method of fixed step may have passed the end
+        batch.at(lane, end, &mut self.last);
+        match watch.end(&self.last) {
             Ok((values, energy_drift)) => {
                 let outcome = RunOutcome {
                     status: OrbitStatus::Completed,
                     message: None,
-                    time: state.time,
+                    time: end,
                     values: values[..self.plan.system.columns()].to_vec(),
                     energy_drift,
                 };

@@ -42,12 +42,7 @@ impl System {
         };
         let smooth = program.switches() == 0 && program.guards.is_empty() && !program.steep;
         let alike = !program.body.iter().any(alone) && !self.has_branches();
-        let undisturbed = self.constraints() == 0
-            && self.attitude_place().is_none()
-            && self.tangents() == 0
-            && !self.locates_events()
-            && self.discontinuities().impulses.is_empty();
-        if !(smooth && alike && undisturbed) {
+        if !(smooth && alike && self.is_undisturbed()) {
             return None;
         }
         let (inputs, len) = (self.driven_len(), self.state_len());
@@ -61,6 +56,18 @@ impl System {
             scale: Batch::ONE,
             gathered: Vec::with_capacity(order),
         })
+    }
+}
+
+impl System {
+    /// Whether nothing acts on a motion but its law, nothing is watched, and no tangent vectors are
+    /// carried.
+    pub(super) fn is_undisturbed(&self) -> bool {
+        self.constraints() == 0
+            && self.attitude_place().is_none()
+            && self.tangents() == 0
+            && !self.locates_events()
+            && self.discontinuities().impulses.is_empty()
     }
 }
 

@@ -1,14 +1,16 @@
 //! The terms of the conserved quantities of several orbits at once.
 //!
-//! In: a state and parameters for each lane. Out: the terms that a [`TermWatch`](super::TermWatch) of
-//! that orbit alone evaluates, to the last bit; none in lanes whose numbers may leave the range of
+//! In: a state and parameters for each lane, which may be one orbit's at several times. Out: the terms
+//! that a [`TermWatch`](super::TermWatch) of that orbit alone evaluates, and their sums, to the last bit; none in lanes whose numbers may leave the range of
 //! `f64`. Never here: systems whose terms take the solution of linear equations.
 
 use std::sync::Arc;
 
 use super::compiled::System;
 use super::program::{Op, Program};
-use super::state::State;
+use super::state::{Form, State};
+use super::term_watch::TermSums;
+use super::terms::{AtRest, OutputPlace};
 use super::value::{Evaluator, value_of};
 use crate::num::{Analytic, BATCH, Batch, Kernel, vectorized};
 
@@ -17,6 +19,7 @@ use crate::num::{Analytic, BATCH, Batch, Kernel, vectorized};
 pub struct BatchTerms {
     system: System,
     program: Arc<Program>,
+    places: Arc<[Option<OutputPlace>]>,
     registers: Vec<Batch>,
     /// What depends on the parameters of one lane alone is computed here.
     single: Evaluator<f64>,
@@ -27,10 +30,12 @@ pub struct BatchTerms {
 }
 
 impl System {
-    /// The terms of the conserved quantities of several orbits, whose states have the native form;
-    /// `None` where they have to be evaluated one by one.
-    pub fn batch_terms(&self) -> Option<BatchTerms> {
-        let program = &self.terms().native;
+    /// The terms of the conserved quantities of several orbits, whose states have this form; `None`
+    /// where they have to be evaluated one by one.
+    pub fn batch_terms(&self, form: Form) -> Option<BatchTerms> {
+        let terms = self.terms();
+        let native = form == self.form();
+        let program = if native { &terms.native } else { terms.canonical.as_ref()? };
         let alone = |&r: &u32| {
             let op = program.ops[r as usize];
             matches!(op, Op::Solve(_) | Op::Select { .. } | Op::ParametricPower(..))
@@ -49,8 +54,9 @@ impl System {
         let registers = vec![Batch::ZERO; program.ops.len()];
         let single = Evaluator::new(Arc::clone(program));
         let program = Arc::clone(program);
-        let system = self.clone();
-        Some(BatchTerms { system, program, registers, single, numbers, ordinary: [false; BATCH] })
+        let places = Arc::clone(&terms.places);
+        let (system, ordinary) = (self.clone(), [false; BATCH]);
+        Some(BatchTerms { system, program, places, registers, single, numbers, ordinary })
     }
 }
 
@@ -66,7 +72,72 @@ impl BatchTerms {
 
     /// Evaluates the states of the lanes that have one.
     pub fn look(&mut self, states: [Option<&State>; BATCH]) {
-        vectorized(Look { terms: self, states });
+        let mut time = Batch::ZERO;
+        for (lane, state) in states.iter().enumerate() {
+            let Some(state) = state else { continue };
+            time.0[lane] = state.time;
+            for (&r, place) in self.program.inputs.iter().zip(&self.numbers) {
+                self.registers[r as usize].0[lane] = place.map_or(0.0, |place| state.values[place]);
+            }
+        }
+        vectorized(Look { terms: self, time });
+    }
+
+    /// Evaluates the states that have these numbers at these times, one in each lane.
+    pub fn look_at_numbers(&mut self, times: Batch, numbers: &[Batch]) {
+        for (&r, place) in self.program.inputs.iter().zip(&self.numbers) {
+            self.registers[r as usize] = place.map_or(Batch::ZERO, |place| numbers[place]);
+        }
+        vectorized(Look { terms: self, time: times });
+    }
+
+    /// Whether the terms of the first lanes need not be evaluated alone.
+    pub fn are_regular(&self, lanes: usize) -> bool {
+        let mut finite = Batch::ZERO;
+        for &r in &self.program.outputs {
+            // zero times anything that is not finite is NaN
+            finite = finite + self.registers[r as usize] * 0.0;
+        }
+        let lanes = finite.0.iter().zip(self.ordinary).take(lanes);
+        lanes.fold(true, |regular, (&finite, ordinary)| regular && ordinary && finite == 0.0)
+    }
+
+    /// Whether a quantity (0 for the energy, then the conserved quantities in order) can be
+    /// evaluated.
+    pub fn has(&self, quantity: usize) -> bool {
+        self.places.get(quantity).is_some_and(Option::is_some)
+    }
+
+    /// The sums over the terms of a quantity whose values at rest were these.
+    pub fn sums(&self, quantity: usize, were: &[f64]) -> [TermSums; BATCH] {
+        let negative_zero = Batch::splat(-0.0);
+        let (mut value, mut size, mut moving) = (negative_zero, negative_zero, negative_zero);
+        let place = self.places.get(quantity).and_then(Option::as_ref);
+        let (first, rests) = place.map_or((0, &[][..]), |place| (place.first, &place.terms));
+        let mut outputs = self.program.outputs.get(first..).unwrap_or_default().iter();
+        let mut next = || outputs.next().map(|&r| self.registers[r as usize]);
+        for (k, rest) in rests.iter().enumerate() {
+            let Some(term) = next() else { break };
+            let rest = match rest {
+                AtRest::Same => term,
+                AtRest::Nothing => Batch::ZERO,
+                AtRest::Other => next().unwrap_or(term),
+            };
+            value = value + term;
+            size = size + term.abs();
+            if let Some(&were) = were.get(k) {
+                let moved = (term - rest).abs() + (rest - Batch::splat(were)).abs();
+                for lane in 0..BATCH {
+                    let whole = term.0[lane].abs();
+                    moving.0[lane] += if moved.0[lane].is_finite() { moved.0[lane] } else { whole };
+                }
+            }
+        }
+        std::array::from_fn(|lane| TermSums {
+            value: value.0[lane],
+            size: size.0[lane],
+            moving: moving.0[lane],
+        })
     }
 
     /// The terms of a lane; `None` where they have to be evaluated alone.
@@ -87,7 +158,7 @@ impl BatchTerms {
 /// The kernel of the evaluation.
 struct Look<'a> {
     terms: &'a mut BatchTerms,
-    states: [Option<&'a State>; BATCH],
+    time: Batch,
 }
 
 impl Kernel for Look<'_> {
@@ -95,19 +166,11 @@ impl Kernel for Look<'_> {
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
-        let BatchTerms { program, registers, numbers, .. } = self.terms;
-        let mut time = Batch::ZERO;
-        for (lane, state) in self.states.iter().enumerate() {
-            let Some(state) = state else { continue };
-            time.0[lane] = state.time;
-            for (&r, place) in program.inputs.iter().zip(&*numbers) {
-                registers[r as usize].0[lane] = place.map_or(0.0, |place| state.values[place]);
-            }
-        }
+        let BatchTerms { program, registers, .. } = self.terms;
         for &r in &program.body {
             let at = r as usize;
             if let Op::Time = program.ops[at] {
-                registers[at] = time;
+                registers[at] = self.time;
             } else if let Some((value, companion)) =
                 value_of(program, program.ops[at], |r| registers[r as usize])
             {

@@ -55,6 +55,11 @@ impl State {
         DoubleDouble { high: self.time, low: self.time_carry }
     }
 
+    /// Sets the time.
+    pub fn set_time(&mut self, time: DoubleDouble) {
+        (self.time, self.time_carry) = (time.high, time.low);
+    }
+
     /// A number of the state, including what was cut off.
     pub fn exact(&self, i: usize) -> DoubleDouble {
         DoubleDouble { high: self.values[i], low: self.carry[i] }

@@ -93,6 +93,38 @@ fn every_orbit_has_the_bits_that_it_has_alone() {
 }
 
 #[test]
+fn every_orbit_by_a_composition_of_leapfrogs_too() {
+    let mut seen = Vec::new();
+    for entry in catalog().entries() {
+        let ready = Prepared::of(&entry.document().unwrap()).unwrap();
+        for (name, step) in [("leapfrog", None), ("yoshida6", Some(0.05))] {
+            let method = method_named(name).unwrap();
+            let settings = Settings { step, tolerance: None };
+            let system = ready.system.without_marks();
+            if BatchPropagator::new(&system, method, settings).is_none() {
+                continue;
+            }
+            let flow = SystemFlow { method: (method, settings), ..flow(&ready, 1e-9) };
+            let states = states(&ready, BATCH + 3);
+            let from: Vec<Option<&State>> = states.iter().map(Some).collect();
+            // some times within steps, some between which there are none
+            let start = ready.model.run.start;
+            let times = [0.0, 0.05, 0.11, 0.12, 0.5, 1.03].map(|after| start + after);
+            let channels: Vec<usize> = (0..ready.system.columns()).collect();
+            let together = flow.carry_all(&from, &times, &channels, |_| ()).unwrap();
+            for (i, state) in states.iter().enumerate() {
+                let alone = flow.carry(state, &times, &channels);
+                assert_eq!(bits(&together[i]), bits(&alone), "{} {name} {i}", entry.name);
+            }
+            seen.push(format!("{} {name}", entry.name));
+        }
+    }
+    for name in ["henon-heiles leapfrog", "pendulum yoshida6", "solar-system yoshida6"] {
+        assert!(seen.iter().any(|s| s == name), "{name} not among {seen:?}");
+    }
+}
+
+#[test]
 fn orbits_of_a_smooth_system_stay_side_by_side() {
     let entry = catalog();
     let entry = entry.entries().iter().find(|entry| entry.name == "henon-heiles").unwrap();
@@ -138,6 +170,11 @@ fn orbits_that_part_from_each_other_go_alone() {
     };
     assert!(!of("taylor", Settings::default()));
     assert!(!of("dop853", settings(1e-12)));
+    assert!(of("yoshida4", Settings::default()));
+    assert!(!of("gauss4", Settings::default()));
+    let rotor = line("1/2*(1 + x^2)*x'^2", "");
+    let leapfrog = method_named("leapfrog").unwrap();
+    assert!(BatchPropagator::new(&rotor.system, leapfrog, Settings::default()).is_none());
 }
 
 #[test]

@@ -5,7 +5,7 @@
 use crate::analysis::{History, LEFT, LOST, Stretch, Verdict};
 use crate::experiment::{Gauge, Reference};
 use crate::expr::Expr;
-use crate::system::{TermSums, TermWatch};
+use crate::system::{BatchTerms, TermSums, TermWatch};
 
 /// The name of the gauge that is constant by the law of the energy's change.
 pub(super) const LEDGER: &str = "energy ledger";
@@ -58,6 +58,16 @@ pub(super) struct InvariantMonitor {
     distances: History,
 }
 
+/// The end of a step, as a monitor sees it.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::experiment) struct StepEnd {
+    pub(in crate::experiment) time: f64,
+    /// The rounding error that a value of size 1 may have gathered.
+    pub(in crate::experiment) floor: f64,
+    /// Whether there are rows within the step.
+    pub(in crate::experiment) dense: bool,
+}
+
 /// The quantity that a monitor watches.
 pub(super) struct Subject {
     pub(super) name: String,
@@ -108,7 +118,7 @@ impl InvariantMonitor {
         self.offset = offset && varying * LARGE < self.initial.abs();
         self.last = 0.0;
         self.rough_reference =
-            self.summed(terms).map_or(f64::NAN, |sums| self.rough(sums.value, terms));
+            self.summed(terms).map_or(f64::NAN, |sums| self.rough(sums.value, terms.work()));
         self.at_rest = self.quantity.map_or_else(Vec::new, |quantity| terms.at_rest(quantity));
         self.rounding = 0.0;
         self.moving = Mean { time, ..Mean::default() };
@@ -168,8 +178,8 @@ impl InvariantMonitor {
     }
 
     /// Its value, given the sum of its terms.
-    fn rough(&self, sum: f64, terms: &TermWatch) -> f64 {
-        if self.jumps { sum } else { sum - terms.work() }
+    fn rough(&self, sum: f64, work: f64) -> f64 {
+        if self.jumps { sum } else { sum - work }
     }
 
     /// Records an accurate value and returns its distance; `floor` is the rounding error of a value of size 1.
@@ -181,7 +191,7 @@ impl InvariantMonitor {
             self.widen(sums.size);
             moving = sums.moving;
             if self.offset {
-                distance = self.rough(sums.value, terms) - self.rough_reference;
+                distance = self.rough(sums.value, terms.work()) - self.rough_reference;
             }
         }
         self.note(time, distance, moving, floor);
@@ -194,10 +204,31 @@ impl InvariantMonitor {
         self.distances.push(time, distance);
     }
 
-    /// Records the value at the end of a step or within it. A distance that rounding explains is ignored.
+    /// Records the value at the end of a step or within it.
     pub(super) fn step(&mut self, time: f64, terms: &TermWatch, floor: f64, dense: bool) {
-        let Some(TermSums { value, size, moving }) = self.summed(terms) else { return };
-        let distance = self.rough(value, terms) - self.rough_reference;
+        if let Some(sums) = self.summed(terms) {
+            self.step_with(time, (sums, terms.work()), floor, dense);
+        }
+    }
+
+    /// Records the values at the ends of several steps.
+    pub(super) fn steps(&mut self, terms: &BatchTerms, ends: &[StepEnd]) {
+        let Some(quantity) = self.quantity.filter(|&quantity| terms.has(quantity)) else { return };
+        let sums = terms.sums(quantity, &self.at_rest);
+        for (lane, (end, sums)) in ends.iter().zip(sums).enumerate() {
+            self.step_with(end.time, (sums, terms.work(lane)), end.floor, end.dense);
+        }
+    }
+
+    /// Records the sums over the terms, and the work. A distance that rounding explains is ignored.
+    fn step_with(
+        &mut self,
+        time: f64,
+        (TermSums { value, size, moving }, work): (TermSums, f64),
+        floor: f64,
+        dense: bool,
+    ) {
+        let distance = self.rough(value, work) - self.rough_reference;
         self.widen(size);
         // the moving part of a lost motion is no measure of it
         if self.worst <= LOST {

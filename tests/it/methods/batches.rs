@@ -1,7 +1,8 @@
 //! Steps that nobody looks at: taken many at once, with the bits of single ones.
 
-use phaselab::integrate::{Method, Settings, Stepper};
-use phaselab::system::Form;
+use phaselab::integrate::{Method, Settings, StepBlock, Stepper};
+use phaselab::num::accumulate;
+use phaselab::system::{Form, Rates, State};
 
 use super::{
     Case, case, double_pendulum, driven, fixed, heavy_top, henon_heiles, kepler, named, pendulum,
@@ -57,6 +58,86 @@ fn many_steps_at_once_have_the_bits_of_single_ones() {
             let times = if long { &times[..] } else { &[0.5, 0.75, -0.25] };
             same(&case, method, 0.01, times);
         }
+    }
+}
+
+/// Steps of a composition of leapfrogs, operation by operation.
+fn by_rates(case: &Case, weights: &[f64], step: f64, count: usize) -> State {
+    let (mut drift, mut kick) = case.system.split_rates().expect("separable");
+    drift.set_parameters(&case.parameters);
+    kick.set_parameters(&case.parameters);
+    let mut state = case.system.convert(&case.start, Form::Momentum, &case.parameters).unwrap();
+    let part = |rates: &mut Rates, state: &mut State, factor: f64| {
+        let mut slope = vec![0.0; state.values.len()];
+        rates.evaluate(0.0, &state.values, &mut slope).expect("rates");
+        for (i, slope) in slope.into_iter().enumerate().filter(|&(_, slope)| slope != 0.0) {
+            accumulate(&mut state.values[i], &mut state.carry[i], factor * slope);
+        }
+    };
+    for _ in 0..count {
+        let mut before = 0.0;
+        for &w in weights {
+            part(&mut kick, &mut state, 0.5 * (before + w) * step);
+            part(&mut drift, &mut state, w * step);
+            before = w;
+        }
+        part(&mut kick, &mut state, 0.5 * before * step);
+    }
+    state
+}
+
+#[test]
+fn steps_have_the_bits_of_their_operations_one_by_one() {
+    let tangent = henon_heiles();
+    let system = tangent.system.with_tangents(2);
+    let mut start = system.extended(&tangent.start, &tangent.system);
+    start.values[system.tangent_place(0)] = 1.0;
+    start.values[system.tangent_place(1) + 3] = 1.0;
+    let tangent = Case { system, start, parameters: tangent.parameters };
+    for case in [pendulum(), henon_heiles(), kepler(0.3), rich(), tangent] {
+        for name in ["leapfrog", "yoshida4", "yoshida6", "yoshida8"] {
+            let method = named(name);
+            let weights = (method.leapfrogs)();
+            for count in [1, 2, 300] {
+                let mut stepper = case.stepper(method, 0.01);
+                stepper.steps(1e9, 1e9, &mut (count as u64)).expect("goes on");
+                let by_hand = by_rates(&case, &weights, 0.01, count);
+                let bits = |x: &[f64]| x.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+                let state = stepper.state();
+                assert_eq!(bits(&state.values), bits(&by_hand.values), "{name} {count}");
+                assert_eq!(bits(&state.carry), bits(&by_hand.carry), "{name} {count}");
+            }
+        }
+    }
+}
+
+#[test]
+fn steps_are_seen_at_the_end_of_each() {
+    for case in [henon_heiles(), pendulum(), rich()] {
+        let mut single = case.stepper(named("yoshida4"), 0.01);
+        let mut many = case.stepper(named("yoshida4"), 0.01);
+        let (mut block, mut longest) = (StepBlock::default(), 0);
+        while single.time() < 6.0 {
+            let time = single.time() + 0.037;
+            let mut taken = many.steps_seen(time, 1000, &mut block) as usize;
+            longest = longest.max(taken);
+            let counted = taken;
+            if taken == 0 {
+                many.step(1e9).expect("goes on");
+                taken = 1;
+            }
+            for step in 0..taken {
+                assert!(single.time() < time, "stops at the time");
+                single.step(1e9).expect("goes on");
+                if counted > 0 {
+                    assert_eq!(block.count, counted);
+                    assert_eq!(block.interval(step), single.interval());
+                    assert_eq!(block.state(step, Form::Momentum).values, single.state().values);
+                }
+            }
+            assert_eq!((many.state(), many.interval()), (single.state(), single.interval()));
+        }
+        assert_eq!(longest, 4);
     }
 }
 

@@ -1,0 +1,214 @@
+//! Runs the instructions of a [`StageList`] on the numbers of one orbit, or of several at once.
+//!
+//! In: instructions, registers. Out: registers after many steps, with the bits that single steps
+//! give. Never here: which steps, numbers that leave the range of `f64`.
+
+use super::program::Register;
+use super::stage_list::{CHUNK, Half, Instruction, Moved, REGISTERS, StageList};
+use super::value::value_of;
+use crate::num::{Analytic, Batch, Kernel};
+
+/// A number that is moved with compensated sums.
+pub(super) trait StageNumber: Analytic {
+    /// Whether a whole [`CHUNK`] of numbers costs as much as one of them.
+    const BY_CHUNKS: bool;
+
+    /// `moved`, or `unmoved` where a rate is zero, so that the sign of a zero stays.
+    fn where_moving(self, moved: Self, unmoved: Self) -> Self;
+}
+
+impl StageNumber for f64 {
+    const BY_CHUNKS: bool = true;
+
+    #[inline(always)]
+    fn where_moving(self, moved: f64, unmoved: f64) -> f64 {
+        if self == 0.0 { unmoved } else { moved }
+    }
+}
+
+impl StageNumber for Batch {
+    const BY_CHUNKS: bool = false;
+
+    #[inline(always)]
+    fn where_moving(self, moved: Batch, unmoved: Batch) -> Batch {
+        self.where_equal(0.0, unmoved, moved)
+    }
+}
+
+/// The registers of a list: numbers of the state, rates, results of operations.
+#[derive(Clone, Debug)]
+pub(super) struct Registers<R> {
+    pub(super) values: Box<[R; REGISTERS]>,
+    /// What rounding cut off from the numbers of the state.
+    pub(super) carries: Box<[R; REGISTERS]>,
+    /// The factors of the sums.
+    pub(super) factors: Box<[R; REGISTERS]>,
+}
+
+impl<R: StageNumber> Registers<R> {
+    /// The registers of a list.
+    pub(super) fn of(stages: &StageList) -> Registers<R> {
+        let zeros = || Box::new([R::ZERO; REGISTERS]);
+        let mut registers = Registers { values: zeros(), carries: zeros(), factors: zeros() };
+        registers.values[usize::from(stages.one)] = R::ONE;
+        registers
+    }
+
+    #[inline(always)]
+    fn run(&mut self, stages: &StageList, list: &[Instruction]) {
+        let at = usize::from;
+        for instruction in list {
+            match *instruction {
+                Instruction::Sum1 { sum, to } => self.sum::<1, false>(stages, sum, to),
+                Instruction::Sum2 { sum, to } => self.sum::<2, false>(stages, sum, to),
+                Instruction::Sum3 { sum, to } => self.sum::<3, false>(stages, sum, to),
+                Instruction::Products1 { sum, to } => self.sum::<1, true>(stages, sum, to),
+                Instruction::Products2 { sum, to } => self.sum::<2, true>(stages, sum, to),
+                Instruction::Products3 { sum, to } => self.sum::<3, true>(stages, sum, to),
+                Instruction::Sum { sum, to } => {
+                    self.sum::<3, true>(stages, sum, to);
+                    let mut value = self.values[at(to)];
+                    for &(coefficient, [a, b]) in &stages.sums[at(sum)].further {
+                        value = value + self.values[at(a)] * self.values[at(b)] * coefficient;
+                    }
+                    self.values[at(to)] = value;
+                }
+                Instruction::Multiply { a, b, to } => {
+                    self.values[at(to)] = self.values[at(a)] * self.values[at(b)];
+                }
+                Instruction::Divide { a, b, to } => {
+                    self.values[at(to)] = self.values[at(a)] / self.values[at(b)];
+                }
+                Instruction::Root { a, to } => self.values[at(to)] = self.values[at(a)].sqrt(),
+                Instruction::Copy { a, to } => self.values[at(to)] = self.values[at(a)],
+                Instruction::Other { half, operation, to } => {
+                    self.other(stages, half, operation, to);
+                }
+                Instruction::Move { factor, moved } => {
+                    self.add([self.factors[at(factor)]], moved);
+                }
+                Instruction::MoveTwice { factors, moved } => {
+                    self.add(factors.map(|factor| self.factors[at(factor)]), moved);
+                }
+            }
+        }
+    }
+
+    /// Sets a register to the first terms of a sum.
+    #[inline(always)]
+    fn sum<const COUNT: usize, const PRODUCTS: bool>(
+        &mut self,
+        stages: &StageList,
+        sum: u8,
+        to: u8,
+    ) {
+        let sum = &stages.sums[usize::from(sum)];
+        let mut value = R::of(sum.constant.into());
+        for k in 0..COUNT {
+            let [a, b] = sum.registers[k].map(usize::from);
+            let term = if PRODUCTS { self.values[a] * self.values[b] } else { self.values[a] };
+            value = value + term * sum.coefficients[k];
+        }
+        self.values[usize::from(to)] = value;
+    }
+
+    /// Adds multiples of rates to numbers, one after the other, with compensated sums: what
+    /// [`accumulate`](crate::num::accumulate) does with each.
+    #[inline(always)]
+    fn add<const TIMES: usize>(&mut self, factors: [R; TIMES], moved: Moved) {
+        let Moved { number, rate, count } = moved;
+        let (number, rate, count) = (usize::from(number), usize::from(rate), usize::from(count));
+        if !R::BY_CHUNKS {
+            for k in 0..count {
+                let (n, r) = ((number + k) % REGISTERS, (rate + k) % REGISTERS);
+                let (mut value, mut carry, rate) =
+                    (self.values[n], self.carries[n], self.values[r]);
+                for factor in factors {
+                    (value, carry) = accumulated(value, carry, factor, rate);
+                }
+                (self.values[n], self.carries[n]) = (value, carry);
+            }
+        } else if moved.is_short() {
+            self.add_chunk(factors, number / CHUNK, rate / CHUNK);
+        } else {
+            for k in 0..count.div_ceil(CHUNK) {
+                self.add_chunk(factors, number / CHUNK + k, rate / CHUNK + k);
+            }
+        }
+    }
+
+    /// The same for one chunk.
+    #[inline(always)]
+    fn add_chunk<const TIMES: usize>(&mut self, factors: [R; TIMES], number: usize, rate: usize) {
+        const CHUNKS: usize = REGISTERS / CHUNK;
+        let (n, r) = (number % CHUNKS, rate % CHUNKS);
+        let (values, _) = self.values.as_chunks_mut::<CHUNK>();
+        let (carries, _) = self.carries.as_chunks_mut::<CHUNK>();
+        let (rates, mut moved, mut left) = (values[r], values[n], carries[n]);
+        for factor in factors {
+            for i in 0..CHUNK {
+                (moved[i], left[i]) = accumulated(moved[i], left[i], factor, rates[i]);
+            }
+        }
+        (values[n], carries[n]) = (moved, left);
+    }
+
+    #[inline(never)]
+    fn other(&mut self, stages: &StageList, half: Half, operation: Register, to: u8) {
+        let (program, places) = stages.half(half);
+        let get = |r: Register| self.values[usize::from(places[r as usize])];
+        let op = program.ops[operation as usize];
+        if let Some((value, companion)) = value_of(program, op, get) {
+            self.values[usize::from(to)] = value;
+            if let Some(companion) = companion {
+                self.values[usize::from(to) + 1] = companion;
+            }
+        }
+    }
+}
+
+/// `factor · rate` added to a number of two parts.
+#[inline(always)]
+fn accumulated<R: StageNumber>(value: R, carry: R, factor: R, rate: R) -> (R, R) {
+    let by = factor * rate;
+    let sum = value + by;
+    let part = sum - value;
+    let error = (value - (sum - part)) + (by - part);
+    let low = error + carry;
+    let moved = sum + low;
+    (rate.where_moving(moved, value), rate.where_moving(low - (moved - sum), carry))
+}
+
+/// Many steps. `seen` is handed the count of steps so far and the registers at the end of each step
+/// from `from` on.
+pub(super) struct Steps<'a, R, F> {
+    pub(super) registers: &'a mut Registers<R>,
+    pub(super) stages: &'a StageList,
+    pub(super) count: u64,
+    pub(super) from: u64,
+    pub(super) seen: F,
+}
+
+impl<R: StageNumber, F: FnMut(u64, &Registers<R>)> Kernel for Steps<'_, R, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(mut self) {
+        let (stages, from) = (self.stages, self.from.min(self.count));
+        let (mut done, mut list, mut ends) = (0, &stages.open, false);
+        loop {
+            self.registers.run(stages, list);
+            if ends {
+                (self.seen)(done, self.registers);
+                if done == self.count {
+                    return;
+                }
+                (list, ends) = (&stages.lead, false);
+                continue;
+            }
+            done += 1;
+            ends = done >= from;
+            list = if ends { &stages.end } else { &stages.step };
+        }
+    }
+}
