@@ -90,6 +90,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         method: (*method, *settings),
         parameters: start.parameters.clone(),
         start: start.time,
+        effort: None,
     };
     let count = arguments.count as usize;
     let spacing = (until - start.time) / count as f64;

@@ -10,6 +10,7 @@ use super::side_by_side::{Follower, OrbitCourse, side_by_side};
 use crate::integrate::{
     ACCURACIES, BatchPropagator, LaneStatus, Method, Propagator, Reached, Settings, Stepping,
 };
+use crate::num::BATCH;
 use crate::system::{MotionError, Observer, State, System};
 
 /// The states that one thread carries at a time.
@@ -29,6 +30,8 @@ pub struct SystemFlow {
     pub parameters: Vec<f64>,
     /// The time at which the motion of the system began, from which periodic impulses count.
     pub start: f64,
+    /// The most steps of an orbit from the first of some times to the last; one that takes more is given up.
+    pub effort: Option<u64>,
 }
 
 /// A state that was carried.
@@ -121,6 +124,8 @@ impl SystemFlow {
                     sight: Sight::new(&self.system, &self.parameters, channels),
                     here: State::new(0.0, self.system.form(), Vec::new()),
                     carried: vec![Some(Carried::default()); from.len()],
+                    effort: self.effort,
+                    steps: [0; BATCH],
                 };
                 // what a cancellation leaves is not asked for
                 side_by_side(&mut batch, from.len(), &mut together);
@@ -148,12 +153,14 @@ impl SystemFlow {
         let last = times.last().copied().unwrap_or(from.time);
         for &time in times {
             loop {
-                match motion.reach(time, last, &mut STEPS_PER_LOOK.clone())? {
+                let left = self.effort.map_or(u64::MAX, |most| most.saturating_sub(motion.steps()));
+                match motion.reach_unexplained(time, last, &mut STEPS_PER_LOOK.min(left))? {
                     Reached::There => break,
                     Reached::Ended => return Ok(None),
                     Reached::Underway | Reached::Happened(_) => {}
                 }
-                if self.system.cancel().is_cancelled() {
+                let given_up = self.effort.is_some_and(|most| motion.steps() >= most);
+                if given_up || self.system.cancel().is_cancelled() {
                     return Ok(None);
                 }
             }
@@ -200,6 +207,9 @@ struct CarriedTogether<'a> {
     here: State,
     /// What becomes of each state; `None` for what has to be carried alone.
     carried: Vec<Option<Carried>>,
+    effort: Option<u64>,
+    /// The steps of the orbit in each lane.
+    steps: [u64; BATCH],
 }
 
 impl Follower for CarriedTogether<'_> {
@@ -209,7 +219,8 @@ impl Follower for CarriedTogether<'_> {
             self.carried[orbit] = None;
             return OrbitCourse::Over;
         }
-        self.look(orbit, lane, batch)
+        self.steps[lane] = 0;
+        self.seen(orbit, lane, batch)
     }
 
     fn next_look(&self, orbit: usize) -> f64 {
@@ -218,6 +229,20 @@ impl Follower for CarriedTogether<'_> {
     }
 
     fn look(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
+        self.steps[lane] += 1;
+        let course = self.seen(orbit, lane, batch);
+        let given_up = self.effort.is_some_and(|most| self.steps[lane] >= most);
+        if given_up { OrbitCourse::Over } else { course }
+    }
+
+    fn leave(&mut self, orbit: usize) {
+        self.carried[orbit] = None;
+    }
+}
+
+impl CarriedTogether<'_> {
+    /// Reads the channels at all times that have been reached.
+    fn seen(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
         let Some(one) = &mut self.carried[orbit] else { return OrbitCourse::Over };
         let Some(&last) = self.times.last() else {
             one.end = Some(batch.state(lane).clone());
@@ -236,9 +261,5 @@ impl Follower for CarriedTogether<'_> {
         }
         one.end = Some(self.here.clone());
         OrbitCourse::Over
-    }
-
-    fn leave(&mut self, orbit: usize) {
-        self.carried[orbit] = None;
     }
 }

@@ -293,7 +293,8 @@ fn beside(
     let system = space.system();
     let start = conditions.state(system, begin).map_err(|fault| fault.to_string())?;
     let (parameters, method) = (conditions.parameters.clone(), (method, conditions.settings));
-    let flow = SystemFlow { system: system.clone(), method, parameters, start: begin };
+    let flow =
+        SystemFlow { system: system.clone(), method, parameters, start: begin, effort: None };
     let channel = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
     let n = system.degrees();
     let kinds = (0..n).map(ChannelKind::Position).chain((0..n).map(ChannelKind::Velocity));

@@ -101,7 +101,10 @@ impl Instrument for Ensemble {
             layers.push((CURVE, Layer::Line(frame.curve.to_vec(), Ink::Curve(1).into())));
             layers.push((CLOUD, Layer::Cloud(Arc::clone(&frame.cloud))));
         }
-        let now = channels.map(|channel| present.value(channel));
+        // a cloud that is behind is drawn with the motion where it was then
+        let then = is_late(present, answer).then(|| shown(present, answer).map(|frame| frame.own));
+        let then = then.flatten().filter(|at| at.iter().all(|x| x.is_finite()));
+        let now = then.unwrap_or_else(|| channels.map(|channel| present.value(channel)));
         layers.push((NOW, Layer::Point(now, Sign::Disc, Ink::Accent)));
         let upwards = Upwards::Annotated {
             channel: channels[1],
@@ -192,6 +195,11 @@ impl Instrument for Ensemble {
                 value: |plot, present, answer| outside(plot, present, answer).map(|n| n as f64),
             },
             Measure {
+                word: "lost",
+                about: "how many points came to a collision or to infinity and are not followed farther",
+                value: |_, present, answer| lost(present, answer).map(|n| n as f64),
+            },
+            Measure {
                 word: "action",
                 about: "the action ∫ p dq around the cloud: its area, for one degree of freedom",
                 value: |_, present, answer| Some(shown(present, answer)?.action?.value.abs()),
@@ -245,6 +253,13 @@ fn shown<'a>(present: &Present<'_>, answer: Option<&'a Answer>) -> Option<&'a Cl
     before.or_else(|| cloud.frames.first())
 }
 
+/// Whether it is behind a motion that is faster than the cloud can be carried.
+fn is_late(present: &Present<'_>, answer: Option<&Answer>) -> bool {
+    let (Some(cloud), Some(frame)) = (cloud(answer), shown(present, answer)) else { return false };
+    let spacing = cloud.frames.windows(2).next().map_or(0.0, |pair| pair[1].time - pair[0].time);
+    present.time - frame.time > 2.0 * spacing
+}
+
 /// ∮ Σ p dq as it is expected.
 fn expected(present: &Present<'_>, answer: Option<&Answer>) -> Option<f64> {
     let (cloud, frame) = (cloud(answer)?, shown(present, answer)?);
@@ -276,10 +291,11 @@ fn sentence(present: &Present<'_>, answer: Option<&Answer>) -> String {
             Some(_) => "action: a part of the curve is lost".to_owned(),
         };
     };
-    // behind a motion that is faster than it can be carried
-    let spacing = cloud.frames.windows(2).next().map_or(0.0, |pair| pair[1].time - pair[0].time);
-    let late = present.time - frame.time > 2.0 * spacing;
-    let at = if late { format!(" at t = {}", short(frame.time)) } else { String::new() };
+    let at = if is_late(present, answer) {
+        format!(" at t = {}", short(frame.time))
+    } else {
+        String::new()
+    };
     let value = format!("action {}{at}", short(action.value.abs()));
     match (cloud.rate, off(present, answer)) {
         (Some(rate), Some(off)) => {
@@ -294,7 +310,13 @@ fn sentence(present: &Present<'_>, answer: Option<&Answer>) -> String {
     }
 }
 
-/// How many points of the cloud are outside the window, or could not be followed.
+/// How many points of the cloud could not be followed farther: they came to a collision, or to infinity.
+fn lost(present: &Present<'_>, answer: Option<&Answer>) -> Option<usize> {
+    let frame = shown(present, answer)?;
+    Some(frame.cloud.iter().filter(|at| at.iter().any(|x| !x.is_finite())).count())
+}
+
+/// How many points of the cloud are outside the window, or lost.
 fn outside(plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Option<usize> {
     let frame = shown(present, answer)?;
     let window = [range(plot, present, answer, 0)?, range(plot, present, answer, 1)?];
@@ -310,10 +332,10 @@ fn outside(plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Optio
 }
 
 fn outside_in_words(plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> String {
-    match outside(plot, present, answer) {
-        None | Some(0) => String::new(),
-        Some(count) => format!(", {count} outside"),
-    }
+    let lost = lost(present, answer).unwrap_or(0);
+    let far = outside(plot, present, answer).unwrap_or(0) - lost;
+    let counted = [(far, "outside"), (lost, "lost")].into_iter().filter(|(count, _)| *count > 0);
+    counted.map(|(count, word)| format!(", {count} {word}")).collect()
 }
 
 /// The range of an axis: of all that was seen of the bulk of the cloud, or a turn.

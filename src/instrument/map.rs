@@ -331,6 +331,7 @@ impl Task {
             method: self.motions.method,
             parameters: start.parameters.clone(),
             start: start.time,
+            effort: None,
         };
         let carried = flow.carry(&state, &[start.time + self.length], &[channel]);
         let value = carried.seen.first().and_then(|row| row.first());

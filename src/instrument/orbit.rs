@@ -232,6 +232,7 @@ fn close(
         method: (method.0, orbit.settings),
         parameters: parameters.clone(),
         start: orbit.state.time,
+        effort: None,
     };
     let part = |k: usize| orbit.state.time + orbit.period * k as f64 / POINTS as f64;
     let times: Vec<f64> = (0..=POINTS).map(part).collect();

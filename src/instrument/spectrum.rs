@@ -130,6 +130,7 @@ impl Instrument for SpectrumPlot {
                 method: (method, conditions.settings),
                 parameters: conditions.parameters.clone(),
                 start: begin,
+                effort: None,
             };
             let speed = if speed.is_finite() && speed > 0.0 { speed } else { 1.0 };
             let spacing = SECONDS * speed / COUNT as f64;

@@ -296,10 +296,20 @@ impl Propagator {
         limit: f64,
         budget: &mut u64,
     ) -> Result<Reached, MotionError> {
-        self.go_to(time, limit, budget).map_err(|fault| self.explained(fault))
+        self.reach_unexplained(time, limit, budget).map_err(|fault| self.explained(fault))
     }
 
-    fn go_to(&mut self, time: f64, limit: f64, budget: &mut u64) -> Result<Reached, MotionError> {
+    /// The same, but an error is not looked into: what could pass it takes more than most motions to find out, and of
+    /// many orbits nobody reads it.
+    ///
+    /// # Errors
+    /// Returns an error if the motion cannot continue.
+    pub fn reach_unexplained(
+        &mut self,
+        time: f64,
+        limit: f64,
+        budget: &mut u64,
+    ) -> Result<Reached, MotionError> {
         loop {
             if self.ended {
                 return Ok(Reached::Ended);

@@ -25,6 +25,7 @@ fn flow(ready: &Prepared, tolerance: f64) -> SystemFlow {
         method: (method, settings(tolerance)),
         parameters,
         start: ready.model.run.start,
+        effort: None,
     }
 }
 

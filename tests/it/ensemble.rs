@@ -33,7 +33,13 @@ fn flow(ready: &Prepared) -> SystemFlow {
     let method = method_named("taylor").unwrap();
     let parameters = ready.model.parameter_values();
     let system = phaselab::system::System::clone(&ready.system);
-    SystemFlow { system, method: (method, Settings::default()), parameters, start: 0.0 }
+    SystemFlow {
+        system,
+        method: (method, Settings::default()),
+        parameters,
+        start: 0.0,
+        effort: None,
+    }
 }
 
 fn channel(ready: &Prepared, kind: ChannelKind) -> usize {

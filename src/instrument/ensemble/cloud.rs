@@ -9,7 +9,7 @@ use super::super::{Answer, Physics, Plot};
 use super::origin::CloudOrigin;
 use crate::dynamics::{PhaseSpace, conformal_rate};
 use crate::ensemble::{Carried, Circulation, ClosedCurve, SystemFlow};
-use crate::integrate::{Method, Settings};
+use crate::integrate::{Method, Settings, Stepping};
 use crate::job::Progress;
 use crate::mechanics::Equations;
 use crate::model::Model;
@@ -25,6 +25,10 @@ const RATE: f64 = 30.0;
 /// Those of the first part, so that there is something to see soon.
 const FIRST_FRAMES: usize = 4;
 
+/// The most steps of a point for each second of the wall clock at the file's own speed. One that comes so close to a
+/// collision, or to infinity in a finite time, that it takes more would hold up all others, and is given up.
+const EFFORT: f64 = 1000.0;
+
 /// The states of a cloud that are looked at for the rate at which areas shrink.
 const PROBES: usize = 16;
 
@@ -39,8 +43,9 @@ pub(super) struct Cloud {
     asked: f64,
     pub(super) end: f64,
     pub(super) frames: Vec<CloudFrame>,
-    /// Where the points are at the end.
+    /// Where the points are at the end, and the motion that they were spread around.
     points: Vec<Option<State>>,
+    own: Option<State>,
     pub(super) curve: Option<ClosedCurve>,
     /// ∮ Σ p dq at the beginning.
     pub(super) first: Option<Circulation>,
@@ -58,6 +63,8 @@ pub(super) struct CloudFrame {
     pub(super) cloud: Arc<Vec<[f64; 2]>>,
     pub(super) curve: Arc<Vec<[f64; 2]>>,
     pub(super) action: Option<Circulation>,
+    /// The motion at this time.
+    pub(super) own: [f64; 2],
 }
 
 impl Cloud {
@@ -102,8 +109,9 @@ impl Task {
             method: self.method,
             parameters: parameters.clone(),
             start: self.model.run.start,
+            effort: None,
         };
-        let flow = match self.state(self.origin.centre) {
+        let mut flow = match self.state(self.origin.centre) {
             Some(centre) => flow.settled(&centre).fast(),
             None => flow.fast(),
         };
@@ -118,6 +126,9 @@ impl Task {
         };
         let frames = if known.is_some() { FRAMES } else { FIRST_FRAMES };
         let times: Vec<f64> = (0..frames).map(|k| first + k as f64 * spacing).collect();
+        let seconds =
+            |from: f64| (times.last().unwrap_or(&from) - from) / least * FRAMES as f64 / RATE;
+        flow.effort = self.effort(seconds(known.map_or(first, |known| known.end)));
         let points = match known {
             Some(known) => known.points.clone(),
             None => self.origin.states(COUNT, &self.starts, self.physics(), parameters),
@@ -129,7 +140,12 @@ impl Task {
             Ok(carried) => (carried, None),
             Err(why) => (Vec::new(), Some(why.to_string())),
         };
+        let own = known
+            .map_or_else(|| self.origin.own(self.physics(), parameters), |known| known.own.clone());
+        let own = own.map_or_else(Carried::default, |own| flow.carry(&own, &times, &self.axes()));
         let start = |s: f64| self.state(self.origin.boundary(s));
+        // starts that are put between others come from the beginning
+        flow.effort = self.effort(seconds(self.origin.time));
         let mut curve = match known {
             Some(known) => known.curve.clone(),
             None if !self.origin.has_boundary() => None,
@@ -141,12 +157,16 @@ impl Task {
             failure = Some(why.to_string());
         }
         let frame = |(k, &time): (usize, &f64)| {
-            let at = |one: &Carried| one.seen.get(k).map_or([f64::NAN; 2], |row| [row[0], row[1]]);
+            let at = |one: &Carried| match one.seen.get(k).map(Vec::as_slice) {
+                Some(&[x, y]) => [x, y],
+                _ => [f64::NAN; 2],
+            };
             CloudFrame {
                 time,
                 cloud: Arc::new(carried.iter().map(at).collect()),
                 curve: Arc::new(curve.as_ref().map_or_else(Vec::new, |curve| curve.points(k))),
                 action: curve.as_ref().and_then(|curve| curve.circulation(k)),
+                own: at(&own),
             }
         };
         let new: Vec<CloudFrame> = times.iter().enumerate().map(frame).collect();
@@ -161,6 +181,7 @@ impl Task {
             end: times.last().copied().unwrap_or(self.now),
             frames: old.chain(new).collect(),
             points: carried.into_iter().map(|one| one.end).collect(),
+            own: own.end,
             first: match known {
                 Some(known) => known.first,
                 None if !self.origin.has_boundary() => None,
@@ -171,6 +192,12 @@ impl Task {
             extent,
             failure,
         }
+    }
+
+    /// The most steps of a point in so many seconds of the wall clock; those of a fixed step are known beforehand.
+    fn effort(&self, seconds: f64) -> Option<u64> {
+        let adapts = self.method.0.stepping == Stepping::Adaptive;
+        adapts.then(|| (EFFORT * seconds.max(1.0)).ceil() as u64)
     }
 
     fn state(&self, at: [f64; 2]) -> Option<State> {
@@ -208,6 +235,7 @@ impl Task {
             method: self.method,
             parameters: self.conditions.parameters.clone(),
             start: self.model.run.start,
+            effort: None,
         };
         curve.carry(&flow, &[self.origin.time], start).ok()?;
         curve.circulation(0)

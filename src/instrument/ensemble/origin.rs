@@ -90,6 +90,13 @@ impl CloudOrigin {
         start.state(physics.system).ok()
     }
 
+    /// The state of the motion itself.
+    pub(super) fn own(&self, physics: Physics<'_>, parameters: &[f64]) -> Option<State> {
+        let (time, parameters) = (self.time, parameters.to_vec());
+        let start = Start { time, parameters, overrides: self.base.clone() };
+        start.state(physics.system).ok()
+    }
+
     /// Whether it has a closed curve around it.
     pub(super) fn has_boundary(&self) -> bool {
         !matches!(self.shape, CloudShape::Shell { .. })

@@ -149,7 +149,7 @@ fn pendulum(q: f64, velocity: f64, spacing: f64) -> Vec<f64> {
     let start = ready.system.initial(0.0, &[], &[]).unwrap();
     let method = (method_named("taylor").unwrap(), Settings::default());
     let system = System::clone(&ready.system);
-    let flow = SystemFlow { system, method, parameters: Vec::new(), start: 0.0 };
+    let flow = SystemFlow { system, method, parameters: Vec::new(), start: 0.0, effort: None };
     let times: Vec<f64> = (0..1024).map(|k| spacing * f64::from(k)).collect();
     let carried = flow.carry(&start, &times, &[0]);
     assert_eq!(carried.seen.len(), 1024);
