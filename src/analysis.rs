@@ -18,4 +18,4 @@ pub use inquiry::{Inquiry, InquiryAnswer};
 pub use landscape::{Curve, Grid, Landscape, Plane};
 pub use return_error::expected_return;
 pub use separation::{DistanceHistory, Slope, distance};
-pub use verdict::{Growth, LEFT, LOST, Verdict, rounding_floor};
+pub use verdict::{Errors, Growth, LEFT, LOST, Verdict, rounding_floor};

@@ -9,6 +9,7 @@ mod check;
 mod conservation;
 mod invariants;
 mod motion;
+mod own_method;
 mod start;
 
 pub use check::{false_claims, structure_diagnostics};

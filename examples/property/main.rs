@@ -17,6 +17,8 @@ mod jet;
 mod judge;
 #[path = "../../tests/it/property/oracle.rs"]
 mod oracle;
+#[path = "../../tests/it/property/processor_time.rs"]
+mod processor_time;
 #[path = "../../tests/it/property/random.rs"]
 mod random;
 #[path = "../../tests/it/property/shrink.rs"]

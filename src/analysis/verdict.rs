@@ -1,7 +1,8 @@
 //! The assessment of a quantity that should be conserved: at the rounding floor, oscillating within
 //! bounds, drifting away, or lost.
 //!
-//! In: the [`History`] of its distance from the reference. Out: a [`Verdict`]. Never here: where
+//! In: the [`History`] of its distance from the reference, and how the method's errors depend on the
+//! past. Out: a [`Verdict`]. Never here: where
 //! the values come from, or the law of a quantity that the physics itself changes.
 
 use super::history::{History, Stretch};
@@ -23,6 +24,16 @@ pub enum Verdict {
     Lost,
     /// Not conserved by the physics. Contains the law for its change, in Unicode mathematics.
     Broken(String),
+}
+
+/// How the errors of a method depend on the past.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Errors {
+    /// The error of an invariant is a function of the state, as the energy's is under a symplectic
+    /// method: where it has left its value it returns as the motion does.
+    OfState,
+    /// What is lost in a step stays lost.
+    Accumulated,
 }
 
 /// How a drift at the rounding floor grows.
@@ -57,7 +68,7 @@ impl Verdict {
     ///
     /// An oscillation that has not yet turned looks like a trend: the verdict on a short history
     /// may change as it grows longer.
-    pub fn of(distances: &History, greatest: f64, floor: f64) -> Verdict {
+    pub fn of(distances: &History, greatest: f64, floor: f64, errors: Errors) -> Verdict {
         let intervals = distances.stretches();
         if intervals.len() < FEWEST {
             return Verdict::Open;
@@ -67,7 +78,11 @@ impl Verdict {
         if greatest.max(distances.peak()) <= floor {
             return Verdict::Exact(growth(whole));
         }
-        match trend(whole).or_else(|| departure(whole, floor)) {
+        let left_at_once = || match errors {
+            Errors::Accumulated => early_departure(whole, floor),
+            Errors::OfState => None,
+        };
+        match trend(whole).or_else(|| departure(whole, floor)).or_else(left_at_once) {
             Some(slope) => Verdict::Secular(slope),
             None => Verdict::Bounded,
         }
@@ -175,6 +190,19 @@ const FAR: f64 = 8.0;
 /// chaotic motion under a Runge–Kutta method by 1.4 to 5, and the energy under a symplectic method
 /// by less than 0.7.
 const LEAVE: f64 = 1.2;
+
+/// The mean rate of change of a quantity that left its value within the first quarter and has not
+/// returned: afterwards it is farther from its reference than it oscillates.
+fn early_departure(intervals: &[Stretch], floor: f64) -> Option<f64> {
+    let later = &intervals[intervals.len() / 4..];
+    let greatest = later.iter().map(|s| s.greatest).fold(f64::MIN, f64::max);
+    let least = later.iter().map(|s| s.least).fold(f64::MAX, f64::min);
+    let moved = average(later, |s| s.mean);
+    let between = later[later.len() - 1].start - intervals[0].start;
+    // a random walk of rounding has a swing of its own
+    let has_left = moved.abs() > LEAVE * (greatest - least) && moved.abs() > floor;
+    has_left.then_some(moved / between)
+}
 
 /// The slope of the straight line through the means, and the root mean square of the residuals.
 fn line(intervals: &[Stretch]) -> (f64, f64) {

@@ -7,6 +7,7 @@ use super::brackets::false_brackets;
 use super::conservation::{known, open_claims};
 use super::invariants::false_count;
 use super::motion::ClaimedMotion;
+use super::own_method;
 use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::mechanics::{self, Equations, HamiltonJacobi};
 use crate::model::Model;
@@ -34,7 +35,10 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
         }
     };
     match ClaimedMotion::begin(model, equations, &system) {
-        Ok(motion) => motion.follow(model, equations, claims, &mut mistakes),
+        Ok(motion) => {
+            mistakes.extend(own_method::mistake(model, &system));
+            motion.follow(model, equations, claims, &mut mistakes);
+        }
         Err(mistake) => mistakes.push(mistake),
     }
     for e in mechanics::widened(model, equations) {

@@ -4,22 +4,20 @@
 //! not as the file has it, and for a motion that cannot start. Never here: what is proved symbolically.
 
 use super::conservation::Claim;
+use super::own_method::{self, LENGTH};
 use super::start;
 use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::expr::{Expr, Symbol};
 use crate::integrate::{self, Occurrence, Reached, Settings, method_named};
 use crate::mechanics::{Equations, Flow};
 use crate::model::{ExpectedValue, Model};
-use crate::system::{ChannelKind, MotionError, MotionErrorKind, Observer, State, System};
+use crate::system::{ChannelKind, MotionError, MotionErrorKind, Observer, System};
 
 /// The assumed relative error of the values of a motion where a rate is evaluated.
 const SLACK: f64 = 1e-9;
 
 /// The number of samples of the motion.
 const SAMPLES: u32 = 200;
-
-/// The duration of the motion if the file does not specify it.
-const LENGTH: f64 = 10.0;
 
 /// The work allowed for the claims of one file: the number of steps for a system whose equations
 /// have one term. Larger systems get fewer.
@@ -44,21 +42,6 @@ fn steps_for(equations: &Equations) -> u64 {
         Flow::Poisson { rates } => rates.clone(),
     };
     (WORK / (pool.reachable(&roots).len() as u64).max(1)).max(FEWEST_STEPS)
-}
-
-/// Whether the method that the file names, if it names one, can take a first step from a state.
-fn own_method_starts(model: &Model, system: &System, state: &State, parameters: &[f64]) -> bool {
-    let run = &model.run;
-    let Some(method) = method_named(&run.method).filter(|_| run.method != "auto") else {
-        return false;
-    };
-    let settings = Settings { step: run.step, tolerance: run.tolerance };
-    let Ok(mut course) = integrate::Propagator::new(system, method, settings, parameters) else {
-        return false;
-    };
-    let end = run.until.unwrap_or(run.start + LENGTH);
-    let begun = course.begin(state, parameters);
-    begun.and_then(|()| course.reach(end, end, &mut 1)).is_ok()
 }
 
 /// The motion against which claims are checked.
@@ -162,7 +145,8 @@ impl<'a> ClaimedMotion<'a> {
             motion.course.begin(&state, &parameters)
         });
         let fault = stepped.err().filter(|fault| fault.time == model.run.start);
-        let fault = fault.filter(|_| !own_method_starts(model, system, &state, &parameters));
+        let own = || own_method::first_step(model, system, &state, &parameters);
+        let fault = fault.filter(|_| !matches!(own(), Some(Ok(()))));
         match motion.at_the_start(model, equations, fault.as_ref()) {
             Some(mistake) => Err(mistake),
             None => {

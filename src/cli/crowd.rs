@@ -12,7 +12,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::{Map, Value};
 
 use super::failure::CommandError;
-use super::interrupt::Interrupt;
+use super::interrupt::{Interrupt, PORTION};
 use super::output::Output;
 use super::report::Header;
 use crate::ensemble::in_order;
@@ -93,16 +93,22 @@ pub(super) fn collect<T: Send>(
     Ok(results)
 }
 
-/// Writes all of a text. A file that is moved into place is waited for after a signal, and so is what a signal left.
+/// Writes all of a text. A file that is moved into place is waited for after a signal, and so is a reader that takes what
+/// a signal left.
 pub(super) fn write(
     mut out: Output,
     text: &str,
     interrupt: &Interrupt,
 ) -> Result<(), CommandError> {
-    if out.is_file() || interrupt.signal().is_some() {
+    if out.is_file() {
         interrupt.saves();
+    } else if interrupt.signal().is_some() {
+        interrupt.writes();
     }
-    out.write_all(text.as_bytes()).map_err(|error| out.failed(&error))?;
+    for portion in text.as_bytes().chunks(PORTION) {
+        out.write_all(portion).map_err(|error| out.failed(&error))?;
+        interrupt.taken();
+    }
     out.finish()
 }
 

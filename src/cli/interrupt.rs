@@ -5,7 +5,7 @@
 //! signals of the laboratory (`shell` has its own), or work inside a signal handler; the thread is an ordinary one.
 
 use std::fmt;
-use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicI32, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -26,6 +26,12 @@ const FINISH_TIME: Duration = Duration::from_millis(60);
 /// How much longer a file that is being moved into place is waited for.
 const SAVING: Duration = Duration::from_millis(1500);
 
+/// A reader that takes nothing for this long while the rest of the output is written to it is not waited for.
+const STALLED: Duration = Duration::from_millis(80);
+
+/// How much output is written at a time.
+pub(super) const PORTION: usize = 16_384;
+
 /// The interval of checks on a file that is being moved into place.
 const BETWEEN: Duration = Duration::from_millis(10);
 
@@ -45,8 +51,12 @@ struct SignalState {
     finish: Mutex<Option<Finish>>,
     /// Another component handles signals.
     aside: AtomicBool,
-    /// A file is being moved into place.
+    /// A file is being moved into place, or the rest of the output is written to a reader.
     saving: AtomicBool,
+    /// The reader need not be waited for unless it takes what is written.
+    reading: AtomicBool,
+    /// The portions that it has taken.
+    taken: AtomicU64,
 }
 
 impl fmt::Debug for SignalState {
@@ -96,6 +106,32 @@ impl Interrupt {
         self.0.saving.store(true, Ordering::Release);
     }
 
+    /// Declares that the rest of the output is written to a reader, which is waited for as long as it takes some.
+    pub(super) fn writes(&self) {
+        self.0.reading.store(true, Ordering::Release);
+        self.saves();
+    }
+
+    /// Declares that the reader has taken a portion.
+    pub(super) fn taken(&self) {
+        self.0.taken.fetch_add(1, Ordering::AcqRel);
+    }
+
+    /// Waits while something is being saved, up to a time.
+    fn wait_for_saving(&self, deadline: Instant) {
+        let taken = || self.0.taken.load(Ordering::Acquire);
+        let (mut known, mut since) = (taken(), Instant::now());
+        while self.0.saving.load(Ordering::Acquire) && Instant::now() < deadline {
+            thread::sleep(BETWEEN);
+            if taken() != known {
+                (known, since) = (taken(), Instant::now());
+            }
+            if self.0.reading.load(Ordering::Acquire) && since.elapsed() >= STALLED {
+                return;
+            }
+        }
+    }
+
     /// Declares that another component handles signals from now on.
     pub(super) fn stand_aside(&self) {
         self.0.aside.store(true, Ordering::Release);
@@ -126,8 +162,10 @@ impl Interrupt {
     fn wait(&self, signal: i32, finish: Finish) {
         thread::sleep(GRACE);
         let deadline = Instant::now() + SAVING;
-        while self.0.saving.load(Ordering::Acquire) && Instant::now() < deadline {
-            thread::sleep(BETWEEN);
+        self.wait_for_saving(deadline);
+        if self.0.saving.load(Ordering::Acquire) {
+            // the output is stuck, and so is whatever else would be written
+            leave(signal);
         }
         let interrupt = self.clone();
         let writer = thread::Builder::new().spawn(move || {
@@ -137,9 +175,7 @@ impl Interrupt {
         });
         drop(writer);
         thread::sleep(FINISH_TIME);
-        while self.0.saving.load(Ordering::Acquire) && Instant::now() < deadline {
-            thread::sleep(BETWEEN);
-        }
+        self.wait_for_saving(deadline);
         leave(signal);
     }
 }

@@ -152,7 +152,6 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         Some(_) => Some(Hamiltonian::of(model, &mut equations, &parameters).map_err(failed)?),
         None => None,
     };
-    interrupt.ends_by_itself(|| ());
     let time = model.symbols.time;
     let at = |equations: &Equations, written: &PathFunctions, t: f64, order: usize| -> Vec<f64> {
         let point = constants.clone().with([(time, t)]);
@@ -254,6 +253,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         varied.push(VariedPath { epsilon, action, abbreviated });
     }
     let found = JudgedPath { action, abbreviated, nature, conjugate, rows, varied };
+    // until here there is nothing to finish, so that a signal ends the search at once
+    interrupt.ends_by_itself(|| ());
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
     crowd::write(out, &found.written(arguments.format, &laid), interrupt)
 }

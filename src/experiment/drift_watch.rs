@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use super::gauges::{GaugeInputs, Gauges};
+use crate::analysis::Errors;
 use crate::mechanics::{Equations, Valuation};
 use crate::model::Model;
 use crate::system::{MotionError, Observer, State, System, TermWatch};
@@ -91,6 +92,7 @@ impl DriftWatch {
         GaugeInputs {
             time: state.time,
             steps: self.steps,
+            errors: Errors::Accumulated,
             values: &self.values,
             residuals: &[],
             action: state.values.get(self.system.driven_len()).copied().unwrap_or(f64::NAN),

@@ -14,7 +14,7 @@ use super::attitude::AttitudeGauge;
 use super::law::{EnergyLaw, LONGEST};
 use super::residual::ResidualGauge;
 use super::{FoundConstant, Gauge, Reference};
-use crate::analysis::rounding_floor;
+use crate::analysis::{Errors, rounding_floor};
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Conserved, Equations, Valuation, casimir_rate};
 use crate::model::{Mechanics, Model};
@@ -274,10 +274,11 @@ impl Gauges {
     /// The gauges as shown.
     pub(super) fn show(&self, now: &GaugeInputs<'_>) -> Arc<[Gauge]> {
         let floor = self.floor(now.steps);
-        let show =
-            |monitor: &InvariantMonitor| monitor.show(now.values, self.reference_time, floor);
+        let show = |monitor: &InvariantMonitor| {
+            monitor.show(now.values, self.reference_time, floor, now.errors)
+        };
         let mut shown: Vec<Gauge> = self.monitors.iter().map(show).collect();
-        shown.extend(self.followed.show(now.values, now.time, floor, &self.places));
+        shown.extend(self.followed.show((now.time, now.values), floor, &self.places, now.errors));
         contradict(&mut shown);
         let attitude = self.attitude.iter().map(|attitude| attitude.show(now.values));
         let constraints = self.residuals.iter().enumerate().map(|(k, residual)| {
@@ -357,6 +358,7 @@ fn changing_casimirs(model: &Model, equations: &Equations) -> Vec<(usize, (Strin
 pub(super) struct GaugeInputs<'a> {
     pub(super) time: f64,
     pub(super) steps: u64,
+    pub(super) errors: Errors,
     /// The value of every channel.
     pub(super) values: &'a [f64],
     /// The residual of each constraint, in position and in velocity.

@@ -6,8 +6,10 @@
 use super::gauges::{GaugeInputs, Gauges};
 use super::step_log::StepLog;
 use super::step_sampler::StepSampler;
+use crate::analysis::Errors;
 use crate::integrate::{
-    self, Method, MethodError, Occurrence, OccurrenceKind, Reached, Settings, Stepping, Unstable,
+    self, Method, MethodError, Occurrence, OccurrenceKind, Preserves, Reached, Settings, Stepping,
+    Unstable,
 };
 use crate::mechanics::Valuation;
 use crate::system::{MotionError, Observer, State, System};
@@ -451,6 +453,10 @@ impl ObservedMotion {
         GaugeInputs {
             time: self.time(),
             steps: self.steps(),
+            errors: match self.method().preserves {
+                Preserves::Nothing => Errors::Accumulated,
+                Preserves::Symplectic | Preserves::SymplecticReversible => Errors::OfState,
+            },
             values: &self.values,
             residuals: &self.residuals,
             terms: &self.watch.terms,

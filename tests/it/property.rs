@@ -7,6 +7,7 @@ mod extrapolation;
 mod jet;
 mod judge;
 mod oracle;
+mod processor_time;
 mod random;
 mod shrink;
 mod tree;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use phaselab::analysis::{History, Verdict};
+use phaselab::analysis::{Errors, History, Verdict};
 use phaselab::diagnostic::Document;
 use phaselab::integrate::{METHODS, Settings};
 use phaselab::mechanics::derive;
@@ -45,7 +45,7 @@ fn verdict(floor: f64, signal: impl Fn(f64) -> f64) -> &'static str {
         let time = f64::from(k) / f64::from(count);
         history.push(time, signal(time));
     }
-    Verdict::of(&history, 0.0, floor).word()
+    Verdict::of(&history, 0.0, floor, Errors::OfState).word()
 }
 
 /// An oscillation of amplitude 1 from peak to peak, of four samples.

@@ -3,6 +3,7 @@
 //! In: formulas, and the values of the channels at some times. Out: [`Gauge`]s. Never here: how they were found.
 
 use super::invariant_monitor::{InvariantMonitor, Subject};
+use crate::analysis::Errors;
 use crate::experiment::{FoundConstant, Gauge};
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{Equations, Valuation};
@@ -106,12 +107,13 @@ impl Followed {
     /// The gauges as shown.
     pub(super) fn show(
         &self,
-        values: &[f64],
-        time: f64,
+        (time, values): (f64, &[f64]),
         floor: f64,
         places: &[(Symbol, usize)],
+        errors: Errors,
     ) -> Vec<Gauge> {
         let (values, _) = self.split(time, values, places);
-        self.monitors.iter().map(|monitor| monitor.show(&values, self.since, floor)).collect()
+        let show = |monitor: &InvariantMonitor| monitor.show(&values, self.since, floor, errors);
+        self.monitors.iter().map(show).collect()
     }
 }

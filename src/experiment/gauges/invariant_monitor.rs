@@ -2,7 +2,7 @@
 //!
 //! In: values, and the size of the moving terms. Out: a [`Gauge`]. Never here: where the values come from.
 
-use crate::analysis::{History, LEFT, LOST, Stretch, Verdict};
+use crate::analysis::{Errors, History, LEFT, LOST, Stretch, Verdict};
 use crate::experiment::{Gauge, Reference};
 use crate::expr::Expr;
 use crate::system::{BatchTerms, TermSums, TermWatch};
@@ -266,7 +266,7 @@ impl InvariantMonitor {
         if moving > 0.0 { moving } else { self.rounding }
     }
 
-    pub(super) fn show(&self, values: &[f64], since: f64, floor: f64) -> Gauge {
+    pub(super) fn show(&self, values: &[f64], since: f64, floor: f64, errors: Errors) -> Gauge {
         let value = values[self.channel];
         let (scale, rounding) = (self.scale(), floor * self.rounding);
         // a rounding error is small compared with the terms
@@ -283,7 +283,7 @@ impl InvariantMonitor {
         let verdict = match &self.broken {
             Some(law) => Verdict::Broken(law.clone()),
             None if beyond && max_drift > LOST => Verdict::Lost,
-            None => match Verdict::of(&self.distances, self.farthest, rounding) {
+            None => match Verdict::of(&self.distances, self.farthest, rounding, errors) {
                 Verdict::Secular(slope) => Verdict::Secular(slope / scale),
                 other => other,
             },

@@ -1,13 +1,13 @@
 //! Verdicts on artificial drifts of every kind.
 
-use phaselab::analysis::{Growth, History, Verdict, rounding_floor};
+use phaselab::analysis::{Errors, Growth, History, Verdict, rounding_floor};
 
 const FLOOR: f64 = 1e-12;
 
 /// The verdict on `count` values of `drift` at times 0, 0.1, ….
 fn verdict(count: u32, drift: impl FnMut(f64) -> f64) -> Verdict {
     let history = history(count, drift);
-    Verdict::of(&history, history.peak(), FLOOR)
+    Verdict::of(&history, history.peak(), FLOOR, Errors::OfState)
 }
 
 fn history(count: u32, mut drift: impl FnMut(f64) -> f64) -> History {
@@ -272,7 +272,7 @@ fn stretches_are_of_time_and_not_of_looks() {
     assert_eq!(history.len(), 101_000);
     let late = history.stretches().iter().filter(|s| s.start >= 1000.0).count();
     assert!((5..=8).contains(&late), "{late}");
-    assert!(secular(&Verdict::of(&history, 1e-3, FLOOR)).is_some());
+    assert!(secular(&Verdict::of(&history, 1e-3, FLOOR, Errors::OfState)).is_some());
 }
 
 #[test]
@@ -289,4 +289,32 @@ fn an_older_value_goes_where_it_belongs() {
 fn the_floor_is_a_few_units_and_a_walk_of_four_deviations() {
     assert_eq!(rounding_floor(0), 16.0 * f64::EPSILON);
     assert_eq!(rounding_floor(10_000), 416.0 * f64::EPSILON);
+}
+
+#[test]
+fn what_left_at_once_and_stays_away_is_secular_where_errors_accumulate() {
+    let verdict = |errors, drift: &dyn Fn(f64) -> f64| {
+        let history = history(5000, drift);
+        Verdict::of(&history, history.peak(), FLOOR, errors)
+    };
+    // it leaves in the first step and wobbles by this much
+    let left = |wobble: f64| {
+        move |t: f64| if t == 0.0 { 0.0 } else { 1.0 + 0.5 * wobble * (3.0 * t).sin() }
+    };
+    assert!(secular(&verdict(Errors::Accumulated, &left(0.01))).is_some());
+    // 1.2 of its swing
+    assert!(secular(&verdict(Errors::Accumulated, &left(1.0 / 1.25))).is_some());
+    assert_eq!(verdict(Errors::Accumulated, &left(1.0 / 1.15)), Verdict::Bounded);
+    // under a symplectic method it returns where the state does
+    assert_eq!(verdict(Errors::OfState, &left(0.01)), Verdict::Bounded);
+    // where it returns before the end it has not left
+    let back = |t: f64| if t == 0.0 || t > 400.0 && t < 401.0 { 0.0 } else { 1.0 };
+    assert_eq!(verdict(Errors::Accumulated, &back), Verdict::Bounded);
+    // beyond the rounding floor
+    let rounding = |size: f64| {
+        let history = history(5000, move |t| size * f64::from(u8::from(t > 0.0)));
+        Verdict::of(&history, 0.0, 1.0, Errors::Accumulated)
+    };
+    assert!(matches!(rounding(0.95), Verdict::Exact(_)));
+    assert!(secular(&rounding(1.05)).is_some());
 }

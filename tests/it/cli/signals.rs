@@ -238,6 +238,23 @@ fn a_section_that_is_ended_has_what_it_has() {
     assert!(stopped, "no crossings in {TRIES} tries");
 }
 
+/// What a section has when it is ended is written to whoever reads; a reader that takes nothing is not waited for.
+#[test]
+fn a_section_whose_reader_is_stalled_is_ended() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("system.toml"), PENDULUM).unwrap();
+    // many columns, so that a pipe is soon too small
+    let columns = vec!["theta"; 200].join(",");
+    let (columns, json) = (format!("--columns={columns}"), "--format=json");
+    let arguments = ["section", "system.toml", "--on=theta", "--until=1e9", &columns, json];
+    let start = || command(home.path(), &arguments).stdout(Stdio::piped()).spawn().unwrap();
+    let ready = |child: &mut Child| {
+        watching(child);
+        thread::sleep(Duration::from_secs(2));
+    };
+    ends(start, ready, Signal::TERM, 143);
+}
+
 /// Under `nohup` the program must continue when the terminal hangs up.
 #[test]
 fn nohup_is_heeded() {

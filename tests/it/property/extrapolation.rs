@@ -40,7 +40,12 @@ struct Walker<'a> {
     tolerance: f64,
     branches: Branches,
     budget: u64,
+    /// The greatest component so far: errors are relative to it, as those of the program's results are.
+    scale: f64,
 }
+
+/// The scale of a motion that has not left the origin.
+const LEAST_SCALE: f64 = 1e-3;
 
 /// An attempted step.
 struct Step {
@@ -57,7 +62,8 @@ pub(crate) fn follow(
     tolerance: f64,
     budget: u64,
 ) -> Result<Arrival, Lost> {
-    let mut walker = Walker { case, tolerance, branches: Branches::default(), budget };
+    let scale = start.iter().fold(LEAST_SCALE, |most, x| most.max(x.abs()));
+    let mut walker = Walker { case, tolerance, branches: Branches::default(), budget, scale };
     let mut state = start.to_vec();
     let mut time = 0.0;
     let mut way = Vec::new();
@@ -74,8 +80,8 @@ pub(crate) fn follow(
         if stopped {
             return Ok(Arrival { time, state, stopped, way });
         }
-        let budget = walker.budget;
-        walker = Walker { case: &free, tolerance, branches: Branches::default(), budget };
+        let Walker { budget, scale, .. } = walker;
+        walker = Walker { case: &free, tolerance, branches: Branches::default(), budget, scale };
     }
     let stopped = walker.to(&mut time, &mut state, case.length, &mut way)?;
     Ok(Arrival { time, state, stopped, way })
@@ -159,6 +165,7 @@ impl Walker<'_> {
                 let last = end - *time <= h * (1.0 + 1e-12);
                 *time = if last { end } else { *time + h };
                 *state = step.state;
+                self.scale = state.iter().fold(self.scale, |most, x| most.max(x.abs()));
                 way.push((*time, state.clone()));
                 let factor = 0.9 * (step.error + 1e-10).powf(-1.0 / (2.0 * COLUMNS as f64 - 1.0));
                 h *= factor.clamp(0.5, 4.0);
@@ -240,7 +247,10 @@ impl Walker<'_> {
             .iter()
             .zip(&previous)
             .zip(state)
-            .map(|((a, b), x)| (a - b).abs() / (self.tolerance * (1.0 + a.abs().max(x.abs()))))
+            .map(|((a, b), x)| {
+                let size = (1.0 + a.abs().max(x.abs())).min(self.scale.max(a.abs()));
+                (a - b).abs() / (self.tolerance * size)
+            })
             .fold(0.0, |most: f64, e| if e.is_nan() { f64::INFINITY } else { most.max(e) });
         if error.is_finite() && error <= 1.0 {
             self.rates(time + h, &state_after)?;

@@ -157,6 +157,12 @@ pub(crate) fn energy(case: &Case, time: f64, state: &[f64]) -> (f64, f64) {
     }
 }
 
+/// A bound of the rounding error of the kinetic and the potential terms of the energy.
+pub(crate) fn rounding_of_terms(case: &Case, time: f64, state: &[f64]) -> f64 {
+    let at = point(case, time, state);
+    case.kinetic.iter().chain(&case.potential).map(|tree| tree.rounded(&at).1).sum()
+}
+
 /// The momentum of a coordinate of a Lagrangian.
 pub(crate) fn momentum(case: &Case, time: f64, state: &[f64], i: usize) -> f64 {
     let at = point(case, time, state);

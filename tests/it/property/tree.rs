@@ -228,6 +228,44 @@ impl Tree {
         }
     }
 
+    /// The value with a bound of its rounding error, which cancellation makes large: ln(cosh(u)) near 0.
+    pub(crate) fn rounded(&self, point: &[f64]) -> (f64, f64) {
+        let last_digit = |value: f64, error: f64| (value, error + f64::EPSILON * value.abs());
+        match self {
+            Tree::Number(value) => (*value, 0.0),
+            Tree::Variable(i) => last_digit(point[*i], 0.0),
+            Tree::Sum(terms) => terms.iter().fold((0.0, 0.0), |(sum, error), term| {
+                let (value, own) = term.rounded(point);
+                last_digit(sum + value, error + own)
+            }),
+            Tree::Product(factors) => {
+                factors.iter().fold((1.0, 0.0), |(product, error), factor| {
+                    let (value, own) = factor.rounded(point);
+                    last_digit(product * value, error * value.abs() + own * product.abs())
+                })
+            }
+            Tree::Quotient(above, below) => {
+                let ((a, of_a), (b, of_b)) = (above.rounded(point), below.rounded(point));
+                last_digit(a / b, of_a / b.abs() + of_b * (a / (b * b)).abs())
+            }
+            Tree::Power(base, n) => {
+                let (u, error) = base.rounded(point);
+                let slope = f64::from(*n) * u.powi(*n - 1);
+                last_digit(u.powi(*n), error * slope.abs())
+            }
+            Tree::Smooth(function, argument) => {
+                let (u, error) = argument.rounded(point);
+                let [value, slope, _] = function.values(u);
+                last_digit(value, error * slope.abs())
+            }
+            Tree::Kinked(function, argument) => {
+                let (u, error) = argument.rounded(point);
+                let [value, slope, _] = function.values(u, u > 0.0);
+                last_digit(value, error * slope.abs())
+            }
+        }
+    }
+
     /// Whether the variable occurs.
     pub(crate) fn holds(&self, i: usize) -> bool {
         match self {
