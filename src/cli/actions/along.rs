@@ -84,6 +84,7 @@ fn followed(
         method: (laid.method, laid.settings),
         parameters: start.parameters.clone(),
         start: start.time,
+        effort: None,
     };
     let times: Vec<f64> = divisions(start.time, until, count).collect();
     let seen = flow.carry(&state, &times, &channels).seen;
