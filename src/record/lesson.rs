@@ -386,7 +386,9 @@ impl Lesson {
 
     /// Continues from what was said.
     pub(super) fn go_on(&mut self) {
-        self.look_back();
+        if let Some(view) = self.view.take() {
+            view.look_back(&mut self.runner.lab);
+        }
         let last = self.runner.next.checked_sub(1).and_then(|at| self.runner.script.steps.get(at));
         let personal = |step: &ScriptStep| {
             matches!(step, ScriptStep::Lesson(LessonStep::Task { .. } | LessonStep::Free(_)))

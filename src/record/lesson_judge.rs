@@ -5,7 +5,7 @@
 
 use super::assertion::{self, AssertionResult};
 use super::lesson::{Lesson, paragraph};
-use super::lesson_finding::in_words;
+use super::lesson_finding::{in_words, short};
 use super::lesson_question::{AnswerChoice, Truth};
 use super::script::{AskedAxis, LineText};
 use crate::app::{PredictedAxis, Prediction};
@@ -199,9 +199,4 @@ fn spoken(right: bool) -> (ParagraphKind, &'static str) {
 pub(super) fn letter(index: usize, text: &str) -> String {
     let letter = char::from(b'a' + (index.min(25) as u8));
     format!("{letter}) {text}")
-}
-
-/// A number with four digits, for display only.
-pub(super) fn short(x: f64) -> String {
-    significant(x, 4, 1e-3..1e6)
 }

@@ -5,6 +5,7 @@
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
 use super::lesson::{Lesson, LessonStage, paragraph};
+use super::lesson_look::LessonView;
 use super::lesson_question::{GivenAnswer, QuestionKind};
 use crate::app::{Event, key as keys};
 use crate::view::lesson::ParagraphKind;
@@ -39,7 +40,7 @@ impl Lesson {
         }
         let nothing = format!("{} does nothing here", keys::name(&key));
         let reads = matches!(self.stage, LessonStage::Said | LessonStage::Choosing(_));
-        if reads && self.look_around(key) {
+        if reads && self.looks_around(key) {
             return Pressed::Taken;
         }
         let goes_on = matches!(key.code, KeyCode::Enter | KeyCode::Char(' ') | KeyCode::F(9));
@@ -83,7 +84,7 @@ impl Lesson {
                     None => *wrong = Some("This is not a number; write it as 1.5 or 3/2.".into()),
                 },
                 KeyCode::Tab | KeyCode::BackTab => {
-                    self.look_around(key);
+                    self.looks_around(key);
                 }
                 _ => self.notice = Some(nothing),
             },
@@ -112,6 +113,10 @@ impl Lesson {
             }
         }
         Pressed::Taken
+    }
+
+    fn looks_around(&mut self, key: KeyEvent) -> bool {
+        LessonView::look_around(&mut self.view, &mut self.runner.lab, key)
     }
 }
 

@@ -5,7 +5,7 @@
 
 use crossterm::event::{KeyCode, KeyEvent};
 
-use super::lesson::Lesson;
+use super::headless_lab::HeadlessLab;
 use crate::app::{Event, Page, Pane};
 
 /// What was seen before somebody looked around.
@@ -16,10 +16,15 @@ pub(super) struct LessonView {
     front: Option<usize>,
 }
 
-impl Lesson {
-    /// Handles a key that only changes what is seen. Returns whether it is one.
-    pub(super) fn look_around(&mut self, key: KeyEvent) -> bool {
-        let app = &mut self.runner.lab.app;
+impl LessonView {
+    /// Handles a key that only changes what is seen, and keeps the first view of all in `before`. Returns whether it is
+    /// one.
+    pub(super) fn look_around(
+        before: &mut Option<LessonView>,
+        host: &mut HeadlessLab,
+        key: KeyEvent,
+    ) -> bool {
+        let app = &host.app;
         let page_scrolls = app.page != Page::Lab;
         let looks = match key.code {
             KeyCode::Tab | KeyCode::BackTab | KeyCode::Char('1'..='4' | '9') => true,
@@ -28,17 +33,16 @@ impl Lesson {
         };
         let Some(lab) = app.lab.as_ref().filter(|_| looks) else { return false };
         let view = LessonView { page: app.page, focus: lab.focus, front: lab.front };
-        self.view.get_or_insert(view);
-        self.runner.lab.happen(Event::Key(key));
+        before.get_or_insert(view);
+        host.happen(Event::Key(key));
         true
     }
 
     /// Returns to what was seen before somebody looked around, so that what follows does not depend on it.
-    pub(super) fn look_back(&mut self) {
-        let Some(LessonView { page, focus, front }) = self.view.take() else { return };
-        let app = &mut self.runner.lab.app;
-        app.page = page;
-        if let Some(lab) = &mut app.lab {
+    pub(super) fn look_back(self, host: &mut HeadlessLab) {
+        let LessonView { page, focus, front } = self;
+        host.app.page = page;
+        if let Some(lab) = &mut host.app.lab {
             (lab.focus, lab.front) = (focus, front);
         }
     }
