@@ -145,11 +145,15 @@ impl Instrument for Transformation {
             grid.map(|line| (GRID, Layer::Line(line.clone(), stroke))).collect();
         let branches = mapped.and_then(|mapped| mapped.branches.as_deref());
         let at = branches.map(|_| with_image(plot, present));
+        let mut rings = 0;
         if let (Some(branches), Some(at)) = (branches, &at) {
             let dim = Stroke { ink: Ink::Level, covering: Some(DIM) };
             layers.extend(branches.lines.iter().map(|line| (GRID, Layer::Line(line.clone(), dim))));
-            let images = branches.images(at).into_iter();
-            layers.extend(images.map(|image| (NOW, Layer::Point(image, Sign::Ring, Ink::Level))));
+            let images = branches.images(at);
+            rings = images.len();
+            layers.extend(
+                images.into_iter().map(|image| (NOW, Layer::Point(image, Sign::Ring, Ink::Level))),
+            );
         }
         layers.extend([
             (TRAIL, Layer::Companions([x, y])),
@@ -163,10 +167,14 @@ impl Instrument for Transformation {
             _ => judged(answer).map_or_else(Vec::new, |judged| judged.lines.clone()),
         };
         lines.extend(solved(plot, present).map(str::to_owned));
-        match branches.map_or(0, Branches::others) {
-            0 => {}
-            1 => lines.push("ring, dim grid: the other branch".to_owned()),
-            n => lines.push(format!("rings, dim grids: {n} other branches")),
+        match (branches.map_or(0, Branches::others), rings) {
+            (0, _) => {}
+            (1, 0) => {
+                lines.push("dim grid: the other branch, which does not lead to here".to_owned())
+            }
+            (1, _) => lines.push("ring, dim grid: the other branch".to_owned()),
+            (n, k) if n == k => lines.push(format!("rings, dim grids: {n} other branches")),
+            (n, k) => lines.push(format!("rings, dim grids: {n} other branches, {k} lead to here")),
         }
         layers.push((NOW, Layer::Legend(lines)));
         let upwards = Upwards::Channel(y, range(plot, present, answer, 1));

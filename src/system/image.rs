@@ -4,7 +4,8 @@
 //! there is none. Never here: whether the map is canonical.
 //!
 //! The relations are solved by Newton's method from the last image. At a caustic, det ∂²F/∂old∂new = 0, the branch ends;
-//! the state after the first one without an image may take another branch.
+//! the state after the first one without an image may take another branch. Where the relations only break down at a place, as
+//! ½ q² cot Q does at q = 0, the image goes on as it went before.
 //! Source: *The Principles of Dynamics*, § 3.2.1.
 
 use std::sync::Arc;
@@ -29,6 +30,9 @@ const ROUNDING: f64 = 1e-25;
 
 /// If the first step leaves at most this part of the residual, it leads to the solution nearest to the guess.
 const TAME: f64 = 0.25;
+
+/// An image went on evenly if it is off by less than this part of the way.
+const EVEN: f64 = 0.1;
 
 /// The numbers of parts into which the way from the last state is divided.
 const PARTS: [u32; 4] = [1, 4, 16, 64];
@@ -85,6 +89,25 @@ struct Known {
     time: DoubleDouble,
     state: Vec<DoubleDouble>,
     image: Vec<DoubleDouble>,
+    /// The rate at which it came here; empty where nothing was known before.
+    rate: Vec<DoubleDouble>,
+}
+
+impl Known {
+    /// The image at a time if it goes on evenly.
+    fn extrapolated(&self, time: DoubleDouble) -> Vec<DoubleDouble> {
+        let gone = time - self.time;
+        self.image.iter().zip(&self.rate).map(|(&x, &rate)| x + rate * gone).collect()
+    }
+
+    /// The rate from here to an image at another time; empty if that is the same.
+    fn rate_to(&self, time: DoubleDouble, image: &[DoubleDouble]) -> Vec<DoubleDouble> {
+        let gone = time - self.time;
+        if gone == DoubleDouble::ZERO {
+            return Vec::new();
+        }
+        image.iter().zip(&self.image).map(|(&x, &before)| (x - before) / gone).collect()
+    }
 }
 
 impl Image {
@@ -121,15 +144,20 @@ impl Image {
         out: &mut [DoubleDouble],
     ) {
         let followed = self.last.take().map(|known| (self.follow(&known, time, state), known));
+        let mut rate = Vec::new();
         let image = match followed {
-            Some((Some(image), _)) => Some(image),
+            Some((Some(image), known)) => {
+                rate = known.rate_to(time, &image);
+                Some(image)
+            }
             // one state without an image parts what lies on two branches
             Some((None, known)) if !self.lost => {
                 self.last = Some(known);
                 None
             }
             Some((None, known)) => {
-                let found = self.search(time, state, &known.image);
+                let last = [known.extrapolated(time), known.image.clone()];
+                let found = self.search(time, state, &last);
                 self.last = Some(known);
                 found
             }
@@ -139,7 +167,7 @@ impl Image {
         match image {
             Some(image) => {
                 out.copy_from_slice(&image);
-                self.last = Some(Known { time, state: state.to_vec(), image });
+                self.last = Some(Known { time, state: state.to_vec(), image, rate });
             }
             None => out.fill(DoubleDouble::from(f64::NAN)),
         }
@@ -152,6 +180,9 @@ impl Image {
         time: DoubleDouble,
         state: &[DoubleDouble],
     ) -> Option<Vec<DoubleDouble>> {
+        if let Some(image) = self.ahead(known, time, state) {
+            return Some(image);
+        }
         PARTS.into_iter().find_map(|parts| {
             let mut image = known.image.clone();
             for part in 1..=parts {
@@ -172,18 +203,38 @@ impl Image {
         })
     }
 
+    /// The image that is where a known one would be by now if it went on evenly; `None` if there is none so near that the way
+    /// here was nearly even.
+    fn ahead(
+        &mut self,
+        known: &Known,
+        time: DoubleDouble,
+        state: &[DoubleDouble],
+    ) -> Option<Vec<DoubleDouble>> {
+        let guess = known.extrapolated(time);
+        if guess.len() < self.len() {
+            return None;
+        }
+        let apart = |a: &[DoubleDouble], b: &[DoubleDouble]| {
+            a.iter().zip(b).map(|(&a, &b)| (a - b).value().abs()).fold(0.0, f64::max)
+        };
+        self.inputs[..state.len()].copy_from_slice(state);
+        let (found, _) = self.newton(time, &guess)?;
+        (apart(&found, &guess) <= EVEN * apart(&guess, &known.image)).then_some(found)
+    }
+
     /// An image by Newton's method from several guesses.
     fn search(
         &mut self,
         time: DoubleDouble,
         state: &[DoubleDouble],
-        last: &[DoubleDouble],
+        last: &[Vec<DoubleDouble>],
     ) -> Option<Vec<DoubleDouble>> {
         let n = self.len();
         self.inputs[..state.len()].copy_from_slice(state);
         let doubles = |guess: Vec<f64>| guess.into_iter().map(DoubleDouble::from).collect();
-        let given = [last.to_vec(), doubles(self.example.clone())];
-        let given = given.into_iter().filter(|guess: &Vec<DoubleDouble>| guess.len() == n);
+        let example = doubles(self.example.clone());
+        let given = last.iter().cloned().chain([example]).filter(|guess| guess.len() == n);
         let spread = guesses(n).map(doubles);
         given.chain(spread).find_map(|guess| Some(self.newton(time, &guess)?.0))
     }

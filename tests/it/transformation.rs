@@ -1,5 +1,7 @@
 //! The orbit in the new variables of a transformation: the grid of the old ones, and what is said of the map.
 
+mod branches;
+
 use phaselab::app::{App, Event, Pane};
 use phaselab::diagnostic::Document;
 use phaselab::experiment::Prepared;

@@ -103,3 +103,22 @@ fn a_mistake_is_reported_at_its_place_in_the_whole_text() {
         assert!(mistake.message.contains(says), "{text}: {mistake:?}");
     }
 }
+
+/// In the new variables of a map the same bracket, at any time.
+#[test]
+fn a_bracket_is_answered_in_the_new_variables_too() {
+    let text = include_str!("../../../presets/canonical/moving-axes.toml");
+    let model = preset::read(text).unwrap_or_else(|mistakes| panic!("{mistakes:?}")).model;
+    let equations = derive(&model).unwrap();
+    let inquiry = ask(&(model, equations), "X, p_x");
+    let InquiryAnswer::Bracket { charts, .. } = &inquiry.answer else { panic!("a bracket") };
+    let told: Vec<(String, String)> = charts
+        .iter()
+        .map(|chart| {
+            let bracket = chart.bracket.as_ref().expect("a closed form");
+            (inquiry.variables(chart, false), inquiry.written(*bracket, false))
+        })
+        .collect();
+    let expected = [("X, Y, PX, PY", "cos(Omega*t)"), ("x1, x2, p1, p2", "cos(Omega*t)")];
+    assert_eq!(told, expected.map(|(a, b)| (a.to_owned(), b.to_owned())));
+}

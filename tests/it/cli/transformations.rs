@@ -308,3 +308,32 @@ fn of_mixed_types_the_root_near_the_identity_is_taken() {
         close(column(&rows, "A2")[k], 0.5 * y[k] * (1.0 + root), 1e-13);
     }
 }
+
+/// An F1 of an oscillator breaks down at q = 0, where cot Q is infinite: the image goes on as it went before, by turns.
+#[test]
+fn an_image_goes_on_beyond_a_place_where_its_relations_break_down() {
+    let file = "title = \"T\"\n[coordinates]\nq = { initial = 1.0, momentum = 0.3 }\n[hamiltonian]\n\
+                H = \"p_q^2/2 + q^2/2\"\n[[transformations]]\nname = \"angle\"\nkind = \"F1\"\n\
+                F = \"q^2/(2*tan(Q)) + q^2*Q^3/5000\"\n";
+    let words = ["run", "system.toml", "--until=7", "--every=0.25", "--observe=Q", "--observe=P"];
+    let found = with_file(file, &[&words[..], &["--format=json"]].concat()).json();
+    let names = found["columns"].as_array().expect("columns");
+    let place = |name: &str| names.iter().position(|known| known == name).expect("a column");
+    let rows = found["rows"].as_array().expect("rows");
+    let rows: Vec<[f64; 5]> = rows
+        .iter()
+        .filter(|row| !row[place("Q")].is_null())
+        .map(|row| ["t", "q", "p_q", "Q", "P"].map(|name| row[place(name)].as_f64().unwrap()))
+        .collect();
+    assert_eq!(rows.len(), 29, "{found}");
+    for pair in rows.windows(2) {
+        let [[before, .., angle, _], [time, q, p, next, momentum]] = pair else { panic!("pairs") };
+        let rate = (next - angle) / (time - before);
+        assert!((0.8..1.2).contains(&rate), "from {angle} to {next} at {time}");
+        // p = ∂F/∂q, P = −∂F/∂Q
+        let expected = q * (next.cos() / next.sin() + next.powi(3) / 2500.0);
+        assert!((p - expected).abs() < 1e-10, "{pair:?}");
+        let expected = q * q * (0.5 / next.sin().powi(2) - 3.0 * next * next / 5000.0);
+        assert!((momentum - expected).abs() < 1e-10, "{pair:?}");
+    }
+}
