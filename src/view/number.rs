@@ -68,6 +68,34 @@ pub fn with_minus_signs(text: &str, glyphs: Glyphs) -> String {
     out
 }
 
+/// Replaces the exponents of numbers in a text by powers of ten as these glyphs have them: `3e−16` by `3×10⁻¹⁶`.
+pub fn with_powers(text: &str, glyphs: Glyphs) -> String {
+    if glyphs.is_ascii() {
+        return text.to_owned();
+    }
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(at) = rest.find('e') {
+        let (before, after) = (&rest[..at], &rest[at + 1..]);
+        let sign = after.chars().next().filter(|c| matches!(c, '-' | '−'));
+        let digits = &after[sign.map_or(0, char::len_utf8)..];
+        let count = digits.chars().take_while(char::is_ascii_digit).count();
+        let ends = !digits[count..].starts_with(char::is_alphanumeric);
+        let word = before.rsplit(|c: char| !c.is_alphanumeric() && c != '.').next().unwrap_or("");
+        let mantissa = !word.is_empty() && word.chars().all(|c| c.is_ascii_digit() || c == '.');
+        let exponent = digits[..count].parse::<i32>().ok().filter(|_| mantissa && ends);
+        out.push_str(before);
+        if let Some(exponent) = exponent {
+            out.push_str(&power(if sign.is_some() { -exponent } else { exponent }, glyphs));
+            rest = &digits[count..];
+        } else {
+            out.push('e');
+            rest = after;
+        }
+    }
+    out + rest
+}
+
 /// Formats a power of ten as a factor: `×10⁻³`, or `x1e-3`.
 pub fn power(exponent: i32, glyphs: Glyphs) -> String {
     if glyphs.is_ascii() { format!("x1e{exponent}") } else { format!("×10{}", raised(exponent)) }
