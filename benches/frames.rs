@@ -3,7 +3,8 @@
 //!
 //! `cargo bench --bench frames` prints a line for each system and each depth of colour: the mean bytes of a frame in ten
 //! seconds of motion at 80 × 24, thirty frames a second, after the first two seconds. Then a line for each system: the
-//! median time of a frame at 120 × 40 over a full trail, both ways in turn.
+//! median time of a frame at 120 × 40 over a full trail, both ways in turn. `-- NAME…` prints only these lines, for the systems
+//! that are named; `-- all` prints the mean bytes for every preset, in true colour, at 80 × 24 and 120 × 40, and their means.
 
 #![allow(clippy::print_stdout, reason = "a benchmark reports on the terminal")]
 
@@ -36,6 +37,7 @@ struct Motion {
     app: App,
     experiment: Experiment,
     look: RenderStyle,
+    painter: Painter,
 }
 
 impl Motion {
@@ -50,7 +52,7 @@ impl Motion {
         let loaded = Loaded { name, epoch: 1, document, model, equations, system };
         app.update(Event::Loaded(Ok(loaded)));
         let look = RenderStyle { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
-        Self { app, experiment, look }
+        Self { app, experiment, look, painter: Painter::default() }
     }
 
     fn advance(&mut self, frame: u32) {
@@ -60,27 +62,27 @@ impl Motion {
         self.app.update(Event::Snapshot(Arc::new(self.experiment.snapshot())));
     }
 
-    fn picture(&mut self, frame: u32) -> Buffer {
+    fn picture(&mut self, frame: u32, size: Size) -> Buffer {
         self.advance(frame);
-        let area = Rect::from((ratatui::layout::Position::ORIGIN, SIZE));
+        let area = Rect::from((ratatui::layout::Position::ORIGIN, size));
         let mut buffer = Buffer::empty(area);
-        view::draw(&self.app, &self.look, area, &mut buffer);
+        self.painter.draw(&self.app, &self.look, area, &mut buffer);
         buffer
     }
 }
 
 /// The mean bytes of a frame: crossterm's, and those of `view::frame`.
-fn bytes(name: &str, depth: ColourDepth) -> (f64, f64) {
+fn bytes(name: &str, depth: ColourDepth, size: Size) -> (f64, f64) {
     let mut motion = Motion::of(name, depth);
     let mut frames = Frames::new(false).expect("memory");
-    let mut shown = motion.picture(0);
+    let mut shown = motion.picture(0, size);
     let (mut plain, mut frugal) = (0, 0);
     for frame in 1..FIRST + COUNT {
-        let picture = motion.picture(frame);
+        let picture = motion.picture(frame, size);
         let mut out = Vec::new();
         let changed = shown.diff_iter(&picture);
         CrosstermBackend::new(&mut out).draw(changed).expect("bytes");
-        let next = frames.next(SIZE, |_, buffer| buffer.clone_from(&picture)).expect("bytes");
+        let next = frames.next(size, |_, buffer| buffer.clone_from(&picture)).expect("bytes");
         if frame >= FIRST {
             (plain, frugal) = (plain + out.len(), frugal + next.len());
         }
@@ -113,8 +115,41 @@ fn times(name: &str) -> (Duration, Duration) {
     (median(anew), median(kept))
 }
 
+/// Prints the mean bytes of a frame of every preset at two sizes, and their means.
+fn all() {
+    println!("{:28} {:>8} {:>8}", "preset", "80x24", "120x40");
+    let sizes = [SIZE, Size { width: 120, height: 40 }];
+    let catalog = Catalog::with_folder(None);
+    let of = |name: &str| sizes.map(|size| bytes(name, ColourDepth::True, size).1);
+    let mut rows = Vec::new();
+    for entry in catalog.entries() {
+        let row = of(&entry.name);
+        println!("{:28} {:8.0} {:8.0}", entry.name, row[0], row[1]);
+        rows.push(row);
+    }
+    let mean = |k: usize| rows.iter().map(|row| row[k]).sum::<f64>() / rows.len() as f64;
+    println!("{:28} {:8.0} {:8.0}", "mean", mean(0), mean(1));
+}
+
+/// Prints the median time of a frame of some systems, drawn anew and by a painter.
+fn timed(names: &[&str]) {
+    println!("{:16} {:>10} {:>10} {:>6}", "system", "anew", "kept", "ratio");
+    for name in names {
+        let (anew, kept) = times(name);
+        let ratio = anew.as_secs_f64() / kept.as_secs_f64();
+        println!("{name:16} {anew:>10.1?} {kept:>10.1?} {ratio:6.1}");
+    }
+}
+
 fn main() {
     crossterm::style::force_color_output(true);
+    let given: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
+    let names: Vec<&str> = given.iter().map(String::as_str).collect();
+    match names[..] {
+        [] => {}
+        ["all"] => return all(),
+        _ => return timed(&names),
+    }
     println!("{:16} {:8} {:>10} {:>10} {:>6}", "system", "colours", "crossterm", "frames", "saved");
     for name in ["pendulum", "double-pendulum", "henon-heiles", "foucault"] {
         for (depth, called) in [
@@ -123,15 +158,10 @@ fn main() {
             (ColourDepth::Ansi256, "256"),
             (ColourDepth::True, "true"),
         ] {
-            let (plain, frugal) = bytes(name, depth);
+            let (plain, frugal) = bytes(name, depth, SIZE);
             let saved = 100.0 * (1.0 - frugal / plain);
             println!("{name:16} {called:8} {plain:10.0} {frugal:10.0} {saved:5.0}%");
         }
     }
-    println!("{:16} {:>10} {:>10} {:>6}", "system", "anew", "kept", "ratio");
-    for name in ["pendulum", "heavy-top", "double-pendulum", "chain-pendulum", "henon-heiles"] {
-        let (anew, kept) = times(name);
-        let ratio = anew.as_secs_f64() / kept.as_secs_f64();
-        println!("{name:16} {anew:>10.1?} {kept:>10.1?} {ratio:6.1}");
-    }
+    timed(&["pendulum", "heavy-top", "double-pendulum", "chain-pendulum", "henon-heiles"]);
 }

@@ -27,7 +27,7 @@ impl EnergyLaw {
                 (timed(*lagrangian), "explicit time", "− ∂L/∂t"),
                 (*dissipation != Expr::ZERO, "friction", "− q̇·∂F/∂q̇"),
                 (any(forces), "forces", "+ q̇·Q"),
-                (moved, "a moving constraint", "− Σ λ A₀"),
+                (moved, "moving constraint", "− Σ λ A₀"),
             ],
             Mechanics::Hamiltonian { hamiltonian, forces } => [
                 (timed(*hamiltonian), "explicit time", "+ ∂H/∂t"),

@@ -86,9 +86,9 @@ impl Instrument for Phase {
         Some(plot.heading(present.physics, otherwise, entries))
     }
 
-    fn across(&self, plot: &Plot, _present: &Present<'_>, answer: Option<&Answer>) -> Across {
-        let window = landscape(answer).map(|landscape| landscape.window[0]);
-        plot.column(0).map_or(Across::Nothing, |x| Across::Channel(x, window))
+    fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
+        plot.column(0)
+            .map_or(Across::Nothing, |x| Across::Channel(x, window(present, answer, (0, x))))
     }
 
     fn picture(
@@ -118,7 +118,7 @@ impl Instrument for Phase {
         ]);
         let layers = layers.chain(equilibria);
         Some(Picture::Axes {
-            upwards: Upwards::Channel(y, landscape.map(|landscape| landscape.window[1])),
+            upwards: Upwards::Channel(y, window(present, answer, (1, y))),
             layers: layers.collect(),
             occurrences: Some((MARK, [Some(x), Some(y)])),
         })
@@ -206,6 +206,20 @@ fn marked(plot: &Plot, present: &Present<'_>) -> impl Iterator<Item = Option<boo
 
 fn landscape(answer: Option<&Answer>) -> Option<&Arc<Landscape>> {
     answer?.of::<Survey>()?.landscape.as_ref()
+}
+
+/// The range of an axis that has level curves: their window and, until they are computed for a larger one, whatever the
+/// motion has reached beyond it. A periodic coordinate wraps, so its window stays.
+fn window(
+    present: &Present<'_>,
+    answer: Option<&Answer>,
+    (axis, channel): (usize, usize),
+) -> Option<[f64; 2]> {
+    let survey = answer?.of::<Survey>()?;
+    let [from, to] = survey.landscape.as_ref()?.window[axis];
+    let (lo, hi) = present.bounds.get(channel).copied().unwrap_or((from, to));
+    let wraps = axis == 0 && survey.periodic;
+    Some(if wraps { [from, to] } else { [from.min(lo), to.max(hi)] })
 }
 
 /// The form of the phase plane that a plot shows, and its channels.

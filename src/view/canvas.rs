@@ -156,6 +156,11 @@ impl Canvas<'_> {
         inner
     }
 
+    /// Makes an area blank; clicks still reach what lies below.
+    pub(super) fn blank(&mut self, area: Rect) {
+        Clear.render(area, self.buffer);
+    }
+
     /// Clears an area for an overlay.
     pub(super) fn clear(&mut self, area: Rect) {
         Clear.render(area, self.buffer);

@@ -3,15 +3,16 @@
 //! In: a frame and a viewport. Out: cells. Never here: the plotted data.
 
 use ratatui::layout::{Position, Rect};
+use unicode_width::UnicodeWidthStr;
 
-use super::canvas::Canvas;
+use super::canvas::{Canvas, row};
 use super::marks::Marks;
 use super::number::readable;
 use super::plot::PlotFrame;
 use super::theme::Role;
 use crate::instrument::Viewport;
 
-/// Draws the cursor, if there is one, and in the upper right corner its coordinates and what happened there. Returns
+/// Draws the cursor, if there is one, and in the upper right corner, or a row below what is written there, its coordinates and what happened. Returns
 /// the coordinates.
 pub(super) fn draw(
     canvas: &mut Canvas<'_>,
@@ -44,6 +45,11 @@ pub(super) fn draw(
     let [x, y] = frame.at(at);
     let what = marks.at(frame, at).map_or_else(String::new, |name| format!("{name}: "));
     let reading = format!(" {what}{}, {} ", readable(x, 4, glyphs), readable(y, 4, glyphs));
-    canvas.right(Rect { height: 1, ..area }, Role::Focus, &reading);
+    // It covers no word above the axes.
+    let wide = (canvas.text(&reading).width() as u16).min(area.width);
+    let [top, below] = [0, 1].map(|index| row(area, index));
+    let free = |x: u16| canvas.buffer[(x, top.y)].symbol().trim().is_empty();
+    let above = below.is_empty() || (top.right() - wide..top.right()).all(free);
+    canvas.right(if above { top } else { below }, Role::Focus, &reading);
     Some([x, y])
 }

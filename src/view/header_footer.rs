@@ -276,7 +276,8 @@ pub(super) fn notice(canvas: &mut Canvas<'_>, body: Rect, app: &App) {
         let at = usize::from(body.height).saturating_sub(lines.len()) + index;
         let at = columns(row(body, at), 2, body.width.saturating_sub(4));
         let gap = " ".repeat(wide.saturating_sub(line.width()));
-        canvas.left(columns(at, 0, wide as u16 + 2), Role::Text, &" ".repeat(wide + 2));
+        // Nothing of the frame below is left, its weight included.
+        canvas.blank(columns(at, 0, wide as u16 + 2));
         canvas.left(columns(at, 1, wide as u16), role, &format!("{line}{gap}"));
     }
 }

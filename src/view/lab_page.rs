@@ -229,7 +229,9 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize
         let panes: Vec<Pane> = sharing.iter().copied().map(Pane::Plot).collect();
         tab_targets(canvas, area, &title, &panes);
     }
-    match picture::draw(canvas, inner, &q, plot) {
+    // What the frame has no room for is written above the axes.
+    let keys = picture::keys_beyond(canvas, &q, plot, &title);
+    match picture::draw(canvas, inner, (&q, plot), &keys) {
         Some(frame) => canvas.region(frame.area, ScreenRegion::Plot(index, frame)),
         None if plot.kind.is_scene() => canvas.region(inner, ScreenRegion::Space(index)),
         None => {}

@@ -8,7 +8,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::canvas::Canvas;
 use super::theme::Role;
-use super::{RenderStyle, wrap};
+use super::{RenderStyle, number, wrap};
 use crate::instrument::{Layer, Level};
 
 /// An area this wide has room beside its axes.
@@ -23,7 +23,7 @@ pub(super) fn beside(
     layers: &[(Level, Layer)],
     look: &RenderStyle,
 ) -> (Rect, Option<Rect>) {
-    let width = |line: &String| look.glyphs.text(line).width();
+    let width = |line: &String| shown(line, look).width();
     let widest = layers.iter().filter_map(|(_, layer)| match layer {
         Layer::Legend(lines) => lines.iter().map(width).max(),
         _ => None,
@@ -62,7 +62,12 @@ fn rows<'a>(
     look: &'a RenderStyle,
 ) -> impl Iterator<Item = String> + 'a {
     let room = usize::from(area.width).saturating_sub(2).max(1);
-    lines.iter().flat_map(move |line| wrap::words(&look.glyphs.text(line), room))
+    lines.iter().flat_map(move |line| wrap::words(&shown(line, look), room))
+}
+
+/// A line in the characters of this terminal, its numbers written as elsewhere.
+fn shown(line: &str, look: &RenderStyle) -> String {
+    look.glyphs.text(&number::with_powers(line, look.glyphs)).into_owned()
 }
 
 /// Writes lines from the top, wrapped, as far as there is room for them; where there is not, the last row says so.

@@ -68,7 +68,7 @@ pub fn with_minus_signs(text: &str, glyphs: Glyphs) -> String {
     out
 }
 
-/// Replaces the exponent of a number in a text by a power of ten: `2.1e-11` → `2.1×10⁻¹¹`.
+/// Replaces the exponents of numbers in a text by powers of ten as these glyphs have them: `3e−16` by `3×10⁻¹⁶`.
 pub fn with_powers(text: &str, glyphs: Glyphs) -> String {
     if glyphs.is_ascii() {
         return text.to_owned();
@@ -77,27 +77,23 @@ pub fn with_powers(text: &str, glyphs: Glyphs) -> String {
     let mut rest = text;
     while let Some(at) = rest.find('e') {
         let (before, after) = (&rest[..at], &rest[at + 1..]);
-        let digits = after.strip_prefix(['-', '−']).unwrap_or(after);
-        let end = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());
-        let sign = if digits.len() < after.len() { -1 } else { 1 };
-        let joins = digits[end..].starts_with(|c: char| c.is_alphanumeric() || c == '_');
-        let word = before.rfind(|c: char| !c.is_ascii_digit() && c != '.').map(|at| &before[at..]);
-        let is_number = before.ends_with(|c: char| c.is_ascii_digit())
-            && !word.is_some_and(|word| word.starts_with(|c: char| c.is_alphabetic() || c == '_'));
-        match digits[..end].parse::<i32>() {
-            Ok(exponent) if is_number && !joins => {
-                out.push_str(before);
-                out.push_str(&power(sign * exponent, glyphs));
-                rest = &digits[end..];
-            }
-            _ => {
-                out.push_str(&rest[..=at]);
-                rest = after;
-            }
+        let sign = after.chars().next().filter(|c| matches!(c, '-' | '−'));
+        let digits = &after[sign.map_or(0, char::len_utf8)..];
+        let count = digits.chars().take_while(char::is_ascii_digit).count();
+        let ends = !digits[count..].starts_with(|c: char| c.is_alphanumeric() || c == '_');
+        let word = before.rsplit(|c: char| !c.is_alphanumeric() && c != '.').next().unwrap_or("");
+        let mantissa = !word.is_empty() && word.chars().all(|c| c.is_ascii_digit() || c == '.');
+        let exponent = digits[..count].parse::<i32>().ok().filter(|_| mantissa && ends);
+        out.push_str(before);
+        if let Some(exponent) = exponent {
+            out.push_str(&power(if sign.is_some() { -exponent } else { exponent }, glyphs));
+            rest = &digits[count..];
+        } else {
+            out.push('e');
+            rest = after;
         }
     }
-    out.push_str(rest);
-    out
+    out + rest
 }
 
 /// Formats a power of ten as a factor: `×10⁻³`, or `x1e-3`.

@@ -252,6 +252,6 @@ fn preview(canvas: &mut Canvas<'_>, area: Rect, app: &App, entry: &CatalogEntry)
     };
     let space = lab.plots.iter().find(|plot| plot.kind.is_scene());
     if let Some(plot) = space.or(lab.plots.first()) {
-        picture::draw(canvas, area, &q, plot);
+        picture::draw(canvas, area, (&q, plot), &[]);
     }
 }

@@ -6,7 +6,7 @@
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 
-use super::canvas::{Canvas, Span, groups, wide};
+use super::canvas::{Canvas, Span, columns, groups, row, wide};
 use super::colour::ColourDepth;
 use super::kept::{self, Track, TrailKey};
 use super::marks::{self, Marks};
@@ -127,12 +127,37 @@ fn key(canvas: &Canvas<'_>, q: &Quantities<'_>, index: usize, channel: usize) ->
     vec![(format!("  {mark} "), theme.curve(index)), canvas.span(Role::Dim, q.name(channel))]
 }
 
-/// Draws the picture, and returns the frame of its axes if it has any.
+/// The keys of the curves if there are several and the title does not have all of them.
+pub(super) fn keys_beyond(
+    canvas: &Canvas<'_>,
+    q: &Quantities<'_>,
+    plot: &Plot,
+    title: &[Span],
+) -> Vec<Span> {
+    let heading = plot.kind.heading(plot, &q.present());
+    let curves = heading.map_or_else(Vec::new, |heading| curves(&heading));
+    let keys = || curves.iter().map(|(index, channel)| key(canvas, q, *index, *channel));
+    let in_title = |key: Vec<Span>| title.windows(2).any(|pair| pair[1] == key[1]);
+    if curves.len() < 2 || keys().all(in_title) { Vec::new() } else { keys().flatten().collect() }
+}
+
+/// Writes the keys of curves above the axes, to the right of their title.
+fn keys_above(canvas: &mut Canvas<'_>, area: Rect, keys: &[Span]) {
+    let top = row(area, 0);
+    let blank = |x: &u16| canvas.buffer[(*x, top.y)].symbol().trim().is_empty();
+    let free = (top.x..top.right()).rev().take_while(blank).count() as u16;
+    let room = free.saturating_sub(1).min(wide(keys) as u16);
+    if !top.is_empty() && !keys.is_empty() {
+        canvas.spans(columns(top, top.width - room, room), keys);
+    }
+}
+
+/// Draws the picture with keys of curves above it, and returns the frame of its axes if it has any.
 pub(super) fn draw(
     canvas: &mut Canvas<'_>,
     area: Rect,
-    q: &Quantities<'_>,
-    plot: &Plot,
+    (q, plot): (&Quantities<'_>, &Plot),
+    keys: &[Span],
 ) -> Option<PlotFrame> {
     let (present, answer) = (q.present(), q.lab.answer(plot));
     let viewport = plot.viewport().unwrap_or(Viewport::WHOLE);
@@ -189,6 +214,7 @@ pub(super) fn draw(
             legend::draw(canvas, beside.unwrap_or(frame.area), lines);
         }
     }
+    keys_above(canvas, area, keys);
     let reading = cursor::draw(canvas, area, &frame, (viewport, &marks));
     if q.lab.focused_plot().is_some_and(|(_, focused)| std::ptr::eq(focused, plot)) {
         canvas.reading = reading;

@@ -6,7 +6,8 @@ use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 /// The lines of a paragraph, broken at spaces; a word longer than a line is broken anywhere.
 pub(super) fn words(text: &str, width: usize) -> Vec<String> {
-    fill(text.split_whitespace().map(|word| (word.to_owned(), true)), width, 0, 0)
+    let piece = |word: &str| Piece { text: word.to_owned(), spaced: true, nested: 0 };
+    fill(text.split_whitespace().map(piece), width, 0, 0)
 }
 
 /// The lines of a paragraph, at most `rows` of them: the last contains all the rest, so that the caller can mark the cut.
@@ -107,8 +108,9 @@ pub(super) fn capitalised(text: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// The lines of a formula, broken before `+`, `−` and `=`: outside all parentheses if that suffices, else inside them,
-/// else at spaces and before `*`. All lines but the first are indented.
+/// The lines of a formula, broken before `+`, `−` and `=`: outside all parentheses if that suffices, else between factors
+/// that are parentheses, else inside these, where a line begins further right, else at spaces and before `*`. All lines but
+/// the first are indented.
 pub(super) fn formula(text: &str, width: usize, indent: usize) -> Vec<String> {
     formula_after(text, width, 0, indent)
 }
@@ -127,10 +129,10 @@ pub(super) fn formula_beside(
 }
 
 fn formula_after(text: &str, width: usize, first: usize, indent: usize) -> Vec<String> {
-    let room = |before: usize| width.saturating_sub(before).max(1);
     let mut pieces = Vec::new();
     for (place, term) in terms(text, 0).iter().enumerate() {
-        break_up(term, room(if place == 0 { first.max(indent) } else { indent }), 0, &mut pieces);
+        let before = if place == 0 { first.max(indent) } else { indent };
+        break_up(term, width.saturating_sub(before).max(1), 0, &mut pieces);
     }
     fill(pieces.into_iter(), width, first, indent)
 }
@@ -138,18 +140,34 @@ fn formula_after(text: &str, width: usize, first: usize, indent: usize) -> Vec<S
 /// The depth of parentheses down to which a formula is broken before its operators.
 const DEEPEST: usize = 6;
 
-/// Cuts a formula into pieces that fit; the flag says whether a space precedes the piece.
-fn break_up(text: &str, room: usize, depth: usize, pieces: &mut Vec<(String, bool)>) {
+/// How much further right a line begins for each parenthesis that is open.
+const NESTED: usize = 2;
+
+/// Cuts a formula into pieces that fit.
+fn break_up(text: &str, room: usize, depth: usize, pieces: &mut Vec<Piece>) {
+    let nested = depth * NESTED;
+    let fits = |text: &str| text.width() + nested <= room;
     for term in terms(text, depth) {
-        if term.width() <= room {
-            pieces.push((term, true));
-        } else if depth < DEEPEST {
-            break_up(&term, room, depth + 1, pieces);
-        } else {
+        if fits(&term) {
+            pieces.push(Piece { text: term, spaced: true, nested });
+        } else if depth >= DEEPEST || nested + NESTED >= room {
             for (i, factor) in factors(&term).into_iter().enumerate() {
                 // There is no space after a `*` sign.
                 let spaced = i == 0 || factor.starts_with(' ');
-                pieces.push((factor.trim_start().to_owned(), spaced));
+                pieces.push(Piece { text: factor.trim_start().to_owned(), spaced, nested });
+            }
+        } else {
+            // A parenthesis stays whole if a line of its own suffices.
+            for part in parts(&term, depth) {
+                if fits(&part) {
+                    pieces.push(Piece { text: part, spaced: true, nested });
+                } else {
+                    let begins = pieces.len();
+                    break_up(&part, room, depth + 1, pieces);
+                    if let Some(piece) = pieces.get_mut(begins) {
+                        piece.nested = nested;
+                    }
+                }
             }
         }
     }
@@ -157,21 +175,39 @@ fn break_up(text: &str, room: usize, depth: usize, pieces: &mut Vec<(String, boo
 
 /// Cuts a formula before each `+`, `−`, `-` and `=` between spaces that is at most `depth` deep in parentheses.
 fn terms(text: &str, depth: usize) -> Vec<String> {
-    let mut terms: Vec<String> = Vec::new();
-    let mut open = 0_usize;
+    cut(text, depth, |_, word| matches!(word, "+" | "−" | "-" | "="))
+}
+
+/// Cuts a term before and after each factor that is a parenthesis, and after each comma, at most `depth` deep.
+fn parts(term: &str, depth: usize) -> Vec<String> {
+    let opens = |word: &str| word.trim_start_matches('√').starts_with(['(', '[']);
+    let closes = |word: &str| {
+        let base = word.trim_end_matches(|c: char| "⁰¹²³⁴⁵⁶⁷⁸⁹⁻".contains(c) || c.is_ascii_digit());
+        base.trim_end_matches('^').ends_with([')', ']'])
+    };
+    let operator = |word: &str| matches!(word, "+" | "−" | "-" | "=" | "/" | "*" | "·");
+    cut(term, depth, |before, word| {
+        before.ends_with(',') || !operator(before) && (opens(word) || closes(before))
+    })
+}
+
+/// Cuts a text at its spaces, at most `depth` deep in parentheses, where the words before and after are to be parted.
+fn cut(text: &str, depth: usize, parted: impl Fn(&str, &str) -> bool) -> Vec<String> {
+    let mut pieces: Vec<String> = Vec::new();
+    let (mut open, mut before) = (0_usize, "");
     for word in text.split(' ').filter(|word| !word.is_empty()) {
-        let operator = matches!(word, "+" | "−" | "-" | "=");
-        match terms.last_mut() {
-            Some(term) if !(operator && open <= depth) => {
-                term.push(' ');
-                term.push_str(word);
+        match pieces.last_mut() {
+            Some(piece) if open > depth || !parted(before, word) => {
+                piece.push(' ');
+                piece.push_str(word);
             }
-            _ => terms.push(word.to_owned()),
+            _ => pieces.push(word.to_owned()),
         }
         open += word.matches(['(', '[']).count();
         open = open.saturating_sub(word.matches([')', ']']).count());
+        before = word;
     }
-    terms
+    pieces
 }
 
 /// Cuts a long term at its spaces, which stay in front of the next piece, and before each `*`.
@@ -188,19 +224,28 @@ fn factors(term: &str) -> Vec<String> {
     factors
 }
 
-/// Fills lines with pieces, the first after `first` columns; the flag says whether a space precedes the piece.
+/// A part of a text that stays on one line.
+struct Piece {
+    text: String,
+    /// Whether a space precedes it on the same line.
+    spaced: bool,
+    /// How much further right a line that begins with it begins.
+    nested: usize,
+}
+
+/// Fills lines with pieces, the first after `first` columns.
 fn fill(
-    pieces: impl Iterator<Item = (String, bool)>,
+    pieces: impl Iterator<Item = Piece>,
     width: usize,
     first: usize,
     indent: usize,
 ) -> Vec<String> {
     let width = width.max(1);
-    let indent = indent.min(width / 2);
     let mut lines: Vec<String> = vec![String::new()];
     let mut fresh = true;
-    for (piece, spaced) in pieces {
-        let mut piece = piece;
+    for Piece { text, spaced, nested } in pieces {
+        let mut piece = text;
+        let indent = (indent + nested).min(width / 2);
         loop {
             let (before, margin) = if lines.len() > 1 { (0, indent) } else { (first, 0) };
             let Some(line) = lines.last_mut() else { break };
@@ -249,7 +294,7 @@ fn split(text: &str, room: usize) -> (String, String) {
 
 #[cfg(test)]
 mod tests {
-    use super::{report_line, shortened, shortened_within};
+    use super::{formula, report_line, shortened, shortened_within};
 
     #[test]
     fn a_shortened_text_ends_with_a_word_that_says_something() {
@@ -281,6 +326,24 @@ mod tests {
                 let short = short(text, width);
                 assert!(unicode_width::UnicodeWidthStr::width(&*short) <= width, "{short} {width}");
             }
+        }
+    }
+
+    #[test]
+    fn a_formula_is_broken_between_its_parentheses_before_it_is_inside_them() {
+        let broken = |text: &str, width: usize| formula(text, width, 2);
+        assert_eq!(broken("a = (b + c) (d + e)", 30), ["a = (b + c) (d + e)"]);
+        assert_eq!(broken("a = √(b + c)² (d + e)", 14), ["a", "  = √(b + c)²", "  (d + e)"]);
+        assert_eq!(broken("a + sqrt(b + c)^2*(d + e)", 12)[0], "a");
+        // A function stays with its argument, a quotient with its denominator.
+        assert_eq!(broken("(b + c) sin θ/(d + e)", 14), ["(b + c)", "  sin θ/(d", "    + e)"]);
+        // What is inside a parenthesis begins further right.
+        let long = "a (b c d + e f g (h + i) + j k l)";
+        assert_eq!(broken(long, 16), ["a (b c d", "    + e f g", "    (h + i)", "    + j k l)"]);
+        assert_eq!(broken("min(max(t/T, 0), 1)³ x", 16), ["min(max(t/T, 0),", "    1)³ x"]);
+        for width in 1..40 {
+            let lines = broken(long, width);
+            assert_eq!(lines.concat().replace(' ', ""), long.replace(' ', ""), "{width}");
         }
     }
 

@@ -265,6 +265,24 @@ fn an_answer_that_nobody_waits_for_is_dropped() {
     assert!(answer(&app).is_some());
 }
 
+/// The motion stays in its picture while the level curves of a larger window are being computed.
+#[test]
+fn a_motion_that_leaves_its_level_curves_is_still_seen() {
+    let (mut app, _) = App::new(catalog(), Some("harmonic-oscillator"));
+    app.aside = true;
+    let system = loaded("harmonic-oscillator", 1);
+    app.update(Event::Loaded(Ok(system.clone())));
+    let seen = |time: f64| Event::Snapshot(Arc::new(snapshot(&system, time)));
+    let asked = computations(app.update(seen(0.1)));
+    app.update(ran(&asked[0]));
+    assert!(answer(&app).is_some());
+    app.update(seen(3.0));
+    let text = screen(&app, 120, 40);
+    let right = |row: &String| row.chars().skip(40).take(39).collect::<String>();
+    let marks = text[..22].iter().filter(|row| right(row).contains('●')).count();
+    assert_eq!(marks, 1, "{text:#?}");
+}
+
 #[test]
 fn a_job_that_takes_long_is_shown_with_its_progress() {
     let (mut app, asked) = aside();

@@ -63,8 +63,40 @@ impl DepthBuffer {
         let normal =
             [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
         let light = lit(normal);
-        for pair in corners[1..].windows(2) {
-            self.triangle([*first, pair[0], pair[1]], (surface, light));
+        let dots: Vec<[f64; 2]> =
+            corners.iter().map(|[x, y, _]| self.frame.dot([*x, *y], self.size)).collect();
+        // The largest triangle tells which way round the face is seen and how near each dot of it is.
+        let triangles = (1..corners.len() - 1).map(|k| [0, k, k + 1]);
+        let twice = |corners: [usize; 3]| side(corners.map(|k| dots[k]));
+        let largest = triangles.max_by(|a, b| twice(*a).abs().total_cmp(&twice(*b).abs()));
+        let Some(chosen) = largest.filter(|corners| twice(*corners).abs() > 1e-9) else { return };
+        let Some([columns, rows]) = self.box_of(&dots) else { return };
+        let ([a, b, c], whole) = (chosen.map(|k| dots[k]), twice(chosen));
+        let nearness = chosen.map(|k| corners[k][2]);
+        let near = |dot: [f64; 2]| {
+            let shares = [side([b, c, dot]), side([c, a, dot]), side([a, b, dot])];
+            (0..3).map(|k| shares[k] / whole * nearness[k]).sum::<f64>()
+        };
+        for row in rows {
+            let middle = |column: i32| [f64::from(column) + 0.5, f64::from(row) + 0.5];
+            // How far right of the first column each edge lets the row begin and end.
+            let (mut from, mut to) = (f64::from(columns.start), f64::from(columns.end));
+            for (k, p) in dots.iter().enumerate() {
+                let q = dots[(k + 1) % dots.len()];
+                let inside = whole.signum() * side([*p, q, middle(0)]);
+                let slope = whole.signum() * (p[1] - q[1]);
+                if slope > 0.0 {
+                    from = from.max((-inside / slope).ceil());
+                } else if slope < 0.0 {
+                    to = to.min((-inside / slope).floor() + 1.0);
+                } else if inside < 0.0 {
+                    to = from;
+                }
+            }
+            for column in from as i32..to as i32 {
+                let near = near(middle(column));
+                self.cover([column, row], Covered { near, surface, light });
+            }
         }
     }
 
@@ -136,27 +168,6 @@ impl DepthBuffer {
         seen
     }
 
-    fn triangle(&mut self, corners: [[f64; 3]; 3], (surface, light): (usize, f64)) {
-        let [a, b, c] = corners.map(|[x, y, _]| self.frame.dot([x, y], self.size));
-        let side = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
-            (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
-        };
-        let whole = side(a, b, c);
-        let Some([columns, rows]) = self.box_of(&[a, b, c]).filter(|_| whole.abs() > 1e-9) else {
-            return;
-        };
-        for row in rows {
-            for column in columns.clone() {
-                let dot = [f64::from(column) + 0.5, f64::from(row) + 0.5];
-                let shares = [side(b, c, dot), side(c, a, dot), side(a, b, dot)].map(|s| s / whole);
-                if shares.iter().all(|share| *share >= 0.0) {
-                    let near = (0..3).map(|k| shares[k] * corners[k][2]).sum();
-                    self.cover([column, row], Covered { near, surface, light });
-                }
-            }
-        }
-    }
-
     /// The columns and rows of dots around points, or `None` if one of them has no position.
     fn box_of(&self, points: &[[f64; 2]]) -> Option<[std::ops::Range<i32>; 2]> {
         let finite = points.iter().flatten().all(|v| v.is_finite());
@@ -180,6 +191,11 @@ impl DepthBuffer {
             *old = Some(new);
         }
     }
+}
+
+/// Twice the area of a triangle, with a sign for the way round.
+fn side([p, q, r]: [[f64; 2]; 3]) -> f64 {
+    (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
 }
 
 fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

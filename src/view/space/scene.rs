@@ -7,6 +7,7 @@ use ratatui::layout::Rect;
 use super::body::Outline;
 use super::circle::{circle, square};
 use super::reference_frame::ReferenceFrame;
+use crate::expr::Symbol;
 use crate::instrument::CameraPose;
 use crate::model::{Point, Shape};
 use crate::num::math;
@@ -28,7 +29,7 @@ impl Scene {
     /// The scene of a lab.
     ///
     /// A rod (a line of constant length) may swing around one of its ends. The box contains its whole circle from the
-    /// start, so that the picture does not shrink during the first swing.
+    /// start, so that the picture does not shrink during the first swing. A free rod does not swing around its ends.
     pub(super) fn of(
         q: &Quantities<'_>,
         eye: CameraPose,
@@ -98,7 +99,8 @@ impl Scene {
             }
             Shape::Line { from, to } => {
                 let start = reach(q, from, reached);
-                let end = if rod { swing(q, from, to, start) } else { reach(q, to, reached) };
+                let swings = rod && !is_free(q, from, to);
+                let end = if swings { swing(q, from, to, start) } else { reach(q, to, reached) };
                 self.add(start, 0.0);
                 self.add(end, 0.0);
                 reached.push((*to, end));
@@ -216,6 +218,17 @@ fn swing(q: &Quantities<'_>, from: &Point, to: &Point, start: Span3) -> Span3 {
         [0, 1, 2]
             .map(|k| if end == 0 { own[0][k].min(round[0][k]) } else { own[1][k].max(round[1][k]) })
     })
+}
+
+/// Whether a rod swings around neither of its ends: both move with the same coordinates, so none of them is the angle at
+/// the other.
+fn is_free(q: &Quantities<'_>, from: &Point, to: &Point) -> bool {
+    let equations = &q.lab.loaded.equations;
+    let moves = |point: &Point, with: Symbol| {
+        point.iter().any(|component| equations.pool.depends(*component, with))
+    };
+    let mut coordinates = equations.coordinates.iter().map(|c| c.position);
+    coordinates.all(|q| moves(from, q) == moves(to, q))
 }
 
 /// Whether a point is the same at all times.

@@ -46,7 +46,7 @@ fn energy_broken_by_the_physics_names_its_law_and_the_ledger_holds() {
         ("damped-pendulum", "friction", "dE/dt = −c θ̇²"),
         ("driven-damped-pendulum", "forces", "dE/dt = "),
         ("kapitza", "explicit time", "dE/dt = "),
-        ("turning-wire", "a moving constraint", "dE/dt = ω λ"),
+        ("turning-wire", "moving constraint", "dE/dt = ω λ"),
     ] {
         let mut system = shipped(preset);
         let time = system.time() + 20.0 * system.speed();

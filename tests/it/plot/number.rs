@@ -1,8 +1,22 @@
 //! Numbers formatted for people.
 
 use phaselab::view::glyphs::Glyphs;
-use phaselab::view::number::{brief, drift, drift_in, readable, with_minus_signs};
+use phaselab::view::number::{brief, drift, drift_in, readable, with_minus_signs, with_powers};
 use proptest::prelude::*;
+
+#[test]
+fn exponents_in_a_text_become_powers_of_ten() {
+    for (text, unicode) in [
+        ("y alone 3e−16, p alone −12", "y alone 3×10⁻¹⁶, p alone −12"),
+        ("1.5e-7", "1.5×10⁻⁷"),
+        ("J = 2e12 of 3", "J = 2×10¹² of 3"),
+        ("e₁ e1 3e 1e−x 2e3a least e-3 x2e5", "e₁ e1 3e 1e−x 2e3a least e-3 x2e5"),
+        ("", ""),
+    ] {
+        assert_eq!(with_powers(text, Glyphs::Braille), unicode);
+        assert_eq!(with_powers(text, Glyphs::Ascii), text);
+    }
+}
 
 #[test]
 fn readable_numbers_keep_their_digits() {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::Event;
+use phaselab::app::{Event, Notification};
 use phaselab::experiment::{Gauge, Growth, Verdict};
 use phaselab::model::{Model, Shape};
 use phaselab::view::RenderStyle;
@@ -11,7 +11,7 @@ use ratatui::buffer::Buffer;
 use ratatui::style::Color;
 
 use super::{rich, rows, screen};
-use crate::hand::{catalog, gauge, in_lab, lab, loaded, press, snapshot};
+use crate::hand::{begun, catalog, gauge, in_lab, lab, loaded, press, snapshot};
 
 /// The arrows of a picture in space, as their labels.
 fn arrows(model: &Model) -> Vec<&str> {
@@ -125,4 +125,63 @@ fn the_triad_stands_in_the_corner() {
         assert!(row.trim_end().ends_with('x'), "{:#?}", rows(&buffer));
         assert_eq!(buffer[(2, floor - 3)].symbol(), "z", "{:#?}", rows(&buffer));
     }
+}
+
+/// Where the tabs of a frame leave no room for the keys of its curves, these are written above the axes.
+#[test]
+fn every_curve_of_several_has_its_key_on_the_screen() {
+    for (name, keys) in [
+        ("toda-three", &["━ p_q₁", "━ p_q₂", "━ p_q₃"][..]),
+        ("free-rigid-body", &["━ L₁/I₁", "━ rate about axis 2", "━ L₃/I₃"]),
+        ("kepler-brackets", &["━ L_x", "━ L_y", "━ L_z"]),
+        ("relativistic-particle", &["━ x′", "━ y′"]),
+    ] {
+        let buffer = screen(&lab(name, 1.0), &rich(), (120, 40));
+        for (index, key) in keys.iter().enumerate() {
+            let at = super::find(&buffer, key);
+            let (x, y) = at.unwrap_or_else(|| panic!("{name}: {key}\n{:#?}", rows(&buffer)));
+            assert_eq!(Some(buffer[(x, y)].fg), rich().theme.curve(index).fg, "{name}: {key}");
+        }
+    }
+}
+
+/// The reading of the cursor stands beside the words above the axes, or below them.
+#[test]
+fn the_cursor_covers_no_word_above_the_axes() {
+    let mut app = begun(&catalog().find("back-to-the-start").unwrap().text);
+    press(&mut app, "Tab Tab Tab");
+    let above = |app: &phaselab::app::App| -> String {
+        rows(&screen(app, &rich(), (80, 24)))[2].chars().skip(1).take(38).collect()
+    };
+    let words = above(&app).trim().to_owned();
+    assert!(words.chars().count() > 20, "{words}");
+    press(&mut app, "c");
+    let buffer = screen(&app, &rich(), (80, 24));
+    assert!(super::find(&buffer, "┼").is_some(), "{:#?}", rows(&buffer));
+    assert!(above(&app).contains(&words), "{words} {:#?}", rows(&buffer));
+}
+
+/// A rod on ice swings around neither of its ends, so the picture has no room for that.
+#[test]
+fn a_free_rod_fills_its_picture() {
+    let buffer = screen(&lab("rod-on-ice", 2.0), &rich(), (120, 40));
+    let dots = |c: &str| c.starts_with(|c: char| ('⠁'..='⣿').contains(&c) || c == '●');
+    let drawn: Vec<u16> =
+        (2..20).filter(|y| (1..38).any(|x| dots(buffer[(x, *y)].symbol()))).collect();
+    let high = drawn.last().unwrap() - drawn.first().unwrap() + 1;
+    assert!(high >= 12, "{high} rows of 20: {:#?}", rows(&buffer));
+}
+
+/// A notification over a focused frame has one weight throughout.
+#[test]
+fn a_notification_takes_nothing_from_the_frame_below_it() {
+    let mut app = in_lab();
+    let text = "lift-off at t = 0.5634: the constraint sphere no longer holds";
+    app.notice = Some(Notification::info(text.to_owned()));
+    let buffer = screen(&app, &rich(), (80, 24));
+    let (x, y) = super::find(&buffer, "lift-off at").expect("the notification");
+    let modifiers = |x: u16| buffer[(x, y)].modifier;
+    let long = text.chars().count() as u16;
+    assert!((x..x + long).all(|at| modifiers(at) == modifiers(x)), "{:?}", rows(&buffer));
+    assert_eq!(modifiers(x), rich().theme[phaselab::view::theme::Role::Good].add_modifier);
 }
