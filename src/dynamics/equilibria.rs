@@ -38,7 +38,8 @@ const SAME: f64 = 1e-7;
 const VANISHES: f64 = 1e-8;
 
 /// A coordinate whose start is smaller or larger than 1 by no more than this factor has the unit 1, any
-/// other one the size of its start; the units of momenta follow.
+/// other one the size of its start, and one that starts at 0 that of the largest of the others; the
+/// units of momenta follow.
 const ORDINARY: f64 = 1e3;
 
 /// The largest number of equilibria.
@@ -374,15 +375,21 @@ fn units(space: &PhaseSpace, start: &State, field: &mut VectorField) -> Vec<f64>
     let ordinary = |x: f64| (1.0 / ORDINARY..=ORDINARY).contains(&x);
     let variables = space.variables(start);
     let n = space.dimension();
+    let canonical = space.form() == Form::Momentum;
+    let degrees = if canonical { n / 2 } else { n };
+    let lengths = (0..degrees).filter(|&i| space.turns()[i].is_none());
+    let largest = lengths.map(|i| variables[i].abs()).fold(0.0, f64::max);
     let own = |i: usize| match variables[i].abs() {
-        size if size == 0.0 || ordinary(size) || space.turns()[i].is_some() => 1.0,
-        size => size,
+        _ if space.turns()[i].is_some() => 1.0,
+        size => match if size == 0.0 { largest } else { size } {
+            size if size == 0.0 || ordinary(size) => 1.0,
+            size => size,
+        },
     };
     let mut units: Vec<f64> = (0..n).map(own).collect();
-    if space.form() != Form::Momentum {
+    if !canonical {
         return units;
     }
-    let degrees = n / 2;
     units[degrees..].fill(1.0);
     if field.evaluate(start.time, variables).is_ok() {
         let derivative = field.derivative();
@@ -391,7 +398,8 @@ fn units(space: &PhaseSpace, start: &State, field: &mut VectorField) -> Vec<f64>
             let mobility = derivative[(i, degrees + i)].abs();
             let impedance = (stiffness / mobility).sqrt();
             let unit = impedance * units[i];
-            if unit.is_finite() && unit > 0.0 && !ordinary(unit) {
+            // the square of a momentum's unit over its mass is compared with forces: no unit is ordinary by itself
+            if unit.is_finite() && unit > 0.0 {
                 units[degrees + i] = unit;
             }
         }

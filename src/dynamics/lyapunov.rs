@@ -15,7 +15,7 @@
 //! In: a state, a time. Out: exponents with their uncertainty, MEGNO, a verdict with its reason.
 //! Never here: text.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::carrier::Carrier;
 use super::direction::{Direction, basis_of_range};
@@ -24,7 +24,7 @@ use super::phase_space::PhaseSpace;
 use super::transverse::{self, Removed};
 use crate::integrate::{Method, Settings};
 use crate::num::math;
-use crate::system::State;
+use crate::system::{Form, State};
 
 /// Vectors are made orthonormal where one has grown or shrunk by this factor, …
 const GROWN: f64 = 8.0;
@@ -47,6 +47,9 @@ const CHAOTIC: f64 = 5.0;
 
 /// A chaotic motion has grown by this many powers of e.
 const GROWTH: f64 = 8.0;
+
+/// A momentum over its displacement that differs from 1 by no more than this factor needs no units.
+const ORDINARY: f64 = 1e3;
 
 /// Whether neighbouring motions part exponentially.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -116,7 +119,8 @@ pub fn lyapunov(
     let n = space.dimension();
     let mut direction = Direction::new(space);
     let what = removed(space, direction.moves(start, until - start.time)?);
-    let rates = direction.at(start)?;
+    let units = displacement_units(space, start, until - start.time);
+    let rates = direction.at(start)?.component_div(&units);
     let (allowed, dimension) = space.allowed_displacements(start)?;
     let frame = if space.is_constrained() {
         transverse::frame_within(&basis_of_range(&allowed, dimension), &rates, what)
@@ -130,7 +134,8 @@ pub fn lyapunov(
     let mut vectors = frame.insert_column(count, 0.0);
     vectors.set_column(count, &free.normalize());
     let mut carrier = Carrier::new(space, method, settings, count + 1)?;
-    carrier.start(start, &vectors)?;
+    carrier.start(start, &scaled(&vectors, &units))?;
+    let in_units = units.map(|unit| 1.0 / unit);
 
     let mut growth = TangentGrowth { times: vec![start.time], logarithms: vec![vec![0.0; count]] };
     let mut megno = Megno::new(start.time);
@@ -145,14 +150,15 @@ pub fn lyapunov(
         for part in 1..=MEGNO_PARTS {
             let now = begin + (end - begin) * f64::from(part) / f64::from(MEGNO_PARTS);
             let (_, vectors) = carrier.at(now)?;
-            megno.add(now, math::ln(vectors.column(count).norm()));
+            megno.add(now, math::ln(vectors.column(count).component_mul(&in_units).norm()));
         }
-        let (state, mut vectors) = carrier.at(end)?;
+        let (state, vectors) = carrier.at(end)?;
+        let mut vectors = scaled(&vectors, &in_units);
         look(end);
         let due = end - growth.times[growth.times.len() - 1] >= round || end >= until;
         let sizes = vectors.column_iter().map(|v| v.norm());
         if due || sizes.into_iter().any(|size| !(1.0 / GROWN..GROWN).contains(&size)) {
-            let rates = direction.at(&state)?;
+            let rates = direction.at(&state)?.component_div(&units);
             let free = vectors.column(count).into_owned();
             megno.rescale(free.norm());
             let mut turned = vectors.columns(0, count).into_owned();
@@ -169,7 +175,7 @@ pub fn lyapunov(
             growth.logarithms.push(now);
             vectors.columns_mut(0, count).copy_from(&turned);
             vectors.set_column(count, &free.normalize());
-            carrier.start(&state, &vectors)?;
+            carrier.start(&state, &scaled(&vectors, &units))?;
         }
     }
     if growth.times.len() < 2 {
@@ -178,6 +184,37 @@ pub fn lyapunov(
         }));
     }
     Ok(result(space, &carrier, what, &growth, &megno, failure))
+}
+
+/// Units of displacements, in which a momentum is as large as the velocity that it causes moves its coordinate in the time
+/// of the motion: else a growth that is one of the units, as of a vector from p to q, hides that of the motion. The product of
+/// the units of a pair is 1, so that symplectic frames stay symplectic, and they are powers of two, so that no digit changes.
+fn displacement_units(space: &PhaseSpace, start: &State, duration: f64) -> DVector<f64> {
+    let n = space.dimension();
+    let mut units = DVector::from_element(n, 1.0);
+    let mut field = space.vector_field();
+    let is_plain = space.form() == Form::Momentum && !space.is_constrained();
+    if !is_plain || field.evaluate(start.time, space.variables(start)).is_err() {
+        return units;
+    }
+    let (derivative, degrees) = (field.derivative(), n / 2);
+    let mobility = |i: usize| derivative[(i, degrees + i)].abs();
+    // the fastest oscillation about the start, or the whole time where nothing pulls
+    let squares = (0..degrees).map(|i| mobility(i) * derivative[(degrees + i, i)].abs());
+    let rate = squares.fold(0.0, f64::max).sqrt().max(1.0 / duration);
+    for i in 0..degrees {
+        let impedance = rate / mobility(i);
+        if impedance.is_normal() && !(1.0 / ORDINARY..=ORDINARY).contains(&impedance) {
+            let power = math::powi(2.0, (0.5 * math::log2(impedance)).round() as i32);
+            (units[i], units[degrees + i]) = (1.0 / power, power);
+        }
+    }
+    units
+}
+
+/// Columns with each row multiplied by a factor.
+fn scaled(vectors: &DMatrix<f64>, factors: &DVector<f64>) -> DMatrix<f64> {
+    DMatrix::from_fn(vectors.nrows(), vectors.ncols(), |i, j| vectors[(i, j)] * factors[i])
 }
 
 /// The parts of a step at which MEGNO is summed.
@@ -370,8 +407,6 @@ fn judged(
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::DMatrix;
-
     use super::*;
 
     #[test]

@@ -20,6 +20,9 @@ const A_FEW: usize = 4;
 /// without end and are not representative.
 const SHORTEST: f64 = 1e-4;
 
+/// A step shorter than this part of what its series allows was ended by something else.
+const SHORTENED: f64 = 0.999;
+
 /// Longer than every time scale, in any units; the square of a distance covered in it is a number.
 const FAR: f64 = 1e150;
 
@@ -59,7 +62,10 @@ fn ahead(
         && ahead.step(FAR).is_ok()
         && ahead.time() < FAR
     {
-        steps.push(ahead.step_size());
+        let (begin, end) = ahead.interval();
+        let (taken, allowed) = (end - begin, ahead.step_size());
+        // up to a kink or an event a polynomial may allow any step
+        steps.push(if taken < SHORTENED * allowed { taken } else { allowed });
     }
     let longest = steps.iter().copied().fold(0.0, f64::max);
     // a motion that comes to rest may do so in no time

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use phaselab::analysis::{Errors, History, Verdict};
 use phaselab::diagnostic::Document;
+use phaselab::experiment::Gauge;
 use phaselab::integrate::{METHODS, Settings};
 use phaselab::mechanics::derive;
 use phaselab::system::System;
@@ -254,4 +255,37 @@ fn forces_at_rest_are_followed_where_they_are_predicted_to_a_fiftieth() {
     let at_once = steps(20.0);
     assert_eq!(steps(38.0), at_once);
     assert!(steps(43.0) > at_once);
+}
+
+/// Follows the error of rk4 in the energy of an oscillator from step to step: what is said of it changes where the drift passes
+/// the limit. Returns the greatest drift before that and the least after it.
+fn passed(step: f64, limit: f64, steps: u32, said: impl Fn(&Gauge) -> bool) -> [f64; 2] {
+    let mut experiment = build(&oscillator(""), |setup| {
+        "rk4".clone_into(&mut setup.method);
+        setup.settings.step = Some(step);
+    });
+    let (mut below, mut above) = (0.0_f64, f64::INFINITY);
+    for k in 1..=steps {
+        run(&mut experiment, step * f64::from(k));
+        let gauge = gauge(&experiment.snapshot(), "energy");
+        assert_eq!(said(&gauge), gauge.max_drift > limit, "{} after {k} steps", gauge.max_drift);
+        if gauge.max_drift > limit {
+            above = above.min(gauge.max_drift);
+        } else {
+            below = below.max(gauge.max_drift);
+        }
+    }
+    [below, above]
+}
+
+#[test]
+fn a_quantity_is_lost_beyond_a_tenth_of_what_moves() {
+    let [below, above] = passed(0.8, 0.1, 80, |gauge| gauge.verdict.word() == "lost");
+    assert!(below > 0.09 && above < 0.11, "{below} {above}");
+}
+
+#[test]
+fn a_drift_is_reported_beyond_a_millionth_of_what_moves() {
+    let [below, above] = passed(0.1, 1e-6, 200, |gauge| gauge.left.is_some());
+    assert!(below > 0.9e-6 && above < 1.1e-6, "{below} {above}");
 }

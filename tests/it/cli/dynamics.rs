@@ -212,3 +212,37 @@ fn the_orbit_of_a_kicked_system_closes_over_its_kicks() {
     let period = phaselab(&ball).json()["period"].as_f64().unwrap();
     assert!((period - 2.0 * (2.0 / 9.81_f64).sqrt()).abs() < 1e-9, "{period}");
 }
+
+/// Units of mass, length and time: those of the equations, SI for an atom, SI for a galaxy, and small ones of the laboratory.
+const UNITS: [[f64; 3]; 4] =
+    [[1.0, 1.0, 1.0], [9.1e-31, 5.3e-11, 2.4e-17], [2e30, 3e19, 3e15], [1e-3, 1e-2, 1.0]];
+
+fn kepler([mass, length, time]: [f64; 3]) -> String {
+    let (speed, k) = (0.9 * length / time, mass * length.powi(3) / (time * time));
+    format!(
+        "title = \"Kepler\"\n[coordinates]\nx = {{ initial = {length:?} }}\ny = {{ initial = 0, velocity = {speed:?} }}\n\
+         [parameters]\nm = {mass:?}\nk = {k:?}\n[lagrangian]\nL = \"1/2*m*(x'^2 + y'^2) + k/sqrt(x^2 + y^2)\"\n"
+    )
+}
+
+/// A force that falls with the distance vanishes nowhere.
+#[test]
+fn far_from_the_sun_nothing_rests_in_any_units() {
+    for units in UNITS {
+        let said = with_file(&kepler(units), &["equilibria", "system.toml"]).success();
+        assert_eq!(said, "no equilibrium in reach of the start\n", "{units:?}");
+    }
+}
+
+/// A vector from p to q grows by the ratio of their units, which is no growth of the motion's.
+#[test]
+fn an_ellipse_is_regular_in_any_units() {
+    for units in UNITS {
+        let until = (500.0 * units[2]).to_string();
+        let words = ["lyapunov", "system.toml", "--until", &until, "--format", "json"];
+        let found = with_file(&kepler(units), &words).json();
+        assert_eq!(found["verdict"], "regular", "{units:?}: {}", found["reason"]);
+        let pairs = found["pairing_residual"].as_f64().unwrap() * units[2];
+        assert!(pairs < 1e-13, "{units:?}: {pairs:e}");
+    }
+}
