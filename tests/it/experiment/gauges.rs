@@ -1,6 +1,6 @@
 //! Gauges and their verdicts.
 
-use phaselab::experiment::{Gauge, Growth, Snapshot, Verdict};
+use phaselab::experiment::{Command, Gauge, Growth, Snapshot, Verdict};
 use phaselab::integrate::Settings;
 use phaselab::preset::Catalog;
 
@@ -212,7 +212,7 @@ fn steps_that_are_seen_together_are_seen_as_one_by_one() {
          H = \"(p_x^2 + p_y^2 + x^2 + y^2)/2 + k*(x^2*y - y^3/3)\"\n";
     let lagrangian = "[coordinates]\nx = { initial = 1, velocity = 0 }\n\
          y = { initial = 0, velocity = 1.1 }\n[parameters]\nk = { value = 1 }\n[lagrangian]\n\
-         L = \"(x'^2 + y'^2)/2 + k/sqrt(x^2 + y^2) + 1000\"\n";
+         L = \"x'^2 + y'^2 + k/sqrt(x^2 + y^2) + 1000\"\n";
     for law in [hamiltonian, lagrangian] {
         for (method, step) in [("leapfrog", 0.01), ("yoshida4", 0.13), ("yoshida6", 0.03)] {
             for (spacing, end) in [(1e9, 30.0), (0.17, 20.0), (3.0, 40.0)] {
@@ -224,6 +224,12 @@ fn steps_that_are_seen_together_are_seen_as_one_by_one() {
                         setup.spacing = spacing;
                     });
                     run(&mut experiment, 0.4 * end);
+                    // states of another form in between, and another parameter
+                    experiment.execute(Command::Method("taylor".to_owned()));
+                    run(&mut experiment, 0.5 * end);
+                    experiment.execute(Command::Method(method.to_owned()));
+                    run(&mut experiment, 0.7 * end);
+                    experiment.execute(Command::Parameter { index: 0, value: 1.1 });
                     run(&mut experiment, end);
                     experiment.snapshot()
                 });
