@@ -45,22 +45,17 @@ impl ObservedMotion {
         settings: Settings,
         parameters: &[f64],
     ) -> Result<ObservedMotion, MethodError> {
-        let inner = integrate::Propagator::new(system, method, settings, parameters)?;
         Ok(ObservedMotion {
             sign: if system.is_backwards() { -1.0 } else { 1.0 },
+            inner: integrate::Propagator::new(system, method, settings, parameters)?,
             observer: system.observer(parameters),
             values: vec![f64::NAN; system.channels().len()],
             lost: vec![false; system.channels().len()],
             residuals: Vec::new(),
             holdings: 0,
-            watch: StepSampler::of(system, inner.computed().form, parameters),
-            inner,
+            watch: StepSampler::of(system, parameters),
             log: StepLog::default(),
         })
-    }
-
-    fn new_watch(&self, parameters: &[f64]) -> StepSampler {
-        StepSampler::of(self.inner.system(), self.inner.computed().form, parameters)
     }
 
     /// Remembers no states between steps from now on: the motion cannot be carried back.
@@ -87,7 +82,7 @@ impl ObservedMotion {
         self.log.clear();
         self.inner.begin(state, parameters)?;
         self.observer = self.inner.system().observer(parameters);
-        self.watch = self.new_watch(parameters);
+        self.watch = StepSampler::of(self.inner.system(), parameters);
         self.log.push(self.inner.state(), self.inner.steps());
         self.look()
     }
@@ -103,7 +98,7 @@ impl ObservedMotion {
         self.log.clear();
         self.inner.restore(state, parameters, start, released)?;
         self.observer = self.inner.system().observer(parameters);
-        self.watch = self.new_watch(parameters);
+        self.watch = StepSampler::of(self.inner.system(), parameters);
         self.log.push(self.inner.state(), self.inner.steps());
         self.look()
     }
@@ -179,6 +174,10 @@ impl ObservedMotion {
     /// Takes several steps at once until `time` is reached or passed, where nobody looks between them but the gauges,
     /// which see the end of each. Returns their number.
     fn several_steps(&mut self, time: f64, budget: u64, gauges: &mut Gauges, spacing: f64) -> u64 {
+        if self.inner.method().stepping != Stepping::Fixed {
+            return 0;
+        }
+        self.watch.prepare(self.inner.system(), self.inner.computed().form);
         let time = time.min(self.watch.next);
         let mut left = budget;
         while left > 0 && !self.watch.pending && self.inner.computed().time < time {

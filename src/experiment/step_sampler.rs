@@ -18,36 +18,49 @@ pub(super) struct StepSampler {
     pub(super) pending: bool,
     /// A number in (0, 1) that never repeats, so that the sampling times do not resonate with any period.
     golden: f64,
-    /// Steps between which nobody looks, and their terms where these can be evaluated together.
+    /// Steps between which nobody looks.
     pub(super) block: StepBlock,
+    /// Their terms, where these can be evaluated together, for states of this form.
     pub(super) batch_terms: Option<BatchTerms>,
+    form: Option<Form>,
+    parameters: Vec<f64>,
     /// An intermediate state and its channels.
     pub(super) state: State,
     pub(super) values: Vec<f64>,
 }
 
 impl StepSampler {
-    /// Samples the motion of a system by a method whose states have this form.
-    pub(super) fn of(system: &System, form: Form, parameters: &[f64]) -> StepSampler {
-        let mut sampler = StepSampler {
+    pub(super) fn of(system: &System, parameters: &[f64]) -> StepSampler {
+        StepSampler {
             block: StepBlock::default(),
-            batch_terms: system.batch_terms(form),
+            batch_terms: None,
+            form: None,
+            parameters: parameters.to_vec(),
             terms: system.term_watch(parameters),
             next: f64::NEG_INFINITY,
             pending: false,
             golden: 0.5,
             state: State::new(0.0, system.form(), Vec::new()),
             values: vec![f64::NAN; system.channels().len()],
-        };
-        sampler.set_parameters(parameters);
-        sampler
+        }
     }
 
     /// Sets the parameters.
     pub(super) fn set_parameters(&mut self, parameters: &[f64]) {
         self.terms.set_parameters(parameters);
+        self.parameters = parameters.to_vec();
+        self.form = None;
+    }
+
+    /// Prepares for steps between which nobody looks, of a method whose states have this form.
+    pub(super) fn prepare(&mut self, system: &System, form: Form) {
+        if self.form == Some(form) {
+            return;
+        }
+        self.form = Some(form);
+        self.batch_terms = system.batch_terms(form);
         if let Some(terms) = &mut self.batch_terms {
-            (0..BATCH).for_each(|lane| terms.set_parameters(lane, parameters));
+            (0..BATCH).for_each(|lane| terms.set_parameters(lane, &self.parameters));
         }
     }
 
