@@ -8,7 +8,6 @@ mod crossing_log;
 mod history;
 mod inquiry;
 mod landscape;
-mod return_error;
 mod separation;
 mod verdict;
 
@@ -16,6 +15,5 @@ pub use crossing_log::CrossingLog;
 pub use history::{History, Stretch};
 pub use inquiry::{Inquiry, InquiryAnswer};
 pub use landscape::{Curve, Grid, Landscape, Plane};
-pub use return_error::expected_return;
 pub use separation::{DistanceHistory, Slope, distance};
 pub use verdict::{Errors, Growth, LEFT, LOST, Verdict, rounding_floor};

@@ -26,6 +26,7 @@ mod orbit;
 mod orbit_units;
 mod phase_space;
 mod principle;
+mod return_growth;
 mod rotation;
 mod spectrum;
 mod stationary_path;
@@ -51,9 +52,11 @@ pub use lyapunov::{Chaos, Lyapunov, lyapunov};
 pub use orbit::{Fixed, Orbit, periodic_orbit};
 pub use phase_space::{PhaseSpace, VectorField};
 pub use principle::{Hamiltonian, abbreviated_action, action_at_energy};
+pub use return_growth::{ReturnGrowth, growth_after, return_growth};
 pub use rotation::{NoRotation, Rotation, Turning, angle_rotation, rotation};
 pub use spectrum::{
-    MeanRate, SpectralLine, Spectrum, independent_frequencies, mean_rate, spectrum, straightened,
+    MeanRate, SpectralLine, Spectrum, driven_spectrum, independent_frequencies, mean_rate,
+    spectrum, straightened,
 };
 pub use stationary_path::{PathKind, StationaryPath, morse_index, stationary_path};
 pub use transverse::Removed;

@@ -42,7 +42,6 @@ pub use equilibria::{
     FoundEquilibria, classes, described, described_mode, displaced, equilibria_search, start_along,
     start_at, value_at,
 };
-pub use exponents::largest_exponent;
 pub use kind::{Axis, Columns, Instrument, Measure, NoStart, Offer, Plot};
 pub use picture::{
     Across, Entry, Field, Heading, Ink, Layer, Level, Picture, Sign, Stroke, Upwards,

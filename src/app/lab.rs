@@ -12,7 +12,7 @@ use super::pending::PendingChanges;
 use super::{DrawnPanes, InvariantSearch, LawInView, Loaded, Pane, Prediction, Selection, ValueId};
 use crate::experiment::{Checkpoint, Snapshot, Status};
 use crate::expr::Zero;
-use crate::instrument::{CameraPose, Plot, Present};
+use crate::instrument::{CameraPose, Plot, Present, Returned};
 use crate::mechanics::Valuation;
 use crate::model::Shape;
 
@@ -176,7 +176,8 @@ impl Lab {
             equilibria: self.equilibria_at(&snapshot.parameters),
             method: snapshot.method.name,
             settings: snapshot.setup.settings,
-            returned: self.returned(snapshot),
+            returned: returned(snapshot),
+            turned: snapshot.returned.as_ref().map(|seen| (&seen.state, seen.start)),
         }
     }
 
@@ -289,4 +290,15 @@ impl Lab {
             }
         }
     }
+}
+
+/// How a motion whose time was reversed returns, as instruments see it.
+fn returned(snapshot: &Snapshot) -> Option<Returned> {
+    let seen = snapshot.returned.as_ref()?;
+    Some(Returned {
+        gone: [(snapshot.time - seen.turned).abs(), (seen.start - seen.turned).abs()],
+        step_error: (seen.step_error, seen.mean_step, seen.step.is_none()),
+        distance: seen.distance,
+        error: seen.error,
+    })
 }

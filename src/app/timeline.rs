@@ -4,9 +4,8 @@
 
 use super::{App, Effect, Lab, Notification};
 use crate::dynamics::{PhaseSpace, conformal_rate};
-use crate::experiment::{Command, Recorded, Snapshot, Status};
+use crate::experiment::{Command, Recorded, Status};
 use crate::expr::Expr;
-use crate::instrument::{Plot, Returned, largest_exponent};
 use crate::num::short;
 
 /// The most marks.
@@ -110,19 +109,6 @@ impl App {
 }
 
 impl Lab {
-    /// How the motion returns along the run before, with the exponent that an instrument has measured.
-    pub(super) fn returned(&self, snapshot: &Snapshot) -> Option<Returned> {
-        let seen = snapshot.returned.as_ref()?;
-        let measured = |plot: &Plot| largest_exponent(self.answer(plot)?);
-        Some(Returned {
-            gone: [(snapshot.time - seen.turned).abs(), (seen.start - seen.turned).abs()],
-            step_error: (seen.step_error, seen.step),
-            distance: seen.distance,
-            error: seen.error,
-            exponent: self.plots.iter().find_map(measured),
-        })
-    }
-
     /// What is said of a system whose energy is not conserved before its time is reversed.
     fn what_grows(&self) -> Option<String> {
         let seen = self.seen()?;

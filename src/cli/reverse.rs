@@ -11,19 +11,21 @@ use super::interrupt::Interrupt;
 use super::motion_options::Laid;
 use super::run::progress::Bar;
 use super::study::{self, StudyArguments, shown};
-use crate::dynamics::{DynamicsError, PhaseSpace, flow_map, lyapunov};
+use crate::dynamics::{DynamicsError, PhaseSpace, lyapunov, return_growth};
 use crate::experiment::{AdvanceOutcome, Command, Experiment, Return, Setup, Status};
+use crate::integrate::Stepping;
 use crate::printable;
 
 /// Reverse a motion and bring it back.
 ///
-/// The motion is carried to T and from there back to its start by the same method. A step errs by
-/// ε, which the way back multiplies by e^{λT}: a regular motion returns nearly to its start, a
-/// chaotic one to about ε e^{λT} of it, and none at all where that is as large as the motion. λ
-/// is the largest exponent of the reversed motion, −λₙ. ε is the tolerance, or the rounding where
-/// a step back is the inverse of one forwards. Of rk4, dop853 and symplectic-euler it is measured
-/// over steps there and back, and the return error is at most the errors of all steps, carried by
-/// the flow. Where there is no way back, as over impulses or dry friction, the reason is given.
+/// The motion is carried to T and from there back to its start by the same method. Each step, there
+/// and back, errs by ε, and its error grows on the rest of the way: like e^{λt} in chaos, λ the
+/// largest exponent of the reversed motion, −λₙ; in proportion to the time where the motion is
+/// regular. What is expected is the sum of all, by the derivative of the flow. ε is the tolerance,
+/// or the rounding where a step back is the inverse of one forwards: errors that are independent,
+/// and add up as the root of their squares. Of rk4, dop853 and symplectic-euler ε is measured over
+/// steps there and back; such errors have one sign, and the sum is a bound. Where there is no way
+/// back, as over impulses or dry friction, the reason is given.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -57,50 +59,32 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     interrupt.ends_by_itself(|| ());
     let (returned, steps) = returned(&laid, until, interrupt)?;
     let rate = rate(&laid, returned.turned);
-    let gone = (returned.turned - returned.start).abs();
-    let expected = match returned.step {
-        None => rate.as_ref().ok().map(|(rate, _)| returned.expected(*rate, gone)),
-        Some(step) => carried(&laid, returned.turned)
-            .map(|growth| returned.step_error * gone / step * growth)
-            .filter(|expected| expected.is_finite()),
-    };
-    let found = Found { returned, steps, rate, expected };
+    let expected = expected(&laid, &returned);
+    let bounded = returned.step.is_some() || laid.method.stepping == Stepping::Adaptive;
+    let found = Found { bounded, returned, steps, rate, expected };
     let result = (found.object(&laid), found.text());
     study::write(&arguments.study, result, None, interrupt)
 }
 
-/// The times at which the growth of errors on the way back is looked at.
-const GROWTHS: u32 = 64;
-
-/// By how much the flow back to the start enlarges the errors of steps, on average over the way: the largest singular value of
-/// M⁻¹, M the derivative of the flow from the start. `None` where that is not known.
-fn carried(laid: &Laid, until: f64) -> Option<f64> {
+/// The error that is expected at the start, by the growth of the errors of all steps on the way back. `None` where that is
+/// not known.
+fn expected(laid: &Laid, returned: &Return) -> Option<f64> {
     let parameters = &laid.start.parameters;
-    let space = PhaseSpace::of(&laid.model, &laid.equations, &laid.system, parameters).ok()?;
-    let start = laid.start.state(&laid.system).and_then(|state| space.state(&state)).ok()?;
-    let begin = start.time;
-    let (mut state, mut matrix) = (start, None);
-    let mut sum = 0.0;
-    for k in 1..=GROWTHS {
-        let end = begin + (until - begin) * f64::from(k) / f64::from(GROWTHS);
-        let part = flow_map(&space, (laid.method, laid.settings), &state, end, &mut |_| {}).ok()?;
-        if part.failure.is_some() {
-            return None;
-        }
-        let whole = match matrix {
-            None => part.matrix,
-            Some(before) => part.matrix * before,
-        };
-        let values = whole.singular_values();
-        // of a symplectic map the values come in pairs σ, 1/σ, and the large one is known better
-        sum += if space.is_hamiltonian() { values.max() } else { 1.0 / values.min() };
-        (state, matrix) = (part.state, Some(whole));
-    }
-    Some(sum / f64::from(GROWTHS))
+    let Laid { model, equations, system, .. } = laid;
+    let space = PhaseSpace::on_constraints(model, equations, system, parameters).ok()?;
+    let turned = space.state(&returned.state).ok()?;
+    let growth = return_growth(&space, (laid.method, laid.settings), &turned, returned.start)?;
+    let growth =
+        growth.last().filter(|last| last.gone == (returned.turned - returned.start).abs())?;
+    let expected =
+        growth.expected(returned.step_error, returned.mean_step, returned.step.is_none());
+    Some(expected).filter(|expected| expected.is_finite())
 }
 
 /// How the motion returned, and what was expected.
 struct Found {
+    /// Whether what is expected is a bound.
+    bounded: bool,
     returned: Return,
     steps: u64,
     /// The largest exponent of the reversed motion and its uncertainty, or why it is not known.
@@ -166,8 +150,8 @@ fn advance(
 fn rate(laid: &Laid, until: f64) -> Result<(f64, f64), String> {
     let in_words = |why: DynamicsError| why.to_string();
     let parameters = &laid.start.parameters;
-    let space =
-        PhaseSpace::of(&laid.model, &laid.equations, &laid.system, parameters).map_err(in_words)?;
+    let space = PhaseSpace::on_constraints(&laid.model, &laid.equations, &laid.system, parameters)
+        .map_err(in_words)?;
     let start = laid.start.state(&laid.system).and_then(|state| space.state(&state));
     let start = start.map_err(|why| why.to_string())?;
     let method = (laid.method, laid.settings);
@@ -211,20 +195,19 @@ impl Found {
         };
         let mut text = format!("from t = {turned} back to t = {start}: {error}\n\n");
         text.push_str(&format!("ε, the error of a step  {step_error:.1e}\n"));
-        match (&self.rate, self.expected) {
-            (Ok((rate, off)), Some(expected)) => {
-                text.push_str(&format!("λ                       {} ± {off:.1e}\n", shown(*rate)));
-                if self.returned.step.is_none() {
-                    text.push_str(&format!("ε e^λT                  {expected:.1e}\n"));
-                }
-            }
-            (Err(why), _) => text.push_str(&format!("λ is not known: {why}\n")),
-            (Ok((rate, off)), None) => {
+        match &self.rate {
+            Ok((rate, off)) => {
                 text.push_str(&format!("λ                       {} ± {off:.1e}\n", shown(*rate)));
             }
+            Err(why) => text.push_str(&format!("λ is not known: {why}\n")),
         }
-        if let (Some(_), Some(expected)) = (self.returned.step, self.expected) {
-            text.push_str(&format!("of all steps, carried   ≤ {expected:.1e}\n"));
+        if let Some(expected) = self.expected {
+            // a tolerance bounds the error of a step, and so does what is measured of one sign; rounding is as large as it is
+            let sum = match self.bounded {
+                true => "of all steps, carried   ≤",
+                false => "of all steps, carried  ",
+            };
+            text.push_str(&format!("{sum} {expected:.1e}\n"));
         }
         text
     }

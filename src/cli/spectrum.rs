@@ -8,7 +8,8 @@ use super::interrupt::Interrupt;
 use super::motion_options::Laid;
 use super::study::{self, StudyArguments, shown, table};
 use crate::dynamics::{
-    MeanRate, SpectralLine, Spectrum, independent_frequencies, mean_rate, spectrum, straightened,
+    MeanRate, PhaseSpace, SpectralLine, Spectrum, driven_spectrum, independent_frequencies,
+    mean_rate, straightened,
 };
 use crate::ensemble::SystemFlow;
 use crate::num::significant;
@@ -59,6 +60,8 @@ struct Found {
     until: f64,
     count: usize,
     spectrum: Spectrum,
+    /// The frequency of the drive, if the motion has one.
+    drive: Option<f64>,
     rate: Option<MeanRate>,
 }
 
@@ -108,17 +111,19 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let straight = straightened(&values, spacing, rate);
     let fundamentals = independent_frequencies(model, equations, system);
     let most = (arguments.lines as usize, fundamentals);
-    let spectrum = spectrum(&straight, spacing, most, &mut |_| true)
+    let space = PhaseSpace::on_constraints(model, equations, system, &start.parameters).ok();
+    let drive = space.and_then(|space| space.drive()).map(|period| std::f64::consts::TAU / period);
+    let spectrum = driven_spectrum(&straight, spacing, most, drive, &mut |_| true)
         .ok_or_else(|| CommandError::CouldNot("the quantity has no finite values".to_owned()))?;
     let of = arguments.of.clone().unwrap_or_else(|| system.channels()[channel].name.clone());
-    let found = Found { of, from: start.time, until, count, spectrum, rate };
+    let found = Found { of, from: start.time, until, count, spectrum, drive, rate };
     let mut head = study::head(model, system, &start.parameters, (*method, *settings));
     head.append(&mut object(&found));
     study::write(&arguments.study, (head, text(&found)), None, interrupt)
 }
 
 fn object(found: &Found) -> Map<String, Value> {
-    let Found { of, from, until, count, spectrum, rate } = found;
+    let Found { of, from, until, count, spectrum, drive, rate } = found;
     let line = |line: &SpectralLine| {
         json!({
             "frequency": line.frequency,
@@ -126,6 +131,7 @@ fn object(found: &Found) -> Map<String, Value> {
             "amplitude": line.amplitude,
             "phase": line.phase,
             "combination": line.combination,
+            "drive_multiple": line.drive,
         })
     };
     let mut object = Map::new();
@@ -137,19 +143,20 @@ fn object(found: &Found) -> Map<String, Value> {
     insert("mean", json!(spectrum.mean));
     insert("lines", spectrum.lines.iter().map(line).collect());
     insert("fundamentals", json!(spectrum.fundamentals));
+    insert("drive", json!(drive));
     insert("left", json!(spectrum.left));
     insert("mean_rate", rate.map_or(Value::Null, |r| json!({ "rate": r.rate, "error": r.error })));
     object
 }
 
 fn text(found: &Found) -> String {
-    let Found { of, from, until, count, spectrum, rate } = found;
+    let Found { of, from, until, count, spectrum, drive, rate } = found;
     let mut text = format!("{of} from t = {from:?} to {until:?}, {count} values\n\n");
     let head = ["", "ω", "", "amplitude", "phase"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     for line in &spectrum.lines {
         rows.push(vec![
-            line.name().unwrap_or_else(|| "?".to_owned()),
+            line.name().filter(|_| !spectrum.is_continuous()).unwrap_or_else(|| "?".to_owned()),
             significant(line.frequency, 12, 1e-4..1e6),
             format!("± {:.0e}", line.error),
             shown(line.amplitude),
@@ -166,6 +173,13 @@ fn text(found: &Found) -> String {
         shown(spectrum.mean),
         spectrum.left
     ));
+    if spectrum.is_continuous() {
+        let part = 100.0 * spectrum.part_left();
+        text.push_str(&format!("that is {part:.0} % of it: it is not a sum of few lines\n"));
+    }
+    if let Some(drive) = drive {
+        text.push_str(&format!("Ω of the drive {}\n", significant(*drive, 12, 1e-4..1e6)));
+    }
     if let Some(MeanRate { rate, error }) = rate {
         text.push_str(&format!("mean rate {} ± {error:.0e}\n", significant(*rate, 12, 1e-4..1e6)));
     }

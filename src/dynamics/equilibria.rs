@@ -31,6 +31,9 @@ const RADII: [f64; 3] = [0.5, 1.5, 4.0];
 /// A rate counts as zero up to this part of what the variables can cause.
 const ZERO: f64 = 1e-12;
 
+/// Half a turn itself is not taken for its opposite by rounding.
+const HALF_A_TURN: f64 = 0.5 + 1e-9;
+
 /// Two places are the same up to this distance relative to their size plus their unit.
 const SAME: f64 = 1e-7;
 
@@ -273,7 +276,8 @@ impl<'a> EquilibriumSearch<'a> {
         if settled > 0 { self.accepted(variables) } else { None }
     }
 
-    /// The variables nearest to the start among their periods, if they are in reach.
+    /// The variables nearest to the start among their periods, if they are in reach; angles within half a turn of zero,
+    /// however often the motion has gone round.
     fn accepted(&mut self, mut variables: Vec<f64>) -> Option<Vec<f64>> {
         let start = self.space.variables(self.start);
         for &i in &self.resting {
@@ -284,6 +288,9 @@ impl<'a> EquilibriumSearch<'a> {
             let far = RADII[RADII.len() - 1] * (self.units[i] + start[i].abs());
             if i < self.degrees && (variables[i] - start[i]).abs() > far {
                 return None;
+            }
+            if let Some(period) = self.space.periods()[i] {
+                variables[i] -= period * (variables[i] / period - HALF_A_TURN).ceil();
             }
             // a zero but for rounding
             if variables[i].abs() < 1e-14 * self.units[i] {

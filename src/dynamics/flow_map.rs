@@ -71,6 +71,11 @@ pub fn flow_map(
             "impulses act on the motion, which is then followed forwards only".to_owned(),
         ));
     }
+    if space.is_constrained() && until < start.time {
+        return Err(DynamicsError::Unsuited(
+            "constraints hold the motion, which is then followed forwards only".to_owned(),
+        ));
+    }
     let n = space.dimension();
     let mut carrier = Carrier::new(space, method, settings, n)?;
     let (allowed, dimension) = space.allowed_displacements(start)?;

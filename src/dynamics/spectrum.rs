@@ -49,20 +49,27 @@ pub struct SpectralLine {
     pub amplitude: f64,
     /// Its phase.
     pub phase: f64,
-    /// The integers k with ω = k·(the fundamental frequencies), if it is such a combination.
+    /// The integers k with ω = k·(the fundamental frequencies), if it is such a combination, …
     pub combination: Option<Vec<i32>>,
+    /// … to which this multiple of the frequency of a drive is added.
+    pub drive: i32,
 }
 
 impl SpectralLine {
-    /// The combination in words: `ω₁ − 2ω₂`.
+    /// The combination in words: `ω₁ − 2ω₂`; Ω is the frequency of the drive.
     pub fn name(&self) -> Option<String> {
-        self.combination.as_ref().map(|k| named(k))
+        self.combination.as_ref().map(|k| named(k, self.drive))
     }
 }
 
-fn named(k: &[i32]) -> String {
+fn named(k: &[i32], drive: i32) -> String {
+    let index = |i: usize| (i + 1).to_string().chars().map(subscript).collect::<String>();
+    let own = k.iter().enumerate().map(|(i, &times)| (times, format!("ω{}", index(i))));
+    let mut terms: Vec<(i32, String)> = own.chain([(drive, "Ω".to_owned())]).collect();
+    terms.retain(|(times, _)| *times != 0);
+    terms.sort_by_key(|(times, _)| *times < 0);
     let mut text = String::new();
-    for (i, &times) in k.iter().enumerate().filter(|(_, times)| **times != 0) {
+    for (times, frequency) in terms {
         let sign = match (text.is_empty(), times < 0) {
             (true, false) => "",
             (true, true) => "−",
@@ -70,8 +77,7 @@ fn named(k: &[i32]) -> String {
             (false, true) => " − ",
         };
         let count = if times.abs() == 1 { String::new() } else { times.abs().to_string() };
-        let index: String = (i + 1).to_string().chars().map(subscript).collect();
-        text.push_str(&format!("{sign}{count}ω{index}"));
+        text.push_str(&format!("{sign}{count}{frequency}"));
     }
     text
 }
@@ -91,8 +97,25 @@ pub struct Spectrum {
     pub fundamentals: Vec<f64>,
     /// ω and the amplitude of the signal there, under the window.
     pub curve: Vec<[f64; 2]>,
-    /// The root mean square of what the lines leave.
+    /// The root mean square of what the lines leave, and of the signal about its mean.
     pub left: f64,
+    /// See `left`.
+    pub size: f64,
+}
+
+/// A motion of which the lines leave more than this part is no sum of few lines, as a chaotic one is not.
+const CONTINUOUS: f64 = 0.1;
+
+impl Spectrum {
+    /// The part of the signal that the lines leave.
+    pub fn part_left(&self) -> f64 {
+        if self.size > 0.0 { self.left / self.size } else { 0.0 }
+    }
+
+    /// Whether the signal is more than a sum of the lines.
+    pub fn is_continuous(&self) -> bool {
+        self.part_left() > CONTINUOUS
+    }
 }
 
 /// The mean rate of an angle.
@@ -110,6 +133,17 @@ pub fn spectrum(
     signal: &[f64],
     spacing: f64,
     (most, fundamentals): (usize, usize),
+    look: &mut dyn FnMut(usize) -> bool,
+) -> Option<Spectrum> {
+    driven_spectrum(signal, spacing, (most, fundamentals), None, look)
+}
+
+/// The same of a motion with a drive, of which the frequency is known: it belongs to the combinations.
+pub fn driven_spectrum(
+    signal: &[f64],
+    spacing: f64,
+    (most, fundamentals): (usize, usize),
+    drive: Option<f64>,
     look: &mut dyn FnMut(usize) -> bool,
 ) -> Option<Spectrum> {
     if signal.len() < 16
@@ -135,18 +169,29 @@ pub fn spectrum(
         if amplitude <= FAINTEST * strongest.max(fit.size) || fit.lines.iter().any(near) {
             break;
         }
+        let before = (fit.lines.clone(), fit.mean);
         fit.lines.push(Wave { frequency: at, cosine: 0.0, sine: 0.0 });
         fit.polish(STEPS);
+        if fit.has_merged() {
+            // what has no lines makes those that were found run into each other
+            (fit.lines, fit.mean) = before;
+            break;
+        }
         if !look(count + 1) {
             break;
         }
     }
     let errors = fit.polish(LAST_STEPS);
-    let (lines, fundamentals) = fit.named(&errors, fundamentals);
-    let left = fit.left();
-    let squares: f64 = left.iter().map(|x| x * x).sum();
-    let left = (squares / left.len() as f64).sqrt();
-    Some(Spectrum { mean: fit.mean, lines, fundamentals, curve, left })
+    let (lines, fundamentals) = fit.named(&errors, fundamentals, drive);
+    let root_mean_square = |numbers: &[f64]| {
+        let squares: f64 = numbers.iter().map(|x| x * x).sum();
+        (squares / numbers.len() as f64).sqrt()
+    };
+    let left = root_mean_square(&fit.left());
+    let mean = signal.iter().sum::<f64>() / signal.len() as f64;
+    let about: Vec<f64> = signal.iter().map(|x| x - mean).collect();
+    let size = root_mean_square(&about);
+    Some(Spectrum { mean: fit.mean, lines, fundamentals, curve, left, size })
 }
 
 /// An angle that goes round less its mean advance, so that what is left has lines.
@@ -353,9 +398,28 @@ impl<'a> Fit<'a> {
         errors
     }
 
+    /// Whether two lines have become one, or one has gone to zero.
+    fn has_merged(&self) -> bool {
+        let turn = TAU / self.length();
+        let lines = self.lines.iter().enumerate();
+        lines.clone().any(|(i, line)| {
+            let mut others = self.lines[..i].iter();
+            line.frequency <= 0.0
+                || others.any(|other| (other.frequency - line.frequency).abs() < turn)
+        })
+    }
+
     /// The lines with their names, and the fundamental frequencies.
-    fn named(&self, errors: &[f64], most: usize) -> (Vec<SpectralLine>, Vec<f64>) {
-        let mut known: Vec<(f64, f64)> = Vec::new();
+    fn named(
+        &self,
+        errors: &[f64],
+        most: usize,
+        drive: Option<f64>,
+    ) -> (Vec<SpectralLine>, Vec<f64>) {
+        // the drive comes first, and is known
+        let mut known: Vec<(f64, f64)> = drive.iter().map(|&frequency| (frequency, 0.0)).collect();
+        let first = known.len();
+        let most = most + first;
         let mut lines: Vec<SpectralLine> = Vec::new();
         let turn = TAU / self.length();
         let middle = -self.time(0);
@@ -374,15 +438,16 @@ impl<'a> Fit<'a> {
                 error,
                 amplitude: line.amplitude(),
                 phase: phase - TAU * (phase / TAU).round(),
-                combination,
+                drive: combination.as_ref().filter(|_| first > 0).map_or(0, |k| k[0]),
+                combination: combination.map(|k| k[first..].to_vec()),
             });
         }
-        let count = known.len();
+        let count = known.len() - first;
         lines
             .iter_mut()
             .filter_map(|line| line.combination.as_mut())
             .for_each(|k| k.resize(count, 0));
-        (lines, known.into_iter().map(|(frequency, _)| frequency).collect())
+        (lines, known.into_iter().skip(first).map(|(frequency, _)| frequency).collect())
     }
 }
 

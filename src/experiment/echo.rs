@@ -1,8 +1,8 @@
 //! The run before time was reversed: what a motion that goes back is held against.
 //!
 //! At the time t of the motion that goes back, the run before is taken from its log of steps, exactly by dense output. Their
-//! distance is the return error. Every step of both adds an error of size ε, which the way back to t multiplies by e^{λT}, T
-//! the time gone back: a chaotic motion returns to ε e^{λT} of where it began, a regular one to about ε.
+//! distance is the return error. Every step of both adds an error of size ε, which grows on the way back to t as the
+//! derivative of the flow says: like e^{λT} in chaos, in proportion to the time where the motion is regular.
 //!
 //! That error is the tolerance, or the rounding of a method whose step back is the inverse of one forwards. Of any other method
 //! the error of truncation is much larger than both, and it is measured: the motion is carried back over steps of the run.
@@ -16,6 +16,7 @@ use super::observed_motion::ObservedMotion;
 use super::{Companion, CompanionOrigin, Return, Trail};
 use crate::analysis::{CrossingLog, DistanceHistory, distance};
 use crate::integrate::{Preserves, Stepping};
+use crate::system::State;
 
 /// Half the distance between 1 and the next number.
 const ROUNDING: f64 = 1.110_223_024_625_156_5e-16;
@@ -38,7 +39,10 @@ pub(super) struct Echo {
     distance: Option<f64>,
     error: Option<f64>,
     step_error: f64,
-    /// The mean size of a step, where its error was measured.
+    /// The state at which time was reversed, and the mean size of a step.
+    state: Arc<State>,
+    mean_step: f64,
+    /// The mean size of the steps whose error was measured.
     step: Option<f64>,
 }
 
@@ -60,6 +64,8 @@ impl Echo {
             distance: None,
             error: None,
             step: None,
+            state: Arc::new(run.dated_state()),
+            mean_step: run.log.mean_step().unwrap_or_else(|| run.step_size().abs()),
             step_error: run.tolerance().unwrap_or(ROUNDING) * size.sqrt(),
             run,
             trail,
@@ -140,6 +146,8 @@ impl Echo {
             turned: self.turned,
             start: self.start,
             step_error: self.step_error,
+            state: Arc::clone(&self.state),
+            mean_step: self.mean_step,
             step: self.step,
             distance: self.distance,
             error: self.error,

@@ -182,30 +182,16 @@ impl Experiment {
             self.compare_with_echo();
         }
         let Some(echo) = &self.echo else { return AdvanceOutcome::Arrived };
-        let (returned, separation) = (echo.returned(), echo.separation());
-        let gone = (returned.turned - returned.start).abs();
+        let returned = echo.returned();
         let start = short(returned.start);
-        match (returned.error, separation.slope()) {
-            (Some(0.0), _) => {
-                self.tell(format!("back at t = {start}: where it began, to the last bit"));
-            }
-            (Some(error), Some(slope)) => {
-                let expected = returned.expected(slope.rate.max(0.0), gone);
-                let sum =
-                    if returned.step.is_some() { "ε Σ e^λt over all steps" } else { "ε e^λT" };
-                self.tell(format!(
-                    "back at t = {start}: {} from where it began; a step errs by ε ≈ {}, and {sum} = {} with λ ≈ {}, T = {}",
-                    short(error),
-                    short(returned.step_error),
-                    short(expected),
-                    short(slope.rate),
-                    short(gone)
-                ));
-            }
-            (Some(error), None) => {
-                self.tell(format!("back at t = {start}: {} from where it began", short(error)));
-            }
-            (None, _) => self.tell(format!("back at t = {start}")),
+        match returned.error {
+            Some(0.0) => self.tell(format!("back at t = {start}: where it began, to the last bit")),
+            Some(error) => self.tell(format!(
+                "back at t = {start}: {} from where it began; a step errs by ε ≈ {}",
+                short(error),
+                short(returned.step_error),
+            )),
+            None => self.tell(format!("back at t = {start}")),
         }
         AdvanceOutcome::Ended
     }

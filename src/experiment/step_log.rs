@@ -84,6 +84,13 @@ impl StepLog {
         self.known.front().map(|known| known.state.time)
     }
 
+    /// The mean size of the steps that are known.
+    pub(super) fn mean_step(&self) -> Option<f64> {
+        let (first, last) = (self.known.front()?, self.known.back()?);
+        let steps = last.steps.checked_sub(first.steps).filter(|steps| *steps > 0)?;
+        Some((last.state.time - first.state.time).abs() / steps as f64)
+    }
+
     /// Pairs of neighbouring states between which no impulse acted, spread over all that is known, up to so many.
     pub(super) fn sample(&self, most: usize) -> Vec<[LoggedState; 2]> {
         let pairs = self.known.len().saturating_sub(1);

@@ -208,11 +208,6 @@ fn found(answer: Option<&Answer>) -> Option<&Lyapunov> {
     measured(answer)?.found.as_ref().ok()
 }
 
-/// The largest exponent in an answer to this instrument.
-pub fn largest_exponent(answer: &Answer) -> Option<f64> {
-    found(Some(answer))?.exponents.first().copied()
-}
-
 fn word(verdict: Chaos) -> &'static str {
     match verdict {
         Chaos::Regular => "regular",

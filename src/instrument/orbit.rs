@@ -25,7 +25,7 @@ const CURVE: Level = 2;
 const NOW: Level = 4;
 
 /// The points of the curve.
-const POINTS: usize = 512;
+const POINTS: usize = 2048;
 
 /// What is beyond the extent of an orbit is this part of it.
 const MARGIN: f64 = 0.25;

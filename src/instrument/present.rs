@@ -9,7 +9,7 @@ use crate::dynamics::Equilibrium;
 use crate::integrate::Settings;
 use crate::mechanics::{Equations, Valuation};
 use crate::model::Model;
-use crate::system::{Channel, ChannelKind, System};
+use crate::system::{Channel, ChannelKind, State, System};
 
 /// A system: its model, its derived equations, and the compiled program.
 #[derive(Clone, Copy)]
@@ -49,6 +49,8 @@ pub struct Present<'a> {
     pub settings: Settings,
     /// How the motion returns along the run before, if time was reversed.
     pub returned: Option<Returned>,
+    /// The state at which it was, and the time at which the run before began.
+    pub turned: Option<(&'a Arc<State>, f64)>,
 }
 
 /// A motion whose time was reversed, held against the run before.
@@ -56,14 +58,12 @@ pub struct Present<'a> {
 pub struct Returned {
     /// The time gone back, and back to the start of the run before.
     pub gone: [f64; 2],
-    /// ε, the error of a step, and the mean size of a step where that error was measured.
-    pub step_error: (f64, Option<f64>),
+    /// ε, the error of a step, the mean size of a step, and whether the errors of steps are independent of each other.
+    pub step_error: (f64, f64, bool),
     /// The distance from the run before at the same time.
     pub distance: Option<f64>,
     /// The return error: the distance from the start.
     pub error: Option<f64>,
-    /// The Lyapunov exponent, where an instrument has measured it.
-    pub exponent: Option<f64>,
 }
 
 impl<'a> Physics<'a> {

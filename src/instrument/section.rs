@@ -266,6 +266,14 @@ impl Instrument for SectionPlot {
                 },
             },
             Measure {
+                word: "regular",
+                about: "how many of them are regular: those, and crescents that do not go round their middle",
+                value: |_, _, answer| {
+                    let orbits = portrait(answer)?.orbits.iter();
+                    Some(orbits.filter(|orbit| orbit.regular() == Some(true)).count() as f64)
+                },
+            },
+            Measure {
                 word: "chaotic",
                 about: "how many of them have none, as their average turn does not converge",
                 value: |_, _, answer| {

@@ -3,21 +3,20 @@
 //! Neighbours part like e^{λt} where the motion is chaotic, and in proportion to t where it is regular; the slope is that
 //! of the straight line while d is small beside the motion ([`SeparationPlot`](crate::analysis::DistanceHistory)).
 
+mod way_back;
+
 use std::sync::Arc;
 
 use super::{
-    Across, Answer, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Offer,
+    Across, Answer, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, Present, Returned, Stroke, Upwards,
 };
-use crate::analysis::{DistanceHistory as Distances, Slope, expected_return};
+use crate::analysis::{DistanceHistory as Distances, Slope};
 use crate::num::significant;
 
 /// The levels of the picture.
 const CURVES: Level = 1;
 const SLOPE: Level = 2;
-
-/// The pieces of the line of what is expected.
-const PARTS: u32 = 60;
 
 /// The row.
 pub(super) struct SeparationPlot;
@@ -47,7 +46,7 @@ impl Instrument for SeparationPlot {
 
     fn heading(&self, _plot: &Plot, present: &Present<'_>) -> Option<Heading> {
         if let Some(returned) = present.returned {
-            return Some(return_heading(present, returned));
+            return Some(way_back::heading(returned));
         }
         let entries = match newest(present) {
             None => vec![Entry::Words("none beside this motion: d adds a neighbour".to_owned())],
@@ -74,7 +73,7 @@ impl Instrument for SeparationPlot {
         _plot: &Plot,
         present: &Present<'_>,
         _seen: [f64; 2],
-        _answer: Option<&Answer>,
+        answer: Option<&Answer>,
     ) -> Option<Picture> {
         let mut layers = Vec::new();
         for (number, distances) in present.separations {
@@ -82,7 +81,11 @@ impl Instrument for SeparationPlot {
             layers.push((CURVES, Layer::Line(distances.points().to_vec(), ink.into())));
         }
         if let Some(returned) = present.returned {
-            return Some(way_back(present, returned, layers));
+            return Some(way_back::picture((returned, answer), layers, range(present, 1)));
+        }
+        if present.separations.is_empty() {
+            let none = "no motion beside this one: d adds a neighbour, P pins this run";
+            layers.push((SLOPE, Layer::Legend(vec![none.to_owned()])));
         }
         if let Some((_, _, Some(slope))) = newest(present) {
             let ends = [slope.from, slope.to].map(|t| [t, slope.level + slope.rate * t]);
@@ -99,6 +102,10 @@ impl Instrument for SeparationPlot {
             _ => "ln d".to_owned(),
         };
         Some(Picture::Axes { upwards: Upwards::Named(name, range), layers, occurrences: None })
+    }
+
+    fn job(&self, _plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+        way_back::job(present, answer)
     }
 
     fn measures(&self) -> &'static [Measure] {
@@ -125,10 +132,10 @@ impl Instrument for SeparationPlot {
             },
             Measure {
                 word: "expected",
-                about: "ε e^{λT} for the time gone back, ε the error of a step, λ measured or the slope",
-                value: |_, present, _| {
+                about: "the same as it is expected: the errors of all steps so far, each grown on the way back since",
+                value: |_, present, answer| {
                     let returned = present.returned?;
-                    Some(expected(present, returned, returned.gone[0])?.1)
+                    way_back::expected(returned, answer, returned.gone[0])
                 },
             },
             Measure {
@@ -141,64 +148,6 @@ impl Instrument for SeparationPlot {
             },
         ]
     }
-}
-
-/// λ and the error that is expected after a time gone back, ε e^{λT} or the sum of all steps': λ is that of an instrument, or else the slope of ln d. No distance is seen below
-/// the rounding of what is compared.
-fn expected(present: &Present<'_>, returned: Returned, gone: f64) -> Option<(f64, f64)> {
-    let slope = || newest(present)?.2.map(|slope| slope.rate);
-    let rate = returned.exponent.or_else(slope)?;
-    Some((rate, expected_return(returned.step_error, rate.max(0.0), gone)))
-}
-
-/// What stands above the distance of a motion that goes back.
-fn return_heading(present: &Present<'_>, returned: Returned) -> Heading {
-    let mut entries = Vec::new();
-    match (returned.error, returned.distance) {
-        (Some(error), _) => entries.push(Entry::Number("returned to".to_owned(), error)),
-        (None, Some(distance)) => entries.push(Entry::Number("d =".to_owned(), distance)),
-        (None, None) => {}
-    }
-    if let Some((rate, value)) = expected(present, returned, returned.gone[0]) {
-        entries.push(Entry::Number(format!("{} =", growth(returned)), value));
-        entries.push(Entry::Number("λ ≈".to_owned(), rate));
-    }
-    Heading { title: "Return error ln d".to_owned(), given: false, entries }
-}
-
-/// What the error is expected to be, in a few words.
-fn growth(returned: Returned) -> &'static str {
-    if returned.step_error.1.is_some() { "ε Σ e^λt" } else { "ε e^λT" }
-}
-
-/// The distance from the run before over the time gone back, with what is expected of it.
-fn way_back(present: &Present<'_>, returned: Returned, mut layers: Vec<(Level, Layer)>) -> Picture {
-    let all = returned.gone[1];
-    let mut name = match returned.distance {
-        Some(0.0) => "ln d   identical, to the last bit".to_owned(),
-        _ => "ln d from the run before".to_owned(),
-    };
-    let mut range = range(present, 1);
-    let ln = crate::num::math::ln;
-    let (error, step) = returned.step_error;
-    if let (Some((rate, _)), true) = (expected(present, returned, all), error > 0.0) {
-        let first = step.unwrap_or(0.0).min(all);
-        let at = |k: u32| {
-            let gone = first + (all - first) * f64::from(k) / f64::from(PARTS);
-            [gone, ln(expected_return(returned.step_error, rate.max(0.0), gone))]
-        };
-        let line: Vec<[f64; 2]> = (0..=PARTS).map(at).collect();
-        let (low, high) = (line[0][1], line[PARTS as usize][1]);
-        let stroke = Stroke { ink: Ink::Accent, covering: Some(0.5) };
-        layers.push((SLOPE, Layer::Line(line, stroke)));
-        let seen = range.unwrap_or([low, high]);
-        range = Some([seen[0].min(low), seen[1].max(high)]);
-        let written = [rate, error].map(|x| significant(x, 3, 1e-4..1e4));
-        let growth = growth(returned);
-        name = format!("ln d   line: {growth}, λ = {}, ε = {}", written[0], written[1]);
-    }
-    let upwards = Upwards::Named(name, range.unwrap_or([-40.0, 0.0]));
-    Picture::Axes { upwards, layers, occurrences: None }
 }
 
 /// The last of the motions: its number, its distances and their slope.

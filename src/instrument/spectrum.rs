@@ -10,7 +10,8 @@ use super::{
     Physics, Picture, Plot, Present, Upwards,
 };
 use crate::dynamics::{
-    MeanRate, Spectrum as Lines, independent_frequencies, mean_rate, spectrum, straightened,
+    MeanRate, PhaseSpace, Spectrum as Lines, driven_spectrum, independent_frequencies, mean_rate,
+    straightened,
 };
 use crate::ensemble::SystemFlow;
 use crate::integrate::method_named;
@@ -40,6 +41,8 @@ pub(super) struct SpectrumPlot;
 /// What was found, and of which motion.
 struct ComputedSpectrum {
     conditions: PlotConditions,
+    /// The frequency of the drive, if the motion has one.
+    drive: Option<f64>,
     outcome: Result<(Lines, Option<MeanRate>), String>,
 }
 
@@ -102,7 +105,8 @@ impl Instrument for SpectrumPlot {
         let floor = top - POWERS;
         let curve = found.curve.iter().map(|at| [at[0], power(at[1]).max(floor)]).collect();
         let line = |line: &crate::dynamics::SpectralLine| {
-            let ends = [floor, power(line.amplitude)].map(|y| [line.frequency, y]);
+            // from below the lower edge of the picture
+            let ends = [floor - POWERS, power(line.amplitude)].map(|y| [line.frequency, y]);
             (LINES, Layer::Line(ends.to_vec(), Ink::Curve(1).into()))
         };
         let mut layers = vec![(CURVE, Layer::Line(curve, Ink::Level.into()))];
@@ -122,6 +126,9 @@ impl Instrument for SpectrumPlot {
         };
         let (begin, speed, system) = (model.run.start, model.run.speed, system.clone());
         let fundamentals = independent_frequencies(model, equations, &system);
+        let space = PhaseSpace::on_constraints(model, equations, &system, present.parameters).ok();
+        let drive =
+            space.and_then(|space| space.drive()).map(|period| std::f64::consts::TAU / period);
         let is_angle = matches!(system.channels()[channel].kind, ChannelKind::Position(_))
             && system.period(channel, present.parameters).is_some();
         Need::Job(Job::new("spectrum", move |progress: &Progress| {
@@ -153,11 +160,12 @@ impl Instrument for SpectrumPlot {
                     progress.reach(count as u64);
                     !progress.is_cancelled()
                 };
-                let lines = spectrum(&straight, spacing, (MOST, fundamentals), &mut look);
+                let most = (MOST, fundamentals);
+                let lines = driven_spectrum(&straight, spacing, most, drive, &mut look);
                 let lines = lines.ok_or_else(|| "the motion has no finite values".to_owned())?;
                 Ok((lines, rate))
             });
-            Answer::new(ComputedSpectrum { conditions: conditions.clone(), outcome })
+            Answer::new(ComputedSpectrum { conditions: conditions.clone(), drive, outcome })
         }))
     }
 
@@ -187,6 +195,11 @@ impl Instrument for SpectrumPlot {
                 word: "second",
                 about: "the second of those frequencies",
                 value: |_, _, answer| lines(answer)?.fundamentals.get(1).copied(),
+            },
+            Measure {
+                word: "left",
+                about: "the part of the motion that the lines leave: large where it is chaotic",
+                value: |_, _, answer| Some(lines(answer)?.part_left()),
             },
             Measure {
                 word: "rate",
@@ -227,11 +240,22 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
         .iter()
         .take(TOLD)
         .map(|line| {
-            let name = line.name().unwrap_or_else(|| "?".to_owned());
+            // of what is no sum of lines no frequency is a combination of others
+            let name = line.name().filter(|_| !lines.is_continuous());
+            let name = name.unwrap_or_else(|| "ω".to_owned());
             let (frequency, error) = (short(line.frequency), significant(line.error, 1, 1.0..10.0));
             format!("{name} = {frequency} ± {error}{unit}, amplitude {}", brief(line.amplitude))
         })
         .collect();
+    let names = lines.lines.iter().filter_map(|line| line.name());
+    if let Some(drive) = found(answer).and_then(|found| found.drive)
+        && names.take(TOLD).any(|name| name.contains('Ω'))
+    {
+        all.push(format!("Ω = {}{unit}, the drive", short(drive)));
+    }
+    if lines.is_continuous() {
+        all.push(format!("these lines leave {:.0} %: not a sum of few", 100.0 * lines.part_left()));
+    }
     if lines.lines.is_empty() {
         all.push("no line stands out".to_owned());
     }

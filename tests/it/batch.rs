@@ -203,3 +203,37 @@ fn an_orbit_that_leaves_the_ordinary_is_carried_alone_and_the_others_go_on() {
     let arrived: Vec<bool> = together.iter().map(|one| one.end.is_some()).collect();
     assert_eq!(arrived, [false, true, true, false]);
 }
+
+/// An orbit that takes more steps than are allowed is given up, after as many of them whether it is carried alone or not.
+#[test]
+fn an_orbit_that_takes_too_many_steps_is_given_up() {
+    let ready = line("1/2*x'^2 - 1/2*x^2 - 1/4*x^4", "");
+    let parameters = ready.model.parameter_values();
+    let states: Vec<State> = (0..BATCH + 3)
+        .map(|i| {
+            let mut state = ready.system.initial(0.0, &parameters, &[]).unwrap();
+            // the larger the amplitude, the shorter the period and the steps
+            state.values[0] = 0.1 * 2.0_f64.powi(i as i32);
+            state
+        })
+        .collect();
+    let from: Vec<Option<&State>> = states.iter().map(Some).collect();
+    let times = [0.0, 2.0, 10.0];
+    let free = flow(&ready, 1e-15);
+    let whole = free.carry_all(&from, &times, &[0], |_| ()).unwrap();
+    let mut counts = Vec::new();
+    for effort in [1, 10, 30, 100, 300, 100_000] {
+        let flow = SystemFlow { effort: Some(effort), ..free.clone() };
+        let together = flow.carry_all(&from, &times, &[0], |_| ()).unwrap();
+        for ((one, state), unbounded) in together.iter().zip(&states).zip(&whole) {
+            assert_eq!(bits(one), bits(&flow.carry(state, &times, &[0])), "{effort}");
+            // what is there is what would be there without the bound
+            let (seen, all) = (&one.seen, &unbounded.seen);
+            assert_eq!(seen[..], all[..seen.len()]);
+            assert_eq!(one.end.is_some(), seen.len() == times.len());
+        }
+        counts.push(together.iter().filter(|one| one.end.is_some()).count());
+    }
+    assert!(counts.is_sorted() && counts[0] == 0 && counts[5] == states.len(), "{counts:?}");
+    assert!(counts.iter().any(|&count| count > 0 && count < states.len()), "{counts:?}");
+}

@@ -11,6 +11,7 @@ mod impulses;
 mod lyapunov;
 mod orbit;
 mod principles;
+mod return_growth;
 mod rotation;
 mod spectrum;
 

@@ -37,3 +37,24 @@ fn the_window_follows_the_bulk_and_says_how_many_are_outside() {
         assert!(outside <= free && outside >= 0.5 * free, "{outside} {free}");
     }
 }
+
+/// A centre that attracts with the force 1/r².
+const CENTRE: &str = "title = \"a centre\"\n[coordinates]\nx = { initial = 1.0, momentum = 0.0 }\n\
+    y = { initial = 0.0, momentum = 1.0 }\n[hamiltonian]\n\
+    H = \"1/2*(p_x^2 + p_y^2) - 1/sqrt(x^2 + y^2)\"\n[run]\nuntil = 100.0\n";
+
+/// Points that turn around the centre some hundred times a second would hold up all others.
+#[test]
+fn points_that_take_too_many_steps_are_given_up_and_counted() {
+    let (mut app, _, mut experiment) = opened(prepared(CENTRE));
+    app.lab.as_mut().unwrap().plots[0].seeds = vec![Seed::Spread([[1e-3, 1.0], [-0.1, 0.1]])];
+    see(&mut app, &mut experiment, 0.02);
+    for time in [1.0, 2.0, 3.0] {
+        see(&mut app, &mut experiment, time);
+    }
+    let lost = measure(&app, "lost").unwrap();
+    // of an orbit that begins at r with the momentum 1 the period is 2π (r/2)^{3/2}: of r < 0.02, 6 ms and less
+    assert!(lost > 30.0 && lost < 400.0, "{lost}");
+    assert!(measure(&app, "outside").unwrap() >= lost);
+    assert_eq!(measure(&app, "points"), Some(2000.0 - lost));
+}

@@ -57,10 +57,11 @@ pub(super) struct DrawnOrbit {
 }
 
 impl DrawnOrbit {
-    /// Whether its average turn converges; `None` if there is none to tell by.
+    /// Whether its average turn converges, to a rotation number or to whole turns; `None` if there is none to tell by.
     pub(super) fn regular(&self) -> Option<bool> {
         match self.rotation {
-            Ok(_) => Some(true),
+            // crescents, as in a resonance, do not go round their middle, but their average converges
+            Ok(_) | Err(NoRotation::NotAround) => Some(true),
             Err(NoRotation::AllTurns | NoRotation::Diverges(_)) => Some(false),
             Err(_) => None,
         }
