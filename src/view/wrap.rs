@@ -132,7 +132,7 @@ fn formula_after(text: &str, width: usize, first: usize, indent: usize) -> Vec<S
     let mut pieces = Vec::new();
     for (place, term) in terms(text, 0).iter().enumerate() {
         let before = if place == 0 { first.max(indent) } else { indent };
-        break_up(term, width.saturating_sub(before).max(1), 0, &mut pieces);
+        break_up(term, width.saturating_sub(before).max(1), [0, 0], &mut pieces);
     }
     fill(pieces.into_iter(), width, first, indent)
 }
@@ -143,9 +143,8 @@ const DEEPEST: usize = 6;
 /// How much further right a line begins for each parenthesis that is open.
 const NESTED: usize = 2;
 
-/// Cuts a formula into pieces that fit.
-fn break_up(text: &str, room: usize, depth: usize, pieces: &mut Vec<Piece>) {
-    let nested = depth * NESTED;
+/// Cuts a formula into pieces that fit, at a depth of parentheses whose lines begin so much further right.
+fn break_up(text: &str, room: usize, [depth, nested]: [usize; 2], pieces: &mut Vec<Piece>) {
     let fits = |text: &str| text.width() + nested <= room;
     for term in terms(text, depth) {
         if fits(&term) {
@@ -158,15 +157,18 @@ fn break_up(text: &str, room: usize, depth: usize, pieces: &mut Vec<Piece>) {
             }
         } else {
             // A parenthesis stays whole if a line of its own suffices.
-            for part in parts(&term, depth) {
+            for (place, part) in parts(&term, depth).into_iter().enumerate() {
+                let spaced = place == 0 || !part.starts_with('*');
                 if fits(&part) {
-                    pieces.push(Piece { text: part, spaced: true, nested });
-                } else {
-                    let begins = pieces.len();
-                    break_up(&part, room, depth + 1, pieces);
-                    if let Some(piece) = pieces.get_mut(begins) {
-                        piece.nested = nested;
-                    }
+                    pieces.push(Piece { text: part, spaced, nested });
+                    continue;
+                }
+                let begins = pieces.len();
+                let inside = terms(&part, depth + 1).len() > 1 || parts(&part, depth + 1).len() > 1;
+                let nested_more = nested + if inside { NESTED } else { 0 };
+                break_up(&part, room, [depth + 1, nested_more], pieces);
+                if let Some(piece) = pieces.get_mut(begins) {
+                    (piece.nested, piece.spaced) = (nested, spaced);
                 }
             }
         }
@@ -178,7 +180,8 @@ fn terms(text: &str, depth: usize) -> Vec<String> {
     cut(text, depth, |_, word| matches!(word, "+" | "−" | "-" | "="))
 }
 
-/// Cuts a term before and after each factor that is a parenthesis, and after each comma, at most `depth` deep.
+/// Cuts a term before and after each factor that is a parenthesis, and after each comma, at most `depth` deep; a term without
+/// such spaces before each `*` there.
 fn parts(term: &str, depth: usize) -> Vec<String> {
     let opens = |word: &str| word.trim_start_matches('√').starts_with(['(', '[']);
     let closes = |word: &str| {
@@ -186,9 +189,25 @@ fn parts(term: &str, depth: usize) -> Vec<String> {
         base.trim_end_matches('^').ends_with([')', ']'])
     };
     let operator = |word: &str| matches!(word, "+" | "−" | "-" | "=" | "/" | "*" | "·");
-    cut(term, depth, |before, word| {
+    let parts = cut(term, depth, |before, word| {
         before.ends_with(',') || !operator(before) && (opens(word) || closes(before))
-    })
+    });
+    if parts.len() > 1 {
+        return parts;
+    }
+    let mut factors = vec![String::new()];
+    let mut open = 0_usize;
+    for character in term.chars() {
+        open += usize::from(matches!(character, '(' | '['));
+        open = open.saturating_sub(usize::from(matches!(character, ')' | ']')));
+        if character == '*' && open <= depth {
+            factors.push(String::new());
+        }
+        if let Some(factor) = factors.last_mut() {
+            factor.push(character);
+        }
+    }
+    factors
 }
 
 /// Cuts a text at its spaces, at most `depth` deep in parentheses, where the words before and after are to be parted.
@@ -333,13 +352,15 @@ mod tests {
     fn a_formula_is_broken_between_its_parentheses_before_it_is_inside_them() {
         let broken = |text: &str, width: usize| formula(text, width, 2);
         assert_eq!(broken("a = (b + c) (d + e)", 30), ["a = (b + c) (d + e)"]);
-        assert_eq!(broken("a = √(b + c)² (d + e)", 14), ["a", "  = √(b + c)²", "  (d + e)"]);
-        assert_eq!(broken("a + sqrt(b + c)^2*(d + e)", 12)[0], "a");
+        assert_eq!(broken("a = √(b + c)² (d + e)", 14), ["a = √(b + c)²", "  (d + e)"]);
         // A function stays with its argument, a quotient with its denominator.
         assert_eq!(broken("(b + c) sin θ/(d + e)", 14), ["(b + c)", "  sin θ/(d", "    + e)"]);
+        // So is a product of the files.
+        let product = "m*l1*l2*theta1'*cos(theta1 - theta2)";
+        assert_eq!(broken(product, 24), ["m*l1*l2*theta1'", "  *cos(theta1 - theta2)"]);
         // What is inside a parenthesis begins further right.
         let long = "a (b c d + e f g (h + i) + j k l)";
-        assert_eq!(broken(long, 16), ["a (b c d", "    + e f g", "    (h + i)", "    + j k l)"]);
+        assert_eq!(broken(long, 16), ["a (b c d + e f g", "    (h + i)", "    + j k l)"]);
         assert_eq!(broken("min(max(t/T, 0), 1)³ x", 16), ["min(max(t/T, 0),", "    1)³ x"]);
         for width in 1..40 {
             let lines = broken(long, width);

@@ -11,7 +11,7 @@ use ratatui::buffer::Buffer;
 use ratatui::style::Color;
 
 use super::{rich, rows, screen};
-use crate::hand::{begun, catalog, gauge, in_lab, lab, loaded, press, snapshot};
+use crate::hand::{catalog, gauge, in_lab, lab, loaded, press, snapshot};
 
 /// The arrows of a picture in space, as their labels.
 fn arrows(model: &Model) -> Vec<&str> {
@@ -148,13 +148,15 @@ fn every_curve_of_several_has_its_key_on_the_screen() {
 /// The reading of the cursor stands beside the words above the axes, or below them.
 #[test]
 fn the_cursor_covers_no_word_above_the_axes() {
-    let mut app = begun(&catalog().find("back-to-the-start").unwrap().text);
-    press(&mut app, "Tab Tab Tab");
+    let mut app = lab("darwin", 1.0);
+    while app.lab.as_ref().unwrap().focused_plot().is_none_or(|(_, p)| p.kind.name() != "time") {
+        press(&mut app, "Tab");
+    }
     let above = |app: &phaselab::app::App| -> String {
-        rows(&screen(app, &rich(), (80, 24)))[2].chars().skip(1).take(38).collect()
+        rows(&screen(app, &rich(), (80, 24)))[2].chars().skip(41).take(38).collect()
     };
     let words = above(&app).trim().to_owned();
-    assert!(words.chars().count() > 20, "{words}");
+    assert!(words.chars().count() > 28, "{words}");
     press(&mut app, "c");
     let buffer = screen(&app, &rich(), (80, 24));
     assert!(super::find(&buffer, "┼").is_some(), "{:#?}", rows(&buffer));
