@@ -12,13 +12,12 @@ use super::assertion::AssertionResult;
 use super::clock::Micros;
 use super::headless_lab::Budget;
 use super::lesson_finding::in_words;
-use super::lesson_look::LessonView;
 use super::lesson_order::mistakes_in;
 use super::lesson_question::{AnswerChoice, AnswerVerdict, GivenAnswer, Question, QuestionKind};
 use super::recording::rows;
 use super::script::{Asked, Assert, LessonStep, Script, ScriptStep};
 use super::script_runner::{RunnerEvent, ScriptRunner};
-use crate::app::{KeyHints, Page};
+use crate::app::{KeyHints, Page, Pane};
 use crate::diagnostic::{Diagnostic, Document, SourceRange};
 use crate::view::lesson::{Paragraph, ParagraphKind};
 
@@ -46,6 +45,14 @@ pub struct Lesson {
     /// What is said of a key that does nothing.
     pub(super) notice: Option<String>,
     unattended: bool,
+}
+
+/// What was seen before somebody looked around.
+#[derive(Clone, Copy)]
+pub(super) struct LessonView {
+    pub(super) page: Page,
+    pub(super) focus: Pane,
+    pub(super) front: Option<usize>,
 }
 
 /// What a lesson is doing.

@@ -4,7 +4,6 @@
 //! right, and what a check of the script reports.
 
 use super::assertion::{column, measured, value};
-use super::lesson_judge::short;
 use super::script::{Assert, AssertedNumber, Comparator, LineText};
 use crate::app::App;
 use crate::model::{Allowed, Scope};
@@ -35,6 +34,11 @@ pub(super) fn in_words(claim: &Assert, app: &App) -> Option<String> {
         Comparator::Less => format!("{what} is {}, below {}", short(left), short(right)),
         Comparator::More => format!("{what} is {}, above {}", short(left), short(right)),
     })
+}
+
+/// A number with four digits.
+fn short(x: f64) -> String {
+    significant(x, 4, 1e-3..1e6)
 }
 
 /// A quantity as the lab shows it: a channel, a gauge, or an expression.

@@ -5,16 +5,8 @@
 
 use crossterm::event::{KeyCode, KeyEvent};
 
-use super::lesson::Lesson;
-use crate::app::{Event, Page, Pane};
-
-/// What was seen before somebody looked around.
-#[derive(Clone, Copy)]
-pub(super) struct LessonView {
-    page: Page,
-    focus: Pane,
-    front: Option<usize>,
-}
+use super::lesson::{Lesson, LessonView};
+use crate::app::{Event, Page};
 
 impl Lesson {
     /// Handles a key that only changes what is seen. Returns whether it is one.
