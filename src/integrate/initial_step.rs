@@ -20,9 +20,6 @@ const A_FEW: usize = 4;
 /// without end and are not representative.
 const SHORTEST: f64 = 1e-4;
 
-/// A step shorter than this part of what its series allows was ended by something else.
-const SHORTENED: f64 = 0.999;
-
 /// Longer than every time scale, in any units; the square of a distance covered in it is a number.
 const FAR: f64 = 1e150;
 
@@ -62,10 +59,7 @@ fn ahead(
         && ahead.step(FAR).is_ok()
         && ahead.time() < FAR
     {
-        let (begin, end) = ahead.interval();
-        let (taken, allowed) = (end - begin, ahead.step_size());
-        // up to a kink or an event a polynomial may allow any step
-        steps.push(if taken < SHORTENED * allowed { taken } else { allowed });
+        steps.push(ahead.step_size());
     }
     let longest = steps.iter().copied().fold(0.0, f64::max);
     // a motion that comes to rest may do so in no time

@@ -518,20 +518,3 @@ fn a_start_on_a_hidden_kink_is_reported_with_the_method_that_passes_it() {
     run(&mut written, 1.0);
     assert!((value(&taylor, "v") - value(&written, "v")).abs() < 1e-13);
 }
-
-/// Between its kinks the motion in a wedge is a parabola, whose series allows any step: the time scale is that from one kink to
-/// the next.
-#[test]
-fn the_default_step_in_a_wedge_is_a_part_of_the_time_between_its_kinks() {
-    for potential in ["abs(x)", "sqrt(x^2)", "max(x, -x)"] {
-        let text = format!(
-            "[coordinates]\nx = {{ initial = 1 }}\n[lagrangian]\nL = \"1/2*x'^2 - {potential}\"\n"
-        );
-        for method in ["rk4", "gauss6"] {
-            let mut experiment = by(method, None, &text);
-            run(&mut experiment, 1.0);
-            let step = experiment.snapshot().method.step;
-            assert!((0.01..1.0).contains(&step), "{potential}, {method}: {step:e}");
-        }
-    }
-}
