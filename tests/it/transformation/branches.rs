@@ -9,7 +9,7 @@ use crate::hand::{lab, press};
 /// P of p = P − h q P²/(1 + q²)² + h q has two roots; the second passes through infinity at q = 0, where its branch ends.
 #[test]
 fn a_branch_that_does_not_lead_to_the_point_has_no_ring() {
-    let [right, left] = [2.0, 3.0].map(|time| {
+    let [right, left] = [2.0, 5.0].map(|time| {
         let mut app = lab("two-roots", time);
         press(&mut app, "Wait");
         app
