@@ -1,6 +1,6 @@
 //! Gauges and their verdicts.
 
-use phaselab::experiment::{Command, Gauge, Growth, Snapshot, Verdict};
+use phaselab::experiment::{Gauge, Growth, Verdict};
 use phaselab::integrate::Settings;
 use phaselab::preset::Catalog;
 
@@ -200,48 +200,5 @@ fn no_shipped_motion_loses_what_it_conserves() {
     for name in ["energy", "energy ledger"] {
         let verdict = gauge(&seen, name).verdict;
         assert!(matches!(verdict, Verdict::Exact(_)), "{name}: {verdict:?}");
-    }
-}
-
-#[test]
-fn steps_that_are_seen_together_are_seen_as_one_by_one() {
-    // before an impulse, however far, steps are taken one by one
-    let impulse = "[[impulses]]\nname = \"far\"\nat = [1000.0]\nchange = { p_x = \"1\" }\n";
-    let hamiltonian = "[coordinates]\nx = { initial = 0, momentum = 0.42081 }\n\
-         y = { initial = -0.25, momentum = 0 }\n[parameters]\nk = { value = 1 }\n[hamiltonian]\n\
-         H = \"(p_x^2 + p_y^2 + x^2 + y^2)/2 + k*(x^2*y - y^3/3)\"\n";
-    let lagrangian = "[coordinates]\nx = { initial = 1, velocity = 0 }\n\
-         y = { initial = 0, velocity = 1.1 }\n[parameters]\nk = { value = 1 }\n[lagrangian]\n\
-         L = \"x'^2 + y'^2 + k/sqrt(x^2 + y^2) + 1000\"\n";
-    for law in [hamiltonian, lagrangian] {
-        for (method, step) in [("leapfrog", 0.01), ("yoshida4", 0.13), ("yoshida6", 0.03)] {
-            for (spacing, end) in [(1e9, 30.0), (0.17, 20.0), (3.0, 40.0)] {
-                let snapshots = ["", impulse].map(|more| {
-                    let text = format!("title = \"t\"\n{law}{more}");
-                    let mut experiment = build(&text, |setup| {
-                        method.clone_into(&mut setup.method);
-                        setup.settings = Settings { step: Some(step), tolerance: None };
-                        setup.spacing = spacing;
-                    });
-                    run(&mut experiment, 0.4 * end);
-                    // states of another form in between, and another parameter
-                    experiment.execute(Command::Method("taylor".to_owned()));
-                    run(&mut experiment, 0.5 * end);
-                    experiment.execute(Command::Method(method.to_owned()));
-                    run(&mut experiment, 0.7 * end);
-                    experiment.execute(Command::Parameter { index: 0, value: 1.1 });
-                    run(&mut experiment, end);
-                    experiment.snapshot()
-                });
-                let [together, single] = snapshots;
-                let shown = |snapshot: &Snapshot| {
-                    let own = snapshot.gauges.iter().filter(|g| g.name != "energy ledger");
-                    format!("{:?}", own.collect::<Vec<_>>())
-                };
-                assert_eq!(shown(&together), shown(&single), "{method} {step} {spacing}");
-                assert_eq!(together.state, single.state, "{method} {step} {spacing}");
-                assert!(together.gauges[0].farthest > 0.0, "{method} {step} {spacing}");
-            }
-        }
     }
 }
