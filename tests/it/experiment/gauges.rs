@@ -1,6 +1,6 @@
 //! Gauges and their verdicts.
 
-use phaselab::experiment::{Gauge, Growth, Verdict};
+use phaselab::experiment::{AdvanceOutcome, Command, Experiment, Gauge, Growth, Verdict};
 use phaselab::integrate::Settings;
 use phaselab::preset::Catalog;
 
@@ -200,5 +200,48 @@ fn no_shipped_motion_loses_what_it_conserves() {
     for name in ["energy", "energy ledger"] {
         let verdict = gauge(&seen, name).verdict;
         assert!(matches!(verdict, Verdict::Exact(_)), "{name}: {verdict:?}");
+    }
+}
+
+/// Carries an experiment to a time with this many steps at once.
+fn carried(experiment: &mut Experiment, time: f64, budget: u64) {
+    while experiment.advance(time, budget) == AdvanceOutcome::Underway {}
+    assert_eq!(experiment.time(), time);
+}
+
+#[test]
+fn steps_that_are_seen_together_are_seen_as_one_by_one() {
+    let hamiltonian = "[coordinates]\nx = { initial = 0, momentum = 0.42081 }\n\
+         y = { initial = -0.25, momentum = 0 }\n[parameters]\nk = { value = 1 }\n[hamiltonian]\n\
+         H = \"(p_x^2 + p_y^2 + x^2 + y^2)/2 + k*(x^2*y - y^3/3)\"\n";
+    let lagrangian = "[coordinates]\nx = { initial = 1, velocity = 0 }\n\
+         y = { initial = 0, velocity = 1.1 }\n[parameters]\nk = { value = 1 }\n[lagrangian]\n\
+         L = \"x'^2 + y'^2 + k/sqrt(x^2 + y^2) + 1000\"\n";
+    for law in [hamiltonian, lagrangian] {
+        for (method, step) in [("leapfrog", 0.01), ("yoshida4", 0.13)] {
+            for (spacing, end) in [(1e9, 20.0), (0.17, 12.0)] {
+                let [together, single] = [PLENTY, 1].map(|budget| {
+                    let mut experiment = build(&format!("title = \"t\"\n{law}"), |setup| {
+                        method.clone_into(&mut setup.method);
+                        setup.settings = Settings { step: Some(step), tolerance: None };
+                        setup.spacing = spacing;
+                    });
+                    carried(&mut experiment, 0.4 * end, budget);
+                    // states of another form in between, then another parameter
+                    experiment.execute(Command::Method("taylor".to_owned()));
+                    carried(&mut experiment, 0.5 * end, budget);
+                    experiment.execute(Command::Method(method.to_owned()));
+                    carried(&mut experiment, 0.7 * end, budget);
+                    experiment.execute(Command::Parameter { index: 0, value: 1.1 });
+                    carried(&mut experiment, end, budget);
+                    experiment.snapshot()
+                });
+                let case = format!("{law} {method} {step} {spacing}");
+                assert_eq!(together.state, single.state, "{case}");
+                let gauges = [&together, &single].map(|s| format!("{:?}", s.gauges));
+                assert_eq!(gauges[0], gauges[1], "{case}");
+                assert!(together.gauges[0].farthest > 0.0, "{case}");
+            }
+        }
     }
 }
