@@ -203,9 +203,10 @@ impl Found {
         }
         if let Some(expected) = self.expected {
             // a tolerance bounds the error of a step, and so does what is measured of one sign; rounding is as large as it is
-            let sum = match self.bounded {
-                true => "of all steps, carried   ≤",
-                false => "of all steps, carried  ",
+            let sum = if self.bounded {
+                "of all steps, carried   ≤"
+            } else {
+                "of all steps, carried  "
             };
             text.push_str(&format!("{sum} {expected:.1e}\n"));
         }

@@ -335,7 +335,8 @@ fn outside_in_words(plot: &Plot, present: &Present<'_>, answer: Option<&Answer>)
     let lost = lost(present, answer).unwrap_or(0);
     let far = outside(plot, present, answer).unwrap_or(0) - lost;
     let counted = [(far, "outside"), (lost, "lost")].into_iter().filter(|(count, _)| *count > 0);
-    counted.map(|(count, word)| format!(", {count} {word}")).collect()
+    let counted: Vec<String> = counted.map(|(count, word)| format!(", {count} {word}")).collect();
+    counted.concat()
 }
 
 /// The range of an axis: of all that was seen of the bulk of the cloud, or a turn.

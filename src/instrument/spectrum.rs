@@ -10,8 +10,8 @@ use super::{
     Physics, Picture, Plot, Present, Upwards,
 };
 use crate::dynamics::{
-    MeanRate, PhaseSpace, Spectrum as Lines, driven_spectrum, independent_frequencies, mean_rate,
-    straightened,
+    MeanRate, PhaseSpace, SpectralLine, Spectrum as Lines, driven_spectrum,
+    independent_frequencies, mean_rate, straightened,
 };
 use crate::ensemble::SystemFlow;
 use crate::integrate::method_named;
@@ -104,7 +104,7 @@ impl Instrument for SpectrumPlot {
         let top = power(most).max(-300.0);
         let floor = top - POWERS;
         let curve = found.curve.iter().map(|at| [at[0], power(at[1]).max(floor)]).collect();
-        let line = |line: &crate::dynamics::SpectralLine| {
+        let line = |line: &SpectralLine| {
             // from below the lower edge of the picture
             let ends = [floor - POWERS, power(line.amplitude)].map(|y| [line.frequency, y]);
             (LINES, Layer::Line(ends.to_vec(), Ink::Curve(1).into()))
@@ -247,7 +247,7 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
             format!("{name} = {frequency} ± {error}{unit}, amplitude {}", brief(line.amplitude))
         })
         .collect();
-    let names = lines.lines.iter().filter_map(|line| line.name());
+    let names = lines.lines.iter().filter_map(SpectralLine::name);
     if let Some(drive) = found(answer).and_then(|found| found.drive)
         && names.take(TOLD).any(|name| name.contains('Ω'))
     {

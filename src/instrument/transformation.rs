@@ -170,7 +170,7 @@ impl Instrument for Transformation {
         match (branches.map_or(0, Branches::others), rings) {
             (0, _) => {}
             (1, 0) => {
-                lines.push("dim grid: the other branch, which does not lead to here".to_owned())
+                lines.push("dim grid: the other branch, which does not lead to here".to_owned());
             }
             (1, _) => lines.push("ring, dim grid: the other branch".to_owned()),
             (n, k) if n == k => lines.push(format!("rings, dim grids: {n} other branches")),

@@ -197,7 +197,7 @@ impl StageList {
     fn room_for(&mut self, count: usize) -> Option<u8> {
         let first = self.next.next_multiple_of(CHUNK);
         self.next = (first + count).next_multiple_of(CHUNK);
-        (self.next <= REGISTERS).then(|| first as u8)
+        (self.next <= REGISTERS).then_some(first as u8)
     }
 
     fn room_for_one(&mut self) -> Option<u8> {
@@ -257,7 +257,9 @@ impl StageList {
         let places: Vec<u8> = places.into_iter().map(Option::unwrap_or_default).collect();
         let mut list = Vec::new();
         for r in (0..program.ops.len()).filter(|&r| needed[r] && !program.fixed[r]) {
-            list.extend(self.lowered(half, &program, r as Register, (&places, &factors))?);
+            if !matches!(program.ops[r], Op::Input(_) | Op::Written) {
+                list.push(self.lowered(half, &program, r as Register, (&places, &factors))?);
+            }
         }
         let copy = |(r, to): (Register, u8)| Instruction::Copy { a: places[r as usize], to };
         list.extend(copies.into_iter().map(copy));
@@ -285,18 +287,17 @@ impl StageList {
         fits.then_some(first)
     }
 
-    /// The instruction of an operation, if it needs one.
+    /// The instruction of an operation, if there is one.
     fn lowered(
         &mut self,
         half: Half,
         program: &Program,
         operation: Register,
         (places, factors): (&[u8], &[Option<[Register; 2]>]),
-    ) -> Option<Option<Instruction>> {
+    ) -> Option<Instruction> {
         let at = |r: Register| places[r as usize];
         let to = at(operation);
-        Some(Some(match program.ops[operation as usize] {
-            Op::Input(_) | Op::Written => return Some(None),
+        Some(match program.ops[operation as usize] {
             Op::Time | Op::Solve(_) => return None,
             Op::Linear { constant, first, count } => {
                 let terms = &program.terms[first as usize..(first + count) as usize];
@@ -337,7 +338,7 @@ impl StageList {
             Op::Divide(a, b) => Instruction::Divide { a: at(a), b: at(b), to },
             Op::Root(a) => Instruction::Root { a: at(a), to },
             _ => Instruction::Other { half, operation, to },
-        }))
+        })
     }
 
     /// Puts the parts of a step together. The kicks have the factors 0, 2, 4, …, the drifts between

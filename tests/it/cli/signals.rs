@@ -252,7 +252,7 @@ fn a_section_whose_reader_is_stalled_is_ended() {
         watching(child);
         thread::sleep(Duration::from_secs(2));
     };
-    ends(start, ready, Signal::TERM, 143);
+    ends(start, ready, Signal::TERM, 143).wait().unwrap();
 }
 
 /// Under `nohup` the program must continue when the terminal hangs up.

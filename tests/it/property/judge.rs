@@ -142,7 +142,7 @@ pub(crate) fn judged_as(case: &Case, run: &Case, budget: Budget) -> Outcome {
         }
         // where other programs run beside this one a thread is given a part of the time; one that waits spends none
         let spent = match (clock.spent(), begun) {
-            (Some(now), Some(begun)) => now - begun,
+            (Some(now), Some(begun)) => now.saturating_sub(begun),
             _ => waiting.elapsed(),
         };
         if spent >= budget.watchdog || waiting.elapsed() >= MOST_SHARED * budget.watchdog {
