@@ -97,9 +97,10 @@ impl Instrument for SectionPlot {
         let entries = rotation.into_iter().chain(on.map(str::to_owned)).chain([counted]);
         let mut entries: Vec<Entry> = entries.map(Entry::Words).collect();
         if by_chaos(plot) {
+            let keys = [(Some(true), "regular"), (Some(false), "chaotic"), (None, "undecided")];
             let key =
-                |(regular, words): (bool, &str)| Entry::Key(chaos_ink(regular), words.to_owned());
-            entries.splice(0..0, [(true, "regular"), (false, "chaotic")].map(key));
+                |(regular, words): (_, &str)| Entry::Key(chaos_ink(regular), words.to_owned());
+            entries.splice(0..0, keys.map(key));
         }
         Some(plot.heading(present.physics, "Section", entries))
     }
@@ -127,8 +128,7 @@ impl Instrument for SectionPlot {
             let by_chaos = by_chaos(plot);
             let points = |(index, orbit): (usize, &DrawnOrbit)| {
                 let ink = match orbit.regular() {
-                    Some(regular) if by_chaos => chaos_ink(regular),
-                    None if by_chaos => Ink::Plain,
+                    regular if by_chaos => chaos_ink(regular),
                     _ if dissipates => Ink::Curve(0),
                     _ => Ink::Curve(index + 1),
                 };
@@ -275,7 +275,7 @@ impl Instrument for SectionPlot {
             },
             Measure {
                 word: "chaotic",
-                about: "how many of them have none, as their average turn does not converge",
+                about: "how many of them have none, as their average turn differs as that of random numbers does",
                 value: |_, _, answer| {
                     let orbits = portrait(answer)?.orbits.iter();
                     Some(orbits.filter(|orbit| orbit.regular() == Some(false)).count() as f64)
@@ -314,8 +314,12 @@ fn by_chaos(plot: &Plot) -> bool {
     plot.viewport().is_some_and(|viewport| viewport.by_chaos)
 }
 
-fn chaos_ink(regular: bool) -> Ink {
-    if regular { Ink::Level } else { Ink::Warn }
+fn chaos_ink(regular: Option<bool>) -> Ink {
+    match regular {
+        Some(true) => Ink::Level,
+        Some(false) => Ink::Warn,
+        None => Ink::Plain,
+    }
 }
 
 /// The rotation number of the running motion, if it has one, by its newest crossings.

@@ -57,7 +57,7 @@ pub(super) struct DrawnOrbit {
 }
 
 impl DrawnOrbit {
-    /// Whether its average turn converges, to a rotation number or to whole turns; `None` if there is none to tell by.
+    /// Whether its average turn converges, to a rotation number or to whole turns; `None` if its crossings do not tell.
     pub(super) fn regular(&self) -> Option<bool> {
         match self.rotation {
             // crescents, as in a resonance, do not go round their middle, but their average converges

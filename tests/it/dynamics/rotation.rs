@@ -83,14 +83,31 @@ fn a_chaotic_orbit_has_none_and_is_told_why() {
         for count in [100, 1000, 20000] {
             let orbit = standard(kick, start, count);
             let found = rotation(&orbit, [Some(TAU), None]);
-            assert!(matches!(found, Err(NoRotation::Diverges(_))), "{kick} {count}: {found:?}");
+            // a hundred crossings may all lie near an island
+            let open = count == 100 && matches!(found, Err(NoRotation::Undecided(_)));
+            let diverges = matches!(found, Err(NoRotation::Diverges(_)));
+            assert!(diverges || open, "{kick} {count}: {found:?}");
             let wrapped: Vec<[f64; 2]> =
                 orbit.iter().map(|at| at.map(|x| x.rem_euclid(TAU))).collect();
             let around = rotation(&wrapped, [None; 2]);
             let told = matches!(around, Err(NoRotation::Diverges(_) | NoRotation::AllTurns));
-            assert!(told, "{kick} {count}: {around:?}");
+            assert!(told || open, "{kick} {count}: {around:?}");
         }
     }
+}
+
+/// A circle map that turns slowly once in its round is regular, and needs many crossings to show it.
+#[test]
+fn an_orbit_of_few_crossings_is_not_called_chaotic() {
+    let angles = |count: usize| {
+        let next = |angle: &f64| Some(angle + 0.12 + 0.11 * angle.sin());
+        std::iter::successors(Some(0.0), next).take(count).collect::<Vec<f64>>()
+    };
+    for count in [60, 240] {
+        let found = angle_rotation(&angles(count), TAU);
+        assert!(matches!(found, Err(NoRotation::Undecided(_))), "{count}: {found:?}");
+    }
+    assert!(angle_rotation(&angles(5000), TAU).is_ok());
 }
 
 #[test]
