@@ -87,6 +87,9 @@ pub struct HeldSystem {
 }
 
 impl HeldSystem {
+    /// Settings of the motions by which returns are located, for more digits than are shown.
+    pub const PRECISE: Settings = Settings { step: None, tolerance: Some(1e-15) };
+
     /// Holds a model at instants to come; `settings` are those of the motions by which returns are located.
     ///
     /// # Errors

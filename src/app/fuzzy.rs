@@ -156,7 +156,7 @@ mod tests {
         assert_eq!(messages("ene", "let time run slower"), None, "chance is not meant");
         assert_eq!(messages("ene", "everyone"), None, "nor in one long word");
         assert_eq!(messages("m", "Sum"), None, "one letter begins a word");
-        assert_eq!(messages("abo", "zoom"), Some(vec![]), "told of, not named");
+        assert_eq!(messages("abo", "zoom"), Some(vec![]), "reported, not named");
         assert_eq!(messages("sec", "zoom"), Some(vec![]), "its second name");
         assert_eq!(messages("zoom xyz", "zoom"), None);
         assert_eq!(fit("", "zoom"), Some(FuzzyMatch::default()));

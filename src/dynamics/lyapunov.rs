@@ -58,7 +58,7 @@ pub enum Chaos {
     Regular,
     /// They do.
     Chaotic,
-    /// It cannot be told.
+    /// It cannot be decided.
     Undecided,
 }
 

@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 
 use crate::num::{math, short};
 
-/// The fewest crossings of which a rotation number is told.
+/// The fewest crossings of which a rotation number is given.
 const FEWEST: usize = 16;
 
 /// The widest part of a turn that no turn of the orbit lies in is at least this wide, …

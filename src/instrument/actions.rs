@@ -7,13 +7,12 @@
 
 use std::sync::Arc;
 
-use super::motion_state::MotionState;
+use super::motion_state::{self, HeldCourse, MotionState};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, Present, Sign, Upwards,
 };
-use crate::action_angle::{HeldMotion, HeldSystem, OwnMotion, RegionKind, Separatrix};
-use crate::integrate::Settings;
+use crate::action_angle::{HeldMotion, OwnMotion, RegionKind, Separatrix};
 use crate::job::{Job, Progress};
 use crate::num::{math, significant};
 use crate::system::ChannelKind;
@@ -41,9 +40,6 @@ const FAR: f64 = 20.0;
 const LATER: f64 = 0.01;
 const OF_A_PERIOD: f64 = 0.25;
 
-/// The settings of the motions by which returns are located: more digits than a picture has.
-const SETTINGS: Settings = Settings { step: None, tolerance: Some(1e-15) };
-
 /// The row.
 pub(super) struct ActionsPlot;
 
@@ -59,13 +55,8 @@ struct Moment {
 
 /// What was found, and of what.
 struct Computed {
-    coordinate: usize,
-    parameters: Vec<f64>,
-    initial: Vec<f64>,
-    held: Result<Arc<HeldSystem>, String>,
-    time: f64,
+    course: HeldCourse<Moment>,
     found: Result<Found, String>,
-    past: Vec<Moment>,
 }
 
 /// The curve and the motion.
@@ -86,19 +77,8 @@ impl Instrument for ActionsPlot {
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
-        let model = physics.model;
-        if model.is_poisson() || !model.constraints.is_empty() {
-            return Vec::new();
-        }
-        let offer = |(index, channel): (usize, usize)| Offer {
-            label: format!("action variable of {}", model.coordinates[index].shown),
-            about: "J = ∮ p dq over the energy, with the separatrices; a slow change conserves it"
-                .to_owned(),
-            columns: vec![vec![channel]],
-            view: None,
-            over: Vec::new(),
-        };
-        physics.positions().map(offer).collect()
+        let about = "J = ∮ p dq over the energy, with the separatrices; a slow change conserves it";
+        motion_state::offers(physics, "action variable", about)
     }
 
     fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
@@ -142,7 +122,7 @@ impl Instrument for ActionsPlot {
                 layers.push((NOW, Layer::Point(now, Sign::Disc, Ink::Accent)));
             }
         }
-        let past = computed(answer).map_or(&[][..], |computed| &computed.past[..]);
+        let past = computed(answer).map_or(&[][..], |computed| &computed.course.past[..]);
         if past.len() > 1 {
             let line = past.iter().map(|instant| [instant.energy, instant.action]).collect();
             layers.push((PAST, Layer::Line(line, Ink::Warn.into())));
@@ -160,40 +140,30 @@ impl Instrument for ActionsPlot {
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
         let Some(state) = MotionState::of(plot, present) else { return Need::Nothing };
-        let MotionState { coordinate, time, parameters, initial, positions, momenta } = state;
-        let known = computed(answer).filter(|known| known.coordinate == coordinate);
-        let same = known.filter(|known| known.parameters == parameters && known.initial == initial);
-        if same.is_some_and(|known| known.holds_at(time)) {
+        let known = computed(answer);
+        if known.is_some_and(|known| known.course.leads_to(&state) && known.holds_at(state.time)) {
             return Need::Held;
         }
-        let held = known.map(|known| known.held.clone());
-        let past = same.map_or_else(Vec::new, |known| known.past.clone());
+        let known = known.map(|known| known.course.clone());
         let model = Arc::clone(present.physics.model);
         Need::Job(Job::new("actions", move |progress: &Progress| {
-            let held = held.clone().unwrap_or_else(|| {
-                HeldSystem::of(&model, coordinate, SETTINGS, progress.token())
-                    .map(Arc::new)
-                    .map_err(|why| why.to_string())
+            let known = known.as_ref();
+            let mut course = HeldCourse::continued(known, &state, &model, progress, |m| m.time);
+            let MotionState { time, parameters, positions, momenta, .. } = &state;
+            let motion = course.held.as_ref().map_err(Clone::clone).and_then(|held| {
+                held.at(*time, parameters, [positions, momenta]).map_err(|why| why.to_string())
             });
-            let motion = held.as_ref().map_err(Clone::clone).and_then(|held| {
-                held.at(time, &parameters, [&positions, &momenta]).map_err(|why| why.to_string())
-            });
-            let mut past: Vec<Moment> =
-                past.iter().copied().filter(|instant| instant.time < time).collect();
-            let moves = held.as_ref().is_ok_and(|held| held.depends_on_time());
-            let found = motion.and_then(|mut motion| {
-                let found = Found::of(&mut motion)?;
-                if let (true, Ok(row)) = (moves, &found.own.row)
-                    && row.kind != RegionKind::Unbounded
-                {
-                    let energy = found.own.energy;
-                    let height = energy - motion.bottom();
-                    past.push(Moment { time, energy, height, action: row.action });
-                }
-                Ok(found)
-            });
-            let (parameters, initial) = (parameters.clone(), initial.clone());
-            Answer::new(Computed { coordinate, parameters, initial, held, time, found, past })
+            let found =
+                motion.and_then(|mut motion| Ok((Found::of(&mut motion)?, motion.bottom())));
+            if let (true, Ok((Found { own, .. }, bottom))) = (course.moves(), &found)
+                && let Ok(row) = &own.row
+                && row.kind != RegionKind::Unbounded
+            {
+                let height = own.energy - bottom;
+                let (energy, action) = (own.energy, row.action);
+                course.past.push(Moment { time: *time, energy, height, action });
+            }
+            Answer::new(Computed { course, found: found.map(|(found, _)| found) })
         }))
     }
 
@@ -226,20 +196,20 @@ impl Instrument for ActionsPlot {
 impl Computed {
     /// Whether it is still what is to be seen at a time.
     fn holds_at(&self, time: f64) -> bool {
-        let Ok(held) = &self.held else { return true };
-        if !held.depends_on_time() {
+        let HeldCourse { state, past, .. } = &self.course;
+        if !self.course.moves() {
             return true;
         }
         let period = self.found.as_ref().ok().and_then(|found| found.own.row.as_ref().ok());
         let period = period.map(|row| row.period).filter(|period| period.is_finite());
-        let since = self.past.first().map_or(0.0, |first| (time - first.time).abs());
+        let since = past.first().map_or(0.0, |first| (time - first.time).abs());
         let later = (LATER * since).max(OF_A_PERIOD * period.unwrap_or(0.0));
-        self.time <= time && time - self.time <= later
+        state.time <= time && time - state.time <= later
     }
 
     /// By which part the action, and the height of the energy, have changed since the first instant.
     fn changes(&self) -> Option<[f64; 2]> {
-        let (first, last) = (self.past.first()?, self.past.last()?);
+        let (first, last) = (self.course.past.first()?, self.course.past.last()?);
         let part = |from: f64, to: f64| (to - from) / from;
         Some([part(first.action, last.action), part(first.height, last.height)])
     }
@@ -303,7 +273,7 @@ fn found(answer: Option<&Answer>) -> Option<&Found> {
 /// The ranges of the energy and of the action.
 fn ranges(answer: Option<&Answer>) -> [[f64; 2]; 2] {
     let Some(found) = found(answer) else { return [[0.0, 1.0]; 2] };
-    let past = computed(answer).into_iter().flat_map(|computed| &computed.past);
+    let past = computed(answer).into_iter().flat_map(|computed| &computed.course.past);
     let past = past.map(|instant| [instant.energy, instant.action]);
     let all = found.curves.iter().flatten().copied().chain(past);
     let all = all.filter(|[e, j]| e.is_finite() && j.is_finite());
@@ -344,8 +314,8 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
         let turn = separatrix.turn.map_or_else(String::new, |x| format!(", {} a turn", short(x)));
         lines.push(format!("separatrix at E = {energy}: J = {actions}{turn}"));
     }
-    if let Some([action, height]) = computed.changes().filter(|_| computed.past.len() > 1) {
-        let since = computed.past.first().map_or(present.time, |first| first.time);
+    if let Some([action, height]) = computed.changes().filter(|_| computed.course.past.len() > 1) {
+        let since = computed.course.past.first().map_or(present.time, |first| first.time);
         let signed = |x: f64| {
             let size = significant(x.abs(), 2, 1e-3..1e5);
             if x < 0.0 { format!("−{size}") } else { format!("+{size}") }

@@ -8,13 +8,12 @@
 
 use std::sync::Arc;
 
-use super::motion_state::MotionState;
+use super::motion_state::{self, HeldCourse, MotionState};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, Present, Sign, Upwards,
 };
-use crate::action_angle::{AngleMoment, HeldSystem};
-use crate::integrate::Settings;
+use crate::action_angle::AngleMoment;
 use crate::job::{Job, Progress};
 use crate::num::significant;
 
@@ -29,22 +28,14 @@ const OF_A_PERIOD: f64 = 1.0 / 24.0;
 /// So many points are kept; beyond, every other one is left out.
 const MOST: usize = 2000;
 
-/// The settings of the motions by which returns are located: more digits than a picture has.
-const SETTINGS: Settings = Settings { step: None, tolerance: Some(1e-15) };
-
 /// The row.
 pub(super) struct AnglePlot;
 
 /// What was found, and of what.
 struct Computed {
-    coordinate: usize,
-    parameters: Vec<f64>,
-    initial: Vec<f64>,
-    time: f64,
-    held: Result<Arc<HeldSystem>, String>,
+    course: HeldCourse<AngleMoment>,
     /// Why there is no angle now.
     lost: Option<String>,
-    past: Vec<AngleMoment>,
 }
 
 impl Instrument for AnglePlot {
@@ -57,18 +48,8 @@ impl Instrument for AnglePlot {
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
-        let model = physics.model;
-        if model.is_poisson() || !model.constraints.is_empty() {
-            return Vec::new();
-        }
-        let offer = |(index, channel): (usize, usize)| Offer {
-            label: format!("angle variable of {}", model.coordinates[index].shown),
-            about: "w over the time, and how far it is from growing evenly".to_owned(),
-            columns: vec![vec![channel]],
-            view: None,
-            over: Vec::new(),
-        };
-        physics.positions().map(offer).collect()
+        let about = "w over the time, and how far it is from growing evenly";
+        motion_state::offers(physics, "angle variable", about)
     }
 
     fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
@@ -88,7 +69,7 @@ impl Instrument for AnglePlot {
 
     fn across(&self, _plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
         let start = present.physics.model.run.start;
-        let past = computed(answer).map_or(&[][..], |computed| &computed.past[..]);
+        let past = computed(answer).map_or(&[][..], |computed| &computed.course.past[..]);
         let first = past.first().map_or(start, |first| first.time);
         let period = past.last().map_or(1.0, |last| 1.0 / last.frequency);
         Across::Times([first, present.time.max(first + period)])
@@ -105,12 +86,12 @@ impl Instrument for AnglePlot {
         let mut top = 1.0_f64;
         if let Some(computed) = computed(answer) {
             if let Some(line) = computed.line() {
-                let first = computed.past[0];
+                let first = computed.course.past[0];
                 let ends = [first.time, to].map(|time| [time, line(time)]);
                 layers.push((LINE, Layer::Line(ends.to_vec(), Ink::Level.into())));
             }
             let points: Vec<[f64; 2]> =
-                computed.past.iter().map(|moment| [moment.time, moment.angle]).collect();
+                computed.course.past.iter().map(|moment| [moment.time, moment.angle]).collect();
             top = points.iter().map(|at| at[1]).fold(top, f64::max);
             if let Some(&now) = points.last() {
                 layers.push((NOW, Layer::Point(now, Sign::Disc, Ink::Accent)));
@@ -124,39 +105,31 @@ impl Instrument for AnglePlot {
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
         let Some(state) = MotionState::of(plot, present) else { return Need::Nothing };
-        let MotionState { coordinate, time, parameters, initial, positions, momenta } = state;
-        let known = computed(answer).filter(|known| known.coordinate == coordinate);
-        let same = known.filter(|known| known.parameters == parameters && known.initial == initial);
-        if same.is_some_and(|known| known.holds_at(time)) {
+        let known = computed(answer);
+        if known.is_some_and(|known| known.course.leads_to(&state) && known.holds_at(state.time)) {
             return Need::Held;
         }
-        let held = known.map(|known| known.held.clone());
-        let past = same.map_or_else(Vec::new, |known| known.past.clone());
+        let known = known.map(|known| known.course.clone());
         let model = Arc::clone(present.physics.model);
         Need::Job(Job::new("angle", move |progress: &Progress| {
-            let held = held.clone().unwrap_or_else(|| {
-                HeldSystem::of(&model, coordinate, SETTINGS, progress.token())
-                    .map(Arc::new)
-                    .map_err(|why| why.to_string())
-            });
-            let found = held
-                .as_ref()
-                .map_err(Clone::clone)
-                .and_then(|held| AngleMoment::of(held, time, &parameters, [&positions, &momenta]));
-            let mut past: Vec<AngleMoment> =
-                past.iter().copied().filter(|moment| moment.time < time).collect();
+            let known = known.as_ref();
+            let mut course = HeldCourse::continued(known, &state, &model, progress, |m| m.time);
+            let MotionState { time, parameters, positions, momenta, .. } = &state;
+            let found =
+                course.held.as_ref().map_err(Clone::clone).and_then(|held| {
+                    AngleMoment::of(held, *time, parameters, [positions, momenta])
+                });
             let lost = match found {
                 Ok(found) => {
-                    past.push(found.after(past.last()));
+                    course.past.push(found.after(course.past.last()));
                     None
                 }
                 Err(why) => Some(why),
             };
-            if past.len() > MOST {
-                past = past.into_iter().step_by(2).collect();
+            if course.past.len() > MOST {
+                course.past = course.past.into_iter().step_by(2).collect();
             }
-            let (parameters, initial) = (parameters.clone(), initial.clone());
-            Answer::new(Computed { coordinate, parameters, initial, time, held, lost, past })
+            Answer::new(Computed { course, lost })
         }))
     }
 
@@ -165,17 +138,19 @@ impl Instrument for AnglePlot {
             Measure {
                 word: "angle",
                 about: "the angle variable of the motion, in turns from 0 to 1",
-                value: |_, _, answer| Some(computed(answer)?.past.last()?.angle.rem_euclid(1.0)),
+                value: |_, _, answer| {
+                    Some(computed(answer)?.course.past.last()?.angle.rem_euclid(1.0))
+                },
             },
             Measure {
                 word: "frequency",
                 about: "its frequency ν = dE/dJ",
-                value: |_, _, answer| Some(computed(answer)?.past.last()?.frequency),
+                value: |_, _, answer| Some(computed(answer)?.course.past.last()?.frequency),
             },
             Measure {
                 word: "action",
                 about: "∮ p dq of the motion",
-                value: |_, _, answer| Some(computed(answer)?.past.last()?.action),
+                value: |_, _, answer| Some(computed(answer)?.course.past.last()?.action),
             },
             Measure {
                 word: "residual",
@@ -189,27 +164,28 @@ impl Instrument for AnglePlot {
 impl Computed {
     /// Whether it is still what is to be seen at a time.
     fn holds_at(&self, time: f64) -> bool {
-        if self.held.is_err() {
+        let HeldCourse { state, held, past } = &self.course;
+        if held.is_err() {
             return true;
         }
-        let period = self.past.last().map_or(0.0, |last| 1.0 / last.frequency);
-        self.time <= time && time - self.time <= OF_A_PERIOD * period && self.lost.is_none()
-            || self.time == time
+        let period = past.last().map_or(0.0, |last| 1.0 / last.frequency);
+        state.time <= time && time - state.time <= OF_A_PERIOD * period && self.lost.is_none()
+            || state.time == time
     }
 
     /// w₀ + ν (t − t₀), unless the law depends on the time.
     fn line(&self) -> Option<impl Fn(f64) -> f64 + use<>> {
-        let first = *self.past.first()?;
-        let still = self.held.as_ref().is_ok_and(|held| !held.depends_on_time());
-        still.then_some(move |time| first.even(time))
+        let first = *self.course.past.first()?;
+        (!self.course.moves()).then_some(move |time| first.even(time))
     }
 
     /// How far w is from it now, and at most so far.
     fn residual(&self) -> Option<[f64; 2]> {
         let line = self.line()?;
+        let past = &self.course.past;
         let off = |moment: &AngleMoment| moment.angle - line(moment.time);
-        let largest = self.past.iter().map(|moment| off(moment).abs()).fold(0.0, f64::max);
-        Some([off(self.past.last()?), largest])
+        let largest = past.iter().map(|moment| off(moment).abs()).fold(0.0, f64::max);
+        Some([off(past.last()?), largest])
     }
 }
 
@@ -222,7 +198,7 @@ fn sentences(answer: Option<&Answer>) -> Vec<String> {
     let Some(computed) = computed(answer) else { return vec!["being computed".to_owned()] };
     let short = |x: f64, digits| significant(x, digits, 1e-3..1e5).replace('-', "−");
     let mut lines = Vec::new();
-    match (&computed.held, &computed.lost, computed.past.last()) {
+    match (&computed.course.held, &computed.lost, computed.course.past.last()) {
         (Err(why), _, _) | (_, Some(why), _) => lines.push(why.clone()),
         (_, _, Some(now)) => {
             let [action, frequency] = [now.action, now.frequency].map(|x| short(x, 5));
@@ -235,7 +211,7 @@ fn sentences(answer: Option<&Answer>) -> Vec<String> {
             lines.push(format!("w − w₀ − ν (t − t₀) = {}", short(now, 2)));
             lines.push(format!("at most {} of a turn", short(largest, 2)));
         }
-        None if !computed.past.is_empty() => {
+        None if !computed.course.past.is_empty() => {
             lines.push("the law depends on the time: ν is that of this instant".to_owned());
         }
         None => {}

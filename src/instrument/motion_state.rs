@@ -1,12 +1,34 @@
-//! The state of the motion at which an action variable is asked for, and what its value depends on.
+//! The state of the motion at which an action or an angle variable is asked for, and what was found so far along the motion.
 //!
-//! In: a plot over a coordinate, the motion. Out: the state there, the parameters, the initial values. Never here: actions,
-//! angles, pictures.
+//! In: a plot over a coordinate, the motion. Out: the state there with the parameters and the initial values; the system held
+//! at the instant, and the instants before. Never here: actions, angles, pictures.
 
-use super::{Plot, Present};
+use std::sync::Arc;
+
+use super::{Offer, Physics, Plot, Present};
+use crate::action_angle::HeldSystem;
+use crate::job::Progress;
+use crate::model::Model;
 use crate::system::ChannelKind;
 
+/// The coordinates that have an action and an angle variable, if the system has them.
+pub(super) fn offers(physics: Physics<'_>, what: &str, about: &str) -> Vec<Offer> {
+    let model = physics.model;
+    if model.is_poisson() || !model.constraints.is_empty() {
+        return Vec::new();
+    }
+    let offer = |(index, channel): (usize, usize)| Offer {
+        label: format!("{what} of {}", model.coordinates[index].shown),
+        about: about.to_owned(),
+        columns: vec![vec![channel]],
+        view: None,
+        over: Vec::new(),
+    };
+    physics.positions().map(offer).collect()
+}
+
 /// A state of the motion, for one of its coordinates.
+#[derive(Clone)]
 pub(super) struct MotionState {
     pub(super) coordinate: usize,
     pub(super) time: f64,
@@ -37,5 +59,50 @@ impl MotionState {
             positions: values(ChannelKind::Position),
             momenta: values(ChannelKind::Momentum),
         })
+    }
+}
+
+/// What was found along a motion, of the system held at each instant.
+#[derive(Clone)]
+pub(super) struct HeldCourse<M> {
+    /// The last state that was looked at.
+    pub(super) state: MotionState,
+    pub(super) held: Result<Arc<HeldSystem>, String>,
+    /// What was found at the instants, in their order.
+    pub(super) past: Vec<M>,
+}
+
+impl<M: Clone> HeldCourse<M> {
+    /// Whether these are instants of the motion on which a state lies.
+    pub(super) fn leads_to(&self, state: &MotionState) -> bool {
+        let conditions = |s: &MotionState| (s.coordinate, s.parameters.clone(), s.initial.clone());
+        conditions(&self.state) == conditions(state)
+    }
+
+    /// Goes on to a state, with the instants before it if they are of the same motion; `time` is that of an instant.
+    pub(super) fn continued(
+        known: Option<&HeldCourse<M>>,
+        state: &MotionState,
+        model: &Model,
+        progress: &Progress,
+        time: fn(&M) -> f64,
+    ) -> HeldCourse<M> {
+        let same = known.filter(|known| known.state.coordinate == state.coordinate);
+        let held = same.map_or_else(
+            || {
+                HeldSystem::of(model, state.coordinate, HeldSystem::PRECISE, progress.token())
+                    .map(Arc::new)
+                    .map_err(|why| why.to_string())
+            },
+            |known| known.held.clone(),
+        );
+        let past = known.filter(|known| known.leads_to(state)).map_or(&[][..], |known| &known.past);
+        let past = past.iter().filter(|instant| time(instant) < state.time).cloned().collect();
+        HeldCourse { state: state.clone(), held, past }
+    }
+
+    /// Whether the law depends on the time.
+    pub(super) fn moves(&self) -> bool {
+        self.held.as_ref().is_ok_and(|held| held.depends_on_time())
     }
 }

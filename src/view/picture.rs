@@ -127,18 +127,22 @@ fn key(canvas: &Canvas<'_>, q: &Quantities<'_>, index: usize, channel: usize) ->
     vec![(format!("  {mark} "), theme.curve(index)), canvas.span(Role::Dim, q.name(channel))]
 }
 
-/// The keys of the curves if there are several and the title does not have all of them.
+/// The keys of curves and of kinds of points that the title has no room for, if the picture has several.
 pub(super) fn keys_beyond(
     canvas: &Canvas<'_>,
     q: &Quantities<'_>,
     plot: &Plot,
     title: &[Span],
 ) -> Vec<Span> {
-    let heading = plot.kind.heading(plot, &q.present());
-    let curves = heading.map_or_else(Vec::new, |heading| curves(&heading));
-    let keys = || curves.iter().map(|(index, channel)| key(canvas, q, *index, *channel));
-    let in_title = |key: Vec<Span>| title.windows(2).any(|pair| pair[1] == key[1]);
-    if curves.len() < 2 || keys().all(in_title) { Vec::new() } else { keys().flatten().collect() }
+    let Some(heading) = plot.kind.heading(plot, &q.present()) else { return Vec::new() };
+    let is_key = |entry: &&Entry| matches!(entry, Entry::Curve(..) | Entry::Key(..));
+    let keys: Vec<Vec<Span>> =
+        heading.entries.iter().filter(is_key).map(|entry| piece(canvas, q, entry)).collect();
+    let in_title = |key: &Vec<Span>| title.windows(2).any(|pair| pair[1] == key[1]);
+    if keys.len() < 2 {
+        return Vec::new();
+    }
+    keys.into_iter().filter(|key| !in_title(key)).flatten().collect()
 }
 
 /// Writes the keys of curves above the axes, to the right of their title.

@@ -16,12 +16,8 @@ use crate::cli::interrupt::Interrupt;
 use crate::cli::motion_options::{Laid, ModelReading};
 use crate::cli::output::Output;
 use crate::ensemble::SystemFlow;
-use crate::integrate::Settings;
 use crate::printable;
 use crate::system::ChannelKind;
-
-/// The settings of the motions by which returns are located.
-const SETTINGS: Settings = Settings { step: None, tolerance: Some(1e-15) };
 
 /// The rows, and whether the law depends on the time.
 struct Along {
@@ -70,7 +66,7 @@ fn followed(
 ) -> Result<Along, CommandError> {
     let could_not = |why: String| CommandError::CouldNot(why);
     let (system, start) = (&laid.system, &laid.start);
-    let held = HeldSystem::of(&laid.model, index, SETTINGS, interrupt.cancel())
+    let held = HeldSystem::of(&laid.model, index, HeldSystem::PRECISE, interrupt.cancel())
         .map_err(|why| could_not(why.to_string()))?;
     let degrees = laid.model.coordinates.len();
     let kinds =
@@ -167,7 +163,7 @@ impl Along {
                 + &cells::record(names)
                 + &cells::csv(table.iter().map(Vec::as_slice));
         }
-        let told = match largest {
+        let evenly = match largest {
             Some(largest) => format!(
                 "w = w0 + frequency*(t - t0) to {} of a turn\n",
                 crate::num::short(largest)
@@ -176,6 +172,6 @@ impl Along {
                      at each instant\n"
                 .to_owned(),
         };
-        cells::text(&names, &table) + &told
+        cells::text(&names, &table) + &evenly
     }
 }

@@ -28,7 +28,7 @@ pub(super) enum Prefix {
     Console,
 }
 
-/// The reports that the terminal was told to send.
+/// The reports that the terminal was asked to send.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Expected {
     /// Bracketed pastes.
