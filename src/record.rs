@@ -35,5 +35,5 @@ pub use lesson_check::{LessonReport, check_lesson};
 pub use lesson_keys::Pressed;
 pub use plain::plain;
 pub use recording::{ChapterMarker, Recording, RecordingEvent, TranscriptEntry, play};
-pub use script::{Script, called};
+pub use script::{Script, ScriptHeader, called};
 pub use script_runner::ScriptRunner;

@@ -1,7 +1,7 @@
 //! The value of an expression, computed node by node: a simple reference for the compiled program,
 //! and the way in which initial values and quick numerical checks are computed.
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::ball::Ball;
 use super::node::{Expr, Node};
@@ -19,8 +19,46 @@ impl Pool {
     /// The value, and the largest magnitude among the summands on the way, against which rounding
     /// errors have to be measured.
     pub fn evaluate_with_size(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> (f64, f64) {
-        let mut values: FxHashMap<Expr, (f64, f64)> = FxHashMap::default();
-        for part in self.reachable(&[e]) {
+        let mut values = FxHashMap::default();
+        self.evaluate_parts(&self.reachable(&[e]), at, &mut values);
+        values[&e]
+    }
+
+    /// The values of `e` where one symbol takes these values in turn; `at` gives those of the others.
+    pub fn evaluate_along(
+        &self,
+        e: Expr,
+        (along, places): (Symbol, &[f64]),
+        at: &dyn Fn(Symbol) -> f64,
+    ) -> Vec<f64> {
+        let parts = self.reachable(&[e]);
+        let mut varying: FxHashSet<Expr> = FxHashSet::default();
+        let (varied, constant): (Vec<Expr>, Vec<Expr>) = parts.iter().partition(|part| {
+            let mut varies = self.as_symbol(**part) == Some(along);
+            self.node(**part).for_each_part(|part| varies |= varying.contains(&part));
+            if varies {
+                varying.insert(**part);
+            }
+            varies
+        });
+        let mut values = FxHashMap::default();
+        self.evaluate_parts(&constant, at, &mut values);
+        let mut value = |place: &f64| {
+            let there = |symbol| if symbol == along { *place } else { at(symbol) };
+            self.evaluate_parts(&varied, &there, &mut values);
+            values[&e].0
+        };
+        places.iter().map(&mut value).collect()
+    }
+
+    /// Adds the values of parts, each after its own, and the largest magnitudes on the way.
+    fn evaluate_parts(
+        &self,
+        parts: &[Expr],
+        at: &dyn Fn(Symbol) -> f64,
+        values: &mut FxHashMap<Expr, (f64, f64)>,
+    ) {
+        for &part in parts {
             let value = match self.node(part) {
                 Node::Number(n) => sized(n.value()),
                 Node::Pi => sized(std::f64::consts::PI),
@@ -54,7 +92,6 @@ impl Pool {
             };
             values.insert(part, value);
         }
-        values[&e]
     }
 
     /// An enclosure of the value of `e`, or `None` if it has no value or no bound is known.

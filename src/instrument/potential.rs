@@ -51,10 +51,9 @@ impl PotentialView {
         })
     }
 
-    /// The potential at another value of the coordinate, with everything else at its current value.
-    pub fn at(&self, pool: &Pool, now: &Valuation, x: f64) -> f64 {
-        let at = |symbol| if symbol == self.coordinate { x } else { now.at(symbol) };
-        pool.evaluate(self.expression, &at)
+    /// The potential at other values of the coordinate, with everything else at its current value.
+    pub fn along(&self, pool: &Pool, now: &Valuation, places: &[f64]) -> Vec<f64> {
+        pool.evaluate_along(self.expression, (self.coordinate, places), &|symbol| now.at(symbol))
     }
 }
 
@@ -123,22 +122,24 @@ impl Instrument for Potential {
         let (model, now) = (present.physics.model, present.valuation());
         let energy = now.at(model.symbols.energy);
         let x = |i: usize| from + (to - from) * i as f64 / (POINTS - 1) as f64;
-        let curve: Vec<[f64; 2]> =
-            (0..POINTS).map(|i| [x(i), along.at(&model.pool, &now, x(i))]).collect();
+        let places: Vec<f64> = (0..POINTS).map(x).collect();
+        let heights = along.along(&model.pool, &now, &places);
+        let curve: Vec<[f64; 2]> = places.into_iter().zip(heights).map(<[f64; 2]>::from).collect();
         let now = [present.value(along.x), present.value(along.y)];
         let mut layers = Vec::new();
-        for pair in curve.windows(2) {
-            let [a, b] = [pair[0], pair[1]];
-            let allowed = a[1] <= energy && b[1] <= energy;
-            let [left, right] = [[a[0], energy], [b[0], energy]];
+        let allowed = |pair: &&[[f64; 2]]| pair[0][1] <= energy && pair[1][1] <= energy;
+        for pair in curve.windows(2).filter(allowed) {
+            let stroke = Stroke { ink: Ink::Level, covering: Some(SHADE) };
+            layers.push((ALLOWED, Layer::Line(vec![pair[0], [pair[0][0], energy]], stroke)));
+        }
+        let pairs: Vec<&[[f64; 2]]> = curve.windows(2).collect();
+        for run in pairs.chunk_by(|a, b| allowed(a) == allowed(b)) {
             let (line, bright) =
-                if allowed { (Ink::Warn, Ink::Accent) } else { (Ink::Level, Ink::Plain) };
-            if allowed {
-                let stroke = Stroke { ink: Ink::Level, covering: Some(SHADE) };
-                layers.push((ALLOWED, Layer::Line(vec![a, left], stroke)));
-            }
-            layers.push((ENERGY, Layer::Line(vec![left, right], line.into())));
-            layers.push((CURVE, Layer::Line(vec![a, b], bright.into())));
+                if allowed(&run[0]) { (Ink::Warn, Ink::Accent) } else { (Ink::Level, Ink::Plain) };
+            let ends = [run[0][0][0], run[run.len() - 1][1][0]];
+            layers.push((ENERGY, Layer::Line(ends.map(|x| [x, energy]).to_vec(), line.into())));
+            let points = run.iter().map(|pair| pair[0]).chain([run[run.len() - 1][1]]);
+            layers.push((CURVE, Layer::Line(points.collect(), bright.into())));
         }
         layers.push((NOW, Layer::Point([now[0], energy], Sign::Ring, Ink::Warn)));
         layers.push((NOW, Layer::Point(now, Sign::Disc, Ink::Accent)));

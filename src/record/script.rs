@@ -260,21 +260,24 @@ pub enum Comparator {
     More,
 }
 
+impl ScriptHeader {
+    /// Reads the settings of a script, which stand before its first step; the steps are not read.
+    ///
+    /// # Errors
+    /// Returns every error up to there with its range.
+    pub fn read(document: &Document) -> Result<ScriptHeader, Vec<Diagnostic>> {
+        let reading = ScriptReading::of(document, |reading| reading.steps.is_empty())?;
+        if reading.mistakes.is_empty() { Ok(reading.head) } else { Err(reading.mistakes) }
+    }
+}
+
 impl Script {
     /// Reads a script.
     ///
     /// # Errors
     /// Returns every error with its range.
     pub fn read(document: &Document) -> Result<Script, Vec<Diagnostic>> {
-        if let Some(mistake) = document.unreadable() {
-            return Err(vec![mistake.clone()]);
-        }
-        let mut reading = ScriptReading::default();
-        let mut start = 0;
-        for text in document.text.split('\n') {
-            reading.line(text.strip_suffix('\r').unwrap_or(text), start);
-            start += text.len() + 1;
-        }
+        let reading = ScriptReading::of(document, |_| true)?;
         reading.conclude(document.text.len())
     }
 
@@ -332,6 +335,22 @@ pub(super) enum Said {
 const MOST_MISTAKES: usize = 100;
 
 impl ScriptReading {
+    /// Reads the lines of a text for as long as a condition holds.
+    fn of(document: &Document, goes_on: impl Fn(&Self) -> bool) -> Result<Self, Vec<Diagnostic>> {
+        if let Some(mistake) = document.unreadable() {
+            return Err(vec![mistake.clone()]);
+        }
+        let (mut reading, mut start) = (Self::default(), 0);
+        for text in document.text.split('\n') {
+            reading.line(text.strip_suffix('\r').unwrap_or(text), start);
+            start += text.len() + 1;
+            if !goes_on(&reading) {
+                break;
+            }
+        }
+        Ok(reading)
+    }
+
     /// Reads one line of the text, which begins at this byte.
     fn line(&mut self, text: &str, start: usize) {
         let mut line = Line::new(text, start);

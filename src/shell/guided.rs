@@ -17,7 +17,7 @@ use super::progress::{LessonMark, LessonProgress};
 use crate::app::{Guide, GuideKind, LessonTaken};
 use crate::diagnostic::{Diagnostic, Document};
 use crate::preset::{self, CatalogEntry};
-use crate::record::{Lesson, Script, ScriptRunner, called};
+use crate::record::{Lesson, Script, ScriptHeader, ScriptRunner, called};
 use crate::view::{Detail, RenderStyle};
 
 /// What is said when a demo is over.
@@ -54,7 +54,7 @@ fn guide(
     source: &Document,
     systems: &[CatalogEntry],
 ) -> Option<Guide> {
-    let head = Script::read(source).ok()?.head;
+    let head = ScriptHeader::read(source).ok()?;
     let open = head.open.map(|open| open.text)?;
     let system = systems.iter().find(|entry| entry.name == open);
     let system = system.map_or(open, |entry| entry.info.title.clone());

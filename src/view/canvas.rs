@@ -2,12 +2,14 @@
 //!
 //! In: areas, and text that may contain any characters. Out: cells. Never here: the content of the text.
 
+use std::borrow::Cow;
+
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Position, Rect};
+use ratatui::layout::{Margin, Position, Rect};
 use ratatui::style::Style;
 use ratatui::symbols::border;
-use ratatui::widgets::{Block, Clear, Widget};
-use unicode_width::UnicodeWidthStr;
+use ratatui::widgets::{Clear, Widget};
+use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 use super::RenderStyle;
 use super::colour::ColourDepth;
@@ -16,7 +18,6 @@ use super::region::ScreenRegion;
 use super::theme::Role;
 use super::wrap::shortened;
 use crate::app::HitTarget;
-use crate::printable;
 
 /// A buffer and the style in which to draw on it.
 pub(super) struct Canvas<'a> {
@@ -59,7 +60,7 @@ impl Canvas<'_> {
 
     /// Returns the text as this terminal can show it, without control characters.
     pub(super) fn text(&self, text: &str) -> String {
-        self.look.glyphs.text(&printable::line(text)).into_owned()
+        self.look.shown(text).into_owned()
     }
 
     /// A span in the style of a role.
@@ -70,14 +71,34 @@ impl Canvas<'_> {
     /// Writes text from a position on, and cuts it with an ellipsis if it is wider than `width` columns. Returns the
     /// number of columns written.
     pub(super) fn write(&mut self, at: Position, width: u16, text: &str, style: Style) -> u16 {
-        let text = self.text(text);
-        let text = shortened(&text, width.into(), self.look.glyphs.pick("…", "~"));
-        let inside = self.buffer.area.contains(at);
+        let look = self.look;
+        let text = look.shown(text);
+        let (text, wide) = match columns_of(&text) {
+            wide if wide <= width.into() => (text, wide),
+            _ => {
+                let short = shortened(&text, width.into(), look.glyphs.pick("…", "~"));
+                let wide = columns_of(&short);
+                (Cow::Owned(short), wide)
+            }
+        };
         let room = width.min(self.buffer.area.right().saturating_sub(at.x));
-        if inside {
-            self.buffer.set_stringn(at.x, at.y, &text, room.into(), style);
+        if self.buffer.area.contains(at) {
+            self.put(at, &text, room, style);
         }
-        text.width() as u16
+        wide as u16
+    }
+
+    /// Puts text into the cells of a row, at most `room` of them.
+    fn put(&mut self, at: Position, text: &str, room: u16, style: Style) {
+        if !text.chars().all(fills_a_cell) {
+            self.buffer.set_stringn(at.x, at.y, text, room.into(), style);
+            return;
+        }
+        let from = self.buffer.index_of(at.x, at.y);
+        let cells = &mut self.buffer.content[from..from + usize::from(room)];
+        for (cell, letter) in cells.iter_mut().zip(text.chars()) {
+            cell.set_char(letter).set_style(style);
+        }
     }
 
     /// Writes text at the left end of a row.
@@ -95,22 +116,26 @@ impl Canvas<'_> {
 
     /// Writes spans one after the other; an ellipsis replaces those that do not fit.
     pub(super) fn spans(&mut self, row: Rect, spans: &[Span]) -> u16 {
-        let wide = |text: &str| self.look.glyphs.text(text).width();
-        let all: usize = spans.iter().map(|(text, _)| wide(text)).sum();
-        let padding = spans.last().map_or(0, |(text, _)| wide(text) - wide(text.trim_end()));
-        let mark = self.look.glyphs.pick("…", "~");
+        let look = self.look;
+        let texts = spans.iter().map(|(text, style)| (look.shown(text), *style));
+        let texts: Vec<(Cow<'_, str>, Style)> = texts.collect();
+        let all: usize = texts.iter().map(|(text, _)| columns_of(text)).sum();
+        let padding = texts.last().map_or(0, |(text, _)| text.len() - text.trim_end().len());
+        let mark = look.glyphs.pick("…", "~");
         let cut = all.saturating_sub(padding) > usize::from(row.width);
         let room = if cut { row.width.saturating_sub(1) } else { row.width };
         let mut used = 0;
-        for (text, style) in spans {
+        for (text, style) in &texts {
             if row.is_empty() || used >= room {
                 break;
             }
             let at = Position::new(row.x + used, row.y);
-            let text = self.look.glyphs.text(text);
-            let short = shortened(&text, usize::from(room - used), "");
-            used += self.write(at, room - used, &short, *style);
-            if short.width() < text.width() {
+            let wide = columns_of(text);
+            if wide <= usize::from(room - used) {
+                used += self.write(at, room - used, text, *style);
+            } else {
+                let short = shortened(text, usize::from(room - used), "");
+                used += self.write(at, room - used, &short, *style);
                 break;
             }
         }
@@ -135,9 +160,7 @@ impl Canvas<'_> {
                 ..self.look.glyphs.border()
             },
         };
-        let block = Block::bordered().border_set(set);
-        let inner = block.inner(area);
-        block.border_style(self.style(role)).render(area, self.buffer);
+        self.outline(area, set, self.style(role));
         if area.width > 6 && area.height > 0 {
             let row = Rect { x: area.x + 2, width: area.width - 4, height: 1, ..area };
             let gap = (" ".to_owned(), Style::new());
@@ -153,7 +176,31 @@ impl Canvas<'_> {
             }
             self.spans(columns(row, used, row.width), &[gap]);
         }
-        inner
+        area.inner(Margin::new(1, 1))
+    }
+
+    /// Draws the border of an area; the cells inside are not touched, and nothing of it lies beyond the screen.
+    fn outline(&mut self, area: Rect, set: border::Set<'_>, style: Style) {
+        let area = area.intersection(self.buffer.area);
+        if area.is_empty() {
+            return;
+        }
+        let (right, bottom) = (area.right() - 1, area.bottom() - 1);
+        let mut put = |x: u16, y: u16, symbol: &str| {
+            self.buffer[(x, y)].set_symbol(symbol).set_style(style);
+        };
+        for x in area.x..=right {
+            put(x, area.y, set.horizontal_top);
+            put(x, bottom, set.horizontal_bottom);
+        }
+        for y in area.y..=bottom {
+            put(area.x, y, set.vertical_left);
+            put(right, y, set.vertical_right);
+        }
+        put(area.x, area.y, set.top_left);
+        put(right, area.y, set.top_right);
+        put(area.x, bottom, set.bottom_left);
+        put(right, bottom, set.bottom_right);
     }
 
     /// Makes an area blank; clicks still reach what lies below.
@@ -224,4 +271,17 @@ pub(super) fn row(area: Rect, index: usize) -> Rect {
 pub(super) fn columns(area: Rect, from: u16, width: u16) -> Rect {
     let from = from.min(area.width);
     Rect { x: area.x + from, width: width.min(area.width - from), ..area }
+}
+
+/// The width of text in columns.
+fn columns_of(text: &str) -> usize {
+    if text.is_ascii() { text.len() } else { text.width() }
+}
+
+/// Whether a character fills one cell whatever stands beside it: Latin, Greek and Cyrillic letters, punctuation, symbols,
+/// lines and dots of a width of one.
+fn fills_a_cell(letter: char) -> bool {
+    let alone =
+        matches!(letter, '\u{a0}'..'\u{300}' | '\u{370}'..'\u{483}' | '\u{2010}'..'\u{2e80}');
+    matches!(letter, ' '..='~') || alone && letter.width() == Some(1)
 }

@@ -112,7 +112,10 @@ impl Frames {
                 frame.set_cursor_position(at);
             }
         })?;
-        self.shown.get_or_insert_default().clone_from(drawn.buffer);
+        // The cells are copied into the memory of those before.
+        let shown = self.shown.get_or_insert_default();
+        shown.area = drawn.buffer.area;
+        shown.content.clone_from(&drawn.buffer.content);
         Ok(self.terminal.backend_mut().take())
     }
 }

@@ -48,6 +48,27 @@ fn canonical_forms() {
 }
 
 #[test]
+fn values_along_a_symbol_are_those_at_each_place() {
+    for source in ["a*q^2 + sin(u)*cos(q/2)", "a*u", "q", "(q^u - b)/(1 + abs(q))", "sqrt(q)"] {
+        let mut model = names(&["q", "u"], &["a", "b"]);
+        let e = read(&mut model, source);
+        let [q, u, a] = ["q", "u", "a"].map(|name| model.pool.find_symbol(name).expect("declared"));
+        let others = |symbol| match symbol {
+            s if s == u => 0.7,
+            s if s == a => -1.3,
+            _ => 2.5,
+        };
+        let places = [-1.5, 0.0, 0.3, 4.0];
+        let along = model.pool.evaluate_along(e, (q, &places), &others);
+        for (place, value) in places.into_iter().zip(along) {
+            let there = |symbol| if symbol == q { place } else { others(symbol) };
+            let alone = model.pool.evaluate(e, &there);
+            assert_eq!(value.to_bits(), alone.to_bits(), "{source} at {place}");
+        }
+    }
+}
+
+#[test]
 fn the_size_of_terms_sees_what_cancels() {
     let check = |source: &str, size: &str| {
         assert_eq!(text(source, Pool::magnitude), size, "{source}");

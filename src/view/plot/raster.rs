@@ -245,8 +245,12 @@ impl Raster {
     /// Copies the dots to the screen. Cells without dots do not change, and neither does the background.
     pub fn draw(&self, buffer: &mut Buffer) {
         let width = usize::from(self.area.width);
+        let haloes = !self.glyphs.is_ascii() && self.cells.iter().any(|cell| cell.rank.1);
         for (index, cell) in self.cells.iter().enumerate() {
-            let dots = cell.upper & !self.beside_marker(index);
+            let mut dots = cell.upper;
+            if haloes && dots != 0 {
+                dots &= !self.beside_marker(index);
+            }
             let symbol = match (cell.sign, self.glyphs) {
                 (Some(sign), _) => sign,
                 (None, _) if dots == 0 => continue,
@@ -271,30 +275,33 @@ impl Raster {
 
     /// The dots of a cell that a marker in a neighbouring cell keeps blank: those that touch it, of layers far below.
     fn beside_marker(&self, index: usize) -> u8 {
-        let [columns, rows] = self.cell();
-        if self.glyphs.is_ascii() || self.cells[index].sign.is_some() {
+        if self.cells[index].sign.is_some() {
             return 0;
         }
+        let [columns, rows] = self.cell();
         let wide = usize::from(self.area.width);
         let column = index % wide;
         let covers = |other: Option<usize>| {
             let marker = other.and_then(|other| self.cells.get(other)).map(|cell| cell.rank);
             marker.is_some_and(|(layer, marks, _)| marks && layer >= self.cells[index].rank.0 + 2)
         };
-        let side = |x: Option<i32>, y: Option<i32>| {
-            let touching = (0..columns * rows).filter(|bit| {
-                x.is_none_or(|x| bit % columns == x) && y.is_none_or(|y| bit / columns == y)
-            });
-            touching.fold(0, |dots, bit| dots | 1 << bit)
+        let touching = |beside: &dyn Fn(i32) -> bool| {
+            (0..columns * rows).filter(|bit| beside(*bit)).fold(0_u8, |dots, bit| dots | 1 << bit)
         };
-        let sides = [
-            (column.checked_sub(1).map(|_| index.wrapping_sub(1)), side(Some(0), None)),
-            ((column + 1 < wide).then_some(index + 1), side(Some(columns - 1), None)),
-            (index.checked_sub(wide), side(None, Some(0))),
-            (Some(index + wide), side(None, Some(rows - 1))),
-        ];
-        let near = sides.into_iter().filter(|(other, _)| covers(*other));
-        near.fold(0_u8, |dots, (_, side)| dots | side)
+        let mut dots = 0;
+        if covers(index.checked_sub(1).filter(|_| column > 0)) {
+            dots |= touching(&|bit| bit % columns == 0);
+        }
+        if covers(Some(index + 1).filter(|_| column + 1 < wide)) {
+            dots |= touching(&|bit| bit % columns == columns - 1);
+        }
+        if covers(index.checked_sub(wide)) {
+            dots |= touching(&|bit| bit / columns == 0);
+        }
+        if covers(Some(index + wide)) {
+            dots |= touching(&|bit| bit / columns == rows - 1);
+        }
+        dots
     }
 
     fn ink(&mut self, dot: [i32; 2], pen: &Pen, sign: Option<char>) {

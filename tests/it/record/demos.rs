@@ -1,6 +1,8 @@
 //! The demos that are part of the program: their claims are true, and they are the same every time.
 
+use phaselab::diagnostic::Document;
 use phaselab::preset::{Catalog, demo, demos};
+use phaselab::record::ScriptHeader;
 use phaselab::record::play;
 use phaselab::record::script::ScriptStep;
 
@@ -38,6 +40,18 @@ fn every_demo_is_of_a_preset_and_about_it() {
         );
     }
     assert!(catalog.entries().iter().all(|entry| entry.folder != "demos"));
+}
+
+#[test]
+fn settings_of_a_script_are_read_without_its_steps() {
+    for name in demos() {
+        let source = demo(name).expect("listed");
+        let whole = script(&source.text).head;
+        assert_eq!(ScriptHeader::read(&source).expect("it is right"), whole, "{name}");
+    }
+    let read = |text: &str| ScriptHeader::read(&Document::new("d.demo", text.to_owned()));
+    assert!(read("Fps 10\nWait 1s\nNonsense\n").is_ok(), "steps are not read");
+    assert!(read("Fps 10\nFps 20\nWait 1s\n").is_err());
 }
 
 #[test]

@@ -537,11 +537,11 @@ fn a_potential_is_drawn_with_the_energy_and_where_the_motion_is_allowed() {
     let potential = |app: &phaselab::app::App, r: f64| {
         let lab = app.lab.as_ref().unwrap();
         let view = lab.loaded.model.views.iter().position(|v| v.kind == "potential");
-        PotentialView::of(lab.loaded.physics(), view.unwrap()).unwrap().at(
+        PotentialView::of(lab.loaded.physics(), view.unwrap()).unwrap().along(
             &lab.loaded.model.pool,
             &lab.valuation(),
-            r,
-        )
+            &[r],
+        )[0]
     };
     app.update(Event::Loaded(Ok(planet.clone())));
     app.update(Event::Snapshot(Arc::new(now.clone())));
