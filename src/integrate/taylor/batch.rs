@@ -6,9 +6,9 @@
 //! given back as [`LaneStatus::Irregular`]. Never here: kinks, occurrences.
 
 use super::batch_step_size::BatchStepSize;
-use super::{
-    EXACT_BELOW, METHOD, NEARBY_UNITS, SOON_STALLED, VANISHING_IN_F64, part_of_step, step_size,
-};
+use super::expansion::NEARBY_UNITS;
+use super::step_end::{SOON_STALLED, VANISHING_IN_F64};
+use super::{EXACT_BELOW, METHOD, part_of_step, step_size};
 use crate::integrate::lane_status::LaneStatus;
 use crate::integrate::method::{Method, Settings};
 use crate::num::{BATCH, DoubleDouble};

@@ -1,0 +1,111 @@
+//! Points from which no single series continues: a choice of sides on a surface, and the step that leads away.
+//!
+//! In: the state, the choices of the kinks. Out: a series that continues, or a step by collocation, or rest. Never here:
+//! steps along a series.
+
+use super::Taylor;
+use super::sticking::{self, Sticking};
+use crate::system::{MotionError, MotionErrorKind, Side};
+
+/// This many collocation steps must advance the time by this part of the time that has passed.
+const ROUND: u32 = 64;
+const LEAST: f64 = 1e-15;
+
+/// On a surface, a step this short relative to those before it is no better than none.
+const HOPELESS: f64 = 1e-9;
+
+impl Taylor {
+    /// On a surface: takes the first choice of sides that continues the motion, and returns the
+    /// step there, or `None` if the surface was left without a series.
+    pub(super) fn decide(
+        &mut self,
+        choices: &[Vec<Side>],
+        left: f64,
+    ) -> Result<Option<f64>, MotionError> {
+        let mut rough = false;
+        for sides in choices {
+            self.kinks.choose(&mut self.series, sides);
+            match self.expand(left) {
+                Ok(step) if self.kinks.leads_on(&self.series, step) => {
+                    let hopeless = step < HOPELESS * self.stride && !rough;
+                    return Ok(if hopeless && self.leap(left, 0.0)? { None } else { Some(step) });
+                }
+                Ok(_) => {}
+                Err(fault) if fault.kind == MotionErrorKind::Sticks => {}
+                Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault),
+                Err(_) if rough => {}
+                Err(_) => {
+                    rough = true;
+                    if self.leap(left, 0.0)? {
+                        return Ok(None);
+                    }
+                }
+            }
+        }
+        if !rough && self.kinks.touch() {
+            return self.decide(choices, left);
+        }
+        let kind = if rough { MotionErrorKind::Rough } else { MotionErrorKind::Sticks };
+        Err(self.system.fault(kind, self.state.time, &self.state.values))
+    }
+
+    /// Leaves a point from which no series continues, or continues by no more than `least`. Returns
+    /// false if that is not possible.
+    pub(super) fn leap(&mut self, left: f64, least: f64) -> Result<bool, MotionError> {
+        self.leaps.0 += 1;
+        if self.leaps.0.is_multiple_of(ROUND) {
+            let (before, now) = (self.leaps.1, self.state.time);
+            self.leaps.1 = now;
+            if (now - before).abs() <= LEAST * (now.abs() + left.abs()) {
+                return Ok(false);
+            }
+        }
+        let stride = if self.stride > 0.0 { self.stride.min(left.abs()) } else { left.abs() };
+        let wanted = stride.copysign(left);
+        let mut from = self.state.clone();
+        let mut toward = None;
+        let rates = &mut self.rates;
+        let mut found = self.bridge.cross(rates, &from, (wanted, least), None, &mut self.state)?;
+        if found.is_none() {
+            match sticking::of(&self.system, rates, &self.parameters, &from, stride)? {
+                Sticking::Unknown => return Ok(false),
+                Sticking::Stays(still) => {
+                    self.state = still.at(rates, from.exact_time())?;
+                    self.begin = self.state.time;
+                    self.resting = Some(still);
+                    return Ok(true);
+                }
+                Sticking::SetsOut(state, rates) => {
+                    (from, toward) = (state, Some(rates));
+                    let (rates, toward) = (&mut self.rates, toward.as_deref());
+                    found =
+                        self.bridge.cross(rates, &from, (wanted, 0.0), toward, &mut self.state)?;
+                    if found.is_none() {
+                        let first = sticking::set_out(
+                            &self.system,
+                            rates,
+                            &self.parameters,
+                            &from,
+                            (wanted, self.limit.0),
+                        )?;
+                        let Some((still, state)) = first else { return Ok(false) };
+                        self.begin = from.time;
+                        self.state = state;
+                        self.resting = Some(still);
+                        return Ok(true);
+                    }
+                }
+            }
+        }
+        let Some(step) = found else { return Ok(false) };
+        self.kinks.begin(&mut self.series, &mut self.rates, &self.state)?;
+        self.begin = from.time;
+        self.leapt = Some((from, toward));
+        self.landed = false;
+        self.stride = step.abs();
+        self.last = step.abs();
+        self.leaving = true;
+        self.taken = Some(step.abs());
+        Ok(true)
+    }
+}

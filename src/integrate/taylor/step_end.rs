@@ -1,0 +1,242 @@
+//! The end of a step along a series: the farthest its terms allow, the limit, a kink, or a point where a series has no
+//! radius of convergence.
+//!
+//! In: the series at the current state, the longest step that it allows, the time to go. Out: where the step ends, and
+//! the state there. Never here: building series, and what continues from a point without one.
+
+use super::kinks::KinkCrossing;
+use super::{Taylor, branches, steep};
+use crate::num::DoubleDouble;
+use crate::system::{MotionError, MotionErrorKind, Side};
+
+/// A step shorter than this part of those before it ends at a point where a series has no radius of
+/// convergence; …
+const VANISHING: f64 = 1e-11;
+
+/// … and this is that part where all is in `f64`, whose digits do not tell nearer points apart.
+pub(super) const VANISHING_IN_F64: f64 = 1e-8;
+
+/// So does a step this short relative to the time, which will soon no longer advance it.
+pub(super) const SOON_STALLED: f64 = 1e-15;
+
+/// A point this close, relative to the steps before it, counts as reached.
+const TOUCHING: f64 = 1e-15;
+
+/// A step this short relative to the time hardly advances it.
+const STALLED: f64 = 5e-17;
+
+/// A step this short relative to the time cannot continue; …
+const SMALLEST: f64 = 1e-17;
+
+/// … but a surface where forces grow without bound is approached up to this part, since the time is
+/// in double-double. A nearer one counts as reached.
+const NEAREST: f64 = 1e-30;
+
+/// The last terms of all series may be this part of their largest at a surface that is reached
+/// beyond the step, …
+const LAST_DIGIT: f64 = 1e-17;
+
+/// … and this part where it cannot be approached any farther. If they are larger, as at a pole, it
+/// cannot be reached.
+const NEARLY: f64 = 1e-6;
+
+/// Steps that lead away from a point do not shrink by more than this factor.
+const SHRINKING: f64 = 0.1;
+
+/// How far beyond such a short step the point is searched for, in steps.
+const BEYOND: f64 = 8.0;
+
+/// The part of the time to a point that is stepped if a motion passes it closely.
+const NEARER: f64 = 0.5;
+
+/// The maximal number of halvings of a step that has left a branch.
+const HALVINGS: u32 = 60;
+
+/// A number this small relative to the terms of its series is zero; the rest is rounding.
+const ROUNDING: f64 = 1e-18;
+
+/// Where a step ends.
+pub(super) struct StepEnd {
+    /// The time from its beginning.
+    after: DoubleDouble,
+    /// The surface that it ends on.
+    crossing: Option<KinkCrossing>,
+    /// Whether it ends at the limit.
+    last: bool,
+    /// Whether no series continues from there.
+    landed: bool,
+    /// Whether it is so short that it ends at a point where a series has no radius of convergence.
+    vanishing: bool,
+}
+
+impl Taylor {
+    /// Where a step ends that may be this long, with `left` to go; `None` if another kind of step was taken instead.
+    pub(super) fn end_of_step(
+        &mut self,
+        step: f64,
+        left: DoubleDouble,
+    ) -> Result<Option<StepEnd>, MotionError> {
+        let time = self.state.time.abs();
+        let scale = self.series.scale();
+        let part = if self.exact { VANISHING } else { VANISHING_IN_F64 };
+        let vanishing = step < part * self.stride || step < SOON_STALLED * time;
+        let last = step >= left.high.abs();
+        let after = if last { left } else { DoubleDouble::from(step.copysign(left.high)) };
+        // what makes the steps vanish lies a little farther than they reach
+        let end = if vanishing { BEYOND * step / scale.abs() } else { after.high / scale };
+        let end = end.min((left.high / scale).abs());
+        let found = self.kinks.first(&self.series, end);
+        let approaching = vanishing && found.is_some();
+        let nearest = approaching && step <= NEAREST * time;
+        // steps away from a point that was passed become longer by themselves
+        let leaving = self.leaving && step > SHRINKING * self.last;
+        self.leaving &= step <= SMALLEST * time;
+        let known = if nearest { NEARLY } else { LAST_DIGIT };
+        let crossing =
+            found.filter(|crossing| !vanishing || crossing.is_known(&self.series, known));
+        let short = step <= SMALLEST * time && !approaching && !leaving;
+        if short || (nearest && crossing.is_none()) {
+            let kind = MotionErrorKind::StepUnderflow(step);
+            return Err(self.system.fault(kind, self.state.time, &self.state.values));
+        }
+        self.begin = self.state.time;
+        let mut end_of_step = match crossing {
+            Some(crossing) => {
+                let after = crossing.after * scale;
+                StepEnd { after, crossing: Some(crossing), last: false, landed: false, vanishing }
+            }
+            None => StepEnd { after, crossing: None, last, landed: false, vanishing },
+        };
+        if vanishing && !approaching {
+            if let Some(x) = branches::predicted(&self.series, end) {
+                (end_of_step.last, end_of_step.landed) = (false, true);
+                end_of_step.after = DoubleDouble::from(x * scale);
+            } else if (step < TOUCHING * self.stride || step < STALLED * time)
+                && self.leap(left.high, BEYOND * step)?
+            {
+                return Ok(None);
+            }
+        }
+        if !(end_of_step.landed || approaching) {
+            // near a branch point rounding alone makes steps short
+            let reach = if vanishing { 2.0 * step } else { step };
+            self.end_at_branch_point(&mut end_of_step, reach.min(left.high.abs()));
+        }
+        Ok(Some(end_of_step))
+    }
+
+    /// Ends a step at a branch point within `reach`, or nearer if the motion only passes it.
+    fn end_at_branch_point(&mut self, end: &mut StepEnd, reach: f64) {
+        let scale = self.series.scale();
+        let mut reach = reach / scale.abs();
+        if end.crossing.is_some() {
+            reach = reach.min(end.after.high.abs() / scale.abs());
+        }
+        let Some(passing) = branches::first(&self.series, reach) else { return };
+        let origin = self.state.clone();
+        let there = passing.after * scale;
+        self.series.state_after(there, &mut self.state);
+        let known = self.evaluate_rates().is_ok();
+        let within = TOUCHING * self.stride / scale.abs();
+        end.landed = (known && branches::is_exact(&self.series, &passing, &self.rates, within))
+            || there.high.abs() < TOUCHING * self.stride;
+        (end.last, end.crossing) = (false, None);
+        end.after = if end.landed { there } else { there * NEARER };
+        self.state = origin;
+    }
+
+    /// Takes a step that could be this long to its end, with `left` to go to the limit.
+    pub(super) fn go_to(
+        &mut self,
+        mut end: StepEnd,
+        step: f64,
+        (left, limit): (f64, f64),
+    ) -> Result<(), MotionError> {
+        let begin = self.state.time;
+        if end.landed || end.vanishing {
+            self.series.state_after(end.after, &mut self.state);
+            self.clear(end.after.high / self.series.scale());
+        } else {
+            let part = self.advance(end.after)?;
+            if part < 1.0 {
+                (end.last, end.crossing, end.after) = (false, None, end.after * part);
+            }
+        }
+        let size = end.after.high.abs();
+        (self.last, self.landed) = (size, end.landed);
+        let turned = end.crossing.is_some() && !end.vanishing;
+        self.stride = if turned { size } else { self.stride.max(size) };
+        if end.last {
+            self.state.time = limit;
+        } else {
+            self.taken = Some(step.min(left.abs()).min(4.0 * size));
+        }
+        if !self.kinks.arrive(end.crossing, &self.series, &mut self.state) {
+            return Err(self.system.fault(MotionErrorKind::Sticks, begin, &self.state.values));
+        }
+        self.system.check_finite(&self.state)
+    }
+
+    /// Evaluates the rates at the current state.
+    fn evaluate_rates(&mut self) -> Result<(), MotionError> {
+        let state = &self.state;
+        let numbers: Vec<DoubleDouble> = (0..state.values.len()).map(|i| state.exact(i)).collect();
+        self.rates.evaluate(state.exact_time(), &numbers)
+    }
+
+    /// Advances along the series and shortens the step until no root has left its branch there, and
+    /// no steep power is missed.
+    /// Returns the part of the time that is left.
+    fn advance(&mut self, after: DoubleDouble) -> Result<f64, MotionError> {
+        let (mut part, scale) = (1.0, self.series.scale());
+        let steep = self.series.is_steep() && !self.series.sides().contains(&Side::Between);
+        if self.series.guards() == 0 && !steep {
+            self.series.state_after(after, &mut self.state);
+            return Ok(part);
+        }
+        let from = self.state.clone();
+        for _ in 0..HALVINGS {
+            let x = after.high * part / scale;
+            if !(steep && self.misses_a_steep_power(after * part)?) {
+                self.series.state_after(after * part, &mut self.state);
+                if self.series.guards() == 0 {
+                    return Ok(part);
+                }
+                let outcome = self.evaluate_rates();
+                if outcome.is_ok() && !branches::strayed(&self.series, x, &self.rates) {
+                    return Ok(part);
+                }
+            }
+            part *= 0.5;
+        }
+        self.state = from;
+        let kind = MotionErrorKind::StepUnderflow(after.high * part);
+        Err(self.system.fault(kind, self.state.time, &self.state.values))
+    }
+
+    /// Whether the rates near the end of a step, where kinks are, are not those of the series.
+    fn misses_a_steep_power(&mut self, after: DoubleDouble) -> Result<bool, MotionError> {
+        let near = after * steep::NEAR_THE_END;
+        self.series.state_after(near, &mut self.state);
+        match self.evaluate_rates() {
+            Err(fault) if fault.kind == MotionErrorKind::Cancelled => Err(fault),
+            Err(_) => Ok(true),
+            Ok(()) => {
+                let x = near.high / self.series.scale();
+                Ok(steep::missed(&self.series, x, &self.rates, self.tolerance))
+            }
+        }
+    }
+
+    /// Sets numbers that have reached zero to exactly zero.
+    fn clear(&mut self, x: f64) {
+        for i in 0..self.series.inputs() {
+            let terms = self.series.coefficients(i).iter();
+            let powers = std::iter::successors(Some(1.0), |power| Some(power * x));
+            let largest = terms.zip(powers).fold(0.0_f64, |m, (c, p)| m.max((c * p).abs()));
+            if self.state.values[i].abs() <= ROUNDING * largest {
+                self.state.set(i, DoubleDouble::ZERO);
+            }
+        }
+    }
+}
