@@ -1,0 +1,226 @@
+//! The way of a motion to a time: steps, and the search for events in them.
+//!
+//! In: a motion that has begun, a time, a number of steps. Out: the current state there, or at an occurrence before.
+//! Never here: what an occurrence does.
+
+use super::{Propagator, Reached};
+use crate::integrate::{StepBlock, Stepping, clock};
+use crate::num::DoubleDouble;
+use crate::system::{Form, MotionError, MotionErrorKind};
+
+/// A step on a kink may only choose a side, or find that the motion sticks; so many of them in a
+/// row make no progress.
+const MOST_STALLED: u32 = 128;
+
+impl Propagator {
+    /// Advances the current state to `time`, in at most `budget` steps (which are subtracted from
+    /// it), or to an occurrence before. No step goes beyond `limit`, unless the method's step is
+    /// fixed. Occurrences at `time` itself are included.
+    ///
+    /// # Errors
+    /// Returns an error if the motion cannot continue.
+    pub fn reach(
+        &mut self,
+        time: f64,
+        limit: f64,
+        budget: &mut u64,
+    ) -> Result<Reached, MotionError> {
+        self.reach_unexplained(time, limit, budget).map_err(|fault| self.explained(fault))
+    }
+
+    /// The same, but an error is not looked into: what could pass it takes more than most motions to find out, and of
+    /// many orbits nobody reads it.
+    ///
+    /// # Errors
+    /// Returns an error if the motion cannot continue.
+    pub fn reach_unexplained(
+        &mut self,
+        time: f64,
+        limit: f64,
+        budget: &mut u64,
+    ) -> Result<Reached, MotionError> {
+        loop {
+            if self.ended {
+                return Ok(Reached::Ended);
+            }
+            if self.clear <= time {
+                let due = self.impulse_schedule.due(self.clear);
+                if self.waiting.is_some() || due.is_some() {
+                    // there may be infinitely many occurrences
+                    if *budget == 0 {
+                        return Ok(Reached::Underway);
+                    }
+                    *budget -= 1;
+                    self.note_passages(self.clear);
+                }
+                if let Some(found) = self.waiting.take() {
+                    return self.on_event(found).map(Reached::Happened);
+                }
+                if let Some(impulse) = due {
+                    return self.apply_scheduled(impulse).map(Reached::Happened);
+                }
+            }
+            if self.clear >= time {
+                self.move_to(time)?;
+                self.note_passages(time);
+                return Ok(Reached::There);
+            }
+            if *budget == 0 {
+                return Ok(Reached::Underway);
+            }
+            let outcome = if self.stepper.time() > self.clear {
+                *budget -= 1;
+                Ok(())
+            } else if self.is_undisturbed() {
+                self.several_steps(time, limit, budget)
+            } else {
+                *budget -= 1;
+                self.step(limit)
+            };
+            if let Err(fault) = outcome {
+                self.note_passages(self.clear);
+                return Err(fault);
+            }
+            self.scan()?;
+        }
+    }
+
+    /// Whether nothing can happen between two steps: nothing acts on the motion but its law, and
+    /// nothing is watched.
+    fn is_undisturbed(&self) -> bool {
+        self.method.stepping == Stepping::Fixed
+            && self.whole.constraints() == 0
+            && self.crossings.is_none()
+            && self.branch.is_none()
+            && self.system.attitude_place().is_none()
+            && self.impulse_schedule.is_empty()
+    }
+
+    /// Takes the steps to a time that nobody looks between.
+    fn several_steps(
+        &mut self,
+        time: f64,
+        limit: f64,
+        budget: &mut u64,
+    ) -> Result<(), MotionError> {
+        let most = *budget;
+        let outcome = self.stepper.steps(time, limit, budget);
+        // a step that failed was not taken
+        self.steps += most - *budget - u64::from(outcome.is_err());
+        self.clear = self.stepper.time();
+        outcome
+    }
+
+    /// Takes at most `most` steps between which nothing can happen, until `time` is reached or passed,
+    /// and writes the end of each into `block`. Returns their number, which is zero if the next step
+    /// must be taken by itself.
+    pub fn steps_seen(&mut self, time: f64, most: u64, block: &mut StepBlock) -> u64 {
+        if self.ended || self.stepper.time() > self.clear || !self.is_undisturbed() {
+            return 0;
+        }
+        let taken = self.stepper.steps_seen(time, most, block);
+        if taken > 0 {
+            self.steps += taken;
+            self.clear = self.stepper.time();
+        }
+        taken
+    }
+
+    fn step(&mut self, limit: f64) -> Result<(), MotionError> {
+        let limit =
+            self.impulse_schedule.next(self.clear).map_or(limit, |impulse| impulse.min(limit));
+        let before = self.stepper.state().exact_time();
+        if self.impulse_schedule.stands_still(before.high) {
+            return Err(no_digits_left(before.high));
+        }
+        self.note_regular();
+        self.choose_enforced()?;
+        self.stepper.step(limit)?;
+        let moved = (self.stepper.state().exact_time() - before).high > 0.0;
+        self.stalled = if moved { 0 } else { self.stalled + 1 };
+        if self.stalled > MOST_STALLED {
+            return Err(no_digits_left(before.high));
+        }
+        self.steps += 1;
+        self.check_branch()?;
+        if self.projector.is_some() || self.system.attitude_place().is_some() {
+            self.before.copy_from(self.stepper.state());
+            if let Some(projector) = &mut self.projector {
+                projector.project(&mut self.before)?;
+            }
+            self.system.orthonormalise(&mut self.before);
+            self.stepper.replace_state(&self.before);
+            self.watch_step();
+        }
+        Ok(())
+    }
+
+    /// Searches for events in what was computed beyond `clear`, up to the next impulse, as far as
+    /// the functions can be followed at once.
+    fn scan(&mut self) -> Result<(), MotionError> {
+        let end = self.stepper.time();
+        let mut end =
+            self.impulse_schedule.next(self.clear).map_or(end, |impulse| impulse.min(end));
+        if let Some(crossings) = &mut self.crossings {
+            (self.waiting, end) = crossings.scan(self.stepper.as_mut(), self.clear, end)?;
+        }
+        self.clear = self.waiting.map_or(end, |found| found.exact.high);
+        Ok(())
+    }
+
+    /// Sets the current state to that at a time within the last step.
+    pub(super) fn move_to(&mut self, time: f64) -> Result<(), MotionError> {
+        let (begin, end) = self.stepper.interval();
+        if time == end || begin == end {
+            self.state.copy_from(self.stepper.state());
+        } else {
+            self.stepper.at(time, &mut self.state)?;
+            if let (Some(projector), Form::Velocity) = (&mut self.projector, self.state.form) {
+                projector.project(&mut self.state)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Sets the current state to that at the time of an occurrence, known beyond the last digit of
+    /// an `f64`.
+    pub(super) fn move_to_exactly(&mut self, time: DoubleDouble) -> Result<(), MotionError> {
+        let (begin, end) = self.stepper.interval();
+        if begin == end {
+            self.state.copy_from(self.stepper.state());
+            return Ok(());
+        }
+        self.stepper.at_exactly(time, &mut self.state)?;
+        if let (Some(projector), Form::Velocity) = (&mut self.projector, self.state.form) {
+            projector.project(&mut self.state)?;
+        }
+        Ok(())
+    }
+
+    /// Returns an error if a step has led to velocities on another branch, across a fold of p =
+    /// ∂L/∂q̇.
+    fn check_branch(&mut self) -> Result<(), MotionError> {
+        let Some(branch) = &mut self.branch else { return Ok(()) };
+        if branch.holds(self.stepper.state()) {
+            return Ok(());
+        }
+        let (begin, _) = self.stepper.interval();
+        let state = self.stepper.state();
+        Err(self.system.fault(MotionErrorKind::BranchLeft, begin, &state.values))
+    }
+
+    /// Enforces those of redundant constraints that are most independent.
+    fn choose_enforced(&mut self) -> Result<(), MotionError> {
+        let state = self.stepper.state();
+        let Some(system) = self.system.hold_better(state, &self.parameters) else { return Ok(()) };
+        let state = state.clone();
+        self.holdings += 1;
+        self.take_holding(system, &state)
+    }
+}
+
+/// The error for a time without enough digits for what follows.
+fn no_digits_left(time: f64) -> MotionError {
+    let kind = MotionErrorKind::ClockStands(clock::spacing(time));
+    MotionError { time, kind, place: Vec::new() }
+}
