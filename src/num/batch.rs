@@ -172,6 +172,7 @@ impl Div<f64> for Batch {
 impl Analytic for Batch {
     const ZERO: Batch = Batch([0.0; BATCH]);
     const ONE: Batch = Batch([1.0; BATCH]);
+    const OF_SEVERAL: bool = true;
     type Unit = Batch;
     type Lanes = [f64; BATCH];
     const ZEROS: [f64; BATCH] = [0.0; BATCH];

@@ -8,19 +8,24 @@
 pub trait Kernel {
     /// Its result.
     type Output;
+    /// Whether its numbers are those of several orbits side by side, which fill the widest vectors.
+    const OF_SEVERAL: bool = false;
     /// Computes it. `FUSED` says whether a fused multiply-add is one instruction. Must be inlined
     /// into its caller to have the instructions.
     fn run<const FUSED: bool>(self) -> Self::Output;
 }
 
-/// Runs a kernel with AVX2 and FMA where the processor has them, and with the instructions that the
-/// program was built for elsewhere.
+/// Runs a kernel with AVX2 and FMA where the processor has them, one of several orbits with AVX-512 where it has that, and
+/// with the instructions that the program was built for elsewhere.
 #[inline]
 pub fn vectorized<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]
     {
         use std::sync::LazyLock;
-        static WIDE: LazyLock<Option<pulp::x86::V3>> = LazyLock::new(pulp::x86::V3::try_new);
+
+        use pulp::x86::{V3, V4};
+        static WIDE: LazyLock<Option<V3>> = LazyLock::new(V3::try_new);
+        static WIDEST: LazyLock<Option<V4>> = LazyLock::new(V4::try_new);
         struct Call<K>(K);
         impl<K: Kernel> pulp::NullaryFnOnce for Call<K> {
             type Output = K::Output;
@@ -28,6 +33,11 @@ pub fn vectorized<K: Kernel>(kernel: K) -> K::Output {
             fn call(self) -> K::Output {
                 self.0.run::<true>()
             }
+        }
+        if K::OF_SEVERAL
+            && let Some(widest) = *WIDEST
+        {
+            return widest.vectorize(Call(kernel));
         }
         if let Some(wide) = *WIDE {
             return wide.vectorize(Call(kernel));

@@ -30,6 +30,8 @@ pub trait Analytic:
     const ZERO: Self;
     /// One.
     const ONE: Self;
+    /// Whether a number is that of several orbits side by side.
+    const OF_SEVERAL: bool = false;
     /// A unit of time, a power of two.
     type Unit: Copy + Send + Sync + std::fmt::Debug;
     /// The operands of [`Analytic::SIDE`] inner products side by side.

@@ -193,6 +193,7 @@ struct States<'a> {
 
 impl Kernel for States<'_> {
     type Output = ();
+    const OF_SEVERAL: bool = true;
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) {

@@ -163,6 +163,7 @@ struct Look<'a> {
 
 impl Kernel for Look<'_> {
     type Output = ();
+    const OF_SEVERAL: bool = true;
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) {

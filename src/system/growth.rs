@@ -316,6 +316,7 @@ struct Extend<'a, R: Coefficient> {
 
 impl<R: Coefficient> Kernel for Extend<'_, R> {
     type Output = Result<(), Singular>;
+    const OF_SEVERAL: bool = R::OF_SEVERAL;
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> Result<(), Singular> {
@@ -333,6 +334,7 @@ struct Grow<'a, R: Coefficient> {
 
 impl<R: Coefficient> Kernel for Grow<'_, R> {
     type Output = Result<(), Halt>;
+    const OF_SEVERAL: bool = R::OF_SEVERAL;
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> Result<(), Halt> {

@@ -294,6 +294,7 @@ struct Advance<'a, R: Coefficient> {
 
 impl<R: Coefficient> Kernel for Advance<'_, R> {
     type Output = Result<(), Singular>;
+    const OF_SEVERAL: bool = R::OF_SEVERAL;
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> Result<(), Singular> {

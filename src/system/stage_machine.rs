@@ -191,6 +191,7 @@ pub(super) struct Steps<'a, R, F> {
 
 impl<R: StageNumber, F: FnMut(u64, &Registers<R>)> Kernel for Steps<'_, R, F> {
     type Output = ();
+    const OF_SEVERAL: bool = R::OF_SEVERAL;
 
     #[inline(always)]
     fn run<const FUSED: bool>(mut self) {

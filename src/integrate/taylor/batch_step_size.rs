@@ -177,6 +177,7 @@ struct ByCoefficients<'a> {
 
 impl Kernel for ByCoefficients<'_> {
     type Output = Batch;
+    const OF_SEVERAL: bool = true;
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> Batch {
