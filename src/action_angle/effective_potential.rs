@@ -16,7 +16,7 @@ const REACH: f64 = 12.0;
 /// Energies that differ by less than this part are the same to rounding.
 const NOISE: f64 = 1e-11;
 
-/// A top that is higher by this factor than what is around it is a pole.
+/// A top or a bottom that is greater by this factor than what is around it is a pole.
 const POLE: f64 = 1e12;
 
 /// Halvings of an interval, and sections by the golden ratio.
@@ -34,6 +34,8 @@ pub struct EffectivePotential<'a> {
     nodes: Vec<[f64; 2]>,
     /// Where the potential is greatest within a well's sides.
     tops: Vec<[f64; 2]>,
+    /// The greatest size of an energy at a bottom or a top: beyond them a potential may fall without end.
+    height: f64,
     period: Option<f64>,
 }
 
@@ -69,8 +71,17 @@ impl<'a> EffectivePotential<'a> {
         let period = system.period(place, &start.parameters);
         let at = values[place];
         let (nodes, tops) = (Vec::new(), Vec::new());
-        let mut potential =
-            EffectivePotential { system, base, coordinate, observer, values, nodes, tops, period };
+        let mut potential = EffectivePotential {
+            system,
+            base,
+            coordinate,
+            observer,
+            values,
+            nodes,
+            tops,
+            height: 0.0,
+            period,
+        };
         potential.look_around(at);
         Ok(potential)
     }
@@ -103,7 +114,16 @@ impl<'a> EffectivePotential<'a> {
         energy.ok().filter(|energy| !energy.is_nan()).unwrap_or(f64::INFINITY)
     }
 
-    fn observed(&mut self, start: &Start, kind: ChannelKind) -> Result<f64, MotionError> {
+    /// The momentum of the coordinate, as a channel.
+    pub(super) fn momentum(&self) -> ChannelKind {
+        ChannelKind::Momentum(self.coordinate)
+    }
+
+    pub(super) fn observed(
+        &mut self,
+        start: &Start,
+        kind: ChannelKind,
+    ) -> Result<f64, MotionError> {
         let state = start.state(self.system)?;
         self.observer.observe_columns(&state, &mut self.values)?;
         Ok(self.values[column(self.system, kind)])
@@ -173,8 +193,11 @@ impl<'a> EffectivePotential<'a> {
             let place = self.extremum(low, high, sign);
             let energy = self.at(place);
             let around = self.at(low).abs().min(self.at(high).abs()) + self.at(at).abs();
-            if sign < 0.0 && energy > POLE * (around + f64::MIN_POSITIVE) {
-                walls.push(place);
+            if energy.abs() > POLE * (around + f64::MIN_POSITIVE) {
+                // a pole: upwards it is a wall, downwards no bottom
+                if sign < 0.0 {
+                    walls.push(place);
+                }
                 continue;
             }
             // zero to rounding
@@ -189,6 +212,8 @@ impl<'a> EffectivePotential<'a> {
         {
             self.tops.push(top);
         }
+        let turned = extrema.iter().chain(&self.tops).map(|place| place[1].abs());
+        self.height = turned.filter(|energy| energy.is_finite()).fold(0.0, f64::max);
         nodes.extend(extrema);
         nodes.sort_by(|a, b| a[0].total_cmp(&b[0]));
         walls.extend(nodes.iter().filter(|node| node[1] == f64::INFINITY).map(|node| node[0]));
@@ -222,7 +247,7 @@ impl<'a> EffectivePotential<'a> {
     /// All regions that an energy allows, from left to right; those of a rotation have no ends.
     pub fn regions(&mut self, energy: f64) -> Vec<AllowedInterval> {
         // on a separatrix the top itself is out of reach, on whichever side of the energy rounding has put it
-        let noise = NOISE * (energy.abs() + self.depth());
+        let noise = NOISE * (energy.abs() + self.height);
         let at_a_top = self.tops.iter().any(|top| (top[1] - energy).abs() <= noise);
         let level = if at_a_top { energy - noise } else { energy };
         let nodes = self.nodes.clone();
@@ -262,7 +287,7 @@ impl<'a> EffectivePotential<'a> {
     /// The lobes of the separatrix through a top: the regions at its energy that end there.
     pub fn lobes(&mut self, top: [f64; 2]) -> Vec<AllowedInterval> {
         let [place, energy] = top;
-        let noise = NOISE * (energy.abs() + self.depth());
+        let noise = NOISE * (energy.abs() + self.height);
         let mut lobes = Vec::new();
         let nodes = self.nodes.clone();
         let beside = nodes.iter().position(|node| node[0] >= place).unwrap_or(0);
@@ -295,7 +320,7 @@ impl<'a> EffectivePotential<'a> {
 
     /// Whether an energy is that of a separatrix that ends a region, whose motion there takes for ever.
     pub fn is_separatrix(&self, region: AllowedInterval, energy: f64) -> bool {
-        let noise = NOISE * (energy.abs() + self.depth());
+        let noise = NOISE * (energy.abs() + self.height);
         let width = region.left.zip(region.right).map_or(f64::INFINITY, |(l, r)| r - l);
         let ends = |top: &[f64; 2]| {
             let turns = self.period.map_or(vec![0.0], |period| vec![0.0, period]);
@@ -317,11 +342,6 @@ impl<'a> EffectivePotential<'a> {
     /// The least energy of the places looked at.
     pub fn bottom(&self) -> f64 {
         self.nodes.iter().map(|node| node[1]).fold(f64::INFINITY, f64::min)
-    }
-
-    /// The depth of the deepest well below the highest node that is finite, at most below zero: a scale of the energy.
-    fn depth(&self) -> f64 {
-        self.bottom().abs()
     }
 
     /// The place between two at which the potential is the energy; `inside` has less, `outside` has not.

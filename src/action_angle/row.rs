@@ -119,6 +119,12 @@ pub enum NoAction {
 /// Turning points agree to this part of the width of the region.
 const RETURNS: f64 = 1e-7;
 
+/// A zero of q̇ at which the momentum is off by more than this part of its typical size is a multiple one.
+const MULTIPLE_ZERO: f64 = 1e-9;
+
+/// The distance over which a slope of the potential is taken, as a part of the width of the region.
+const SLOPE_STEP: f64 = 1e-5;
+
 /// The steps after which a return is given up.
 const PATIENCE: u64 = 1_000_000;
 
@@ -179,15 +185,39 @@ fn libration(
             });
         }
     }
-    let (period, carried) = end(&found);
+    let (located, carried) = end(&found);
     let action = if one {
-        carried + energy * period
+        carried + energy * located
     } else {
         action_between(potential, left, right, energy)?
     };
+    let period = located + late(potential, systems, &start, &found, ([left, right], action))?;
     let turning_points = vec![left, right];
     let kind = RegionKind::Libration;
     Ok(ActionRow { energy, kind, turning_points, action, period, mean_rate: None })
+}
+
+/// How much later than located the return is. Where q̇ vanishes as a power of p − p₀, as in H = p⁴ + V, its zero is a multiple
+/// one, known to a part of the digits only; the momentum has a simple zero there, of slope −∂H/∂q.
+fn late(
+    potential: &mut EffectivePotential<'_>,
+    systems: &ActionSystems<'_>,
+    start: &Start,
+    found: &[Vec<f64>],
+    ([left, right], action): ([f64; 2], f64),
+) -> Result<f64, NoAction> {
+    let kind = potential.momentum();
+    let column = systems.turning.channels().iter().position(|channel| channel.kind == kind);
+    let (Some(column), Some(row)) = (column, found.last()) else { return Ok(0.0) };
+    let begun = potential.observed(start, kind).map_err(NotOnShell::from)?;
+    let missing = begun - row[1 + column];
+    let typical = 0.5 * action.abs() / (right - left);
+    if missing.abs() <= MULTIPLE_ZERO * typical {
+        return Ok(0.0);
+    }
+    let step = SLOPE_STEP * (right - left);
+    let slope = (potential.at(left + step) - potential.at(left - step)) / (2.0 * step);
+    Ok(-missing / slope)
 }
 
 /// The row of a cyclic coordinate while another one librates: the action is its momentum times a turn, and the frequency

@@ -47,6 +47,47 @@ fn actions_of_closed_form() {
     }
 }
 
+/// A well beside a place from which the potential falls without end: that fall is no scale of energies at the top.
+#[test]
+fn a_well_beside_a_fall_without_end() {
+    // the cubic well; J and T by quadrature, of the separatrix ∮ √(2/3) (1 − x) √(x + ½) dx
+    let object = actions(&line("1/2*x^2 - 1/3*x^3", "0.1"), &["--energy=0.1"]);
+    let well = &object["rows"][0];
+    assert_eq!(well["kind"], "libration", "{object}");
+    near(&well["action"], 0.662_897_370_882_530_9, 1e-13);
+    near(&well["period"], 7.105_957_147_227_559, 1e-12);
+    near(&object["separatrices"][0]["energy"], 1.0 / 6.0, 1e-14);
+    near(&object["separatrices"][0]["actions"][0], 1.2, 1e-12);
+
+    // l²/2r² − 1/r − β/r³ of an orbit near a black hole: by quadrature
+    let file = r#"
+        title = "A fall into the centre"
+        [coordinates]
+        r = { initial = 15.0, momentum = 0.0 }
+        phi = { initial = 0.0, momentum = 4.0, period = "2*pi" }
+        [hamiltonian]
+        H = "1/2*p_r^2 + p_phi^2/(2*r^2) - 1/r - p_phi^2/r^3"
+    "#;
+    let object = actions(file, &["--coordinate=r", "--energy=-0.025"]);
+    let rows = object["rows"].as_array().unwrap();
+    let well = rows
+        .iter()
+        .find(|row| row["turning_points"][0].as_f64() > Some(4.5))
+        .expect("the outer region");
+    assert_eq!(well["kind"], "libration", "{object}");
+    near(&well["action"], 5.120_282_823_416_236, 1e-11);
+    near(&well["period"], 571.637_187_724_718_7, 1e-8);
+}
+
+/// H = ¼ p⁴ + ½ q²: where q turns, q̇ = p³ has a threefold zero. J by the beta function, T = dJ/dE = ¾ J/E.
+#[test]
+fn the_return_of_a_momentum_to_the_fourth_power() {
+    let file = "title = \"x\"\n[coordinates]\nq = { initial = 0.3, momentum = 0.2 }\n[hamiltonian]\nH = \"1/4*p_q^4 + 1/2*q^2\"\n";
+    let object = actions(file, &["--energy=1"]);
+    near(&object["rows"][0]["action"], 6.992_153_478_112_32, 1e-12);
+    near(&object["rows"][0]["period"], 5.244_115_108_584_24, 1e-12);
+}
+
 #[test]
 fn the_radial_action_of_the_isochrone() {
     let file = r#"
