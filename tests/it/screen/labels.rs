@@ -174,6 +174,18 @@ fn a_free_rod_fills_its_picture() {
     assert!(high >= 12, "{high} rows of 20: {:#?}", rows(&buffer));
 }
 
+/// Three rollers and the finish lie close together in a small frame.
+#[test]
+fn no_name_is_written_over_another() {
+    for (time, size) in [(1.3, (40, 10)), (1.5, (40, 10)), (1.5, (80, 24)), (0.1, (40, 10))] {
+        let buffer = screen(&lab("rolling-race", time), &rich(), size);
+        for name in ["hoop", "disc", "ball", "finish"] {
+            let here = super::find(&buffer, name);
+            assert!(here.is_some(), "{name} at {time}, {size:?}: {:#?}", rows(&buffer));
+        }
+    }
+}
+
 /// A notification over a focused frame has one weight throughout.
 #[test]
 fn a_notification_takes_nothing_from_the_frame_below_it() {
