@@ -15,6 +15,7 @@ mod companions;
 mod constants;
 mod cursor;
 mod detail;
+mod emphasis;
 mod equations;
 mod field;
 pub mod frame;

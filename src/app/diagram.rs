@@ -3,7 +3,8 @@
 //! In: the parameter that is selected. Out: the pane with its diagram. Never here: what is drawn in it.
 
 use super::{App, Effect, Lab, Pane, ValueId};
-use crate::instrument::{Plot, named};
+use crate::expr::Expr;
+use crate::instrument::{Physics, Plot, named};
 use crate::model::Variation;
 
 impl App {
@@ -14,11 +15,25 @@ impl App {
             return self.notify("A diagram is over a parameter: choose one.");
         };
         lab.show_over(over);
+        if lab.is_always_regular() {
+            return self.notify(
+                "With one coordinate and a constant energy every motion is regular: the exponent is 0, except at a saddle.",
+            );
+        }
         Vec::new()
     }
 }
 
 impl Lab {
+    /// Whether there is nothing but regular motion, whatever the parameters, and no section that shows more of it.
+    fn is_always_regular(&self) -> bool {
+        let Physics { model, equations, .. } = self.loaded.physics();
+        model.coordinates.len() == 1
+            && model.impulses.is_empty()
+            && model.sections.is_empty()
+            && equations.energy_rate == Expr::ZERO
+    }
+
     /// Focuses the diagram over a parameter, which takes the place of another one. Its surface of section is the first of
     /// the file; without one it is of the Lyapunov exponent.
     fn show_over(&mut self, over: usize) {

@@ -1,6 +1,8 @@
 //! The value of an expression, computed node by node: a simple reference for the compiled program,
 //! and the way in which initial values and quick numerical checks are computed.
 
+use std::cell::RefCell;
+
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::ball::Ball;
@@ -59,38 +61,46 @@ impl Pool {
         values: &mut FxHashMap<Expr, (f64, f64)>,
     ) {
         for &part in parts {
-            let value = match self.node(part) {
-                Node::Number(n) => sized(n.value()),
-                Node::Pi => sized(std::f64::consts::PI),
-                Node::Symbol(s) => sized(at(*s)),
-                Node::Sum(constant, terms) => {
-                    let (mut total, mut size) = (constant.value(), constant.value().abs());
-                    for (c, t) in terms {
-                        let (value, part) = values[t];
-                        total += c.value() * value;
-                        size += (c.value() * part).abs();
-                    }
-                    (total, size)
-                }
-                Node::Product(c, factors) => {
-                    let (mut value, mut size) = sized(c.value());
-                    for (base, n) in factors {
-                        let (b, s) = values[base];
-                        value *= real_power(b, *n);
-                        let grown = if n.is_negative() { b.abs() } else { s };
-                        size *= real_power(grown, *n).abs();
-                    }
-                    (value, size)
-                }
-                Node::Power(base, exponent) => {
-                    sized(math::powf(values[base].0, values[exponent].0))
-                }
-                Node::Call(function, arguments) => {
-                    let arguments: Vec<f64> = arguments.iter().map(|a| values[a].0).collect();
-                    sized((function.row().value)(&arguments))
-                }
-            };
+            let value = self.value_of(part, &|e| values[&e], at);
             values.insert(part, value);
+        }
+    }
+
+    /// The value of a node and the largest magnitude among its summands, from those of its parts.
+    fn value_of(
+        &self,
+        node: Expr,
+        known: &dyn Fn(Expr) -> (f64, f64),
+        at: &dyn Fn(Symbol) -> f64,
+    ) -> (f64, f64) {
+        match self.node(node) {
+            Node::Number(n) => sized(n.value()),
+            Node::Pi => sized(std::f64::consts::PI),
+            Node::Symbol(s) => sized(at(*s)),
+            Node::Sum(constant, terms) => {
+                let (mut total, mut size) = (constant.value(), constant.value().abs());
+                for (c, t) in terms {
+                    let (value, part) = known(*t);
+                    total += c.value() * value;
+                    size += (c.value() * part).abs();
+                }
+                (total, size)
+            }
+            Node::Product(c, factors) => {
+                let (mut value, mut size) = sized(c.value());
+                for (base, n) in factors {
+                    let (b, s) = known(*base);
+                    value *= real_power(b, *n);
+                    let grown = if n.is_negative() { b.abs() } else { s };
+                    size *= real_power(grown, *n).abs();
+                }
+                (value, size)
+            }
+            Node::Power(base, exponent) => sized(math::powf(known(*base).0, known(*exponent).0)),
+            Node::Call(function, arguments) => {
+                let arguments: Vec<f64> = arguments.iter().map(|a| known(*a).0).collect();
+                sized((function.row().value)(&arguments))
+            }
         }
     }
 
@@ -146,6 +156,35 @@ impl Pool {
                 Ball::call(*function, &arguments?)
             }
         }
+    }
+}
+
+/// An expression to be evaluated many times: its nodes are found once.
+pub(super) struct Repeated<'a> {
+    pool: &'a Pool,
+    nodes: Vec<Expr>,
+    /// The value of each node, by its handle less the least.
+    values: RefCell<Vec<(f64, f64)>>,
+    least: usize,
+    whole: Expr,
+}
+
+impl<'a> Repeated<'a> {
+    pub(super) fn of(pool: &'a Pool, whole: Expr) -> Self {
+        let nodes = pool.reachable(&[whole]);
+        let least = nodes.iter().map(|e| e.index()).min().unwrap_or(0);
+        let values = RefCell::new(vec![(0.0, 0.0); whole.index() + 1 - least]);
+        Self { pool, nodes, values, least, whole }
+    }
+
+    /// The value as [`Pool::evaluate`] has it.
+    pub(super) fn at(&self, at: &dyn Fn(Symbol) -> f64) -> f64 {
+        let mut values = self.values.borrow_mut();
+        for &node in &self.nodes {
+            let value = self.pool.value_of(node, &|e| values[e.index() - self.least], at);
+            values[node.index() - self.least] = value;
+        }
+        values[self.whole.index() - self.least].0
     }
 }
 

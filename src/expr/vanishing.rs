@@ -3,6 +3,7 @@
 //! In: an expression. Out: whether it passes or touches zero on a surface. A root of what touches zero has a kink there,
 //! as √(x²) = |x| has; √(x² + y²) has none, but for a point. Never here: kinks of functions, which have names.
 
+use super::evaluate::Repeated;
 use super::node::Expr;
 use super::pool::Pool;
 use super::sample::sample;
@@ -43,9 +44,10 @@ impl Pool {
         if !self.depends_on_any(e, moving) {
             return false;
         }
+        let function = Repeated::of(self, e);
         (0..LINES).any(|line| {
             holds(&|place| {
-                self.evaluate(e, &|symbol| {
+                function.at(&|symbol| {
                     let begin = sample(symbol, 2 * line);
                     // what does not move has one value on the line
                     if moving.contains(&symbol) {
@@ -92,6 +94,21 @@ fn least(at: &dyn Fn(f64) -> f64, mut left: f64, mut right: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_expression_evaluated_many_times_has_the_same_values_each_time() {
+        let mut pool = Pool::new();
+        let [x, y] = ["x", "y"].map(|name| pool.symbol(name));
+        let [a, b] = [x, y].map(|symbol| pool.variable(symbol));
+        let product = pool.mul(a, b);
+        let sum = pool.add(product, a);
+        let e = pool.call(crate::expr::FunctionId::Sin, &[sum]);
+        let repeated = Repeated::of(&pool, e);
+        for k in 0..5 {
+            let at = |symbol| if symbol == x { f64::from(k) } else { 0.5 - f64::from(k) };
+            assert_eq!(repeated.at(&at).to_bits(), pool.evaluate(e, &at).to_bits());
+        }
+    }
 
     #[test]
     fn squares_touch_zero_and_what_passes_or_stays_above_does_not() {

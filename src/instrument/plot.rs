@@ -10,7 +10,6 @@ use super::{
     Seed, Sight, Viewport,
 };
 use crate::model::{Model, View};
-use crate::system::ChannelKind;
 
 impl Plot {
     /// Creates a plot with the initial camera or window.
@@ -57,19 +56,12 @@ impl Plot {
         self
     }
 
-    /// Whether it shows places in a plane: two coordinates, or two observed quantities, of the same unit.
+    /// Whether it shows a plane with one scale: two quantities of the same unit, or two places where there are no units.
     pub fn is_plane(&self, physics: Physics<'_>) -> bool {
-        let place = |axis: usize| {
-            let channel = physics.system.channels().get(self.column(axis)?)?;
-            let observed =
-                matches!(channel.kind, ChannelKind::Observable(_) | ChannelKind::Expression);
-            let placed = matches!(channel.kind, ChannelKind::Position(_));
-            (placed || observed && !channel.unit.is_empty()).then_some((placed, &channel.unit))
-        };
-        let places = (place(0), place(1));
-        self.kind.has_equal_axes()
-            && self.column(0) != self.column(1)
-            && matches!(places, (Some(x), Some(y)) if x == y)
+        let channel = |axis: usize| physics.system.channels().get(self.column(axis)?);
+        let Some((x, y)) = channel(0).zip(channel(1)) else { return false };
+        let alike = if x.unit.is_empty() { x.is_place && y.is_place } else { true };
+        self.kind.has_equal_axes() && self.column(0) != self.column(1) && x.unit == y.unit && alike
     }
 
     /// The only channel, or the first, of an axis.

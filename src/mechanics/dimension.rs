@@ -156,7 +156,7 @@ impl Equations {
         let unknown = || (String::new(), vec![String::new(); model.coordinates.len()]);
         let time = Dimension::read(model.time_unit()).filter(|_| !model.time_unit().is_empty());
         let read = Dimension::read;
-        let Some((energy, time)) = self.dimension(model, self.energy, read).zip(time) else {
+        let Some((energy, time)) = self.dimension_read(model, self.energy, read).zip(time) else {
             return unknown();
         };
         if energy == Dimension::default() {
@@ -174,18 +174,67 @@ impl Equations {
     /// The unit of any other quantity; empty if it does not follow from the file's units or there
     /// is none.
     pub fn unit(&self, model: &Model, e: Expr) -> String {
-        let angular = self.dimension(model, e, Dimension::with_angles);
+        let angular = self.dimension_read(model, e, Dimension::with_angles);
         if let Some(angular) = angular.filter(Dimension::is_of_angle) {
             return angular.written();
         }
-        let dimension = self.dimension(model, e, Dimension::read);
+        let dimension = self.dimension_read(model, e, Dimension::read);
         dimension
             .filter(|d| *d != Dimension::default())
             .map_or_else(String::new, |dimension| dimension.named())
     }
 
+    /// Whether a quantity measures a place as the coordinates do, whatever their unit: it depends on the configuration
+    /// alone, and is of the first degree in the coordinates that are no angles.
+    pub fn is_place(&self, model: &Model, e: Expr) -> bool {
+        let attitude = self.supplements.attitude_symbols;
+        let is_entry = |s: Symbol| attitude.iter().flatten().flatten().any(|entry| *entry == s);
+        let placed = |s: Symbol| model.coordinates.iter().find(|c| c.position == s);
+        let moves = |s: &Symbol| placed(*s).is_some() || is_entry(*s);
+        let symbols = self.pool.symbols_of(e);
+        let given = |s: &Symbol| model.parameters.iter().any(|p| p.symbol == *s);
+        let place = || Dimension([("place".to_owned(), 2)].into());
+        let degree = |s: Symbol| match placed(s) {
+            Some(c) if c.period.is_some() => Some(Dimension::default()),
+            Some(_) => Some(place()),
+            None => is_entry(s).then(place),
+        };
+        symbols.iter().any(moves)
+            && symbols.iter().all(|s| moves(s) || given(s))
+            && self.dimension(e, &degree) == Some(place())
+    }
+
     /// The dimension of an expression, if it follows from the units of the symbols.
-    fn dimension(&self, model: &Model, e: Expr, read: Reader) -> Option<Dimension> {
+    fn dimension_read(&self, model: &Model, e: Expr, read: Reader) -> Option<Dimension> {
+        self.dimension(e, &|symbol| {
+            of_symbol(model, symbol, read).or_else(|| self.of_body(model, symbol, read))
+        })
+    }
+
+    /// The dimension of a name that a body defines.
+    fn of_body(&self, model: &Model, symbol: Symbol, read: Reader) -> Option<Dimension> {
+        let names = model.body.as_ref()?.names;
+        let body = self.supplements.body.as_ref()?;
+        let same: &[Expr] = if names.mass == symbol {
+            &[body.mass]
+        } else if names.centre.contains(&symbol) {
+            &body.centre
+        } else if names.inertia.contains(&symbol) || names.principal.contains(&symbol) {
+            &body.inertia
+        } else {
+            return None;
+        };
+        // What is zero by the symmetry of the body has the unit of the others.
+        let known = same.iter().filter(|e| **e != Expr::ZERO);
+        agreed(known.map(|e| self.dimension(*e, &|s| of_symbol(model, s, read))))
+    }
+
+    /// The dimension of an expression, if it follows from those of the symbols.
+    fn dimension(
+        &self,
+        e: Expr,
+        of_symbol: &dyn Fn(Symbol) -> Option<Dimension>,
+    ) -> Option<Dimension> {
         let mut known: BTreeMap<usize, Option<Dimension>> = BTreeMap::new();
         let mut parts = self.pool.reachable(&[e]);
         parts.sort_unstable();
@@ -193,7 +242,7 @@ impl Equations {
             let of = |e: &Expr| known.get(&e.index()).cloned().flatten();
             let dimension = match self.pool.node(part) {
                 Node::Number(_) | Node::Pi => Some(Dimension::default()),
-                Node::Symbol(symbol) => of_symbol(model, *symbol, read),
+                Node::Symbol(symbol) => of_symbol(*symbol),
                 Node::Sum(_, terms) => agreed(terms.iter().map(|(_, e)| of(e))),
                 Node::Product(_, factors) => {
                     factors.iter().try_fold(Dimension::default(), |product, (base, exponent)| {

@@ -126,7 +126,7 @@ impl Lesson {
                 RunnerEvent::Lesson(_, LessonStep::Task { .. } | LessonStep::Free(_)) => {
                     self.begin_anew();
                 }
-                RunnerEvent::Overlay => self.stage = LessonStage::Ended,
+                RunnerEvent::Overlay => self.enter(LessonStage::Ended),
                 _ => {}
             }
         }
@@ -270,25 +270,25 @@ impl Lesson {
         match step {
             LessonStep::Say(text) => {
                 self.said = vec![paragraph(ParagraphKind::Text, text)];
-                self.stage = LessonStage::Said;
+                self.enter(LessonStage::Said);
             }
             LessonStep::Ask(text) => {
                 let options = self.options();
                 self.runner.next += options.len();
                 let kind = QuestionKind::Choice { options, chosen: None };
                 self.question = Some(Question { place, text, kind });
-                self.stage = LessonStage::Choosing(0);
+                self.enter(LessonStage::Choosing(0));
             }
             LessonStep::Predict { text, asked: Asked::Value { value, within } } => {
                 let kind = QuestionKind::Number { value, within, said: None };
                 self.question = Some(Question { place, text, kind });
-                self.stage = LessonStage::Typing(String::new(), None);
+                self.enter(LessonStage::Typing(String::new(), None));
             }
             LessonStep::Predict { text, asked: Asked::Place { is_curve, axes } } => {
                 let prediction = self.prediction(&place, is_curve, &axes)?;
                 let kind = QuestionKind::Place { prediction, since: 0.0 };
                 self.question = Some(Question { place, text, kind });
-                self.stage = LessonStage::Pointing(None);
+                self.enter(LessonStage::Pointing(None));
             }
             LessonStep::Outcome => {
                 self.judge()?;
@@ -296,11 +296,11 @@ impl Lesson {
             }
             LessonStep::Task { text, hint, claim } => {
                 self.said = vec![paragraph(ParagraphKind::Text, text)];
-                self.stage = LessonStage::Task { place, hint, claim, hinted: false };
+                self.enter(LessonStage::Task { place, hint, claim, hinted: false });
             }
             LessonStep::Free(text) => {
                 self.said = vec![paragraph(ParagraphKind::Text, text)];
-                self.stage = LessonStage::Free;
+                self.enter(LessonStage::Free);
             }
             // read with the question or the task above
             LessonStep::Option { .. } | LessonStep::Solution(_) => {}
@@ -343,7 +343,7 @@ impl Lesson {
         self.said = said;
         let (right, truth) = verdict;
         self.verdicts.push(AnswerVerdict { question, right, truth });
-        self.stage = LessonStage::Said;
+        self.enter(LessonStage::Said);
         Ok(())
     }
 
@@ -361,7 +361,7 @@ impl Lesson {
             let done = found.map_or_else(|| "Done.".to_owned(), |found| format!("Done: {found}."));
             self.said.push(paragraph(ParagraphKind::Right, done));
             self.runner.hold(true);
-            self.stage = LessonStage::Said;
+            self.enter(LessonStage::Said);
         }
     }
 
@@ -381,7 +381,13 @@ impl Lesson {
             _ => format!("This is the end of the lesson. Right predictions: {right} of {all}."),
         };
         self.said = vec![paragraph(ParagraphKind::Text, text)];
-        self.stage = LessonStage::Ended;
+        self.enter(LessonStage::Ended);
+    }
+
+    /// Begins a stage. What was said of a key in the one before is no longer true.
+    fn enter(&mut self, stage: LessonStage) {
+        self.notice = None;
+        self.stage = stage;
     }
 
     /// Continues from what was said.
@@ -395,7 +401,7 @@ impl Lesson {
         };
         self.personal |= last.is_some_and(|(_, step)| personal(step));
         self.runner.hold(false);
-        self.stage = LessonStage::Playing;
+        self.enter(LessonStage::Playing);
     }
 
     /// Commits an answer to the question.

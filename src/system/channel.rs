@@ -17,6 +17,10 @@ pub struct Channel {
     ///
     /// [`System::period`]: super::System::period
     pub periodic: bool,
+    /// Whether it measures a place as the coordinates do: see [`Equations::is_place`].
+    ///
+    /// [`Equations::is_place`]: crate::mechanics::Equations::is_place
+    pub is_place: bool,
 }
 
 /// What a channel measures.

@@ -107,6 +107,10 @@ impl ObservableList {
         }
         list.find_units(model, equations);
         list.find_angles(equations);
+        for (channel, e) in list.channels.iter_mut().zip(&list.expressions) {
+            channel.is_place =
+                !channel.name.is_empty() && e.is_some_and(|e| equations.is_place(model, e));
+        }
         list
     }
 
@@ -220,7 +224,8 @@ impl ObservableList {
 
     fn push(&mut self, kind: ChannelKind, name: &str, shown: &str, e: Option<Expr>) {
         let (name, shown) = (name.to_owned(), shown.to_owned());
-        let channel = Channel { kind, name, shown, unit: String::new(), periodic: false };
+        let channel =
+            Channel { kind, name, shown, unit: String::new(), periodic: false, is_place: false };
         self.channels.push(channel);
         self.expressions.push(e);
     }

@@ -38,7 +38,7 @@ pub(super) fn law(lab: &Lab, look: &RenderStyle) -> TextPage {
     writer.solved();
     for paragraph in report.model.info.notes.split("\n\n").map(str::trim) {
         writer.page.gap();
-        writer.page.words(Role::Dim, paragraph);
+        writer.page.notes(Role::Dim, paragraph);
     }
     writer.page
 }

@@ -18,7 +18,7 @@ pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
     }
     for paragraph in model.info.notes.split("\n\n").map(str::trim).filter(|p| !p.is_empty()) {
         page.gap();
-        page.words(Role::Text, paragraph);
+        page.notes(Role::Text, paragraph);
     }
     page.heading("Source");
     let source = if model.info.source.is_empty() { "not named" } else { &model.info.source };

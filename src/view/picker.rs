@@ -85,11 +85,12 @@ enum ListLine<'a> {
 
 fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
     let shown = picker.found();
-    let count = format!("{} of {}", shown.len(), picker.entries.len());
-    let mut title = vec![canvas.span(Role::Title, "Systems")];
-    if picker.search.is_some() {
-        title.push(canvas.span(Role::Dim, format!("  {count}")));
-    }
+    let all = picker.entries.len();
+    let count = match picker.search {
+        Some(_) => format!("  {} of {all}", shown.len()),
+        None => format!("  {all}"),
+    };
+    let title = [canvas.span(Role::Title, "Systems"), canvas.span(Role::Dim, count)];
     let inner = canvas.pane(area, &title, true);
     canvas.target(area, HitTarget::Systems);
     search(

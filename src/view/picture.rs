@@ -67,8 +67,14 @@ fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<Span> {
         Entry::Number(name, value) => valued(name, *value),
         Entry::Words(words) => vec![canvas.span(Role::Dim, format!("  {words}"))],
         Entry::Key(ink, words) => {
-            let mark = canvas.look.glyphs.pick("●", "o");
-            let style = pen(canvas, *ink, 0).style;
+            let glyphs = canvas.look.glyphs;
+            let (mark, style) = match (colourless_mark(canvas, *ink), ink) {
+                (Some(sign), _) => (marker(sign).symbol(glyphs), canvas.style(Role::Text)),
+                (None, Ink::Level) if is_colourless(canvas) => {
+                    (glyphs.pick('·', '.'), canvas.style(Role::Text))
+                }
+                _ => (glyphs.pick('●', 'o'), pen(canvas, *ink, 0).style),
+            };
             vec![(format!("  {mark} "), style), canvas.span(Role::Dim, words)]
         }
         Entry::Occurrences => marks::legend(canvas, q),
@@ -300,7 +306,14 @@ fn draw_layer(
             raster.polyline(frame, points.iter().copied(), &pen);
         }
         Layer::Points(points, ink) => {
-            raster.points(frame, points.iter().copied(), &pen(canvas, *ink, level));
+            let pen = pen(canvas, *ink, level);
+            match colourless_mark(canvas, *ink) {
+                Some(sign) => {
+                    let pen = Pen { style: canvas.style(Role::Text), ..pen };
+                    points.iter().for_each(|at| raster.marker(frame, *at, marker(sign), &pen));
+                }
+                None => raster.points(frame, points.iter().copied(), &pen),
+            }
         }
         Layer::Cloud(points) => {
             raster.cloud(frame, points.iter().copied(), look.theme.density(), level);
@@ -337,6 +350,21 @@ fn marker(sign: Sign) -> Marker {
         Sign::Ring => Marker::Ring,
         Sign::Cross => Marker::Cross,
     }
+}
+
+/// The sign that tells points of a verdict from others where there is no colour: crosses for what calls for attention, rings
+/// for what is plain, and dots for the rest.
+fn colourless_mark(canvas: &Canvas<'_>, ink: Ink) -> Option<Sign> {
+    match ink {
+        _ if !is_colourless(canvas) => None,
+        Ink::Warn => Some(Sign::Cross),
+        Ink::Plain => Some(Sign::Ring),
+        _ => None,
+    }
+}
+
+fn is_colourless(canvas: &Canvas<'_>) -> bool {
+    canvas.look.theme.depth() == ColourDepth::None
 }
 
 /// Where the running motion has crossed a surface of section.

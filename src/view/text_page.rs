@@ -7,6 +7,7 @@ use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns, row};
+use super::emphasis::{Styles, marked, spans};
 use super::theme::Role;
 use super::wrap::{formula_beside, words};
 use crate::app::Drawn;
@@ -38,6 +39,7 @@ pub(super) struct TextPage {
 enum TextBlock {
     Heading(String),
     Words(Role, String),
+    Notes(Role, String),
     Formula { label: String, body: String, remark: String },
     Row(Vec<(Role, String)>),
     Item { label: String, text: String },
@@ -58,6 +60,11 @@ impl TextPage {
     /// Adds a paragraph.
     pub(super) fn words(&mut self, role: Role, text: impl Into<String>) {
         self.blocks.push(TextBlock::Words(role, text.into()));
+    }
+
+    /// Adds a paragraph of a file's notes, with its emphasis.
+    pub(super) fn notes(&mut self, role: Role, text: &str) {
+        self.blocks.push(TextBlock::Notes(role, text.to_owned()));
     }
 
     /// Adds `label = body` and a remark after it.
@@ -192,6 +199,21 @@ impl TextPage {
                     let wrapped = words(&text, width.saturating_sub(2));
                     lines.extend(wrapped.into_iter().map(|line| {
                         vec![("  ".to_owned(), Style::new()), (line, canvas.style(*role))]
+                    }));
+                }
+                TextBlock::Notes(role, text) => {
+                    let text = marked(&canvas.text(text));
+                    let [plain, emphasis, typed] =
+                        [*role, Role::Text, Role::Accent].map(|role| canvas.style(role));
+                    let emphasis = match role {
+                        Role::Text => canvas.style(Role::Title),
+                        _ => emphasis,
+                    };
+                    let wrapped = words(&text, width.saturating_sub(2));
+                    let styled = spans(wrapped, Styles { plain, emphasis, typed });
+                    lines.extend(styled.into_iter().map(|mut line| {
+                        line.insert(0, ("  ".to_owned(), Style::new()));
+                        line
                     }));
                 }
                 TextBlock::Formula { label, body, remark } => {

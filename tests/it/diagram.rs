@@ -125,6 +125,8 @@ fn a_key_shows_the_exponent_where_there_is_no_section() {
     let mut regular = begun(&swing.replace("speed = 0.1", "speed = 1.0"));
     press(&mut regular, "v");
     assert_eq!(measure(&regular, &diagram(&regular), "value"), 0.0);
+    let told = regular.notice.take().map(|notice| notice.text).unwrap_or_default();
+    assert!(told.contains("every motion is regular"), "{told}");
     // the values at rest are no parameters
     press(&mut app, "Tab Tab v");
     let told = app.notice.take().map(|notice| notice.text).unwrap_or_default();

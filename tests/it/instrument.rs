@@ -397,3 +397,35 @@ fn orbits_of_kicked_systems_are_closed_from_the_initial_values() {
     let shown = screen(&ball, 120, 40).concat();
     assert!(shown.contains("no periodic orbit"), "{shown}");
 }
+
+/// A plane is drawn with one scale. Where a file has no units, places are told from momenta by what they depend on.
+#[test]
+fn planes_of_places_have_one_scale_and_phase_planes_two() {
+    let is_plane = |preset: &str, x: &str, y: &str| {
+        let loaded = loaded(preset, 1);
+        let physics = loaded.physics();
+        let phase = named("phase").unwrap();
+        let column = |name: &str| {
+            let found = physics.system.channels().iter().position(|c| c.name == name);
+            vec![found.unwrap_or_else(|| panic!("{preset}: {name}"))]
+        };
+        let plot = Plot::new(phase, (vec![column(x), column(y)], None), physics.model);
+        plot.opened(physics).is_plane(physics)
+    };
+    for (preset, x, y, expected) in [
+        ("magnetic-dipole", "distance from the axis", "z", true),
+        ("sleeping-top", "A₃₁", "A₃₂", true),
+        ("unbalanced-wheel", "L_x", "L_y", true),
+        ("toda-three", "q1 - q2", "q2 - q3", true),
+        ("henon-heiles", "x", "y", true),
+        ("foucault", "x", "y", true),
+        ("henon-heiles", "y", "p_y", false),
+        ("henon-heiles", "p_x", "p_y", false),
+        ("magnetic-dipole", "z", "magnetic latitude", false),
+        ("magnetic-dipole", "x", "p_φ", false),
+        ("planet", "r", "theta", false),
+        ("pendulum", "theta", "p_theta", false),
+    ] {
+        assert_eq!(is_plane(preset, x, y), expected, "{preset}: {y} against {x}");
+    }
+}

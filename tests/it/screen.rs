@@ -25,7 +25,7 @@ pub(crate) fn rich() -> RenderStyle {
 }
 
 /// The screen of an application.
-fn screen(app: &App, look: &RenderStyle, (width, height): (u16, u16)) -> Buffer {
+pub(crate) fn screen(app: &App, look: &RenderStyle, (width, height): (u16, u16)) -> Buffer {
     drawn(app, look, (width, height)).0
 }
 

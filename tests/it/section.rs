@@ -10,8 +10,12 @@ use phaselab::experiment::{Command, Prepared, Snapshot};
 use phaselab::instrument::{Entry, Ink, Layer, Picture, Plot, Present, Seed};
 use phaselab::job::Progress;
 use phaselab::system::{ChannelKind, InitialOverride};
+use phaselab::view::RenderStyle;
+use phaselab::view::colour::ColourDepth;
+use phaselab::view::theme::Theme;
 
 use crate::hand::{catalog, lab, press};
+use crate::screen::{rich, rows, screen};
 
 /// Two oscillators that know nothing of each other: x = sin t, y = cos √2 t, with p_y² + 2 y² constant.
 const OSCILLATORS: &str = r#"
@@ -321,6 +325,11 @@ fn a_key_colours_orbits_by_whether_they_are_regular() {
         assert_eq!(of(Ink::Warn), measure(&app, &plot, "chaotic"));
         assert_eq!(of(Ink::Level), measure(&app, &plot, "regular"));
         assert_eq!((of(Ink::Warn) > 4.0, of(Ink::Level) > 2.0), (chaos, true), "{inked:?}");
+        // without colour chaotic orbits are crosses, and so is their key
+        let theme = Theme::dark(ColourDepth::None);
+        let text = rows(&screen(&app, &RenderStyle { theme, ..rich() }, (120, 40))).concat();
+        assert!(text.contains("× chaotic") && text.contains("· regular"), "{text}");
+        assert_eq!(text.matches('×').count() > 20, chaos, "{text}");
         typed(&mut app, "H");
         assert_eq!(inks(&app, 0), plain);
     }

@@ -54,19 +54,41 @@ pub(super) struct Label {
 }
 
 /// Writes names beside their points. Where there is no room on one side the name is above the point, and ends at the edge.
+/// No name is written over another: it goes to the other side, or a row or two above or below. A name for which there is
+/// no room at all is left out.
 pub(super) fn labels(canvas: &mut Canvas<'_>, area: Rect, frame: &PlotFrame, labels: &[Label]) {
-    for Label { tip, leftwards, text, role } in labels {
-        let Some(at) = frame.cell(*tip) else { continue };
-        let width = text.width() as u16;
-        let (mut x, mut y) = (at.x + 1, at.y);
-        if *leftwards && at.x >= area.x + width {
-            x = at.x - width;
-        } else if x + width > area.right() {
-            x = area.right().saturating_sub(width).max(area.x);
-            y = if at.y > area.y { at.y - 1 } else { at.y + 1 };
-        }
-        canvas.write(Position { x, y }, area.right() - x, text, canvas.style(*role));
+    let mut written: Vec<Rect> = Vec::new();
+    for label in labels {
+        let Some(at) = frame.cell(label.tip) else { continue };
+        let free = |place: &Rect| {
+            // a blank keeps two names in one row apart
+            let apart = Rect { x: place.x.saturating_sub(1), width: place.width + 2, ..*place };
+            written.iter().all(|other| !other.intersects(apart))
+        };
+        let Some(place) = places(at, label, area).into_iter().find(free) else { continue };
+        canvas.write(place.as_position(), place.width, &label.text, canvas.style(label.role));
+        written.push(place);
     }
+}
+
+/// Where a name may stand, best first.
+fn places(at: Position, label: &Label, area: Rect) -> Vec<Rect> {
+    let width = (label.text.width() as u16).min(area.width);
+    let right = Some(at.x + 1).filter(|x| x + width <= area.right());
+    let left = Some(at.x).filter(|x| *x >= area.x + width).map(|x| x - width);
+    let last = area.right() - width;
+    // Without room on its own side a name stands above the point rather than on the wrong side of an arrow's tip.
+    let [first, second] = if label.leftwards { [left.or(right), right] } else { [right, left] };
+    let second = second.filter(|_| first.is_some());
+    let beside = first.into_iter().chain(second).map(|x| (x, 0));
+    let elsewhere = [-1, 1, -2, 2].map(|rows| (first.unwrap_or(last), rows));
+    let all = beside.chain(elsewhere);
+    let rows = i32::from(area.y)..i32::from(area.bottom());
+    all.filter_map(|(x, down)| {
+        let y = i32::from(at.y) + down;
+        rows.contains(&y).then_some(Rect { x, y: y as u16, width, height: 1 })
+    })
+    .collect()
 }
 
 /// A line of a legend: its sign and name, and the curve whose colour it has.

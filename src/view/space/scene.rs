@@ -207,10 +207,9 @@ fn round_step(length: f64) -> f64 {
 fn swing(q: &Quantities<'_>, from: &Point, to: &Point, start: Span3) -> Span3 {
     let own = extent(q, to);
     let (a, b) = (q.point(from), q.point(to));
-    let moves = own[0] != own[1];
     let length = (0..3).map(|k| math::powi(b[k] - a[k], 2)).sum::<f64>().sqrt();
     let plane = is_flat(q, from) && is_flat(q, to);
-    if !moves || !plane || !length.is_finite() {
+    if rests(q, to) || !plane || !length.is_finite() {
         return own;
     }
     let round = grown(start, length, plane);

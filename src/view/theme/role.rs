@@ -53,7 +53,7 @@ impl Role {
         Self::Level,
     ];
 
-    /// Whether the role is used for text, which needs a contrast of 4.5 to 1; lines need 2 to 1.
+    /// Whether the role is used for text, which needs a contrast of 4.5 to 1; lines need 3 to 1.
     pub fn is_text(self) -> bool {
         !matches!(self, Self::Border | Self::Level)
     }

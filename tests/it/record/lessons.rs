@@ -412,3 +412,16 @@ fn whoever_reads_may_look_around_and_comes_back() {
     let picture = |shown: &str| shown.lines().take(15).map(str::to_owned).collect::<Vec<_>>();
     assert_eq!(picture(&shown(&mut lesson)), picture(&before));
 }
+
+/// What is said of a key while time passes is no longer there when the lesson waits for that very key.
+#[test]
+fn a_key_that_did_nothing_is_forgotten_when_the_lesson_waits_again() {
+    let mut lesson = taken("Say \"first\"\nWait 1s\nSay \"second\"\n");
+    pass(&mut lesson, 0.1);
+    keys(&mut lesson, "\n\n");
+    assert!(shown(&mut lesson).contains("Enter does nothing here"));
+    pass(&mut lesson, 1.5);
+    let now = shown(&mut lesson);
+    assert!(now.contains("second") && now.contains("Enter continues"), "{now}");
+    assert!(!now.contains("does nothing"), "{now}");
+}

@@ -6,7 +6,7 @@ use phaselab::app::{App, Event};
 use phaselab::experiment::{Growth, Verdict};
 
 use super::{find, rich, rows, screen};
-use crate::hand::{catalog, gauge, loaded, press, snapshot};
+use crate::hand::{catalog, gauge, lab, loaded, press, snapshot};
 
 /// A preset in the lab, with a snapshot of its first second.
 fn opened(name: &str) -> App {
@@ -110,4 +110,15 @@ fn numbers_have_two_columns_where_they_are_wide() {
     assert!(state.0 < 20 && gauges.0 > 90, "{state:?} {gauges:?}");
     let [state, gauges] = ["State", "Gauges"].map(|heading| at((120, 60), heading));
     assert_eq!(state.0, gauges.0);
+}
+
+/// The room in which a pendulum may swing is there before it has moved: the picture does not jump when the motion begins.
+#[test]
+fn a_pendulum_that_has_not_moved_yet_has_room_to_swing() {
+    let buffer = screen(&lab("pendulum", 0.0), &rich(), (120, 40));
+    let dots = |c: &str| c.starts_with(|c: char| ('⠁'..='⣿').contains(&c) || c == '●');
+    let drawn: Vec<u16> =
+        (1..38).filter(|x| (2..20).any(|y| dots(buffer[(*x, y)].symbol()))).collect();
+    let wide = drawn.last().unwrap() - drawn.first().unwrap() + 1;
+    assert!((8..=22).contains(&wide), "{wide} columns of 38: {:#?}", rows(&buffer));
 }
