@@ -23,8 +23,10 @@ use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::system::{Form, MotionErrorKind, State};
 
-/// The number of beginnings of the search, and of its steps.
+/// The number of beginnings of the search.
 const BEGINNINGS: usize = 600;
+
+/// The number of steps from each.
 const STEPS: usize = 60;
 
 /// How far around its centre a coordinate without period is searched, in its size there plus its
@@ -114,21 +116,29 @@ pub fn equilibria_watched(
     let mut search = EquilibriumSearch::new(space, start)?;
     let mut found: Vec<Equilibrium> = Vec::new();
     let mut cancelled = false;
-    for beginning in 0..BEGINNINGS {
+    let mut beginning = 0;
+    // laws are often the same in a mirror, and so are their equilibria
+    let mut images: Vec<Vec<f64>> = Vec::new();
+    while beginning < BEGINNINGS {
         if space.system().cancel().is_cancelled() {
             cancelled = true;
             break;
         }
-        look(beginning, BEGINNINGS);
-        let Some(variables) = search.from(beginning) else { continue };
+        let place = images.pop().unwrap_or_else(|| {
+            look(beginning, BEGINNINGS);
+            beginning += 1;
+            search.beginning(beginning - 1)
+        });
+        let Some(variables) = search.from(place) else { continue };
         if found.iter().any(|known| search.alike(&known.variables, &variables)) {
             continue;
         }
-        let Some(one) = search.described(variables)? else { continue };
+        let Some(one) = search.described(variables.clone())? else { continue };
         // of a family of equilibria one is enough
         let constrained = space.is_constrained();
         if !found.iter().any(|known| in_a_family(known, &one, constrained)) {
             found.push(one);
+            images.extend(search.images(&variables));
         }
         if found.len() == MOST {
             break;
@@ -242,9 +252,21 @@ impl<'a> EquilibriumSearch<'a> {
         Some((f, df))
     }
 
+    /// The images of a place in each coordinate that rests, and in all of them.
+    fn images(&self, variables: &[f64]) -> Vec<Vec<f64>> {
+        let resting = self.unknowns.iter().copied().filter(|&i| i < self.degrees);
+        let resting: Vec<usize> = resting.filter(|&i| variables[i] != 0.0).collect();
+        let image = |coordinates: &[usize]| {
+            let mut image = variables.to_vec();
+            coordinates.iter().for_each(|&i| image[i] = -image[i]);
+            image
+        };
+        resting.iter().map(|&i| image(&[i])).chain([image(&resting)]).collect()
+    }
+
     /// Newton's method from a beginning.
-    fn from(&mut self, index: usize) -> Option<Vec<f64>> {
-        let mut variables = self.beginning(index);
+    fn from(&mut self, beginning: Vec<f64>) -> Option<Vec<f64>> {
+        let mut variables = beginning;
         if self.unknowns.is_empty() {
             return None;
         }
