@@ -13,12 +13,14 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::constrained_balance::ConstrainedBalance;
+use super::equilibrium::{Equilibria, Equilibrium, in_a_family};
 use super::equilibrium_units::{coordinate_units, units};
 use super::error::DynamicsError;
+use super::halton::halton;
 use super::linear;
 use super::phase_space::{PhaseSpace, VectorField};
 use super::small_oscillation::{Kind, Mode, modes, stable};
-use super::virtual_work::{Balance, VirtualWork, virtual_work};
+use super::virtual_work::{Balance, virtual_work};
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::system::{Form, MotionErrorKind, State};
@@ -47,40 +49,6 @@ const VANISHES: f64 = 1e-8;
 
 /// The largest number of equilibria.
 const MOST: usize = 100;
-
-/// An equilibrium.
-#[derive(Clone, Debug)]
-pub struct Equilibrium {
-    /// The variables.
-    pub variables: Vec<f64>,
-    /// The energy.
-    pub energy: f64,
-    /// What the effective potential does there; `None` for brackets.
-    pub kind: Option<Kind>,
-    /// The eigenvalues of the linearised motion, of the coordinates that are not cyclic.
-    pub eigenvalues: Vec<[f64; 2]>,
-    /// The small oscillations, the slowest first.
-    pub modes: Vec<Mode>,
-    /// Whether nothing grows in the linearised motion; `None` where zero eigenvalues leave it open.
-    pub stable: Option<bool>,
-    /// The rates of the cyclic coordinates, by index.
-    pub rates: Vec<(usize, f64)>,
-    /// The forces that balance there, once [`with_virtual_work`] has written them …
-    pub work: Vec<VirtualWork>,
-    /// … and the multiplier of each constraint.
-    pub multipliers: Vec<f64>,
-}
-
-/// What a search has found.
-#[derive(Clone, Debug)]
-pub struct Equilibria {
-    /// The equilibria by energy.
-    pub found: Vec<Equilibrium>,
-    /// The coordinates in which the law is periodic, with the period: of places that differ by it one is found.
-    pub periods: Vec<(usize, f64)>,
-    /// Whether the search was cancelled.
-    pub cancelled: bool,
-}
 
 /// Writes into each equilibrium the forces that balance there.
 pub fn with_virtual_work(law: (&Model, &Equations), parameters: &[f64], found: &mut [Equilibrium]) {
@@ -149,24 +117,6 @@ pub fn equilibria_watched(
     Ok(Equilibria { found, periods, cancelled })
 }
 
-/// Whether two equilibria belong to one family, of which nothing tells one from another: those of one energy between which
-/// the potential does not change, and those under a constraint on the velocities with the same motion around them.
-fn in_a_family(known: &Equilibrium, one: &Equilibrium, constrained: bool) -> bool {
-    match (known.kind, one.kind) {
-        (Some(Kind::Degenerate), Some(Kind::Degenerate)) => {
-            (known.energy - one.energy).abs() <= SAME * (known.energy.abs() + 1.0)
-        }
-        (None, None) if constrained => {
-            let size =
-                known.eigenvalues.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
-            let pairs = known.eigenvalues.iter().flatten().zip(one.eigenvalues.iter().flatten());
-            one.stable != Some(true)
-                && pairs.into_iter().all(|(a, b)| (a - b).abs() <= SAME.sqrt() * size)
-        }
-        _ => false,
-    }
-}
-
 /// What must vanish at an equilibrium, and of what.
 enum Law {
     /// The rates of the variables of the phase space.
@@ -224,7 +174,7 @@ impl<'a> EquilibriumSearch<'a> {
                     variables[i] = 0.0;
                 }
             } else if index > 0 {
-                let part = halton(index, PRIMES[k % PRIMES.len()]);
+                let part = halton(index, k);
                 let centre = variables[i];
                 variables[i] += match self.space.turns()[i] {
                     Some(period) => (part - 0.5) * period,
@@ -469,18 +419,4 @@ fn resting_rates(
     let f = DVector::from_fn(n, |i, _| rate[resting[i]]);
     let df = DMatrix::from_fn(n, n, |i, j| derivative[(resting[i], resting[j])]);
     f.iter().chain(df.iter()).all(|x| x.is_finite()).then_some((f, df))
-}
-
-/// The bases of the sequence, one for each coordinate in turn.
-const PRIMES: [usize; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
-
-/// The radical inverse of a number (J. H. Halton, Numer. Math. 2 (1960) 84).
-fn halton(index: usize, base: usize) -> f64 {
-    let (mut rest, mut part, mut sum) = (index, 1.0, 0.0);
-    while rest > 0 {
-        part /= base as f64;
-        sum += part * (rest % base) as f64;
-        rest /= base;
-    }
-    sum
 }
