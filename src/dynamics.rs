@@ -9,16 +9,20 @@ mod amplified_rounding;
 mod carrier;
 mod conformal;
 mod conjugate;
+mod constrained_balance;
 mod continuation;
 mod direction;
 mod drive;
 mod driven_orbit;
 mod equilibria;
+mod equilibrium;
+mod equilibrium_units;
 mod error;
 mod family;
 mod first_return;
 mod flow_map;
 mod gali;
+mod halton;
 mod linear;
 mod lobatto;
 mod lyapunov;
@@ -28,6 +32,7 @@ mod phase_space;
 mod principle;
 mod return_growth;
 mod rotation;
+mod small_oscillation;
 mod spectrum;
 mod stationary_path;
 mod transverse;
@@ -41,9 +46,8 @@ pub use conformal::conformal_rate;
 pub use conjugate::{conjugate_points, conjugate_points_at_energy};
 pub use continuation::family;
 pub use driven_orbit::driven_orbit;
-pub use equilibria::{
-    Equilibria, Equilibrium, Kind, Mode, equilibria, equilibria_watched, with_virtual_work,
-};
+pub use equilibria::{equilibria, equilibria_watched, with_virtual_work};
+pub use equilibrium::{Equilibria, Equilibrium};
 pub use error::DynamicsError;
 pub use family::{Along, Bifurcation, Family, Member};
 pub use flow_map::{FlowMap, flow_map};
@@ -54,6 +58,7 @@ pub use phase_space::{PhaseSpace, VectorField};
 pub use principle::{Hamiltonian, abbreviated_action, action_at_energy};
 pub use return_growth::{ReturnGrowth, growth_after, return_growth};
 pub use rotation::{NoRotation, Rotation, Turning, angle_rotation, rotation};
+pub use small_oscillation::{Kind, Mode};
 pub use spectrum::{
     MeanRate, SpectralLine, Spectrum, driven_spectrum, independent_frequencies, mean_rate,
     spectrum, straightened,

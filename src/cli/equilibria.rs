@@ -7,18 +7,20 @@ use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::study::{self, Study, StudyArguments, shown, table};
 use crate::dynamics::{Equilibria, Equilibrium, Kind, VirtualWork, equilibria, with_virtual_work};
+use crate::mechanics::ConstraintRow;
 
 /// Find equilibria and the small oscillations about them.
 ///
 /// Every equilibrium around the start, with its kind (what the effective potential does there),
 /// the eigenvalues of the linearised motion, frequencies and modes. Where a coordinate is cyclic it
 /// keeps moving with its momentum at the start while all others rest (relative
-/// equilibrium).
+/// equilibrium). Under constraints the places are those on their surface, and each has its multipliers.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   phaselab equilibria double-pendulum
   phaselab equilibria restricted-three-body --set mu=0.01215 --format json
+  phaselab equilibria pendulum-rod
   phaselab equilibria henon-heiles --around x=0 --around y=1")]
 pub(super) struct Arguments {
     #[command(flatten)]
@@ -60,6 +62,7 @@ fn object(study: &Study, found: &Equilibria) -> Map<String, Value> {
             "state": study.named(&one.variables),
             "rates": Value::Object(rates.collect()),
             "energy": one.energy,
+            "multipliers": multipliers(study, one),
             "virtual_work": one.work.iter().map(|work| balance(names, work)).collect::<Vec<_>>(),
             "kind": one.kind.map(word),
             "eigenvalues": one.eigenvalues,
@@ -77,6 +80,14 @@ fn object(study: &Study, found: &Equilibria) -> Map<String, Value> {
     let status = if found.cancelled { "stopped" } else { "completed" };
     object.insert("status".to_owned(), status.into());
     object
+}
+
+/// The multiplier of each constraint, by its column's name.
+fn multipliers(study: &Study, one: &Equilibrium) -> Value {
+    let rows = study.equations.constraints.iter().zip(&one.multipliers);
+    let pool = &study.equations.pool;
+    let name = |row: &ConstraintRow| pool.symbol_info(row.multiplier).name.clone();
+    Value::Object(rows.map(|(row, &value)| (name(row), value.into())).collect())
 }
 
 /// The forces on a coordinate.

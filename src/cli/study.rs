@@ -59,12 +59,12 @@ pub(super) struct Study {
 }
 
 impl Study {
-    /// Reads, derives, compiles, and begins at the initial state.
+    /// Reads, derives, compiles, and begins at the initial state. No impulses act on the motion.
     pub(super) fn open(
         arguments: &StudyArguments,
         interrupt: &Interrupt,
     ) -> Result<Study, CommandError> {
-        Study::read(arguments, interrupt, PhaseSpace::of)
+        Study::read(arguments, interrupt, PhaseSpace::without_impulses)
     }
 
     /// The same of a motion on which impulses may act.

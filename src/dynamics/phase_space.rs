@@ -46,6 +46,20 @@ impl PhaseSpace {
         PhaseSpace::through_impulses(model, equations, system, parameters)
     }
 
+    /// The phase space of a system that constraints may hold, and on whose motion no impulses act.
+    ///
+    /// # Errors
+    /// Returns an error if the motion has no derivative everywhere, or impulses act on it.
+    pub fn without_impulses(
+        model: &Model,
+        equations: &Equations,
+        system: &System,
+        parameters: &[f64],
+    ) -> Result<PhaseSpace, DynamicsError> {
+        refuse_acts(system)?;
+        PhaseSpace::read(model, equations, system, parameters)
+    }
+
     /// The phase space of a system that constraints may hold. Its variables are not independent then: the states are those
     /// that satisfy the constraints, and the displacements those of [`PhaseSpace::allowed_displacements`]. Where there are
     /// no constraints, impulses may act on the motion.
@@ -135,7 +149,12 @@ impl PhaseSpace {
             conservative: autonomous && !jumps && equations.energy_rate == Expr::ZERO,
             periods,
             turns,
-            cyclic: equations.cyclic.clone(),
+            cyclic: equations
+                .cyclic
+                .iter()
+                .copied()
+                .filter(|&i| !in_a_constraint(equations, i))
+                .collect(),
         })
     }
 
@@ -288,6 +307,13 @@ impl PhaseSpace {
         let of_the_largest = residual.iter().zip(&rounding).filter(|(entry, _)| **entry == largest);
         (largest, of_the_largest.map(|(_, &bound)| bound).fold(f64::INFINITY, f64::min))
     }
+}
+
+/// Whether a constraint depends on a coordinate, which L may lack.
+fn in_a_constraint(equations: &Equations, coordinate: usize) -> bool {
+    let position = equations.coordinates[coordinate].position;
+    let mut entries = equations.constraints.iter().flat_map(|one| &one.row);
+    entries.any(|&entry| equations.pool.depends(entry, position))
 }
 
 /// Refuses what has no derivative at some places, where nothing here would notice.

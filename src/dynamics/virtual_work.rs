@@ -1,12 +1,16 @@
 //! The virtual work at an equilibrium: what each term of the forces does along a small displacement of each coordinate.
 //!
 //! δW = Σ Qᵢ δqᵢ vanishes for every displacement there (H. Goldstein, *Classical Mechanics*, §1.4). Qᵢ is the rate of pᵢ at rest: −∂V/∂qᵢ and
-//! what acts beside it; where cyclic coordinates go on, the centrifugal forces of their motion are among its terms.
+//! what acts beside it; where cyclic coordinates go on, the centrifugal forces of their motion are among its terms. Under
+//! constraints the displacements that they forbid do work too, against the forces λ A of the constraints.
 //!
 //! In: equations, an equilibrium. Out: terms and their values. Never here: where equilibria are.
 
 use std::collections::HashMap;
 
+use nalgebra::{DMatrix, DVector};
+
+use super::linear;
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{Equations, Flow, Valuation};
 use crate::model::Model;
@@ -48,6 +52,12 @@ impl VirtualWork {
     }
 }
 
+/// The forces at an equilibrium: the virtual work along each coordinate that rests, and the multiplier of each constraint.
+pub(super) struct Balance {
+    pub(super) work: Vec<VirtualWork>,
+    pub(super) multipliers: Vec<f64>,
+}
+
 /// A sum of terms that have their signs.
 fn added(terms: impl Iterator<Item = String>) -> String {
     let mut text = String::new();
@@ -65,20 +75,23 @@ fn added(terms: impl Iterator<Item = String>) -> String {
 struct Term {
     shown: String,
     expression: Expr,
-    /// Its derivative along the coordinate.
-    slope: Expr,
+    /// Its derivatives along the coordinates that rest, by index.
+    slopes: Vec<(usize, Expr)>,
 }
 
 impl Term {
-    fn new(pool: &mut Pool, expression: Expr, q: Symbol) -> Term {
-        let slope = pool.derivative(expression, q);
-        Term { shown: pool.unicode(expression), expression, slope }
+    fn new(pool: &mut Pool, expression: Expr, resting: &[(usize, Symbol)]) -> Term {
+        let slope = |&(i, q): &(usize, Symbol)| (i, pool.derivative(expression, q));
+        let slopes = resting.iter().map(slope).collect();
+        Term { shown: pool.unicode(expression), expression, slopes }
     }
 
     /// Its value at a place, as far as the place is known.
-    fn value(&self, pool: &Pool, known: &Valuation, place: f64) -> f64 {
-        let (value, slope) = (known.value(pool, self.expression), known.value(pool, self.slope));
-        if value.abs() <= SUMS_TO_ZERO * slope.abs() * place { 0.0 } else { value }
+    fn value(&self, pool: &Pool, known: &Valuation, place: &[f64]) -> f64 {
+        let value = known.value(pool, self.expression);
+        let slopes = self.slopes.iter();
+        let sizes = slopes.map(|&(i, slope)| (known.value(pool, slope) * place[i]).abs());
+        if value.abs() <= SUMS_TO_ZERO * sizes.fold(0.0, f64::max) { 0.0 } else { value }
     }
 }
 
@@ -88,7 +101,7 @@ pub(super) fn virtual_work(
     (model, equations): (&Model, &Equations),
     parameters: &[f64],
     places: &[(&[f64], &[(usize, f64)])],
-) -> Vec<Vec<VirtualWork>> {
+) -> Vec<Balance> {
     let (Flow::Lagrange { momentum_rates, .. } | Flow::Hamilton { momentum_rates, .. }) =
         &equations.flow
     else {
@@ -102,10 +115,11 @@ pub(super) fn virtual_work(
     let resting: Vec<usize> = (0..n).filter(|&i| rests(i)).collect();
     let still: HashMap<_, _> =
         resting.iter().map(|&i| (equations.coordinates[i].velocity, Expr::ZERO)).collect();
+    let symbols: Vec<(usize, Symbol)> =
+        resting.iter().map(|&i| (i, equations.coordinates[i].position)).collect();
     let mut forces = Vec::new();
     for &i in &resting {
         let rate = pool.substitute(momentum_rates[i], &still);
-        let q = equations.coordinates[i].position;
         let mut force = Vec::new();
         for (factor, term) in pool.summands(rate) {
             let term = pool.scale(factor, term);
@@ -113,10 +127,10 @@ pub(super) fn virtual_work(
             let mut parts = Vec::new();
             for (factor, part) in pool.summands(product) {
                 let part = pool.scale(factor, part);
-                parts.push(Term::new(&mut pool, part, q));
+                parts.push(Term::new(&mut pool, part, &symbols));
             }
             parts.truncate(if parts.len() > MOST_PARTS { 0 } else { MOST_PARTS });
-            force.push((Term::new(&mut pool, term, q), parts));
+            force.push((Term::new(&mut pool, term, &symbols), parts));
         }
         forces.push((i, force));
     }
@@ -131,9 +145,9 @@ pub(super) fn virtual_work(
         for &(i, rate) in *rates {
             known.set(equations.coordinates[i].velocity, rate);
         }
+        let multipliers = multipliers(&pool, equations, &resting, &mut known, momentum_rates);
         let work = forces.iter().map(|(coordinate, force)| {
-            let place = variables[*coordinate].abs();
-            let value = |term: &Term| term.value(&pool, &known, place);
+            let value = |term: &Term| term.value(&pool, &known, variables);
             let mut terms = Vec::new();
             for (whole, parts) in force {
                 let largest = parts.iter().fold(0.0_f64, |most, part| most.max(value(part).abs()));
@@ -146,7 +160,30 @@ pub(super) fn virtual_work(
             terms.retain(|(_, value)| *value != 0.0);
             VirtualWork { coordinate: *coordinate, terms }
         });
-        work.collect()
+        Balance { work: work.collect(), multipliers }
     };
     places.iter().map(at).collect()
+}
+
+/// Sets the multipliers of least norm by which the forces on the coordinates that rest balance, and returns them.
+fn multipliers(
+    pool: &Pool,
+    equations: &Equations,
+    resting: &[usize],
+    known: &mut Valuation,
+    momentum_rates: &[Expr],
+) -> Vec<f64> {
+    let rows = &equations.constraints;
+    rows.iter().for_each(|row| known.set(row.multiplier, 0.0));
+    if rows.is_empty() {
+        return Vec::new();
+    }
+    let forces = DMatrix::from_fn(resting.len(), rows.len(), |i, k| {
+        known.value(pool, rows[k].row[resting[i]])
+    });
+    let others = resting.iter().map(|&i| -known.value(pool, momentum_rates[i]));
+    let others = DVector::from_iterator(resting.len(), others);
+    let Some(found) = linear::least_squares(&forces, &others, 0.0) else { return Vec::new() };
+    rows.iter().zip(&found).for_each(|(row, &multiplier)| known.set(row.multiplier, multiplier));
+    found.iter().copied().collect()
 }

@@ -11,7 +11,7 @@ use crate::dynamics::{
 use crate::ensemble::Start;
 use crate::job::Progress;
 use crate::num::significant;
-use crate::system::{ChannelKind, Form, InitialOverride};
+use crate::system::{ChannelKind, ConstraintProjector, Form, InitialOverride, State};
 
 /// How far a motion along a mode is displaced, in the largest coordinate: as an angle, and as a part of its range so far.
 const AMPLITUDE: f64 = 0.1;
@@ -38,7 +38,7 @@ pub fn equilibria_search(
     let start = Start { time: present.time, parameters, overrides };
     move |progress| {
         let system = system.with_cancel(progress.token().clone());
-        let space = PhaseSpace::of(&model, &equations, &system, &start.parameters);
+        let space = PhaseSpace::without_impulses(&model, &equations, &system, &start.parameters);
         let space = space.map_err(|why| why.to_string())?;
         let state = start.state(&system).and_then(|state| space.state(&state));
         let state = state.map_err(|fault| fault.to_string())?;
@@ -88,6 +88,12 @@ pub fn value_at(physics: Physics<'_>, one: &Equilibrium, channel: usize) -> Opti
 pub fn start_at(physics: Physics<'_>, one: &Equilibrium) -> Vec<InitialOverride> {
     let n = physics.system.degrees();
     let places = (0..n).map(|i| InitialOverride::Position(i, one.variables[i]));
+    if physics.system.constraints() > 0 {
+        // constraints are conditions on the velocities
+        let rate = |i: usize| one.rates.iter().find(|(cyclic, _)| *cyclic == i);
+        let rates = (0..n).map(|i| InitialOverride::Velocity(i, rate(i).map_or(0.0, |r| r.1)));
+        return places.chain(rates).collect();
+    }
     let momenta = one.variables.iter().enumerate().skip(n);
     places.chain(momenta.map(|(i, &p)| InitialOverride::Momentum(i - n, p))).collect()
 }
@@ -109,19 +115,49 @@ pub fn start_along(present: &Present<'_>, one: &Equilibrium, mode: usize) -> Vec
         period.map(|period| period / std::f64::consts::TAU).or((extent > 0.0).then_some(extent))
     });
     let amplitude = AMPLITUDE * range.unwrap_or(1.0);
-    let cyclic = |i: usize| one.rates.iter().any(|(other, _)| *other == i);
+    let cyclic = |i: usize| one.rates.iter().find(|(other, _)| *other == i).map(|(_, rate)| *rate);
+    // q(t) = a (in phase · cos ωt − quadrature · sin ωt)
+    let places: Vec<f64> =
+        (0..n).map(|i| one.variables[i] + amplitude * mode.in_phase[i]).collect();
+    let speeds: Vec<f64> =
+        (0..n).map(|i| -amplitude * mode.frequency * mode.quadrature[i]).collect();
+    if let Some(mut projector) = physics.system.projector(present.parameters) {
+        return on_the_surface(&mut projector, present, (&places, &speeds), cyclic);
+    }
     let mut given = Vec::new();
     for i in 0..n {
-        let place = one.variables[i] + amplitude * mode.in_phase[i];
-        given.push(InitialOverride::Position(i, place));
-        // q(t) = a (in phase · cos ωt − quadrature · sin ωt)
-        given.push(if cyclic(i) {
-            InitialOverride::Momentum(i, one.variables[n + i])
-        } else {
-            InitialOverride::Velocity(i, -amplitude * mode.frequency * mode.quadrature[i])
+        given.push(InitialOverride::Position(i, places[i]));
+        given.push(match cyclic(i) {
+            Some(_) => InitialOverride::Momentum(i, one.variables[n + i]),
+            None => InitialOverride::Velocity(i, speeds[i]),
         });
     }
     given
+}
+
+/// The same where constraints hold the coordinates: a displacement along a tangent is moved onto their surface. Nothing, if
+/// that cannot be reached.
+fn on_the_surface(
+    projector: &mut ConstraintProjector,
+    present: &Present<'_>,
+    (places, speeds): (&[f64], &[f64]),
+    cyclic: impl Fn(usize) -> Option<f64>,
+) -> Vec<InitialOverride> {
+    let system = present.physics.system;
+    let n = system.degrees();
+    let numbers = |i: usize| match i < n {
+        true => places[i],
+        false => cyclic(i - n).unwrap_or(speeds[i - n]),
+    };
+    let mut values = vec![0.0; system.state_len()];
+    (0..2 * n).for_each(|i| values[i] = numbers(i));
+    let mut state = State::new(present.time, Form::Velocity, values);
+    if projector.project(&mut state).is_err() {
+        return Vec::new();
+    }
+    let places = (0..n).map(|i| InitialOverride::Position(i, state.values[i]));
+    let rates = (0..n).map(|i| InitialOverride::Velocity(i, state.values[n + i]));
+    places.chain(rates).collect()
 }
 
 /// An equilibrium in words: its kind, where it is, and its frequencies.

@@ -113,7 +113,8 @@ impl VariedMotions {
         start: &Start,
         length: f64,
     ) -> Result<Option<f64>, String> {
-        let space = PhaseSpace::of(&self.model, &self.equations, system, &start.parameters);
+        let space =
+            PhaseSpace::on_constraints(&self.model, &self.equations, system, &start.parameters);
         let space = space.map_err(|why| why.to_string())?;
         let state = start.state(system).and_then(|state| space.state(&state));
         let state = state.map_err(|why| why.to_string())?;

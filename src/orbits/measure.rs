@@ -74,7 +74,8 @@ impl MeasuredOrbit<'_> {
     /// The largest Lyapunov exponent up to the end, if the orbit has one and reaches it.
     fn exponent(&self) -> Option<f64> {
         let parameters = &self.start.parameters;
-        let space = PhaseSpace::of(self.model, self.equations, self.system, parameters).ok()?;
+        let space =
+            PhaseSpace::on_constraints(self.model, self.equations, self.system, parameters).ok()?;
         let state = self.start.state(self.system).and_then(|state| space.state(&state)).ok()?;
         let method = (self.method, self.settings);
         let found = lyapunov(&space, method, &state, self.end, &mut |_| ()).ok()?;

@@ -134,6 +134,17 @@ impl ConstraintProjector {
     }
 }
 
+impl ConstraintProjector {
+    /// The constraints that are enforced, and whether they keep a function of the coordinates constant.
+    pub(super) fn enforced(&self) -> Vec<(usize, bool)> {
+        let Some(constrained) = self.system.constrained() else { return Vec::new() };
+        let programs = &constrained.programs;
+        let enforced = self.system.holding().enforced.iter().enumerate();
+        let rows = enforced.filter(|(_, on)| **on);
+        rows.map(|(k, _)| (k, programs.holonomic[k] || programs.integrated[k])).collect()
+    }
+}
+
 impl System {
     /// The projector onto the constraints, or `None` if there are none.
     pub fn projector(&self, parameters: &[f64]) -> Option<ConstraintProjector> {

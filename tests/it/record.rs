@@ -26,8 +26,17 @@ pub(crate) fn script(text: &str) -> Script {
         .unwrap_or_else(|mistakes| panic!("{}", document.report(&mistakes, false)))
 }
 
-/// Plays a script of a preset.
+/// Plays a script of a preset, whose claims all hold.
 pub(crate) fn played(preset: &str, text: &str) -> Recording {
+    let recording = recorded(preset, text);
+    let false_claims = &recording.false_claims;
+    let document = Document::new("test.demo", text);
+    assert!(false_claims.is_empty(), "{}", document.report(false_claims, false));
+    recording
+}
+
+/// Plays a script of a preset.
+pub(crate) fn recorded(preset: &str, text: &str) -> Recording {
     let document = Document::new("test.demo", text);
     let system = catalog().find(preset).expect("a preset");
     play(&script(text), &system, preset, (80, 24))
@@ -36,7 +45,7 @@ pub(crate) fn played(preset: &str, text: &str) -> Recording {
 
 /// Plays a preset's own demo.
 pub(crate) fn shipped(preset: &str) -> Recording {
-    played(preset, &demo(preset).expect("a demo").text)
+    recorded(preset, &demo(preset).expect("a demo").text)
 }
 
 /// Does the same with every name, on all cores.

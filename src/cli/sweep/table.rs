@@ -270,9 +270,9 @@ fn taken(
         let laid = motion.compile(reading, &[], "--observe", interrupt)?;
         let Laid { model, equations, system, start, .. } = laid;
         // said once, and not in every row
-        PhaseSpace::of(&model, &equations, &system, &start.parameters).map_err(|why| {
-            CommandError::WrongUse(format!("--measure {}: {why}", name.measure.name))
-        })?;
+        PhaseSpace::on_constraints(&model, &equations, &system, &start.parameters).map_err(
+            |why| CommandError::WrongUse(format!("--measure {}: {why}", name.measure.name)),
+        )?;
         return Ok(Taken { name: name.clone(), system, event: String::new() });
     }
     let written = match (&name.expression, name.measure.of) {

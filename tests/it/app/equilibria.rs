@@ -123,11 +123,33 @@ fn scripts_find_equilibria_and_portraits_mark_them() {
         "Open henon-heiles\nSize 120x40\nPress F\nWait 0.2s\n\
          Assert screen \"Equilibria and small oscillations\"\nPress Esc\nWait 0.1s\n\
          Assert phase.equilibria = 4 within 0\nAssert phase.stable = 1 within 0\n\
-         Press 4\nWait 0.1s\nAssert screen \"stable minimum\"\nAssert screen \"mode ω = 1\"\n",
+         Press 4\nWait 0.1s\nAssert screen \"stable minimum\"\nAssert screen \"ω = 1: \"\n",
     ));
+    // a disc that rolls stands at rest, and would swing if it hung below the table
     drop(played(
         "rolling-coin",
         "Open rolling-coin\nSize 120x40\nPress F\nWait 0.2s\n\
-         Assert screen \"No equilibria are looked for here\"\n",
+         Assert screen \"mode ω = 3.96: θ 1\"\n",
     ));
+    drop(played(
+        "struck-rod",
+        "Open struck-rod\nSize 120x40\nPress F\nWait 0.2s\n\
+         Assert screen \"Equilibria cannot be searched for here: impulses act\"\n",
+    ));
+}
+
+/// A bob on a rod, in x and y: its place of rest is on the circle, and so is the motion along its mode, which has the
+/// frequency of small oscillations less what the amplitude takes from it.
+#[test]
+fn a_mode_under_constraints_begins_on_their_surface() {
+    let mut real = Real::of("pendulum-rod");
+    let lines = found(&mut real);
+    assert_eq!(lines[1].1, Choice::Mode(0, 0), "{lines:?}");
+    real.press("Down Enter");
+    real.look();
+    let present = real.lab().present().unwrap();
+    let [x, y] = [present.values[0], present.values[1]];
+    let angle = x.atan2(-y);
+    assert!((x * x + y * y - 1.0).abs() < 1e-14 && (angle.abs() - 0.1).abs() < 0.01, "{x} {y}");
+    assert!(present.values[2..4].iter().all(|v| v.abs() < 1e-12), "begins at rest");
 }

@@ -321,8 +321,38 @@ fn the_largest_exponent_is_a_measure_and_needs_no_expression() {
     near(one["exponents"][0].as_f64().unwrap(), exponent(rows[2]), 0.0);
     assert!(one["gali"]["4"].as_array().unwrap().len() > 100);
     in_folder(home.path(), &all("--measure=lyapunov=x")).fails(2, &["without an expression"]);
-    let held = ["rolling-coin", "--grid=t=0:1:2", "--measure=lyapunov"];
-    in_folder(home.path(), &held).fails(2, &["held to constraints"]);
+    let left = ["smooth-sphere", "--grid=g=9:10:2", "--measure=lyapunov"];
+    in_folder(home.path(), &left).fails(2, &["events act on the motion"]);
+}
+
+/// Exponents of motions under constraints and over impulses: a bob that stands on its rod falls at the rate √(g/l), and a
+/// rotor that is kicked at the top of its potential leaves it at the rate ln μ of the standard map's fixed point.
+#[test]
+fn swept_exponents_follow_constraints_and_impulses() {
+    let home = tempfile::tempdir().unwrap();
+    let exponents = |arguments: &[&str]| -> Vec<f64> {
+        let text = in_folder(home.path(), arguments).success();
+        let rows = lines(&text);
+        rows[1..].iter().map(|row| row.rsplit(',').next().unwrap().parse().unwrap()).collect()
+    };
+    let rod = [
+        "pendulum-rod",
+        "--init=x=0",
+        "--init=y=1",
+        "--init=x'=0",
+        "--until=200",
+        "--tolerance=1e-18",
+    ];
+    let found = exponents(&[&rod[..], &["--grid=g=4:16:2", "--measure=lyapunov"]].concat());
+    for (found, g) in found.iter().zip([4.0_f64, 16.0]) {
+        near(*found, g.sqrt(), 0.02);
+    }
+    let rotor = ["kicked-rotor", "--init=theta=0", "--init=p_theta=0", "--until=200"];
+    let found = exponents(&[&rotor[..], &["--grid=K=1:2:2", "--measure=lyapunov"]].concat());
+    for (found, k) in found.iter().zip([1.0_f64, 2.0]) {
+        let multiplier = 1.0 + k / 2.0 + (k + k * k / 4.0).sqrt();
+        near(*found, multiplier.ln(), 0.02);
+    }
 }
 
 /// What is read beside the system, shards and journals, may be no file: it is looked at first.

@@ -1,8 +1,9 @@
 //! Equilibria and small oscillations.
 
-use phaselab::dynamics::{DynamicsError, Equilibrium, Kind, equilibria};
+use phaselab::dynamics::{DynamicsError, Equilibrium, Kind, PhaseSpace, equilibria};
 
-use super::{Case, file, preset};
+use super::{Case, case_in, file, preset};
+use crate::hand::{loaded, lowered};
 
 fn of(case: &Case) -> Vec<Equilibrium> {
     equilibria(&case.space, &case.start).unwrap().found
@@ -237,4 +238,202 @@ fn of_places_a_turn_apart_one_is_found() {
     let case = file(&text(" - x/10"), &[]);
     let found = equilibria(&case.space, &case.start).unwrap();
     assert!(found.periods.is_empty() && found.found.len() > 4, "{found:?}");
+}
+
+/// The same where constraints may hold the coordinates.
+fn held(text: &str, start: &[f64]) -> Vec<Equilibrium> {
+    let case = case_in(&lowered(text), &[], start, PhaseSpace::without_impulses);
+    equilibria(&case.space, &case.start).unwrap().found
+}
+
+fn kinds(found: &[Equilibrium]) -> Vec<(Option<Kind>, Option<bool>)> {
+    found.iter().map(|one| (one.kind, one.stable)).collect()
+}
+
+const MINIMUM: (Option<Kind>, Option<bool>) = (Some(Kind::Minimum), Some(true));
+const SADDLE: (Option<Kind>, Option<bool>) = (Some(Kind::Saddle), Some(false));
+const MAXIMUM: (Option<Kind>, Option<bool>) = (Some(Kind::Maximum), Some(false));
+
+#[test]
+fn a_rod_holds_a_bob_below_and_above() {
+    let found = held(
+        "title = \"t\"\n[coordinates]\nx = { initial = \"l*sin(0.7)\", velocity = 0 }\ny = { initial = \"-l*cos(0.7)\" }\n\
+         [parameters]\ng = 9.81\nl = 0.8\nm = 3\n[lagrangian]\nL = \"1/2*m*(x'^2 + y'^2) - m*g*y\"\n\
+         [[constraints]]\nname = \"rod\"\nexpression = \"x^2 + y^2 - l^2\"\n",
+        &[],
+    );
+    assert_eq!(kinds(&found), [MINIMUM, MAXIMUM]);
+    for (one, side) in found.iter().zip([-1.0, 1.0]) {
+        close(one.variables[0], 0.0, 1e-14);
+        close(one.variables[1], side * 0.8, 1e-14);
+        close(one.energy, side * 3.0 * 9.81 * 0.8, 1e-13);
+    }
+    let rate = (9.81_f64 / 0.8).sqrt();
+    let [mode] = &found[0].modes[..] else { panic!("{:?}", found[0]) };
+    close(mode.frequency, rate, 1e-13);
+    assert_eq!((&mode.in_phase[..], &mode.quadrature[..]), (&[1.0, 0.0][..], &[0.0, 0.0][..]));
+    close(found[1].eigenvalues[0][0], rate, 1e-13);
+}
+
+/// A bead on the wire y = x⁴/4 − x²/2 + c x, whose bottom and top have V″ = m g y″ and, at rest, the mass m.
+#[test]
+fn a_bead_rests_where_its_wire_is_level() {
+    let (g, c) = (3.7, 0.1);
+    let found = held(
+        "title = \"t\"\n[coordinates]\nx = { initial = 0.3, velocity = 0 }\ny = { initial = \"x^4/4 - x^2/2 + c*x\" }\n\
+         [parameters]\ng = 3.7\nc = 0.1\n[lagrangian]\nL = \"1/2*(x'^2 + y'^2) - g*y\"\n\
+         [[constraints]]\nname = \"wire\"\nexpression = \"y - x^4/4 + x^2/2 - c*x\"\n"
+            .replace("\"x^4/4 - x^2/2 + c*x\" }", "-0.012975 }")
+            .as_str(),
+        &[],
+    );
+    // x³ − x + c = 0 by trigonometry
+    let third = (-(27.0_f64 / 4.0).sqrt() * c).acos() / 3.0;
+    let root = |k: f64| 2.0 / 3.0_f64.sqrt() * (third - 2.0 * std::f64::consts::PI * k / 3.0).cos();
+    let mut wanted: Vec<(f64, f64)> =
+        (0..3).map(|k| root(f64::from(k))).map(|x| (x, 3.0 * x * x - 1.0)).collect();
+    let height = |x: f64| x.powi(4) / 4.0 - x * x / 2.0 + c * x;
+    wanted.sort_by(|a, b| height(a.0).total_cmp(&height(b.0)));
+    assert_eq!(kinds(&found), [MINIMUM, MINIMUM, MAXIMUM]);
+    for (one, (x, bends)) in found.iter().zip(wanted) {
+        close(one.variables[0], x, 1e-12);
+        close(one.variables[1], height(x), 1e-12);
+        close(one.energy, g * height(x), 1e-12);
+        let [[real, imaginary], _] = one.eigenvalues[..] else { panic!("{one:?}") };
+        close(real * real - imaginary * imaginary, -g * bends, 1e-11);
+    }
+}
+
+/// Two bobs in x and y on two rods: the double pendulum by constraints, against the one by angles.
+#[test]
+fn a_double_pendulum_by_constraints_has_the_equilibria_of_its_angles() {
+    let rods = "title = \"t\"\n[coordinates]\nx = { initial = \"l*sin(0.4)\", velocity = 0 }\ny = { initial = \"-l*cos(0.4)\" }\n\
+         u = { initial = \"l*sin(0.4) + k*sin(0.9)\", velocity = 0 }\nv = { initial = \"-l*cos(0.4) - k*cos(0.9)\" }\n\
+         [parameters]\ng = 9.81\nl = 1.2\nk = 0.7\nm = 1.5\nn = 0.6\n\
+         [lagrangian]\nL = \"1/2*m*(x'^2 + y'^2) + 1/2*n*(u'^2 + v'^2) - m*g*y - n*g*v\"\n\
+         [[constraints]]\nname = \"upper\"\nexpression = \"x^2 + y^2 - l^2\"\n\
+         [[constraints]]\nname = \"lower\"\nexpression = \"(u - x)^2 + (v - y)^2 - k^2\"\n";
+    let angles = "title = \"t\"\n[coordinates]\na = { initial = 0.4, velocity = 0 }\nb = { initial = 0.9, velocity = 0 }\n\
+         [parameters]\ng = 9.81\nl = 1.2\nk = 0.7\nm = 1.5\nn = 0.6\n\
+         [lagrangian]\nL = \"1/2*(m + n)*l^2*a'^2 + 1/2*n*k^2*b'^2 + n*l*k*a'*b'*cos(a - b) + (m + n)*g*l*cos(a) + n*g*k*cos(b)\"\n";
+    let (found, wanted) = (held(rods, &[]), of(&file(angles, &[])));
+    assert_eq!(kinds(&found), [MINIMUM, SADDLE, SADDLE, MAXIMUM]);
+    assert_eq!(wanted.len(), found.len());
+    for (one, wanted) in found.iter().zip(&wanted) {
+        let (a, b) = (wanted.variables[0], wanted.variables[1]);
+        let place = [
+            1.2 * a.sin(),
+            -1.2 * a.cos(),
+            1.2 * a.sin() + 0.7 * b.sin(),
+            -1.2 * a.cos() - 0.7 * b.cos(),
+        ];
+        for (x, place) in one.variables.iter().zip(place) {
+            close(*x, place, 1e-12);
+        }
+        close(one.energy, wanted.energy, 1e-11);
+        assert_eq!(one.eigenvalues.len(), wanted.eigenvalues.len());
+        let size = wanted.eigenvalues[0].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        for value in &wanted.eigenvalues {
+            let near = one.eigenvalues.iter().any(|other| {
+                (other[0] - value[0]).abs() + (other[1] - value[1]).abs() < 1e-11 * size
+            });
+            assert!(near, "{:?} {:?}", one.eigenvalues, wanted.eigenvalues);
+        }
+        // a mode of the angles, carried to the plane; heights do not change
+        for (mode, wanted) in one.modes.iter().zip(&wanted.modes) {
+            let (da, db) = (wanted.in_phase[0], wanted.in_phase[1]);
+            let plane = [1.2 * a.cos() * da, 0.0, 1.2 * a.cos() * da + 0.7 * b.cos() * db, 0.0];
+            let largest = if plane[0].abs() > plane[2].abs() { plane[0] } else { plane[2] };
+            for (x, plane) in mode.in_phase.iter().zip(plane) {
+                close(*x, plane / largest, 1e-10);
+            }
+        }
+    }
+}
+
+/// A bead on the bowl z = r²/2 in cylindrical coordinates goes round: at p² = g r⁴ on a circle of radius r, and its radius
+/// oscillates with ω² = 4 g/(1 + r²), by the effective potential p²/2r² + g r²/2 and the mass 1 + r².
+#[test]
+fn a_bead_in_a_bowl_goes_round() {
+    let found = held(
+        "title = \"t\"\n[coordinates]\nr = { initial = 1.3, velocity = 0 }\nphi = { initial = 0, velocity = 1.1, period = \"2*pi\" }\n\
+         z = { initial = \"1.3^2/2\" }\n[parameters]\ng = 2\n[lagrangian]\nL = \"1/2*(r'^2 + r^2*phi'^2 + z'^2) - g*z\"\n\
+         [[constraints]]\nname = \"bowl\"\nexpression = \"z - r^2/2\"\n",
+        &[],
+    );
+    let p: f64 = 1.3 * 1.3 * 1.1;
+    let r = (p * p / 2.0).powf(0.25);
+    let outside: Vec<_> = found.iter().filter(|one| one.variables[0] > 0.0).collect();
+    let [one] = outside[..] else { panic!("{found:?}") };
+    assert_eq!((one.kind, one.stable), MINIMUM);
+    close(one.variables[0], r, 1e-13);
+    close(one.variables[2], r * r / 2.0, 1e-13);
+    close(one.variables[4], p, 1e-13);
+    let [(1, going)] = one.rates[..] else { panic!("{one:?}") };
+    close(going, p / (r * r), 1e-13);
+    let [mode] = &one.modes[..] else { panic!("{one:?}") };
+    close(mode.frequency, (8.0 / (1.0 + r * r)).sqrt(), 1e-12);
+    close(mode.in_phase[0] * r, mode.in_phase[2], 1e-12);
+    assert_eq!(mode.in_phase[1], 0.0);
+}
+
+/// A disc of radius R that rolls on its edge, upright: it falls over with λ² = m g R/(I + m R²), whichever way it looks, and
+/// hanging below the table it would oscillate with that. Its places and headings are a family.
+#[test]
+fn a_disc_on_its_edge_falls_over() {
+    let found = equilibria_of("rolling-coin");
+    assert_eq!(kinds(&found), [(None, None), (None, Some(false))]);
+    // I = m R²/4 about a diameter: λ² = 4 g/5 R
+    close(found[1].eigenvalues[0][0], (0.8_f64 * 9.81 / 0.5).sqrt(), 1e-11);
+    close(found[0].modes[0].frequency, (0.8_f64 * 9.81 / 0.5).sqrt(), 1e-11);
+}
+
+fn equilibria_of(name: &str) -> Vec<Equilibrium> {
+    let case = case_in(&loaded(name, 1), &[], &[], PhaseSpace::without_impulses);
+    equilibria(&case.space, &case.start).unwrap().found
+}
+
+/// A wheel that rolls without slipping on a hill, where x = r θ is kept from the start on: it rests in the valleys.
+#[test]
+fn a_rolling_wheel_rests_in_a_valley() {
+    let found = held(
+        "title = \"t\"\n[coordinates]\nx = { initial = 0.2 }\ntheta = { initial = 1, velocity = 0 }\n[parameters]\nr = 0.5\n\
+         [lagrangian]\nL = \"1/2*x'^2 + 1/2*r^2*theta'^2 + cos(x)\"\n\
+         [[constraints]]\nname = \"rolling\"\nexpression = \"r*theta' - x'\"\n",
+        &[],
+    );
+    let valley = found.iter().find(|one| one.variables[0].abs() < 1.0).unwrap();
+    assert_eq!((valley.kind, valley.stable), MINIMUM);
+    close(valley.variables[0], 0.0, 1e-13);
+    close(valley.variables[1], 1.0 - 0.2 / 0.5, 1e-12);
+    close(frequencies(valley)[0], 0.5_f64.sqrt(), 1e-12);
+}
+
+#[test]
+fn a_constraint_that_drives_lets_nothing_rest() {
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 0.2 }\ny = { initial = 1, velocity = 0 }\n\
+         [lagrangian]\nL = \"1/2*(x'^2 + y'^2) - y^2/2\"\n\
+         [[constraints]]\nname = \"belt\"\nexpression = \"x' - 2\"\n";
+    let case = case_in(&lowered(text), &[], &[], PhaseSpace::without_impulses);
+    let Err(DynamicsError::Unsuited(why)) = equilibria(&case.space, &case.start) else { panic!() };
+    assert!(why.contains("prescribes a velocity"), "{why}");
+}
+
+/// Two steep centres, a coupling and a spring: V is the same at (−x, −y), and so are its equilibria. The gradient's zeros were
+/// searched for in `SciPy` from 6000 random places: there are eleven but for the centre's pair.
+#[test]
+fn places_that_few_beginnings_reach_are_found() {
+    let found = of(&file(
+        "title = \"t\"\n[coordinates]\nx = { initial = 0.4, velocity = 0.1 }\ny = { initial = 1.1, velocity = -0.2 }\n\
+         [parameters]\nk = 0.3\n[lagrangian]\nL = \"1/2*(x'^2 + 2*y'^2) - (1/((x-1)^2+y^2)^6 - 1/((x-1)^2+y^2)^3) \
+         - (1/((x+1)^2+y^2)^6 - 1/((x+1)^2+y^2)^3) - k*x*y - y^2/4\"\n",
+        &[],
+    ));
+    for one in &found {
+        let opposite = |other: &Equilibrium| {
+            (0..2).all(|i| (other.variables[i] + one.variables[i]).abs() < 1e-9)
+        };
+        assert!(found.iter().any(opposite), "{:?}", one.variables);
+    }
+    assert_eq!(found.len(), 11, "{:?}", found.iter().map(|one| &one.variables).collect::<Vec<_>>());
 }

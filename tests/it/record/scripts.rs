@@ -5,7 +5,7 @@ use phaselab::preset::Catalog;
 use phaselab::record::script::{COMMANDS, ScriptStep};
 use phaselab::record::{Script, play, transcript};
 
-use super::{played, script};
+use super::{played, recorded, script};
 
 /// The errors of a script as `line:column message; help`.
 fn mistakes(text: &str) -> Vec<String> {
@@ -206,7 +206,7 @@ fn what_a_script_sets_and_sweeps_is_taken_back_as_one() {
 fn the_account_tells_what_was_done_and_found() {
     let text = "Title \"Ein Pendel\"\nCaption \"It swings\"\nPress z\nWait 1s\nMarker \"One\"\n\
                 Assert t > 1\nAssert t > 9\nWait 1s";
-    let account = transcript::write(&played("pendulum", text));
+    let account = transcript::write(&recorded("pendulum", text));
     let lines: Vec<&str> = account.lines().collect();
     assert_eq!(lines[0], "Ein Pendel");
     assert_eq!(lines[1], "80x24 characters, 20 frames a second, 2.15 s");

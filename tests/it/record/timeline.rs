@@ -1,6 +1,6 @@
 //! The time bar and time reversed in scripts: what they say holds, and again in the same way.
 
-use super::played;
+use super::{played, recorded};
 
 const BACK: &str = r#"
 Wait 3s
@@ -42,5 +42,5 @@ fn a_script_looks_back_and_reverses_time() {
 #[test]
 fn a_claim_about_the_way_back_can_be_wrong() {
     let text = "Wait 1s\nPress Z\nWait 2s\nAssert separation.error > 1e-3\nAssert t > 0.5";
-    assert_eq!(played("pendulum", text).false_claims.len(), 2);
+    assert_eq!(recorded("pendulum", text).false_claims.len(), 2);
 }

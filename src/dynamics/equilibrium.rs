@@ -1,0 +1,61 @@
+//! An equilibrium, and when two are of one family.
+//!
+//! In: what a search finds of it. Out: its numbers. Never here: how it is found.
+
+use super::small_oscillation::{Kind, Mode};
+use super::virtual_work::VirtualWork;
+
+/// Two energies are the same up to this distance relative to their size plus 1, and eigenvalues up to its root.
+const SAME: f64 = 1e-7;
+
+/// An equilibrium.
+#[derive(Clone, Debug)]
+pub struct Equilibrium {
+    /// The variables.
+    pub variables: Vec<f64>,
+    /// The energy.
+    pub energy: f64,
+    /// What the effective potential does there; `None` for brackets.
+    pub kind: Option<Kind>,
+    /// The eigenvalues of the linearised motion, of the coordinates that are not cyclic.
+    pub eigenvalues: Vec<[f64; 2]>,
+    /// The small oscillations, the slowest first.
+    pub modes: Vec<Mode>,
+    /// Whether nothing grows in the linearised motion; `None` where zero eigenvalues leave it open.
+    pub stable: Option<bool>,
+    /// The rates of the cyclic coordinates, by index.
+    pub rates: Vec<(usize, f64)>,
+    /// The forces that balance there, once [`with_virtual_work`](super::with_virtual_work) has written them …
+    pub work: Vec<VirtualWork>,
+    /// … and the multiplier of each constraint.
+    pub multipliers: Vec<f64>,
+}
+
+/// What a search has found.
+#[derive(Clone, Debug)]
+pub struct Equilibria {
+    /// The equilibria by energy.
+    pub found: Vec<Equilibrium>,
+    /// The coordinates in which the law is periodic, with the period: of places that differ by it one is found.
+    pub periods: Vec<(usize, f64)>,
+    /// Whether the search was cancelled.
+    pub cancelled: bool,
+}
+
+/// Whether two equilibria belong to one family, of which nothing tells one from another: those of one energy between which
+/// the potential does not change, and those under a constraint on the velocities with the same motion around them.
+pub(super) fn in_a_family(known: &Equilibrium, one: &Equilibrium, constrained: bool) -> bool {
+    match (known.kind, one.kind) {
+        (Some(Kind::Degenerate), Some(Kind::Degenerate)) => {
+            (known.energy - one.energy).abs() <= SAME * (known.energy.abs() + 1.0)
+        }
+        (None, None) if constrained => {
+            let size =
+                known.eigenvalues.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let pairs = known.eigenvalues.iter().flatten().zip(one.eigenvalues.iter().flatten());
+            one.stable != Some(true)
+                && pairs.into_iter().all(|(a, b)| (a - b).abs() <= SAME.sqrt() * size)
+        }
+        _ => false,
+    }
+}
