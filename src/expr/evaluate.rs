@@ -3,7 +3,7 @@
 
 use std::cell::RefCell;
 
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashMap;
 
 use super::ball::Ball;
 use super::node::{Expr, Node};
@@ -21,8 +21,11 @@ impl Pool {
     /// The value, and the largest magnitude among the summands on the way, against which rounding
     /// errors have to be measured.
     pub fn evaluate_with_size(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> (f64, f64) {
-        let mut values = FxHashMap::default();
-        self.evaluate_parts(&self.reachable(&[e]), at, &mut values);
+        let mut values: FxHashMap<Expr, (f64, f64)> = FxHashMap::default();
+        for part in self.reachable(&[e]) {
+            let value = self.value_of(part, &|e| values[&e], at);
+            values.insert(part, value);
+        }
         values[&e]
     }
 
@@ -33,37 +36,10 @@ impl Pool {
         (along, places): (Symbol, &[f64]),
         at: &dyn Fn(Symbol) -> f64,
     ) -> Vec<f64> {
-        let parts = self.reachable(&[e]);
-        let mut varying: FxHashSet<Expr> = FxHashSet::default();
-        let (varied, constant): (Vec<Expr>, Vec<Expr>) = parts.iter().partition(|part| {
-            let mut varies = self.as_symbol(**part) == Some(along);
-            self.node(**part).for_each_part(|part| varies |= varying.contains(&part));
-            if varies {
-                varying.insert(**part);
-            }
-            varies
-        });
-        let mut values = FxHashMap::default();
-        self.evaluate_parts(&constant, at, &mut values);
-        let mut value = |place: &f64| {
-            let there = |symbol| if symbol == along { *place } else { at(symbol) };
-            self.evaluate_parts(&varied, &there, &mut values);
-            values[&e].0
-        };
-        places.iter().map(&mut value).collect()
-    }
-
-    /// Adds the values of parts, each after its own, and the largest magnitudes on the way.
-    fn evaluate_parts(
-        &self,
-        parts: &[Expr],
-        at: &dyn Fn(Symbol) -> f64,
-        values: &mut FxHashMap<Expr, (f64, f64)>,
-    ) {
-        for &part in parts {
-            let value = self.value_of(part, &|e| values[&e], at);
-            values.insert(part, value);
-        }
+        let repeated = Repeated::of(self, e);
+        let value =
+            |place: &f64| repeated.at(&|symbol| if symbol == along { *place } else { at(symbol) });
+        places.iter().map(value).collect()
     }
 
     /// The value of a node and the largest magnitude among its summands, from those of its parts.
