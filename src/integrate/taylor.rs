@@ -270,7 +270,7 @@ impl Taylor {
         for sides in choices {
             self.kinks.choose(&mut self.series, sides);
             match self.expand(left) {
-                Ok(step) if self.kinks.leads_on(&self.series, step) => {
+                Ok(step) if self.kinks.leads_on(&self.series, step, self.stride) => {
                     let hopeless = step < HOPELESS * self.stride && !rough;
                     return Ok(if hopeless && self.leap(left, 0.0)? { None } else { Some(step) });
                 }
@@ -575,7 +575,7 @@ impl Stepper for Taylor {
         // what makes the steps vanish lies a little farther than they reach
         let end = if vanishing { BEYOND * step / scale.abs() } else { after.high / scale };
         let end = end.min((left.high / scale).abs());
-        let mut crossing = self.kinks.first(&self.series, end);
+        let mut crossing = self.kinks.first(&self.series, end, self.stride);
         let approaching = vanishing && crossing.is_some();
         let nearest = approaching && step <= NEAREST * time.high.abs();
         // steps away from a point that was passed become longer by themselves

@@ -7,7 +7,7 @@ const FLOOR: f64 = 1e-12;
 /// The verdict on `count` values of `drift` at times 0, 0.1, ….
 fn verdict(count: u32, drift: impl FnMut(f64) -> f64) -> Verdict {
     let history = history(count, drift);
-    Verdict::of(&history, history.peak(), FLOOR, Errors::OfState)
+    Verdict::of(&history, history.peak(), FLOOR, Errors::Accumulated)
 }
 
 fn history(count: u32, mut drift: impl FnMut(f64) -> f64) -> History {
@@ -272,7 +272,7 @@ fn stretches_are_of_time_and_not_of_looks() {
     assert_eq!(history.len(), 101_000);
     let late = history.stretches().iter().filter(|s| s.start >= 1000.0).count();
     assert!((5..=8).contains(&late), "{late}");
-    assert!(secular(&Verdict::of(&history, 1e-3, FLOOR, Errors::OfState)).is_some());
+    assert!(secular(&Verdict::of(&history, 1e-3, FLOOR, Errors::Accumulated)).is_some());
 }
 
 #[test]
