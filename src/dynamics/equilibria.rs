@@ -26,7 +26,11 @@ const STEPS: usize = 60;
 
 /// How far around its centre a coordinate without period is searched, in its size there plus its
 /// unit.
-const RADII: [f64; 3] = [0.5, 1.5, 4.0];
+const RADII: [f64; 5] = [0.5, 1.5, 4.0, 12.0, 40.0];
+
+/// How many of these are searched where the units are ordinary. In other units a start says how large a coordinate is there,
+/// which may be a small part of what the forces reach over.
+const ORDINARY_RADII: usize = 3;
 
 /// A rate counts as zero up to this part of what the variables can cause.
 const ZERO: f64 = 1e-12;
@@ -192,11 +196,19 @@ impl<'a> EquilibriumSearch<'a> {
         EquilibriumSearch { space, start, field, resting, cyclic, degrees, units }
     }
 
+    /// How far around its centre a coordinate is searched.
+    fn radii(&self) -> &'static [f64] {
+        let mut lengths = (0..self.degrees).filter(|&i| self.space.turns()[i].is_none());
+        let ordinary = lengths.all(|i| self.units[i] == 1.0);
+        if ordinary { &RADII[..ORDINARY_RADII] } else { &RADII }
+    }
+
     /// The variables at which a search begins: the start itself, then places around it.
     fn beginning(&self, index: usize) -> Vec<f64> {
         let mut variables = self.space.variables(self.start).to_vec();
         let canonical = self.space.form() == Form::Momentum;
-        let radius = RADII[index % RADII.len()];
+        let radii = self.radii();
+        let radius = radii[index % radii.len()];
         for (k, &i) in self.resting.iter().enumerate() {
             if canonical && i >= self.degrees {
                 variables[i] = 0.0;
@@ -285,7 +297,7 @@ impl<'a> EquilibriumSearch<'a> {
                 let turns = ((variables[i] - start[i]) / period).round();
                 variables[i] -= turns * period;
             }
-            let far = RADII[RADII.len() - 1] * (self.units[i] + start[i].abs());
+            let far = self.radii()[self.radii().len() - 1] * (self.units[i] + start[i].abs());
             if i < self.degrees && (variables[i] - start[i]).abs() > far {
                 return None;
             }
@@ -299,8 +311,14 @@ impl<'a> EquilibriumSearch<'a> {
         }
         // a force on a cyclic coordinate, as friction, lets nothing rest
         self.look(&variables)?;
-        let (rate, size) = (self.field.rate(), self.field.derivative().amax());
-        let pushed = |i: &usize| rate[self.degrees + i].abs() > 1e3 * ZERO * size.max(rate.amax());
+        let (rate, derivative) = (self.field.rate(), self.field.derivative());
+        let part = |i: usize, j: usize| derivative[(i, j)].abs() * self.units[j] / self.units[i];
+        let all = 0..self.units.len();
+        let caused = all.clone().flat_map(|i| all.clone().map(move |j| (i, j)));
+        let caused = caused.map(|(i, j)| part(i, j)).fold(0.0, f64::max);
+        let of = |i: usize| rate[i].abs() / self.units[i];
+        let size = all.clone().map(of).fold(caused, f64::max);
+        let pushed = |i: &usize| of(self.degrees + i) > 1e3 * ZERO * size;
         (!self.cyclic.iter().any(pushed)).then_some(variables)
     }
 
@@ -404,7 +422,10 @@ fn units(space: &PhaseSpace, start: &State, field: &mut VectorField) -> Vec<f64>
             let stiffness = derivative[(degrees + i, i)].abs();
             let mobility = derivative[(i, degrees + i)].abs();
             let impedance = (stiffness / mobility).sqrt();
-            let unit = impedance * units[i];
+            // where nothing pulls, the momentum that the force gives on that way
+            let force = field.rate()[degrees + i].abs();
+            let given = (force * units[i] / mobility).sqrt();
+            let unit = if stiffness > 0.0 { impedance * units[i] } else { given };
             // the square of a momentum's unit over its mass is compared with forces: no unit is ordinary by itself
             if unit.is_finite() && unit > 0.0 {
                 units[degrees + i] = unit;

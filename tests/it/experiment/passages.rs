@@ -110,24 +110,25 @@ fn a_motion_from_rest_is_not_lost_by_its_first_step() {
         ("1 - cos(X)", 0.1, std::f64::consts::TAU),
         ("ln(cosh(X))", 40.0, 35.5),
     ];
+    let at_the_end = |text: &str, step: f64, time: f64| {
+        let mut experiment = build(text, |setup| {
+            "symplectic-euler".clone_into(&mut setup.method);
+            setup.settings.step = Some(step);
+            setup.end = Some(time);
+            setup.spacing = time / 1000.0;
+        });
+        run(&mut experiment, time);
+        gauge(&experiment.snapshot(), "energy")
+    };
     for units in [NATURAL, ATOMIC] {
         for (potential, from, period) in files {
             let text = particle(potential, from, units);
-            let mut experiment = build(&text, |setup| {
-                "symplectic-euler".clone_into(&mut setup.method);
-                setup.settings.step = Some(0.003 * period * units.2);
-            });
-            run(&mut experiment, 5.3 * period * units.2);
-            let energy = gauge(&experiment.snapshot(), "energy");
+            let energy = at_the_end(&text, 0.003 * period * units.2, 5.3 * period * units.2);
             assert_eq!(energy.verdict.word(), "bounded", "{text}: {energy:?}");
             assert!((0.003..0.05).contains(&energy.max_drift), "{text}: {energy:?}");
         }
     }
     // a method that is unstable from the first step on is found as before
-    let mut experiment = build(&particle("1/2*X^2", 1.0, NATURAL), |setup| {
-        "symplectic-euler".clone_into(&mut setup.method);
-        setup.settings.step = Some(2.05);
-    });
-    run(&mut experiment, 100.0);
-    assert_eq!(gauge(&experiment.snapshot(), "energy").verdict.word(), "lost");
+    let unstable = at_the_end(&particle("1/2*X^2", 1.0, NATURAL), 2.05, 100.0);
+    assert_eq!(unstable.verdict.word(), "lost", "{unstable:?}");
 }
