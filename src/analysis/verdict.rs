@@ -11,7 +11,8 @@ use crate::num::math;
 /// The verdict on a drift.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Verdict {
-    /// The motion is too short for a verdict.
+    /// The motion is too short for a verdict: for any, or for one on a function of the state that has
+    /// not yet returned.
     Open,
     /// At the rounding floor; contains how the error grows.
     Exact(Growth),
@@ -30,7 +31,9 @@ pub enum Verdict {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Errors {
     /// The error of an invariant is a function of the state, as the energy's is under a symplectic
-    /// method: where it has left its value it returns as the motion does.
+    /// method: where it has left its value it returns as the motion does. If the step is long for a
+    /// narrow place, such as a pericentre, each passage changes its level by what depends on where
+    /// the steps fall, in both directions. So a changed level shows nothing, and only a trend does.
     OfState,
     /// What is lost in a step stays lost.
     Accumulated,
@@ -78,14 +81,15 @@ impl Verdict {
         if greatest.max(distances.peak()) <= floor {
             return Verdict::Exact(growth(whole));
         }
-        let left_at_once = || match errors {
-            Errors::Accumulated => early_departure(whole, floor),
-            Errors::OfState => None,
+        let slope = match errors {
+            Errors::Accumulated => trend(whole)
+                .or_else(|| departure(whole, floor))
+                .or_else(|| early_departure(whole, floor)),
+            // so far the state has only gone one way, and its function with it
+            Errors::OfState if !turns(whole) => return Verdict::Open,
+            Errors::OfState => trend(whole),
         };
-        match trend(whole).or_else(|| departure(whole, floor)).or_else(left_at_once) {
-            Some(slope) => Verdict::Secular(slope),
-            None => Verdict::Bounded,
-        }
+        slope.map_or(Verdict::Bounded, Verdict::Secular)
     }
 }
 
@@ -103,6 +107,26 @@ const FEWEST: usize = 17;
 pub fn rounding_floor(steps: u64) -> f64 {
     f64::EPSILON * (16.0 + 4.0 * (steps as f64).sqrt())
 }
+
+/// Whether a quantity comes back: the way it covers, up and down, is much longer than what lies between its extremes. It
+/// is as long for a rise, and twice as long for one peak.
+fn turns(intervals: &[Stretch]) -> bool {
+    let greatest = intervals.iter().map(|s| s.greatest).fold(f64::MIN, f64::max);
+    let least = intervals.iter().map(|s| s.least).fold(f64::MAX, f64::min);
+    // the shortest way through both extremes of every interval, whose order is not known, that ends at its least value, and
+    // that ends at its greatest
+    let (mut last, mut ways) = ([intervals[0].least; 2], [0.0_f64; 2]);
+    for s in intervals {
+        let ends = [s.least, s.greatest];
+        let to = |x: f64| (ways[0] + (x - last[0]).abs()).min(ways[1] + (x - last[1]).abs());
+        ways = [to(s.greatest), to(s.least)].map(|way| way + s.greatest - s.least);
+        last = ends;
+    }
+    ways[0].min(ways[1]) >= RETURNED * (greatest - least)
+}
+
+/// How much longer that way is, at least: the quantity has come back by half.
+const RETURNED: f64 = 1.5;
 
 /// The slope of a lasting trend, if there is one. However the whole is divided into blocks, their
 /// means must rise (or fall) throughout, with no step between them much smaller than the others;

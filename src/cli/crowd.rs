@@ -93,21 +93,38 @@ pub(super) fn collect<T: Send>(
     Ok(results)
 }
 
+/// Puts what was computed into words as a whole, which is waited for after a signal.
+pub(super) fn formatted(interrupt: &Interrupt, text: impl FnOnce() -> String) -> String {
+    interrupt.prepares();
+    let text = text();
+    interrupt.is_prepared();
+    text
+}
+
 /// Writes all of a text. A file that is moved into place is waited for after a signal, and so is a reader that takes what
 /// a signal left.
-pub(super) fn write(
+pub(super) fn write(out: Output, text: &str, interrupt: &Interrupt) -> Result<(), CommandError> {
+    write_pieces(out, std::iter::once(text.to_owned()), interrupt)
+}
+
+/// The same for a text that is put into words piece by piece: that of many rows takes longer than a command has to end
+/// by itself.
+pub(super) fn write_pieces(
     mut out: Output,
-    text: &str,
+    pieces: impl Iterator<Item = String>,
     interrupt: &Interrupt,
 ) -> Result<(), CommandError> {
     if out.is_file() {
         interrupt.saves();
-    } else if interrupt.signal().is_some() {
-        interrupt.writes();
     }
-    for portion in text.as_bytes().chunks(PORTION) {
-        out.write_all(portion).map_err(|error| out.failed(&error))?;
-        interrupt.taken();
+    for piece in pieces {
+        for portion in piece.as_bytes().chunks(PORTION) {
+            if !out.is_file() && interrupt.signal().is_some() {
+                interrupt.writes();
+            }
+            out.write_all(portion).map_err(|error| out.failed(&error))?;
+            interrupt.taken();
+        }
     }
     out.finish()
 }

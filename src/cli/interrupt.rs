@@ -112,6 +112,21 @@ impl Interrupt {
         self.saves();
     }
 
+    /// Declares that the output is being put into words, which is waited for.
+    pub(super) fn prepares(&self) {
+        self.saves();
+    }
+
+    /// Declares that this is done: after a signal it is the reader that is waited for, and otherwise nothing.
+    pub(super) fn is_prepared(&self) {
+        if self.signal().is_some() {
+            self.taken();
+            self.writes();
+        } else {
+            self.0.saving.store(false, Ordering::Release);
+        }
+    }
+
     /// Declares that the reader has taken a portion.
     pub(super) fn taken(&self) {
         self.0.taken.fetch_add(1, Ordering::AcqRel);
@@ -123,10 +138,12 @@ impl Interrupt {
         let (mut known, mut since) = (taken(), Instant::now());
         while self.0.saving.load(Ordering::Acquire) && Instant::now() < deadline {
             thread::sleep(BETWEEN);
+            // in this order: a reader has only been there since the last portion
+            let reading = self.0.reading.load(Ordering::Acquire);
             if taken() != known {
                 (known, since) = (taken(), Instant::now());
             }
-            if self.0.reading.load(Ordering::Acquire) && since.elapsed() >= STALLED {
+            if reading && since.elapsed() >= STALLED {
                 return;
             }
         }

@@ -1,5 +1,6 @@
 //! `phaselab section`: where orbits cross a surface of section.
 
+use std::iter::{once, once_with};
 use std::path::PathBuf;
 
 use serde_json::{Map, Value, json};
@@ -164,7 +165,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
             orbits.iter().map(|orbit| turning.rotation(&orbit.rows)).collect()
         }),
     };
-    crowd::write(out, &section.written(), interrupt)?;
+    section.write(out, interrupt)?;
     section.ending(interrupt)
 }
 
@@ -336,21 +337,29 @@ struct SectionReport<'a> {
 }
 
 impl SectionReport<'_> {
-    fn written(&self) -> String {
+    fn write(&self, out: Output, interrupt: &Interrupt) -> Result<(), CommandError> {
         let columns: Vec<String> = ["orbit".to_owned(), "n".to_owned()]
             .into_iter()
             .chain(self.shown.iter().map(|(name, _)| name.clone()))
             .collect();
-        let rows = self.rows();
         match self.arguments.format {
-            TableFormat::Json => cells::object(&self.members(&columns, &rows)),
+            TableFormat::Json => {
+                let rows: Vec<Vec<TableCell>> = self.rows().collect();
+                crowd::write(out, &cells::object(&self.members(&columns, &rows)), interrupt)
+            }
             TableFormat::Csv => {
                 let on = format!("# section: {} {}\n", self.on(), self.arguments.direction.word());
-                let names = cells::record(columns);
-                let rows = cells::csv(rows.iter().map(Vec::as_slice));
-                crowd::lead(&self.laid.header()) + &on + &names + &rows + &self.remarks("# ")
+                let head = crowd::lead(&self.laid.header()) + &on + &cells::record(columns);
+                let rows = self.rows().map(|row| cells::csv([row.as_slice()]));
+                let pieces = once(head).chain(rows).chain(once_with(|| self.remarks("# ")));
+                crowd::write_pieces(out, pieces, interrupt)
             }
-            TableFormat::Text => cells::text(&columns, &rows) + &self.remarks(""),
+            TableFormat::Text => {
+                let text = crowd::formatted(interrupt, || {
+                    cells::text(&columns, &self.rows().collect::<Vec<_>>()) + &self.remarks("")
+                });
+                crowd::write(out, &text, interrupt)
+            }
         }
     }
 
@@ -358,20 +367,13 @@ impl SectionReport<'_> {
         printable::line(&self.arguments.on).into_owned()
     }
 
-    fn rows(&self) -> Vec<Vec<TableCell>> {
-        let mut rows = Vec::new();
-        for (orbit, crossings) in (1..).zip(self.orbits) {
-            for (n, row) in (1..).zip(&crossings.rows) {
+    fn rows(&self) -> impl Iterator<Item = Vec<TableCell>> {
+        (1..).zip(self.orbits).flat_map(move |(orbit, crossings)| {
+            (1..).zip(&crossings.rows).map(move |(n, row)| {
                 let numbers = self.shown.iter().map(|&(_, place)| TableCell::Number(row[place]));
-                rows.push(
-                    [TableCell::Count(orbit), TableCell::Count(n)]
-                        .into_iter()
-                        .chain(numbers)
-                        .collect(),
-                );
-            }
-        }
-        rows
+                [TableCell::Count(orbit), TableCell::Count(n)].into_iter().chain(numbers).collect()
+            })
+        })
     }
 
     fn members(&self, columns: &[String], rows: &[Vec<TableCell>]) -> Map<String, Value> {

@@ -33,7 +33,11 @@ const STEPS: usize = 60;
 
 /// How far around its centre a coordinate without period is searched, in its size there plus its
 /// unit.
-const RADII: [f64; 3] = [0.5, 1.5, 4.0];
+const RADII: [f64; 5] = [0.5, 1.5, 4.0, 12.0, 40.0];
+
+/// How many of these are searched where the units are ordinary. In other units a start says how large a coordinate is there,
+/// which may be a small part of what the forces reach over.
+const ORDINARY_RADII: usize = 3;
 
 /// A rate counts as zero up to this part of what the variables can cause.
 const ZERO: f64 = 1e-12;
@@ -162,11 +166,19 @@ impl<'a> EquilibriumSearch<'a> {
         Ok(Self { space, start, law, middle, unknowns, cyclic, degrees, units })
     }
 
+    /// How far around its centre a coordinate is searched.
+    fn radii(&self) -> &'static [f64] {
+        let mut lengths = (0..self.degrees).filter(|&i| self.space.turns()[i].is_none());
+        let ordinary = lengths.all(|i| self.units[i] == 1.0);
+        if ordinary { &RADII[..ORDINARY_RADII] } else { &RADII }
+    }
+
     /// The variables at which a search begins: the start itself, then places around it.
     fn beginning(&self, index: usize) -> Vec<f64> {
         let mut variables = self.middle.clone();
         let canonical = self.space.form() == Form::Momentum;
-        let radius = RADII[index % RADII.len()];
+        let radii = self.radii();
+        let radius = radii[index % radii.len()];
         for (k, &i) in self.unknowns.iter().enumerate() {
             if canonical && i >= self.degrees {
                 // velocities of cyclic coordinates are those of the start
@@ -264,7 +276,7 @@ impl<'a> EquilibriumSearch<'a> {
                 let turns = ((variables[i] - start[i]) / period).round();
                 variables[i] -= turns * period;
             }
-            let far = RADII[RADII.len() - 1] * (self.units[i] + start[i].abs());
+            let far = self.radii()[self.radii().len() - 1] * (self.units[i] + start[i].abs());
             if i < self.degrees && (variables[i] - start[i]).abs() > far {
                 return None;
             }
@@ -281,10 +293,14 @@ impl<'a> EquilibriumSearch<'a> {
             Law::Free(field) => {
                 // a force on a cyclic coordinate, as friction, lets nothing rest
                 resting_rates(field, (self.start.time, &variables), &self.unknowns)?;
-                let (rate, size) = (field.rate(), field.derivative().amax());
-                let degrees = self.degrees;
-                let most = 1e3 * ZERO * size.max(rate.amax());
-                let pushed = |i: &usize| rate[degrees + i].abs() > most;
+                let (rate, derivative, units) = (field.rate(), field.derivative(), &self.units);
+                let part = |i: usize, j: usize| derivative[(i, j)].abs() * units[j] / units[i];
+                let all = 0..units.len();
+                let caused = all.clone().flat_map(|i| all.clone().map(move |j| (i, j)));
+                let caused = caused.map(|(i, j)| part(i, j)).fold(0.0, f64::max);
+                let of = |i: usize| rate[i].abs() / units[i];
+                let size = all.map(of).fold(caused, f64::max);
+                let pushed = |i: &usize| of(self.degrees + i) > 1e3 * ZERO * size;
                 (!self.cyclic.iter().any(pushed)).then_some(variables)
             }
         }

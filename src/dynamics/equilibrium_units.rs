@@ -41,7 +41,10 @@ pub(super) fn units(space: &PhaseSpace, start: &State, field: &mut VectorField) 
             let stiffness = derivative[(degrees + i, i)].abs();
             let mobility = derivative[(i, degrees + i)].abs();
             let impedance = (stiffness / mobility).sqrt();
-            let unit = impedance * units[i];
+            // where nothing pulls, the momentum that the force gives on that way
+            let force = field.rate()[degrees + i].abs();
+            let given = (force * units[i] / mobility).sqrt();
+            let unit = if stiffness > 0.0 { impedance * units[i] } else { given };
             // the square of a momentum's unit over its mass is compared with forces: no unit is ordinary by itself
             if unit.is_finite() && unit > 0.0 {
                 units[degrees + i] = unit;

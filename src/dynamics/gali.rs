@@ -14,6 +14,7 @@ use nalgebra::{DMatrix, DVector};
 use super::carrier::Carrier;
 use super::direction::basis_of_range;
 use super::error::DynamicsError;
+use super::lyapunov::{displacement_units, scaled};
 use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings};
 use crate::num::math;
@@ -71,9 +72,12 @@ pub fn gali(
     let general = DMatrix::from_fn(n, count, |i, j| {
         math::sin(1.0 + 2.4 * (i as f64 + 1.0) * (j as f64 + 1.0)) + f64::from(u8::from(i == j))
     });
+    // in units, else a volume is that of the largest component
+    let units = displacement_units(space, start, until - start.time);
+    let in_units = units.map(|unit| 1.0 / unit);
     let mut vectors = (allowed * general).qr().q();
     let mut carrier = Carrier::new(space, method, settings, count)?;
-    carrier.start(start, &vectors)?;
+    carrier.start(start, &scaled(&vectors, &units))?;
     let mut unit = DMatrix::<f64>::identity(count, count);
     let mut diagonal = vec![0.0; count];
     let mut found = Gali { times: Vec::new(), logarithms: Vec::new(), failure: None };
@@ -86,7 +90,7 @@ pub fn gali(
         let (_, end) = carrier.interval();
         let (state, now) = carrier.at(end)?;
         look(end);
-        vectors = now;
+        vectors = scaled(&now, &in_units);
         let grown = vectors.column_iter().any(|v| !(1.0 / GROWN..GROWN).contains(&v.norm()));
         if !(grown || end - last >= round || end >= until) {
             continue;
@@ -113,7 +117,7 @@ pub fn gali(
         found.logarithms.push(row.collect());
         found.times.push(end);
         last = end;
-        carrier.start(&state, &q)?;
+        carrier.start(&state, &scaled(&q, &units))?;
     }
     Ok(found)
 }

@@ -189,7 +189,7 @@ pub fn lyapunov(
 /// Units of displacements, in which a momentum is as large as the velocity that it causes moves its coordinate in the time
 /// of the motion: else a growth that is one of the units, as of a vector from p to q, hides that of the motion. The product of
 /// the units of a pair is 1, so that symplectic frames stay symplectic, and they are powers of two, so that no digit changes.
-fn displacement_units(space: &PhaseSpace, start: &State, duration: f64) -> DVector<f64> {
+pub(super) fn displacement_units(space: &PhaseSpace, start: &State, duration: f64) -> DVector<f64> {
     let n = space.dimension();
     let mut units = DVector::from_element(n, 1.0);
     let mut field = space.vector_field();
@@ -213,7 +213,7 @@ fn displacement_units(space: &PhaseSpace, start: &State, duration: f64) -> DVect
 }
 
 /// Columns with each row multiplied by a factor.
-fn scaled(vectors: &DMatrix<f64>, factors: &DVector<f64>) -> DMatrix<f64> {
+pub(super) fn scaled(vectors: &DMatrix<f64>, factors: &DVector<f64>) -> DMatrix<f64> {
     DMatrix::from_fn(vectors.nrows(), vectors.ncols(), |i, j| vectors[(i, j)] * factors[i])
 }
 

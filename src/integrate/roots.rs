@@ -166,11 +166,14 @@ fn signs(list: &[f64]) -> Signs {
     signs
 }
 
+/// The halvings of an interval that lead from the largest number to the smallest, and on to the last digit of a root.
+const HALVINGS: u32 = 2200;
+
 /// The root between `low` and `high`, after which the polynomial has this sign: by Newton's step if
 /// it stays inside, else by bisection.
 fn refine(coefficients: &[f64], sign: f64, mut low: f64, mut high: f64) -> f64 {
     let mut x = 0.5 * (low + high);
-    for _ in 0..200 {
+    for _ in 0..HALVINGS {
         let (value, slope) = value_and_slope(coefficients, x);
         if value * sign < 0.0 {
             low = x;

@@ -6,6 +6,7 @@ mod commands;
 mod companions;
 mod export;
 mod gauges;
+mod passages;
 mod record;
 mod reverse;
 mod rewind;

@@ -149,3 +149,21 @@ fn the_judge_tells_a_run_that_is_wrong() {
     let pole = particle(quotient(number(1.0), variable(0)), [0.0, 0.0], 1.0);
     assert_ne!(judged(&pole, BUDGET), Outcome::Accurate);
 }
+
+/// A wall between places where nothing pushes: a step that ends at a kink within it has no other point there. Potential and start are those
+/// of the random case in which the judge once passed it without being slowed down.
+#[test]
+fn the_judge_does_not_pass_a_wall_unseen() {
+    let case = random::case(9101, 1851);
+    for tolerance in [1e-13, 1e-10] {
+        let arrival =
+            extrapolation::follow(&case, &case.start, tolerance, 100_000).expect("a motion");
+        let first = oracle::energy(&case, 0.0, &case.start).0;
+        assert_eq!(arrival.time, case.length);
+        // the drive does less than a thousandth of this
+        for (time, state) in &arrival.way {
+            let energy = oracle::energy(&case, *time, state).0;
+            assert!((energy / first - 1.0).abs() < 1e-3, "{energy:e} at {time}");
+        }
+    }
+}

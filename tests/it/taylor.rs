@@ -5,6 +5,7 @@ mod accuracy;
 mod branches;
 mod far;
 mod kinks;
+mod piecewise;
 mod roots;
 mod steps;
 

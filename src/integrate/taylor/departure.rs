@@ -26,7 +26,7 @@ impl Taylor {
         for sides in choices {
             self.kinks.choose(&mut self.series, sides);
             match self.expand(left) {
-                Ok(step) if self.kinks.leads_on(&self.series, step) => {
+                Ok(step) if self.kinks.leads_on(&self.series, step, self.stride) => {
                     let hopeless = step < HOPELESS * self.stride && !rough;
                     return Ok(if hopeless && self.leap(left, 0.0)? { None } else { Some(step) });
                 }

@@ -117,16 +117,18 @@ impl Kinks {
         if self.touched { TOUCHED } else { SIGNIFICANT }
     }
 
-    /// Whether the motion moves to the chosen sides; `step` is how far the series is valid.
-    pub(super) fn leads_on(&self, series: &Series, step: f64) -> bool {
-        let reach = (step / series.scale().abs()).min(1.0);
+    /// Whether the motion moves to the chosen sides; `step` is how far the series is valid, `stride` the length of the
+    /// last steps, if there were any.
+    pub(super) fn leads_on(&self, series: &Series, step: f64, stride: f64) -> bool {
+        let reach = (step / series.scale().abs()).min(1.0).min(known_ahead(series, stride));
         self.on_surface.iter().all(|&i| leads_on(series, i, reach, self.significant()))
     }
 
-    /// The first surface that the series meets before `end`, in its unit of time.
-    pub(super) fn first(&self, series: &Series, end: f64) -> Option<KinkCrossing> {
+    /// The first surface that the series meets before `end`, in its unit of time; `stride` as in
+    /// [`leads_on`](Kinks::leads_on).
+    pub(super) fn first(&self, series: &Series, end: f64, stride: f64) -> Option<KinkCrossing> {
         // what matters to a direction is decided over as long a time as where the direction is chosen
-        let reach = end.min(1.0);
+        let reach = end.min(1.0).min(known_ahead(series, stride));
         let met = |i: usize, end: f64| match series.sides()[i] {
             Side::Between => leaves_weight(series.weight(i), end),
             side => self.leaves_side(i, series.switch(i), side, (end, reach)),
@@ -212,6 +214,15 @@ impl Kinks {
         }
         x
     }
+}
+
+/// A direction is chosen by what the motion does in no more than this many of its last steps. Where its numbers are
+/// polynomials of the time a series has no end, and the velocity of arrival is nothing beside what forces do in so long.
+const AHEAD: f64 = 1e6;
+
+/// How far ahead, in the unit of the series, a direction may be decided; unlimited where there was no step.
+fn known_ahead(series: &Series, stride: f64) -> f64 {
+    if stride > 0.0 { AHEAD * stride / series.scale().abs() } else { f64::INFINITY }
 }
 
 /// Whether the motion moves to the chosen side of a surface, that is whether the first significant

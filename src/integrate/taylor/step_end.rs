@@ -85,7 +85,7 @@ impl Taylor {
         // what makes the steps vanish lies a little farther than they reach
         let end = if vanishing { BEYOND * step / scale.abs() } else { after.high / scale };
         let end = end.min((left.high / scale).abs());
-        let found = self.kinks.first(&self.series, end);
+        let found = self.kinks.first(&self.series, end, self.stride);
         let approaching = vanishing && found.is_some();
         let nearest = approaching && step <= NEAREST * time;
         // steps away from a point that was passed become longer by themselves

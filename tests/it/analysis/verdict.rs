@@ -7,7 +7,7 @@ const FLOOR: f64 = 1e-12;
 /// The verdict on `count` values of `drift` at times 0, 0.1, ….
 fn verdict(count: u32, drift: impl FnMut(f64) -> f64) -> Verdict {
     let history = history(count, drift);
-    Verdict::of(&history, history.peak(), FLOOR, Errors::OfState)
+    Verdict::of(&history, history.peak(), FLOOR, Errors::Accumulated)
 }
 
 fn history(count: u32, mut drift: impl FnMut(f64) -> f64) -> History {
@@ -88,7 +88,11 @@ fn what_leaves_for_another_level_is_secular() {
         let rate = secular(&verdict(6000, jump)).expect("a jump that stays");
         assert!((0.0..1e-5 / 100.0).contains(&rate), "{rate}");
         let uneven = |t: f64| jump(t) + 2e-6 * (3.0 * t).sin();
-        assert_eq!(secular(&verdict(6000, uneven)).is_some(), start > 50.0, "{start}");
+        assert!(secular(&verdict(6000, uneven)).is_some(), "{start}");
+        // a function of the state may change its level with every passage through a narrow place
+        let history = history(6000, uneven);
+        let of_state = Verdict::of(&history, history.peak(), FLOOR, Errors::OfState);
+        assert_eq!(of_state, Verdict::Bounded, "{start}");
     }
     assert!(secular(&verdict(6000, |t| -1e-5 * (1.0 - (-t / 10.0).exp()))).unwrap() < 0.0);
     // a loss that alternates between much and little
@@ -272,7 +276,7 @@ fn stretches_are_of_time_and_not_of_looks() {
     assert_eq!(history.len(), 101_000);
     let late = history.stretches().iter().filter(|s| s.start >= 1000.0).count();
     assert!((5..=8).contains(&late), "{late}");
-    assert!(secular(&Verdict::of(&history, 1e-3, FLOOR, Errors::OfState)).is_some());
+    assert!(secular(&Verdict::of(&history, 1e-3, FLOOR, Errors::Accumulated)).is_some());
 }
 
 #[test]

@@ -437,3 +437,64 @@ fn places_that_few_beginnings_reach_are_found() {
     }
     assert_eq!(found.len(), 11, "{:?}", found.iter().map(|one| &one.variables).collect::<Vec<_>>());
 }
+
+/// Units of mass, length and time: natural, of a laboratory, of an atom, of a galaxy.
+const UNITS: [[f64; 3]; 4] = [
+    [1.0, 1.0, 1.0],
+    [0.15, 0.8, 0.35],
+    [9.109e-31, 5.292e-11, 2.419e-17],
+    [1.989e30, 3.086e16, 3.156e13],
+];
+
+/// The kinds found of a law with the terms c₀, c₁, … of these dimensions (powers of mass, length, time), written as numbers
+/// or as parameters.
+fn kinds(
+    law: &str,
+    terms: &[[i32; 3]],
+    start: [[f64; 2]; 2],
+    units: [f64; 3],
+    named: bool,
+) -> Vec<Kind> {
+    let size =
+        |powers: [i32; 3]| -> f64 { units.iter().zip(powers).map(|(u, n)| u.powi(n)).product() };
+    let (mut law, mut parameters) = (law.to_owned(), String::new());
+    for (i, &powers) in terms.iter().enumerate() {
+        if named {
+            parameters += &format!("c{i} = {:e}\n", size(powers));
+        } else {
+            law = law.replace(&format!("c{i}"), &format!("{:e}", size(powers)));
+        }
+    }
+    let [x, y] = start.map(|[place, speed]| {
+        format!(
+            "{{ initial = {:e}, velocity = {:e} }}",
+            place * units[1],
+            speed * units[1] / units[2]
+        )
+    });
+    let text = format!(
+        "title = \"a\"\n[parameters]\n{parameters}[coordinates]\nx = {x}\ny = {y}\n[lagrangian]\nL = \"{law}\"\n"
+    );
+    let found = of(&file(&text, &[]));
+    found.iter().map(|one| one.kind.unwrap()).collect()
+}
+
+/// The minimum and the three saddles of Hénon and Heiles's potential, from a start a tenth of the way to them; and none of a
+/// constant force, however small it is in its units.
+#[test]
+fn a_law_has_the_same_equilibria_in_any_units() {
+    let energy = |lengths: i32| [1, 2 - lengths, -2];
+    let henon = "1/2*c0*(x'^2 + y'^2) - 1/2*c1*(x^2 + y^2) - c2*(x^2*y - y^3/3)";
+    let fall = "1/2*c0*(x'^2 + y'^2) - c1*y";
+    for units in UNITS {
+        for named in [false, true] {
+            let start = [[0.0, 0.42], [0.1, 0.15]];
+            let found = kinds(henon, &[[1, 0, 0], energy(2), energy(3)], start, units, named);
+            let four = [Kind::Minimum, Kind::Saddle, Kind::Saddle, Kind::Saddle];
+            assert_eq!(found, four, "{units:?} {named}");
+            let start = [[1.0, 0.2], [0.3, 0.9]];
+            let found = kinds(fall, &[[1, 0, 0], energy(1)], start, units, named);
+            assert_eq!(found, [], "{units:?} {named}");
+        }
+    }
+}

@@ -5,6 +5,7 @@ use phaselab::integrate::{Settings, method_named};
 use phaselab::system::InitialOverride::{Momentum, Position};
 use phaselab::system::{InitialOverride, State};
 
+use super::file;
 use crate::hand::loaded;
 
 fn henon_heiles(given: &[InitialOverride]) -> (PhaseSpace, State) {
@@ -83,5 +84,36 @@ fn too_many_vectors_are_refused() {
     for count in [0, 1, 5] {
         let refused = gali(&space, method, (&start, 1.0), count, &mut |_| ()).unwrap_err();
         assert!(refused.to_string().contains("from 2 to 4"), "{refused}");
+    }
+}
+
+/// The same motion in units of nature, of an atom and of a galaxy: on a torus GALI₂ stays of order 1, in chaos it falls.
+#[test]
+fn units_do_not_make_a_torus_chaotic() {
+    for [mass, length, time] in
+        [[1.0, 1.0, 1.0], [9.109e-31, 5.292e-11, 2.419e-17], [1.989e30, 3.086e16, 3.156e13]]
+    {
+        let energy = mass * length * length / (time * time);
+        let last = |[x, y, u, v]: [f64; 4]| {
+            let text = format!(
+                "title = \"a\"\n[coordinates]\nx = {{ initial = {:e}, velocity = {:e} }}\n\
+                 y = {{ initial = {:e}, velocity = {:e} }}\n[lagrangian]\n\
+                 L = \"1/2*{mass:e}*(x'^2 + y'^2) - {energy:e}*(1/2*((x/{length:e})^2 + (y/{length:e})^2) \
+                 + (x/{length:e})^2*(y/{length:e}) - (y/{length:e})^3/3)\"\n",
+                x * length,
+                u * length / time,
+                y * length,
+                v * length / time
+            );
+            let case = file(&text, &[]);
+            let method = (method_named("taylor").unwrap(), Settings::default());
+            let found =
+                gali(&case.space, method, (&case.start, 300.0 * time), 2, &mut |_| ()).unwrap();
+            found.of(2).last().unwrap().1
+        };
+        let regular = last([0.0, 0.1, 0.42, 0.15]);
+        assert!((-5.0..=0.0).contains(&regular), "{length:e}: {regular}");
+        let chaotic = last([0.0, -0.1, 0.49, 0.27]);
+        assert!((-60.0..-20.0).contains(&chaotic), "{length:e}: {chaotic}");
     }
 }

@@ -47,6 +47,14 @@ struct Walker<'a> {
 /// The scale of a motion that has not left the origin.
 const LEAST_SCALE: f64 = 1e-3;
 
+/// Rates that change by more than this multiple of what they and the state were are looked at again.
+const CHANGED: f64 = 10.0;
+
+/// A step leads back if it misses its beginning by no more than this multiple of the tolerance, which the motion backwards may
+/// enlarge; and by how much rounding alone does.
+const RETURN: f64 = 1e4;
+const LEAST_RETURN: f64 = 1e-13;
+
 /// An attempted step.
 struct Step {
     state: Vec<f64>,
@@ -162,6 +170,12 @@ impl Walker<'_> {
                 continue;
             }
             if !step.crossed {
+                if self.is_changed(*time, state, &step, h)?
+                    && !self.leads_back(*time, state, &step, h)?
+                {
+                    h *= 0.5;
+                    continue;
+                }
                 let last = end - *time <= h * (1.0 + 1e-12);
                 *time = if last { end } else { *time + h };
                 *state = step.state;
@@ -190,7 +204,10 @@ impl Walker<'_> {
             let step = self.step(*time, state, high)?;
             // the estimate of the longer step, on a branch continued beyond its kink, says nothing of this one: powers
             // between 1 and 2 are approached in steps that their own estimates allow
-            if step.error.is_nan() || step.error > 1.0 {
+            if step.error.is_nan()
+                || step.error > 1.0
+                || !self.leads_back(*time, state, &step, high)?
+            {
                 h = 0.5 * high;
                 continue;
             }
@@ -214,6 +231,26 @@ impl Walker<'_> {
             h = h.min(0.1);
         }
         Ok(false)
+    }
+
+    /// Whether the rates at the end of a step are of another size than at its beginning.
+    fn is_changed(&mut self, time: f64, state: &[f64], step: &Step, h: f64) -> Result<bool, Lost> {
+        let before = self.rates(time, state)?;
+        let after = self.rates(time + h, &step.state)?;
+        let largest = before.iter().chain(state).fold(LEAST_SCALE, |most, x| most.max(x.abs()));
+        Ok(before.iter().zip(&after).any(|(a, b)| (a - b).abs() > CHANGED * largest))
+    }
+
+    /// Whether the same step backwards leads to where it began. Rates that are large only in a narrow place are seen at none of the
+    /// points of a step that ends there, so its own estimate says nothing of them; a step that begins there sees them first.
+    fn leads_back(&mut self, time: f64, state: &[f64], step: &Step, h: f64) -> Result<bool, Lost> {
+        let back = self.step(time + h, &step.state, -h)?;
+        let errors = back.state.iter().zip(state).zip(&step.state).map(|((a, b), end)| {
+            let size = 1.0 + b.abs().max(end.abs()).max(self.scale);
+            (a - b).abs() / (self.tolerance.max(LEAST_RETURN) * size)
+        });
+        Ok(errors.fold(0.0, |most: f64, e| if e.is_nan() { f64::INFINITY } else { most.max(e) })
+            <= RETURN)
     }
 
     fn step(&mut self, time: f64, state: &[f64], h: f64) -> Result<Step, Lost> {

@@ -1,5 +1,7 @@
 //! Kinks, compared with closed forms composed of pieces.
 
+use phaselab::integrate::{METHODS, Settings};
+
 use super::{Run, near};
 
 /// One coordinate: initial value, velocity, Lagrangian, dissipation, force.
@@ -259,5 +261,46 @@ fn rest_under_friction_ends_when_the_force_says_however_far_the_end_of_the_run_i
         run.stepper.at(2.0, &mut state).unwrap();
         // the numbers of `a_force_that_turns_sets_a_body_in_motion_against_dry_friction`
         near(&state.values[..2], &[0.043_977_287_439_496_93, -0.005_638_639_436_022_64], 4e-17);
+    }
+}
+
+/// Where the motion between kinks is a polynomial no step is too long, and a step may be asked for that is any number of
+/// times longer than the way to the kink. A wedge from rest at 20 is passed at √40 with this velocity, and then at every
+/// 2 √40.
+#[test]
+fn a_kink_is_passed_in_any_long_step() {
+    let text = "title = \"Wedge\"\n[coordinates]\nx = { initial = 20 }\n\
+                [lagrangian]\nL = \"1/2*x'^2 - abs(x)\"\n";
+    let root = 40.0_f64.sqrt();
+    for far in [1e3, 1e8, 1e12, 1e20, 1e40, 1e88, 1e140] {
+        let mut run = Run::new(text);
+        for passage in 0..4 {
+            run.stepper.step(far).unwrap_or_else(|fault| panic!("to {far:e}: {fault}"));
+            let turned = if passage % 2 == 0 { -root } else { root };
+            let time = root * f64::from(1 + 2 * passage);
+            near(&run.stepper.state().values, &[0.0, turned], 1e-13);
+            assert!((run.stepper.time() - time).abs() < 1e-13, "{far:e}: {}", run.stepper.time());
+        }
+    }
+}
+
+/// The default step of a fixed-step method is a part of the way between two kinks, where nothing else sets a scale.
+#[test]
+fn the_default_step_in_a_wedge_is_a_part_of_its_period() {
+    for (size, time) in [(20.0, 1.0), (20e-10, 1e-15), (20e20, 1e13)] {
+        let force = size / 20.0 / (time * time);
+        let Run { system, parameters, .. } = Run::new(&format!(
+            "title = \"Wedge\"\n[coordinates]\nx = {{ initial = {size:e} }}\n\
+             [lagrangian]\nL = \"1/2*x'^2 - {force:e}*abs(x)\"\n"
+        ));
+        let state = system.initial(0.0, &parameters, &[]).expect("regular");
+        let rk4 = METHODS.iter().find(|method| method.name == "rk4").expect("a method");
+        let mut stepper =
+            (rk4.make)(&system, &Settings { step: None, tolerance: None }).expect("it fits");
+        stepper.start(&state, &parameters).expect("regular");
+        stepper.step(f64::INFINITY).expect("regular");
+        // half a period is 4 √10
+        let part = stepper.step_size() / (4.0 * 10.0_f64.sqrt() * time);
+        assert!((0.05..0.2).contains(&part), "{part}");
     }
 }

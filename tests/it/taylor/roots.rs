@@ -60,3 +60,12 @@ fn high_degrees_are_no_trouble() {
     assert!((found - (std::f64::consts::PI - 1.0) / 20.0).abs() < 1e-14);
     assert_eq!(first_crossing(&c, 0.1), None);
 }
+
+/// Newton's iteration from the far end of an interval halves the distance at first, and there may be hundreds of halvings.
+#[test]
+fn a_root_is_found_at_the_beginning_of_any_interval() {
+    for end in [1e3, 1e30, 1e88, 1e150] {
+        let found = first_crossing(&[20.0, 0.0, -0.5], end).expect("it falls");
+        assert!((found / 40.0_f64.sqrt() - 1.0).abs() < 1e-15, "{end:e}: {found:e}");
+    }
+}
