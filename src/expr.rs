@@ -10,6 +10,7 @@
 //! [`Pool::latex`]). Never here: coordinates, velocities, units, files, numerical motion.
 
 mod ball;
+mod common_root;
 mod conditioning;
 mod derivative;
 mod evaluate;

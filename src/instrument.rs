@@ -32,6 +32,7 @@ mod separation;
 mod sight;
 mod space;
 mod spectrum;
+mod straight_line;
 mod table;
 mod time;
 mod transformation;

@@ -84,7 +84,7 @@ impl Principle {
     fn integral(self) -> &'static str {
         match self {
             Principle::Hamilton => "∫ L dt",
-            Principle::Maupertuis => "∫ Σ p dq at equal H",
+            Principle::Maupertuis => "∫ Σ p dq",
             Principle::PhaseSpace => "∫ (Σ p q̇ − H) dt",
         }
     }
@@ -357,25 +357,32 @@ fn sentences(answer: Option<&Answer>, (begin, coordinate): (f64, Option<&str>)) 
     };
     let short = |x: f64| significant(x, 5, 1e-3..1e5).replace('-', "−");
     let at = |focus: &f64| format!("t = {}", short(begin + focus));
+    let not_least = match computed.principle {
+        Principle::Maupertuis => "not least at equal H",
+        Principle::Hamilton | Principle::PhaseSpace => "not least",
+    };
     let rest = match found.foci.as_deref() {
         Some(_) if computed.principle == Principle::PhaseSpace => {
             let name = coordinate.unwrap_or("q");
             [vec![nature(&found.varied)], beside_by(&found.varied, name)].concat()
         }
-        Some([]) if computed.principle == Principle::Maupertuis && found.degrees == 1 => {
+        Some(_) if computed.principle == Principle::Maupertuis && found.varied.action == 0.0 => {
+            vec!["at rest: no way that could be varied".to_owned()]
+        }
+        Some(_) if computed.principle == Principle::Maupertuis && found.degrees == 1 => {
             vec!["one coordinate: no other way at this H".to_owned()]
         }
         Some([]) if computed.principle == Principle::Maupertuis => {
-            vec!["least of all ways nearby".to_owned()]
+            vec!["least of all ways nearby at equal H".to_owned()]
         }
         None => vec!["not stationary: forces act that have no potential".to_owned()],
         Some([]) => vec!["least of all paths nearby".to_owned()],
         Some([focus]) => {
-            vec!["not least".to_owned(), format!("kinetic focus at {}", at(focus))]
+            vec![not_least.to_owned(), format!("kinetic focus at {}", at(focus))]
         }
         Some(foci @ [first, ..]) => {
             let count = foci.len();
-            vec!["not least".to_owned(), format!("{count} kinetic foci from {}", at(first))]
+            vec![not_least.to_owned(), format!("{count} kinetic foci from {}", at(first))]
         }
     };
     let (letter, integral) = (computed.principle.letter(), computed.principle.integral());

@@ -33,6 +33,9 @@ const ABOVE: f64 = 0.4;
 /// J is an adiabatic invariant where it changes by less than this part of the change of the energy above its least value.
 const FAR_LESS: f64 = 0.1;
 
+/// Relative changes below this tell nothing of how slow the change is: at its beginning J and E swing alike.
+const CHANGED: f64 = 0.01;
+
 /// Beyond this energy, relative to the motion's, a top is out of the picture.
 const FAR: f64 = 20.0;
 
@@ -320,8 +323,13 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
             let size = significant(x.abs(), 2, 1e-3..1e5);
             if x < 0.0 { format!("−{size}") } else { format!("+{size}") }
         };
-        let verdict =
-            if action.abs() <= FAR_LESS * height.abs() { "adiabatic" } else { "not adiabatic" };
+        let verdict = if action.abs().max(height.abs()) < CHANGED {
+            "hardly changed so far"
+        } else if action.abs() <= FAR_LESS * height.abs() {
+            "adiabatic"
+        } else {
+            "not adiabatic"
+        };
         lines.push(format!("since t = {}: {verdict}", short(since)));
         lines.push(format!("ΔJ/J = {}, ΔE/(E − V₀) = {}", signed(action), signed(height)));
     }

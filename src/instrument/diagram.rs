@@ -9,6 +9,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use super::section::zero;
+use super::straight_line::StraightLine;
 use super::varied::{self, VariedConditions, VariedMotions};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
@@ -139,6 +140,12 @@ impl Instrument for Diagram {
             curve.sort_by(|a, b| a[0].total_cmp(&b[0]));
             layers.push((POINTS, Layer::Line(curve, Ink::Curve(0).into())));
         }
+        if let Some(line) = straight_line(plot, present.physics, found) {
+            let [from, to] = varied::range(plot, present, 0)?;
+            let ends = [from, to].map(|x| [x, line.at(x)]);
+            layers.push((NOW, Layer::Line(ends.to_vec(), Ink::Curve(1).into())));
+            layers.push((POINTS, Layer::Legend(vec![line.in_words()])));
+        }
         if let Some(why) = found.and_then(|found| found.refused.as_ref()) {
             layers.push((POINTS, Layer::Legend(vec![why.clone()])));
         }
@@ -185,6 +192,13 @@ impl Instrument for Diagram {
                     let now = varied::now(present, *plot.over.first()?)?;
                     let [low, high] = heights(plot, present, Some(found));
                     branches(&found.columns, now, SAME * (high - low))
+                },
+            },
+            Measure {
+                word: "slope",
+                about: "the slope of the straight line of least squares, where the file asks for it",
+                value: |plot, present, answer| {
+                    Some(straight_line(plot, present.physics, computed(answer))?.slope)
                 },
             },
             Measure {
@@ -304,6 +318,16 @@ fn quantity(plot: &Plot, physics: Physics<'_>) -> String {
     let channel = physics.system.channel_of(written.expression);
     let shown = channel.map_or(written.written.as_str(), |channel| physics.shown(channel));
     format!("{shown} where {}", zero(physics, view))
+}
+
+/// The straight line of least squares through the points, where the file asks for it.
+fn straight_line(
+    plot: &Plot,
+    physics: Physics<'_>,
+    found: Option<&ComputedDiagram>,
+) -> Option<StraightLine> {
+    physics.model.views.get(plot.view?).filter(|view| view.slope)?;
+    StraightLine::through(&found?.points)
 }
 
 /// The range upwards: the file's, or that of the numbers.

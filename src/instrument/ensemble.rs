@@ -106,11 +106,11 @@ impl Instrument for Ensemble {
         let then = then.flatten().filter(|at| at.iter().all(|x| x.is_finite()));
         let now = then.unwrap_or_else(|| channels.map(|channel| present.value(channel)));
         layers.push((NOW, Layer::Point(now, Sign::Disc, Ink::Accent)));
-        let upwards = Upwards::Annotated {
-            channel: channels[1],
-            range: range(plot, present, answer, 1),
-            words: [sentence(present, answer), outside_in_words(plot, present, answer)].concat(),
-        };
+        let words = [sentence(present, answer), outside_in_words(plot, present, answer)].concat();
+        if !words.is_empty() {
+            layers.push((NOW, Layer::Legend(vec![words])));
+        }
+        let upwards = Upwards::Channel(channels[1], range(plot, present, answer, 1));
         Some(Picture::Axes { upwards, layers, occurrences: None })
     }
 

@@ -14,6 +14,7 @@ use super::equations::{Equations, ImplicitMap};
 use super::implicit_map::{guesses, matrix_at};
 use super::isolate::{self, Solution, tidy};
 use super::sampling::{POINTS, TRIES};
+use super::slope::relations_with_common_roots;
 use super::valuation::Valuation;
 use crate::expr::{Expr, Pool, Symbol, Zero};
 use crate::model::{Model, Transformation, TransformationLaw};
@@ -224,9 +225,13 @@ impl PhaseMap {
             }
             right > 0 && if strict { wrong == 0 } else { wrong <= right }
         };
-        [true, false].into_iter().find_map(|everywhere| {
+        let pool = &mut equations.pool;
+        let opened =
+            relations_with_common_roots(pool, &self.implicit.relations, &self.implicit.own);
+        let forms = [(&relations, true), (&relations, false), (&opened, true), (&opened, false)];
+        forms.into_iter().find_map(|(relations, everywhere)| {
             let mut test = |pool: &mut Pool, found: &Solution| accept(pool, found, everywhere);
-            isolate::solve(&mut equations.pool, &relations, &new, &mut test)
+            isolate::solve(pool, relations, &new, &mut test)
         })
     }
 
@@ -249,10 +254,13 @@ impl PhaseMap {
             pool.simplify(e)
         };
         let relations: Vec<Expr> = self.implicit.relations.iter().map(|&e| open(pool, e)).collect();
+        let opened =
+            relations_with_common_roots(pool, &self.implicit.relations, &self.implicit.own);
         // a solution that holds everywhere, else a branch
-        [true, false].into_iter().find_map(|everywhere| {
+        let forms = [(&relations, true), (&relations, false), (&opened, true), (&opened, false)];
+        forms.into_iter().find_map(|(relations, everywhere)| {
             let mut test = |pool: &mut Pool, found: &Solution| accept(pool, found, everywhere);
-            isolate::solve(&mut equations.pool, &relations, &self.old, &mut test)
+            isolate::solve(pool, relations, &self.old, &mut test)
         })
     }
 

@@ -10,7 +10,7 @@ use super::equations::{Equations, NoClosedForm};
 use super::isolate::{self, Solution, tidy};
 use super::linear;
 use super::sampling::POINTS;
-use super::slope::tidy_derivative;
+use super::slope::{self, tidy_derivative};
 use super::valuation::Valuation;
 use crate::expr::{Expr, Pool, Symbol, Zero};
 use crate::model::{CompleteIntegral, Model};
@@ -112,8 +112,38 @@ impl HamiltonJacobi {
         if why.is_none() {
             why = not_complete(model, equations, integral, &momenta);
         }
+        let shown = |equations: &mut Equations, all: Vec<Expr>| {
+            all.into_iter().map(|e| with_common_roots(model, equations, e)).collect()
+        };
+        let (momenta, beta) = (shown(equations, momenta), shown(equations, beta));
         Some(HamiltonJacobi { residual, complete: why.is_none(), momenta, beta, why })
     }
+}
+
+/// A slope of S in which roots that differ by a factor are the same root, where that is shorter, and where it has the same
+/// values at points near the start, with the constants that the motion has there.
+fn with_common_roots(model: &Model, equations: &mut Equations, e: Expr) -> Expr {
+    let pool = &mut equations.pool;
+    let opened = slope::with_common_roots(pool, e);
+    if pool.weight(opened) >= pool.weight(e) {
+        return e;
+    }
+    let known = &equations.supplements.new_variables;
+    let mut seen = 0;
+    for n in 0..2 * POINTS as u64 {
+        let point = Valuation::near_start(model, equations, n);
+        let own: Vec<(Symbol, f64)> =
+            known.iter().map(|&(s, e)| (s, point.value(&equations.pool, e))).collect();
+        let at = point.with(own);
+        let [was, is] = [e, opened].map(|e| at.value(&equations.pool, e));
+        if was.is_finite() {
+            if (was - is).abs() > 1e-9 * (1.0 + was.abs()) {
+                return e;
+            }
+            seen += 1;
+        }
+    }
+    if seen > 0 { opened } else { e }
 }
 
 struct Remainder {

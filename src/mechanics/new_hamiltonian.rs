@@ -10,12 +10,18 @@ use std::collections::HashMap;
 use super::canonical::{CanonicalVerdict, PhaseMap, free_of};
 use super::equations::{CLOSED_FORM_LIMIT, Equations, NoClosedForm};
 use super::isolate::Solution;
+use super::slope::with_common_roots;
+use super::valuation::Valuation;
 use crate::expr::{Expr, Pool, Symbol, Zero};
 use crate::model::Model;
 use crate::num::Number;
 
 /// The greatest degree in the old variables of what follows from an explicit map with time.
 const HIGHEST: i64 = 12;
+
+/// The points at which what was found without solving must agree with H + ∂F/∂t, and how closely.
+const LOOKED_AT: usize = 20;
+const SAME: f64 = 1e-9;
 
 impl PhaseMap {
     /// K as a function of the new variables and t.
@@ -44,17 +50,71 @@ impl PhaseMap {
         let valence = verdict.valence.unwrap_or(Expr::ONE);
         let scaled = pool.mul(valence, hamiltonian);
         let e = pool.add(scaled, rate);
-        let Some(backwards) = backwards else {
-            return no("the old variables cannot be written in terms of the new ones");
+        let e = match backwards {
+            Some(backwards) => free_of(pool, e, backwards, &self.old)
+                .ok_or("the old variables cannot be eliminated"),
+            None => Err("the old variables cannot be written in terms of the new ones"),
         };
-        let Some(e) = free_of(pool, e, backwards, &self.old) else {
-            return no("the old variables cannot be eliminated");
+        let e = match e {
+            Ok(e) => e,
+            Err(why) => match self.separated(model, equations, hamiltonian) {
+                Some(known) => return Ok(known),
+                None => return no(why),
+            },
         };
+        let pool = &mut equations.pool;
         let e = pool.simplify_terms(e);
         if pool.weight(e) > CLOSED_FORM_LIMIT {
             return Err(NoClosedForm(format!("K has more than {CLOSED_FORM_LIMIT} nodes")));
         }
         Ok(e)
+    }
+
+    /// K as H(q, ∂F/∂q, t) + ∂F/∂t where the old variables drop out of it, as they do where F is found by Hamilton and Jacobi:
+    /// then nothing has to be solved for.
+    fn separated(
+        &self,
+        model: &Model,
+        equations: &mut Equations,
+        hamiltonian: Expr,
+    ) -> Option<Expr> {
+        let rate = self.function_rate?;
+        let images = self.images(model, equations, LOOKED_AT);
+        let pool = &mut equations.pool;
+        let slopes = self.implicit.relations.iter().zip(&self.implicit.own);
+        let mut map = HashMap::new();
+        // every other relation gives an old variable as a slope of F
+        for (&relation, &own) in slopes.step_by(2) {
+            let rest = pool.substitute(relation, &HashMap::from([(own, Expr::ZERO)]));
+            map.insert(own, pool.neg(rest));
+        }
+        let law = pool.add(hamiltonian, rate);
+        let mixed = pool.substitute(law, &map);
+        let mixed = pool.open_quotients(mixed);
+        let rest: Vec<Symbol> =
+            self.old.iter().copied().filter(|old| !map.contains_key(old)).collect();
+        for &old in &rest {
+            let slope = pool.derivative(mixed, old);
+            // without a proof the values below decide, at points of different q
+            if pool.is_zero(slope) == Zero::No {
+                return None;
+            }
+        }
+        // what does not depend on them is what it is where they are zero
+        let zero: HashMap<Symbol, Expr> = rest.iter().map(|&old| (old, Expr::ZERO)).collect();
+        let mut there = zero.clone();
+        for (own, slope) in map {
+            let slope = pool.substitute(slope, &zero);
+            there.insert(own, with_common_roots(pool, slope));
+        }
+        let free = pool.substitute(law, &there);
+        let free = pool.simplify(free);
+        let agrees = |at: &Valuation| {
+            let (found, expected) = (at.value(pool, free), at.value(pool, law));
+            (found - expected).abs() <= SAME * (1.0 + expected.abs())
+        };
+        let known = !images.is_empty() && images.iter().all(agrees);
+        (known && !pool.depends_on_any(free, &self.old)).then_some(free)
     }
 
     /// R(q, p, t): its slopes by the old variables are w = Σ (∂Q_i/∂t ∂P_i − ∂P_i/∂t ∂Q_i), and

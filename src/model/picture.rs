@@ -33,6 +33,8 @@ pub struct View {
     pub until: Option<Expr>,
     /// The range of each axis, if the file gives it: expressions of the parameters.
     pub ranges: [Option<[Expr; 2]>; 2],
+    /// Whether a diagram has the straight line of least squares through its points.
+    pub slope: bool,
 }
 
 /// A number that differs between the motions of one picture.

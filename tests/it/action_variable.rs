@@ -157,6 +157,11 @@ fn a_slow_change_leaves_the_action_and_a_fast_one_does_not() {
     assert_eq!(way.len(), 4);
     near(way[3][0], 2.0 * way[0][0], 1e-4);
     near(way[3][1], way[0][1], 1e-4);
+    // while hardly anything has changed, J and E swing alike, and neither word is true
+    let mut begun = Course::of(&tightened("60", RAMP));
+    begun.go(0.0);
+    begun.go(4.0);
+    assert!(begun.told().contains("since t = 0: hardly changed so far"), "{}", begun.told());
     let mut fast = Course::of(&tightened("0.01", RAMP));
     fast.go(0.0);
     fast.go(5.0);

@@ -58,6 +58,46 @@ fn the_answer_of_a_linear_oscillator_grows_with_its_drive() {
     assert!((measure(&app, &diagram(&app), "value") - 1.2).abs() < 0.05);
 }
 
+/// The straight line of least squares, only where the file asks for it: the crossings are 0.8 A.
+#[test]
+fn a_diagram_has_the_slope_of_its_points() {
+    let app = begun(&DRIVEN.replace("over = \"A\"", "over = \"A\"\nslope = true"));
+    assert!((measure(&app, &diagram(&app), "slope") - 0.8).abs() < 1e-7);
+    let of = |app: &App| -> (usize, Vec<String>) {
+        let layers = layers(app, &diagram(app));
+        let lines = layers.iter().filter(|layer| matches!(layer, Layer::Line(..))).count();
+        let words = layers.into_iter().find_map(|layer| match layer {
+            Layer::Legend(words) => Some(words),
+            _ => None,
+        });
+        (lines, words.unwrap_or_default())
+    };
+    let (lines, words) = of(&app);
+    assert_eq!(lines, 2);
+    assert!(words[0].starts_with("slope 0.80000"), "{words:?}");
+    assert_eq!(of(&begun(DRIVEN)), (1, Vec::new()));
+}
+
+/// The ramps of the preset: ΔJ ∝ ε and ε² are slopes of −1 and −2 for each doubling of the time.
+#[test]
+fn three_ramps_measure_their_slopes() {
+    let text = catalog().find("three-ramps").unwrap().text.clone();
+    let app = begun(&text);
+    let plots: Vec<Plot> = app
+        .lab
+        .as_ref()
+        .unwrap()
+        .plots
+        .iter()
+        .filter(|plot| plot.kind.name() == "diagram")
+        .cloned()
+        .collect();
+    let [corner, second, ..] = &plots[..] else { panic!("three diagrams") };
+    let [first, other] = [corner, second].map(|plot| measure(&app, plot, "slope"));
+    assert!((first + 1.0).abs() < 0.1, "{first}");
+    assert!((other + 2.0).abs() < 0.1, "{other}");
+}
+
 /// A quantity that is no column of the motion, but an expression of the view.
 #[test]
 fn an_expression_is_shown_as_a_coordinate_is() {

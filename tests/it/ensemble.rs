@@ -15,6 +15,7 @@ use phaselab::job::Progress;
 use phaselab::system::{ChannelKind, InitialOverride, State};
 
 use crate::hand::{catalog, press};
+use crate::screen::{rich, rows};
 
 fn prepared(text: &str) -> Prepared {
     Prepared::of(&Document::new("test", text)).unwrap_or_else(|error| panic!("{error}"))
@@ -434,4 +435,20 @@ fn once_more_it_is_spread_over_the_energy_shell() {
         let seeds = &app.lab.as_ref().unwrap().plots[0].seeds;
         assert!(matches!(seeds[..], [Seed::Spread(_)]), "{seeds:?}");
     }
+}
+
+/// What is said of a cloud has lines of its own, and is not cut where the pane is narrow.
+#[test]
+fn a_narrow_pane_has_all_that_is_said_of_a_cloud() {
+    let (mut app, _, mut experiment) = opened(oscillator("1/2*q^2", "1/2*c*q'^2"));
+    see(&mut app, &mut experiment, 1.0);
+    let area = ratatui::layout::Rect::new(0, 0, 80, 24);
+    let mut buffer = ratatui::buffer::Buffer::empty(area);
+    phaselab::view::draw(&app, &rich(), area, &mut buffer);
+    let screen = rows(&buffer).join(" ");
+    let words: String =
+        screen.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");
+    let (_, said) = words.split_once("action 0.2").expect("the action");
+    assert!(said.contains("∝ e^(−0.25 t)"), "{screen}");
+    assert!(said.contains(" to "), "{screen}");
 }

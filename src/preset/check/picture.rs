@@ -84,6 +84,7 @@ impl Check<'_> {
                 over,
                 until,
                 ranges,
+                slope: view.slope,
             });
         }
     }

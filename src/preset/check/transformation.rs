@@ -227,8 +227,10 @@ impl Check<'_> {
         let right = if inverse { of.len() == 1 } else { of.len() >= 2 };
         if !right {
             let place = of.first().map_or(written.place.clone(), Spanned::span);
-            let message =
-                format!("`{kind}` is of {} others", if inverse { "one" } else { "two or more" });
+            let message = format!(
+                "`{kind}` needs {}",
+                if inverse { "one other transformation" } else { "two or more others" }
+            );
             let help = if inverse {
                 "write of = [\"name\"], a transformation above this one"
             } else {

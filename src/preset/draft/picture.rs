@@ -28,6 +28,8 @@ pub(in crate::preset) struct DraftView {
     pub(in crate::preset) over: Option<Spanned<String>>,
     /// The time at which the motions of a map end.
     pub(in crate::preset) until: Option<Formula>,
+    /// Whether a straight line is drawn through the points of a diagram.
+    pub(in crate::preset) slope: bool,
 }
 
 /// The surface of a section as written.
@@ -136,7 +138,7 @@ fn view(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftView> {
         let axes = INSTRUMENTS.into_iter().flat_map(Instrument::written);
         for key in axes
             .map(|axis| axis.key)
-            .chain(["title", "frame", "shapes", "over", "of", "until"])
+            .chain(["title", "frame", "shapes", "over", "of", "until", "slope"])
             .chain(SECTION_KEYS)
         {
             table.take(key);
@@ -166,15 +168,16 @@ fn view(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftView> {
         until = found.and_then(|(_, found)| value::formula(found, "`until`", mistakes));
     }
     let section = kind.is_section().then(|| section(&mut table, !kind.follows_motions(), mistakes));
-    let mut over = None;
+    let (mut over, mut slope) = (None, false);
     if kind.is_over_a_parameter() {
         over = table.text("over", mistakes);
         if over.is_none() {
             table.require("over", "write over = \"...\", a parameter");
         }
+        slope = table.flag("slope", mistakes).is_some_and(|flag| *flag.get_ref());
     }
     table.finish(mistakes);
-    Some(DraftView { place, kind, title, axes, frame, shapes, section, over, until })
+    Some(DraftView { place, kind, title, axes, frame, shapes, section, over, until, slope })
 }
 
 /// The keys of a section besides its axes.

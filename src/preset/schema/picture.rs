@@ -81,6 +81,8 @@ pub(super) const VIEW: SchemaTable = SchemaTable {
         key("of", Formula, "the quantity at the end of the motions; without it and `on` the largest exponent")
             .only(&["map"]),
         key("until", Formula, "the time at which the motions end").only(&["map"]),
+        key("slope", Flag, "`true` draws the straight line of least squares, with its slope")
+            .only(&["diagram"]),
         key("frame", Text, "the frame it is seen from").only(&["space"]),
         key("shapes", List(&SHAPE), "what is drawn in place of the shapes of [space]")
             .only(&["space"]),

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::{Done, with_file};
+use super::{Done, phaselab, with_file};
 
 const OSCILLATOR: &str = r#"
 title = "Oscillator"
@@ -52,6 +52,59 @@ fn close(a: f64, b: f64, within: f64) {
 
 fn transformation(name: &str, rest: &str) -> String {
     format!("[[transformations]]\nname = \"{name}\"\n{rest}\n")
+}
+
+/// The Principles of Dynamics, § 3.2.2: p = √(2h(P) − q²), as one finds it by Hamilton and Jacobi. P is known where the root can
+/// be undone, and K = h(P) whatever h is, since q drops out of H(q, ∂F/∂q).
+#[test]
+fn a_momentum_under_a_root() {
+    let head = "title = \"x\"\n[coordinates]\nq = { initial = 0.4, momentum = 0.9 }\n[parameters]\nm = 1.3\nw = 0.7\n\
+                [hamiltonian]\nH = \"p_q^2/(2*m) + 1/2*m*w^2*q^2\"\n";
+    let cases = [("w*P", true), ("w*P + P^3/5", false)];
+    for (h, closed) in cases {
+        let f = format!(
+            "kind = \"F2\"\nF = \"1/2*q*sqrt(2*m*h - m^2*w^2*q^2) + h/w*asin(w*q*sqrt(m/(2*h)))\"\n[definitions]\nh = \"{h}\""
+        );
+        let found = derived(head, &transformation("a", &f));
+        let map = &found["transformations"][0];
+        assert_eq!(map["canonical"], true, "{map}");
+        let k = map["K"].as_str().unwrap_or_else(|| panic!("{h}: no K in {map}"));
+        assert!(!k.contains('q') && k.contains('P'), "{k}");
+        // the same value as h(P) at the start
+        let written = format!("{head}{}", transformation("a", &f));
+        let observed = format!("new_k={k}");
+        let wanted = format!("old_k={}", h);
+        let words = [
+            "run",
+            "system.toml",
+            "--format",
+            "json",
+            "--at",
+            "0",
+            "--observe",
+            &observed,
+            "--observe",
+            &wanted,
+        ];
+        let row = with_file(&written, &words).json();
+        close(column(&row, "new_k")[0], column(&row, "old_k")[0], 1e-13);
+        close(column(&row, "new_k")[0], column(&row, "energy")[0], 1e-13);
+        assert_eq!(map["new"].is_object(), closed, "{map}");
+        if closed {
+            assert_eq!(map["K"], "w*P");
+        }
+    }
+}
+
+/// A slope of S is shown as one root where it is one: p = √(2m α − m² ω² q²), and not as a sum of three.
+#[test]
+fn a_slope_of_s_is_one_root() {
+    let found = phaselab(&["derive", "oscillator-hamilton-jacobi", "--format", "json"]).json();
+    let momentum = found["hamilton_jacobi"]["momenta"]["p_q"].as_str().unwrap().to_owned();
+    assert_eq!(momentum, "sqrt(m)*sqrt(2*alpha - m*omega^2*q^2)");
+    let beta = found["hamilton_jacobi"]["beta"]["alpha"].as_str().unwrap();
+    assert_eq!(beta.matches("asin").count(), 1, "{beta}");
+    assert!(!beta.contains("q/(2*sqrt"), "{beta}");
 }
 
 #[test]

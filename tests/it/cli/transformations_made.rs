@@ -97,7 +97,10 @@ fn what_is_made_of_nothing_is_a_mistake() {
     check(&[SHEAR, &made("b", "inverse", "\"sheer\"", "")], &["did you mean `shear`?"]);
     check(&[SHEAR, &made("b", "inverse", "\"b\"", "")], &["no transformation `b` above"]);
     check(&[SHEAR, &made("b", "compose", "\"shear\"", "")], &["two or more"]);
-    check(&[SHEAR, &made("b", "inverse", "\"shear\", \"shear\"", "")], &["is of one other"]);
+    check(
+        &[SHEAR, &made("b", "inverse", "\"shear\", \"shear\"", "")],
+        &["`inverse` needs one other transformation"],
+    );
     check(
         &[SHEAR, "[[transformations]]\nname = \"b\"\nkind = \"F2\"\nof = [\"shear\"]\nF = \"q*P\""],
         &["`of`"],

@@ -233,3 +233,25 @@ fn a_key_shows_the_next_principle() {
     press(&mut app, "Q");
     assert!(shown(&mut app).contains("least of all paths nearby"));
 }
+
+/// With one coordinate there is one way at an energy; where the motion rests there is none, and no foci are counted on it.
+#[test]
+fn one_coordinate_has_no_other_way() {
+    for (velocity, words) in [("0.0", "at rest: no way"), ("1.6", "no other way at this H")] {
+        let text = format!(
+            "title = \"t\"\n[coordinates]\nq = {{ initial = 0.0, velocity = {velocity} }}\n\
+             [lagrangian]\nL = \"1/2*q'^2 + cos(q)\"\n[[views]]\nkind = \"abbreviated\"\nx = \"q\"\n"
+        );
+        let loaded = lowered(&text);
+        let seen = Arc::new(snapshot(&loaded, 9.0));
+        let (mut app, _) = App::new(catalog(), Some("test"));
+        app.update(Event::Loaded(Ok(loaded)));
+        app.update(Event::Snapshot(seen));
+        let area = ratatui::layout::Rect::new(0, 0, 160, 40);
+        let mut buffer = ratatui::buffer::Buffer::empty(area);
+        phaselab::view::draw(&app, &rich(), area, &mut buffer);
+        let screen = rows(&buffer).join("\n");
+        assert!(screen.contains(words), "{screen}");
+        assert!(!screen.contains("foci"), "{screen}");
+    }
+}
