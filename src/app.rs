@@ -60,6 +60,7 @@ mod speed;
 mod state;
 mod symmetries;
 mod timeline;
+mod typed_axis;
 mod update;
 mod value;
 mod workbench;

@@ -20,7 +20,7 @@ pub use catalog::{
     lessons,
 };
 pub use read::{Checked, UNTITLED, read, read_with};
-pub use rewrite::{Beginning, NewRamp, Rewrite};
+pub use rewrite::{Beginning, NewObservable, NewRamp, Rewrite};
 pub use schema::reference;
 pub use settings::{Plain, Setting};
 pub use template::template;

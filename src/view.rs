@@ -44,6 +44,7 @@ mod prediction;
 mod prompt;
 mod quantity;
 mod region;
+mod report;
 mod screen;
 pub mod sgr;
 mod space;

@@ -73,7 +73,7 @@ impl App {
     }
 
     /// Shows the new contents of a plot once all axes are chosen; otherwise asks for the next axis.
-    fn choose_on(&mut self, plot: usize, begun: Plot, label: String) -> Vec<Effect> {
+    pub(super) fn choose_on(&mut self, plot: usize, begun: Plot, label: String) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let Some(axis) = begun.kind.chosen().get(begun.columns.len()) else {
             lab.redraw(plot, |plot, _| *plot = begun);
@@ -116,6 +116,9 @@ impl App {
 
     fn accept_line(&mut self, menu: Menu) -> Vec<Effect> {
         let Some((_, item)) = menu.current() else {
+            if let Some(effects) = self.type_axis(&menu) {
+                return effects;
+            }
             self.overlay = Some(Overlay::Menu(menu));
             return self.notify("No match.");
         };

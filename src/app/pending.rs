@@ -1,10 +1,22 @@
-//! Changes sent to the experiment and not yet confirmed.
+//! What was asked for and is not there yet: changes sent to the experiment, and an axis that its text has to define.
 //!
 //! In: changes, snapshots. Out: what was requested last. Never here: how a change is made.
 
 use crate::experiment::Snapshot;
+use crate::instrument::Plot;
 use crate::integrate::Settings;
 use crate::system::InitialOverride;
+
+/// A plot that waits for the text with the quantity that was typed for its next axis.
+#[derive(Clone, Debug)]
+pub(super) struct TypedAxis {
+    /// Its index among the plots.
+    pub(super) plot: usize,
+    /// The plot so far, the name of each channel of its axes, and its label; nothing on the first axis.
+    pub(super) begun: Option<(Plot, Vec<Vec<String>>, String)>,
+    /// The name of the quantity.
+    pub(super) name: String,
+}
 
 /// Changes sent to the experiment and not yet confirmed by a snapshot, except single values.
 #[derive(Clone, Debug, Default)]

@@ -156,6 +156,8 @@ impl App {
         lab.restore_view(&saved);
         lab.awaited = Some(saved.moment);
         self.lab = Some(lab);
-        self.restore()
+        let mut effects = self.restore();
+        effects.extend(self.take_typed_axis());
+        effects
     }
 }

@@ -17,6 +17,7 @@ use super::notification;
 use super::notification::Notification;
 use super::page::Page;
 use super::pane::Pane;
+use super::pending::TypedAxis;
 use super::picker::Picker;
 use super::prompt::Prompt;
 use super::rate::RateMeter;
@@ -77,6 +78,8 @@ pub struct App {
     pub(super) resuming: Option<Saved>,
     /// The wrong file whose text was asked for, until its first error is shown.
     pub(super) mending: Option<String>,
+    /// The plot that waits for the text with the quantity of its axis.
+    pub(super) typed_axis: Option<TypedAxis>,
     /// The session as it was when the user left the lab for the list of systems.
     pub(super) left: Option<Saved>,
 }
@@ -146,6 +149,7 @@ impl App {
             asked: None,
             resuming: None,
             mending: None,
+            typed_axis: None,
             left: None,
         };
         let first = match open {

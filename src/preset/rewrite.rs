@@ -189,6 +189,30 @@ impl NewRamp {
     }
 }
 
+/// An observable to be added to a text.
+#[derive(Clone, Debug)]
+pub struct NewObservable {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub expression: String,
+}
+
+impl NewObservable {
+    /// A text with the observable behind those that it has.
+    ///
+    /// # Errors
+    /// Returns an error if the text is not valid TOML.
+    pub fn added_to(&self, text: &str) -> Result<String, TomlError> {
+        let mut file: DocumentMut = text.parse()?;
+        let mut observable = Table::new();
+        observable.insert("name", value(self.name.as_str()));
+        observable.insert("expression", value(self.expression.as_str()));
+        push(&mut file, "observables", observable);
+        Ok(file.to_string())
+    }
+}
+
 /// Adds a table to a list of tables, whichever way that is written.
 fn push(file: &mut DocumentMut, key: &str, table: Table) {
     match file.entry(key).or_insert(Item::ArrayOfTables(ArrayOfTables::new())) {

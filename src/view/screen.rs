@@ -20,6 +20,7 @@ use super::picker;
 use super::plain;
 use super::prompt;
 use super::quantity::Quantities;
+use super::report;
 use super::text_page::{TextPage, measure};
 use super::theme::Role;
 use super::workbench;
@@ -96,7 +97,7 @@ fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
         let lines = failure.message.lines();
         let width = measure(inner.width);
         for line in lines.flat_map(|line| wrap::report_line(line, width.into())) {
-            page.row(vec![(Role::Text, line)]);
+            page.row(report::coloured(&line));
         }
         canvas.target(area, HitTarget::Text);
         return page.draw(canvas, inner, app.scroll);

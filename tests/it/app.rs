@@ -14,5 +14,6 @@ pub(crate) mod real;
 mod saved;
 mod scripts;
 mod search;
+mod typed_axis;
 mod values;
 mod workbench;

@@ -1,0 +1,93 @@
+//! An axis that is typed: an expression that the list of quantities does not have becomes an observable of the text.
+//!
+//! In: what was typed above the list. Out: the text with the observable, which is checked and run as any change of the text;
+//! the plot with it on its axis, as soon as that runs. Never here: the list, or how a text is changed.
+
+use super::pending::TypedAxis;
+use super::{App, Choosing, Effect, Lab, Menu, Notification, Overlay};
+use crate::instrument::{Plot, named};
+use crate::model::{Allowed, Scope};
+use crate::preset::NewObservable;
+
+impl App {
+    /// Takes what was typed above a list of quantities for an axis. Returns `None` if nothing was, or it is another list.
+    pub(super) fn type_axis(&mut self, menu: &Menu) -> Option<Vec<Effect>> {
+        let (Choosing::Contents { plot } | Choosing::Axis { plot, .. }) = menu.purpose else {
+            return None;
+        };
+        let typed = menu.filter.as_ref()?.value().trim().to_owned();
+        let lab = self.lab.as_ref().filter(|_| !typed.is_empty())?;
+        let model = &lab.loaded.model;
+        let mut pool = lab.loaded.equations.pool.clone();
+        let mut scope = Scope::new(model, Allowed::Observable, "an axis");
+        let Some(expression) = scope.read(&mut pool, &typed) else {
+            let what = scope.mistakes.first().map(ToString::to_string);
+            let what = what.unwrap_or_else(|| "it cannot be read".to_owned());
+            let sentence = format!("No line has `{typed}`, and as an expression: {what}.");
+            self.overlay = Some(Overlay::Menu(menu.clone()));
+            return Some(self.notify(sentence));
+        };
+        let channel_name = |channel: usize| {
+            lab.loaded.system.channels().get(channel).map_or_else(String::new, |c| c.name.clone())
+        };
+        let begun = menu.begun.as_ref().map(|(plot, label)| {
+            let names = |columns: &Vec<usize>| columns.iter().map(|&c| channel_name(c)).collect();
+            (plot.clone(), plot.columns.iter().map(names).collect(), label.clone())
+        });
+        let known = lab.loaded.system.channel_of(expression).map(channel_name);
+        let known = known.filter(|name| !name.is_empty());
+        // A dot above a letter is no name that anybody types.
+        let shown = model.pool.with_shown_names(&typed);
+        let shown = if shown.contains(['\u{307}', '\u{308}']) { typed.clone() } else { shown };
+        let name = known.clone().unwrap_or(shown);
+        let axis = TypedAxis { plot, begun, name: name.clone() };
+        if known.is_some() {
+            return Some(self.set_typed_axis(axis));
+        }
+        let observable = NewObservable { name: name.clone(), expression: typed };
+        let buffer = self.ready_buffer()?;
+        match observable.added_to(&buffer.editor.text()) {
+            Ok(text) => {
+                buffer.editor.become_text(&text);
+                buffer.touch_at_once(false);
+            }
+            Err(why) => return Some(self.notify(format!("The text cannot be changed: {why}."))),
+        }
+        self.typed_axis = Some(axis);
+        let sentence = format!("{name} is now an observable of the text; E shows it.");
+        self.notice = Some(Notification::info(sentence));
+        Some(Vec::new())
+    }
+
+    /// Puts the quantity of a text that runs now on the axis that waits for it.
+    pub(super) fn take_typed_axis(&mut self) -> Vec<Effect> {
+        self.typed_axis.take().map_or(Vec::new(), |axis| self.set_typed_axis(axis))
+    }
+
+    fn set_typed_axis(&mut self, axis: TypedAxis) -> Vec<Effect> {
+        let TypedAxis { plot, begun, name } = axis;
+        let Some(lab) = &self.lab else { return Vec::new() };
+        let Some(channel) = channel(lab, &name) else { return Vec::new() };
+        let label = lab.loaded.physics().shown(channel).to_owned();
+        let physics = lab.loaded.physics();
+        match begun {
+            Some((mut begun, names, first)) => {
+                let place = |names: &Vec<String>| {
+                    names.iter().filter_map(|name| self::channel(lab, name)).collect()
+                };
+                begun.columns = names.iter().map(place).collect();
+                begun.columns.push(vec![channel]);
+                self.choose_on(plot, begun, first)
+            }
+            None => {
+                let Some(kind) = named("phase") else { return Vec::new() };
+                let begun = Plot::new(kind, (vec![vec![channel]], None), physics.model);
+                self.choose_on(plot, begun.opened(physics), label)
+            }
+        }
+    }
+}
+
+fn channel(lab: &Lab, name: &str) -> Option<usize> {
+    lab.loaded.physics().named().find(|(_, channel)| channel.name == name).map(|(index, _)| index)
+}

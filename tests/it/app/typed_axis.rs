@@ -1,0 +1,86 @@
+//! An expression typed above the list of quantities becomes an observable of the text, and the axis of the plot.
+
+use std::time::Duration;
+
+use phaselab::app::{App, CheckedText, Effect, Event, Loaded, Overlay};
+use phaselab::diagnostic::Document;
+use phaselab::experiment::Prepared;
+
+use crate::hand::{lab, press};
+
+/// Focuses the first phase plane and types into its list.
+fn ask(app: &mut App, typed: &str) -> Vec<Effect> {
+    while app.lab.as_ref().unwrap().focused_plot().is_none_or(|(_, p)| p.kind.name() != "phase") {
+        press(app, "Tab");
+    }
+    press(app, "v");
+    write(app, typed)
+}
+
+fn write(app: &mut App, typed: &str) -> Vec<Effect> {
+    for c in typed.chars() {
+        press(app, &if c == ' ' { "Space".to_owned() } else { c.to_string() });
+    }
+    press(app, "Enter")
+}
+
+/// The channels of the axes of the focused plot, by name.
+fn axes(app: &App) -> Vec<String> {
+    let lab = app.lab.as_ref().unwrap();
+    let (_, plot) = lab.focused_plot().expect("a plot");
+    let name =
+        |axis: usize| plot.column(axis).map(|c| lab.loaded.system.channels()[c].name.clone());
+    [0, 1].into_iter().filter_map(name).collect()
+}
+
+/// Checks the text that waits, as the shell does, and returns it.
+fn checked(app: &mut App) -> String {
+    let effects = app.update(Event::Tick(Duration::from_millis(20)));
+    let found = effects.into_iter().find_map(|effect| match effect {
+        Effect::Check { ticket, title, text } => Some((ticket, title, text)),
+        _ => None,
+    });
+    let (ticket, title, text) = found.expect("a text to be checked");
+    let name = app.lab.as_ref().unwrap().loaded.name.clone();
+    let ready = Prepared::of(&Document::new(title.as_str(), text.as_str()));
+    let Ok(Prepared { document, model, equations, system, .. }) = ready else { panic!("{text}") };
+    let outcome = Ok(Loaded { name, epoch: 2, document, model, equations, system });
+    let took = Duration::from_millis(3);
+    app.update(Event::Checked(Box::new(CheckedText { ticket, outcome, took })));
+    text
+}
+
+#[test]
+fn an_expression_can_be_typed_for_either_axis() {
+    let mut app = lab("double-pendulum", 1.0);
+    ask(&mut app, "theta1 - 2 theta2");
+    let text = checked(&mut app);
+    assert!(text.contains("expression = \"theta1 - 2 theta2\""), "{text}");
+    // the vertical axis is asked for next
+    assert!(matches!(app.overlay, Some(Overlay::Menu(_))));
+    write(&mut app, "theta1'^2");
+    let text = checked(&mut app);
+    assert!(text.contains("\"theta1 - 2 theta2\"") && text.contains("\"theta1'^2\""), "{text}");
+    assert!(app.overlay.is_none());
+    assert_eq!(axes(&app), ["θ₁ − 2 θ₂", "theta1'^2"]);
+}
+
+/// What the system has already needs no change of the text, however it is written.
+#[test]
+fn a_quantity_that_is_there_is_taken_as_it_is() {
+    let mut app = lab("double-pendulum", 1.0);
+    ask(&mut app, "0 + theta2");
+    let effects = app.update(Event::Tick(Duration::from_millis(20)));
+    assert!(!effects.iter().any(|effect| matches!(effect, Effect::Check { .. })));
+    write(&mut app, "1*theta1");
+    assert_eq!(axes(&app), ["theta2", "theta1"]);
+}
+
+#[test]
+fn what_is_no_expression_is_refused_and_the_list_stays() {
+    let mut app = lab("double-pendulum", 1.0);
+    ask(&mut app, "thetta1 - theta2");
+    let told = app.notice.take().map(|notice| notice.text).unwrap_or_default();
+    assert!(told.contains("unknown name `thetta1`"), "{told}");
+    assert!(matches!(app.overlay, Some(Overlay::Menu(_))));
+}
