@@ -11,18 +11,18 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::carrier::Carrier;
 use super::direction::{Direction, basis_of_range};
 use super::error::DynamicsError;
 use super::first_return::{difference, first_return};
 use super::flow_map::flow_map;
 use super::linear;
+use super::loop_action::loop_action;
 use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
 
 use super::transverse::{self, Removed};
-use crate::integrate::{Method, Settings, Stepping};
-use crate::num::{DoubleDouble, gauss, math, short};
+use crate::integrate::{Method, Settings};
+use crate::num::{DoubleDouble, math, short};
 use crate::system::State;
 
 /// The maximal number of steps of Newton's method, and of halvings of one.
@@ -424,7 +424,7 @@ impl Newton<'_> {
             period: closed.period,
             energy: space.system().energy(&closed.state, space.parameters())?,
             closure: closed.residual / size.max(f64::MIN_POSITIVE),
-            action: self.action(closed)?,
+            action: loop_action(space, self.method, &closed.state, closed.period)?,
             state: closed.state.clone(),
             monodromy: closed.monodromy.clone(),
             transverse,
@@ -433,35 +433,6 @@ impl Newton<'_> {
             stable,
             settings: closed.settings,
         })
-    }
-
-    /// ∮ p dq, summed step by step.
-    fn action(&self, closed: &Closed) -> Result<Option<f64>, DynamicsError> {
-        let space = self.space;
-        if space.form() != crate::system::Form::Momentum {
-            return Ok(None);
-        }
-        let (method, settings) = self.method;
-        let mut carrier = Carrier::new(space, method, settings, 0)?;
-        carrier.start(&closed.state, &DMatrix::zeros(space.dimension(), 0))?;
-        let rule = gauss(if method.stepping == Stepping::Fixed { 3 } else { 16 });
-        let mut direction = Direction::new(space);
-        let (half, until) = (space.dimension() / 2, closed.state.time + closed.period);
-        let mut sum = 0.0;
-        while carrier.time() < until {
-            carrier.step(until)?;
-            let (begin, end) = carrier.interval();
-            let end = end.min(until);
-            for &(part, weight) in &rule {
-                let now = begin + part * (end - begin);
-                let (state, _) = carrier.at(now)?;
-                let z = space.variables(&state);
-                let rate = direction.at(&state)?;
-                let power: f64 = (0..half).map(|i| z[half + i] * rate[i]).sum();
-                sum += weight * (end - begin) * power;
-            }
-        }
-        Ok(Some(sum))
     }
 }
 
