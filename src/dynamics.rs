@@ -25,6 +25,7 @@ mod gali;
 mod halton;
 mod linear;
 mod lobatto;
+mod loop_action;
 mod lyapunov;
 mod orbit;
 mod orbit_units;

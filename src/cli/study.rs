@@ -67,14 +67,6 @@ impl Study {
         Study::read(arguments, interrupt, PhaseSpace::without_impulses)
     }
 
-    /// The same of a motion on which impulses may act.
-    pub(super) fn open_with_impulses(
-        arguments: &StudyArguments,
-        interrupt: &Interrupt,
-    ) -> Result<Study, CommandError> {
-        Study::read(arguments, interrupt, PhaseSpace::through_impulses)
-    }
-
     /// The same of a motion on which impulses may act, or which constraints may hold.
     pub(super) fn open_on_constraints(
         arguments: &StudyArguments,

@@ -77,6 +77,10 @@ pub fn family(
     (along, fixed): (Along, Fixed),
     values: &[f64],
 ) -> Result<Family, DynamicsError> {
+    if space.is_constrained() {
+        let why = "families of orbits are followed in independent coordinates, and constraints hold these";
+        return Err(DynamicsError::Unsuited(why.to_owned()));
+    }
     let conserved = space.is_autonomous() && space.is_hamiltonian();
     if !matches!(along, Along::Parameter(_)) && !conserved {
         return Err(DynamicsError::Unsuited(

@@ -6,21 +6,23 @@
 //! Unknown are the state and the period; the equations are that the motion closes, that the state
 //! does not move along the orbit, and that the energy (or the period) is the given one. They are
 //! solved by least squares, because with a conserved energy one of them follows from the others, and
-//! symmetries leave a choice (Viswanath, SIAM Review 43 (2001) 478, has the method).
+//! symmetries leave a choice (Viswanath, SIAM Review 43 (2001) 478, has the method). Under constraints the state moves by
+//! displacements that they allow, and back onto them.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::carrier::Carrier;
+use super::direction::{Direction, basis_of_range};
 use super::error::DynamicsError;
 use super::first_return::{difference, first_return};
 use super::flow_map::flow_map;
 use super::linear;
+use super::loop_action::loop_action;
 use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
 
 use super::transverse::{self, Removed};
-use crate::integrate::{Method, Settings, Stepping};
-use crate::num::{DoubleDouble, gauss, math, short};
+use crate::integrate::{Method, Settings};
+use crate::num::{DoubleDouble, math, short};
 use crate::system::State;
 
 /// The maximal number of steps of Newton's method, and of halvings of one.
@@ -167,6 +169,8 @@ pub(super) struct Newton<'a> {
 pub(super) struct Look {
     miss: DVector<f64>,
     monodromy: DMatrix<f64>,
+    /// The displacements that constraints allow at the start, as columns of unit length; all without constraints.
+    basis: DMatrix<f64>,
     /// The rates at its two ends.
     rates: [DVector<f64>; 2],
     energy: f64,
@@ -181,15 +185,36 @@ impl Newton<'_> {
         if let Some(fault) = map.failure {
             return Err(fault.into());
         }
-        let mut field = space.vector_field();
-        field.evaluate(state.time, space.variables(state))?;
-        let first = field.rate();
-        field.evaluate(map.time, space.variables(&map.state))?;
+        let mut direction = Direction::new(space);
+        let rates = [direction.at(state)?, direction.at(&map.state)?];
         let miss = self.units.scaled(&difference(space, &map.state, state));
         let energy = space.system().energy(state, space.parameters())?;
-        let rates = [first, field.rate()].map(|rate| self.units.rates(&rate));
+        let rates = rates.map(|rate| self.units.rates(&rate));
+        let basis = self.basis(state)?;
         let size = self.size(state).max(rates[0].amax() * (period / self.units.time()).min(1.0));
-        Ok(Look { miss, monodromy: map.matrix, rates, energy, size, settings: map.settings })
+        Ok(Look { miss, monodromy: map.matrix, basis, rates, energy, size, settings: map.settings })
+    }
+
+    /// The displacements that constraints allow, in the units of the orbit.
+    fn basis(&self, state: &State) -> Result<DMatrix<f64>, DynamicsError> {
+        let (allowed, dimension) = self.space.allowed_displacements(state)?;
+        if !self.space.is_constrained() {
+            return Ok(allowed);
+        }
+        Ok(basis_of_range(&self.units.map(&allowed), dimension))
+    }
+
+    /// A state displaced by as much, on the constraints.
+    fn displaced(&self, state: &State, by: &DVector<f64>) -> Result<State, DynamicsError> {
+        let mut there = state.clone();
+        for i in 0..self.space.dimension() {
+            there.set(i, state.exact(i) + DoubleDouble::from(by[i]));
+        }
+        let (system, parameters) = (self.space.system(), self.space.parameters());
+        let Some(mut projector) = system.projector(parameters) else { return Ok(there) };
+        let mut native = system.convert(&there, system.form(), parameters)?;
+        projector.project(&mut native)?;
+        Ok(self.space.state(&native)?)
     }
 
     /// The size of a state.
@@ -295,23 +320,20 @@ impl Newton<'_> {
         look: &Look,
         cut: f64,
     ) -> Result<Option<(State, f64, Look)>, DynamicsError> {
-        let n = self.space.dimension();
+        let n = look.basis.ncols();
         let (matrix, right) = self.equations(look);
         let residual = self.residual(look);
         let Some(step) = linear::least_squares(&matrix, &right, 1e-11 * matrix.amax() + cut) else {
             return Err(no_orbit(residual / look.size, time));
         };
-        let change = self.units.unscaled(&step.rows(0, n).into_owned());
+        let change = self.units.unscaled(&(&look.basis * step.rows(0, n)));
         let mut part = 1.0;
         for _ in 0..HALVINGS {
-            let mut there = state.clone();
-            for i in 0..n {
-                there.set(i, state.exact(i) + DoubleDouble::from(part * change[i]));
-            }
+            let there = self.displaced(state, &(&change * part));
             let later = time + part * step[n] * self.units.time();
             if (0.2 * first..5.0 * first).contains(&later) {
-                match self.look(&there, later) {
-                    Ok(found) if self.residual(&found) < residual => {
+                match there.and_then(|there| Ok((self.look(&there, later)?, there))) {
+                    Ok((found, there)) if self.residual(&found) < residual => {
                         return Ok(Some((there, later, found)));
                     }
                     Err(error) if error.is_cancelled() => return Err(error),
@@ -323,25 +345,29 @@ impl Newton<'_> {
         Ok(None)
     }
 
-    /// What is missing, equation by equation, and the derivatives by (z, T).
+    /// What is missing, equation by equation, and the derivatives by the displacements of the state that are allowed, and T.
     pub(super) fn equations(&self, look: &Look) -> (DMatrix<f64>, DVector<f64>) {
-        let n = self.space.dimension();
+        let (n, basis) = (self.space.dimension(), &look.basis);
+        let allowed = basis.ncols();
         let autonomous = self.space.is_autonomous();
-        let mut matrix = DMatrix::zeros(n + 2, n + 1);
+        let mut matrix = DMatrix::zeros(n + 2, allowed + 1);
+        let identity = DMatrix::identity(n, n);
         matrix
-            .view_mut((0, 0), (n, n))
-            .copy_from(&(self.units.map(&look.monodromy) - DMatrix::identity(n, n)));
+            .view_mut((0, 0), (n, allowed))
+            .copy_from(&((self.units.map(&look.monodromy) - identity) * basis));
         let speed = look.rates[0].norm();
+        let mut row = |i: usize, of: DVector<f64>| {
+            matrix.view_mut((i, 0), (1, allowed)).copy_from(&(of.transpose() * basis));
+        };
         if autonomous && speed > 0.0 {
             // the state does not move along the orbit
-            matrix.view_mut((n, 0), (1, n)).copy_from(&(look.rates[0].transpose() / speed));
-        }
-        if !matches!(self.fixed, Fixed::Period(_)) {
-            matrix.view_mut((0, n), (n, 1)).copy_from(&look.rates[1]);
+            row(n, &look.rates[0] / speed);
         }
         if let Fixed::Energy(_) = self.fixed {
-            let gradient = self.units.gradient(&look.rates[0]);
-            matrix.view_mut((n + 1, 0), (1, n)).copy_from(&gradient.normalize().transpose());
+            row(n + 1, self.units.gradient(&look.rates[0]).normalize());
+        }
+        if !matches!(self.fixed, Fixed::Period(_)) {
+            matrix.view_mut((0, allowed), (n, 1)).copy_from(&look.rates[1]);
         }
         (matrix, -self.missed(look))
     }
@@ -378,15 +404,18 @@ impl Newton<'_> {
 
     fn described(&self, closed: &Closed) -> Result<Orbit, DynamicsError> {
         let space = self.space;
-        let mut field = space.vector_field();
-        field.evaluate(closed.state.time, space.variables(&closed.state))?;
+        let rate = Direction::new(space).at(&closed.state)?;
         let trivial = match (space.is_autonomous(), space.is_hamiltonian()) {
             (true, true) => Removed::FlowAndEnergy,
             (true, false) => Removed::Flow,
             (false, _) => Removed::Nothing,
         };
-        let rate = self.units.rates(&field.rate());
-        let frame = transverse::frame(&rate, trivial, space.is_hamiltonian());
+        let rate = self.units.rates(&rate);
+        let frame = if space.is_constrained() {
+            transverse::frame_within(&self.basis(&closed.state)?, &rate, trivial)
+        } else {
+            transverse::frame(&rate, trivial, space.is_hamiltonian())
+        };
         let transverse = frame.transpose() * self.units.map(&closed.monodromy) * &frame;
         let multipliers = linear::eigenvalues(&transverse);
         let stable = multipliers.iter().all(|z| math::hypot(z[0], z[1]) <= 1.0 + ON_CIRCLE);
@@ -395,7 +424,7 @@ impl Newton<'_> {
             period: closed.period,
             energy: space.system().energy(&closed.state, space.parameters())?,
             closure: closed.residual / size.max(f64::MIN_POSITIVE),
-            action: self.action(closed)?,
+            action: loop_action(space, self.method, &closed.state, closed.period)?,
             state: closed.state.clone(),
             monodromy: closed.monodromy.clone(),
             transverse,
@@ -404,36 +433,6 @@ impl Newton<'_> {
             stable,
             settings: closed.settings,
         })
-    }
-
-    /// ∮ p dq, summed step by step.
-    fn action(&self, closed: &Closed) -> Result<Option<f64>, DynamicsError> {
-        let space = self.space;
-        if space.form() != crate::system::Form::Momentum {
-            return Ok(None);
-        }
-        let (method, settings) = self.method;
-        let mut carrier = Carrier::new(space, method, settings, 0)?;
-        carrier.start(&closed.state, &DMatrix::zeros(space.dimension(), 0))?;
-        let rule = gauss(if method.stepping == Stepping::Fixed { 3 } else { 16 });
-        let mut field = space.vector_field();
-        let (half, until) = (space.dimension() / 2, closed.state.time + closed.period);
-        let mut sum = 0.0;
-        while carrier.time() < until {
-            carrier.step(until)?;
-            let (begin, end) = carrier.interval();
-            let end = end.min(until);
-            for &(part, weight) in &rule {
-                let now = begin + part * (end - begin);
-                let (state, _) = carrier.at(now)?;
-                let z = space.variables(&state);
-                field.evaluate(now, z)?;
-                let rate = field.rate();
-                let power: f64 = (0..half).map(|i| z[half + i] * rate[i]).sum();
-                sum += weight * (end - begin) * power;
-            }
-        }
-        Ok(Some(sum))
     }
 }
 

@@ -211,7 +211,7 @@ fn close(
 ) -> Result<Described, DynamicsError> {
     let (system, parameters) = (physics.system, &start.parameters);
     let (model, equations) = (physics.model, physics.equations);
-    let space = PhaseSpace::through_impulses(model, equations, system, parameters)?;
+    let space = PhaseSpace::on_constraints(model, equations, system, parameters)?;
     let begun = if space.has_jumps() {
         conditions.state(system, model.run.start)?
     } else {

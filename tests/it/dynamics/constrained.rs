@@ -1,7 +1,10 @@
 //! Derivatives of motions that constraints hold, against independent coordinates and closed forms.
 
 use nalgebra::{DMatrix, DVector};
-use phaselab::dynamics::{Chaos, DynamicsError, FlowMap, PhaseSpace, flow_map, gali, lyapunov};
+use phaselab::dynamics::{
+    Chaos, DynamicsError, Fixed, FlowMap, Orbit, PhaseSpace, flow_map, gali, lyapunov,
+    periodic_orbit,
+};
 
 use super::{Case, case_in, file, method, taylor};
 use crate::hand::lowered;
@@ -284,4 +287,53 @@ fn fixed_steps_and_impulses_under_constraints_are_refused() {
     let (model, equations) = (&loaded.model, &loaded.equations);
     let space = PhaseSpace::on_constraints(model, equations, &loaded.system, &parameters);
     assert!(matches!(space, Err(DynamicsError::Unsuited(_))));
+}
+
+fn orbit(case: &Case) -> Orbit {
+    let energy = case.space.system().energy(&case.start, case.space.parameters()).unwrap();
+    periodic_orbit(&case.space, taylor(), &case.start, None, Fixed::Energy(energy)).unwrap()
+}
+
+/// Released at 2 rad with g = l = 1 the period is 4 K(sin² 1) and ∮ p dq = 16 (E(k) − cos² 1 K(k)).
+#[test]
+fn a_pendulum_on_a_rod_closes_after_its_period() {
+    let rod = held(
+        "title = \"t\"\n[coordinates]\nx = { initial = \"sin(2)\", velocity = 0 }\ny = { initial = \"-cos(2)\" }\n\
+         [lagrangian]\nL = \"1/2*(x'^2 + y'^2) - y\"\n[[constraints]]\nname = \"rod\"\nexpression = \"x^2 + y^2 - 1\"\n",
+    );
+    let found = orbit(&rod);
+    assert!((found.period - 8.349752926918493).abs() < 1e-13, "{}", found.period);
+    assert!(found.closure < 1e-14 && found.stable, "{}", found.closure);
+    assert!(found.multipliers.is_empty(), "{:?}", found.multipliers);
+    assert!((found.action.unwrap() - ACTION).abs() < 1e-12, "{:?}", found.action);
+}
+
+const ACTION: f64 = 10.039416280433402;
+
+/// Two bobs on two rods, in x and y, near the slow mode of the double pendulum at an energy where the orbit is far from that of
+/// small oscillations: period, ∮ p dq and multipliers are those of the angles.
+#[test]
+fn orbits_of_a_double_pendulum_by_constraints_are_those_of_its_angles() {
+    let rods = held(
+        "title = \"t\"\n[coordinates]\nx = { initial = \"sin(0.5)\", velocity = 0 }\ny = { initial = \"-cos(0.5)\" }\n\
+         u = { initial = \"sin(0.5) + sin(0.7)\", velocity = 0 }\nv = { initial = \"-cos(0.5) - cos(0.7)\" }\n\
+         [lagrangian]\nL = \"1/2*(x'^2 + y'^2 + u'^2 + v'^2) - y - v\"\n\
+         [[constraints]]\nname = \"upper\"\nexpression = \"x^2 + y^2 - 1\"\n\
+         [[constraints]]\nname = \"lower\"\nexpression = \"(u - x)^2 + (v - y)^2 - 1\"\n",
+    );
+    let angles = file(
+        "title = \"t\"\n[coordinates]\na = { initial = 0.5, velocity = 0 }\nb = { initial = 0.7, velocity = 0 }\n\
+         [lagrangian]\nL = \"a'^2 + 1/2*b'^2 + a'*b'*cos(a - b) + 2*cos(a) + cos(b)\"\n",
+        &[],
+    );
+    let (found, wanted) = (orbit(&rods), orbit(&angles));
+    assert!((found.period - wanted.period).abs() < 1e-10, "{} {}", found.period, wanted.period);
+    assert!((found.action.unwrap() - wanted.action.unwrap()).abs() < 1e-10);
+    assert!((found.energy - wanted.energy).abs() < 1e-12);
+    assert_eq!((found.multipliers.len(), found.stable), (2, wanted.stable));
+    for (one, other) in found.multipliers.iter().zip(&wanted.multipliers) {
+        assert!((one[0] - other[0]).abs() + (one[1] - other[1]).abs() < 1e-9, "{one:?} {other:?}");
+    }
+    let upper = found.state.values[0].powi(2) + found.state.values[1].powi(2);
+    assert!((upper - 1.0).abs() < 1e-15, "{upper}");
 }

@@ -1,0 +1,46 @@
+//! ∮ p dq of a periodic orbit.
+//!
+//! In: a state on it, its period. Out: the integral, step by step; `None` where the variables are not canonical. Never here:
+//! how the orbit was found.
+
+use nalgebra::DMatrix;
+
+use super::carrier::Carrier;
+use super::direction::Direction;
+use super::error::DynamicsError;
+use super::phase_space::PhaseSpace;
+use crate::integrate::{Method, Settings, Stepping};
+use crate::num::gauss;
+use crate::system::{Form, State};
+
+/// The integral from a state over a period.
+pub(super) fn loop_action(
+    space: &PhaseSpace,
+    (method, settings): (&'static Method, Settings),
+    start: &State,
+    period: f64,
+) -> Result<Option<f64>, DynamicsError> {
+    if space.form() != Form::Momentum {
+        return Ok(None);
+    }
+    let mut carrier = Carrier::new(space, method, settings, 0)?;
+    carrier.start(start, &DMatrix::zeros(space.dimension(), 0))?;
+    let rule = gauss(if method.stepping == Stepping::Fixed { 3 } else { 16 });
+    let mut direction = Direction::new(space);
+    let (half, until) = (space.dimension() / 2, start.time + period);
+    let mut sum = 0.0;
+    while carrier.time() < until {
+        carrier.step(until)?;
+        let (begin, end) = carrier.interval();
+        let end = end.min(until);
+        for &(part, weight) in &rule {
+            let now = begin + part * (end - begin);
+            let (state, _) = carrier.at(now)?;
+            let rate = direction.at(&state)?;
+            let z = space.variables(&state);
+            let power: f64 = (0..half).map(|i| z[half + i] * rate[i]).sum();
+            sum += weight * (end - begin) * power;
+        }
+    }
+    Ok(Some(sum))
+}
