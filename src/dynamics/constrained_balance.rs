@@ -186,10 +186,8 @@ impl ConstrainedBalance {
         }
         for one in &local.surface {
             let Some(distance) = one.distance else { continue };
-            let slopes = unknowns.iter().map(|&j| match j < degrees {
-                true => one.row[j] * units[j],
-                false => 0.0,
-            });
+            let slope = |&j: &usize| if j < degrees { one.row[j] * units[j] } else { 0.0 };
+            let slopes = unknowns.iter().map(slope);
             push(distance, slopes.collect());
         }
         let values = DVector::from_iterator(rows.len(), rows.iter().map(|row| row.0));

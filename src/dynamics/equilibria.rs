@@ -105,7 +105,7 @@ pub fn equilibria_watched(
         if found.iter().any(|known| search.alike(&known.variables, &variables)) {
             continue;
         }
-        let Some(one) = search.described(variables.clone())? else { continue };
+        let Some(one) = search.described(&variables)? else { continue };
         // of a family of equilibria one is enough
         let constrained = space.is_constrained();
         if !found.iter().any(|known| in_a_family(known, &one, constrained)) {
@@ -124,7 +124,7 @@ pub fn equilibria_watched(
 /// What must vanish at an equilibrium, and of what.
 enum Law {
     /// The rates of the variables of the phase space.
-    Free(VectorField),
+    Free(Box<VectorField>),
     /// What remains of the forces under constraints, of coordinates and velocities.
     Constrained(Box<ConstrainedBalance>),
 }
@@ -162,7 +162,7 @@ impl<'a> EquilibriumSearch<'a> {
             (0..space.dimension()).filter(|i| !cyclic.contains(&(i % degrees))).collect();
         let mut field = space.vector_field();
         let units = units(space, start, &mut field);
-        let (law, middle) = (Law::Free(field), space.variables(start).to_vec());
+        let (law, middle) = (Law::Free(Box::new(field)), space.variables(start).to_vec());
         Ok(Self { space, start, law, middle, unknowns, cyclic, degrees, units })
     }
 
@@ -220,7 +220,9 @@ impl<'a> EquilibriumSearch<'a> {
         let resting: Vec<usize> = resting.filter(|&i| variables[i] != 0.0).collect();
         let image = |coordinates: &[usize]| {
             let mut image = variables.to_vec();
-            coordinates.iter().for_each(|&i| image[i] = -image[i]);
+            for &i in coordinates {
+                image[i] = -image[i];
+            }
             image
         };
         resting.iter().map(|&i| image(&[i])).chain([image(&resting)]).collect()
@@ -319,10 +321,10 @@ impl<'a> EquilibriumSearch<'a> {
         })
     }
 
-    fn described(&mut self, variables: Vec<f64>) -> Result<Option<Equilibrium>, DynamicsError> {
+    fn described(&mut self, variables: &[f64]) -> Result<Option<Equilibrium>, DynamicsError> {
         let state = match &self.law {
-            Law::Free(_) => self.space.state_at(self.start, &variables),
-            Law::Constrained(balance) => match balance.state(&variables) {
+            Law::Free(_) => self.space.state_at(self.start, variables),
+            Law::Constrained(balance) => match balance.state(variables) {
                 Ok(state) => state,
                 Err(_) => return Ok(None),
             },
@@ -333,8 +335,8 @@ impl<'a> EquilibriumSearch<'a> {
             Err(_) => return Ok(None),
         };
         let found = match &mut self.law {
-            Law::Free(_) => self.around(&variables),
-            Law::Constrained(_) => self.around_on_surface(&variables),
+            Law::Free(_) => self.around(variables),
+            Law::Constrained(_) => self.around_on_surface(variables),
         };
         let Some((kind, eigenvalues, modes)) = found else { return Ok(None) };
         let rates = match &self.law {

@@ -174,7 +174,9 @@ fn multipliers(
     momentum_rates: &[Expr],
 ) -> Vec<f64> {
     let rows = &equations.constraints;
-    rows.iter().for_each(|row| known.set(row.multiplier, 0.0));
+    for row in rows {
+        known.set(row.multiplier, 0.0);
+    }
     if rows.is_empty() {
         return Vec::new();
     }

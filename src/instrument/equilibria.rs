@@ -145,12 +145,11 @@ fn on_the_surface(
 ) -> Vec<InitialOverride> {
     let system = present.physics.system;
     let n = system.degrees();
-    let numbers = |i: usize| match i < n {
-        true => places[i],
-        false => cyclic(i - n).unwrap_or(speeds[i - n]),
-    };
     let mut values = vec![0.0; system.state_len()];
-    (0..2 * n).for_each(|i| values[i] = numbers(i));
+    for i in 0..n {
+        values[i] = places[i];
+        values[n + i] = cyclic(i).unwrap_or(speeds[i]);
+    }
     let mut state = State::new(present.time, Form::Velocity, values);
     if projector.project(&mut state).is_err() {
         return Vec::new();

@@ -67,7 +67,7 @@ mod tests {
         let x = [10.0, 8.0, 13.0, 9.0, 11.0, 14.0, 6.0, 4.0, 12.0, 7.0, 5.0];
         let y = [8.04, 6.95, 7.58, 8.81, 8.33, 9.96, 7.24, 4.26, 10.84, 4.82, 5.68];
         let points: Vec<[f64; 2]> = x.into_iter().zip(y).map(|(x, y)| [x, y]).collect();
-        let line = StraightLine::through(&points).unwrap();
+        let line = StraightLine::through(&points).expect("eleven points");
         assert!((line.slope - 0.5001).abs() < 5e-5, "{}", line.slope);
         assert!((line.error - 0.1179).abs() < 5e-5, "{}", line.error);
         assert!((line.at(0.0) - 3.0001).abs() < 5e-5, "{}", line.at(0.0));

@@ -20,7 +20,7 @@ use super::fixed::Scheme;
 use super::method::{Method, MethodError};
 use super::roundoff;
 use super::tableau::Tableau;
-use crate::num::DoubleDouble;
+use crate::num::{DoubleDouble, Kernel, vectorized};
 use crate::system::{Form, MotionError, MotionErrorKind, Rates, State, System};
 
 /// The maximal number of passes.
@@ -39,6 +39,9 @@ const ROUNDINGS: f64 = 64.0;
 /// by then, or of its last digit.
 const RESTLESS: f64 = 4.0;
 
+/// The bound of a number that has not come to rest.
+const AFOOT: f64 = -1.0;
+
 /// Checks that the method has the properties it is chosen for.
 pub(super) fn fits(method: &Method, system: &System) -> Result<(), MethodError> {
     if system.constraints() > 0 {
@@ -55,26 +58,27 @@ pub(super) struct Implicit {
     tableau: Tableau,
     /// The numbers that stay as they are at the stages of a partitioned method.
     held: Vec<bool>,
-    /// The slopes at the stages; before a step those of the step before, if `contiguous`.
-    slopes: Vec<Vec<f64>>,
+    /// The slopes at the stages, one stage after the other; before a step those of the step before, if `contiguous`.
+    slopes: Vec<f64>,
     contiguous: bool,
-    stages: Vec<Vec<f64>>,
+    stages: Vec<f64>,
     /// The movement of each number in the last pass, and in the one before.
-    moves: Vec<[f64; 2]>,
-    /// The movement up to which each number has come to rest, if it has.
-    resting: Vec<Option<f64>>,
+    moves: Vec<f64>,
+    moves_before: Vec<f64>,
+    /// The movement up to which each number has come to rest; negative where it has not.
+    resting: Vec<f64>,
     /// The largest movement of any number, in units of its size, in the last two passes.
     largest: [f64; 2],
     /// The effect of rounding on each rate, computed on demand.
     noise: Vec<f64>,
     sizes: Vec<f64>,
-    scratch: Vec<Vec<f64>>,
+    scratch: Vec<f64>,
 }
 
 impl Implicit {
     pub(super) fn new(system: &System, tableau: Tableau) -> Implicit {
         let (s, n) = (tableau.nodes.len(), system.state_len());
-        let zeros = vec![vec![0.0; n]; s];
+        let zeros = vec![0.0; s * n];
         Implicit {
             rates: system.canonical_rates(),
             tableau,
@@ -82,8 +86,9 @@ impl Implicit {
             slopes: zeros.clone(),
             contiguous: false,
             stages: zeros.clone(),
-            moves: vec![[0.0; 2]; s * n],
-            resting: vec![None; s * n],
+            moves: zeros.clone(),
+            moves_before: zeros.clone(),
+            resting: vec![AFOOT; s * n],
             largest: [f64::INFINITY; 2],
             noise: vec![0.0; n],
             sizes: vec![0.0; n],
@@ -106,16 +111,16 @@ impl Implicit {
     /// The initial slopes: the extrapolated polynomial of the last step, or else the slope at the
     /// beginning.
     fn guess(&mut self, state: &State) -> Result<(), MotionError> {
+        let n = state.values.len();
         if !self.contiguous {
-            for slope in &mut self.slopes {
+            for slope in self.slopes.chunks_exact_mut(n) {
                 self.rates.evaluate(state.time, &state.values, slope)?;
             }
             return Ok(());
         }
-        for (weights, guess) in self.tableau.onward.iter().zip(&mut self.scratch) {
-            for (i, x) in guess.iter_mut().enumerate() {
-                *x = weights.iter().zip(&self.slopes).map(|(w, slope)| w * slope[i]).sum();
-            }
+        for (weights, guess) in self.tableau.onward.iter().zip(self.scratch.chunks_exact_mut(n)) {
+            let sum = |i: usize| combined(weights.iter().copied(), &self.slopes, (i, n));
+            guess.iter_mut().enumerate().for_each(|(i, x)| *x = sum(i));
         }
         std::mem::swap(&mut self.slopes, &mut self.scratch);
         Ok(())
@@ -123,56 +128,36 @@ impl Implicit {
 
     /// Computes the stages from the slopes.
     fn place(&mut self, step: f64, state: &State) {
-        for (weights, stage) in self.tableau.matrix.iter().zip(&mut self.stages) {
+        let n = state.values.len();
+        for (weights, stage) in self.tableau.matrix.iter().zip(self.stages.chunks_exact_mut(n)) {
             for (i, x) in stage.iter_mut().enumerate() {
                 if self.held[i] {
                     *x = state.exact(i).high;
                     continue;
                 }
-                let pairs = weights.iter().zip(&self.slopes);
-                let slope: f64 = pairs.map(|(a, slope)| a.high * slope[i]).sum();
+                let slope = combined(weights.iter().map(|a| a.high), &self.slopes, (i, n));
                 *x = state.values[i] + (state.carry[i] + step * slope);
             }
         }
     }
 
     /// Computes the slopes from the stages.
-    fn evaluate(&mut self, step: f64, time: f64) -> Result<(), MotionError> {
-        for ((c, stage), slope) in self.tableau.nodes.iter().zip(&self.stages).zip(&mut self.slopes)
-        {
-            self.rates.evaluate(time + c.high * step, stage, slope)?;
+    fn evaluate(&mut self, step: f64, state: &State) -> Result<(), MotionError> {
+        let n = state.values.len();
+        let stages = self.stages.chunks_exact(n).zip(self.slopes.chunks_exact_mut(n));
+        for (c, (stage, slope)) in self.tableau.nodes.iter().zip(stages) {
+            self.rates.evaluate(state.time + c.high * step, stage, slope)?;
         }
         Ok(())
     }
 
     /// Performs one pass. Returns whether all numbers have converged.
     fn pass(&mut self, count: usize, step: f64, state: &State) -> Result<bool, MotionError> {
-        self.evaluate(step, state.time)?;
-        for (old, stage) in self.scratch.iter_mut().zip(&self.stages) {
-            old.clone_from(stage);
-        }
+        self.evaluate(step, state)?;
+        self.scratch.copy_from_slice(&self.stages);
         self.place(step, state);
-        let n = state.values.len();
-        let (mut rest, mut largest) = (true, 0.0_f64);
-        for (s, stage) in self.stages.iter().enumerate() {
-            for (i, x) in stage.iter().enumerate() {
-                let moved = (x - self.scratch[s][i]).abs();
-                let [before, last] = self.moves[s * n + i];
-                let size = x.abs().max((step * self.slopes[s][i]).abs());
-                let small = SMALL * size + ROUNDINGS * step.abs() * self.noise[i];
-                // compares with two passes before, as positions and momenta may shrink alternately
-                let level = count >= 2 && moved >= before && moved <= small;
-                self.moves[s * n + i] = [last, moved];
-                let resting = &mut self.resting[s * n + i];
-                if resting.is_some_and(|bound| moved > bound) {
-                    *resting = None;
-                } else if resting.is_none() && (moved == 0.0 || level) {
-                    *resting = Some(RESTLESS * moved.max(f64::EPSILON * size));
-                }
-                rest &= resting.is_some();
-                largest = largest.max(moved / (size + f64::MIN_POSITIVE));
-            }
-        }
+        std::mem::swap(&mut self.moves, &mut self.moves_before);
+        let (rest, largest) = vectorized(Movements { scheme: self, count, step });
         let level = largest >= self.largest[0] || largest <= RESTLESS * f64::EPSILON;
         self.largest = [self.largest[1], largest];
         Ok(rest && level)
@@ -180,7 +165,8 @@ impl Implicit {
 
     /// Measures the effect of rounding on the rates at the first stage.
     fn estimate_roundoff(&mut self, step: f64, state: &State) {
-        let (stage, slope) = (&self.stages[0], &self.slopes[0]);
+        let n = state.values.len();
+        let (stage, slope) = (&self.stages[..n], &self.slopes[..n]);
         for (i, size) in self.sizes.iter_mut().enumerate() {
             *size = state.values[i].abs().max(stage[i].abs()).max((step * slope[i]).abs());
         }
@@ -193,7 +179,7 @@ impl Implicit {
 
     fn solve(&mut self, step: f64, state: &State) -> Result<(), MotionError> {
         self.noise.fill(0.0);
-        self.resting.fill(None);
+        self.resting.fill(AFOOT);
         self.largest = [f64::INFINITY; 2];
         self.place(step, state);
         for count in 1..=PASSES {
@@ -211,14 +197,15 @@ impl Implicit {
             if count % PATIENCE == 0 {
                 self.estimate_roundoff(step, state);
             }
-            if self.stages.iter().flatten().any(|x| !x.is_finite()) {
+            if self.stages.iter().any(|x| !x.is_finite()) {
                 break;
             }
         }
-        self.rates.evaluate(state.time, &state.values, &mut self.slopes[0])?;
+        let n = state.values.len();
+        self.rates.evaluate(state.time, &state.values, &mut self.slopes[..n])?;
         let system = self.rates.system();
         let mut here = state.clone();
-        here.values.clone_from(&self.slopes[0]);
+        here.values.copy_from_slice(&self.slopes[..n]);
         system.check_finite(&here)?;
         Err(system.fault(MotionErrorKind::NoConvergence(step), state.time, &state.values))
     }
@@ -254,25 +241,86 @@ impl Scheme for Implicit {
         self.guess(state)?;
         self.contiguous = false;
         self.solve(step, state)?;
-        self.evaluate(step, state.time)?;
-        for (weights, stage) in self.tableau.matrix.iter().zip(&mut self.stages) {
+        self.evaluate(step, state)?;
+        let n = state.values.len();
+        for (weights, stage) in self.tableau.matrix.iter().zip(self.stages.chunks_exact_mut(n)) {
             for (i, x) in stage.iter_mut().enumerate() {
                 if !self.held[i] {
-                    *x = (state.exact(i) + change(weights, &self.slopes, i, step)).high;
+                    let change = change(weights, &self.slopes, (i, n), step);
+                    *x = (state.exact(i) + change).high;
                 }
             }
         }
-        self.evaluate(step, state.time)?;
-        for i in 0..state.values.len() {
-            state.set(i, state.exact(i) + change(&self.tableau.weights, &self.slopes, i, step));
+        self.evaluate(step, state)?;
+        for i in 0..n {
+            let change = change(&self.tableau.weights, &self.slopes, (i, n), step);
+            state.set(i, state.exact(i) + change);
         }
         self.contiguous = true;
         Ok(())
     }
 }
 
-/// h Σ w f of one number, in double-double.
-fn change(weights: &[DoubleDouble], slopes: &[Vec<f64>], i: usize, step: f64) -> DoubleDouble {
-    let pairs = weights.iter().zip(slopes);
+/// How far every number has moved in a pass.
+struct Movements<'a> {
+    scheme: &'a mut Implicit,
+    /// The number of passes before.
+    count: usize,
+    step: f64,
+}
+
+impl Kernel for Movements<'_> {
+    /// Whether all numbers rest, and the largest movement in units of a number's size.
+    type Output = (bool, f64);
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> (bool, f64) {
+        let Movements { scheme, count, step } = self;
+        let n = scheme.noise.len();
+        let (mut least_bound, mut largest) = (f64::INFINITY, 0.0_f64);
+        for first in (0..scheme.stages.len()).step_by(n) {
+            let of_stage = first..first + n;
+            let stage = &scheme.stages[of_stage.clone()];
+            let old = &scheme.scratch[of_stage.clone()];
+            let slope = &scheme.slopes[of_stage.clone()];
+            let before = &mut scheme.moves[of_stage.clone()];
+            let resting = &mut scheme.resting[of_stage];
+            let noise = &scheme.noise[..n];
+            for i in 0..n {
+                let moved = (stage[i] - old[i]).abs();
+                let size = stage[i].abs().max((step * slope[i]).abs());
+                let small = SMALL * size + ROUNDINGS * step.abs() * noise[i];
+                // compares with two passes before, as positions and momenta may shrink alternately
+                let level = count >= 2 && moved >= before[i] && moved <= small;
+                before[i] = moved;
+                let bound = resting[i];
+                let settled = if moved == 0.0 || level {
+                    RESTLESS * moved.max(f64::EPSILON * size)
+                } else {
+                    AFOOT
+                };
+                let rests = if moved > bound { AFOOT } else { bound };
+                resting[i] = if bound < 0.0 { settled } else { rests };
+                least_bound = least_bound.min(resting[i]);
+                largest = largest.max(moved / (size + f64::MIN_POSITIVE));
+            }
+        }
+        (least_bound >= 0.0, largest)
+    }
+}
+
+/// Σ w f of one number of `n`, over the stages.
+fn combined(weights: impl Iterator<Item = f64>, slopes: &[f64], (i, n): (usize, usize)) -> f64 {
+    weights.zip(slopes.chunks_exact(n)).map(|(w, slope)| w * slope[i]).sum()
+}
+
+/// h Σ w f of one number of `n`, in double-double.
+fn change(
+    weights: &[DoubleDouble],
+    slopes: &[f64],
+    (i, n): (usize, usize),
+    step: f64,
+) -> DoubleDouble {
+    let pairs = weights.iter().zip(slopes.chunks_exact(n));
     pairs.fold(DoubleDouble::ZERO, |sum, (&w, slope)| sum + w * slope[i]) * step
 }

@@ -255,7 +255,7 @@ impl InvariantMonitor {
             self.farthest = distance;
         }
         let beyond = distance > floor * self.rounding;
-        if self.early.take(beyond.then_some(Distance { time, distance, moving })) {
+        if self.early.take(beyond.then_some(Distance { time, size: distance, moving })) {
             if self.early.is_over() {
                 (self.worst, self.left) = self.drifted();
                 self.early = Early::over();
@@ -278,7 +278,7 @@ impl InvariantMonitor {
     /// The greatest drift, and when it first exceeded the limit.
     fn drifted(&self) -> (f64, Option<f64>) {
         let (mut worst, mut left) = (self.worst, self.left);
-        for &Distance { time, distance, moving } in &self.early.distances {
+        for &Distance { time, size: distance, moving } in &self.early.distances {
             let drift = self.drift_of(distance, moving);
             worst = worst.max(drift);
             if drift > LEFT && left.is_none_or(|left| time < left) {
@@ -344,7 +344,7 @@ impl InvariantMonitor {
 #[derive(Clone, Copy, Debug)]
 struct Distance {
     time: f64,
-    distance: f64,
+    size: f64,
     moving: f64,
 }
 

@@ -362,8 +362,10 @@ fn lists_have_ends_and_pages() {
         Some(Overlay::Menu(menu)) => menu.selected,
         _ => app.picker.selected,
     };
-    for (app, keys) in [(in_lab(), ":"), (in_lab(), ": e"), (in_lab(), "m"), (at_picker(), "/ p")] {
-        let mut app = app;
+    let lists: [(fn() -> App, &str); 4] =
+        [(in_lab, ":"), (in_lab, ": e"), (in_lab, "m"), (at_picker, "/ p")];
+    for (begun, keys) in lists {
+        let mut app = begun();
         press(&mut app, keys);
         press(&mut app, "End");
         let last = line(&app);

@@ -73,7 +73,7 @@ fn a_momentum_under_a_root() {
         // the same value as h(P) at the start
         let written = format!("{head}{}", transformation("a", &f));
         let observed = format!("new_k={k}");
-        let wanted = format!("old_k={}", h);
+        let wanted = format!("old_k={h}");
         let words = [
             "run",
             "system.toml",

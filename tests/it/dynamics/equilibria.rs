@@ -448,7 +448,7 @@ const UNITS: [[f64; 3]; 4] = [
 
 /// The kinds found of a law with the terms c₀, c₁, … of these dimensions (powers of mass, length, time), written as numbers
 /// or as parameters.
-fn kinds(
+fn kinds_in_units(
     law: &str,
     terms: &[[i32; 3]],
     start: [[f64; 2]; 2],
@@ -489,11 +489,12 @@ fn a_law_has_the_same_equilibria_in_any_units() {
     for units in UNITS {
         for named in [false, true] {
             let start = [[0.0, 0.42], [0.1, 0.15]];
-            let found = kinds(henon, &[[1, 0, 0], energy(2), energy(3)], start, units, named);
+            let found =
+                kinds_in_units(henon, &[[1, 0, 0], energy(2), energy(3)], start, units, named);
             let four = [Kind::Minimum, Kind::Saddle, Kind::Saddle, Kind::Saddle];
             assert_eq!(found, four, "{units:?} {named}");
             let start = [[1.0, 0.2], [0.3, 0.9]];
-            let found = kinds(fall, &[[1, 0, 0], energy(1)], start, units, named);
+            let found = kinds_in_units(fall, &[[1, 0, 0], energy(1)], start, units, named);
             assert_eq!(found, [], "{units:?} {named}");
         }
     }
