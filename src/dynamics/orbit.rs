@@ -283,13 +283,15 @@ impl Newton<'_> {
         // rest is an equilibrium; under a drive it may be one of the orbits that have its period. At the origin a state is as
         // small as its rates, and what does not close is compared with what the search began with
         let turned = time / self.units.time();
-        let (moved, open) = (look.rates[0].norm() * turned, residual > CLOSED * look.size);
+        // what a motion moves by in a period may be much larger than where it is
+        let near = self.size(start).max(self.size(&state)).min(look.size);
+        let (moved, open) = (look.rates[0].norm() * turned, residual > CLOSED * near);
         let still = moved < STILL * look.size || open && moved <= STILL * speed;
         if self.space.is_autonomous() && still {
             return Err(self.rest(&state));
         }
         if open {
-            return Err(no_orbit(residual / look.size, time));
+            return Err(no_orbit(residual / near.max(f64::MIN_POSITIVE), time));
         }
         let settings = look.settings;
         Ok(Closed { state, period: time, residual, monodromy: look.monodromy, settings })

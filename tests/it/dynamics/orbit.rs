@@ -184,3 +184,17 @@ fn an_orbit_is_found_in_any_unit_of_time() {
         assert!((period(unit) / natural - 1.0).abs() < 1e-12, "{unit:e}");
     }
 }
+
+/// Along a resonance of tori a motion nearly closes everywhere: what misses itself by more than rounding is no orbit.
+#[test]
+fn what_nearly_closes_along_a_resonance_is_no_orbit() {
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 0, momentum = 0.3 }\ny = { initial = 0.8, momentum = 0.01 }\n\
+                [hamiltonian]\nH = \"1/2*(p_x^2 + p_y^2) + 1/4*(x^4 + y^4) + 0.3*x^2*y^2 + x^2/2 + y^2\"\n";
+    let case = file(text, &[]);
+    match periodic_orbit(&case.space, taylor(), &case.start, None, Fixed::Energy(2.0)) {
+        Ok(found) => {
+            assert!(found.closure < 1e-9 && (found.energy - 2.0).abs() < 1e-9, "{found:?}")
+        }
+        Err(error) => assert!(error.to_string().contains("misses itself"), "{error}"),
+    }
+}
