@@ -66,7 +66,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
     if shown.is_empty() {
         let text = match menu.purpose {
             Choosing::Contents { .. } | Choosing::Axis { .. } => {
-                "no match; an expression is shown once the file has it as an observable (E)"
+                "no line has this; Enter takes it as an expression"
             }
             _ => "no match",
         };
