@@ -53,7 +53,7 @@ pub enum Growth {
 
 impl Verdict {
     /// The verdict in one to four words, for reports: `exact`, `bounded`, `secular`, `lost`,
-    /// `broken by the physics`, `open`.
+    /// `not conserved`, `open`.
     pub fn word(&self) -> &'static str {
         match self {
             Verdict::Open => "open",
@@ -61,7 +61,7 @@ impl Verdict {
             Verdict::Bounded => "bounded",
             Verdict::Secular(_) => "secular",
             Verdict::Lost => "lost",
-            Verdict::Broken(_) => "broken by the physics",
+            Verdict::Broken(_) => "not conserved",
         }
     }
 

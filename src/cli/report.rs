@@ -49,7 +49,7 @@ pub(super) struct Invariant {
     /// Its greatest distance from the initial value over all steps, relative to the moving part of its terms. The
     /// jumps of impulses do not count.
     pub(super) max_drift: f64,
-    /// `exact`, `bounded`, `secular`, `lost`, `broken by the physics`, `open`, `adiabatic`.
+    /// `exact`, `bounded`, `secular`, `lost`, `not conserved`, `open`, `adiabatic`.
     pub(super) verdict: &'static str,
 }
 

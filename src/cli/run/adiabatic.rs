@@ -1,7 +1,7 @@
 //! The action variable of a run with a ramp: ∮ p dq at the start and at the end, each with the parameters of its time.
 //!
 //! In: a model of one coordinate whose parameters are functions of the time. Out: an invariant of the report with the verdict
-//! *adiabatic*, or *broken by the physics*. Never here: the motion between.
+//! *adiabatic*, or *not conserved*. Never here: the motion between.
 //! Source: *The Principles of Dynamics*, § 4.3.
 
 use crate::action_angle::{ActionRow, HeldSystem};
@@ -74,7 +74,7 @@ impl Adiabatic {
         let verdict = match (driven > 0.0, change <= FAR_LESS * driven) {
             (false, _) => "open",
             (true, true) => "adiabatic",
-            (true, false) => "broken by the physics",
+            (true, false) => "not conserved",
         };
         Some(Invariant {
             name: "action variable".to_owned(),

@@ -282,7 +282,7 @@ fn friction_breaks_the_energy_and_the_ledger_keeps_it() {
         phaselab(&["run", "driven-damped-pendulum", "--format", "json", "--until", "20"]).json();
     let invariants = object["invariants"].as_array().expect("a list");
     let find = |name: &str| invariants.iter().find(|i| i["name"] == name).expect("a gauge");
-    assert_eq!(find("energy")["verdict"], "broken by the physics");
+    assert_eq!(find("energy")["verdict"], "not conserved");
     assert_eq!(find("energy ledger")["verdict"], "exact");
 }
 

@@ -155,8 +155,8 @@ fn a_planet_in_a_plane() {
 fn friction_breaks_the_energy_under_any_method() {
     let text = "title = \"Damped\"\n[coordinates]\nx = { initial = 1 }\n\
                 [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\ndissipation = \"0.02*x'^2\"\n";
-    let broken: Label = ("taylor", 0.0, |_| "broken by the physics");
-    let coarse: Label = ("rk4", 0.05, |_| "broken by the physics");
+    let broken: Label = ("taylor", 0.0, |_| "not conserved");
+    let coarse: Label = ("rk4", 0.05, |_| "not conserved");
     let period = std::f64::consts::TAU;
     let runs = hold(text, period, &[broken], &[("energy", None), ("energy ledger", Some("exact"))])
         + hold(text, period, &[coarse], &[("energy", None)]);
