@@ -97,9 +97,6 @@ struct Taylor {
     leaps: (u32, f64),
 }
 
-/// The terms that decide a step are 1e-20 of the largest, or more: below this they are near the smallest numbers.
-const FAINTEST: f64 = 1e-260;
-
 /// A step is well represented in a unit of time between these parts of it.
 const NEARBY_UNITS: (f64, f64) = (1e-4, 1e3);
 
@@ -419,14 +416,6 @@ impl Taylor {
         }
     }
 
-    /// Whether all numbers change by so little that the last terms of their series underflow: no step can be told from
-    /// them. Equilibria do not change at all.
-    fn is_faint(&self) -> bool {
-        let terms = (0..self.series.inputs()).flat_map(|i| self.series.coefficients(i));
-        let largest = terms.fold(0.0_f64, |most, c| most.max(c.abs()));
-        largest > 0.0 && largest < FAINTEST
-    }
-
     fn not_finite(&self) -> MotionError {
         let names = self.system.channels();
         let n = self.system.degrees();
@@ -559,7 +548,6 @@ impl Stepper for Taylor {
             self.state = state;
             return Ok(());
         }
-        let begins = !self.scaled;
         self.aim(left.high);
         if self.landed {
             if self.leap(left.high, 0.0)? {
@@ -579,9 +567,6 @@ impl Stepper for Taylor {
             },
         };
         self.leapt = None;
-        if begins && self.is_faint() {
-            return Err(self.system.fault(MotionErrorKind::Faint, time.high, &self.state.values));
-        }
         let mut last = step >= left.high.abs();
         let mut after = if last { left } else { DoubleDouble::from(step.copysign(left.high)) };
         let scale = self.series.scale();
