@@ -219,7 +219,6 @@ impl Stepper for Taylor {
             self.state = state;
             return Ok(());
         }
-        let begins = !self.scaled;
         self.aim(left.high);
         if self.landed {
             if self.leap(left.high, 0.0)? {
@@ -237,9 +236,6 @@ impl Stepper for Taylor {
         };
         let Some(step) = longest else { return Ok(()) };
         self.leapt = None;
-        if begins && self.is_faint() {
-            return Err(self.system.fault(MotionErrorKind::Faint, time.high, &self.state.values));
-        }
         match self.end_of_step(step, left)? {
             Some(end) => self.go_to(end, step, (left.high, limit)),
             None => Ok(()),

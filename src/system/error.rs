@@ -59,8 +59,6 @@ pub enum MotionErrorKind {
     NotFinite(String),
     /// The same in a step of fixed size, which may be too long.
     NotFiniteInStep(String),
-    /// All numbers of a motion are so small where it begins that the terms of its series underflow.
-    Faint,
     /// The functions of the events swing too often within one step to be followed.
     Swings,
     /// No velocities were found for the given momenta (or the reverse).
@@ -183,12 +181,6 @@ impl fmt::Display for MotionError {
                     "the motion comes to a kink that it cannot be followed through at t = {time}"
                 )?;
             }
-            MotionErrorKind::Faint => {
-                write!(
-                    f,
-                    "the terms of a series underflow where the motion begins, at t = {time}"
-                )?;
-            }
             MotionErrorKind::Swings => write!(
                 f,
                 "what the events wait for swings too often within one step at t = {time}"
@@ -233,7 +225,6 @@ impl fmt::Display for MotionError {
                 ": a step led beyond the place where the momenta p = ∂L/∂q̇ turn back"
             }
             MotionErrorKind::NoConvergence(_) | MotionErrorKind::Swings => ": try a smaller step",
-            MotionErrorKind::Faint => ": take other units, or --method dop853",
             MotionErrorKind::StepUnderflow(_) => ": a collision or another singularity lies ahead",
             MotionErrorKind::ClockStands(_) => ", and the next step, impulse or event comes sooner",
             MotionErrorKind::NoInterval(..) => ": its interval must be above zero",

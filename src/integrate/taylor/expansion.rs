@@ -6,9 +6,6 @@
 use super::{Taylor, step_size};
 use crate::system::{MotionError, MotionErrorKind};
 
-/// The terms that decide a step are 1e-20 of the largest, or more: below this they are near the smallest numbers.
-const FAINTEST: f64 = 1e-260;
-
 /// A step is well represented in a unit of time between these parts of it.
 pub(super) const NEARBY_UNITS: (f64, f64) = (1e-4, 1e3);
 
@@ -82,14 +79,6 @@ impl Taylor {
             c.is_finite().then_some((i, k))
         };
         (0..self.series.inputs()).filter_map(first).collect()
-    }
-
-    /// Whether all numbers change by so little that the last terms of their series underflow: no step can be told from
-    /// them. Equilibria do not change at all.
-    pub(super) fn is_faint(&self) -> bool {
-        let terms = (0..self.series.inputs()).flat_map(|i| self.series.coefficients(i));
-        let largest = terms.fold(0.0_f64, |most, c| most.max(c.abs()));
-        largest > 0.0 && largest < FAINTEST
     }
 
     fn not_finite(&self) -> MotionError {

@@ -141,31 +141,3 @@ fn a_step_ends_when_it_is_asked_to() {
     assert_eq!(fault.kind, MotionErrorKind::Cancelled);
     assert_eq!(run.stepper.time(), 1.0);
 }
-
-/// An oscillator of any amplitude is the same to its last digits, or the motion is refused: where the terms of its series
-/// underflow nothing tells how long a step may be.
-#[test]
-fn an_amplitude_is_followed_or_refused_however_small() {
-    for exponent in (0..=320).step_by(4) {
-        let text = format!(
-            "title = \"Faint\"\n[coordinates]\nx = {{ initial = 1e-{exponent} }}\n\
-             [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n"
-        );
-        let amplitude: f64 = format!("1e-{exponent}").parse().unwrap();
-        match Run::new(&text).try_to(10.0) {
-            Ok(state) => {
-                let (x, v) = (state.values[0] / amplitude, state.values[1] / amplitude);
-                near(&[x, v], &[10.0_f64.cos(), -10.0_f64.sin()], 1e-14);
-                assert!(exponent < 262, "1e-{exponent} is followed");
-            }
-            Err(fault) => {
-                assert_eq!(fault.kind, MotionErrorKind::Faint, "1e-{exponent}: {fault}");
-                assert!(exponent > 258, "1e-{exponent}: {fault}");
-            }
-        }
-    }
-    // rest, and a motion that comes near it
-    assert_eq!(potential("0.0", "0.0", "1/2*x^2").to(10.0), [0.0, 0.0]);
-    let mut fall = potential("1e-290", "0.0", "x");
-    near(&fall.to(2.0), &[-2.0, -2.0], 1e-15);
-}

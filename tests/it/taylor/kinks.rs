@@ -287,20 +287,17 @@ fn a_kink_is_passed_in_any_long_step() {
 /// The default step of a fixed-step method is a part of the way between two kinks, where nothing else sets a scale.
 #[test]
 fn the_default_step_in_a_wedge_is_a_part_of_its_period() {
-    for (size, time) in [(20.0, 1.0), (20e-10, 1e-15), (20e20, 1e13)] {
-        let force = size / 20.0 / (time * time);
-        let Run { system, parameters, .. } = Run::new(&format!(
-            "title = \"Wedge\"\n[coordinates]\nx = {{ initial = {size:e} }}\n\
-             [lagrangian]\nL = \"1/2*x'^2 - {force:e}*abs(x)\"\n"
-        ));
-        let state = system.initial(0.0, &parameters, &[]).expect("regular");
-        let rk4 = METHODS.iter().find(|method| method.name == "rk4").expect("a method");
-        let mut stepper =
-            (rk4.make)(&system, &Settings { step: None, tolerance: None }).expect("it fits");
-        stepper.start(&state, &parameters).expect("regular");
-        stepper.step(f64::INFINITY).expect("regular");
-        // half a period is 4 √10
-        let part = stepper.step_size() / (4.0 * 10.0_f64.sqrt() * time);
-        assert!((0.05..0.2).contains(&part), "{part}");
-    }
+    let Run { system, parameters, .. } = Run::new(
+        "title = \"Wedge\"\n[coordinates]\nx = { initial = 20 }\n\
+         [lagrangian]\nL = \"1/2*x'^2 - abs(x)\"\n",
+    );
+    let state = system.initial(0.0, &parameters, &[]).expect("regular");
+    let rk4 = METHODS.iter().find(|method| method.name == "rk4").expect("a method");
+    let mut stepper =
+        (rk4.make)(&system, &Settings { step: None, tolerance: None }).expect("it fits");
+    stepper.start(&state, &parameters).expect("regular");
+    stepper.step(f64::INFINITY).expect("regular");
+    // half a period is 4 √10
+    let part = stepper.step_size() / (4.0 * 10.0_f64.sqrt());
+    assert!((0.05..0.2).contains(&part), "{part}");
 }
