@@ -18,6 +18,7 @@ mod detail;
 mod equations;
 mod field;
 pub mod frame;
+mod further;
 mod gauges;
 pub mod glyphs;
 mod header_footer;
