@@ -21,6 +21,7 @@ mod event;
 mod field;
 mod findings;
 mod flow;
+mod further;
 mod fuzzy;
 mod guide;
 mod guide_list;
@@ -66,6 +67,7 @@ mod value;
 mod workbench;
 
 pub use action::{Action, ArrowDirection, AxisChoice, EditCommand};
+pub use answers::FurtherForms;
 pub use buffer::{Asking, BufferDiagnostic, BufferState, SourceBuffer, Unsaved};
 pub use computation::{Asker, Computation, UnderWay};
 pub use drawn::{Drawn, DrawnPanes, LawInView, PlotsInView};

@@ -19,6 +19,7 @@ mod emphasis;
 mod equations;
 mod field;
 pub mod frame;
+mod further;
 mod gauges;
 pub mod glyphs;
 mod header_footer;

@@ -9,7 +9,7 @@ use super::computation::UnderWay;
 use crate::instrument::{Answer, Columns, FoundEquilibria, Instrument, Plot};
 use crate::integrability::PointSymmetry;
 use crate::job::Outcome;
-use crate::mechanics::Equations;
+use crate::mechanics::{Equations, Further};
 use crate::model::Variation;
 
 /// The results and running jobs for the plots of a lab.
@@ -96,4 +96,20 @@ impl Answers {
         }
         true
     }
+}
+
+/// What was found, with the equations in whose pool it is.
+#[derive(Debug)]
+pub struct FurtherForms {
+    /// The equations.
+    pub equations: Equations,
+    /// What was found.
+    pub further: Further,
+}
+
+/// The job, and what it found.
+#[derive(Clone, Debug, Default)]
+pub(super) struct FurtherSearch {
+    pub(super) asked: Option<u64>,
+    pub(super) found: Option<Arc<FurtherForms>>,
 }

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::answers::{Answers, EquilibriaSearch, SymmetrySearch};
+use super::answers::{Answers, EquilibriaSearch, FurtherSearch, SymmetrySearch};
 use super::history::UndoHistory;
 use super::pending::PendingChanges;
 use super::{DrawnPanes, InvariantSearch, LawInView, Loaded, Pane, Prediction, Selection, ValueId};
@@ -44,6 +44,7 @@ pub struct Lab {
     pub(super) answers: Answers,
     /// The ticket of the job that finds the closed forms of the equations, once it was requested.
     pub(super) closed_forms_asked: Option<u64>,
+    pub(super) further_search: FurtherSearch,
     /// The search for constants of the motion.
     pub search: InvariantSearch,
     /// The flow that is being followed.
@@ -121,6 +122,7 @@ impl Lab {
             drawn: DrawnPanes::default(),
             answers: Answers::default(),
             closed_forms_asked: None,
+            further_search: FurtherSearch::default(),
             search: InvariantSearch::default(),
             flow: None,
             symmetries: SymmetrySearch::default(),

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use super::answers::{Answers, PlotJob};
-use super::{App, Asker, Computation, Effect, Event, Lab, Overlay, UnderWay};
+use super::{App, Asker, Computation, Effect, Event, Lab, Overlay, Page, UnderWay};
 use crate::experiment::Command;
 use crate::instrument::{Answer, Need, Plot};
 use crate::job::{Job, Outcome, Progress, Share};
@@ -113,6 +113,9 @@ impl App {
         let wanted = if stale { lab.needs(&mut self.jobs, self.aside) } else { Vec::new() };
         effects.extend(wanted.into_iter().map(Effect::Compute));
         effects.extend(lab.ask_for_closed_forms(&mut self.jobs).map(Effect::Compute));
+        if self.page == Page::Equations {
+            effects.extend(lab.ask_for_further(&mut self.jobs).map(Effect::Compute));
+        }
         self.look_after_search(effects);
         if self.aside {
             return;
@@ -164,7 +167,9 @@ impl App {
                 true
             }
             _ => lab.is_some_and(|lab| {
-                lab.answers.take(ticket, &outcome) || lab.take_closed_forms(ticket, &outcome)
+                lab.answers.take(ticket, &outcome)
+                    || lab.take_closed_forms(ticket, &outcome)
+                    || lab.take_further(ticket, &outcome)
             }),
         };
         match outcome {

@@ -4,6 +4,7 @@
 
 use super::RenderStyle;
 use super::constants;
+use super::further;
 use super::text_page::TextPage;
 use super::theme::Role;
 use crate::app::Lab;
@@ -24,6 +25,7 @@ pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
     writer.motion();
     writer.hamiltonian();
     writer.conserved();
+    further::rows(lab, look, &mut writer.page);
     constants::found(lab, look, &mut writer.page);
     writer.definitions();
     writer.page

@@ -438,3 +438,34 @@ fn a_trail_is_parted_at_a_caustic() {
     }
     assert!(jumps >= 20, "{jumps}: five changes of branch or more each time");
 }
+
+/// The page of equations has what the notes of the presets send one to it for: which bracket fails, K, the generating
+/// functions, the generators, the complete integral.
+#[test]
+fn the_page_of_equations_has_transformations() {
+    let page = |name: &str| {
+        let mut app = crate::hand::begun(&crate::hand::catalog().find(name).unwrap().text);
+        crate::hand::press(&mut app, "2");
+        let area = ratatui::layout::Rect::new(0, 0, 120, 120);
+        let mut buffer = ratatui::buffer::Buffer::empty(area);
+        phaselab::view::draw(&app, &crate::screen::rich(), area, &mut buffer);
+        crate::screen::rows(&buffer).join("\n")
+    };
+    let oscillator = page("angle-of-the-oscillator");
+    for words in [
+        "Transformation action-angle: canonical, proved",
+        "K = ω P",
+        "Transformation polar: not canonical",
+        "[θ, r] = ",
+        "valence = λ μ",
+        "Generators",
+        "[H, G] = 0",
+    ] {
+        assert!(oscillator.contains(words), "{words}: {oscillator}");
+    }
+    let turn = page("four-generators");
+    assert!(turn.contains("F4 = "), "{turn}");
+    let falling = page("falling-body");
+    assert!(falling.contains("Integral of the Hamilton–Jacobi equation: complete"), "{falling}");
+    assert!(falling.contains("∂S/∂α"), "{falling}");
+}

@@ -1,0 +1,132 @@
+//! The part of the page of equations that takes longer to find: transformations, generators, the complete integral.
+//!
+//! In: what a job has found. Out: blocks of a page. Never here: derivations.
+
+use super::RenderStyle;
+use super::text_page::TextPage;
+use super::theme::Role;
+use crate::app::{FurtherForms, Lab};
+use crate::expr::{Expr, Symbol};
+
+/// Expressions with more nodes than this are not written out.
+const MOST: u64 = 1_000;
+
+/// Adds what is known of them.
+pub(super) fn rows(lab: &Lab, look: &RenderStyle, page: &mut TextPage) {
+    if !lab.has_further() {
+        return;
+    }
+    let Some(forms) = lab.further() else {
+        page.heading("Transformations, generators, complete integral");
+        page.words(Role::Dim, "Being looked at.");
+        return;
+    };
+    let mut rows = FurtherRows { forms, look, page };
+    rows.transformations();
+    rows.generators();
+    rows.complete_integral(lab);
+}
+
+struct FurtherRows<'a> {
+    forms: &'a FurtherForms,
+    look: &'a RenderStyle,
+    page: &'a mut TextPage,
+}
+
+impl FurtherRows<'_> {
+    fn write(&self, e: Expr) -> String {
+        let pool = &self.forms.equations.pool;
+        if pool.weight(e) > MOST {
+            return format!("… ({} pieces: phaselab derive prints them)", pool.weight(e));
+        }
+        if self.look.glyphs.is_ascii() { pool.ascii(e) } else { pool.unicode(e) }
+    }
+
+    fn symbol(&self, symbol: Symbol) -> String {
+        let info = self.forms.equations.pool.symbol_info(symbol);
+        self.look.glyphs.pick(&info.unicode, &info.name).clone()
+    }
+
+    fn put(&mut self, label: &str, e: Expr, remark: &str) {
+        let written = self.write(e);
+        self.page.formula(label, written, remark);
+    }
+
+    fn transformations(&mut self) {
+        let forms = self.forms;
+        for known in &forms.further.transformations {
+            let verdict = &known.verdict;
+            let judged = match (verdict.canonical, verdict.proved) {
+                (true, true) => "canonical, proved",
+                (true, false) => "canonical to rounding",
+                (false, _) => "not canonical",
+            };
+            self.page.heading(&format!("Transformation {}: {judged}", known.map.name));
+            for &(s, e) in known.map.forwards.iter().flatten() {
+                self.put(&self.symbol(s), e, "");
+            }
+            if known.map.forwards.is_none() {
+                let words = "The new variables are not known in closed form.";
+                self.page.words(Role::Dim, words);
+            }
+            for failing in &verdict.failing {
+                let [a, b] = failing.pair.map(|s| self.symbol(s));
+                let expected = format!("and not {}", self.write(failing.expected));
+                self.put(&format!("[{a}, {b}]"), failing.is, &expected);
+            }
+            if let Some(valence) = verdict.valence {
+                self.put("valence", valence, "a scale transformation");
+            }
+            for one in &known.functions {
+                match &one.function {
+                    Ok(e) => {
+                        self.put(&one.name(), *e, if one.proved { "" } else { "near the start" })
+                    }
+                    Err(why) => {
+                        self.page.words(Role::Dim, format!("{}: none; {why}.", one.name()));
+                    }
+                }
+            }
+            match &known.hamiltonian {
+                Ok(e) => self.put("K", *e, ""),
+                Err(why) if verdict.canonical => self.page.words(Role::Dim, format!("K: {why}.")),
+                Err(_) => {}
+            }
+        }
+    }
+
+    fn generators(&mut self) {
+        let forms = self.forms;
+        if !forms.further.generators.is_empty() {
+            self.page.heading("Generators");
+        }
+        for known in &forms.further.generators {
+            self.put("G", known.expression, &known.name);
+            let kept = if known.conserved { "conserved" } else { "not conserved" };
+            match &known.bracket {
+                Ok(bracket) => self.put("[H, G]", *bracket, kept),
+                Err(why) => self.page.words(Role::Dim, format!("[H, G]: {why}; {kept}.")),
+            }
+        }
+    }
+
+    fn complete_integral(&mut self, lab: &Lab) {
+        let forms = self.forms;
+        let (model, Some(known)) = (&lab.loaded.model, &forms.further.hamilton_jacobi) else {
+            return;
+        };
+        let complete = if known.complete { "complete" } else { "not complete" };
+        self.page.heading(&format!("Integral of the Hamilton–Jacobi equation: {complete}"));
+        if let Some(why) = &known.why {
+            self.page.words(Role::Dim, format!("{why}."));
+        }
+        let constants = model.complete_integral.iter().flat_map(|s| &s.constants);
+        let momenta = model.coordinates.iter().zip(&known.momenta);
+        for (coordinate, &e) in momenta {
+            self.put(&self.symbol(coordinate.momentum), e, "= ∂S/∂q");
+        }
+        for (constant, &e) in constants.zip(&known.beta) {
+            self.put(&self.symbol(constant.conjugate), e, "= ∂S/∂α, constant");
+        }
+    }
+}
