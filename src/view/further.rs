@@ -80,7 +80,7 @@ impl FurtherRows<'_> {
             for one in &known.functions {
                 match &one.function {
                     Ok(e) => {
-                        self.put(&one.name(), *e, if one.proved { "" } else { "near the start" })
+                        self.put(&one.name(), *e, if one.proved { "" } else { "near the start" });
                     }
                     Err(why) => {
                         self.page.words(Role::Dim, format!("{}: none; {why}.", one.name()));
