@@ -193,7 +193,7 @@ fn what_nearly_closes_along_a_resonance_is_no_orbit() {
     let case = file(text, &[]);
     match periodic_orbit(&case.space, taylor(), &case.start, None, Fixed::Energy(2.0)) {
         Ok(found) => {
-            assert!(found.closure < 1e-9 && (found.energy - 2.0).abs() < 1e-9, "{found:?}")
+            assert!(found.closure < 1e-9 && (found.energy - 2.0).abs() < 1e-9, "{found:?}");
         }
         Err(error) => assert!(error.to_string().contains("misses itself"), "{error}"),
     }
