@@ -54,6 +54,8 @@ pub(super) struct InvariantMonitor {
     worst: f64,
     /// When its drift first exceeded the limit.
     left: Option<f64>,
+    /// The first distances beyond rounding, as long as it is not known how much moves.
+    early: Early,
     /// The signed distances.
     distances: History,
 }
@@ -105,6 +107,7 @@ impl InvariantMonitor {
             farthest: 0.0,
             worst: 0.0,
             left: None,
+            early: Early::default(),
             distances: History::new(),
         }
     }
@@ -125,6 +128,7 @@ impl InvariantMonitor {
         self.farthest = 0.0;
         self.worst = 0.0;
         self.left = None;
+        self.early = Early::default();
         self.distances = History::new();
     }
 
@@ -139,6 +143,7 @@ impl InvariantMonitor {
         self.farthest = known.farthest.unwrap_or(known.max_drift * scale);
         self.worst = known.max_drift;
         self.left = known.left;
+        self.early = Early::over();
     }
 
     /// Shifts the reference by the jump of an impulse.
@@ -249,15 +254,38 @@ impl InvariantMonitor {
         if distance > self.farthest {
             self.farthest = distance;
         }
-        if distance > floor * self.rounding {
-            let moving = moving.max(self.moving.value());
-            let drift = if moving > 0.0 { distance / moving } else { distance / self.rounding };
+        let beyond = distance > floor * self.rounding;
+        let held = self.early.take(beyond.then_some(Distance { time, size: distance, moving }));
+        if beyond && !held {
+            let drift = self.drift_of(distance, moving);
             self.worst = self.worst.max(drift);
             // rows lie before the end of the step, which was recorded first
             if drift > LEFT && self.left.is_none_or(|left| time < left) {
                 self.left = Some(time);
             }
         }
+        if self.early.is_known() {
+            (self.worst, self.left) = self.drifted();
+            self.early = Early::over();
+        }
+    }
+
+    fn drift_of(&self, distance: f64, moving: f64) -> f64 {
+        let moving = moving.max(self.moving.value());
+        if moving > 0.0 { distance / moving } else { distance / self.rounding }
+    }
+
+    /// The greatest drift, and when it first exceeded the limit.
+    fn drifted(&self) -> (f64, Option<f64>) {
+        let (mut worst, mut left) = (self.worst, self.left);
+        for &Distance { time, size, moving } in &self.early.distances {
+            let drift = self.drift_of(size, moving);
+            worst = worst.max(drift);
+            if drift > LEFT && left.is_none_or(|left| time < left) {
+                left = Some(time);
+            }
+        }
+        (worst, left)
     }
 
     /// The scale of drift: the mean moving part, or the size of the terms if nothing moves.
@@ -277,7 +305,8 @@ impl InvariantMonitor {
         };
         let distance = if self.offset { self.last } else { (value - self.reference).abs() };
         let beyond = self.farthest > rounding;
-        let max_drift = if beyond { self.worst } else { drift(self.farthest.max(distance)) };
+        let (worst, since_when) = self.drifted();
+        let max_drift = if beyond { worst } else { drift(self.farthest.max(distance)) };
         let drift_now = drift(distance).min(max_drift);
         let left = beyond && max_drift > LEFT;
         // what is only supposed to be conserved may change with the motion
@@ -304,10 +333,54 @@ impl InvariantMonitor {
             reference_time: since,
             drift: drift_now,
             max_drift,
-            left: (left && self.broken.is_none()).then(|| self.left.unwrap_or(since)),
+            left: (left && self.broken.is_none()).then(|| since_when.unwrap_or(since)),
             history: history.map(|peak| drift(peak) as f32).collect(),
             verdict,
         }
+    }
+}
+
+/// A distance from the reference, and what moved at that time.
+#[derive(Clone, Copy, Debug)]
+struct Distance {
+    time: f64,
+    size: f64,
+    moving: f64,
+}
+
+/// The number of first looks, whose distances are held until there were …
+const FIRST_LOOKS: u32 = 64;
+
+/// … so many.
+const LOOKS_TO_KNOW: u32 = 2 * FIRST_LOOKS;
+
+/// The distances at the first looks. A motion that begins at rest moves little in its first steps, and the error of the first
+/// may be as large as all that has moved: they are compared with what moves a few steps later.
+#[derive(Clone, Debug, Default)]
+struct Early {
+    looks: u32,
+    distances: Vec<Distance>,
+}
+
+impl Early {
+    /// That of a motion that has moved.
+    fn over() -> Early {
+        Early { looks: LOOKS_TO_KNOW + 1, distances: Vec::new() }
+    }
+
+    /// Whether what moves is just known.
+    fn is_known(&self) -> bool {
+        self.looks == LOOKS_TO_KNOW
+    }
+
+    /// Takes a look, with a distance if rounding does not explain it. Returns whether the distance is held.
+    fn take(&mut self, distance: Option<Distance>) -> bool {
+        if self.looks < LOOKS_TO_KNOW {
+            self.looks += 1;
+        }
+        let is_first = self.looks <= FIRST_LOOKS;
+        self.distances.extend(distance.filter(|_| is_first));
+        is_first
     }
 }
 
