@@ -6,7 +6,7 @@ use phaselab::view::RenderStyle;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Rect;
 
-use super::{played, script};
+use super::{recorded, script};
 
 const SCRIPT: &str = "Size 90x28\nCaption \"It swings\"\nPress Down x2\nSweep g to 20 in 1s\n\
                       Marker \"Middle\"\nWait 1s\nAssert g = 1 within 0\nPress 2\nWait 0.5s";
@@ -36,7 +36,7 @@ fn watched(
 
 #[test]
 fn what_is_watched_is_what_is_recorded() {
-    let recording = played("pendulum", SCRIPT);
+    let recording = recorded("pendulum", SCRIPT);
     let (mut it, look) = performance(SCRIPT);
     let middle = recording.markers[0].time;
     let (screen, more) = watched(&mut it, &look, (0..=middle).step_by(10_000).chain([middle]));
