@@ -119,8 +119,7 @@ impl Implicit {
             return Ok(());
         }
         for (weights, guess) in self.tableau.onward.iter().zip(self.scratch.chunks_exact_mut(n)) {
-            let sum = |i: usize| combined(weights.iter().copied(), &self.slopes, (i, n));
-            guess.iter_mut().enumerate().for_each(|(i, x)| *x = sum(i));
+            combine(weights.iter().copied(), &self.slopes, guess);
         }
         std::mem::swap(&mut self.slopes, &mut self.scratch);
         Ok(())
@@ -130,13 +129,13 @@ impl Implicit {
     fn place(&mut self, step: f64, state: &State) {
         let n = state.values.len();
         for (weights, stage) in self.tableau.matrix.iter().zip(self.stages.chunks_exact_mut(n)) {
+            combine(weights.iter().map(|a| a.high), &self.slopes, stage);
             for (i, x) in stage.iter_mut().enumerate() {
-                if self.held[i] {
-                    *x = state.exact(i).high;
-                    continue;
-                }
-                let slope = combined(weights.iter().map(|a| a.high), &self.slopes, (i, n));
-                *x = state.values[i] + (state.carry[i] + step * slope);
+                *x = if self.held[i] {
+                    state.exact(i).high
+                } else {
+                    state.values[i] + (state.carry[i] + step * *x)
+                };
             }
         }
     }
@@ -309,9 +308,16 @@ impl Kernel for Movements<'_> {
     }
 }
 
-/// Σ w f of one number of `n`, over the stages.
-fn combined(weights: impl Iterator<Item = f64>, slopes: &[f64], (i, n): (usize, usize)) -> f64 {
-    weights.zip(slopes.chunks_exact(n)).map(|(w, slope)| w * slope[i]).sum()
+/// Writes Σ w f of each number, over the stages.
+fn combine(weights: impl Iterator<Item = f64>, slopes: &[f64], out: &mut [f64]) {
+    for (j, (w, slopes)) in weights.zip(slopes.chunks_exact(out.len())).enumerate() {
+        let products = slopes.iter().map(|slope| w * slope);
+        if j == 0 {
+            out.iter_mut().zip(products).for_each(|(x, product)| *x = product);
+        } else {
+            out.iter_mut().zip(products).for_each(|(x, product)| *x += product);
+        }
+    }
 }
 
 /// h Σ w f of one number of `n`, in double-double.
