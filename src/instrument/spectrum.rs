@@ -29,7 +29,7 @@ const COUNT: usize = 2048;
 
 /// The most lines that are searched for, and that are listed.
 const MOST: usize = 10;
-const TOLD: usize = 6;
+const LINES_NAMED: usize = 6;
 
 /// What is shown goes down so many powers of ten, and so much beyond the last line.
 const POWERS: f64 = 9.0;
@@ -238,7 +238,7 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     let mut all: Vec<String> = lines
         .lines
         .iter()
-        .take(TOLD)
+        .take(LINES_NAMED)
         .map(|line| {
             // of what is no sum of lines no frequency is a combination of others
             let name = line.name().filter(|_| !lines.is_continuous());
@@ -249,7 +249,7 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
         .collect();
     let names = lines.lines.iter().filter_map(SpectralLine::name);
     if let Some(drive) = found(answer).and_then(|found| found.drive)
-        && names.take(TOLD).any(|name| name.contains('Ω'))
+        && names.take(LINES_NAMED).any(|name| name.contains('Ω'))
     {
         all.push(format!("Ω = {}{unit}, the drive", short(drive)));
     }
