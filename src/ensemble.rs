@@ -13,6 +13,7 @@ mod plane;
 mod pool;
 mod region;
 mod section;
+mod section_batch;
 mod side_by_side;
 mod start;
 
@@ -25,5 +26,6 @@ pub use plane::SectionPlane;
 pub use pool::{PoolError, in_order};
 pub use region::{Region, spread};
 pub use section::{Crossings, OrbitStatus, SectionPlan, add_section, crossings, section_name};
+pub use section_batch::{SECTION_GROUP, crossings_of_all};
 pub use side_by_side::{Follower, OrbitCourse, side_by_side};
 pub use start::Start;

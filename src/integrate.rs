@@ -4,7 +4,9 @@
 //! by step and evaluate it anywhere inside the last one. Never here: rows, gauges, wall clocks.
 
 mod batch;
+mod batch_events;
 mod clock;
+mod dense_output;
 mod dop853;
 mod equal_steps;
 mod event_location;
@@ -37,7 +39,9 @@ mod yoshida;
 mod zeno;
 
 pub use batch::BatchPropagator;
+pub use batch_events::LaneEvent;
 pub use clock::spacing;
+pub use dense_output::DenseOutput;
 pub use lane_status::LaneStatus;
 pub use method::{ACCURACIES, Method, MethodError, Preserves, Settings, StepperResult, Stepping};
 pub use methods::{METHODS, method_named};

@@ -4,7 +4,7 @@
 
 use std::io::{IsTerminal, Write, stderr};
 use std::num::NonZeroUsize;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -73,22 +73,25 @@ impl Drop for Tally {
     }
 }
 
-/// Computes all items; after a signal those that are done before the first that is not.
+/// Computes `count` items in groups of so many; after a signal those that are done before the first group that is not.
 pub(super) fn collect<T: Send>(
     crowd: &Crowd,
-    count: usize,
+    (count, size): (usize, usize),
     interrupt: &Interrupt,
-    work: impl Fn(usize) -> T + Sync,
+    work: impl Fn(Range<usize>) -> Vec<T> + Sync,
 ) -> Result<Vec<T>, CommandError> {
     interrupt.ends_by_itself(|| {});
     let mut tally = Tally::new(0, count);
     let mut results = Vec::new();
-    let take = |_, result| {
-        results.push(result);
-        tally.add();
+    let group = |i: usize| work(i * size..count.min((i + 1) * size));
+    let take = |_, group: Vec<T>| {
+        for result in group {
+            results.push(result);
+            tally.add();
+        }
         ControlFlow::Continue(())
     };
-    in_order(crowd.threads(), count, interrupt.cancel(), work, take)
+    in_order(crowd.threads(), count.div_ceil(size), interrupt.cancel(), group, take)
         .map_err(|why| CommandError::CouldNot(why.to_string()))?;
     Ok(results)
 }

@@ -1,6 +1,7 @@
 //! `phaselab section`: where orbits cross a surface of section.
 
 use std::iter::{once, once_with};
+use std::ops::Range;
 use std::path::PathBuf;
 
 use serde_json::{Map, Value, json};
@@ -17,7 +18,8 @@ use super::stderr;
 use crate::diagnostic::{Diagnostic, report};
 use crate::dynamics::{NoRotation, Rotation, angle_rotation, rotation};
 use crate::ensemble::{
-    Crossings, EnergyShell, OrbitStatus, Root, SectionPlan, Start, add_section, crossings,
+    Crossings, EnergyShell, OrbitStatus, Root, SECTION_GROUP, SectionPlan, Start, add_section,
+    crossings_of_all,
 };
 use crate::expr::Expr;
 use crate::model::{Allowed, Direction, Model, Scope};
@@ -146,16 +148,17 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let turning = turning.map(|names| Turning::of(&laid, &names)).transpose()?;
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
 
-    let one = |i: usize| {
-        let mut start: Start = starts[i].clone();
-        if let Some(shell) = &shell
-            && let Err(why) = shell.complete(&laid.system, &mut start)
-        {
-            return Crossings::refused(&why);
-        }
-        crossings(&laid.system, laid.method, laid.settings, &start, &plan)
+    let completed = |start: &Start| {
+        let mut start = start.clone();
+        let refused = shell.as_ref().map(|shell| shell.complete(&laid.system, &mut start));
+        refused.transpose().map(|_| start).map_err(|why| Crossings::refused(&why))
     };
-    let orbits = crowd::collect(&arguments.crowd, starts.len(), interrupt, one)?;
+    let group = |range: Range<usize>| {
+        let starts = starts[range].iter().map(completed).collect();
+        crossings_of_all(&laid.system, laid.method, laid.settings, starts, &plan)
+    };
+    let groups = (starts.len(), SECTION_GROUP);
+    let orbits = crowd::collect(&arguments.crowd, groups, interrupt, group)?;
     let section = SectionReport {
         laid: &laid,
         arguments,

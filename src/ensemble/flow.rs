@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 use super::pool::{PoolError, in_order};
 use super::side_by_side::{Follower, OrbitCourse, side_by_side};
 use crate::integrate::{
-    ACCURACIES, BatchPropagator, LaneStatus, Method, Propagator, Reached, Settings, Stepping,
+    BatchPropagator, LaneStatus, Method, Propagator, Reached, Settings, Stepping,
 };
 use crate::num::BATCH;
 use crate::system::{MotionError, Observer, State, System};
@@ -64,11 +64,8 @@ impl SystemFlow {
     /// by side, and a picture of many does not show the difference.
     #[must_use]
     pub fn fast(mut self) -> SystemFlow {
-        let (method, settings) = &mut self.method;
-        let (_, tolerance) = ACCURACIES[0];
-        if method.stepping == Stepping::Adaptive && method.order.is_none() {
-            settings.tolerance.get_or_insert(tolerance);
-        }
+        let (method, settings) = self.method;
+        self.method.1 = method.fast(settings);
         self
     }
 

@@ -11,7 +11,7 @@ use crate::expr::Expr;
 use crate::integrate::{Method, OccurrenceKind, Propagator, Reached, Settings};
 use crate::model::{Direction, Event, EventAction, Model};
 use crate::num::short;
-use crate::system::{MotionError, Observer, System};
+use crate::system::{MotionError, Observer, State, System};
 
 /// The event of a section in a compiled system, and when an orbit ends.
 #[derive(Clone, PartialEq, Debug)]
@@ -62,6 +62,46 @@ pub struct Crossings {
     pub status: OrbitStatus,
     /// Why it ended, if that needs a sentence.
     pub message: Option<String>,
+}
+
+impl SectionPlan {
+    /// The number of values of a crossing.
+    pub(super) fn width(&self, system: &System) -> usize {
+        if self.all_channels { system.channels().len() } else { system.columns() }
+    }
+
+    /// Reads them at a state.
+    pub(super) fn see(
+        &self,
+        observer: &mut Observer,
+        state: &State,
+        values: &mut [f64],
+    ) -> Result<(), MotionError> {
+        if self.all_channels {
+            observer.observe(state, values)
+        } else {
+            observer.observe_columns(state, values)
+        }
+    }
+}
+
+/// How far an orbit that begins at a time is followed at first, and a time that no step goes beyond. Where there is no end
+/// in time, no step ends early at one.
+pub(super) fn first_limit(plan: &SectionPlan, start: f64) -> (f64, f64) {
+    let target = plan.until.unwrap_or(start + FIRST_LOOK);
+    (target, plan.until.unwrap_or(target + FIRST_LOOK))
+}
+
+/// The same for an orbit without an end in time that was followed to `target`, by a last step of this size.
+pub(super) fn next_limit(target: f64, step: f64) -> (f64, f64) {
+    let ahead = (GROWTH * step.abs()).max(FIRST_LOOK);
+    (target + ahead, target + ahead + ahead)
+}
+
+/// An orbit that a signal has ended.
+pub(super) fn stopped_by_a_signal(rows: Vec<Vec<f64>>) -> Crossings {
+    let message = Some("stopped by a signal".to_owned());
+    Crossings { rows, status: OrbitStatus::Stopped, message }
 }
 
 impl Crossings {
@@ -125,8 +165,7 @@ pub fn crossings(
         return Crossings::refused(&motion.explained(why));
     }
     let observer = motion.system().observer(&start.parameters);
-    let count = if plan.all_channels { system.channels().len() } else { system.columns() };
-    let values = vec![0.0; count];
+    let values = vec![0.0; plan.width(system)];
     let mut orbit =
         SectionOrbit { motion, observer, values, holdings: 0, plan, start, rows: Vec::new() };
     let (status, message) = orbit.follow(system.cancel());
@@ -145,10 +184,11 @@ struct SectionOrbit<'a> {
 
 impl SectionOrbit<'_> {
     fn follow(&mut self, cancel: &Cancel) -> (OrbitStatus, Option<String>) {
-        let stopped = || (OrbitStatus::Stopped, Some("stopped by a signal".to_owned()));
-        let mut target = self.plan.until.unwrap_or(self.start.time + FIRST_LOOK);
-        // where there is no end in time, no step ends early at one
-        let mut limit = self.plan.until.unwrap_or(target + FIRST_LOOK);
+        let stopped = || {
+            let Crossings { status, message, .. } = stopped_by_a_signal(Vec::new());
+            (status, message)
+        };
+        let (mut target, mut limit) = first_limit(self.plan, self.start.time);
         let mut last = self.motion.steps();
         loop {
             if self.plan.count.is_some_and(|count| self.rows.len() as u64 >= count) {
@@ -162,9 +202,7 @@ impl SectionOrbit<'_> {
                     return (OrbitStatus::Completed, None);
                 }
                 Ok(Reached::There) => {
-                    let ahead = (GROWTH * self.motion.step_size().abs()).max(FIRST_LOOK);
-                    target += ahead;
-                    limit = target + ahead;
+                    (target, limit) = next_limit(target, self.motion.step_size());
                 }
                 Ok(Reached::Underway) => {}
                 Ok(Reached::Happened(occurrence)) => {
@@ -197,11 +235,7 @@ impl SectionOrbit<'_> {
             self.holdings = self.motion.holdings();
             self.observer = self.motion.system().observer(&self.start.parameters);
         }
-        if self.plan.all_channels {
-            self.observer.observe(self.motion.state(), &mut self.values)?;
-        } else {
-            self.observer.observe_columns(self.motion.state(), &mut self.values)?;
-        }
+        self.plan.see(&mut self.observer, self.motion.state(), &mut self.values)?;
         self.rows.push([&[time], &self.values[..]].concat());
         Ok(())
     }

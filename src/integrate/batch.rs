@@ -5,6 +5,7 @@
 //! orbit alone takes and has, to the last bit, or the word that an orbit must be followed alone.
 //! Never here: which orbits, what is seen of them.
 
+use super::batch_events::{BatchEvents, LaneEvent};
 use super::lane_status::LaneStatus;
 use super::method::{Method, Settings};
 use super::splitting_batch::SplittingBatch;
@@ -16,6 +17,8 @@ use crate::system::{Form, MotionError, State, System};
 pub struct BatchPropagator {
     system: System,
     stepper: BatchStepper,
+    /// The search for events, if they are looked for.
+    events: Option<Box<BatchEvents>>,
 }
 
 /// The orbits, by a method.
@@ -49,7 +52,20 @@ impl BatchPropagator {
                 BatchStepper::Splitting(Box::new(splitting))
             }
         };
-        Some(BatchPropagator { system: system.clone(), stepper })
+        Some(BatchPropagator { system: system.clone(), stepper, events: None })
+    }
+
+    /// The same with the events of the system, which must all be without effect on the motion and by a
+    /// method whose steps are power series; otherwise `None`.
+    pub fn with_events(
+        system: &System,
+        method: &'static Method,
+        settings: Settings,
+    ) -> Option<BatchPropagator> {
+        let mut batch = BatchPropagator::new(&system.without_marks(), method, settings)?;
+        let BatchStepper::Taylor(series) = &batch.stepper else { return None };
+        batch.events = Some(Box::new(BatchEvents::new(system, series.series().order())));
+        Some(batch)
     }
 
     /// Puts an orbit into a lane, at its beginning.
@@ -58,7 +74,12 @@ impl BatchPropagator {
         if !regular {
             return LaneStatus::Irregular;
         }
-        of_stepper!(&mut self.stepper, stepper => stepper.start(lane, state, parameters))
+        let status =
+            of_stepper!(&mut self.stepper, stepper => stepper.start(lane, state, parameters));
+        if let Some(events) = &mut self.events {
+            events.begin(lane, state, parameters);
+        }
+        status
     }
 
     /// The same checks that an orbit alone has to pass.
@@ -96,10 +117,36 @@ impl BatchPropagator {
     /// led to or beyond the time of a lane in `looks`. A method may take them one by one.
     #[must_use]
     pub fn steps_unseen(&mut self, limits: &[f64; BATCH], looks: &[f64; BATCH]) -> bool {
-        match &mut self.stepper {
-            BatchStepper::Taylor(series) => series.step(limits),
-            BatchStepper::Splitting(splitting) => splitting.step(limits, looks),
+        match (&mut self.stepper, &mut self.events) {
+            (BatchStepper::Taylor(series), None) => series.step(limits),
+            (BatchStepper::Taylor(series), Some(events)) => {
+                let stepped = series.step(limits);
+                events.pass(series);
+                stepped
+            }
+            (BatchStepper::Splitting(splitting), _) => splitting.step(limits, looks),
         }
+    }
+
+    /// The next event of a lane in its last step, whose state is written into `out`; `None` if there is
+    /// no other before the end of the step.
+    ///
+    /// # Errors
+    /// Returns an error if the functions of the events cannot be followed, or if events pile up.
+    pub fn next_event(
+        &mut self,
+        lane: usize,
+        out: &mut State,
+    ) -> Result<Option<LaneEvent>, MotionError> {
+        match (&mut self.stepper, &mut self.events) {
+            (BatchStepper::Taylor(series), Some(events)) => events.next(series, lane, out),
+            _ => Ok(None),
+        }
+    }
+
+    /// The times at which the last step of a lane began and ended.
+    pub fn interval(&self, lane: usize) -> (f64, f64) {
+        of_stepper!(&self.stepper, stepper => stepper.interval(lane))
     }
 
     /// The state at the end of the last step of a lane.

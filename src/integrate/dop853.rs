@@ -13,6 +13,7 @@
 mod tableau;
 
 use self::tableau::{DENSE, FIFTH, METHOD_STAGES, STAGES, THIRD, WeightedStage};
+use super::dense_output::DenseOutput;
 use super::method::{Method, MethodError, Preserves, Settings, Stepping};
 use super::stepper::Stepper;
 use super::{initial_step, roundoff};
@@ -358,7 +359,9 @@ impl Stepper for DormandPrince {
     fn tolerance(&self) -> Option<f64> {
         Some(self.tolerance)
     }
+}
 
+impl DenseOutput for DormandPrince {
     fn interval(&self) -> (f64, f64) {
         (self.before.time, self.state.time)
     }

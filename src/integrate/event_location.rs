@@ -1,14 +1,14 @@
 //! Locates zero crossings of the events' functions along a step, beyond the last digit of time,
 //! since the effect of an impulse there shows in the last digits after it.
 //!
-//! In: a stepper that has taken a step, the functions. Out: the first crossing that counts. Never
+//! In: a motion that has taken a step, the functions. Out: the first crossing that counts. Never
 //! here: what follows from it.
 //!
 //! If the step is a power series in time, so is every function along it wherever it is analytic,
 //! and all roots of these polynomials are found piece by piece. Without a series, and across kinks
 //! and poles, the functions are sampled.
 
-use super::Stepper;
+use super::DenseOutput;
 use super::clock::spacing;
 use super::located_event::{Crossing, LocatedEvent, first};
 use super::polynomial::StepPolynomial;
@@ -35,7 +35,7 @@ const MOST_PIECES: u32 = 1 << 16;
 const SOONEST: f64 = 2e-15;
 
 /// The truncation error of a series, as a part of its function.
-const CUT_OFF: f64 = 1e-13;
+pub(super) const CUT_OFF: f64 = 1e-13;
 
 /// The maximal number of corrections of a root by the value of the function there.
 const CORRECTIONS: u32 = 3;
@@ -155,21 +155,25 @@ impl EventLocator {
         Ok(())
     }
 
-    /// Returns the first crossing that counts between two times of the stepper's last step, as far
+    /// Returns the first crossing that counts between two times of the motion's last step, as far
     /// as the functions can be followed at once, and the time up to which they were followed.
     pub(super) fn scan(
         &mut self,
-        stepper: &mut dyn Stepper,
+        motion: &mut dyn DenseOutput,
         from: f64,
         to: f64,
     ) -> Result<(Option<LocatedEvent>, f64), MotionError> {
         if from >= to {
             return Ok((None, to));
         }
-        let Some((piece, beyond)) = self.piece(stepper, from, to) else {
-            self.count_piece(stepper.interval().0, from)?;
-            let end = self.simple_until(stepper, from, to)?;
-            let found = self.sampled(stepper, from, end)?;
+        if self.keep_sides(motion, from, to) {
+            self.pass();
+            return Ok((None, to));
+        }
+        let Some((piece, beyond)) = self.piece(motion, from, to) else {
+            self.count_piece(motion.interval().0, from)?;
+            let end = self.simple_until(motion, from, to)?;
+            let found = self.sampled(motion, from, end)?;
             if found.is_some() {
                 self.pieces.1 = 0;
             }
@@ -179,19 +183,47 @@ impl EventLocator {
         let end = (piece.from + DoubleDouble::from(piece.unit) * piece.length).high.min(to);
         if end - from >= shortest || end >= to {
             self.shortest = 0;
-            return Ok((self.roots(stepper, &piece, (from, end))?, end));
+            return Ok((self.roots(motion, &piece, (from, end))?, end));
         }
         // a kink or a pole
         let end = (from + shortest).min(to);
         self.note_length(from, beyond)?;
-        Ok((self.sampled(stepper, from, end)?, end))
+        Ok((self.sampled(motion, from, end)?, end))
+    }
+
+    /// Passes over a piece of a step on which all functions surely stay on their known sides.
+    pub(super) fn pass(&mut self) {
+        (self.fresh, self.shortest) = (false, 0);
+    }
+
+    /// The last known side of zero of each function; zero if unknown.
+    pub(super) fn sides(&self) -> &[f64] {
+        &self.sides
+    }
+
+    /// Whether all functions surely stay on their known sides from the beginning of a power-series step to a time in it:
+    /// mostly the sizes of their terms show it, and nothing else is to be done.
+    fn keep_sides(&mut self, motion: &dyn DenseOutput, from: f64, to: f64) -> bool {
+        let Some(series) = motion.series() else { return false };
+        let (origin, unit) = (series.time(), series.scale());
+        let begun = self.probe.not_before(origin) == origin;
+        if !begun || from != origin.high || unit <= 0.0 {
+            return false;
+        }
+        let whole = (to - from + 2.0 * spacing(to)) / unit;
+        self.probe.event_functions().keep_signs(series, &self.sides, (CUT_OFF, whole))
     }
 
     /// The piece that begins at a time within a power-series step and on which the functions are
     /// represented by their own series. If it ends before the requested end, there may be a kink
     /// there. Also returns how far beyond the piece the functions are represented.
-    fn piece(&mut self, stepper: &dyn Stepper, from: f64, to: f64) -> Option<(SeriesPiece, f64)> {
-        let series = stepper.series()?;
+    fn piece(
+        &mut self,
+        motion: &dyn DenseOutput,
+        from: f64,
+        to: f64,
+    ) -> Option<(SeriesPiece, f64)> {
+        let series = motion.series()?;
         let (origin, unit) = (series.time(), series.scale());
         let from = self.written(from);
         let from = self.probe.not_before(from);
@@ -214,7 +246,7 @@ impl EventLocator {
     /// The first crossing that counts on a piece.
     fn roots(
         &mut self,
-        stepper: &mut dyn Stepper,
+        motion: &mut dyn DenseOutput,
         piece: &SeriesPiece,
         (from, to): (f64, f64),
     ) -> Result<Option<LocatedEvent>, MotionError> {
@@ -229,10 +261,10 @@ impl EventLocator {
             if doubtful || polynomial.begins_at_zero() {
                 // the series has only the digits of an `f64`, which where its terms cancel (sin θ at π, slowly passed) may
                 // be too few for the sign
-                let exact = self.probe.exactly_at(stepper, event, piece.from)?;
+                let exact = self.probe.exactly_at(motion, event, piece.from)?;
                 polynomial.coefficients[0] = exact.high;
             }
-            let crossings = self.follow(stepper, event, &polynomial, piece, to)?;
+            let crossings = self.follow(motion, event, &polynomial, piece, to)?;
             passed.push(crossings);
         }
         Ok(first(&passed, &self.directions, &mut self.sides, to))
@@ -241,7 +273,7 @@ impl EventLocator {
     /// The crossings of one function, in order of time, up to the first that counts.
     fn follow(
         &mut self,
-        stepper: &mut dyn Stepper,
+        motion: &mut dyn DenseOutput,
         event: usize,
         polynomial: &StepPolynomial,
         piece: &SeriesPiece,
@@ -267,7 +299,7 @@ impl EventLocator {
             let exact = piece.from + DoubleDouble::from(change.x) * piece.unit;
             let mut crossing = Crossing::at(exact, side);
             if crossing.counts(direction) {
-                crossing.exact = self.correct(stepper, event, polynomial, piece, change.x)?;
+                crossing.exact = self.correct(motion, event, polynomial, piece, change.x)?;
             }
             crossings.push(crossing);
         }
@@ -287,7 +319,7 @@ impl EventLocator {
     /// Refines a root to the full precision of the function.
     fn correct(
         &mut self,
-        stepper: &mut dyn Stepper,
+        motion: &mut dyn DenseOutput,
         event: usize,
         polynomial: &StepPolynomial,
         piece: &SeriesPiece,
@@ -297,7 +329,7 @@ impl EventLocator {
         let mut x = DoubleDouble::from(x);
         for _ in 0..CORRECTIONS {
             let time = piece.from + x * piece.unit;
-            let correction = self.probe.exactly_at(stepper, event, time)? / slope;
+            let correction = self.probe.exactly_at(motion, event, time)? / slope;
             let size = correction.high.abs();
             if size.is_nan() || size >= SMALL * piece.length {
                 break;
@@ -314,14 +346,14 @@ impl EventLocator {
     /// which the functions are simple.
     fn simple_until(
         &mut self,
-        stepper: &mut dyn Stepper,
+        motion: &mut dyn DenseOutput,
         from: f64,
         to: f64,
     ) -> Result<f64, MotionError> {
         if let Some(end) = self.simple.filter(|&end| end > from) {
             return Ok(end.min(to));
         }
-        let length = self.probe.resolved(stepper, from, to - from)?.unwrap_or(f64::INFINITY);
+        let length = self.probe.resolved(motion, from, to - from)?.unwrap_or(f64::INFINITY);
         self.note_length(from, length)?;
         let end = from + length.max(DIGITS * spacing(from));
         self.simple = Some(end);
@@ -354,13 +386,13 @@ impl EventLocator {
     /// The first crossing that counts on an interval on which the functions are simple.
     fn sampled(
         &mut self,
-        stepper: &mut dyn Stepper,
+        motion: &mut dyn DenseOutput,
         from: f64,
         to: f64,
     ) -> Result<Option<LocatedEvent>, MotionError> {
         let soonest = SOONEST * if from == 0.0 { to } else { from.abs() };
         let soonest = std::mem::take(&mut self.fresh).then_some(soonest);
-        let mut sampling = Sampling { probe: &mut self.probe, stepper, whole: (from, to) };
+        let mut sampling = Sampling { probe: &mut self.probe, motion, whole: (from, to) };
         let samples = sampling.looks(self.sides.len(), soonest)?;
         let mut passed: Vec<Vec<Crossing>> = Vec::new();
         for (event, samples) in samples.iter().enumerate() {

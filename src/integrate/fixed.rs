@@ -1,6 +1,7 @@
 //! The common part of all methods of fixed step: counting of time, direction, dense output, default
 //! step and stability. A method itself is a [`Scheme`].
 
+use super::dense_output::DenseOutput;
 use super::equal_steps::EqualSteps;
 use super::method::{MethodError, Settings};
 use super::stability::{self, Modes, Unstable};
@@ -263,6 +264,16 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         &self.state
     }
 
+    fn step_size(&self) -> f64 {
+        self.steps.step.high
+    }
+
+    fn unstable(&self) -> Option<Unstable> {
+        self.unstable
+    }
+}
+
+impl<S: Scheme> DenseOutput for FixedStep<S> {
     fn interval(&self) -> (f64, f64) {
         (self.before.time, self.state.time)
     }
@@ -282,14 +293,6 @@ impl<S: Scheme> Stepper for FixedStep<S> {
         self.aside.advance(step.high, out)?;
         (out.time, out.time_carry) = (time, 0.0);
         self.system.check_finite(out)
-    }
-
-    fn step_size(&self) -> f64 {
-        self.steps.step.high
-    }
-
-    fn unstable(&self) -> Option<Unstable> {
-        self.unstable
     }
 }
 

@@ -31,6 +31,18 @@ pub struct Method {
     pub make: fn(&System, &Settings) -> StepperResult,
 }
 
+impl Method {
+    /// These settings in plain `f64` where no other tolerance is asked for: several orbits are then carried side by side.
+    #[must_use]
+    pub fn fast(&self, mut settings: Settings) -> Settings {
+        let (_, tolerance) = ACCURACIES[0];
+        if self.stepping == Stepping::Adaptive && self.order.is_none() {
+            settings.tolerance.get_or_insert(tolerance);
+        }
+        settings
+    }
+}
+
 /// A stepper, or why there is none.
 pub type StepperResult = Result<Box<dyn Stepper>, MethodError>;
 

@@ -1,9 +1,9 @@
 //! Evaluates the events' functions inside a step.
 //!
-//! In: a stepper that has taken a step, a time within it. Out: values. Never here: where they are
+//! In: a motion that has taken a step, a time within it. Out: values. Never here: where they are
 //! zero.
 
-use super::Stepper;
+use super::DenseOutput;
 use crate::num::DoubleDouble;
 use crate::system::{EventFunctions, MotionError, State};
 
@@ -45,10 +45,10 @@ impl Probe {
     /// The values at a time within the last step.
     pub(super) fn at(
         &mut self,
-        stepper: &mut dyn Stepper,
+        motion: &mut dyn DenseOutput,
         time: f64,
     ) -> Result<&[f64], MotionError> {
-        self.move_to(stepper, time)?;
+        self.move_to(motion, time)?;
         self.event_functions.look(&self.state, &mut self.values)?;
         Ok(&self.values)
     }
@@ -56,22 +56,22 @@ impl Probe {
     /// One value at a time within the last step, in double-double.
     pub(super) fn exactly(
         &mut self,
-        stepper: &mut dyn Stepper,
+        motion: &mut dyn DenseOutput,
         event: usize,
         time: f64,
     ) -> Result<DoubleDouble, MotionError> {
-        self.move_to(stepper, time)?;
+        self.move_to(motion, time)?;
         self.event_functions.exactly(event, &self.state)
     }
 
     /// The same at a time known beyond the last digit of an `f64`.
     pub(super) fn exactly_at(
         &mut self,
-        stepper: &mut dyn Stepper,
+        motion: &mut dyn DenseOutput,
         event: usize,
         time: DoubleDouble,
     ) -> Result<DoubleDouble, MotionError> {
-        stepper.at_exactly(self.not_before(time), &mut self.state)?;
+        motion.at_exactly(self.not_before(time), &mut self.state)?;
         self.event_functions.exactly(event, &self.state)
     }
 
@@ -79,18 +79,18 @@ impl Probe {
     /// time comparable to the time scale of the motion.
     pub(super) fn resolved(
         &mut self,
-        stepper: &mut dyn Stepper,
+        motion: &mut dyn DenseOutput,
         time: f64,
         near: f64,
     ) -> Result<Option<f64>, MotionError> {
-        self.move_to(stepper, time)?;
+        self.move_to(motion, time)?;
         Ok(self.event_functions.resolved(&self.state, near))
     }
 
-    fn move_to(&mut self, stepper: &mut dyn Stepper, time: f64) -> Result<(), MotionError> {
+    fn move_to(&mut self, motion: &mut dyn DenseOutput, time: f64) -> Result<(), MotionError> {
         match self.begun.filter(|&begun| earlier(DoubleDouble::written(time), begun)) {
-            Some(begun) => stepper.at_exactly(begun, &mut self.state),
-            None => stepper.at(time, &mut self.state),
+            Some(begun) => motion.at_exactly(begun, &mut self.state),
+            None => motion.at(time, &mut self.state),
         }
     }
 }

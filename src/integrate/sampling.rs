@@ -1,7 +1,7 @@
 //! Crossings located on the dense output of a method without series, and where a series is not
 //! usable.
 //!
-//! In: a stepper that has taken a step, an interval of it on which the functions are simple. Out:
+//! In: a motion that has taken a step, an interval of it on which the functions are simple. Out:
 //! where each function crosses zero. Never here: which crossing counts first, and what follows from
 //! it.
 //!
@@ -9,7 +9,7 @@
 //! Where it deviates from the interpolation, the piece is halved, so that neither functions that
 //! change faster than the motion nor two zeros within one piece are missed.
 
-use super::Stepper;
+use super::DenseOutput;
 use super::clock::spacing;
 use super::located_event::Crossing;
 use super::probe::Probe;
@@ -51,7 +51,7 @@ pub(super) struct Sample {
 /// Follows the functions over one interval.
 pub(super) struct Sampling<'a> {
     pub(super) probe: &'a mut Probe,
-    pub(super) stepper: &'a mut dyn Stepper,
+    pub(super) motion: &'a mut dyn DenseOutput,
     /// The beginning and end of the interval.
     pub(super) whole: (f64, f64),
 }
@@ -86,11 +86,11 @@ impl Sampling<'_> {
     /// `width`.
     fn sample(&mut self, time: f64, width: f64) -> Result<Vec<Sample>, MotionError> {
         let (from, to) = self.whole;
-        let here = self.probe.at(self.stepper, time)?.to_vec();
+        let here = self.probe.at(self.motion, time)?.to_vec();
         // not so small that the last digit of time dominates
         let step = (width * SLOPE_OVER).max(1e-14 * time.abs());
         let beside = if time + step <= to { time + step } else { (time - step).max(from) };
-        let there = self.probe.at(self.stepper, beside)?;
+        let there = self.probe.at(self.motion, beside)?;
         let samples = here.iter().zip(there).map(|(&value, &next)| {
             let slope = if beside == time { 0.0 } else { (next - value) / (beside - time) };
             Sample { time, value, slope }
@@ -218,12 +218,12 @@ impl Sampling<'_> {
         mut left: f64,
         mut right: f64,
     ) -> Result<Crossing, MotionError> {
-        let mut low = self.probe.exactly(self.stepper, event, left)?;
-        let mut high = self.probe.exactly(self.stepper, event, right)?;
+        let mut low = self.probe.exactly(self.motion, event, left)?;
+        let mut high = self.probe.exactly(self.motion, event, right)?;
         if low.high * side > 0.0 {
             // in double-double it has crossed already
             let next = (left + spacing(left)).min(right);
-            let beside = self.probe.exactly(self.stepper, event, next)?;
+            let beside = self.probe.exactly(self.motion, event, next)?;
             let pole = self.is_pole(event, (left, low.high), (next, beside.high))?;
             return Ok(Crossing { exact: DoubleDouble::written(left), side, pole });
         }
@@ -242,7 +242,7 @@ impl Sampling<'_> {
             };
             let inside = secant > left && secant < right && round % 4 != 3;
             let time = if inside { secant } else { middle };
-            let value = self.probe.exactly(self.stepper, event, time)?;
+            let value = self.probe.exactly(self.motion, event, time)?;
             if value.high == 0.0 {
                 return Ok(Crossing::at(DoubleDouble::written(time), side));
             }
@@ -274,8 +274,8 @@ impl Sampling<'_> {
             // one side alone does not distinguish a pole from a jump
             return Ok(false);
         }
-        let earlier = self.probe.exactly(self.stepper, event, before)?.high.abs();
-        let later = self.probe.exactly(self.stepper, event, after)?.high.abs();
+        let earlier = self.probe.exactly(self.motion, event, before)?.high.abs();
+        let later = self.probe.exactly(self.motion, event, after)?.high.abs();
         Ok(earlier < low.abs() && later < high.abs())
     }
 }

@@ -101,6 +101,10 @@ impl SplittingBatch {
         &self.lanes[lane].state
     }
 
+    pub(super) fn interval(&self, lane: usize) -> (f64, f64) {
+        (self.lanes[lane].before.time, self.lanes[lane].state.time)
+    }
+
     /// Takes steps in every lane that is under way and before its limit, until one of them reaches or
     /// passes its time in `looks`, and at least one. Returns false if it was cancelled.
     #[must_use]

@@ -1,18 +1,17 @@
 //! The interface of every method.
 
-use super::{StepBlock, Unstable};
-use crate::num::DoubleDouble;
-use crate::system::{Form, MotionError, Series, State};
+use super::{DenseOutput, StepBlock, Unstable};
+use crate::system::{Form, MotionError, State};
 
 /// A motion in progress by one method. A call of [`Stepper::step`] takes one step; afterwards the
-/// motion is known anywhere inside it.
-pub trait Stepper: Send {
+/// motion is known anywhere inside it, by its [`DenseOutput`].
+pub trait Stepper: DenseOutput + Send {
     /// Begins at a state, which may have either form, at these parameters. Forgets all steps taken.
     fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError>;
 
     /// Takes one step towards `limit`, which lies before or after the current time. A method of
     /// variable step never passes the limit and ends its last step exactly on it. A method of fixed
-    /// step keeps its step and so may pass it; [`Stepper::at`] gives the states between. Does
+    /// step keeps its step and so may pass it; [`DenseOutput::at`] gives the states between. Does
     /// nothing if the current time has reached the limit.
     fn step(&mut self, limit: f64) -> Result<(), MotionError>;
 
@@ -42,29 +41,6 @@ pub trait Stepper: Send {
 
     /// The state at the end of the last step, in the form the method works in.
     fn state(&self) -> &State;
-
-    /// The times at which the last step began and ended; equal before the first.
-    fn interval(&self) -> (f64, f64);
-
-    /// Writes the state at a time within the last step into `out`.
-    ///
-    /// Adaptive methods evaluate their interpolant (the Taylor polynomial itself, `dop853`'s of
-    /// order 7). A method of fixed step takes a shorter step from the beginning of the last step
-    /// and discards it afterwards: the result has the method's order, and the sequence of equal
-    /// steps, on which the good behaviour of symplectic methods rests, is not disturbed.
-    fn at(&mut self, time: f64, out: &mut State) -> Result<(), MotionError>;
-
-    /// The same at a time that is known beyond the last digit of an `f64`, such as that of a
-    /// crossing. A method that cannot distinguish such times gives the state at the nearest one.
-    fn at_exactly(&mut self, time: DoubleDouble, out: &mut State) -> Result<(), MotionError> {
-        self.at(time.high, out)
-    }
-
-    /// The power series of the last step, about its beginning. Returns `None` for methods without
-    /// series, and if the last step did not use it.
-    fn series(&self) -> Option<&Series> {
-        None
-    }
 
     /// The step in use: the fixed one, or the last one taken (zero before the first).
     fn step_size(&self) -> f64 {

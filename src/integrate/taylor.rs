@@ -32,10 +32,13 @@ use kinks::Kinks;
 use step_size::{EXACT_BELOW, StepSize};
 use still::Still;
 
+use super::dense_output::DenseOutput;
 use super::method::{Method, MethodError, Preserves, Settings, Stepping};
 use super::stepper::Stepper;
 use crate::num::DoubleDouble;
-use crate::system::{ExactRates, Form, MotionError, MotionErrorKind, Series, State, System};
+use crate::system::{
+    ExactRates, Form, MotionError, MotionErrorKind, Series, State, StepSeries, System,
+};
 
 /// The default tolerance. It is far below the last digit shown, so that the results carry the error
 /// of one rounding at the end and not of all on the way.
@@ -254,6 +257,12 @@ impl Stepper for Taylor {
         Some(self.tolerance)
     }
 
+    fn form(&self) -> Form {
+        self.system.form()
+    }
+}
+
+impl DenseOutput for Taylor {
     fn interval(&self) -> (f64, f64) {
         (self.begin, self.state.time)
     }
@@ -275,12 +284,8 @@ impl Stepper for Taylor {
         Ok(())
     }
 
-    fn series(&self) -> Option<&Series> {
+    fn series(&self) -> Option<&dyn StepSeries> {
         let taken = self.resting.is_none() && self.leapt.is_none() && self.begin != self.state.time;
-        taken.then_some(&self.series)
-    }
-
-    fn form(&self) -> Form {
-        self.system.form()
+        if taken { Some(&self.series) } else { None }
     }
 }

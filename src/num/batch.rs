@@ -73,6 +73,13 @@ impl Batch {
         lanes!(i => if self.0[i] < x { a.0[i] } else { b.0[i] })
     }
 
+    /// One where this is at most another number, else zero.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_at_most(self, other: Batch) -> Batch {
+        lanes!(i => if self.0[i] <= other.0[i] { 1.0 } else { 0.0 })
+    }
+
     /// One where this is above another number, else zero.
     #[inline(always)]
     #[must_use]

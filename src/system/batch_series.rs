@@ -101,6 +101,16 @@ impl BatchSeries {
         }
     }
 
+    /// The highest order.
+    pub fn order(&self) -> usize {
+        self.builder.order
+    }
+
+    /// The times at the origins, in `f64`.
+    pub(super) fn start(&self) -> Batch {
+        Batch(self.times.map(|time| time.high))
+    }
+
     /// The time at the origin of a lane.
     pub fn time(&self, lane: usize) -> DoubleDouble {
         self.times[lane]
@@ -109,7 +119,7 @@ impl BatchSeries {
     /// Builds all series. Returns false if the computation was cancelled.
     #[must_use]
     pub fn build(&mut self) -> bool {
-        let clock = Clock { time: Batch(self.times.map(|time| time.high)), scale: self.scale };
+        let clock = Clock { time: self.start(), scale: self.scale };
         match self.builder.grow_plainly(0, clock, self.system.cancel()) {
             Ok(()) | Err(Halt::Singular(_) | Halt::Sticks) => true,
             Err(Halt::Cancelled) => false,

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::discontinuities::CompiledEvent;
 use super::expansion::Expansion;
 use super::resolution::Resolution;
-use super::series::Series;
+use super::step_series::StepSeries;
 use super::value::Evaluator;
 use super::{MotionError, State, System};
 use crate::model::EventAction;
@@ -45,22 +45,42 @@ impl EventFunctions {
     /// Expands the functions along a step whose series is known, about a time `x` after the series'
     /// origin, in its unit. Returns how far beyond it, up to `whole`, the expansions represent the
     /// functions up to a part `cut_off` of their size, or `None` if there are none.
-    pub fn expand(&mut self, series: &Series, x: f64, (cut_off, whole): (f64, f64)) -> Option<f64> {
-        let order = series.order();
+    pub fn expand(
+        &mut self,
+        series: &dyn StepSeries,
+        x: f64,
+        (cut_off, whole): (f64, f64),
+    ) -> Option<f64> {
+        let expansion = self.expansion(series.order());
+        if !expansion.about(series, x) {
+            return None;
+        }
+        Some(expansion.reach(cut_off, whole)).filter(|reach| !reach.is_nan())
+    }
+
+    /// Whether every function surely has this sign from the origin of a series up to a time after it, in its unit, on
+    /// which its expansion represents it up to a part `cut_off` of its size.
+    pub fn keep_signs(
+        &mut self,
+        series: &dyn StepSeries,
+        signs: &[f64],
+        within: (f64, f64),
+    ) -> bool {
+        self.expansion(series.order()).keep_signs(series, signs, within)
+    }
+
+    /// The expansion up to an order.
+    fn expansion(&mut self, order: usize) -> &mut Expansion {
         let (system, parameters) = (&self.system, &self.parameters);
         let expansion = self.expansion.take().filter(|known| known.order() == order);
-        let expansion = self.expansion.insert(expansion.unwrap_or_else(|| {
+        self.expansion.insert(expansion.unwrap_or_else(|| {
             let discontinuities = system.discontinuities();
             let (program, functions) =
                 (Arc::clone(&discontinuities.variation), discontinuities.events.len());
             let mut new = Expansion::new(system, program, functions, order);
             new.set_parameters(&system.inputs(parameters));
             new
-        }));
-        if !expansion.about(series, x) {
-            return None;
-        }
-        Some(expansion.reach(cut_off, whole)).filter(|reach| !reach.is_nan())
+        }))
     }
 
     /// The coefficients of an event's function from the last [expansion](EventFunctions::expand).

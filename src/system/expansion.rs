@@ -11,12 +11,13 @@ use std::sync::Arc;
 use super::System;
 use super::jet::{Jet, Side};
 use super::program::Program;
-use super::series::Series;
+use super::sign_bound::{keeps_sign, stays};
+use super::step_series::StepSeries;
 use crate::num::{DoubleDouble, math};
 
 /// The number of last orders that enter the estimate: those of even and of odd functions vanish in
 /// turn.
-const LAST: usize = 3;
+pub(super) const LAST: usize = 3;
 
 /// The argument of an exponential may change by this amount, …
 const FARTHEST_ARGUMENT: f64 = 3.0;
@@ -34,6 +35,8 @@ pub(super) struct Expansion {
     outputs: usize,
     /// Whether the functions read each input.
     read: Vec<bool>,
+    /// The numbers of the motion that the functions are, if they are nothing else.
+    numbers: Option<Vec<usize>>,
     /// A series of the motion shifted to another time.
     moved: Vec<f64>,
 }
@@ -49,6 +52,9 @@ impl Expansion {
             system: system.clone(),
             outputs: program.outputs(),
             read: program.inputs_read(),
+            numbers: program.outputs_as_inputs().filter(|numbers| {
+                program.switches() == 0 && numbers.iter().all(|&i| i < system.motion_len())
+            }),
             jet: Jet::new(program, order),
             functions,
             moved: vec![0.0; order + 1],
@@ -65,7 +71,7 @@ impl Expansion {
 
     /// Expands the functions about a time `x` after the origin of the motion's series, in its unit.
     /// Returns false if a coefficient is not finite.
-    pub(super) fn about(&mut self, series: &Series, x: f64) -> bool {
+    pub(super) fn about(&mut self, series: &dyn StepSeries, x: f64) -> bool {
         self.take_in(series, x);
         let time = (series.time() + DoubleDouble::from(x) * series.scale()).high;
         if !self.grow(time, series.scale()) {
@@ -81,7 +87,7 @@ impl Expansion {
     }
 
     /// Sets the coefficients of what the functions depend on.
-    fn take_in(&mut self, series: &Series, x: f64) {
+    fn take_in(&mut self, series: &dyn StepSeries, x: f64) {
         let motion_len = self.system.motion_len();
         let mut next = self.system.driven_len();
         for place in 0..motion_len {
@@ -119,6 +125,26 @@ impl Expansion {
     fn grow(&mut self, time: f64, unit: f64) -> bool {
         self.jet.advance_to(self.order(), time, unit).is_ok()
             && (0..self.outputs).all(|i| self.jet.output_series(i).iter().all(|c| c.is_finite()))
+    }
+
+    /// Whether every function has this sign from the origin of a series up to a time, in its unit, and is represented
+    /// up to a part `cut_off` of it; false where the sizes of the terms do not show that.
+    pub(super) fn keep_signs(
+        &mut self,
+        series: &dyn StepSeries,
+        signs: &[f64],
+        (cut_off, time): (f64, f64),
+    ) -> bool {
+        let keeps = |c: &[f64], sign: f64| c[0] * sign > 0.0 && keeps_sign(c, cut_off, time);
+        if let Some(numbers) = &self.numbers {
+            let mut pairs = numbers.iter().zip(signs);
+            return pairs.all(|(&i, &sign)| keeps(series.coefficients(i), sign));
+        }
+        let arguments = self.functions..self.outputs;
+        self.jet.switches() == 0
+            && self.about(series, 0.0)
+            && signs.iter().enumerate().all(|(i, &sign)| keeps(self.function(i), sign))
+            && arguments.into_iter().all(|i| stays(self.jet.output_series(i), time))
     }
 
     /// The coefficients of an event's function.
@@ -189,23 +215,17 @@ fn validity(c: &[f64], cut_off: f64) -> f64 {
 }
 
 /// How far the argument of an exponential may change.
-fn bound(c: &[f64]) -> f64 {
-    0.5 * FARTHEST_ARGUMENT.max(PART_OF_ARGUMENT * c[0].abs())
+#[inline(always)]
+pub(super) fn bound(argument: f64) -> f64 {
+    0.5 * FARTHEST_ARGUMENT.max(PART_OF_ARGUMENT * argument.abs())
 }
 
 /// How far the argument of an exponential stays in one range of its values.
 fn moving(c: &[f64]) -> f64 {
-    let bound = bound(c);
+    let bound = bound(c[0]);
     let terms = c.iter().enumerate().skip(1).filter(|(_, x)| **x != 0.0);
     let reach = terms.map(|(k, x)| math::powf(bound / x.abs(), 1.0 / k as f64));
     reach.fold(f64::INFINITY, f64::min)
-}
-
-/// Whether it stays there up to a time: [`moving`] without its roots.
-fn stays(c: &[f64], time: f64) -> bool {
-    let bound = bound(c);
-    let powers = std::iter::successors(Some(time), |power| Some(power * time));
-    c[1..].iter().zip(powers).all(|(x, power)| x.abs() * power <= bound)
 }
 
 #[cfg(test)]

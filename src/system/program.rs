@@ -180,6 +180,12 @@ impl Program {
         self.inputs.iter().map(|&r| read[r as usize]).collect()
     }
 
+    /// The input that each output is, if all of them are inputs.
+    pub(super) fn outputs_as_inputs(&self) -> Option<Vec<usize>> {
+        let input = |output: &Register| self.inputs.iter().position(|input| input == output);
+        self.outputs.iter().map(input).collect()
+    }
+
     /// Calls `visit` on each register that an operation reads.
     pub(super) fn each_operand(&self, register: Register, visit: &mut dyn FnMut(Register)) {
         let mut all = |list: &[Register]| list.iter().for_each(|&r| visit(r));

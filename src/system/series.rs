@@ -13,6 +13,7 @@ use super::growth::{Clock, Halt, SeriesBuilder};
 use super::jet::{Jet, Side};
 use super::program::{Program, Register};
 use super::state::State;
+use super::step_series::StepSeries;
 use super::underflow;
 use crate::expr::FunctionId;
 use crate::num::{
@@ -282,6 +283,28 @@ impl Series {
         vectorized(Sum { series: self, x, out: &mut *out });
         let time = self.time + after;
         (out.time, out.time_carry) = (time.high, time.low);
+    }
+}
+
+impl StepSeries for Series {
+    fn order(&self) -> usize {
+        self.high.order
+    }
+
+    fn len(&self) -> usize {
+        self.origin.len()
+    }
+
+    fn time(&self) -> DoubleDouble {
+        self.time
+    }
+
+    fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    fn coefficients(&self, i: usize) -> &[f64] {
+        Series::coefficients(self, i)
     }
 }
 

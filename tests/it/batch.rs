@@ -2,11 +2,15 @@
 //! that must be followed alone.
 
 use phaselab::diagnostic::Document;
-use phaselab::ensemble::{Carried, SystemFlow};
+use phaselab::ensemble::{
+    Carried, SectionPlan, Start, SystemFlow, add_section, crossings, crossings_of_all,
+};
 use phaselab::experiment::Prepared;
 use phaselab::integrate::{BatchPropagator, LaneStatus, Settings, method_named};
+use phaselab::mechanics::derive;
+use phaselab::model::{Allowed, Direction, Scope};
 use phaselab::num::BATCH;
-use phaselab::system::{State, System};
+use phaselab::system::{InitialOverride, State, System};
 
 use crate::hand::catalog;
 
@@ -236,4 +240,76 @@ fn an_orbit_that_takes_too_many_steps_is_given_up() {
     }
     assert!(counts.is_sorted() && counts[0] == 0 && counts[5] == states.len(), "{counts:?}");
     assert!(counts.iter().any(|&count| count > 0 && count < states.len()), "{counts:?}");
+}
+
+/// A system with a surface of section, and the name of its event.
+fn with_section(name: &str, written: &str, direction: Direction) -> (System, Vec<f64>, String) {
+    let mut model = Prepared::of(&catalog().find(name).unwrap()).unwrap().model.as_ref().clone();
+    let mut pool = model.pool.clone();
+    let read = Scope::new(&model, Allowed::Event, "a section").read(&mut pool, written);
+    model.pool = pool;
+    let event = add_section(&mut model, read.unwrap(), direction);
+    let equations = derive(&model).unwrap();
+    (System::compile(&model, &equations, &[]).unwrap(), model.parameter_values(), event)
+}
+
+/// Starts of a system with two degrees of freedom or one, in no order of size.
+fn starts(system: &System, parameters: &[f64], count: usize) -> Vec<Start> {
+    let degrees = system.degrees();
+    let one = |i: usize| {
+        let off = |j: usize| ((i * 37 + j * 11) % 101) as f64 / 101.0 - 0.5;
+        let positions = (0..degrees).map(|j| InitialOverride::Position(j, 0.4 * off(j)));
+        let rates = (0..degrees).map(|j| InitialOverride::Velocity(j, 0.3 * off(j + 5)));
+        let overrides = positions.chain(rates).collect();
+        Start { time: 0.0, parameters: parameters.to_vec(), overrides }
+    };
+    (0..count).map(one).collect()
+}
+
+#[test]
+fn every_crossing_has_the_bits_that_it_has_alone() {
+    let method = method_named("taylor").unwrap();
+    let surfaces = [
+        // a number of the motion itself, polynomials, functions of the time, one that is not often crossed
+        ("henon-heiles", "x", Direction::Rising),
+        ("henon-heiles", "x*(1 + y) - 0.05", Direction::Either),
+        ("duffing", "sin(w*t)", Direction::Rising),
+        ("duffing", "x'", Direction::Falling),
+        ("double-pendulum", "theta1", Direction::Rising),
+        ("pendulum", "cos(theta) - 0.995", Direction::Either),
+    ];
+    for (name, written, direction) in surfaces {
+        let (system, parameters, event) = with_section(name, written, direction);
+        let settings = settings(1e-12);
+        assert!(BatchPropagator::with_events(&system, method, settings).is_some(), "{name}");
+        let starts = starts(&system, &parameters, 2 * BATCH + 3);
+        for (count, until) in [(Some(12), None), (None, Some(20.0)), (Some(3), Some(40.0))] {
+            let event = event.clone();
+            let plan = SectionPlan { event, count, until, idle: 4000, all_channels: false };
+            let all = starts.iter().cloned().map(Ok).collect();
+            let together = crossings_of_all(&system, method, settings, all, &plan);
+            let mut rows = 0;
+            for (i, (start, found)) in starts.iter().zip(&together).enumerate() {
+                let alone = crossings(&system, method, settings, start, &plan);
+                rows += alone.rows.len();
+                assert_eq!(*found, alone, "{name} {written} {count:?} {until:?} {i}");
+            }
+            assert!(rows > starts.len(), "{name} {written} {count:?} {until:?}: {rows}");
+        }
+    }
+}
+
+#[test]
+fn events_with_effects_are_not_followed_side_by_side() {
+    let method = method_named("taylor").unwrap();
+    let with = |name: &str, written: &str| {
+        let (system, ..) = with_section(name, written, Direction::Rising);
+        BatchPropagator::with_events(&system, method, settings(1e-12)).is_some()
+    };
+    assert!(!with("bouncing-ball", "y - 0.1"));
+    // the exact accuracy is that of an orbit alone
+    let (system, ..) = with_section("henon-heiles", "x", Direction::Rising);
+    assert!(BatchPropagator::with_events(&system, method, Settings::default()).is_none());
+    let leapfrog = method_named("leapfrog").unwrap();
+    assert!(BatchPropagator::with_events(&system, leapfrog, Settings::default()).is_none());
 }

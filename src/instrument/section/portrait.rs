@@ -7,7 +7,8 @@ use std::sync::Arc;
 
 use crate::dynamics::{NoRotation, Rotation, rotation};
 use crate::ensemble::{
-    Crossings, PhaseShift, Region, SectionPlan, SectionPlane, crossings, in_order, spread,
+    Crossings, PhaseShift, Region, SECTION_GROUP, SectionPlan, SectionPlane, crossings_of_all,
+    in_order, spread,
 };
 use crate::instrument::{Present, Seed};
 use crate::integrate::{Method, Settings};
@@ -21,7 +22,7 @@ const BATCH: usize = 16;
 pub(super) const COUNT: u64 = 60;
 
 /// The orbits of one part of the work, after which the picture is drawn anew.
-const PART: usize = 4;
+const PART: usize = 2 * SECTION_GROUP;
 
 /// The crossings of an orbit through a point that a person chose.
 const COUNT_CHOSEN: u64 = 240;
@@ -146,21 +147,25 @@ impl Task {
         let plan = SectionPlan { count: Some(count), ..self.plan.clone() };
         progress.expect(points.len() as u64);
         let shift = points.first().and_then(|&at| self.shift(&system, at));
-        let one = |i: usize| {
+        let groups: Vec<&[[f64; 2]]> = points.chunks(SECTION_GROUP).collect();
+        let group = |i: usize| {
             let mut observer = system.observer(self.plane.parameters());
-            match self.plane.through(&system, &mut observer, (points[i], shift.as_ref())) {
-                Ok(start) => {
-                    let settings = self.conditions.settings;
-                    let found = crossings(&system, self.method, settings, &start, &plan);
-                    self.drawn(&found, points[i])
-                }
-                Err(_) => Vec::new(),
-            }
+            let mut start = |&at: &[f64; 2]| {
+                let through = self.plane.through(&system, &mut observer, (at, shift.as_ref()));
+                through.map_err(|why| Crossings::refused(&why))
+            };
+            let starts = groups[i].iter().map(&mut start).collect();
+            let settings = self.method.fast(self.conditions.settings);
+            let found = crossings_of_all(&system, self.method, settings, starts, &plan);
+            let drawn = |(found, &at)| self.drawn(&found, at);
+            found.into_iter().zip(groups[i]).map(drawn).collect()
         };
-        let take = |i: usize, orbit: Vec<[f64; 2]>| {
-            progress.reach(i as u64 + 1);
+        let mut done = 0;
+        let take = |_, group: Vec<Vec<[f64; 2]>>| {
+            done += group.len() as u64;
+            progress.reach(done);
             // an orbit that never comes back is no part of a section
-            if orbit.len() > 1 {
+            for orbit in group.into_iter().filter(|orbit| orbit.len() > 1) {
                 let periods = self.columns.map(|c| system.period(c, self.plane.parameters()));
                 let rotation = rotation(&orbit, periods);
                 orbits.push(DrawnOrbit { points: Arc::new(orbit), rotation });
@@ -168,7 +173,7 @@ impl Task {
             ControlFlow::Continue(())
         };
         // without threads the picture has no further orbits
-        let _ = in_order(0, points.len(), progress.token(), one, take);
+        let _ = in_order(0, groups.len(), progress.token(), group, take);
         let seeds = self.seeds.clone();
         Portrait { conditions: self.conditions.clone(), seeds, region, orbits, pending }
     }

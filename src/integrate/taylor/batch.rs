@@ -146,17 +146,40 @@ impl TaylorBatch {
         true
     }
 
+    pub(in crate::integrate) fn interval(&self, lane: usize) -> (f64, f64) {
+        (self.series.time(lane).high, self.lanes[lane].state.time)
+    }
+
+    /// The series of the last step.
+    pub(in crate::integrate) fn series(&self) -> &BatchSeries {
+        &self.series
+    }
+
+    /// Writes the state of a lane at a time within its last step, known beyond the last digit of an `f64`, into `out`.
+    pub(in crate::integrate) fn at_exactly(
+        &mut self,
+        lane: usize,
+        time: DoubleDouble,
+        out: &mut State,
+    ) {
+        out.copy_from(&self.lanes[lane].state);
+        if time != self.lanes[lane].state.exact_time() {
+            self.write_state(lane, time, out);
+        }
+    }
+
+    fn write_state(&mut self, lane: usize, time: DoubleDouble, out: &mut State) {
+        let begin = self.series.time(lane);
+        let step = self.lanes[lane].state.exact_time() - begin;
+        self.series.state_after(lane, part_of_step(time - begin, step), out);
+    }
+
     /// Writes the state of a lane at a time within its last step into `out`.
     pub(in crate::integrate) fn at(&mut self, lane: usize, time: f64, out: &mut State) {
         let state = &self.lanes[lane].state;
         out.copy_from(state);
         if time != state.time {
-            let begin = self.series.time(lane);
-            let after = part_of_step(
-                DoubleDouble::written(time) - begin,
-                self.lanes[lane].state.exact_time() - begin,
-            );
-            self.series.state_after(lane, after, out);
+            self.write_state(lane, DoubleDouble::written(time), out);
             out.time = time;
         }
     }

@@ -1,0 +1,133 @@
+//! Where the functions of events keep their signs along several orbits at once.
+//!
+//! In: the series of a step of each orbit. Out: for each lane whether all functions surely keep their signs over the step,
+//! as [`EventFunctions::keep_signs`](super::EventFunctions::keep_signs) finds for one orbit. Never here: zeros.
+
+use std::sync::Arc;
+
+use super::System;
+use super::batch_series::BatchSeries;
+use super::jet::Jet;
+use super::program::{Op, Program};
+use super::sign_bound::{signs_kept, stay};
+use crate::num::{Analytic, Batch, DoubleDouble, Kernel, vectorized};
+
+/// The functions of one system.
+#[derive(Clone, Debug)]
+pub struct BatchEventSigns {
+    functions: Functions,
+    count: usize,
+}
+
+/// How the functions follow from the motion.
+#[derive(Clone, Debug)]
+enum Functions {
+    /// They are these numbers of it.
+    Numbers(Vec<usize>),
+    /// By a program.
+    Program {
+        jet: Box<Jet<Batch>>,
+        /// What depends on the parameters of one lane alone is computed here.
+        single: Box<Jet<f64>>,
+        inputs: usize,
+        outputs: usize,
+    },
+}
+
+impl System {
+    /// Room for the signs of the events' functions, expanded up to an order; `None` where an orbit's functions may take
+    /// another course than its neighbours'.
+    pub fn batch_event_signs(&self, order: usize) -> Option<BatchEventSigns> {
+        let program = &self.discontinuities().variation;
+        let count = self.discontinuities().events.len();
+        let functions = match program.outputs_as_inputs() {
+            Some(numbers) if numbers.iter().all(|&i| i < self.motion_len()) => {
+                Functions::Numbers(numbers)
+            }
+            _ => self.expanded_functions(program, order)?,
+        };
+        Some(BatchEventSigns { functions, count })
+    }
+
+    fn expanded_functions(&self, program: &Arc<Program>, order: usize) -> Option<Functions> {
+        let alone = |&r: &u32| {
+            matches!(program.ops[r as usize], Op::Select { .. } | Op::ParametricPower(..))
+        };
+        let smooth = program.switches() == 0 && program.guards.is_empty();
+        let auxiliary = program.inputs_read()[self.motion_len()..].contains(&true);
+        if !smooth || auxiliary || program.body.iter().any(alone) {
+            return None;
+        }
+        let jet = Jet::new(Arc::clone(program), order);
+        Some(Functions::Program {
+            single: Box::new(Jet::like(&jet, 0)),
+            jet: Box::new(jet),
+            inputs: self.motion_len(),
+            outputs: program.outputs(),
+        })
+    }
+}
+
+impl BatchEventSigns {
+    /// Sets the parameters of a lane.
+    pub fn set_parameters(&mut self, lane: usize, parameters: &[DoubleDouble]) {
+        if let Functions::Program { jet, single, .. } = &mut self.functions {
+            single.set_parameters(parameters);
+            jet.take_parameters(lane, single);
+        }
+    }
+
+    /// One in each lane where every function surely has its sign from the origin of the series up to a time after it, in
+    /// its unit, on which its expansion represents it up to a part `cut_off` of its size; else zero.
+    pub fn keep_signs(
+        &mut self,
+        series: &BatchSeries,
+        signs: &[Batch],
+        (cut_off, time): (f64, Batch),
+    ) -> Batch {
+        if let Functions::Program { jet, inputs, .. } = &mut self.functions {
+            for place in 0..*inputs {
+                for (k, &c) in series.coefficients(place).iter().enumerate() {
+                    jet.set_input(place, k, c);
+                }
+            }
+            if jet.advance_to(series.order(), series.start(), series.scale()).is_err() {
+                return Batch::ZERO;
+            }
+        }
+        vectorized(KeepSigns { functions: self, series, signs, cut_off, time })
+    }
+}
+
+/// The kernel of [`BatchEventSigns::keep_signs`].
+struct KeepSigns<'a> {
+    functions: &'a BatchEventSigns,
+    series: &'a BatchSeries,
+    signs: &'a [Batch],
+    cut_off: f64,
+    time: Batch,
+}
+
+impl Kernel for KeepSigns<'_> {
+    type Output = Batch;
+    const OF_SEVERAL: bool = true;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> Batch {
+        let KeepSigns { functions, series, signs, cut_off, time } = self;
+        let mut all = Batch::ONE;
+        for (event, &sign) in signs.iter().enumerate() {
+            let c = match &functions.functions {
+                Functions::Numbers(numbers) => series.coefficients(numbers[event]),
+                Functions::Program { jet, .. } => jet.output_series(event),
+            };
+            all = all * (c[0] * sign).is_above(Batch::ZERO) * signs_kept(c, cut_off, time);
+        }
+        if let Functions::Program { jet, outputs, .. } = &functions.functions {
+            for argument in functions.count..*outputs {
+                all = all * stay(jet.output_series(argument), time);
+            }
+        }
+        all
+    }
+}

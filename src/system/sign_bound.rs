@@ -1,0 +1,113 @@
+//! Which series keep their sign over a step, seen from the sizes of their terms alone.
+//!
+//! In: the coefficients of a function about the beginning of a step. Out: whether the first term is larger than all others
+//! together, and the truncated series represents the function. Never here: where a function changes its sign.
+
+use super::expansion::{LAST, bound};
+use crate::num::{Analytic, BATCH, Batch};
+
+/// By this part the first term must be the larger one, so that no rounding counts.
+const MARGIN: f64 = 1e-6;
+
+/// Whether a series keeps the sign of its first term up to a time, in its unit, and represents its function up to a part
+/// `cut_off` of it. May be false where it does.
+pub(super) fn keeps_sign(c: &[f64], cut_off: f64, time: f64) -> bool {
+    let (first, last) = (c[0].abs(), c.len() - LAST);
+    let (mut others, mut largest, mut power) = (0.0, first, 1.0);
+    let mut represented = true;
+    for (k, x) in c.iter().enumerate().skip(1) {
+        power *= time;
+        let term = x.abs() * power;
+        represented &= k < last || term <= cut_off * largest;
+        largest = f64::max(largest, term);
+        others += term;
+    }
+    represented && others < (1.0 - MARGIN) * first
+}
+
+/// Whether the argument of an exponential stays in one range of its values up to a time.
+pub(super) fn stays(c: &[f64], time: f64) -> bool {
+    let bound = bound(c[0]);
+    let powers = std::iter::successors(Some(time), |power| Some(power * time));
+    c[1..].iter().zip(powers).all(|(x, power)| x.abs() * power <= bound)
+}
+
+/// [`keeps_sign`] in each lane: one or zero. To be inlined into a kernel.
+#[inline(always)]
+pub(super) fn signs_kept(c: &[Batch], cut_off: f64, time: Batch) -> Batch {
+    let (first, last) = (c[0].abs(), c.len() - LAST);
+    let (mut others, mut largest, mut power) = (Batch::ZERO, first, Batch::ONE);
+    let mut represented = Batch::ONE;
+    for (k, x) in c.iter().enumerate().skip(1) {
+        power = power * time;
+        let term = x.abs() * power;
+        if k >= last {
+            represented = represented * term.is_at_most(largest * cut_off);
+        }
+        largest = largest.larger(term);
+        others = others + term;
+    }
+    represented * (first * (1.0 - MARGIN)).is_above(others)
+}
+
+/// [`stays`] in each lane: one or zero. To be inlined into a kernel.
+#[inline(always)]
+pub(super) fn stay(c: &[Batch], time: Batch) -> Batch {
+    let mut bounds = Batch::ZERO;
+    for lane in 0..BATCH {
+        bounds.0[lane] = bound(c[0].0[lane]);
+    }
+    let (mut power, mut all) = (Batch::ONE, Batch::ONE);
+    for x in &c[1..] {
+        power = power * time;
+        all = all * (x.abs() * power).is_at_most(bounds);
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CUT_OFF: f64 = 1e-13;
+
+    /// In one lane, and in all of them.
+    fn both(c: &[f64], time: f64) -> [bool; 2] {
+        let several: Vec<Batch> = c.iter().map(|&x| Batch::splat(x)).collect();
+        let kept = signs_kept(&several, CUT_OFF, Batch::splat(time));
+        [keeps_sign(c, CUT_OFF, time), kept == Batch::ONE]
+    }
+
+    #[test]
+    fn the_first_term_must_outweigh_all_others() {
+        // 1 − x − x² changes its sign at 0.618
+        let c = [1.0, -1.0, -1.0, 0.0, 0.0, 0.0];
+        for (time, kept) in [(0.617, true), (0.619, false), (0.0, true), (f64::NAN, false)] {
+            assert_eq!(both(&c, time), [kept; 2], "{time}");
+        }
+        // one that does not change it, but whose terms do not show that
+        assert_eq!(both(&[1.0, -1.0, 1.0, 0.0, 0.0, 0.0], 1.0), [false; 2]);
+        assert_eq!(both(&[0.0; 6], 1.0), [false; 2]);
+        assert_eq!(both(&[1.0, f64::NAN, 0.0, 0.0, 0.0, 0.0], 0.1), [false; 2]);
+    }
+
+    #[test]
+    fn a_series_that_is_cut_off_too_early_shows_nothing() {
+        for (last, kept) in [(0.9e-13, true), (1.1e-13, false)] {
+            assert_eq!(both(&[1.0, 0.1, 0.0, 0.0, 0.0, last], 1.0), [kept; 2], "{last}");
+            assert_eq!(both(&[1.0, 0.1, 0.0, last, 0.0, 0.0], 1.0), [kept; 2], "{last}");
+        }
+    }
+
+    #[test]
+    fn an_argument_may_move_by_half_of_three_or_a_quarter_of_itself() {
+        for (argument, change, within) in
+            [(0.0, 1.4, true), (0.0, 1.6, false), (-40.0, 9.9, true), (-40.0, 10.1, false)]
+        {
+            let c = [argument, change, 0.0];
+            let several = c.map(Batch::splat);
+            assert_eq!(stays(&c, 1.0), within, "{argument} {change}");
+            assert_eq!(stay(&several, Batch::ONE) == Batch::ONE, within, "{argument} {change}");
+        }
+    }
+}

@@ -1,0 +1,23 @@
+//! The power series of a step, as those read it who expand functions along the step.
+//!
+//! Out: coefficients about the beginning of the step. Never here: how they are built.
+
+use crate::num::DoubleDouble;
+
+/// The series of all numbers of a state.
+pub trait StepSeries {
+    /// The highest order.
+    fn order(&self) -> usize;
+
+    /// The number of series.
+    fn len(&self) -> usize;
+
+    /// The time of the origin.
+    fn time(&self) -> DoubleDouble;
+
+    /// The unit of time of the coefficients.
+    fn scale(&self) -> f64;
+
+    /// All coefficients of a number, that of order k at place k.
+    fn coefficients(&self, i: usize) -> &[f64];
+}
