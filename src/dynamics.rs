@@ -27,6 +27,7 @@ mod linear;
 mod lobatto;
 mod loop_action;
 mod lyapunov;
+mod megno;
 mod orbit;
 mod orbit_units;
 mod phase_space;
@@ -34,8 +35,11 @@ mod principle;
 mod return_growth;
 mod rotation;
 mod small_oscillation;
+mod spectral_fit;
+mod spectral_line;
 mod spectrum;
 mod stationary_path;
+mod tangent_growth;
 mod transverse;
 mod turning;
 mod variation;
@@ -60,9 +64,9 @@ pub use principle::{Hamiltonian, abbreviated_action, action_at_energy};
 pub use return_growth::{ReturnGrowth, growth_after, return_growth};
 pub use rotation::{NoRotation, Rotation, Turning, angle_rotation, rotation};
 pub use small_oscillation::{Kind, Mode};
+pub use spectral_line::SpectralLine;
 pub use spectrum::{
-    MeanRate, SpectralLine, Spectrum, driven_spectrum, independent_frequencies, mean_rate,
-    spectrum, straightened,
+    MeanRate, Spectrum, driven_spectrum, independent_frequencies, mean_rate, spectrum, straightened,
 };
 pub use stationary_path::{PathKind, StationaryPath, morse_index, stationary_path};
 pub use transverse::Removed;

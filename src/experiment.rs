@@ -3,6 +3,7 @@
 //! In: a compiled [`System`](crate::system::System), a [`Setup`] and [`Command`]s. Out: [`Snapshot`]s, cheap to clone.
 //! Never here: threads, clocks, terminals.
 
+mod advance;
 mod attitude;
 mod checkpoint;
 mod command;
@@ -41,11 +42,12 @@ mod step_sampler;
 mod trail;
 
 pub use crate::analysis::{Growth, Verdict};
+pub use advance::AdvanceOutcome;
 pub use checkpoint::{Changed, Checkpoint, MotionState, Past};
 pub use command::Command;
 pub use companion::{Companion, CompanionOrigin};
 pub use companions::MOST_COMPANIONS;
-pub use course::{AdvanceOutcome, Experiment};
+pub use course::Experiment;
 pub use drift_watch::DriftWatch;
 pub use event_log::{EventCount, EventLog};
 pub use export::Export;

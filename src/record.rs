@@ -28,6 +28,7 @@ mod lesson_speech;
 mod plain;
 mod recording;
 mod script_runner;
+mod shown_keys;
 
 pub use cast_reader::{CastError, CastEvent, RecordedCast};
 pub use lesson::Lesson;

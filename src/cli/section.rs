@@ -1,13 +1,15 @@
 //! `phaselab section`: where orbits cross a surface of section.
 
-use std::iter::{once, once_with};
+mod report;
+mod turning;
+
 use std::ops::Range;
 use std::path::PathBuf;
 
-use serde_json::{Map, Value, json};
-
+use self::report::{SectionReport, ShownColumn};
+use self::turning::Turning;
 use super::assignment::{self, number};
-use super::cells::{self, TableCell, TableFormat};
+use super::cells::TableFormat;
 use super::crowd::{self, Crowd};
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
@@ -16,10 +18,8 @@ use super::output::Output;
 use super::starts::Starts;
 use super::stderr;
 use crate::diagnostic::{Diagnostic, report};
-use crate::dynamics::{NoRotation, Rotation, angle_rotation, rotation};
 use crate::ensemble::{
-    Crossings, EnergyShell, OrbitStatus, Root, SECTION_GROUP, SectionPlan, Start, add_section,
-    crossings_of_all,
+    Crossings, EnergyShell, Root, SECTION_GROUP, SectionPlan, Start, add_section, crossings_of_all,
 };
 use crate::expr::Expr;
 use crate::model::{Allowed, Direction, Model, Scope};
@@ -161,7 +161,9 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let orbits = crowd::collect(&arguments.crowd, groups, interrupt, group)?;
     let section = SectionReport {
         laid: &laid,
-        arguments,
+        on: &arguments.on,
+        direction: arguments.direction.word(),
+        format: arguments.format,
         orbits: &orbits,
         shown: &shown,
         rotations: turning.map_or_else(Vec::new, |turning| {
@@ -259,14 +261,11 @@ fn unknown_columns(model: &Model, wanted: &[String]) -> Vec<String> {
     extra
 }
 
-/// A column by its name, and its place in a row of crossings.
-type Shown = (String, usize);
-
 /// The columns that are written.
-fn shown_columns(laid: &Laid, wanted: Option<&[String]>) -> Result<Vec<Shown>, CommandError> {
+fn shown_columns(laid: &Laid, wanted: Option<&[String]>) -> Result<Vec<ShownColumn>, CommandError> {
     let names = laid.header().columns;
     let Some(wanted) = wanted else { return Ok(names.into_iter().zip(0..).collect()) };
-    let mut shown: Vec<Shown> = vec![("t".to_owned(), 0)];
+    let mut shown: Vec<ShownColumn> = vec![("t".to_owned(), 0)];
     for name in wanted.iter().filter(|name| *name != "t") {
         let called = name.split_once('=').map_or(name.as_str(), |(name, _)| name).trim();
         let Some(place) = names.iter().position(|n| n == called) else {
@@ -280,178 +279,4 @@ fn shown_columns(laid: &Laid, wanted: Option<&[String]>) -> Result<Vec<Shown>, C
         shown.push((called.to_owned(), place));
     }
     Ok(shown)
-}
-
-/// What turns from one crossing to the next: the places of one or two columns in a row, and their periods.
-struct Turning {
-    places: Vec<usize>,
-    periods: [Option<f64>; 2],
-}
-
-impl Turning {
-    fn of(laid: &Laid, names: &[String]) -> Result<Turning, CommandError> {
-        let wrong = |why: String| Err(CommandError::WrongUse(format!("--rotation: {why}")));
-        if names.is_empty() || names.len() > 2 {
-            return wrong("name one column that is an angle, or two columns".to_owned());
-        }
-        let columns = laid.header().columns;
-        let mut turning = Turning { places: Vec::new(), periods: [None; 2] };
-        for (i, name) in names.iter().enumerate() {
-            let called = name.split_once('=').map_or(name.as_str(), |(name, _)| name).trim();
-            let place = columns.iter().position(|column| column == called);
-            let Some(place) = place.filter(|&place| place > 0) else {
-                return wrong(format!("there is no column `{}`", printable::quoted(called)));
-            };
-            turning.places.push(place);
-            turning.periods[i] = laid.system.period(place - 1, &laid.start.parameters);
-        }
-        if names.len() == 1 && turning.periods[0].is_none() {
-            return wrong(format!(
-                "`{}` has no period, so it takes two columns to tell a turn, such as {0},p_{0}",
-                printable::quoted(&names[0])
-            ));
-        }
-        Ok(turning)
-    }
-
-    fn rotation(&self, rows: &[Vec<f64>]) -> Result<Rotation, NoRotation> {
-        match (&self.places[..], self.periods) {
-            (&[x, y], periods) => {
-                let points: Vec<[f64; 2]> = rows.iter().map(|row| [row[x], row[y]]).collect();
-                rotation(&points, periods)
-            }
-            (&[x], [Some(period), _]) => {
-                let angle: Vec<f64> = rows.iter().map(|row| row[x]).collect();
-                angle_rotation(&angle, period)
-            }
-            _ => Err(NoRotation::TooFew(rows.len())),
-        }
-    }
-}
-
-/// All orbits, ready to be written.
-struct SectionReport<'a> {
-    laid: &'a Laid,
-    arguments: &'a Arguments,
-    orbits: &'a [Crossings],
-    shown: &'a [Shown],
-    /// The rotation number of each orbit, if they were asked for.
-    rotations: Vec<Result<Rotation, NoRotation>>,
-}
-
-impl SectionReport<'_> {
-    fn write(&self, out: Output, interrupt: &Interrupt) -> Result<(), CommandError> {
-        let columns: Vec<String> = ["orbit".to_owned(), "n".to_owned()]
-            .into_iter()
-            .chain(self.shown.iter().map(|(name, _)| name.clone()))
-            .collect();
-        match self.arguments.format {
-            TableFormat::Json => {
-                let rows: Vec<Vec<TableCell>> = self.rows().collect();
-                crowd::write(out, &cells::object(&self.members(&columns, &rows)), interrupt)
-            }
-            TableFormat::Csv => {
-                let on = format!("# section: {} {}\n", self.on(), self.arguments.direction.word());
-                let head = crowd::lead(&self.laid.header()) + &on + &cells::record(columns);
-                let rows = self.rows().map(|row| cells::csv([row.as_slice()]));
-                let pieces = once(head).chain(rows).chain(once_with(|| self.remarks("# ")));
-                crowd::write_pieces(out, pieces, interrupt)
-            }
-            TableFormat::Text => {
-                let text = crowd::formatted(interrupt, || {
-                    cells::text(&columns, &self.rows().collect::<Vec<_>>()) + &self.remarks("")
-                });
-                crowd::write(out, &text, interrupt)
-            }
-        }
-    }
-
-    fn on(&self) -> String {
-        printable::line(&self.arguments.on).into_owned()
-    }
-
-    fn rows(&self) -> impl Iterator<Item = Vec<TableCell>> {
-        (1..).zip(self.orbits).flat_map(move |(orbit, crossings)| {
-            (1..).zip(&crossings.rows).map(move |(n, row)| {
-                let numbers = self.shown.iter().map(|&(_, place)| TableCell::Number(row[place]));
-                [TableCell::Count(orbit), TableCell::Count(n)].into_iter().chain(numbers).collect()
-            })
-        })
-    }
-
-    fn members(&self, columns: &[String], rows: &[Vec<TableCell>]) -> Map<String, Value> {
-        let mut members = crowd::members(&self.laid.header());
-        members.insert("on".to_owned(), self.arguments.on.clone().into());
-        members.insert("direction".to_owned(), self.arguments.direction.word().into());
-        members.insert("columns".to_owned(), json!(columns));
-        let rows = rows.iter().map(|row| row.iter().map(TableCell::value).collect::<Value>());
-        members.insert("rows".to_owned(), rows.collect());
-        let orbits = (1u64..).zip(self.orbits).map(|(orbit, crossings)| {
-            let mut object = json!({
-                "orbit": orbit,
-                "status": crossings.status.word(),
-                "message": crossings.message,
-                "crossings": crossings.rows.len(),
-            });
-            let index = usize::try_from(orbit - 1).unwrap_or(usize::MAX);
-            if let Some(rotation) = self.rotations.get(index) {
-                object["rotation"] = match rotation {
-                    Ok(Rotation { number, error, .. }) => {
-                        json!({ "number": number, "error": error })
-                    }
-                    Err(_) => Value::Null,
-                };
-                object["no_rotation"] = json!(rotation.as_ref().err().map(ToString::to_string));
-            }
-            object
-        });
-        members.insert("orbits".to_owned(), orbits.collect());
-        members
-    }
-
-    /// A line for each orbit that did not end as it should, and for each rotation number.
-    fn remarks(&self, lead: &str) -> String {
-        let other = |(_, orbit): &(u64, &Crossings)| orbit.status != OrbitStatus::Completed;
-        let line = |(i, orbit): (u64, &Crossings)| {
-            let message = orbit.message.as_deref().unwrap_or_default();
-            let message = message.split_whitespace().collect::<Vec<_>>().join(" ");
-            format!("{lead}orbit {i}: {}: {}\n", orbit.status.word(), printable::line(&message))
-        };
-        let turn = |(i, rotation): (u64, &Result<Rotation, NoRotation>)| match rotation {
-            Ok(found) => format!(
-                "{lead}orbit {i}: rotation number {} ± {:.0e}\n",
-                printable::number(found.number),
-                found.error
-            ),
-            Err(why) => format!("{lead}orbit {i}: no rotation number: {why}\n"),
-        };
-        let ended = (1u64..).zip(self.orbits).filter(other).map(line);
-        ended.chain((1u64..).zip(&self.rotations).map(turn)).collect()
-    }
-
-    /// The exit code: a failure where no orbit could be followed as it should.
-    fn ending(&self, interrupt: &Interrupt) -> Result<(), CommandError> {
-        if let Some(signal) = interrupt.signal() {
-            return Err(CommandError::Signal(signal));
-        }
-        let failed = |orbit: &&Crossings| {
-            matches!(orbit.status, OrbitStatus::Faulted | OrbitStatus::Refused)
-        };
-        let all = self.orbits.iter().filter(failed).collect::<Vec<_>>();
-        let Some(first) = all.first() else { return Ok(()) };
-        let why = first.message.clone().unwrap_or_default();
-        let message = match (all.len(), self.orbits.len()) {
-            (1, 1) => why,
-            (failed, orbits) => {
-                format!(
-                    "{failed} of {orbits} orbits could not be followed to the end; the first: {why}"
-                )
-            }
-        };
-        if all.len() == self.orbits.len() {
-            return Err(CommandError::CouldNot(message));
-        }
-        stderr::tell(&message);
-        Ok(())
-    }
 }

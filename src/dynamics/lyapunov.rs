@@ -6,12 +6,6 @@
 //! hide the pairing λᵢ = −λ₂ₙ₊₁₋ᵢ. What is left is carried in symplectic frames, in which pairs hold
 //! at every time.
 //!
-//! An exponent is the mean rate of growth with a weight that vanishes smoothly at both ends
-//! (S. Das et al., Europhys. Lett. 114 (2016) 40005), which converges faster than the plain mean
-//! where the motion is periodic. MEGNO is the mean exponential growth of nearby orbits
-//! (P. M. Cincotta, C. Simó, Astron. Astrophys. Suppl. 147 (2000) 205): about 2 for regular motion,
-//! λt/2 for chaotic.
-//!
 //! In: a state, a time. Out: exponents with their uncertainty, MEGNO, a verdict with its reason.
 //! Never here: text.
 
@@ -20,7 +14,9 @@ use nalgebra::{DMatrix, DVector};
 use super::carrier::Carrier;
 use super::direction::{Direction, basis_of_range};
 use super::error::DynamicsError;
+use super::megno::Megno;
 use super::phase_space::PhaseSpace;
+use super::tangent_growth::TangentGrowth;
 use super::transverse::{self, Removed};
 use crate::integrate::{Method, Settings};
 use crate::num::math;
@@ -31,9 +27,6 @@ const GROWN: f64 = 8.0;
 
 /// … and at least so often on the way.
 const LEAST_ROUNDS: f64 = 256.0;
-
-/// The number of parts of the motion whose exponents are compared.
-const BLOCKS: usize = 10;
 
 /// The points of the curve.
 const POINTS: usize = 200;
@@ -89,14 +82,6 @@ pub struct Lyapunov {
     pub settings: Settings,
     /// Why the motion ended early.
     pub failure: Option<DynamicsError>,
-}
-
-/// The growth of the vectors so far.
-struct TangentGrowth {
-    /// The times at which it was measured, the first is the start.
-    times: Vec<f64>,
-    /// The logarithms by which each vector has grown up to these times.
-    logarithms: Vec<Vec<f64>>,
 }
 
 /// Follows a motion from a state of the space until a time, and `look`s on after each step.
@@ -230,101 +215,6 @@ fn removed(space: &PhaseSpace, moves: bool) -> Removed {
     }
 }
 
-/// The mean exponential growth of nearby orbits.
-struct Megno {
-    start: f64,
-    time: f64,
-    /// ln |δ| now, and what was taken off when it was made shorter.
-    logarithm: f64,
-    taken: f64,
-    /// ∫ s d ln|δ|, and ∫ Y dt.
-    moment: f64,
-    sum: f64,
-    last: f64,
-}
-
-impl Megno {
-    fn new(start: f64) -> Megno {
-        Megno { start, time: start, logarithm: 0.0, taken: 0.0, moment: 0.0, sum: 0.0, last: 0.0 }
-    }
-
-    fn add(&mut self, time: f64, logarithm: f64) {
-        let logarithm = logarithm + self.taken;
-        let middle = 0.5 * (time + self.time) - self.start;
-        self.moment += middle * (logarithm - self.logarithm);
-        let now = 2.0 * self.moment / (time - self.start);
-        self.sum += 0.5 * (now + self.last) * (time - self.time);
-        (self.time, self.logarithm, self.last) = (time, logarithm, now);
-    }
-
-    fn rescale(&mut self, length: f64) {
-        self.taken += math::ln(length);
-    }
-
-    fn mean(&self) -> f64 {
-        self.sum / (self.time - self.start)
-    }
-}
-
-impl TangentGrowth {
-    /// The mean rate of growth of a vector between two times, with a smooth weight.
-    fn weighted(&self, vector: usize, begin: f64, end: f64) -> f64 {
-        let weight = |time: f64| {
-            let s = (time - begin) / (end - begin);
-            if s > 0.0 && s < 1.0 { math::exp(-1.0 / (s * (1.0 - s))) } else { 0.0 }
-        };
-        let (mut sum, mut whole) = (0.0, 0.0);
-        for (times, logs) in self.times.windows(2).zip(self.logarithms.windows(2)) {
-            let [from, to] = [times[0], times[1]];
-            // the growth of a round is spread over it; Simpson's rule for the weight
-            let mean = (weight(from) + 4.0 * weight(0.5 * (from + to)) + weight(to)) / 6.0;
-            sum += mean * (logs[1][vector] - logs[0][vector]);
-            whole += mean * (to - from);
-        }
-        if whole > 0.0 { sum / whole } else { self.plain(vector, begin, end) }
-    }
-
-    /// The plain mean rate of growth of a vector between two times.
-    fn plain(&self, vector: usize, begin: f64, end: f64) -> f64 {
-        (self.at(vector, end) - self.at(vector, begin)) / (end - begin)
-    }
-
-    /// The logarithm of the growth of a vector up to a time, interpolated.
-    fn at(&self, vector: usize, time: f64) -> f64 {
-        let next = self.times.partition_point(|&t| t < time).clamp(1, self.times.len() - 1);
-        let (from, to) = (self.times[next - 1], self.times[next]);
-        let part = ((time - from) / (to - from)).clamp(0.0, 1.0);
-        let [a, b] = [next - 1, next].map(|i| self.logarithms[i][vector]);
-        a + part * (b - a)
-    }
-
-    fn begin(&self) -> f64 {
-        self.times[0]
-    }
-
-    fn end(&self) -> f64 {
-        self.times[self.times.len() - 1]
-    }
-
-    /// The uncertainty of a weighted mean: the spread of the parts of the motion, and the change of
-    /// direction of a vector, whose logarithm is of order 1, over the whole time.
-    fn uncertainty(&self, vector: usize) -> f64 {
-        let length = (self.end() - self.begin()) / BLOCKS as f64;
-        let block = |i: usize| {
-            let begin = self.begin() + length * i as f64;
-            self.plain(vector, begin, begin + length)
-        };
-        // the first part belongs to the search for the direction
-        let all: Vec<f64> = (1..BLOCKS).map(block).collect();
-        let count = all.len() as f64;
-        let mean = all.iter().sum::<f64>() / count;
-        let variance = all.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (count - 1.0);
-        let turning = 2.0 / (self.end() - self.begin());
-        // the weight makes less of the parts near both ends
-        (1.7 * variance / count + turning * turning).sqrt()
-    }
-}
-
 fn result(
     space: &PhaseSpace,
     carrier: &Carrier,
@@ -403,56 +293,4 @@ fn judged(
          {REGULAR}) and chaotic (from {CHAOTIC}): a longer time may tell"
     );
     (Chaos::Undecided, reason)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_weighted_mean_of_constant_growth_is_that_growth() {
-        let times: Vec<f64> = (0..100).map(|i| f64::from(i) * 0.37).collect();
-        let logarithms = times.iter().map(|t| vec![0.3 * t, -2.0 * t]).collect();
-        let growth = TangentGrowth { times, logarithms };
-        let end = growth.end();
-        assert!((growth.weighted(0, 0.0, end) - 0.3).abs() < 1e-14);
-        assert!((growth.weighted(1, 0.0, end) + 2.0).abs() < 1e-14);
-    }
-
-    #[test]
-    fn megno_is_two_for_linear_growth_and_half_the_exponents_for_exponential() {
-        let (mut linear, mut exponential) = (Megno::new(0.0), Megno::new(0.0));
-        for i in 1..=200_000 {
-            let time = f64::from(i) * 0.01;
-            linear.add(time, math::ln(1.0 + time));
-            exponential.add(time, 0.1 * time);
-        }
-        // 2 − (2/T) ∫ ln(1 + t)/t dt, and the integral is (ln T)²/2 + π²/6 up to 1/T
-        let (end, log) = (2000.0, math::ln(2000.0));
-        let wanted =
-            2.0 - 2.0 / end * (log * log / 2.0 + math::powi(std::f64::consts::PI, 2) / 6.0);
-        assert!((linear.mean() - wanted).abs() < 2e-5, "{} {wanted}", linear.mean());
-        assert!((exponential.mean() - 0.05 * 2000.0).abs() < 0.1, "{}", exponential.mean());
-    }
-
-    #[test]
-    fn frames_are_symplectic_and_outside_what_is_taken_out() {
-        let rates = DVector::from_vec(vec![0.3, -1.0, 0.2, 0.5, 2.0, -0.7]);
-        let frame = transverse::frame(&rates, Removed::FlowAndEnergy, true);
-        assert_eq!(frame.ncols(), 4);
-        let one = frame.transpose() * &frame;
-        assert!((one - DMatrix::identity(4, 4)).amax() < 1e-14);
-        assert!((frame.transpose() * &rates).amax() < 1e-14);
-        let form = |a: usize, b: usize| {
-            (0..3)
-                .map(|i| frame[(i, a)] * frame[(i + 3, b)] - frame[(i + 3, a)] * frame[(i, b)])
-                .sum::<f64>()
-        };
-        for (a, b) in [(0, 3), (1, 2)] {
-            assert!((form(a, b).abs() - 1.0).abs() < 1e-14);
-        }
-        for (a, b) in [(0, 1), (0, 2), (1, 3), (2, 3)] {
-            assert!(form(a, b).abs() < 1e-14);
-        }
-    }
 }

@@ -149,3 +149,29 @@ fn orthonormal(vectors: &mut DMatrix<f64>, mut taken: Vec<DVector<f64>>) -> Vec<
     }
     lengths
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_symplectic_and_outside_what_is_taken_out() {
+        let rates = DVector::from_vec(vec![0.3, -1.0, 0.2, 0.5, 2.0, -0.7]);
+        let frame = frame(&rates, Removed::FlowAndEnergy, true);
+        assert_eq!(frame.ncols(), 4);
+        let one = frame.transpose() * &frame;
+        assert!((one - DMatrix::identity(4, 4)).amax() < 1e-14);
+        assert!((frame.transpose() * &rates).amax() < 1e-14);
+        let form = |a: usize, b: usize| {
+            (0..3)
+                .map(|i| frame[(i, a)] * frame[(i + 3, b)] - frame[(i + 3, a)] * frame[(i, b)])
+                .sum::<f64>()
+        };
+        for (a, b) in [(0, 3), (1, 2)] {
+            assert!((form(a, b).abs() - 1.0).abs() < 1e-14);
+        }
+        for (a, b) in [(0, 1), (0, 2), (1, 3), (2, 3)] {
+            assert!(form(a, b).abs() < 1e-14);
+        }
+    }
+}

@@ -2,9 +2,9 @@
 //!
 //! In: commands. Out: an experiment with other companions, or a notice why not. Never here: how they are carried along.
 
+use super::advance::HORIZON;
 use super::companion::CompanionMotion;
 use super::companions::MOST_COMPANIONS;
-use super::course::HORIZON;
 use super::recorder::NUMBERS;
 use super::{CompanionOrigin, Experiment};
 use crate::num::DoubleDouble;

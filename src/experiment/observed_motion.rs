@@ -1,15 +1,16 @@
 //! A motion and its observed values: the current state and the value of every channel there.
 //!
 //! In: a state, parameters, times. Out: the current state and the value of every channel. Never here: rows, gauges,
-//! commands.
+//! commands, and how it advances (`advance`).
 
-use super::gauges::{GaugeInputs, Gauges};
+mod advance;
+
+use super::gauges::GaugeInputs;
 use super::step_log::StepLog;
 use super::step_sampler::StepSampler;
 use crate::analysis::Errors;
 use crate::integrate::{
-    self, Method, MethodError, Occurrence, OccurrenceKind, Preserves, Reached, Settings, Stepping,
-    Unstable,
+    self, Method, MethodError, Occurrence, OccurrenceKind, Preserves, Settings, Unstable,
 };
 use crate::mechanics::Valuation;
 use crate::system::{MotionError, Observer, State, System};
@@ -33,9 +34,6 @@ pub(super) struct ObservedMotion {
 
 /// One of so many equal steps is logged.
 pub(super) const EQUAL_STEPS: u64 = 8;
-
-/// A method whose dense output is as accurate as its steps is looked at inside one of so many steps.
-const LOOKED_INSIDE: u64 = 4;
 
 impl ObservedMotion {
     /// A motion that has yet to [begin](ObservedMotion::begin).
@@ -133,149 +131,6 @@ impl ObservedMotion {
         self.observer.set_parameters(parameters);
         self.watch.set_parameters(parameters);
         self.look()
-    }
-
-    /// Advances to `time`, or to the first occurrence before it, in at most `budget` steps, which are subtracted from
-    /// it. No step reaches beyond `limit`, unless the method's step is fixed. The gauges sample every step; rows are
-    /// `spacing` apart.
-    pub(super) fn reach(
-        &mut self,
-        time: f64,
-        limit: f64,
-        budget: &mut u64,
-        (gauges, spacing): (&mut Gauges, f64),
-    ) -> Result<Reached, MotionError> {
-        loop {
-            *budget -= self.several_steps(time, *budget, gauges, spacing);
-            let (before, mut one) = (self.inner.steps(), (*budget).min(1));
-            let reached = self.inner.reach(time, limit, &mut one)?;
-            let new = self.inner.steps() != before;
-            if new {
-                *budget -= 1;
-                self.log_step();
-            }
-            // an impulse ends the step where it acts, and the state there is that after it
-            if let Reached::Happened(occurrence) = &reached
-                && !matches!(occurrence.kind, OccurrenceKind::Mark | OccurrenceKind::Crossing(_))
-            {
-                self.watch.pending = false;
-            }
-            self.look_at_step(gauges, spacing, new);
-            match &reached {
-                Reached::Underway if *budget > 0 => continue,
-                Reached::Happened(occurrence) => self.record(occurrence)?,
-                Reached::There => self.look()?,
-                Reached::Underway | Reached::Ended => {}
-            }
-            return Ok(reached);
-        }
-    }
-
-    /// Takes several steps at once until `time` is reached or passed, where nobody looks between them but the gauges,
-    /// which see the end of each. Returns their number.
-    fn several_steps(&mut self, time: f64, budget: u64, gauges: &mut Gauges, spacing: f64) -> u64 {
-        if self.inner.method().stepping != Stepping::Fixed {
-            return 0;
-        }
-        self.watch.prepare(self.inner.system(), self.inner.computed().form);
-        let time = time.min(self.watch.next);
-        let mut left = budget;
-        while left > 0 && !self.watch.pending && self.inner.computed().time < time {
-            let StepSampler { batch_terms: Some(terms), block, next, terms: single, .. } =
-                &mut self.watch
-            else {
-                break;
-            };
-            let steps = self.inner.steps();
-            let most = left.min(self.log.steps_to_next(steps, EQUAL_STEPS));
-            let taken = self.inner.steps_seen(time, most, block);
-            if taken == 0 {
-                break;
-            }
-            left -= taken;
-            let (block, sign) = (&*block, self.sign);
-            let dense = |step: usize| {
-                let (begin, end) = block.interval(step);
-                (end - begin).abs() >= spacing
-            };
-            // the step after which the channels are sampled is the last
-            let last = block.count - 1;
-            let due = !dense(last) && block.times.0[last] >= *next;
-            let count = if due { last } else { block.count };
-            terms.look_at_numbers(block.times, &block.numbers);
-            if terms.are_regular(count) {
-                let ends = (0..count).map(|i| (sign * block.times.0[i], dense(i)));
-                gauges.steps(steps + 1, ends, terms);
-            } else {
-                let form = self.inner.computed().form;
-                for (i, steps) in (0..count).zip(steps + 1..) {
-                    if single.look(&block.state(i, form)) {
-                        gauges.step(sign * block.times.0[i], steps, single, dense(i));
-                    }
-                }
-            }
-            if due {
-                self.look_at_step(gauges, spacing, true);
-            }
-            self.log_step();
-        }
-        budget - left
-    }
-
-    /// Lets the gauges sample the last step: at its end, and also within it if rows may be farther apart than steps
-    /// and the method is as accurate there as at the ends. A state that cannot be observed is skipped; its error
-    /// appears again when it is requested. Where events are searched for in several pieces of a step, its end is free of
-    /// them only after the last.
-    fn look_at_step(&mut self, gauges: &mut Gauges, spacing: f64, new: bool) {
-        let (begin, end) = self.inner.undisturbed();
-        let steps = self.inner.steps();
-        self.watch.pending |= new;
-        let whole = self.watch.pending && end == self.inner.computed().time;
-        if !new && !whole {
-            return;
-        }
-        self.watch.pending &= !whole;
-        let sparse = (end - begin).abs() < spacing;
-        let due = sparse && end >= self.watch.next;
-        if due {
-            self.watch.next = end + spacing * (0.5 + self.watch.next_weyl());
-        }
-        // the state of a series is as accurate within a step as at its end
-        let inside = new && sparse && (due || steps.is_multiple_of(LOOKED_INSIDE));
-        if inside && self.inner.method().order.is_none() {
-            let time = begin + self.watch.next_weyl() * (end - begin);
-            let StepSampler { terms, state, values, .. } = &mut self.watch;
-            if self.inner.anywhere_inside(time, state).is_ok() && terms.look(state) {
-                if due && self.observer.observe(state, values).is_ok() {
-                    mark_lost(&mut self.lost, values);
-                    gauges.look_on_the_way(self.sign * time, steps, values, terms);
-                }
-                gauges.step(self.sign * time, steps, terms, false);
-            }
-        }
-        let (StepSampler { terms, values, .. }, state) = (&mut self.watch, self.inner.computed());
-        if whole && terms.look(state) {
-            if due
-                && self.inner.method().order.is_some()
-                && self.observer.observe(state, values).is_ok()
-            {
-                mark_lost(&mut self.lost, values);
-                gauges.look_on_the_way(self.sign * end, steps, values, terms);
-            }
-            gauges.step(self.sign * end, steps, terms, !sparse);
-        }
-    }
-
-    /// Logs the state at the end of the last step. Equal steps are short, and any of them can be taken again.
-    fn log_step(&mut self) {
-        let steps = self.inner.steps();
-        let apart = match self.inner.method().stepping {
-            Stepping::Adaptive => 1,
-            Stepping::Fixed => EQUAL_STEPS,
-        };
-        if steps.is_multiple_of(apart) {
-            self.log.push(self.inner.computed(), steps);
-        }
     }
 
     /// The number of impulses so far.

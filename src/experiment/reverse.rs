@@ -9,9 +9,9 @@
 
 use std::sync::Arc;
 
+use super::advance::HORIZON;
 use super::companion_commands::canonical;
 use super::companions::MOST_COMPANIONS;
-use super::course::HORIZON;
 use super::echo::Echo;
 use super::gauges::Gauges;
 use super::observed_motion::ObservedMotion;

@@ -4,7 +4,7 @@
 //! backwards.
 
 use super::Experiment;
-use super::course::HORIZON;
+use super::advance::HORIZON;
 use super::execute::FRAME;
 use super::gauges::Gauges;
 use crate::num::short;

@@ -3,7 +3,7 @@
 //! In: a time between the first step that is known and now. Out: a snapshot of that time, exact by dense output. Never
 //! here: the step that takes the motion itself back (`rewind`).
 
-use super::course::HORIZON;
+use super::advance::HORIZON;
 use super::scrubbed::Scrubbed;
 use super::{Command, Experiment, Recorded};
 use crate::num::short;

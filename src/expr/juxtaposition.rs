@@ -13,6 +13,24 @@ use crate::num::Number;
 const LONGEST: usize = 60;
 
 impl Parser<'_> {
+    /// Returns whether the current token begins a factor that stands beside the one before it.
+    pub(super) fn begins_factor(&self) -> bool {
+        match self.word() {
+            Token::Number(_) | Token::Name(..) | Token::Mark('(' | '√') => true,
+            Token::Mark('|') => self.bars == 0,
+            _ => false,
+        }
+    }
+
+    /// Returns whether a factor begins directly after the current token.
+    pub(super) fn is_glued_to_next(&self) -> bool {
+        self.words.get(self.at + 1).is_some_and(|(word, span)| {
+            let begins =
+                matches!(word, Token::Number(_) | Token::Name(..) | Token::Mark('(' | '√' | '|'));
+            begins && span.start == self.span().end
+        })
+    }
+
     fn quote(&self, span: Span) -> &str {
         let piece = self.text.get(span.start..span.end).unwrap_or_default();
         if piece.len() <= LONGEST { piece } else { "..." }

@@ -72,7 +72,7 @@ pub(super) struct Parser<'t> {
     pub(super) at: usize,
     depth: usize,
     /// How many `|` are open.
-    bars: usize,
+    pub(super) bars: usize,
     /// Places that can be read in two ways.
     doubts: Vec<SyntaxError>,
 }
@@ -154,6 +154,16 @@ impl Parser<'_> {
 
     fn product(&mut self) -> Result<Syntax, SyntaxError> {
         let first = self.signed()?;
+        match self.word() {
+            Token::Mark('*' | '/') => self.product_of(first),
+            _ if self.begins_factor() => self.product_of(first),
+            _ => Ok(first),
+        }
+    }
+
+    /// The rest of a product. It is apart from its beginning, as are all parts of the grammar that seldom occur, because
+    /// what is nested deeply would otherwise reserve room for them at every level.
+    fn product_of(&mut self, first: Syntax) -> Result<Syntax, SyntaxError> {
         let mut rest: Vec<(BinaryOperator, Syntax)> = Vec::new();
         // the divisor to which the next factor may belong
         let mut divisor: Option<Span> = None;
@@ -194,6 +204,18 @@ impl Parser<'_> {
         part: impl Fn(&mut Self) -> Result<Syntax, SyntaxError>,
     ) -> Result<Syntax, SyntaxError> {
         let first = part(self)?;
+        if operator(self.word()).is_none() {
+            return Ok(first);
+        }
+        self.chain_of(first, operator, part)
+    }
+
+    fn chain_of(
+        &mut self,
+        first: Syntax,
+        operator: impl Fn(&Token) -> Option<BinaryOperator>,
+        part: impl Fn(&mut Self) -> Result<Syntax, SyntaxError>,
+    ) -> Result<Syntax, SyntaxError> {
         let mut rest: Vec<(BinaryOperator, Syntax)> = Vec::new();
         while let Some(op) = operator(self.word()) {
             self.next();
@@ -212,10 +234,15 @@ impl Parser<'_> {
         &mut self,
         inner: fn(&mut Self) -> Result<Syntax, SyntaxError>,
     ) -> Result<Syntax, SyntaxError> {
+        if self.word() == &Token::Mark('-') { self.negative(inner) } else { inner(self) }
+    }
+
+    fn negative(
+        &mut self,
+        inner: fn(&mut Self) -> Result<Syntax, SyntaxError>,
+    ) -> Result<Syntax, SyntaxError> {
         let start = self.span().start;
-        if !self.take('-') {
-            return inner(self);
-        }
+        self.next();
         let operand = self.deeper(|p| p.negated(inner))?;
         let span = Span { start, end: operand.span.end };
         Ok(Syntax { span, kind: SyntaxKind::Negate(Box::new(operand)) })
@@ -223,6 +250,13 @@ impl Parser<'_> {
 
     pub(super) fn power(&mut self) -> Result<Syntax, SyntaxError> {
         let base = self.atom()?;
+        match self.word() {
+            Token::Raised(_) | Token::Mark('^') => self.power_of(base),
+            _ => Ok(base),
+        }
+    }
+
+    fn power_of(&mut self, base: Syntax) -> Result<Syntax, SyntaxError> {
         if let &Token::Raised(n) = self.word() {
             let span = self.span();
             self.next();
@@ -233,79 +267,101 @@ impl Parser<'_> {
             let exponent = Syntax { span, kind };
             return Ok(raised_to(base, exponent));
         }
-        if !self.take('^') {
-            return Ok(base);
-        }
+        self.next();
         let exponent = self.deeper(|p| p.negated(Parser::power))?;
         self.check_exponent(base.span, exponent.span);
         Ok(raised_to(base, exponent))
     }
 
     pub(super) fn atom(&mut self) -> Result<Syntax, SyntaxError> {
-        let span = self.span();
-        match self.word().clone() {
+        match self.word() {
+            Token::Name(name, 0) if self.is_call(name) => {
+                let name = plain_name(name.clone());
+                self.called(name)
+            }
+            Token::Name(name, 0) if is_function(name) && self.is_applied() => {
+                let name = plain_name(name.clone());
+                self.deeper(|p| p.applied(&name))
+            }
             Token::Number(number) => {
-                self.next();
-                Ok(Syntax { span, kind: SyntaxKind::Number(number) })
-            }
-            Token::Name(name, 0) if self.is_call(&name) => {
-                self.next();
-                self.next();
-                let (arguments, end) = self.enclosed(|p| p.arguments(span))?;
-                let whole = Span { start: span.start, end };
-                Ok(Syntax {
-                    span: whole,
-                    kind: SyntaxKind::Call(plain_name(name), span, arguments),
-                })
-            }
-            Token::Name(name, 0) if is_function(&name) && self.is_applied() => {
-                self.deeper(|p| p.applied(&plain_name(name)))
+                let kind = SyntaxKind::Number(*number);
+                Ok(self.leaf(kind))
             }
             Token::Name(name, primes) => {
-                self.next();
-                Ok(Syntax { span, kind: SyntaxKind::Name(name, primes) })
+                let kind = SyntaxKind::Name(name.clone(), *primes);
+                Ok(self.leaf(kind))
             }
-            Token::Mark('(') => {
-                self.next();
-                let inner = self.enclosed(Parser::sum)?;
-                let end = self.span().end;
-                if self.take(')') {
-                    return Ok(Syntax { span: Span { start: span.start, end }, ..inner });
-                }
-                Err(self.unclosed(span, &inner))
+            Token::Mark('(') => self.parenthesis(),
+            Token::Mark('|') => self.absolute_value(),
+            Token::Mark('√') => self.root(),
+            &Token::Mark(mark) => Err(self.missing_before(mark)),
+            Token::Raised(_) => {
+                Err(SyntaxError::new(self.span(), "a power needs something below it"))
             }
-            Token::Mark('|') => {
-                self.next();
-                self.bars += 1;
-                let inner = self.deeper(Parser::sum)?;
-                self.bars -= 1;
-                let end = self.span().end;
-                if self.word() == &Token::Mark('|') && !self.is_glued() && self.is_glued_to_next() {
-                    return Err(SyntaxError::new(self.span(), "this `|` may open or close")
-                        .with_help("write abs(...) for an absolute value inside another"));
-                }
-                if !self.take('|') {
-                    return Err(SyntaxError::new(span, "this `|` is never closed")
-                        .with_help("an absolute value is written |x| or abs(x)"));
-                }
-                Ok(call("abs", Span { start: span.start, end }, inner))
-            }
-            Token::Mark('√') => {
-                self.next();
-                let inner = self.deeper(Parser::atom)?;
-                self.check_root(inner.span);
-                Ok(call("sqrt", Span { start: span.start, end: inner.span.end }, inner))
-            }
-            Token::Raised(_) => Err(SyntaxError::new(span, "a power needs something below it")),
-            Token::End => Err(SyntaxError::new(span, "the expression ends too early")),
-            Token::Mark('+') => {
-                Err(SyntaxError::new(span, "a plus sign needs something before it"))
-            }
-            Token::Mark(')') => Err(SyntaxError::new(span, "something is missing before `)`")),
-            Token::Mark(mark) => {
-                Err(SyntaxError::new(span, format!("something is missing before `{mark}`")))
-            }
+            Token::End => Err(SyntaxError::new(self.span(), "the expression ends too early")),
         }
+    }
+
+    fn leaf(&mut self, kind: SyntaxKind) -> Syntax {
+        let span = self.span();
+        self.next();
+        Syntax { span, kind }
+    }
+
+    /// A function with its arguments in parentheses.
+    fn called(&mut self, name: String) -> Result<Syntax, SyntaxError> {
+        let span = self.span();
+        self.next();
+        self.next();
+        let (arguments, end) = self.enclosed(|p| p.arguments(span))?;
+        let whole = Span { start: span.start, end };
+        Ok(Syntax { span: whole, kind: SyntaxKind::Call(name, span, arguments) })
+    }
+
+    fn parenthesis(&mut self) -> Result<Syntax, SyntaxError> {
+        let span = self.span();
+        self.next();
+        let inner = self.enclosed(Parser::sum)?;
+        let end = self.span().end;
+        if self.take(')') {
+            return Ok(Syntax { span: Span { start: span.start, end }, ..inner });
+        }
+        Err(self.unclosed(span, &inner))
+    }
+
+    fn absolute_value(&mut self) -> Result<Syntax, SyntaxError> {
+        let span = self.span();
+        self.next();
+        self.bars += 1;
+        let inner = self.deeper(Parser::sum)?;
+        self.bars -= 1;
+        let end = self.span().end;
+        if self.word() == &Token::Mark('|') && !self.is_glued() && self.is_glued_to_next() {
+            return Err(SyntaxError::new(self.span(), "this `|` may open or close")
+                .with_help("write abs(...) for an absolute value inside another"));
+        }
+        if !self.take('|') {
+            return Err(SyntaxError::new(span, "this `|` is never closed")
+                .with_help("an absolute value is written |x| or abs(x)"));
+        }
+        Ok(call("abs", Span { start: span.start, end }, inner))
+    }
+
+    fn root(&mut self) -> Result<Syntax, SyntaxError> {
+        let span = self.span();
+        self.next();
+        let inner = self.deeper(Parser::atom)?;
+        self.check_root(inner.span);
+        Ok(call("sqrt", Span { start: span.start, end: inner.span.end }, inner))
+    }
+
+    /// What is missing before a mark that begins nothing.
+    fn missing_before(&self, mark: char) -> SyntaxError {
+        let message = match mark {
+            '+' => "a plus sign needs something before it".to_owned(),
+            mark => format!("something is missing before `{mark}`"),
+        };
+        SyntaxError::new(self.span(), message)
     }
 
     fn arguments(&mut self, open: Span) -> Result<(Vec<Syntax>, usize), SyntaxError> {
@@ -320,15 +376,6 @@ impl Parser<'_> {
             }
             arguments.push(self.sum()?);
         }
-    }
-
-    /// Returns whether a factor begins directly after the current token.
-    fn is_glued_to_next(&self) -> bool {
-        self.words.get(self.at + 1).is_some_and(|(word, span)| {
-            let begins =
-                matches!(word, Token::Number(_) | Token::Name(..) | Token::Mark('(' | '√' | '|'));
-            begins && span.start == self.span().end
-        })
     }
 
     /// Runs a part of the grammar between parentheses, where a `|` opens.
@@ -348,15 +395,6 @@ impl Parser<'_> {
         } else {
             let span = Span { start: before.span.start, end: self.span().end };
             SyntaxError::new(span, "an operator is missing here")
-        }
-    }
-
-    /// Returns whether the current token begins a factor that stands beside the one before it.
-    fn begins_factor(&self) -> bool {
-        match self.word() {
-            Token::Number(_) | Token::Name(..) | Token::Mark('(' | '√') => true,
-            Token::Mark('|') => self.bars == 0,
-            _ => false,
         }
     }
 

@@ -16,17 +16,12 @@ use super::clock::Micros;
 use super::headless_lab::{Budget, HeadlessLab};
 use super::plain::plain;
 use super::script::{Assert, LessonStep, LineText, PACE, Script, ScriptStep, SweepPath};
+use super::shown_keys::ShownKeys;
 use crate::app::{Drawn, Event, ValueId, key};
 use crate::diagnostic::{Diagnostic, Document};
 use crate::experiment::Command;
 use crate::view::caption::{self, Caption};
 use crate::view::{Painter, RenderStyle};
-
-/// How long a key is shown beside the caption.
-const KEY_SHOWN: Micros = 1_200_000;
-
-/// The most keys shown there.
-const KEYS_SHOWN: usize = 6;
 
 /// The most rows of a caption on a screen narrower than the one it was written for.
 const CAPTION_ROWS: u16 = 3;
@@ -43,7 +38,7 @@ pub struct ScriptRunner {
     begun: bool,
     pace: Micros,
     caption: String,
-    pub(super) keys: Vec<ShownKey>,
+    pub(super) keys: ShownKeys,
     /// The size of the screen when it was last drawn.
     pub(super) size: Size,
     painter: Painter,
@@ -62,13 +57,6 @@ struct ValueRamp {
     target: ValueId,
     from: f64,
     to: f64,
-}
-
-/// A key beside the caption: its name, its number of presses (0 for typed text), and the time it disappears.
-pub(super) struct ShownKey {
-    name: String,
-    count: usize,
-    until: Micros,
 }
 
 /// The next event of a performance.
@@ -112,7 +100,7 @@ impl ScriptRunner {
             begun: false,
             pace: PACE,
             caption: String::new(),
-            keys: Vec::new(),
+            keys: ShownKeys::default(),
             size,
             painter: Painter::default(),
         })
@@ -218,7 +206,7 @@ impl ScriptRunner {
                 Ok(None)
             }
             ScriptStep::Press(keys) => {
-                let written = keys_written(&keys);
+                let written = ShownKeys::of(&keys).written().join(" ");
                 self.under_way = PartialStep::Keys(keys.into_iter());
                 done("press", written)
             }
@@ -336,27 +324,10 @@ impl ScriptRunner {
         if self.lab.left {
             return;
         }
-        self.show_key(key);
+        let typing = self.lab.app.is_typing() && matches!(key.code, KeyCode::Char(c) if c != ' ');
+        self.keys.press(&key, typing, self.lab.now());
         self.lab.happen(Event::Key(key));
         self.pass(self.pace);
-    }
-
-    /// Shows the key beside the caption for a while; typed characters are grouped.
-    fn show_key(&mut self, key: KeyEvent) {
-        let until = self.lab.now().saturating_add(KEY_SHOWN);
-        let typing = self.lab.app.is_typing() && matches!(key.code, KeyCode::Char(c) if c != ' ');
-        let name = key::name(&key);
-        match self.keys.last_mut() {
-            Some(last) if last.name == name && !typing => {
-                last.count += 1;
-                last.until = until;
-            }
-            Some(last) if typing && last.count == 0 => {
-                last.name.push_str(&name);
-                last.until = until;
-            }
-            _ => self.keys.push(ShownKey { name, count: usize::from(!typing), until }),
-        }
     }
 
     /// Advances by one frame.
@@ -370,10 +341,7 @@ impl ScriptRunner {
             }
         }
         self.lab.tick();
-        let now = self.lab.now();
-        self.keys.retain(|key| key.until > now);
-        let surplus = self.keys.len().saturating_sub(KEYS_SHOWN);
-        self.keys.drain(..surplus);
+        self.keys.pass(self.lab.now());
     }
 
     /// Draws the current state, and reports the result to the application.
@@ -412,11 +380,7 @@ impl ScriptRunner {
         let drawn = painter.draw(&self.lab.app, style, Rect { height, ..area }, buffer);
         if rows > 0 {
             let below = Rect { y: area.y + height, height: rows, ..area };
-            let written = |key: &ShownKey| match key.count {
-                0 | 1 => key.name.clone(),
-                count => format!("{} x{count}", key.name),
-            };
-            let keys: Vec<String> = self.keys.iter().map(written).collect();
+            let keys = self.keys.written();
             caption::draw(style, &Caption { text: &self.caption, keys: &keys }, below, buffer);
         }
         plain(buffer);
@@ -437,21 +401,4 @@ impl ScriptRunner {
 pub(super) fn waits(place: Range<usize>) -> Diagnostic {
     let message = "this line belongs to a lesson, which waits for a person";
     Diagnostic::error(place, message).with_help("use `phaselab lessons`, or `lesson check`")
-}
-
-/// Keys as they are written in a script.
-fn keys_written(keys: &[KeyEvent]) -> String {
-    let mut written: Vec<(String, usize)> = Vec::new();
-    for key in keys {
-        let key = key::name(key);
-        match written.last_mut() {
-            Some((last, count)) if *last == key => *count += 1,
-            _ => written.push((key, 1)),
-        }
-    }
-    let words = written.iter().map(|(key, count)| match count {
-        1 => key.clone(),
-        count => format!("{key} x{count}"),
-    });
-    words.collect::<Vec<_>>().join(" ")
 }

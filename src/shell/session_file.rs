@@ -132,3 +132,28 @@ impl SessionError {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+
+    #[test]
+    fn what_is_no_session_is_reported_in_its_place() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("session.toml");
+        let message = |text: &str| {
+            fs::write(&path, text).expect("it is written");
+            read_from(&path).expect_err("it is wrong").to_string()
+        };
+        let newer = message("version = 2\nsomething = \"else\"\n");
+        assert!(newer.contains("format 2, of a newer phaselab"), "{newer}");
+        let malformed = message("version = 1\npage = \"nowhere\"\n");
+        assert!(malformed.contains("is not a session:\n"), "{malformed}");
+        assert!(message("version = ]\n").contains("line 1"));
+        assert!(message(" \n").contains("it is empty"));
+        let gone = read_from(&folder.path().join("other.toml")).expect_err("it is not there");
+        assert!(gone.to_string().starts_with("there is no session to resume: "), "{gone}");
+    }
+}

@@ -8,16 +8,22 @@
 //! separate file (`texts-2.toml`, …), and takes the place of the first when that ends. The first program also
 //! adopts what others left behind. Files of a newer version are never overwritten; a malformed file is moved aside.
 
-use std::fs::{self, File, TryLockError};
+mod damaged;
+mod error;
+mod lock;
+
+use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use self::damaged::read_or_put_aside;
+use self::error::PROGRAMS;
+pub(super) use self::error::StoreError;
+use self::lock::{lock, numbered};
 use super::file_writer::{self, FileWriter};
-use super::regular;
-use super::session_file::{SessionError, contents, read_from, read_texts, session_path};
+use super::session_file::{contents, read_from, read_texts, session_path};
 use crate::app::{Saved, Unsaved};
-use crate::printable;
 
 /// The session folder, locked as long as this value lives.
 #[derive(Debug)]
@@ -39,28 +45,6 @@ pub(super) struct Store {
     pub(super) troubles: Vec<String>,
     /// The system releases the lock however the program ends.
     _lock: File,
-}
-
-/// The maximum number of programs that store texts at the same time.
-const PROGRAMS: u32 = 64;
-
-/// Why sessions are not stored, as a sentence for the user.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum StoreError {
-    /// There is no home folder for it.
-    #[error("the session will not be saved: there is no home folder to save it in")]
-    NoHome,
-    /// The file cannot be written.
-    #[error("the session will not be saved: cannot write {}: {}", .path.display(), printable::why(.reason))]
-    Refused {
-        /// The file.
-        path: PathBuf,
-        /// The reason given by the system.
-        reason: io::Error,
-    },
-    /// Other programs have taken all files.
-    #[error("the session will not be saved: {PROGRAMS} others are running and save their own")]
-    Taken,
 }
 
 impl Store {
@@ -238,55 +222,6 @@ impl Store {
         }
         outcomes.into_iter().filter_map(|(_, done)| done.err()).collect()
     }
-}
-
-/// Returns the file of texts of another program.
-fn numbered(session: &Path, number: u32) -> PathBuf {
-    session.with_file_name(format!("texts-{number}.toml"))
-}
-
-/// Takes a lock, unless another program has it.
-fn lock(path: &Path) -> io::Result<Option<File>> {
-    let file = regular::open_or_make(path)?;
-    match file.try_lock() {
-        Ok(()) => Ok(Some(file)),
-        Err(TryLockError::WouldBlock) => Ok(None),
-        Err(TryLockError::Error(reason)) => Err(reason),
-    }
-}
-
-/// A file that must not be overwritten.
-struct Untouchable;
-
-/// Reads a file. Returns `None` if it does not exist, or if it was malformed and has been moved aside.
-fn read_or_put_aside<T>(
-    path: &Path,
-    what: &str,
-    troubles: &mut Vec<String>,
-    read: impl FnOnce(&Path) -> Result<T, SessionError>,
-) -> Result<Option<T>, Untouchable> {
-    let why = match read(path) {
-        Ok(found) => return Ok(Some(found)),
-        Err(why) if why.is_missing() => return Ok(None),
-        Err(why) => why,
-    };
-    if let SessionError::Malformed { .. } = why
-        && let Some(place) = put_aside(path)
-    {
-        let (was, place) = (path.display(), place.display());
-        troubles.push(format!("{was} cannot be understood; it is now {place}"));
-        return Ok(None);
-    }
-    troubles.push(format!("{what}: {}", why.in_short()));
-    Err(Untouchable)
-}
-
-/// Renames a file to an unused name. Returns `None` if that fails.
-fn put_aside(path: &Path) -> Option<PathBuf> {
-    let stem = path.file_stem()?.to_str()?;
-    let names = (1..=PROGRAMS).map(|n| path.with_file_name(format!("{stem}-damaged-{n}.toml")));
-    let place = names.into_iter().find(|place| place.symlink_metadata().is_err())?;
-    fs::rename(path, &place).ok().map(|()| place)
 }
 
 #[cfg(test)]
@@ -492,23 +427,5 @@ mod tests {
             "{message}"
         );
         assert!(path.join("in the way").exists());
-    }
-
-    #[test]
-    fn what_is_no_session_is_reported_in_its_place() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("session.toml");
-        let message = |text: &str| {
-            fs::write(&path, text).expect("it is written");
-            read_from(&path).expect_err("it is wrong").to_string()
-        };
-        let newer = message("version = 2\nsomething = \"else\"\n");
-        assert!(newer.contains("format 2, of a newer phaselab"), "{newer}");
-        let malformed = message("version = 1\npage = \"nowhere\"\n");
-        assert!(malformed.contains("is not a session:\n"), "{malformed}");
-        assert!(message("version = ]\n").contains("line 1"));
-        assert!(message(" \n").contains("it is empty"));
-        let gone = read_from(&folder.path().join("other.toml")).expect_err("it is not there");
-        assert!(gone.to_string().starts_with("there is no session to resume: "), "{gone}");
     }
 }

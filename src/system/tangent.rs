@@ -8,6 +8,8 @@
 //! The rules are those of forward differentiation (A. Griewank, A. Walther, Evaluating Derivatives,
 //! SIAM 2008, chapter 3). A function with a kink has the derivative of the branch that is taken.
 
+mod append;
+
 use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
@@ -351,102 +353,5 @@ impl Builder {
         let slope = make(self);
         self.slopes.insert(y, slope);
         slope
-    }
-
-    fn product(&mut self, a: Register, delta: Delta) -> Delta {
-        let delta = delta?;
-        let op = if self.program.fixed[a as usize] {
-            Op::Scale(a, delta)
-        } else {
-            Op::Multiply(a.min(delta), a.max(delta))
-        };
-        Some(self.push(op))
-    }
-
-    fn quotient(&mut self, delta: Delta, b: Register) -> Delta {
-        Some(self.push(Op::Divide(delta?, b)))
-    }
-
-    fn combination(&mut self, terms: &[(f64, Delta)]) -> Delta {
-        let terms: Vec<Term> = terms
-            .iter()
-            .filter_map(|&(c, delta)| {
-                Some(Term { coefficient: DoubleDouble::from(c), register: delta? })
-            })
-            .collect();
-        self.sum(&terms)
-    }
-
-    fn sum(&mut self, terms: &[Term]) -> Delta {
-        match terms {
-            [] => None,
-            [only] if only.coefficient == DoubleDouble::ONE => Some(only.register),
-            _ => Some(self.linear(0.0, terms)),
-        }
-    }
-
-    fn linear(&mut self, constant: f64, terms: &[Term]) -> Register {
-        let first = self.program.terms.len() as u32;
-        self.program.terms.extend_from_slice(terms);
-        let constant = self.constant_index(DoubleDouble::from(constant));
-        self.push(Op::Linear { constant, first, count: terms.len() as u32 })
-    }
-
-    fn constant(&mut self, x: f64) -> Register {
-        let index = self.constant_index(DoubleDouble::from(x));
-        self.push(Op::Constant(index))
-    }
-
-    fn constant_index(&mut self, x: DoubleDouble) -> u32 {
-        let alike = |c: &DoubleDouble| {
-            (c.high.to_bits(), c.low.to_bits()) == (x.high.to_bits(), x.low.to_bits())
-        };
-        let constants = &mut self.program.constants;
-        let index = constants.iter().position(alike).unwrap_or_else(|| {
-            constants.push(x);
-            constants.len() - 1
-        });
-        index as u32
-    }
-
-    fn input(&mut self) -> Register {
-        let register = self.push(Op::Input(self.program.inputs.len() as u32));
-        self.program.inputs.push(register);
-        register
-    }
-
-    fn push(&mut self, op: Op) -> Register {
-        if let (Some(&register), false) = (self.written.get(&op), op == Op::Written) {
-            return register;
-        }
-        let program = &mut self.program;
-        let register = program.ops.len() as Register;
-        let fixed = match op {
-            Op::Constant(_) => true,
-            Op::Linear { first, count, .. } => program.terms
-                [first as usize..(first + count) as usize]
-                .iter()
-                .all(|term| program.fixed[term.register as usize]),
-            Op::Square(a) | Op::Root(a) | Op::Power(a, _) => program.fixed[a as usize],
-            Op::Scale(a, b) | Op::Multiply(a, b) | Op::Divide(a, b) | Op::ParametricPower(a, b) => {
-                program.fixed[a as usize] && program.fixed[b as usize]
-            }
-            Op::Select { switch, positive, negative, .. } => {
-                [switch, positive, negative].iter().all(|&r| program.fixed[r as usize])
-            }
-            Op::Written => program.fixed[register as usize - 1],
-            _ => false,
-        };
-        program.ops.push(op);
-        program.fixed.push(fixed);
-        match (op, fixed) {
-            (Op::Written | Op::Input(_), _) => {}
-            (_, true) => program.prologue.push(register),
-            (_, false) => program.body.push(register),
-        }
-        if op != Op::Written {
-            self.written.insert(op, register);
-        }
-        register
     }
 }

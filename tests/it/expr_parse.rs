@@ -216,8 +216,13 @@ fn nesting_is_refused_beyond_256() {
             assert!(slip.ends_with("nested deeper than 256; name parts of it in [definitions]"));
         }
     }
-    assert!(parse(&nested(256, "(", ")")).is_ok());
-    assert!(parse(&nested(257, "(", ")")).is_err());
+    // as deep as is allowed, on the stack of a thread: also where nothing is optimised
+    for (open, close) in
+        [("(", ")"), ("sin(", ")"), ("1.5*(", ")"), ("1.5 + y*(", ")"), ("atan2(y, ", ")")]
+    {
+        lower(&mut Pool::new(), &nested(256, open, close));
+        assert!(parse(&nested(257, open, close)).is_err(), "{open}");
+    }
 }
 
 #[test]

@@ -232,3 +232,61 @@ impl Perform for Sink {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::decode_with;
+    use super::*;
+    use crate::shell::terminal::TerminalMode;
+
+    #[test]
+    fn the_mouse_is_its_left_button_and_its_wheel() {
+        let check = |bytes: &str, expected: &[(u16, u16, MouseEventKind)]| {
+            let plain = |&(column, row, kind): &(u16, u16, MouseEventKind)| {
+                Event::Mouse(MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE })
+            };
+            let expected: Vec<_> = expected.iter().map(plain).collect();
+            assert_eq!(decode_with(TerminalMode::Mouse, bytes.as_bytes()), expected, "{bytes:?}");
+        };
+        let (press, release) =
+            (MouseEventKind::Down(MouseButton::Left), MouseEventKind::Up(MouseButton::Left));
+        check("\x1b[<0;1;1M\x1b[<0;1;1m", &[(0, 0, press), (0, 0, release)]);
+        check("\x1b[<32;80;24M", &[(79, 23, MouseEventKind::Drag(MouseButton::Left))]);
+        let (up, down) = (MouseEventKind::ScrollUp, MouseEventKind::ScrollDown);
+        check("\x1b[<64;5;6M\x1b[<65;5;6M", &[(4, 5, up), (4, 5, down)]);
+        check("\x1b[<0;99999;99999M", &[(65534, 65534, press)]);
+        let modifiers = KeyModifiers::SHIFT | KeyModifiers::ALT | KeyModifiers::CONTROL;
+        let held = Event::Mouse(MouseEvent { kind: press, column: 1, row: 2, modifiers });
+        assert_eq!(decode_with(TerminalMode::Mouse, b"\x1b[<28;2;3M"), [held]);
+        for nothing in [
+            "\x1b[<0;1M",
+            "\x1b[<0;1;1;1M",
+            "\x1b[<M",
+            // The middle and the right button, motion without a button, horizontal scrolling, extra buttons.
+            "\x1b[<1;1;1M\x1b[<2;1;1m",
+            "\x1b[<34;1;1M\x1b[<35;1;1M",
+            "\x1b[<66;1;1M\x1b[<67;1;1M\x1b[<64;1;1m",
+            "\x1b[<128;1;1M\x1b[<65535;1;1M",
+            // Without mode 1006.
+            "\x1b[M !!\x1b[M#!\x7f",
+            "\x1b[M",
+        ] {
+            check(nothing, &[]);
+        }
+    }
+
+    #[test]
+    fn a_report_from_row_or_column_zero_is_none() {
+        for report in ["\x1b[<0;0;0M", "\x1b[<0;1;0M", "\x1b[<0;0;1M", "\x1b[M   ", "\x1b[0;0;0M"] {
+            assert_eq!(decode_with(TerminalMode::Mouse, report.as_bytes()), [], "{report:?}");
+        }
+    }
+
+    #[test]
+    fn focus_is_reported_where_it_was_asked_for() {
+        let expected = [Event::FocusLost, Event::FocusGained];
+        assert_eq!(decode_with(TerminalMode::Focus, b"\x1b[O\x1b[I"), expected);
+        assert_eq!(decode_with(TerminalMode::Mouse, b"\x1b[O\x1b[I"), []);
+        assert_eq!(decode_with(TerminalMode::Focus, b"\x1b[5I\x1b[2;2O\x1b[?I"), []);
+    }
+}

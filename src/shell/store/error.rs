@@ -1,0 +1,30 @@
+//! Why sessions are not stored.
+//!
+//! In: a file, a reason. Out: a sentence for the user. Never here: where files are.
+
+use std::io;
+use std::path::PathBuf;
+
+use crate::printable;
+
+/// The maximum number of programs that store texts at the same time.
+pub(super) const PROGRAMS: u32 = 64;
+
+/// Why sessions are not stored, as a sentence for the user.
+#[derive(Debug, thiserror::Error)]
+pub(in crate::shell) enum StoreError {
+    /// There is no home folder for it.
+    #[error("the session will not be saved: there is no home folder to save it in")]
+    NoHome,
+    /// The file cannot be written.
+    #[error("the session will not be saved: cannot write {}: {}", .path.display(), printable::why(.reason))]
+    Refused {
+        /// The file.
+        path: PathBuf,
+        /// The reason given by the system.
+        reason: io::Error,
+    },
+    /// Other programs have taken all files.
+    #[error("the session will not be saved: {PROGRAMS} others are running and save their own")]
+    Taken,
+}
