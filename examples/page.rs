@@ -119,7 +119,13 @@ fn main() -> Result<ExitCode> {
     report_panics()?;
     match perform(
         &mut Clock::default(),
-        FramePace { frames: 30, bytes: None, synchronized: true, mouse: false },
+        FramePace {
+            frames: 30,
+            bytes: None,
+            synchronized: true,
+            mouse: false,
+            asks_background: false,
+        },
     ) {
         Ok(Ending::Quit) => Ok(ExitCode::SUCCESS),
         Ok(Ending::Gone) => Ok(ExitCode::from(129)),

@@ -16,7 +16,7 @@ use phaselab::view::colour::ColourDepth;
 use phaselab::view::frame::Frames;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::Theme;
-use phaselab::view::{self, RenderStyle};
+use phaselab::view::{Painter, RenderStyle};
 use ratatui::layout::Size;
 
 /// Returns the number of memory pages in use, as Linux counts them.
@@ -37,7 +37,7 @@ fn main() -> Result<ExitCode> {
     let (mut app, _) = App::new(&catalog, Some(&name));
     app.update(Event::Loaded(Ok(Loaded { name, epoch: 1, document, model, equations, system })));
     let look = RenderStyle { theme: Theme::dark(ColourDepth::Ansi256), glyphs: Glyphs::Braille };
-    let mut frames = Frames::new(true)?;
+    let (mut frames, mut painter) = (Frames::new(true)?, Painter::default());
     let (start, mut bytes, mut first) = (experiment.time(), 0, 0);
     for frame in 0..count {
         let time = start + f64::from(frame) / 30.0 * experiment.speed();
@@ -45,7 +45,7 @@ fn main() -> Result<ExitCode> {
         app.update(Event::Tick(Duration::from_secs(1) / 30));
         app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
         let draw = |area, buffer: &mut _| {
-            view::draw(&app, &look, area, buffer);
+            painter.draw(&app, &look, area, buffer);
         };
         bytes += frames.next(Size::new(80, 24), draw)?.len();
         if frame == count / 10 {

@@ -14,6 +14,7 @@
 //! environment provides all that is needed.
 
 pub(crate) mod atomic_file;
+mod background;
 mod bandwidth;
 mod cast_player;
 mod checker;

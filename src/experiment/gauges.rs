@@ -47,7 +47,7 @@ pub(super) struct Gauges {
 
 impl Gauges {
     /// Creates the gauges for what `equations` finds conserved in `model`. If the energy is not conserved, they
-    /// include the energy with its law of change, and the energy ledger, which is constant by that law.
+    /// include the energy with its law of change, and the energy balance, which is constant by that law.
     pub(super) fn new(model: &Model, equations: &Arc<Equations>, system: &System) -> Gauges {
         let equations = &with_energy_opened(equations);
         let find = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
@@ -185,7 +185,7 @@ impl Gauges {
         }
     }
 
-    /// Shifts the references by the jump of an impulse, so that the jump does not count as drift. The energy ledger
+    /// Shifts the references by the jump of an impulse, so that the jump does not count as drift. The energy balance
     /// accounts for impulses by its own law.
     pub(super) fn shift(&mut self, before: &[f64], after: &[f64]) {
         self.monitors.iter_mut().for_each(|monitor| monitor.shift(before, after));

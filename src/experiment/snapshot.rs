@@ -124,7 +124,7 @@ pub struct Failure {
 /// A monitored invariant.
 #[derive(Clone, Debug)]
 pub struct Gauge {
-    /// `energy`, `p_phi`, an observable's name, `energy ledger`.
+    /// `energy`, `p_phi`, an observable's name, `energy balance`.
     pub name: String,
     /// The name as shown: `E`, `p_φ`.
     pub shown: String,
@@ -189,6 +189,6 @@ impl From<crate::system::MotionError> for Failure {
 /// The greatest drift of the energy, or of the energy less the work done; NaN if neither is monitored.
 pub fn energy_drift(gauges: &[Gauge]) -> f64 {
     let gauge = |name: &str| gauges.iter().find(|gauge| gauge.name == name);
-    let energy = gauge("energy ledger").or_else(|| gauge("energy"));
+    let energy = gauge("energy balance").or_else(|| gauge("energy"));
     energy.map_or(f64::NAN, |gauge| gauge.max_drift)
 }

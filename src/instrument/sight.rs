@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use serde::{Deserialize, Serialize};
 
 use crate::expr::Expr;
-use crate::model::{Model, Shape};
+use crate::model::{Model, Shape, Viewpoint};
 
 /// How a plot is viewed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,7 +92,7 @@ impl Viewport {
 
 impl CameraPose {
     /// A camera on the shapes of the model, or on those of a view in the view's frame. Plane motion is seen face on,
-    /// motion in space from the side and above.
+    /// motion in space from the side and above, unless the file says from where.
     pub fn on(model: &Model, view: Option<usize>) -> Self {
         let frame = view.and_then(|view| model.views.get(view)?.frame);
         Self { yaw: 0.0, pitch: 0.0, zoom: 1.0, frame, view }.at_first(model)
@@ -101,7 +101,11 @@ impl CameraPose {
     /// The initial camera of the same picture.
     pub(super) fn at_first(self, model: &Model) -> Self {
         let plane = self.shapes(model).iter().all(is_plane);
-        let (yaw, pitch) = if plane { (0.0, FRAC_PI_2) } else { (PI / 6.0, PI / 9.0) };
+        let usual = if plane { (0.0, FRAC_PI_2) } else { (PI / 6.0, PI / 9.0) };
+        let own = self.own_shapes(model).is_some();
+        let written = if own { Viewpoint::default() } else { model.viewpoint };
+        let yaw = written.azimuth.map_or(usual.0, |azimuth| azimuth.rem_euclid(TAU));
+        let pitch = written.elevation.unwrap_or(usual.1);
         Self { yaw, pitch, zoom: 1.0, ..self }
     }
 

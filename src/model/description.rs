@@ -9,7 +9,7 @@ use super::constraint::Constraint;
 use super::coordinate::Coordinate;
 use super::occurrence::{Event, Impulse};
 use super::parameter::Parameter;
-use super::picture::{Follow, Shape, View};
+use super::picture::{Follow, Shape, View, Viewpoint};
 use super::ramped::Ramped;
 use super::transformation::{CompleteIntegral, Generator, Transformation};
 use crate::diagnostic::SourceRange;
@@ -70,6 +70,8 @@ pub struct Model {
     pub space: Vec<Shape>,
     /// The point that the camera follows, if it does not show all of the motion.
     pub follow: Option<Follow>,
+    /// Where the camera stands at first.
+    pub viewpoint: Viewpoint,
     /// The default settings of a run.
     pub run: RunSettings,
 }
@@ -272,6 +274,7 @@ impl Model {
             views: Vec::new(),
             space: Vec::new(),
             follow: None,
+            viewpoint: Viewpoint::default(),
             run: RunSettings::default(),
         }
     }

@@ -158,6 +158,15 @@ pub enum Shape {
     },
 }
 
+/// Where the camera of a picture in space stands at first, in radians; `None` is up to the picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Viewpoint {
+    /// The rotation about the vertical axis.
+    pub azimuth: Option<f64>,
+    /// The elevation above the plane of x and y.
+    pub elevation: Option<f64>,
+}
+
 /// The point that the camera follows in a picture in space.
 #[derive(Clone, Copy, Debug)]
 pub struct Follow {

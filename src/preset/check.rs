@@ -82,7 +82,7 @@ pub(super) fn check(
     let mut nodes = 0;
     check.views(&draft.views, &mut nodes);
     check.model.space = check.shapes(&draft.shapes, &mut nodes);
-    check.model.follow = draft.follow.as_ref().and_then(|written| check.follow(written));
+    check.camera(&draft.camera);
     if !check.mistakes.any_error() {
         check.unused(draft);
     }

@@ -35,7 +35,9 @@ pub(super) use constraint::DraftConstraint;
 pub(super) use frame::DraftFrame;
 pub(super) use law::{DraftBracket, DraftMechanics, Law};
 pub(super) use occurrence::{DraftEvent, DraftImpulse};
-pub(super) use picture::{DraftFollow, DraftSection, DraftShape, DraftShapeKind, DraftView};
+pub(super) use picture::{
+    DraftCamera, DraftFollow, DraftSection, DraftShape, DraftShapeKind, DraftView,
+};
 pub(super) use run::DraftRun;
 pub(super) use system::{DraftCoordinate, DraftMoving, DraftParameter, DraftRamp, NamedFormula};
 pub(super) use table::Table;
@@ -89,8 +91,8 @@ pub(super) struct Draft {
     pub(super) views: Vec<DraftView>,
     /// The shapes of the picture in space.
     pub(super) shapes: Vec<DraftShape>,
-    /// The point that the camera follows.
-    pub(super) follow: Option<DraftFollow>,
+    /// The camera of the picture in space.
+    pub(super) camera: DraftCamera,
     /// The settings of a run.
     pub(super) run: DraftRun,
 }
@@ -109,7 +111,7 @@ const TOP_LEVEL: [&str; 6] = ["title", "summary", "source", "chapter", "topics",
 pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Diagnostics) -> Draft {
     let mut top = Table::new("the file", 0..0, file.get_ref()).with(&FILE);
     let info = read_info(&mut top, mistakes);
-    let (shapes, follow) = picture::space(&mut top, mistakes);
+    let (shapes, camera) = picture::space(&mut top, mistakes);
     let draft = Draft {
         info,
         moving: system::moving(&mut top, mistakes),
@@ -131,7 +133,7 @@ pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Diagnostics) -> D
         frames: frame::frames(&mut top, mistakes),
         views: picture::views(&mut top, mistakes),
         shapes,
-        follow,
+        camera,
         run: run::read(&mut top, mistakes),
     };
     top.finish(mistakes);

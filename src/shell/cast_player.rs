@@ -278,6 +278,10 @@ impl CastPlayer {
 }
 
 impl Screen for CastPlayer {
+    fn background(&mut self, colour: Rgb) {
+        self.look = self.look.on(colour);
+    }
+
     fn input(&mut self, event: Event) -> ScreenRequest {
         match event {
             Event::Key(key) => self.press(key),

@@ -31,6 +31,7 @@ pub use self::sink::PASTE_LIMIT;
 use self::sink::{Prefix, Sink};
 use super::events::EventSource;
 use super::terminal::{Terminal, TerminalMode};
+use crate::view::colour::Rgb;
 
 const ESC: u8 = 0x1b;
 
@@ -116,6 +117,18 @@ impl EventSource for Decoder {
             TerminalMode::AlternateScreen | TerminalMode::HiddenCursor => {}
         }
     }
+
+    fn expect_background(&mut self, expected: bool) {
+        self.sink.expects.background = expected;
+    }
+
+    fn awaits_background(&self) -> bool {
+        self.sink.expects.background
+    }
+
+    fn background(&mut self) -> Option<Rgb> {
+        self.sink.background.take()
+    }
 }
 
 impl Decoder {
@@ -180,8 +193,9 @@ impl Decoder {
     }
 
     fn reset(&mut self) {
-        let (events, expects) = (mem::take(&mut self.sink.events), self.sink.expects);
-        *self = Self { sink: Sink { events, expects, ..Sink::default() }, ..Self::default() };
+        let Sink { events, expects, background, .. } = mem::take(&mut self.sink);
+        let sink = Sink { events, expects, background, ..Sink::default() };
+        *self = Self { sink, ..Self::default() };
     }
 }
 
@@ -334,6 +348,57 @@ mod tests {
             "\x1b[I\x1b[O",
         ] {
             check(&format!("{noise}q"), &keys("q"));
+        }
+    }
+
+    /// What a terminal that was asked for its background is understood to say, the keys typed meanwhile, and whether
+    /// more is awaited.
+    fn answered(bytes: &[u8]) -> (Option<Rgb>, Vec<Event>, bool) {
+        let mut decoder = Decoder::default();
+        decoder.expect_background(true);
+        bytes.iter().for_each(|byte| decoder.feed(&[*byte], Instant::now()));
+        if decoder.deadline().is_some() {
+            decoder.expire();
+        }
+        (decoder.background(), taken(&mut decoder), decoder.awaits_background())
+    }
+
+    #[test]
+    fn a_background_is_heard_where_it_was_asked_for() {
+        let white = Some(Rgb(255, 255, 255));
+        let q = vec![Event::Key(key::character('q'))];
+        for end in ["\x07", "\x1b\\"] {
+            let answer = format!("\x1b]11;rgb:ffff/ffff/ffff{end}");
+            let whole = format!("q{answer}\x1b[?62;22c");
+            assert_eq!(answered(whole.as_bytes()), (white, q.clone(), false), "{end:?}");
+            // The attributes may not come, or come first: then there is nothing to say.
+            assert_eq!(answered(answer.as_bytes()), (white, vec![], true), "{end:?}");
+            let late = format!("\x1b[?62;22c{answer}q");
+            assert_eq!(answered(late.as_bytes()), (None, q.clone(), false), "{end:?}");
+        }
+    }
+
+    #[test]
+    fn an_answer_about_something_else_is_no_background() {
+        let q = vec![Event::Key(key::character('q'))];
+        for noise in [
+            "\x1b]10;rgb:ffff/ffff/ffff\x07",
+            "\x1b]11\x07",
+            "\x1b]11;\x07",
+            "\x1b]11;?\x07",
+            "\x1b]11;rgb:ffff/ffff\x07",
+            "\x1b]11;rgb:ffff/ffff/ffff;x\x07",
+            "\x1b]111;rgb:ffff/ffff/ffff\x07",
+            "\x1b]11;\u{fffd}\x1b\\",
+        ] {
+            assert_eq!(
+                answered(format!("{noise}q").as_bytes()),
+                (None, q.clone(), true),
+                "{noise:?}"
+            );
+        }
+        for other in ["\x1b[>1;2c", "\x1b[=1c", "\x1b[c", "\x1b[?1;2n"] {
+            assert!(answered(other.as_bytes()).2, "{other:?} is no answer to DA1");
         }
     }
 

@@ -13,6 +13,7 @@ use ratatui::layout::{Position, Rect};
 use super::frame_loop::{Screen, ScreenRequest};
 use crate::diagnostic::Diagnostic;
 use crate::record::ScriptRunner;
+use crate::view::colour::Rgb;
 use crate::view::{Detail, RenderStyle};
 
 /// The maximum time that one frame advances. If the terminal or the machine cannot keep up, the demo slows down, so
@@ -94,5 +95,9 @@ impl Screen for Demo {
 
     fn reduce(&mut self, detail: Detail) {
         self.detail = detail;
+    }
+
+    fn background(&mut self, colour: Rgb) {
+        self.look = self.look.on(colour);
     }
 }

@@ -27,6 +27,9 @@ const OF_COLOUR: [&str; 6] = ["NO_COLOR", "COLORTERM", "TERM", "WT_SESSION", "ST
 /// The variables that determine the characters.
 const OF_GLYPHS: [&str; 5] = ["LC_ALL", "LC_CTYPE", "LANG", "TERM", "WT_SESSION"];
 
+/// The variables that determine the theme.
+const OF_THEME: [&str; 4] = ["COLORFGBG", "NO_COLOR", "TERM", "STY"];
+
 /// The variables that indicate a remote connection.
 const OF_LINE: [&str; 2] = ["SSH_CONNECTION", "SSH_TTY"];
 
@@ -46,6 +49,15 @@ pub fn diagnosis(variables: Variables<'_>, size: Option<(u16, u16)>) -> Vec<Doct
         ColourDepth::Ansi256 => "256",
         ColourDepth::True => "24 bits",
     };
+    let theme_of = |variables: Variables<'_>| {
+        let request = Request::default();
+        let name = request.look(variables).theme.palette().name;
+        (name, request.pace(variables).asks_background)
+    };
+    let theme = match theme_of(variables) {
+        (_, true) => "as the terminal answers when asked for its background",
+        (name, false) => name,
+    };
     let glyphs = Glyphs::from_environment(variables);
     let pace = Request::default().pace(variables);
     let line = |variables: Variables<'_>| Request::default().pace(variables).frames;
@@ -60,6 +72,7 @@ pub fn diagnosis(variables: Variables<'_>, size: Option<(u16, u16)>) -> Vec<Doct
     vec![
         finding("terminal", &terminal, String::new()),
         finding("color", colours, why(variables, &OF_COLOUR, &ColourDepth::from_environment)),
+        finding("theme", theme, why(variables, &OF_THEME, &theme_of)),
         finding("glyphs", glyphs.name(), why(variables, &OF_GLYPHS, &Glyphs::from_environment)),
         finding("fps", &pace.frames.to_string(), why(variables, &OF_LINE, &line)),
         finding("bandwidth", &rate, why(variables, &OF_LINE, &line)),
@@ -121,6 +134,9 @@ mod tests {
         check(&rich, "glyphs", ["braille", "LANG=C.UTF-8"]);
         check(&rich, "terminal", ["xterm, 80x24", ""]);
         check(&[("LANG", "C.UTF-8"), ("LC_ALL", "C")], "glyphs", ["ascii", "LC_ALL=C"]);
+        let asked = "as the terminal answers when asked for its background";
+        check(&rich, "theme", [asked, "TERM=xterm"]);
+        check(&[("TERM", "linux"), ("COLORFGBG", "0;15")], "theme", ["light", "COLORFGBG=0;15"]);
         check(&[], "link", ["near", "none of SSH_CONNECTION, SSH_TTY is set"]);
         let ssh = [("SSH_CONNECTION", "10.0.0.1 1 10.0.0.2 2"), ("SSH_TTY", "/dev/pts/0")];
         check(&ssh, "fps", ["15", "SSH_CONNECTION is set, SSH_TTY is set"]);

@@ -11,6 +11,7 @@ use std::time::Instant;
 use crossterm::event::Event;
 
 use super::terminal::{Terminal, TerminalMode};
+use crate::view::colour::Rgb;
 
 /// A reader of a terminal.
 pub(super) trait EventSource {
@@ -25,4 +26,13 @@ pub(super) trait EventSource {
 
     /// Sets whether the reports of a mode are enabled; if they are not, they are noise.
     fn expect(&mut self, mode: TerminalMode, expected: bool);
+
+    /// Sets whether the terminal has been asked for its background; an answer that is not expected is noise.
+    fn expect_background(&mut self, expected: bool);
+
+    /// Whether the answer about the background is still to come.
+    fn awaits_background(&self) -> bool;
+
+    /// Returns the colour of the terminal's background, once, if it has answered.
+    fn background(&mut self) -> Option<Rgb>;
 }

@@ -14,6 +14,7 @@ use crossterm::event::Event;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 
+use super::background;
 use super::clipboard;
 use super::decoder::Decoder;
 use super::events::EventSource;
@@ -24,6 +25,7 @@ use super::queue::Queue;
 use super::signals::Signals;
 use super::terminal::{Ready, Terminal, TerminalError, TerminalMode};
 use crate::view::Detail;
+use crate::view::colour::Rgb;
 use crate::view::frame::Frames;
 
 /// A page that can be shown on a terminal.
@@ -61,6 +63,9 @@ pub trait Screen {
 
     /// Sets the level of detail of the next pictures, as the bandwidth allows.
     fn reduce(&mut self, _detail: Detail) {}
+
+    /// Called once if the terminal was asked for the colour of its background, and has answered.
+    fn background(&mut self, _colour: Rgb) {}
 }
 
 /// What a page requests of the terminal.
@@ -91,6 +96,8 @@ pub struct FramePace {
     pub synchronized: bool,
     /// Whether the mouse is captured from the start.
     pub mouse: bool,
+    /// Whether the terminal is asked for the colour of its background.
+    pub asks_background: bool,
 }
 
 /// How a page ended.
@@ -103,6 +110,12 @@ pub enum Ending {
     /// The program was asked to end by this signal.
     Signal(i32),
 }
+
+/// How long an answer of the terminal is accepted; nothing waits for it.
+const ANSWER: Duration = Duration::from_secs(1);
+
+/// How long a page that is left at once waits for the answer, which the shell would otherwise take for typed text.
+const LAST_WORD: Duration = Duration::from_millis(100);
 
 /// The number of consecutive failed frames after which the terminal is given up.
 const FAILURES: u32 = 20;
@@ -127,9 +140,16 @@ pub fn perform(page: &mut impl Screen, pace: FramePace) -> Result<Ending, LabErr
         governor: Governor::new(pace.frames, pace.bytes, Instant::now()),
         mouse: pace.mouse,
         failures: 0,
+        asked: None,
     };
-    let ended = frame_loop.enter().and_then(|()| frame_loop.run(page));
+    let begun = frame_loop
+        .enter()
+        .and_then(|()| if pace.asks_background { frame_loop.ask() } else { Ok(()) });
+    let ended = begun.and_then(|()| frame_loop.run(page));
     page.on_exit(!matches!(ended, Ok(Ending::Quit)));
+    if let Ok(Ending::Quit) = ended {
+        frame_loop.hear_out()?;
+    }
     Ok(ended?)
 }
 
@@ -153,6 +173,8 @@ struct FrameLoop<'a, E> {
     /// Whether the mouse is to be captured.
     mouse: bool,
     failures: u32,
+    /// When the terminal was asked for its background.
+    asked: Option<Instant>,
 }
 
 impl<E: EventSource> FrameLoop<'_, E> {
@@ -194,6 +216,14 @@ impl<E: EventSource> FrameLoop<'_, E> {
                     clipboard::write(&text, &mut self.queue)?;
                 }
             }
+            if let Some(colour) = self.events.background() {
+                page.background(colour);
+                changed = true;
+                due = due.min(self.governor.soon(Instant::now()));
+            }
+            if self.asked.is_some_and(|asked| asked.elapsed() > ANSWER) {
+                self.events.expect_background(false);
+            }
             if due <= Instant::now() && !self.queue.is_busy() {
                 let now = Instant::now();
                 changed |= self.resize(page) | page.advance(now - last) | !self.screen.is_current();
@@ -223,6 +253,29 @@ impl<E: EventSource> FrameLoop<'_, E> {
         self.events.expect(TerminalMode::Focus, true);
         self.governor.watched = true;
         self.screen.forget();
+        Ok(())
+    }
+
+    /// Asks the terminal for its background, before the first frame, which does not wait for the answer.
+    fn ask(&mut self) -> io::Result<()> {
+        self.queue.write_all(background::QUESTION)?;
+        self.events.expect_background(true);
+        self.asked = Some(Instant::now());
+        Ok(())
+    }
+
+    /// Waits for the answer to a question that has only just been asked, so that it does not become typed text after
+    /// the end.
+    fn hear_out(&mut self) -> io::Result<()> {
+        let Some(end) = self.asked.map(|asked| asked + LAST_WORD) else { return Ok(()) };
+        while self.events.awaits_background() && self.signals.take().fatal.is_none() {
+            let left = end.saturating_duration_since(Instant::now());
+            let ready = self.terminal.wait(self.signals.wake(), self.queue.is_busy(), left)?;
+            if left.is_zero() || ready.gone || ready.input && !self.events.read(self.terminal)? {
+                break;
+            }
+            self.send()?;
+        }
         Ok(())
     }
 

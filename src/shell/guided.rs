@@ -18,6 +18,7 @@ use crate::app::{Guide, GuideKind, LessonTaken};
 use crate::diagnostic::{Diagnostic, Document};
 use crate::preset::{self, CatalogEntry};
 use crate::record::{Lesson, Script, ScriptHeader, ScriptRunner, called};
+use crate::view::colour::Rgb;
 use crate::view::{Detail, RenderStyle};
 
 /// What is said when a demo is over.
@@ -174,6 +175,10 @@ impl Screen for Guided {
 
     fn reduce(&mut self, detail: Detail) {
         self.screen().reduce(detail);
+    }
+
+    fn background(&mut self, colour: Rgb) {
+        self.screen().background(colour);
     }
 }
 

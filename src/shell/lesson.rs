@@ -14,6 +14,7 @@ use super::frame_loop::{Screen, ScreenRequest};
 use super::mouse::with_shift;
 use crate::diagnostic::Diagnostic;
 use crate::record::{Lesson, Pressed};
+use crate::view::colour::Rgb;
 use crate::view::{Detail, RenderStyle};
 
 /// The maximum time that one frame advances, as for demos.
@@ -91,5 +92,9 @@ impl<L: BorrowMut<Lesson>> Screen for LessonScreen<L> {
 
     fn reduce(&mut self, detail: Detail) {
         self.detail = detail;
+    }
+
+    fn background(&mut self, colour: Rgb) {
+        self.look = self.look.on(colour);
     }
 }

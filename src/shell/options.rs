@@ -134,7 +134,8 @@ impl GlyphSet {
 
 /// Returns the names of the themes, and `auto`.
 fn themes() -> PossibleValuesParser {
-    let auto = PossibleValue::new("auto").help("dark, or light where COLORFGBG says so");
+    let auto =
+        PossibleValue::new("auto").help("light where the terminal's background is, dark otherwise");
     let themes =
         PALETTES.iter().map(|palette| PossibleValue::new(palette.name).help(palette.about));
     PossibleValuesParser::new([auto].into_iter().chain(themes))

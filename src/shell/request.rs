@@ -1,13 +1,14 @@
 //! The request: what to open and how to show it, with defaults from the environment.
 //!
-//! In: [`Options`]. Out: the render style and the frame settings. Never here: where options come from; queries to
-//! the terminal.
+//! In: [`Options`]. Out: the render style and the frame settings. Never here: where options come from; what the
+//! terminal answers.
 
 use crate::view::RenderStyle;
 use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::Theme;
 
+use super::background;
 use super::bandwidth::Bandwidth;
 use super::frame_loop::FramePace;
 use super::log::LogFile;
@@ -39,8 +40,8 @@ pub struct Request {
     pub glyphs: Option<Glyphs>,
     /// The maximum number of frames per second; by default 30, and 15 if `SSH_CONNECTION` or `SSH_TTY` is set.
     pub frames: Option<u16>,
-    /// The name of the theme; by default the one for dark terminals, or for light ones if `COLORFGBG` indicates
-    /// one.
+    /// The name of the theme; by default the terminal is asked for its background, and gets the one for dark
+    /// terminals until it answers, or the one for light ones if `COLORFGBG` indicates that.
     pub theme: Option<String>,
     /// Whether to omit the marks around each frame, for terminals that show them.
     pub unsynchronized: bool,
@@ -101,7 +102,12 @@ impl Request {
         let frames = self.frames.unwrap_or(if far { FAR } else { NEAR }).min(self.most_frames());
         let bandwidth = if far { Bandwidth::Bytes(LINE) } else { Bandwidth::Unlimited };
         let bytes = self.bandwidth.unwrap_or(bandwidth).bytes();
-        FramePace { frames, bytes, synchronized: !self.unsynchronized, mouse: self.mouse }
+        let colour = self.colour.unwrap_or_else(|| ColourDepth::from_environment(variable));
+        let asks_background = self.theme.is_none()
+            && colour != ColourDepth::None
+            && background::can_be_asked(variable);
+        let (synchronized, mouse) = (!self.unsynchronized, self.mouse);
+        FramePace { frames, bytes, synchronized, mouse, asks_background }
     }
 }
 
@@ -164,6 +170,26 @@ mod tests {
         assert_eq!(theme(None, "0;15"), "light");
         assert_eq!(theme(None, "0;default;15"), "light");
         assert_eq!(theme(Some("contrast"), "0;15"), "contrast");
+    }
+
+    #[test]
+    fn a_terminal_is_asked_for_its_background_only_where_the_answer_matters() {
+        let asks = |request: Request, environment: &[(&str, &str)]| {
+            let variable = |name: &str| {
+                let found = environment.iter().find(|(other, _)| *other == name);
+                found.map(|(_, value)| (*value).to_owned())
+            };
+            request.pace(&variable).asks_background
+        };
+        let xterm = ("TERM", "xterm-256color");
+        assert!(asks(Request::default(), &[xterm]));
+        assert!(asks(Request::default(), &[xterm, ("COLORFGBG", "15;0")]));
+        assert!(!asks(Request::default(), &[("TERM", "linux")]));
+        assert!(!asks(Request::default(), &[xterm, ("NO_COLOR", "1")]));
+        let theme = Some("dark".to_owned());
+        assert!(!asks(Request { theme, ..Request::default() }, &[xterm]));
+        let colour = Some(ColourDepth::None);
+        assert!(!asks(Request { colour, ..Request::default() }, &[xterm]));
     }
 
     #[test]

@@ -38,6 +38,7 @@ use crate::diagnostic::Document;
 use crate::experiment::{Prepared, Status};
 use crate::instrument::Answer;
 use crate::preset::{Catalog, is_path};
+use crate::view::colour::Rgb;
 use crate::view::theme::PALETTES;
 use crate::view::{self, Detail, Painter, RenderStyle};
 use crate::worker::{SideJob, Worker};
@@ -395,6 +396,20 @@ impl Screen for Session {
         let written = if hurried { None } else { self.writer.wait(UNHURRIED) };
         let written = written.map_or(Ok(()), |report| report.map(|_| ()).map_err(io::Error::other));
         self.left = Some(ExitResult { recorded: recorded.and(written), kept });
+    }
+
+    /// What the user has chosen in the meantime stays.
+    fn background(&mut self, colour: Rgb) {
+        let initial = self.look.theme.palette().name;
+        self.look = self.look.on(colour);
+        let suits = self.look.theme.palette().name;
+        info!("the terminal's background is {colour:?}: the {suits} theme");
+        if self.app.theme == Some(initial) {
+            self.app.theme = Some(suits);
+        }
+        if let Some(guided) = &mut self.guided {
+            guided.background(colour);
+        }
     }
 
     fn reduce(&mut self, detail: Detail) {

@@ -4,7 +4,7 @@
 //! Several threads share it: the frame loop, the signal thread and the panic hook, any of which may have to call
 //! [`Terminal::leave`]; after that no byte is sent. (`ratatui::restore` would not reset pastes, the mouse and
 //! focus.)
-//! Never here: what the bytes mean, or queries to the terminal.
+//! Never here: what the bytes mean.
 
 use std::ffi::OsStr;
 use std::io::{self, Write};

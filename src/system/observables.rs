@@ -59,7 +59,7 @@ impl ObservableList {
         }
         list.columns = list.channels.len();
         if equations.energy_rate != Expr::ZERO || !model.impulses.is_empty() {
-            list.push(ChannelKind::Ledger, "energy ledger", "energy balance", None);
+            list.push(ChannelKind::Ledger, "energy balance", "energy balance", None);
         }
         for (i, c) in equations.conserved.iter().enumerate() {
             let mut momenta = model.coordinates.iter().map(|q| model.pool.symbol_info(q.momentum));

@@ -28,7 +28,7 @@ pub struct State {
     /// Which rates the second part of `values` contains.
     pub form: Form,
     /// The coordinates, then their velocities or momenta, then auxiliary numbers, then tangent
-    /// vectors, then the quadratures: the action ∫ L dt, and the work ∫ (dh/dt) dt of the energy ledger.
+    /// vectors, then the quadratures: the action ∫ L dt, and the work ∫ (dh/dt) dt of the energy balance.
     pub values: Vec<f64>,
     /// What rounding cut off from `values`.
     pub carry: Vec<f64>,

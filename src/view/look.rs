@@ -4,8 +4,9 @@
 
 use std::borrow::Cow;
 
+use super::colour::Rgb;
 use super::glyphs::Glyphs;
-use super::theme::Theme;
+use super::theme::{PALETTES, Theme};
 use crate::app::App;
 use crate::printable;
 
@@ -25,6 +26,20 @@ impl RenderStyle {
             Cow::Borrowed(safe) => self.glyphs.text(safe),
             Cow::Owned(safe) => Cow::Owned(self.glyphs.text(&safe).into_owned()),
         }
+    }
+
+    /// The style for a terminal with this background: with the theme, of those that are made for dark and light terminals,
+    /// whose text stands out more on it.
+    #[must_use]
+    pub fn on(&self, background: Rgb) -> Self {
+        let contrast = |name: &&str| {
+            let palette = PALETTES.iter().find(|palette| palette.name == *name);
+            palette.map_or(0.0, |palette| palette.foreground.contrast(background))
+        };
+        let suits =
+            ["light", "dark"].into_iter().max_by(|a, b| contrast(a).total_cmp(&contrast(b)));
+        let theme = suits.and_then(|name| self.theme.renamed(name));
+        Self { theme: theme.unwrap_or_else(|| self.theme.clone()), glyphs: self.glyphs }
     }
 
     /// The style with the theme chosen by the user, or `None` if that is already this one's.

@@ -298,7 +298,13 @@ fn draw_layer(
             kept.draw(raster, kept::whole(&since, &[shade], level), now);
         }
         Layer::Line(points, stroke) => {
-            let pen = pen(canvas, stroke.ink, level);
+            let pen = match stroke.ink {
+                // Without colour a curve is told from the trail below it by its dashes.
+                Ink::Curve(index) if is_colourless(canvas) => {
+                    Pen::shaded(canvas.look.theme.series(index), level)
+                }
+                ink => pen(canvas, ink, level),
+            };
             let pen = match stroke.covering {
                 Some(share) => pen.covering(share),
                 None => pen,

@@ -92,7 +92,7 @@ change = { p_theta = \"-2*theta'\" }
     run(&mut after_impulse, 12.0);
     assert_eq!(times(&after_impulse, "impulse"), [2.0, 2.000_000_000_1]);
     let snapshot = after_impulse.snapshot();
-    assert!(gauge(&snapshot, "energy ledger").max_drift < 1e-14, "impulses included");
+    assert!(gauge(&snapshot, "energy balance").max_drift < 1e-14, "impulses included");
 }
 
 #[test]
@@ -491,7 +491,7 @@ fn an_impulse_may_bring_a_constrained_body_to_rest() {
     run(&mut halted, 0.3);
     assert!(value(&halted, "x'").abs() < 1e-16 && value(&halted, "y'").abs() < 1e-16);
     run(&mut halted, 2.0);
-    let energy = gauge(&halted.snapshot(), "energy ledger");
+    let energy = gauge(&halted.snapshot(), "energy balance");
     assert!(energy.max_drift < 1e-14, "{}", energy.max_drift);
 }
 

@@ -1,5 +1,6 @@
 //! The program on a pseudo-terminal: the state in which it leaves the terminal on every exit, its input and output.
 
+mod background;
 mod endings;
 mod hostile;
 mod kept;

@@ -8,7 +8,7 @@ use crate::expr::Expr;
 use crate::system::{BatchTerms, TermSums, TermWatch};
 
 /// The name of the gauge that is constant by the law of the energy's change.
-pub(super) const LEDGER: &str = "energy ledger";
+pub(super) const LEDGER: &str = "energy balance";
 
 /// Constant terms are large from this multiple of the others on: the value, in `f64`, has three digits fewer then than
 /// the sum of the others has.

@@ -11,10 +11,11 @@ use crate::expr::{Expr, Symbol};
 use crate::instrument::Instrument;
 use crate::model::{
     Allowed, Channel, Direction, Event, EventAction, Follow, Mechanics, Point, Scope, Shape,
-    Variation, View,
+    Variation, View, Viewpoint,
 };
 use crate::preset::draft::{
-    DraftFollow, DraftSection, DraftShape, DraftShapeKind, DraftView, Formula, Formulas,
+    DraftCamera, DraftFollow, DraftSection, DraftShape, DraftShapeKind, DraftView, Formula,
+    Formulas,
 };
 
 /// The default number of segments of a path.
@@ -236,8 +237,24 @@ impl Check<'_> {
         shapes
     }
 
+    /// Reads where the camera stands and what it follows.
+    pub(super) fn camera(&mut self, written: &DraftCamera) {
+        self.model.follow = written.follow.as_ref().and_then(|written| self.follow(written));
+        if let Some(elevation) = &written.elevation
+            && !(-90.0..=90.0).contains(elevation.get_ref())
+        {
+            let message = "`elevation` is an angle from -90 to 90, in degrees";
+            self.mistakes.push(Diagnostic::error(elevation.span(), message));
+        }
+        let angle = |written: &Option<Spanned<f64>>| {
+            written.as_ref().map(|degrees| degrees.get_ref().to_radians())
+        };
+        self.model.viewpoint =
+            Viewpoint { azimuth: angle(&written.azimuth), elevation: angle(&written.elevation) };
+    }
+
     /// Reads the point that the camera follows.
-    pub(super) fn follow(&mut self, written: &DraftFollow) -> Option<Follow> {
+    fn follow(&mut self, written: &DraftFollow) -> Option<Follow> {
         let mut scope = Scope::new(&self.model, Allowed::Observable, "the camera");
         let at = self.point(written.at.as_ref(), &mut scope);
         let reach = self.size(written.reach.as_ref(), &mut scope);

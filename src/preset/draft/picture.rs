@@ -56,6 +56,14 @@ pub(in crate::preset) struct DraftFollow {
     pub(in crate::preset) reach: Option<Formula>,
 }
 
+/// The camera of `[space]`, as written.
+#[derive(Default)]
+pub(in crate::preset) struct DraftCamera {
+    pub(in crate::preset) follow: Option<DraftFollow>,
+    pub(in crate::preset) azimuth: Option<Spanned<f64>>,
+    pub(in crate::preset) elevation: Option<Spanned<f64>>,
+}
+
 /// A kind of shape; parts that could not be read are `None`.
 pub(in crate::preset) enum DraftShapeKind {
     Line {
@@ -252,19 +260,21 @@ fn view_kind(
     kind
 }
 
-/// Reads `[space]`: its shapes, and the point that the camera follows, with the reach of the picture.
+/// Reads `[space]`: its shapes, and the camera: where it stands, and what it follows.
 pub(super) fn space(
     top: &mut Table<'_>,
     mistakes: &mut Diagnostics,
-) -> (Vec<DraftShape>, Option<DraftFollow>) {
-    let Some(mut table) = top.table("space", mistakes) else { return (Vec::new(), None) };
+) -> (Vec<DraftShape>, DraftCamera) {
+    let Some(mut table) = top.table("space", mistakes) else { return Default::default() };
     let all = shapes_of(&mut table, mistakes);
     let follow = table.has("follow").then(|| DraftFollow {
         at: point(&mut table, "follow", mistakes),
         reach: size(&mut table, "reach", mistakes),
     });
+    let azimuth = table.number("azimuth", mistakes);
+    let elevation = table.number("elevation", mistakes);
     table.finish(mistakes);
-    (all, follow)
+    (all, DraftCamera { follow, azimuth, elevation })
 }
 
 /// The list of shapes of a table.

@@ -11,7 +11,9 @@ use crossterm::event::{
 };
 use vte::{Params, Perform};
 
+use super::super::background;
 use crate::app::{LONGEST_PASTE, key};
+use crate::view::colour::Rgb;
 
 /// The maximum size of a paste, in bytes: a character more than the application accepts, so that the cut is
 /// reported there.
@@ -37,6 +39,8 @@ pub(super) struct Expected {
     pub(super) mouse: bool,
     /// Focus reports.
     pub(super) focus: bool,
+    /// The colour of the background.
+    pub(super) background: bool,
 }
 
 /// The output of the parser.
@@ -49,6 +53,8 @@ pub(super) struct Sink {
     pub(super) paste: Option<String>,
     /// The reports that are not noise.
     pub(super) expects: Expected,
+    /// The colour of the background, as the terminal has answered.
+    pub(super) background: Option<Rgb>,
     /// The remaining bytes of a mouse report in the old form, which is not supported.
     pub(super) skip: usize,
     /// Whether the parser has completed something since this was last cleared.
@@ -205,7 +211,9 @@ impl Perform for Sink {
                     self.report([button, column, row], action == 'm');
                 }
             }
-            // These are answers to queries, which this program never sends.
+            // Terminals answer in order: whoever tells its attributes has told its background before, or never will.
+            'c' if intermediates == b"?" => self.expects.background = false,
+            // These are answers to queries that this program never sends.
             _ if !intermediates.is_empty() => {}
             // A terminal that supports only the oldest mouse protocol sends three more bytes.
             'M' if self.expects.mouse => self.skip = 3,
@@ -215,6 +223,14 @@ impl Perform for Sink {
             // With another number it is an answer, such as the cursor position.
             letter if first <= 1 => self.lettered(letter, modifiers),
             _ => {}
+        }
+    }
+
+    fn osc_dispatch(&mut self, params: &[&[u8]], bell_terminated: bool) {
+        // Otherwise the last byte of its end is still to come.
+        self.settled = bell_terminated;
+        if let ([b"11", answer], true) = (params, self.expects.background) {
+            self.background = background::colour(answer).or(self.background);
         }
     }
 

@@ -283,7 +283,7 @@ fn friction_breaks_the_energy_and_the_ledger_keeps_it() {
     let invariants = object["invariants"].as_array().expect("a list");
     let find = |name: &str| invariants.iter().find(|i| i["name"] == name).expect("a gauge");
     assert_eq!(find("energy")["verdict"], "not conserved");
-    assert_eq!(find("energy ledger")["verdict"], "exact");
+    assert_eq!(find("energy balance")["verdict"], "exact");
 }
 
 #[test]

@@ -181,3 +181,46 @@ fn more_than_the_most_and_neighbours_under_constraints_are_refused_in_words() {
     assert_eq!(planet.advance(0.5, PLENTY), AdvanceOutcome::Arrived);
     assert!(planet.snapshot().companions[0].message.is_some());
 }
+
+/// Two methods side by side from the same start: the pinned run loses energy at every step of Runge and Kutta, by the
+/// factor 1 − (ωh)⁶/72 + (ωh)⁸/576, and the leapfrog swings about its level as far at the end as at the start.
+#[test]
+fn methods_are_compared_side_by_side_from_one_start() {
+    const STEP: f64 = 0.5;
+    const END: f64 = 1000.0;
+    let mut both = shipped("harmonic-oscillator");
+    let loaded = loaded("harmonic-oscillator", 1);
+    let channel = loaded.system.channels().iter().position(|c| c.name == "energy").unwrap();
+    for command in [Command::Method("rk4".into()), Command::StepSize(STEP), Command::Pin] {
+        both.execute(command);
+    }
+    both.execute(Command::Method("leapfrog".into()));
+    both.execute(Command::StepSize(STEP));
+    both.execute(Command::Reset);
+    run(&mut both, END);
+    let seen = both.snapshot();
+    let pinned = &seen.companions[0];
+    assert_eq!((pinned.method, seen.method.name), ("rk4", "leapfrog"));
+    assert_eq!((pinned.time, &pinned.message), (END, &None));
+    let rows = |trail: &phaselab::experiment::Trail| -> Vec<[f64; 2]> {
+        trail.rows().map(|row| [row[0], row[1 + channel]]).collect()
+    };
+    let (lossy, level) = (rows(&pinned.trail), rows(&seen.trail));
+    assert_eq!((lossy[0], lossy.len()), (level[0], level.len()), "one start, the same times");
+
+    let (m, k) = (seen.parameters[0], seen.parameters[1]);
+    let square = STEP * STEP * k / m;
+    let factor = 1.0 - square.powi(3) / 72.0 + square.powi(4) / 576.0;
+    for [time, found] in lossy.iter().filter(|[time, _]| (time / STEP).fract() == 0.0) {
+        let expected = lossy[0][1] * factor.powf(time / STEP);
+        assert!((found / expected - 1.0).abs() < 1e-9, "{found} and not {expected} at {time}");
+    }
+    let swing = |part: &[[f64; 2]]| {
+        part.iter().map(|[_, e]| (e / level[0][1] - 1.0).abs()).fold(0.0, f64::max)
+    };
+    let tenth = level.len() / 10;
+    let (first, last) = (swing(&level[..tenth]), swing(&level[9 * tenth..]));
+    assert!(first > 1e-3 && (last / first - 1.0).abs() < 0.05, "{first} and {last}");
+    let lost = 1.0 - lossy.last().unwrap()[1] / lossy[0][1];
+    assert!(lost > 0.05, "{lost}");
+}

@@ -57,7 +57,7 @@ fn energy_broken_by_the_physics_names_its_law_and_the_ledger_holds() {
         assert!(told.starts_with(law), "{preset}: {told}");
         assert!(energy.reason.contains(cause), "{preset}: {}", energy.reason);
         assert!(energy.max_drift > 1e-3, "{preset}: {energy:?}");
-        let ledger = gauge(&snapshot, "energy ledger");
+        let ledger = gauge(&snapshot, "energy balance");
         assert!(matches!(ledger.verdict, Verdict::Exact(_)), "{preset}: {ledger:?}");
         assert!(ledger.max_drift < 1e-13, "{preset}: {ledger:?}");
     }
@@ -214,7 +214,7 @@ fn no_shipped_motion_loses_what_it_conserves() {
     let mut experiment = shipped("bouncing-ball");
     run(&mut experiment, 4.0);
     let seen = experiment.snapshot();
-    for name in ["energy", "energy ledger"] {
+    for name in ["energy", "energy balance"] {
         let verdict = gauge(&seen, name).verdict;
         assert!(matches!(verdict, Verdict::Exact(_)), "{name}: {verdict:?}");
     }

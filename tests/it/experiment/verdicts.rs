@@ -158,8 +158,9 @@ fn friction_breaks_the_energy_under_any_method() {
     let broken: Label = ("taylor", 0.0, |_| "not conserved");
     let coarse: Label = ("rk4", 0.05, |_| "not conserved");
     let period = std::f64::consts::TAU;
-    let runs = hold(text, period, &[broken], &[("energy", None), ("energy ledger", Some("exact"))])
-        + hold(text, period, &[coarse], &[("energy", None)]);
+    let runs =
+        hold(text, period, &[broken], &[("energy", None), ("energy balance", Some("exact"))])
+            + hold(text, period, &[coarse], &[("energy", None)]);
     assert_eq!(runs, 8);
 }
 

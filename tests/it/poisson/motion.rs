@@ -174,8 +174,8 @@ fn a_torque_changes_the_casimir_by_its_law() {
     let squared = gauge(&snapshot, "|L|²");
     assert_eq!(squared.reason, "Casimir; a force acts");
     assert_eq!(format!("{:?}", squared.verdict), "Broken(\"dC/dt = ⅖ L₃\")");
-    // the energy ledger: E less ∫ N·ω dt
-    assert!(gauge(&snapshot, "energy ledger").max_drift < 1e-14);
+    // the energy balance: E less ∫ N·ω dt
+    assert!(gauge(&snapshot, "energy balance").max_drift < 1e-14);
     assert!(gauge(&snapshot, "energy").max_drift > 1e-2);
     // and a force along the gradient's plane leaves it: ∇C·f = 0
     let text = format!("{BODY}forces = {{ L1 = \"L2\", L2 = \"-L1\" }}\n");

@@ -1,9 +1,11 @@
 //! The possible contents of a file, and the resulting model.
 
 use std::collections::BTreeSet;
+use std::f64::consts::PI;
 
 use phaselab::diagnostic::report;
 use phaselab::expr::Expr;
+use phaselab::instrument::CameraPose;
 use phaselab::model::{Mechanics, Model, RangeSpacing, Shape};
 use phaselab::num::Number;
 use phaselab::preset::{Catalog, Checked, PresetOrigin, read};
@@ -410,6 +412,8 @@ fn solids_a_label_and_the_point_that_the_camera_follows() {
         r#"[space]
 follow = ["x", "0", "1/2"]
 reach = "3"
+azimuth = -45
+elevation = 60.5
 shapes = [
   { disc = ["x", "0", "0"], radius = "2" },
   { sphere = ["0", "x", "0"], radius = "2" },
@@ -436,4 +440,10 @@ shapes = [
     assert_eq!(label, "v");
     let Some(follow) = &file.follow else { panic!("a point to follow") };
     assert_eq!([text(&file, follow.at[0]), text(&file, follow.reach)], ["x", "3"]);
+    let eye = CameraPose::on(&file, None);
+    assert_eq!([eye.yaw, eye.pitch], [315.0, 60.5].map(f64::to_radians));
+    // Without them a picture in space is seen from the front, a little from the right and from above.
+    let usual = model(&with("[space]\nshapes = [{ mass = [\"0\", \"0\", \"x\"] }]\n"));
+    let eye = CameraPose::on(&usual, None);
+    assert_eq!([eye.yaw, eye.pitch], [PI / 6.0, PI / 9.0]);
 }

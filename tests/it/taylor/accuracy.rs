@@ -210,7 +210,7 @@ fn the_action_is_integrated_with_the_motion() {
 fn the_ledger_balances() {
     let mut run = Run::new(include_str!("../../../presets/pendulums/damped-pendulum.toml"));
     let system = run.system.clone();
-    let ledger = system.channels().iter().position(|c| c.name == "energy ledger");
+    let ledger = system.channels().iter().position(|c| c.name == "energy balance");
     let ledger = ledger.expect("friction does work");
     let mut observer = system.observer(&run.parameters);
     let mut out = vec![0.0; system.channels().len()];

@@ -113,9 +113,13 @@ fn after_a_stop_everything_is_painted_and_nothing_is_asked() {
         fresh.process(&lab.sent[from..]);
         picture(fresh.screen()) == before
     });
-    for question in ["\x1b[6n", "\x1b[c", "\x1b[>c", "\x1b[5n", "\x1b]11;?"] {
-        assert!(!lab.sent().contains(question), "{question:?}");
+    let sent = lab.sent();
+    for question in ["\x1b[6n", "\x1b[>c", "\x1b[5n"] {
+        assert!(!sent.contains(question), "{question:?}");
     }
+    // The background is asked for once, at the start.
+    assert_eq!(sent.matches("\x1b]11;?").count(), 1);
+    assert_eq!(sent.matches("\x1b[c").count(), 1);
     lab.press("q");
     assert_eq!(lab.ends().0, 0);
 }
