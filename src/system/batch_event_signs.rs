@@ -117,9 +117,10 @@ impl Kernel for KeepSigns<'_> {
         let KeepSigns { functions, series, signs, cut_off, time } = self;
         let mut all = Batch::ONE;
         for (event, &sign) in signs.iter().enumerate() {
-            let c = match &functions.functions {
-                Functions::Numbers(numbers) => series.coefficients(numbers[event]),
-                Functions::Program { jet, .. } => jet.output_series(event),
+            let (c, cut_off) = match &functions.functions {
+                // a number of the motion is its polynomial
+                Functions::Numbers(numbers) => (series.coefficients(numbers[event]), f64::INFINITY),
+                Functions::Program { jet, .. } => (jet.output_series(event), cut_off),
             };
             all = all * (c[0] * sign).is_above(Batch::ZERO) * signs_kept(c, cut_off, time);
         }

@@ -55,6 +55,9 @@ impl EventFunctions {
         if !expansion.about(series, x) {
             return None;
         }
+        if expansion.is_of_numbers() {
+            return Some(whole);
+        }
         Some(expansion.reach(cut_off, whole)).filter(|reach| !reach.is_nan())
     }
 

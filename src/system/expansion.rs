@@ -135,11 +135,12 @@ impl Expansion {
         signs: &[f64],
         (cut_off, time): (f64, f64),
     ) -> bool {
-        let keeps = |c: &[f64], sign: f64| c[0] * sign > 0.0 && keeps_sign(c, cut_off, time);
         if let Some(numbers) = &self.numbers {
-            let mut pairs = numbers.iter().zip(signs);
-            return pairs.all(|(&i, &sign)| keeps(series.coefficients(i), sign));
+            let mut pairs =
+                numbers.iter().zip(signs).map(|(&i, sign)| (series.coefficients(i), sign));
+            return pairs.all(|(c, sign)| c[0] * sign > 0.0 && keeps_sign(c, f64::INFINITY, time));
         }
+        let keeps = |c: &[f64], sign: f64| c[0] * sign > 0.0 && keeps_sign(c, cut_off, time);
         let arguments = self.functions..self.outputs;
         self.jet.switches() == 0
             && self.about(series, 0.0)
@@ -155,6 +156,11 @@ impl Expansion {
     /// The series of the switches: beyond a zero of one, other branches of the functions apply.
     pub(super) fn switches(&self) -> impl Iterator<Item = &[f64]> {
         (0..self.jet.switches()).map(|i| self.jet.switch(i))
+    }
+
+    /// Whether the functions are numbers of the motion, whose polynomials in a step are all that there is of them.
+    pub(super) fn is_of_numbers(&self) -> bool {
+        self.numbers.is_some()
     }
 
     /// How far the series represent their functions up to a part `cut_off` of them, in their unit,

@@ -1,28 +1,34 @@
 //! Which series keep their sign over a step, seen from the sizes of their terms alone.
 //!
-//! In: the coefficients of a function about the beginning of a step. Out: whether the first term is larger than all others
-//! together, and the truncated series represents the function. Never here: where a function changes its sign.
+//! In: the coefficients of a function about the beginning of a step. Out: whether the first term outweighs all others of
+//! the opposite sign together, and the truncated series represents the function. Never here: where a function changes its
+//! sign.
 
 use super::expansion::{LAST, bound};
 use crate::num::{Analytic, BATCH, Batch};
 
-/// By this part the first term must be the larger one, so that no rounding counts.
-const MARGIN: f64 = 1e-6;
+/// The first term must outweigh the others by this part of it, …
+const MARGIN: f64 = 1e-3;
+
+/// … and be more than this part of all terms, so that no rounding counts.
+const LEAST: f64 = 1e-9;
 
 /// Whether a series keeps the sign of its first term up to a time, in its unit, and represents its function up to a part
 /// `cut_off` of it. May be false where it does.
 pub(super) fn keeps_sign(c: &[f64], cut_off: f64, time: f64) -> bool {
     let (first, last) = (c[0].abs(), c.len() - LAST);
-    let (mut others, mut largest, mut power) = (0.0, first, 1.0);
+    let (mut against, mut all, mut largest, mut power) = (0.0, first, first, 1f64.copysign(c[0]));
     let mut represented = true;
     for (k, x) in c.iter().enumerate().skip(1) {
         power *= time;
-        let term = x.abs() * power;
-        represented &= k < last || term <= cut_off * largest;
-        largest = f64::max(largest, term);
-        others += term;
+        let term = x * power;
+        let size = term.abs();
+        represented &= k < last || size <= cut_off * largest;
+        largest = f64::max(largest, size);
+        all += size;
+        against += size - term;
     }
-    represented && others < (1.0 - MARGIN) * first
+    represented && 0.5 * against < (1.0 - MARGIN) * first && LEAST * all < first
 }
 
 /// Whether the argument of an exponential stays in one range of its values up to a time.
@@ -36,18 +42,22 @@ pub(super) fn stays(c: &[f64], time: f64) -> bool {
 #[inline(always)]
 pub(super) fn signs_kept(c: &[Batch], cut_off: f64, time: Batch) -> Batch {
     let (first, last) = (c[0].abs(), c.len() - LAST);
-    let (mut others, mut largest, mut power) = (Batch::ZERO, first, Batch::ONE);
+    let (mut against, mut all, mut largest) = (Batch::ZERO, first, first);
+    let mut power = c[0].where_below(0.0, -Batch::ONE, Batch::ONE);
     let mut represented = Batch::ONE;
     for (k, x) in c.iter().enumerate().skip(1) {
         power = power * time;
-        let term = x.abs() * power;
+        let term = *x * power;
+        let size = term.abs();
         if k >= last {
-            represented = represented * term.is_at_most(largest * cut_off);
+            represented = represented * size.is_at_most(largest * cut_off);
         }
-        largest = largest.larger(term);
-        others = others + term;
+        largest = largest.larger(size);
+        all = all + size;
+        against = against + (size - term);
     }
-    represented * (first * (1.0 - MARGIN)).is_above(others)
+    let outweighs = (first * (1.0 - MARGIN)).is_above(against * 0.5);
+    represented * outweighs * first.is_above(all * LEAST)
 }
 
 /// [`stays`] in each lane: one or zero. To be inlined into a kernel.
@@ -79,16 +89,25 @@ mod tests {
     }
 
     #[test]
-    fn the_first_term_must_outweigh_all_others() {
+    fn the_first_term_must_outweigh_all_others_of_the_opposite_sign() {
         // 1 − x − x² changes its sign at 0.618
         let c = [1.0, -1.0, -1.0, 0.0, 0.0, 0.0];
         for (time, kept) in [(0.617, true), (0.619, false), (0.0, true), (f64::NAN, false)] {
             assert_eq!(both(&c, time), [kept; 2], "{time}");
+            assert_eq!(both(&c.map(|c| -c), time), [kept; 2], "{time}");
         }
-        // one that does not change it, but whose terms do not show that
-        assert_eq!(both(&[1.0, -1.0, 1.0, 0.0, 0.0, 0.0], 1.0), [false; 2]);
+        // 1 + 5 x − x² moves away from zero, and 1 − 5 x + 9 x² only comes near it
+        assert_eq!(both(&[1.0, 5.0, -1.0, 0.0, 0.0, 0.0], 0.9), [true; 2]);
+        assert_eq!(both(&[1.0, -5.0, 9.0, 0.0, 0.0, 0.0], 0.9), [false; 2]);
         assert_eq!(both(&[0.0; 6], 1.0), [false; 2]);
         assert_eq!(both(&[1.0, f64::NAN, 0.0, 0.0, 0.0, 0.0], 0.1), [false; 2]);
+    }
+
+    #[test]
+    fn a_first_term_that_may_be_rounding_shows_nothing() {
+        for (first, kept) in [(2e-9, true), (0.5e-9, false)] {
+            assert_eq!(both(&[first, 1.0, 0.0, 0.0, 0.0, 0.0], 1.0), [kept; 2], "{first}");
+        }
     }
 
     #[test]
