@@ -11,8 +11,8 @@ use crate::num::math;
 /// The verdict on a drift.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Verdict {
-    /// The motion is too short for a verdict: for any, or for one on a function of the state that has
-    /// not yet returned.
+    /// The motion is too short for a verdict: for any, for one on a function of the state that has
+    /// not yet returned, or for one on an error that has changed but a few times and may add up.
     Open,
     /// At the rounding floor; contains how the error grows.
     Exact(Growth),
@@ -86,10 +86,18 @@ impl Verdict {
                 .or_else(|| departure(whole, floor))
                 .or_else(|| early_departure(whole, floor)),
             // so far the state has only gone one way, and its function with it
-            Errors::OfState if !turns(whole) => return Verdict::Open,
+            Errors::OfState if !turns(whole, RETURNED) => return Verdict::Open,
             Errors::OfState => trend(whole),
         };
-        slope.map_or(Verdict::Bounded, Verdict::Secular)
+        match slope {
+            Some(slope) => Verdict::Secular(slope),
+            // after a few passages levels that are left may or may not add up
+            None if errors == Errors::Accumulated && !turns(whole, OFTEN) => {
+                let by_rounding = greatest.max(distances.peak()) <= FAR * floor;
+                if by_rounding { Verdict::Bounded } else { Verdict::Open }
+            }
+            None => Verdict::Bounded,
+        }
     }
 }
 
@@ -110,7 +118,7 @@ pub fn rounding_floor(steps: u64) -> f64 {
 
 /// Whether a quantity comes back: the way it covers, up and down, is much longer than what lies between its extremes. It
 /// is as long for a rise, and twice as long for one peak.
-fn turns(intervals: &[Stretch]) -> bool {
+fn turns(intervals: &[Stretch], times: f64) -> bool {
     let greatest = intervals.iter().map(|s| s.greatest).fold(f64::MIN, f64::max);
     let least = intervals.iter().map(|s| s.least).fold(f64::MAX, f64::min);
     // the shortest way through both extremes of every interval, whose order is not known, that ends at its least value, and
@@ -122,11 +130,14 @@ fn turns(intervals: &[Stretch]) -> bool {
         ways = [to(s.greatest), to(s.least)].map(|way| way + s.greatest - s.least);
         last = ends;
     }
-    ways[0].min(ways[1]) >= RETURNED * (greatest - least)
+    ways[0].min(ways[1]) >= times * (greatest - least)
 }
 
-/// How much longer that way is, at least: the quantity has come back by half.
+/// How much longer that way is, at least, for a function of the state: it has come back by half.
 const RETURNED: f64 = 1.5;
+
+/// The same where errors accumulate: it has come back three times and is away again.
+const OFTEN: f64 = 7.0;
 
 /// The slope of a lasting trend, if there is one. However the whole is divided into blocks, their
 /// means must rise (or fall) throughout, with no step between them much smaller than the others;

@@ -91,7 +91,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let mut potential = systems.potential()?;
     let own = own_start(&systems.turning, systems.index).map_err(could_not)?;
     let mut rows: Vec<ActionRow> = Vec::new();
-    for &energy in arguments.energy.as_deref().unwrap_or(&[own.energy]) {
+    interrupt.ends_by_itself(|| ());
+    'energies: for &energy in arguments.energy.as_deref().unwrap_or(&[own.energy]) {
         let mut regions = potential.regions(energy);
         if arguments.energy.is_none() {
             regions = containing(&regions, own.place, potential.period());
@@ -101,11 +102,16 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
                 None => action_row(&mut potential, &systems.systems(), region, energy),
                 Some(_) => systems.of_cyclic(&mut potential, index, region, energy),
             };
+            if interrupt.signal().is_some() {
+                break 'energies;
+            }
             rows.push(row.map_err(|why| could_not(why.to_string()))?);
         }
     }
     let mut separatrices = Vec::new();
-    for top in potential.tops().into_iter().filter(|_| along.is_none()) {
+    let tops = potential.tops();
+    let whole = along.is_none() && interrupt.signal().is_none();
+    for top in tops.into_iter().filter(|_| whole) {
         let mut actions = Vec::new();
         for lobe in potential.lobes(top) {
             actions.push(match (lobe.left, lobe.right) {
@@ -116,12 +122,15 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         }
         separatrices.push(Separatrix { energy: top[1], actions });
     }
-    if let Some(signal) = interrupt.signal() {
+    if let Some(signal) = interrupt.signal().filter(|_| rows.is_empty()) {
         return Err(CommandError::Signal(signal));
     }
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
     let text = written(arguments.format, &systems.turning, &rows, &separatrices);
     crowd::write(out, &text, interrupt)?;
+    if let Some(signal) = interrupt.signal() {
+        return Err(CommandError::Signal(signal));
+    }
     if rows.is_empty() {
         return Err(could_not(format!("{name} cannot move at that energy")));
     }

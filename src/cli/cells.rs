@@ -106,6 +106,33 @@ pub(super) fn text(names: &[String], rows: &[Vec<TableCell>]) -> String {
 
 /// A JSON object with one member a line, and one line for each item of a list of lists or objects.
 pub(super) fn object(members: &Map<String, Value>) -> String {
+    format!("{{\n{}\n}}\n", lines_of(members))
+}
+
+/// The same in pieces, for a member with so many items that they take long to put into words.
+pub(super) fn object_in_pieces(
+    before: &Map<String, Value>,
+    (key, items): (&str, impl Iterator<Item = Value>),
+    after: &Map<String, Value>,
+) -> impl Iterator<Item = String> {
+    let key = Value::from(key);
+    let head = format!("{{\n{},\n  {key}: [", lines_of(before));
+    let tail = format!("],\n{}\n}}\n", lines_of(after));
+    let mut count = 0;
+    let mut items = items;
+    let mut tail = Some(tail);
+    let pieces = std::iter::from_fn(move || match items.next() {
+        Some(item) => {
+            count += 1;
+            Some(format!("{}\n    {item}", if count > 1 { "," } else { "" }))
+        }
+        None => tail.take().map(|tail| if count > 0 { format!("\n  {tail}") } else { tail }),
+    });
+    std::iter::once(head).chain(pieces)
+}
+
+/// The members of an object, one a line.
+fn lines_of(members: &Map<String, Value>) -> String {
     let compound = |value: &Value| value.is_array() || value.is_object();
     let member = |(key, value): (&String, &Value)| {
         let key = Value::String(key.clone());
@@ -117,5 +144,5 @@ pub(super) fn object(members: &Map<String, Value>) -> String {
             _ => format!("  {key}: {value}"),
         }
     };
-    format!("{{\n{}\n}}\n", members.iter().map(member).collect::<Vec<_>>().join(",\n"))
+    members.iter().map(member).collect::<Vec<_>>().join(",\n")
 }

@@ -159,6 +159,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     };
     let groups = (starts.len(), SECTION_GROUP);
     let orbits = crowd::collect(&arguments.crowd, groups, interrupt, group)?;
+    // the rest takes time with many crossings, also after a signal
+    interrupt.prepares();
     let section = SectionReport {
         laid: &laid,
         on: &arguments.on,
@@ -170,6 +172,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
             orbits.iter().map(|orbit| turning.rotation(&orbit.rows)).collect()
         }),
     };
+    interrupt.is_prepared();
     section.write(out, interrupt)?;
     section.ending(interrupt)
 }

@@ -39,6 +39,17 @@ enum Instruction {
     Atan(usize),
 }
 
+/// Whether a node itself has a number that is no short fraction.
+fn has_real(pool: &Pool, e: Expr) -> bool {
+    let real = |n: &Number| matches!(n, Number::Real(_));
+    match pool.node(e) {
+        Node::Number(n) => real(n),
+        Node::Sum(c, terms) => real(c) || terms.iter().any(|(c, _)| real(c)),
+        Node::Product(c, _) => real(c),
+        _ => false,
+    }
+}
+
 /// Multiples of units, and quarter turns.
 #[derive(Clone, Debug)]
 struct Angle {
@@ -56,6 +67,8 @@ pub(super) struct ResidueEvaluator {
     units: Vec<bool>,
     /// Whether logarithms or arctangents may be related, so that points are too general.
     pub(super) overgeneral: bool,
+    /// Whether numbers are no short fractions. Their products are rounded, so that relations between them are lost.
+    pub(super) inexact: bool,
     radicals: Radicals,
 }
 
@@ -82,6 +95,7 @@ impl ResidueEvaluator {
         let (mut circles, mut units) = (Units::default(), Units::default());
         let mut roots_of: FxHashMap<Expr, u64> = FxHashMap::default();
         let mut opaque = 0;
+        let inexact = nodes.iter().any(|&e| has_real(pool, e));
         for &e in &nodes {
             match &pool.node(e).clone() {
                 Node::Call(
@@ -181,7 +195,8 @@ impl ResidueEvaluator {
             index,
             circles: fixed(&circles),
             units: fixed(&units),
-            overgeneral: opaque > 1,
+            overgeneral: opaque > 1 || inexact,
+            inexact,
             radicals,
         })
     }

@@ -81,6 +81,7 @@ pub fn point_symmetries(
         .map(|(s, n)| (s, equations.pool.number(n)))
         .collect();
     let lagrangian = equations.lagrangian().clone().ok();
+    let (generic, by_names) = (law::has_stand_ins(model, equations), lagrangian);
     let pool = &mut equations.pool;
     let here: Vec<Expr> = symbolic.iter().map(|&e| pool.substitute(e, &values)).collect();
     let law = match lagrangian {
@@ -119,7 +120,7 @@ pub fn point_symmetries(
         let ExplicitMotion { time, positions, velocities, .. } = motion.clone();
         ExplicitMotion::of(pool, time, positions, velocities, symbolic)
     });
-    let mut complete = !problem.overgeneral;
+    let mut complete = !problem.overgeneral && !generic;
     let mut found = Vec::new();
     let known = noether.iter().flat_map(|known| &known.found).filter(|s| s.proved);
     for s in known {
@@ -138,7 +139,8 @@ pub fn point_symmetries(
             continue;
         };
         let by_name = named.as_ref().is_none_or(|named| named.is_symmetry(pool, xi, &eta));
-        if !by_name && !motion.is_symmetry(pool, xi, &eta) {
+        // for stand-ins it need not be one for the values that they are for
+        if !by_name && (generic || !motion.is_symmetry(pool, xi, &eta)) {
             complete = false;
             continue;
         }
@@ -159,7 +161,14 @@ pub fn point_symmetries(
             symmetry.noether = equations.gauge(change, Expr::ZERO).total_derivative;
         }
     }
-    let searched = words(&equations.pool, &generators, &problem.monomials);
+    let pool = &mut equations.pool;
+    let shown = match by_names {
+        Some(law) if generic => {
+            generators_of(pool, law, motion.time, &motion.positions, &motion.velocities)
+        }
+        _ => generators,
+    };
+    let searched = words(pool, &shown, &problem.monomials);
     let searched = format!("changes of time and coordinates that are {searched}");
     Ok(PointSymmetries { found, searched, complete })
 }

@@ -104,14 +104,17 @@ pub fn symmetries(
     let mut problem = Problem::of(pool, lagrangian, time, positions, velocities);
     let vectors = problem.solve(pool, is_over)?;
     let mut found: Vec<Symmetry> = Vec::new();
-    let mut complete = !problem.overgeneral;
+    let generic = law::has_stand_ins(model, equations);
+    let pool = &mut equations.pool;
+    let mut complete = !problem.overgeneral && !generic;
     // the same changes with the parameters' names, where they are symmetries for all their values
     let named = (symbolic != lagrangian).then(|| problem.with(pool, symbolic));
     for vector in vectors {
         let by_name = named.as_ref().and_then(|named| named.exact(pool, &vector));
         let by_name = by_name.filter(|symmetry| symmetry.proved);
         let here = |pool: &mut Pool| {
-            let symmetry = problem.exact(pool, &vector)?;
+            // it need not be one for the values that the stand-ins are for
+            let symmetry = problem.exact(pool, &vector).filter(|_| !generic)?;
             Some(Symmetry { for_all_parameters: named.is_none(), ..symmetry })
         };
         match by_name.or_else(|| here(pool)) {
@@ -124,7 +127,12 @@ pub fn symmetries(
         let rest = s.coordinates.iter().chain([&s.time, &s.gauge]);
         rest.map(|&e| pool.weight(e)).sum::<u64>()
     });
-    let searched = words(pool, &problem.generators, &problem.monomials);
+    let shown = if generic {
+        generators_of(pool, symbolic, time, &problem.positions, &problem.velocities)
+    } else {
+        problem.generators.clone()
+    };
+    let searched = words(pool, &shown, &problem.monomials);
     let searched = format!("changes of time and coordinates, and gauge terms, that are {searched}");
     for symmetry in &mut found {
         symmetry.between_impulses = is_changed_by_impulse(equations, model, symmetry.conserved);

@@ -22,7 +22,7 @@ use super::random::Random;
 use super::scope::{SearchScope, constants_of};
 use super::units::Unsupported;
 use super::vanishing::vanishes;
-use crate::expr::{Expr, Symbol};
+use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{Class, Equations, class_of, is_changed_by_impulse};
 use crate::model::Model;
 use crate::num::{PRIMES, PrimeField};
@@ -79,6 +79,8 @@ struct Search<'a> {
     symbolic: Law,
     law: Law,
     values: HashMap<Symbol, Expr>,
+    /// Whether some of these are stand-ins.
+    generic: bool,
     parameters: Vec<Symbol>,
     scope: SearchScope,
     known: Vec<KnownConstant>,
@@ -94,6 +96,7 @@ impl<'a> Search<'a> {
     ) -> Result<Search<'a>, Unsupported> {
         let symbolic = Law::of(model, equations);
         let constants = law::constants(model, equations);
+        let generic = law::has_stand_ins(model, equations);
         let pool = &mut equations.pool;
         let values: HashMap<Symbol, Expr> =
             constants.iter().map(|&(s, n)| (s, pool.number(n))).collect();
@@ -123,7 +126,18 @@ impl<'a> Search<'a> {
             return Err(Unsupported(why.to_owned()));
         };
         let parameters = constants.iter().map(|(s, _)| *s).collect();
-        Ok(Search { limits, symbolic, law, values, parameters, scope, known, field, random })
+        Ok(Search {
+            limits,
+            symbolic,
+            law,
+            values,
+            generic,
+            parameters,
+            scope,
+            known,
+            field,
+            random,
+        })
     }
 
     /// Goes through the ansätze, by degree.
@@ -146,9 +160,10 @@ impl<'a> Search<'a> {
                         self.level(model, equations, answer, family, &atoms, &ansatz)?;
                     (complete, related) = (true, overgeneral);
                     answer.searched.retain(|s| (s.degree, s.standard) != (degree, i == 0) || i > 0);
+                    let shown = self.shown(&mut equations.pool, &atoms, family);
                     let pool = &equations.pool;
                     let words =
-                        |print: &dyn Fn(Expr) -> String| words(&self.law, &atoms, &ansatz, print);
+                        |print: &dyn Fn(Expr) -> String| words(&self.law, &shown, &ansatz, print);
                     let (family, shown) = (words(&|e| pool.text(e)), words(&|e| pool.unicode(e)));
                     answer.searched.push(Searched {
                         degree,
@@ -163,7 +178,7 @@ impl<'a> Search<'a> {
                     }
                 }
                 if i == 0 {
-                    unbroken &= complete && !related;
+                    unbroken &= complete && !related && !self.generic;
                     if unbroken {
                         answer.none_up_to = Some(degree);
                     }
@@ -178,6 +193,17 @@ impl<'a> Search<'a> {
             }
         }
         Ok(())
+    }
+
+    /// The generators as they are shown: with the parameters' names where their values are stand-ins.
+    fn shown(&self, pool: &mut Pool, atoms: &Atoms, family: AnsatzFamily) -> Atoms {
+        if self.generic {
+            let named = Atoms::of(pool, &self.symbolic, &self.scope.angles, family);
+            if named.coefficients.len() == atoms.coefficients.len() {
+                return named;
+            }
+        }
+        atoms.clone()
     }
 
     /// One ansatz: what is new in it is made exact, proved, and added.
@@ -250,6 +276,8 @@ impl<'a> Search<'a> {
                         here,
                     }
                 }
+                // it need not be one for the values that the stand-ins are for
+                (None, Some(_)) if self.generic => continue,
                 (None, Some(here)) => {
                     let proof = self.proof_here(model, equations, here);
                     Constant {
@@ -378,7 +406,8 @@ impl<'a> Search<'a> {
         let (known, found) = independent.split_at(answer.known.len());
         answer.known_independent = known.to_vec();
         for (constant, &independent) in answer.found.iter_mut().zip(found) {
-            constant.independent = independent;
+            // rounded relations would make functions of others independent
+            constant.independent = independent && !evaluator.inexact;
         }
     }
 

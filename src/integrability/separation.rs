@@ -16,7 +16,7 @@ pub fn separates(model: &Model, equations: &mut Equations) -> Option<bool> {
     if model.is_poisson() || !is_hamiltonian(model, equations) {
         return None;
     }
-    let values: HashMap<Symbol, Expr> = law::constants(model, equations)
+    let values: HashMap<Symbol, Expr> = law::values(model, equations)
         .into_iter()
         .map(|(s, n)| (s, equations.pool.number(n)))
         .collect();

@@ -25,7 +25,8 @@ impl Units {
         for (c, term) in terms(pool, argument) {
             let Number::Rational(_, d) = c else {
                 return Err(Unsupported(
-                    "a coefficient in an angle or exponent is not a fraction".into(),
+                    "a number in an angle or exponent is no short fraction: make it a parameter"
+                        .into(),
                 ));
             };
             let known = self.denominators.entry(term).or_insert_with(|| {

@@ -111,6 +111,11 @@ impl BatchSeries {
         Batch(self.times.map(|time| time.high))
     }
 
+    /// Whether no number at the origin of a lane is so small that products may underflow.
+    pub fn keeps_digits(&self, lane: usize) -> bool {
+        !self.origins.iter().any(|origin| underflow::is_small(origin[lane].high))
+    }
+
     /// The time at the origin of a lane.
     pub fn time(&self, lane: usize) -> DoubleDouble {
         self.times[lane]

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::compiled::System;
 use super::consistent_initial::KnownVelocity;
-use super::error::MotionError;
+use super::error::{MotionError, MotionErrorKind};
 use super::legendre::Legendre;
 use super::value::Evaluator;
 use super::{Form, InitialOverride, State};
@@ -88,6 +88,11 @@ impl System {
             }
         }
         let time = DoubleDouble::written(start);
+        if let Some(i) = state.iter().position(|x| x.high.is_subnormal()) {
+            let kind = MotionErrorKind::TooSmall(self.name_of(i, self.form()));
+            let values: Vec<f64> = state.iter().map(|x| x.high).collect();
+            return Err(self.fault(kind, start, &values));
+        }
         if self.constraints() > 0 {
             let state = self.state_of(time, self.form(), &state);
             self.check_finite(&state)?;

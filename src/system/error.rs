@@ -59,6 +59,8 @@ pub enum MotionErrorKind {
     NotFinite(String),
     /// The same in a step of fixed size, which may be too long.
     NotFiniteInStep(String),
+    /// A number that is given at the start, by its name, is below those that keep all their digits.
+    TooSmall(String),
     /// The functions of the events swing too often within one step to be followed.
     Swings,
     /// No velocities were found for the given momenta (or the reverse).
@@ -136,6 +138,9 @@ impl fmt::Display for MotionError {
             )?,
             MotionErrorKind::NotFinite(name) | MotionErrorKind::NotFiniteInStep(name) => {
                 write!(f, "{name} is no longer finite at t = {time}")?;
+            }
+            MotionErrorKind::TooSmall(name) => {
+                write!(f, "{name} is too small at t = {time}")?;
             }
             MotionErrorKind::NoVelocities => {
                 write!(f, "no velocities were found that belong to the momenta at t = {time}")?;
@@ -219,6 +224,9 @@ impl fmt::Display for MotionError {
             MotionErrorKind::NotFiniteInStep(_) => {
                 ": try a smaller step, unless a collision, a pole or the end of a function's domain \
                  lies there"
+            }
+            MotionErrorKind::TooSmall(_) => {
+                ": numbers below 2.2e-308 have fewer digits; give 0, or choose other units"
             }
             MotionErrorKind::NoVelocities => ": the momenta may lie outside their range",
             MotionErrorKind::BranchLeft => {

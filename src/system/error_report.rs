@@ -21,7 +21,7 @@ impl System {
     }
 
     /// The display name of a number of a state.
-    fn name_of(&self, i: usize, form: Form) -> String {
+    pub(super) fn name_of(&self, i: usize, form: Form) -> String {
         let n = self.degrees();
         let channel = match form {
             Form::Momentum if i >= n => i + n,

@@ -91,11 +91,11 @@ impl Expansion {
         let motion_len = self.system.motion_len();
         let mut next = self.system.driven_len();
         for place in 0..motion_len {
-            self.take_in_one(place, series.coefficients(place), x);
+            self.take_in_one(place, (series.coefficients(place), series.unit(place)), x);
         }
         for (place, auxiliary) in (motion_len..).zip(self.system.carries()) {
             if auxiliary && next < series.len() {
-                self.take_in_one(place, series.coefficients(next), x);
+                self.take_in_one(place, (series.coefficients(next), series.unit(next)), x);
                 next += 1;
             } else {
                 (0..=self.order()).for_each(|k| self.jet.set_input(place, k, 0.0));
@@ -103,8 +103,8 @@ impl Expansion {
         }
     }
 
-    /// Expands Σ cₖ (x + y)ᵏ in powers of y, by repeated division.
-    fn take_in_one(&mut self, place: usize, coefficients: &[f64], x: f64) {
+    /// Expands Σ cₖ (x + y)ᵏ in powers of y, by repeated division, where the cₖ are in a unit.
+    fn take_in_one(&mut self, place: usize, (coefficients, unit): (&[f64], f64), x: f64) {
         if !self.read[place] {
             return;
         }
@@ -118,7 +118,7 @@ impl Expansion {
             }
         }
         for (k, &c) in self.moved.iter().enumerate() {
-            self.jet.set_input(place, k, c);
+            self.jet.set_input(place, k, c * unit);
         }
     }
 

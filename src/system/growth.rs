@@ -7,7 +7,7 @@ use super::jet::{Coefficient, Jet, Side};
 use super::program::Singular;
 use super::solve::Factored;
 use crate::cancel::Cancel;
-use crate::num::{DoubleDouble, ExtendedRange, Kernel, Real, vectorized};
+use crate::num::{Analytic, DoubleDouble, ExtendedRange, Kernel, Real, vectorized};
 
 /// The time of the origin, and the unit of time.
 #[derive(Clone, Copy)]
@@ -169,11 +169,13 @@ impl<R: Real> SeriesBuilder<R> {
         self.jet.take_over(&other.jet, other.order)
     }
 
-    /// Copies all orders known in a wider range, for reading only.
-    pub(super) fn copy(&mut self, wide: &SeriesBuilder<ExtendedRange>) {
-        for i in 0..self.len() {
+    /// Copies all orders known in a wider range, those of each number of the state in a unit of its own, for
+    /// reading only.
+    pub(super) fn copy(&mut self, wide: &SeriesBuilder<ExtendedRange>, units: &[f64]) {
+        for (i, unit) in units.iter().enumerate() {
             for k in 0..=self.order {
-                self.state[i * (self.order + 1) + k] = R::of(wide.series(i)[k].double());
+                let c = wide.series(i)[k].scaled(unit.recip());
+                self.state[i * (self.order + 1) + k] = R::of(c.double());
             }
         }
         self.jet.copy(&wide.jet, self.order + 1);

@@ -17,8 +17,8 @@ use super::step_series::StepSeries;
 use super::underflow;
 use crate::expr::FunctionId;
 use crate::num::{
-    DoubleDouble, ExtendedRange, Kernel, Polynomial, all_finite, polynomial, slope_tails, tails,
-    vectorized,
+    Analytic, DoubleDouble, ExtendedRange, Kernel, Polynomial, Real, all_finite, polynomial,
+    slope_tails, tails, vectorized,
 };
 
 /// The series of all numbers of a state, in the native form of its system.
@@ -32,8 +32,11 @@ pub struct Series {
     wide: Option<Box<SeriesBuilder<ExtendedRange>>>,
     parameters: Vec<DoubleDouble>,
     underflow_may_count: bool,
-    /// The state at the origin.
+    /// The state at the origin, in these units.
     origin: Vec<DoubleDouble>,
+    /// The unit of each number's coefficients, a power of two: 1, except where they would be too small to
+    /// keep their digits.
+    units: Vec<f64>,
     time: DoubleDouble,
     scale: f64,
     sides: Vec<Side>,
@@ -54,6 +57,7 @@ impl System {
             parameters: Vec::new(),
             underflow_may_count: underflow::may_count(program, &[], |_| 0.0),
             origin: vec![DoubleDouble::ZERO; len],
+            units: vec![1.0; len],
             time: DoubleDouble::ZERO,
             scale: 1.0,
             sides: vec![Side::Positive; program.switches()],
@@ -147,8 +151,10 @@ impl Series {
     /// Builds the orders. If a number leaves the range of `f64`, all orders are rebuilt in a wider
     /// one.
     fn grow(&mut self) -> Result<(), Halt> {
+        self.units.fill(1.0);
+        let small = self.origin.iter().any(|x| underflow::is_small(x.high));
         match self.grow_in_range() {
-            Ok(()) if self.is_finite() && !self.underflows() => Ok(()),
+            Ok(()) if self.is_finite() && !self.underflows(small) => Ok(()),
             Err(Halt::Cancelled) => Err(Halt::Cancelled),
             _ => self.grow_extended(),
         }
@@ -158,9 +164,16 @@ impl Series {
         vectorized(Finite(self))
     }
 
-    fn underflows(&self) -> bool {
+    /// Whether digits were lost to underflow, where some numbers of the state may be small.
+    fn underflows(&self, small: bool) -> bool {
         let value = |r: Register| self.high.jet.value(r);
-        self.underflow_may_count && underflow::occurred(&self.system.motion().native, value)
+        let loses = |i: usize| {
+            let size = largest(self.coefficients(i).iter().copied());
+            size > 0.0 && size < underflow::LEAST_LEADING
+        };
+        (small || self.underflow_may_count)
+            && underflow::occurred(&self.system.motion().native, value)
+            || small && (0..self.len()).any(loses)
     }
 
     fn grow_extended(&mut self) -> Result<(), Halt> {
@@ -177,10 +190,17 @@ impl Series {
         if !self.sides.is_empty() {
             wide.watch(clock)?;
         }
-        if let Some(low) = &mut self.low {
-            low.copy(wide);
+        for (i, unit) in self.units.iter_mut().enumerate() {
+            let size = largest(wide.series(i).iter().map(|c| c.value()));
+            if size < underflow::LEAST_LEADING && size > 0.0 {
+                *unit = power_of_two_below(size);
+                self.origin[i] = self.origin[i].scaled(unit.recip());
+            }
         }
-        self.high.copy(wide);
+        if let Some(low) = &mut self.low {
+            low.copy(wide, &self.units);
+        }
+        self.high.copy(wide, &self.units);
         Ok(())
     }
 
@@ -204,12 +224,17 @@ impl Series {
         Ok(())
     }
 
-    /// A coefficient of a number of the state.
+    /// The unit of the coefficients of a number of the state.
+    pub fn unit(&self, i: usize) -> f64 {
+        self.units[i]
+    }
+
+    /// A coefficient of a number of the state, in its unit.
     pub fn coefficient(&self, i: usize, order: usize) -> f64 {
         self.high.series(i)[order]
     }
 
-    /// All coefficients of a number of the state.
+    /// All coefficients of a number of the state, in its unit.
     pub fn coefficients(&self, i: usize) -> &[f64] {
         self.high.series(i)
     }
@@ -303,6 +328,10 @@ impl StepSeries for Series {
         self.scale
     }
 
+    fn unit(&self, i: usize) -> f64 {
+        self.units[i]
+    }
+
     fn coefficients(&self, i: usize) -> &[f64] {
         Series::coefficients(self, i)
     }
@@ -313,6 +342,24 @@ impl StepSeries for Series {
 pub(super) fn unit_below(step: f64) -> f64 {
     let exponent = (step.abs().to_bits() >> 52).clamp(93, 2023);
     f64::from_bits(exponent << 52).copysign(step)
+}
+
+/// The power of two below a positive number, or the least number that has all its digits.
+fn power_of_two_below(size: f64) -> f64 {
+    let exponent = (size.to_bits() >> 52).max(1);
+    f64::from_bits(exponent << 52)
+}
+
+/// A number in a small unit. Below the numbers that keep all their digits it is zero: what decays comes to
+/// an end.
+fn in_unit(number: DoubleDouble, unit: f64) -> DoubleDouble {
+    let number = number.scaled(unit);
+    if number.high.is_normal() { number } else { DoubleDouble::ZERO }
+}
+
+/// The largest size of some numbers.
+fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
+    numbers.fold(0.0, |size, x| size.max(x.abs()))
 }
 
 /// Whether all coefficients of the state and of the switches are finite.
@@ -345,7 +392,7 @@ impl Kernel for Sum<'_> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
         let Sum { series, x, out } = self;
-        let count = series.origin.len();
+        let (count, units) = (series.origin.len(), &series.units);
         let low = |i: usize| match &series.low {
             Some(low) => low.known_series(i),
             None => &series.origin[i..=i],
@@ -365,7 +412,9 @@ impl Kernel for Sum<'_> {
             for (lane, (&tail, &slope)) in (0..count - group).zip(tails.iter().zip(&slopes)) {
                 let i = group + lane;
                 let polynomial = Polynomial { low: low(i), high: series[lane], x };
-                out.set(i, polynomial.with_tails::<FUSED>(tail, slope));
+                let number = polynomial.with_tails::<FUSED>(tail, slope);
+                let unit = units[i];
+                out.set(i, if unit == 1.0 { number } else { in_unit(number, unit) });
             }
         }
     }

@@ -18,6 +18,11 @@ pub trait StepSeries {
     /// The unit of time of the coefficients.
     fn scale(&self) -> f64;
 
-    /// All coefficients of a number, that of order k at place k.
+    /// The unit of the coefficients of a number.
+    fn unit(&self, _i: usize) -> f64 {
+        1.0
+    }
+
+    /// All coefficients of a number in its unit, that of order k at place k.
     fn coefficients(&self, i: usize) -> &[f64];
 }

@@ -13,6 +13,15 @@ const LEAST: f64 = 1.8e-276;
 /// Numbers of a program up to this size, or its inverse, cannot make what is below [`LEAST`] count.
 const ORDINARY: f64 = 1e100;
 
+/// Below this the last coefficients of a series lose digits whose largest one this is: those of low
+/// order have twice the digits of `f64`, and the others are up to 1e-30 of it.
+pub(super) const LEAST_LEADING: f64 = 1e-246;
+
+/// Whether a number of a state is so small that the law's products may underflow.
+pub(super) fn is_small(number: f64) -> bool {
+    number != 0.0 && number.abs() < 1.0 / ORDINARY
+}
+
 /// Whether underflow may count in a program with these parameters, from which the values of what
 /// depends on them alone follow: powers of ordinary parameters may be as large or small as numbers
 /// get.

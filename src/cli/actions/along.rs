@@ -51,7 +51,8 @@ pub(super) fn perform(
         });
     }
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
-    crowd::write(out, &along.written(arguments.format, &laid), interrupt)?;
+    let text = along.written(arguments.format, &laid, interrupt.signal().is_some());
+    crowd::write(out, &text, interrupt)?;
     match (interrupt.signal(), along.why) {
         (Some(signal), _) => Err(CommandError::Signal(signal)),
         (None, Some(why)) => Err(CommandError::CouldNot(why)),
@@ -124,7 +125,7 @@ impl Along {
         Some(self.moments.iter().map(|moment| moment.angle - first.even(moment.time)).collect())
     }
 
-    fn written(&self, format: TableFormat, laid: &Laid) -> String {
+    fn written(&self, format: TableFormat, laid: &Laid, stopped: bool) -> String {
         let residuals = self.residuals();
         let mut names = vec!["t", &self.coordinate, "energy", "action", "frequency", "angle"];
         if residuals.is_some() {
@@ -148,6 +149,7 @@ impl Along {
             });
             members.insert("along".to_owned(), along);
             let (status, message) = match &self.why {
+                None if stopped => ("stopped", "stopped by a signal".into()),
                 None => ("completed", Value::Null),
                 Some(why) => ("faulted", why.clone().into()),
             };

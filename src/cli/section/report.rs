@@ -42,8 +42,10 @@ impl SectionReport<'_> {
             .collect();
         match self.format {
             TableFormat::Json => {
-                let rows: Vec<Vec<TableCell>> = self.rows().collect();
-                crowd::write(out, &cells::object(&self.members(&columns, &rows)), interrupt)
+                let rows = self.rows().map(|row| row.iter().map(TableCell::value).collect());
+                let (head, tail) = (self.head(&columns), self.tail());
+                let pieces = cells::object_in_pieces(&head, ("rows", rows), &tail);
+                crowd::write_pieces(out, pieces, interrupt)
             }
             TableFormat::Csv => {
                 let on = format!("# section: {} {}\n", printable::line(self.on), self.direction);
@@ -70,13 +72,17 @@ impl SectionReport<'_> {
         })
     }
 
-    fn members(&self, columns: &[String], rows: &[Vec<TableCell>]) -> Map<String, Value> {
+    /// The members of the JSON object before the rows.
+    fn head(&self, columns: &[String]) -> Map<String, Value> {
         let mut members = crowd::members(&self.laid.header());
         members.insert("on".to_owned(), self.on.into());
         members.insert("direction".to_owned(), self.direction.into());
         members.insert("columns".to_owned(), json!(columns));
-        let rows = rows.iter().map(|row| row.iter().map(TableCell::value).collect::<Value>());
-        members.insert("rows".to_owned(), rows.collect());
+        members
+    }
+
+    /// The members after them.
+    fn tail(&self) -> Map<String, Value> {
         let orbits = (1u64..).zip(self.orbits).map(|(orbit, crossings)| {
             let mut object = json!({
                 "orbit": orbit,
@@ -96,8 +102,7 @@ impl SectionReport<'_> {
             }
             object
         });
-        members.insert("orbits".to_owned(), orbits.collect());
-        members
+        Map::from_iter([("orbits".to_owned(), orbits.collect())])
     }
 
     /// A line for each orbit that did not end as it should, and for each rotation number.

@@ -127,8 +127,8 @@ impl TaylorBatch {
             if going[i] {
                 let scale = self.series.scale().0[i].abs();
                 match lane.choose(found.0[i] * scale, scale, left[i]) {
-                    Some(chosen) => after[i] = chosen,
-                    None => lane.status = LaneStatus::Irregular,
+                    Some(chosen) if self.series.keeps_digits(i) => after[i] = chosen,
+                    _ => lane.status = LaneStatus::Irregular,
                 }
             }
         }

@@ -19,7 +19,7 @@ pub(super) fn missed(series: &Series, after: f64, rates: &ExactRates, tolerance:
     (0..series.inputs().min(rates.moving())).any(|i| {
         let coefficients = series.coefficients(i);
         let (_, slope) = value_and_slope(coefficients, after);
-        let rate = rates.rate(i).high * series.scale();
+        let rate = rates.rate(i).high * series.scale() / series.unit(i);
         let powers = std::iter::successors(Some(1.0), |power| Some(power * after));
         let terms = coefficients
             .iter()

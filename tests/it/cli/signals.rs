@@ -238,6 +238,41 @@ fn a_section_that_is_ended_has_what_it_has() {
     assert!(stopped, "no crossings in {TRIES} tries");
 }
 
+/// Actions at so many energies that they take long: those so far are written, in every format.
+#[test]
+fn actions_that_are_ended_have_the_rows_so_far() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("system.toml"), PENDULUM).unwrap();
+    let energies: Vec<String> =
+        (0..40_000).map(|k| format!("{}", -9.8 + 1e-6 * f64::from(k))).collect();
+    let energies = format!("--energy={}", energies.join(","));
+    for (format, by, code) in [("csv", Signal::INT, 130), ("json", Signal::TERM, 143)] {
+        let format = format!("--format={format}");
+        let mut child = command(home.path(), &["actions", "system.toml", &energies, &format])
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut out = child.stdout.take().unwrap();
+        let reader = thread::spawn(move || {
+            let mut text = String::new();
+            out.read_to_string(&mut text).unwrap();
+            text
+        });
+        watching(&mut child);
+        thread::sleep(Duration::from_secs(3));
+        signal(&child, by);
+        assert_eq!(end(&mut child), Some(code));
+        let text = reader.join().unwrap();
+        let rows = if format == "--format=csv" {
+            text.lines().filter(|line| line.starts_with('-')).count()
+        } else {
+            let read: serde_json::Value = serde_json::from_str(&text).unwrap();
+            read["rows"].as_array().unwrap().len()
+        };
+        assert!((1..40_000).contains(&rows), "{rows} rows: {}", &text[..text.len().min(300)]);
+    }
+}
+
 /// What a section has when it is ended is written to whoever reads; a reader that takes nothing is not waited for.
 #[test]
 fn a_section_whose_reader_is_stalled_is_ended() {

@@ -141,3 +141,52 @@ fn a_step_ends_when_it_is_asked_to() {
     assert_eq!(fault.kind, MotionErrorKind::Cancelled);
     assert_eq!(run.stepper.time(), 1.0);
 }
+
+/// Where the coefficients of a series, and the products of numbers that a law has, are near the least that `f64` has.
+#[test]
+fn a_motion_has_all_its_digits_however_small_it_is() {
+    for tolerance in [None, Some(1e-12)] {
+        let within = if tolerance.is_none() { 2e-15 } else { 1e-11 };
+        let run = |x: f64, v: f64, law: &str, until: f64| {
+            let text = format!(
+                "title = \"Small\"\n[coordinates]\nx = {{ initial = {x:e}, velocity = {v:e} }}\n\
+                 [lagrangian]\nL = \"1/2*x'^2 - {law}\"\n"
+            );
+            Run::with(&text, tolerance).to(until)
+        };
+        let (sine, cosine) = (10.0_f64.sin(), 10.0_f64.cos());
+        for size in [1e-180, 1e-270, 1e-280, 1e-290, 1e-300, 1e-306] {
+            let pulled = run(size, 0.0, "1/2*x^2", 10.0);
+            near(&[pulled[0] / size, pulled[1] / size], &[cosine, -sine], within);
+            let kicked = run(0.0, size, "1/2*x^2", 10.0);
+            near(&[kicked[0] / size, kicked[1] / size], &[sine, cosine], within);
+        }
+        // forces are cubes: the motion of size A is that of size 1, A times as slow
+        let whole = run(1.0, 0.0, "1/4*x^4", 16.0);
+        for size in [2.0_f64.powi(-300), 2.0_f64.powi(-340)] {
+            let small = run(size, 0.0, "1/4*x^4", 16.0 / size);
+            near(&[small[0] / size, small[1] / size / size], &whole, within);
+        }
+    }
+}
+
+/// A small number beside large ones is followed as well, and a motion that ends at zero may pass all smaller ones.
+#[test]
+fn what_is_small_beside_other_numbers_grows_and_decays_as_it_should() {
+    let mut run = Run::new(
+        "title = \"A saddle\"\n[coordinates]\nx = { initial = 1e-290, velocity = 1e-290 }\n\
+         y = { initial = 1 }\n[lagrangian]\nL = \"1/2*x'^2 + 1/2*y'^2 + 1/2*x^2 - 1/2*y^2\"\n",
+    );
+    let state = run.to(660.0);
+    let grown = 1e-290 * 330.0_f64.exp() * 330.0_f64.exp();
+    assert!((state[0] / grown - 1.0).abs() < 1e-12, "{} {grown}", state[0]);
+    let mut run = Run::new(
+        "title = \"Decay\"\n[coordinates]\nx = { initial = 1, velocity = -1 }\n[lagrangian]\n\
+         L = \"1/2*x'^2 - 1/2*x^2\"\ndissipation = \"x'^2\"\n",
+    );
+    let state = run.to(690.0);
+    let left = (-345.0_f64).exp() * (-345.0_f64).exp();
+    assert!((state[0] / left - 1.0).abs() < 1e-12, "{} {left}", state[0]);
+    assert!(run.to(2000.0)[0].abs() < 1e-300);
+    assert!(run.steps < 2000, "{} steps", run.steps);
+}

@@ -284,20 +284,34 @@ fn a_kink_is_passed_in_any_long_step() {
     }
 }
 
-/// The default step of a fixed-step method is a part of the way between two kinks, where nothing else sets a scale.
+/// The default step of a fixed-step method is a part of the way between two kinks, where nothing else sets a scale, in any
+/// units and wherever the motion begins.
 #[test]
 fn the_default_step_in_a_wedge_is_a_part_of_its_period() {
-    let Run { system, parameters, .. } = Run::new(
-        "title = \"Wedge\"\n[coordinates]\nx = { initial = 20 }\n\
-         [lagrangian]\nL = \"1/2*x'^2 - abs(x)\"\n",
-    );
-    let state = system.initial(0.0, &parameters, &[]).expect("regular");
     let rk4 = METHODS.iter().find(|method| method.name == "rk4").expect("a method");
-    let mut stepper =
-        (rk4.make)(&system, &Settings { step: None, tolerance: None }).expect("it fits");
-    stepper.start(&state, &parameters).expect("regular");
-    stepper.step(f64::INFINITY).expect("regular");
-    // half a period is 4 √10
-    let part = stepper.step_size() / (4.0 * 10.0_f64.sqrt());
-    assert!((0.05..0.2).contains(&part), "{part}");
+    // from rest at x, or from the kink at v, with this acceleration
+    for (x, v, a) in [
+        (20.0, 0.0, 1.0),
+        (1e-27, 0.0, 1.0),
+        (1e-27, 0.0, 1e10),
+        (-1e-27, 0.0, 1e10),
+        (0.0, 1e-27, 1.0),
+        (1e-200, 0.0, 1.0),
+        (1e60, 0.0, 1e-20),
+    ] {
+        let Run { system, parameters, .. } = Run::new(&format!(
+            "title = \"Wedge\"\n[coordinates]\nx = {{ initial = {x:e}, velocity = {v:e} }}\n\
+             y = {{ initial = 1, velocity = 1e-3 }}\n[lagrangian]\n\
+             L = \"1/2*x'^2 + 1/2*y'^2 - {a:e}*abs(x)\"\n"
+        ));
+        let state = system.initial(0.0, &parameters, &[]).expect("regular");
+        let mut stepper =
+            (rk4.make)(&system, &Settings { step: None, tolerance: None }).expect("it fits");
+        stepper.start(&state, &parameters).expect("regular");
+        stepper.step(f64::INFINITY).expect("regular");
+        let half_a_period =
+            if x == 0.0 { 2.0 * v / a } else { 2.0 * (2.0 * f64::abs(x) / a).sqrt() };
+        let part = stepper.step_size() / half_a_period;
+        assert!((0.05..0.2).contains(&part), "{part} from {x:e}, {v:e} at {a:e}");
+    }
 }
