@@ -3,7 +3,7 @@
 use phaselab::app::App;
 use phaselab::instrument::{Layer, Picture, Sign};
 
-use super::plots;
+use super::{Course, plots, shown};
 use crate::hand::{lab, press};
 
 /// P of p = P − h q P²/(1 + q²)² + h q has two roots; the second passes through infinity at q = 0, where its branch ends.
@@ -45,4 +45,21 @@ fn a_branch_that_does_not_lead_to_the_point_has_no_ring() {
     assert!(rings.is_empty());
     let said = "dim grid: the other branch, which does not lead to here".to_owned();
     assert!(words.contains(&said), "{words:?}");
+}
+
+/// Where 1 + 4 h q (h q − p)/(1 + q²)² is negative the quadratic for P has no root: that is told in both views, by every map
+/// that a generating function makes, also if it can be written down; before and after it there is an image.
+#[test]
+fn a_caustic_is_told_and_stepped_over() {
+    let said = "no image: a caustic, det ∂²F/∂old∂new = 0";
+    let mut course = Course::with(&crate::hand::catalog().find("two-roots").unwrap().text);
+    for (time, beyond) in [(3.0, false), (3.3, true), (3.5, false), (7.3, true)] {
+        course.go(time);
+        let mut plot = plots(&course.app)[0].clone();
+        for active in [false, true] {
+            plot.viewport_mut().expect("it has axes").active = active;
+            let (_, words) = shown(&course.app, &plot);
+            assert_eq!(words.iter().any(|line| line == said), beyond, "at {time}: {words:?}");
+        }
+    }
 }
