@@ -34,12 +34,13 @@ fn a_branch_that_does_not_lead_to_the_point_has_no_ring() {
     };
     let (rings, points, words) = drawn(&right);
     assert_eq!((rings.len(), points.len()), (1, 1), "{words:?}");
-    // Q = q + P/(1 + q²) of both, and the sum of the roots of the quadratic, (1 + q²)²/q
+    // Q = q + h P/(1 + q²) of both, and the sum of the roots of the quadratic, (1 + q²)²/(h q)
+    let h = 1.5;
     let ([ring, other], [point, own]) = (rings[0], points[0]);
-    let square = (other - own) / (ring - point);
+    let square = h * (other - own) / (ring - point);
     let q = (square - 1.0).sqrt();
-    assert!((point - own / square - q).abs() < 1e-8, "{rings:?}, {points:?}");
-    assert!((own + other - square * square / q).abs() < 1e-8, "{rings:?}, {points:?}");
+    assert!((point - h * own / square - q).abs() < 1e-8, "{rings:?}, {points:?}");
+    assert!((own + other - square * square / (h * q)).abs() < 1e-8, "{rings:?}, {points:?}");
     assert!(words.contains(&"ring, dim grid: the other branch".to_owned()), "{words:?}");
     let (rings, _, words) = drawn(&left);
     assert!(rings.is_empty());
