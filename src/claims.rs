@@ -11,5 +11,6 @@ mod invariants;
 mod motion;
 mod own_method;
 mod start;
+mod step;
 
 pub use check::{false_claims, structure_diagnostics};

@@ -21,8 +21,8 @@ pub use body::{
     Attitude, AttitudeSource, Body, BodyNames, Comparison, Frame, Piece, PieceOrientation, Solid,
 };
 pub use claim::{
-    Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedInvariants, ExpectedValue,
-    Observable,
+    Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedInvariants, ExpectedStep,
+    ExpectedValue, Observable,
 };
 pub use constraint::{Constraint, multiplier_name};
 pub use coordinate::Coordinate;

@@ -8,6 +8,7 @@ use super::conservation::{known, open_claims};
 use super::invariants::false_count;
 use super::motion::ClaimedMotion;
 use super::own_method;
+use super::step::false_steps;
 use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::mechanics::{self, Equations, HamiltonJacobi};
 use crate::model::Model;
@@ -37,6 +38,7 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     match ClaimedMotion::begin(model, equations, &system) {
         Ok(motion) => {
             mistakes.extend(own_method::mistake(model, &system));
+            mistakes.extend(false_steps(model, equations, &system));
             motion.follow(model, equations, claims, &mut mistakes);
         }
         Err(mistake) => mistakes.push(mistake),

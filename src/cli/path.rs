@@ -336,7 +336,7 @@ fn conjugates(
     duration: f64,
 ) -> Result<Vec<f64>, DynamicsError> {
     let parameters = &laid.start.parameters;
-    let space = PhaseSpace::of(&laid.model, equations, &laid.system, parameters)?;
+    let space = PhaseSpace::without_end(&laid.model, equations, &laid.system, parameters)?;
     let state =
         laid.start.state(&laid.system).map_err(|why| DynamicsError::Unsuited(why.to_string()))?;
     let start = space.state_at(&space.state(&state)?, variables);

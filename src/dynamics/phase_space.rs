@@ -46,6 +46,21 @@ impl PhaseSpace {
         PhaseSpace::through_impulses(model, equations, system, parameters)
     }
 
+    /// The phase space of a system on whose motion events do nothing but end it, which it is asked for without its end.
+    ///
+    /// # Errors
+    /// Returns an error if the motion has no derivative everywhere, is held to constraints, or impulses act on it.
+    pub fn without_end(
+        model: &Model,
+        equations: &Equations,
+        system: &System,
+        parameters: &[f64],
+    ) -> Result<PhaseSpace, DynamicsError> {
+        refuse_acts_but(system, |action| action == EventAction::Stop)?;
+        refuse_constraints(system)?;
+        PhaseSpace::read(model, equations, system, parameters, false)
+    }
+
     /// The phase space of a system that constraints may hold, and on whose motion no impulses act.
     ///
     /// # Errors
@@ -57,7 +72,7 @@ impl PhaseSpace {
         parameters: &[f64],
     ) -> Result<PhaseSpace, DynamicsError> {
         refuse_acts(system)?;
-        PhaseSpace::read(model, equations, system, parameters)
+        PhaseSpace::read(model, equations, system, parameters, refuse_acts(system).is_err())
     }
 
     /// The phase space of a system that constraints may hold. Its variables are not independent then: the states are those
@@ -76,7 +91,7 @@ impl PhaseSpace {
         if system.constraints() > 0 {
             refuse_acts(system)?;
         }
-        PhaseSpace::read(model, equations, system, parameters)
+        PhaseSpace::read(model, equations, system, parameters, refuse_acts(system).is_err())
     }
 
     /// The phase space of a system on whose motion impulses may act, at their times or caused by
@@ -91,12 +106,8 @@ impl PhaseSpace {
         system: &System,
         parameters: &[f64],
     ) -> Result<PhaseSpace, DynamicsError> {
-        if system.constraints() > 0 {
-            let why =
-                "the motion is held to constraints, and this asks for independent coordinates";
-            return Err(DynamicsError::Unsuited(why.to_owned()));
-        }
-        PhaseSpace::read(model, equations, system, parameters)
+        refuse_constraints(system)?;
+        PhaseSpace::read(model, equations, system, parameters, refuse_acts(system).is_err())
     }
 
     fn read(
@@ -104,9 +115,9 @@ impl PhaseSpace {
         equations: &Equations,
         system: &System,
         parameters: &[f64],
+        jumps: bool,
     ) -> Result<PhaseSpace, DynamicsError> {
         refuse(system)?;
-        let jumps = refuse_acts(system).is_err();
         let n = system.degrees();
         let channels = system.channels();
         let (names, degrees): (Vec<String>, _) = if system.form() == Form::Variables {
@@ -334,8 +345,22 @@ fn refuse(system: &System) -> Result<(), DynamicsError> {
     Ok(())
 }
 
+/// Refuses constraints.
+fn refuse_constraints(system: &System) -> Result<(), DynamicsError> {
+    if system.constraints() == 0 {
+        return Ok(());
+    }
+    let why = "the motion is held to constraints, and this asks for independent coordinates";
+    Err(DynamicsError::Unsuited(why.to_owned()))
+}
+
 /// Refuses impulses that act on the motion, and events that do.
 fn refuse_acts(system: &System) -> Result<(), DynamicsError> {
+    refuse_acts_but(system, |_| false)
+}
+
+/// The same, but for some actions of events.
+fn refuse_acts_but(system: &System, allowed: fn(EventAction) -> bool) -> Result<(), DynamicsError> {
     let unsuited = |why: &str| Err(DynamicsError::Unsuited(why.to_owned()));
     if acts_by_the_clock(system) {
         return unsuited(
@@ -344,7 +369,8 @@ fn refuse_acts(system: &System) -> Result<(), DynamicsError> {
     }
     let passive =
         |action: EventAction| matches!(action, EventAction::Mark | EventAction::Section(_));
-    if !system.discontinuities().events.iter().all(|event| passive(event.action)) {
+    let mut events = system.discontinuities().events.iter();
+    if !events.all(|event| passive(event.action) || allowed(event.action)) {
         return unsuited("events act on the motion, across which its derivatives are not computed");
     }
     Ok(())

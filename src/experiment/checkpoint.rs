@@ -81,6 +81,9 @@ pub struct MotionState {
     pub time_carry: f64,
     /// The meaning of the second half of `state`: `velocity`, `momentum` or `variables`.
     pub form: Form,
+    /// The action ∫ L dt since the start with its carried rounding error, if the state carries it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub action: Option<[f64; 2]>,
     /// The names of the coordinates, in the order of the state.
     pub coordinates: Vec<String>,
     /// Each number of the state with its carried rounding error.
@@ -185,6 +188,7 @@ impl MotionState {
             time: state.time,
             time_carry: state.time_carry,
             form: state.form,
+            action: system.action_place().map(|i| [state.values[i], state.carry[i]]),
             coordinates: names.collect(),
             state: state.values.iter().zip(&state.carry).map(|(&v, &c)| [v, c]).collect(),
             seen: seen(system, snapshot),
@@ -214,6 +218,7 @@ impl MotionState {
         let poisson = self.form == Form::Variables;
         names.eq(&self.coordinates)
             && self.state.len() == system.state_len()
+            && self.action.is_some() == system.action_place().is_some()
             && poisson == (system.form() == Form::Variables)
     }
 }
@@ -363,6 +368,12 @@ impl Experiment {
             .filter_map(|named| given(&self.model, named))
             .filter(fits)
             .collect();
-        self.motion.whole().initial(present.time, &self.setup.parameters, &given)
+        let system = self.motion.whole();
+        let mut state = system.initial(present.time, &self.setup.parameters, &given)?;
+        // the action goes on from what it was, whichever law it follows from now on
+        if let (Some(place), Some([value, carry])) = (system.action_place(), present.action) {
+            (state.values[place], state.carry[place]) = (value, carry);
+        }
+        Ok(state)
     }
 }

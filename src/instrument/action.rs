@@ -157,6 +157,7 @@ impl Instrument for ActionPlot {
                 "{name} + ε sin(kπs)/k, s = 0 … 1 on the way, k = 1 … {VARIATIONS}"
             ))],
             Principle::PhaseSpace => vec![
+                Entry::Words(self.0.integral().to_owned()),
                 Entry::Key(Ink::Curve(0), format!("{name} + ε sin πs")),
                 Entry::Key(Ink::Curve(1), "p + ε c cos πs".to_owned()),
                 Entry::Key(Ink::Curve(2), format!("{name}, p = ∂L/∂q̇ with it")),
@@ -226,7 +227,7 @@ impl Instrument for ActionPlot {
         Need::Job(Job::new("action", move |progress: &Progress| {
             let system = system.with_cancel(progress.token().clone());
             let parameters = &conditions.parameters;
-            let outcome = PhaseSpace::of(&model, &equations, &system, parameters)
+            let outcome = PhaseSpace::without_end(&model, &equations, &system, parameters)
                 .map_err(|why| why.to_string())
                 .and_then(|space| {
                     let mut own = (*equations).clone();
@@ -385,9 +386,13 @@ fn sentences(answer: Option<&Answer>, (begin, coordinate): (f64, Option<&str>)) 
             vec![not_least.to_owned(), format!("{count} kinetic foci from {}", at(first))]
         }
     };
-    let (letter, integral) = (computed.principle.letter(), computed.principle.integral());
-    let value = short(found.varied.action);
-    let action = format!("{letter} = {integral} = {value} up to {}", at(&computed.duration));
+    let (letter, value) = (computed.principle.letter(), short(found.varied.action));
+    // in phase space more is said, and the heading has the integral
+    let integral = match computed.principle {
+        Principle::PhaseSpace => String::new(),
+        principle => format!("{} = ", principle.integral()),
+    };
+    let action = format!("{letter} = {integral}{value} up to {}", at(&computed.duration));
     [vec![action], rest].concat()
 }
 
@@ -398,7 +403,7 @@ fn beside_by(varied: &VariedAction, name: &str) -> Vec<String> {
         varied.curves.iter().filter_map(|curve| curve.last().copied()).collect();
     let [q, p, both] = ends[..] else { return Vec::new() };
     let [q, p, both, epsilon] = [q[1], p[1], both[1], q[0]].map(short);
-    vec![format!("at ε = {epsilon}: {name} alone {q}, p alone {p}, p = ∂L/∂{name}′ {both}")]
+    vec![format!("ε = {epsilon}: {name} {q}, p {p}, both {both}")]
 }
 
 /// Whether an action in phase space is greater or less on the curves beside the motion.
@@ -407,7 +412,7 @@ fn nature(varied: &VariedAction) -> String {
     let (least, greatest) =
         rises.fold((0.0_f64, 0.0_f64), |(lo, hi), rise| (lo.min(rise), hi.max(rise)));
     let word = match (least < 0.0, greatest > 0.0) {
-        (true, true) => "stationary, neither least nor greatest",
+        (true, true) => "neither least nor greatest",
         (true, false) => "greater than on these curves",
         (false, true) => "less than on these curves",
         (false, false) => "the same on these curves",

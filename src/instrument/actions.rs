@@ -33,8 +33,10 @@ const ABOVE: f64 = 0.4;
 /// J is an adiabatic invariant where it changes by less than this part of the change of the energy above its least value.
 const FAR_LESS: f64 = 0.1;
 
-/// Relative changes below this tell nothing of how slow the change is: at its beginning J and E swing alike.
+/// Relative changes below this tell nothing of how slow the change is, and those below the second nothing against it: at the
+/// beginning of a ramp J swings with its rate, while E has hardly moved.
 const CHANGED: f64 = 0.01;
+const SWINGS: f64 = 0.1;
 
 /// Beyond this energy, relative to the motion's, a top is out of the picture.
 const FAR: f64 = 20.0;
@@ -323,10 +325,10 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
             let size = significant(x.abs(), 2, 1e-3..1e5);
             if x < 0.0 { format!("−{size}") } else { format!("+{size}") }
         };
-        let verdict = if action.abs().max(height.abs()) < CHANGED {
-            "hardly changed so far"
-        } else if action.abs() <= FAR_LESS * height.abs() {
+        let verdict = if height.abs() >= CHANGED && action.abs() <= FAR_LESS * height.abs() {
             "adiabatic"
+        } else if action.abs().max(height.abs()) < SWINGS {
+            "hardly changed so far"
         } else {
             "not adiabatic"
         };

@@ -8,11 +8,13 @@
 
 mod branches;
 mod grid;
+mod image;
 mod judged;
 
 use std::sync::Arc;
 
 use self::branches::Branches;
+use self::image::{Image, of_branches};
 use self::judged::Judged;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
@@ -166,16 +168,8 @@ impl Instrument for Transformation {
             }
             _ => judged(answer).map_or_else(Vec::new, |judged| judged.lines.clone()),
         };
-        lines.extend(solved(plot, present).map(str::to_owned));
-        match (branches.map_or(0, Branches::others), rings) {
-            (0, _) => {}
-            (1, 0) => {
-                lines.push("dim grid: the other branch, which does not lead to here".to_owned());
-            }
-            (1, _) => lines.push("ring, dim grid: the other branch".to_owned()),
-            (n, k) if n == k => lines.push(format!("rings, dim grids: {n} other branches")),
-            (n, k) => lines.push(format!("rings, dim grids: {n} other branches, {k} lead to here")),
-        }
+        lines.extend(of_image(plot, present).map(str::to_owned));
+        lines.extend(of_branches(branches.map_or(0, Branches::others), rings));
         layers.push((NOW, Layer::Legend(lines)));
         let upwards = Upwards::Channel(y, range(plot, present, answer, 1));
         Some(Picture::Axes { upwards, layers, occurrences: None })
@@ -222,6 +216,7 @@ impl Instrument for Transformation {
             let (window, grid) = (known.window, Arc::clone(&known.grid));
             let (branches, time) = (known.branches.clone(), known.time);
             let (model, equations) = (Arc::clone(model), Arc::clone(equations));
+            let system = Arc::clone(present.physics.system);
             return Need::Job(Job::new("verdict", move |progress| {
                 let mut equations = (*equations).clone();
                 equations.pool.set_cancel(progress.token().clone());
@@ -230,7 +225,10 @@ impl Instrument for Transformation {
                 let values = model.parameters.iter_mut().zip(&parameters);
                 values.for_each(|(parameter, &value)| parameter.value = value);
                 let report = TransformationReport::named(&model, &mut equations, &name);
-                let verdict = Some(Judged::of(&equations.pool, report.as_ref()));
+                let judged = Judged::of(&equations.pool, report.as_ref());
+                let system = system.with_cancel(progress.token().clone());
+                let verdict = judged.beside_its_step((&model, &mut equations, &system), &name);
+                let verdict = Some(verdict);
                 let (parameters, grid) = (parameters.clone(), Arc::clone(&grid));
                 Answer::new(Mapped {
                     parameters,
@@ -290,6 +288,11 @@ impl Instrument for Transformation {
                 about: "the largest entry of |M 𝕁 Mᵀ − 𝕁| at points near the start",
                 value: |_, _, answer| judged(answer)?.residual,
             },
+            Measure {
+                word: "off_step",
+                about: "how far it is from the step of a method that the file says it is",
+                value: |_, _, answer| judged(answer)?.off_step,
+            },
         ]
     }
 }
@@ -301,16 +304,12 @@ fn with_image(plot: &Plot, present: &Present<'_>) -> Valuation {
     present.valuation().with(new.zip(image))
 }
 
-/// What is said of an image that is found by Newton's method.
-fn solved(plot: &Plot, present: &Present<'_>) -> Option<&'static str> {
-    let Shown { new, .. } = shown(plot, present.physics)?;
-    implicit(present.physics.equations, new)?;
+/// What is said of the image of the moving point.
+fn of_image(plot: &Plot, present: &Present<'_>) -> Option<&'static str> {
+    let Shown { law, new } = shown(plot, present.physics)?;
+    let solved = implicit(present.physics.equations, new).is_some();
     let image = [plot.column(0)?, plot.column(1)?].map(|channel| present.value(channel));
-    Some(if image.iter().all(|x| x.is_finite()) {
-        "solved numerically"
-    } else {
-        "no image: a caustic, det ∂²F/∂old∂new = 0"
-    })
+    Image { solved, exists: image.iter().all(|x| x.is_finite()) }.line(law)
 }
 
 /// The map of two new variables, if it is known by relations only.
@@ -352,7 +351,10 @@ fn active(
     // few lines, so that they hide neither point
     let verdict =
         judged(answer).map_or(&[][..], |judged| &judged.lines[..judged.lines.len().min(1)]);
-    let lines = [vec![format!("({q}, {p}) → ({new_q}, {new_p})")], verdict.to_vec()].concat();
+    let mut lines = [vec![format!("({q}, {p}) → ({new_q}, {new_p})")], verdict.to_vec()].concat();
+    lines.extend(
+        of_image(plot, present).filter(|_| !image.iter().all(|x| x.is_finite())).map(str::to_owned),
+    );
     let layers = vec![
         (TRAIL, Layer::Companions(new)),
         (TRAIL, Layer::Companions(old)),

@@ -32,6 +32,8 @@ pub struct Expect {
     pub counts: Vec<ExpectedCount>,
     /// Expected values of brackets.
     pub brackets: Vec<ExpectedBracket>,
+    /// Transformations that are expected to be a step of a method.
+    pub steps: Vec<ExpectedStep>,
     /// The expected number of independent constants of the motion.
     pub invariants: Option<ExpectedInvariants>,
 }
@@ -90,6 +92,23 @@ pub struct ExpectedBracket {
     pub is: Expr,
     /// f and g as written in the file.
     pub written: String,
+    /// The source of the claim.
+    pub source: String,
+    /// The place of the claim in the file.
+    pub place: SourceRange,
+}
+
+/// A transformation that is one step of a method of integration.
+#[derive(Clone, Debug)]
+pub struct ExpectedStep {
+    /// The name of the transformation.
+    pub transformation: String,
+    /// The name of the method.
+    pub method: String,
+    /// The step, in parameters.
+    pub step: Expr,
+    /// How far images and derivatives may lie apart, in units of 1 or of their size; 1e-10 if the file gives nothing.
+    pub within: f64,
     /// The source of the claim.
     pub source: String,
     /// The place of the claim in the file.

@@ -171,6 +171,7 @@ impl Check<'_> {
         let events_claimed = draft.expect.events.iter().map(|e| e.place.clone()).collect();
         let counts = draft.expect.counts.iter().map(|c| c.place.clone()).collect();
         let brackets_claimed = draft.expect.brackets.iter().map(|b| b.place.clone()).collect();
+        let steps = draft.expect.steps.iter().map(|s| s.place.clone()).collect();
         let pieces = draft.body.iter().flat_map(|body| &body.pieces);
         let pieces = pieces.map(|piece| piece.place.clone()).collect();
         let brackets = draft.mechanics.iter().flat_map(|m| &m.brackets);
@@ -197,6 +198,7 @@ impl Check<'_> {
             named(events_claimed, 1024, "expected events"),
             named(counts, 1024, "expected counts"),
             named(brackets_claimed, 256, "expected brackets"),
+            named(steps, 64, "expected steps"),
             named(frames, 64, "frames"),
             named(particles.flatten().collect(), 256, "particles of frames"),
             named(views, 64, "views"),

@@ -29,7 +29,8 @@ use crate::model::Info;
 
 pub(super) use body::{DraftAttitude, DraftBody, DraftComparison, DraftPiece, DraftTurn};
 pub(super) use claims::{
-    DraftBracketClaim, DraftCount, DraftExpect, DraftObservable, DraftOccurrence, DraftValue,
+    DraftBracketClaim, DraftCount, DraftExpect, DraftObservable, DraftOccurrence, DraftStep,
+    DraftValue,
 };
 pub(super) use constraint::DraftConstraint;
 pub(super) use frame::DraftFrame;

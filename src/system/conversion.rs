@@ -14,6 +14,11 @@ use super::{Form, InitialOverride, State};
 use crate::num::DoubleDouble;
 
 impl System {
+    /// The index in a state of the action ∫ L dt, if it is carried.
+    pub fn action_place(&self) -> Option<usize> {
+        self.quadratures().action.then(|| self.driven_len())
+    }
+
     /// The initial coordinates, then velocities or momenta, as the file gives them at these
     /// parameters.
     pub fn initial_values(&self, parameters: &[f64]) -> Vec<f64> {

@@ -9,6 +9,7 @@ mod flow;
 mod gali;
 mod impulses;
 mod lyapunov;
+mod method_step;
 mod orbit;
 mod principles;
 mod return_growth;

@@ -3,9 +3,15 @@
 //! In: a report. Out: the lines of the legend, whether the map is canonical, its residual. Never here: how that is found
 //! (`mechanics`).
 
+use nalgebra::DMatrix;
+
+use crate::dynamics::MethodStep;
 use crate::expr::Pool;
-use crate::mechanics::TransformationReport;
+use crate::integrate::method_named;
+use crate::mechanics::{Equations, TransformationReport, Valuation};
+use crate::model::Model;
 use crate::num::significant;
+use crate::system::System;
 
 /// What is known of a map.
 #[derive(Clone)]
@@ -14,6 +20,8 @@ pub(super) struct Judged {
     pub(super) lines: Vec<String>,
     pub(super) canonical: bool,
     pub(super) residual: Option<f64>,
+    /// How far it is from the step of a method that the file says it is: the images, and M.
+    pub(super) off_step: Option<f64>,
 }
 
 impl Judged {
@@ -23,8 +31,62 @@ impl Judged {
             lines: report.map_or_else(Vec::new, |report| lines(pool, report)),
             canonical: report.is_some_and(|report| report.verdict.canonical),
             residual: report.and_then(|report| report.verdict.residual),
+            off_step: None,
         }
     }
+
+    /// With the step of a method beside it, if the file says that it is one; its parameters are those of now.
+    pub(super) fn beside_its_step(
+        mut self,
+        (model, equations, system): (&Model, &mut Equations, &System),
+        name: &str,
+    ) -> Self {
+        let Some(claim) = model.expect.steps.iter().find(|s| s.transformation == name) else {
+            return self;
+        };
+        let Some(method) = method_named(&claim.method) else { return self };
+        let parameters = Valuation::of_parameters(model, &model.parameter_values());
+        let step = parameters.value(&model.pool, claim.step);
+        match MethodStep::beside((model, equations, system), name, (method, step)) {
+            Err(why) => self.lines.push(format!("a step of {}: {why}", claim.method)),
+            Ok(found) => {
+                self.off_step = Some(found.image.max(found.derivative));
+                // first what may not be cut off where there is little room
+                let lines = step_lines(&found, &claim.method, claim.within);
+                let rest = self.lines.split_off(self.lines.len().min(1));
+                self.lines.extend(lines);
+                self.lines.extend(rest);
+            }
+        }
+        self
+    }
+}
+
+/// The most entries of M in a line.
+const ENTRIES: usize = 4;
+
+/// What is said of a step of a method beside a map.
+fn step_lines(found: &MethodStep, method: &str, within: f64) -> Vec<String> {
+    let short = |x: f64| significant(x, 3, 1e-3..1e3).replace('-', "−");
+    let written = |matrix: &DMatrix<f64>| {
+        let rows = matrix.row_iter();
+        let rows = rows.map(|row| row.iter().map(|&x| short(x)).collect::<Vec<_>>().join(" "));
+        rows.collect::<Vec<_>>().join(" | ")
+    };
+    let is = found.image <= within && found.derivative <= within;
+    let is = if is { "is the map" } else { "is not the map" };
+    let off = |x: f64| if x == 0.0 { "0".to_owned() } else { significant(x, 2, 1e-3..1e3) };
+    let (image, derivative) = (off(found.image), off(found.derivative));
+    let mut lines = vec![
+        format!("one step of {method} {is}:"),
+        format!("images to {image}, M to {derivative}, {} points", found.points),
+    ];
+    let [map, step] = &found.first;
+    if map.len() <= ENTRIES {
+        lines.push(format!("M = ({}) of the map", written(map)));
+        lines.push(format!("M = ({}) of the step", written(step)));
+    }
+    lines
 }
 
 /// What is said of a transformation.

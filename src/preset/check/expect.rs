@@ -9,10 +9,10 @@ use crate::diagnostic::nearest;
 use crate::expr::Expr;
 use crate::model::{
     Allowed, Expect, ExpectedBracket, ExpectedCount, ExpectedEvent, ExpectedInvariants,
-    ExpectedValue, Mechanics, Scope,
+    ExpectedStep, ExpectedValue, Mechanics, Scope,
 };
 use crate::preset::draft::{
-    DraftBracketClaim, DraftCount, DraftExpect, DraftOccurrence, DraftValue,
+    DraftBracketClaim, DraftCount, DraftExpect, DraftOccurrence, DraftStep, DraftValue,
 };
 use crate::printable::number;
 
@@ -47,6 +47,10 @@ impl Check<'_> {
         let mut sides = Scope::new(&self.model, Allowed::Bracket, "a side of a bracket");
         for claim in &written.brackets {
             expect.brackets.extend(self.expected_bracket(claim, &mut sides));
+        }
+        let mut steps = Scope::new(&self.model, Allowed::Parameters, "the step of a method");
+        for claim in &written.steps {
+            expect.steps.extend(self.expected_step(claim, &mut steps));
         }
         expect.invariants = self.expected_invariants(written);
         self.model.expect = expect;
@@ -109,6 +113,38 @@ impl Check<'_> {
             source: written.source.clone(),
             place: is_written.span(),
         })
+    }
+
+    /// Reads which transformation is a step of which method.
+    fn expected_step(&mut self, written: &DraftStep, scope: &mut Scope) -> Option<ExpectedStep> {
+        self.tolerance(written.within.as_ref());
+        let name = written.transformation.as_ref().and_then(|name| self.transformation_named(name));
+        let formula = written.step.as_ref();
+        let step = formula.and_then(|f| self.formula(scope, "the step of a method", f));
+        Some(ExpectedStep {
+            transformation: name?,
+            method: written.method.as_ref()?.get_ref().clone(),
+            step: step?,
+            within: written.within.as_ref().map_or(TOLERANCE, |w| *w.get_ref()),
+            source: written.source.clone(),
+            place: written.place.clone(),
+        })
+    }
+
+    /// The name of a transformation; an unknown name is reported.
+    fn transformation_named(&mut self, name: &Spanned<String>) -> Option<String> {
+        let known = self.model.transformations.iter().map(|one| one.name.as_str());
+        if known.clone().any(|known| known == name.get_ref()) {
+            return Some(name.get_ref().clone());
+        }
+        let help = match nearest(name.get_ref(), known.clone()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None if known.len() == 0 => "the file has no [[transformations]]".to_owned(),
+            None => format!("there is {}", known.collect::<Vec<_>>().join(", ")),
+        };
+        let message = format!("there is no transformation `{}`", name.get_ref());
+        self.mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
+        None
     }
 
     /// Reads the number of constants of the motion.

@@ -21,6 +21,7 @@ pub(in crate::preset) struct DraftExpect {
     pub(in crate::preset) events: Vec<DraftOccurrence>,
     pub(in crate::preset) counts: Vec<DraftCount>,
     pub(in crate::preset) brackets: Vec<DraftBracketClaim>,
+    pub(in crate::preset) steps: Vec<DraftStep>,
     pub(in crate::preset) invariants: Option<Spanned<f64>>,
     pub(in crate::preset) degree: Option<Spanned<f64>>,
 }
@@ -51,6 +52,17 @@ pub(in crate::preset) struct DraftBracketClaim {
     pub(in crate::preset) f: Option<Formula>,
     pub(in crate::preset) g: Option<Formula>,
     pub(in crate::preset) is: Option<Formula>,
+    pub(in crate::preset) source: String,
+    /// The range of the entry.
+    pub(in crate::preset) place: SourceRange,
+}
+
+/// A transformation that is expected to be a step of a method, as written.
+pub(in crate::preset) struct DraftStep {
+    pub(in crate::preset) transformation: Option<Spanned<String>>,
+    pub(in crate::preset) method: Option<Spanned<String>>,
+    pub(in crate::preset) step: Option<Formula>,
+    pub(in crate::preset) within: Option<Spanned<f64>>,
     pub(in crate::preset) source: String,
     /// The range of the entry.
     pub(in crate::preset) place: SourceRange,
@@ -96,6 +108,8 @@ pub(super) fn expect(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftEx
     let events = table.items("events", ("this expected event", event), mistakes);
     let counts = table.items("count", ("this expected count", count), mistakes);
     let brackets = table.items("brackets", ("this expected bracket", bracket), mistakes);
+    let step = "{ transformation = \"...\", method = \"symplectic-euler\", step = \"h\" }";
+    let steps = table.items("steps", ("this expected step", step), mistakes);
     let invariants = table.number("invariants", mistakes);
     let degree = table.number("degree", mistakes);
     table.finish(mistakes);
@@ -105,9 +119,23 @@ pub(super) fn expect(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftEx
         events: events.into_iter().map(|entry| occurrence(entry, mistakes)).collect(),
         counts: counts.into_iter().map(|entry| self::count(entry, mistakes)).collect(),
         brackets: brackets.into_iter().map(|entry| self::bracket(entry, mistakes)).collect(),
+        steps: steps.into_iter().map(|entry| self::step(entry, mistakes)).collect(),
         invariants,
         degree,
     }
+}
+
+fn step(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftStep {
+    let claim = DraftStep {
+        transformation: table.text("transformation", mistakes),
+        method: table.text("method", mistakes),
+        step: table.formula("step", mistakes),
+        within: table.number("within", mistakes),
+        source: table.line("source", mistakes),
+        place: table.place.clone(),
+    };
+    table.finish(mistakes);
+    claim
 }
 
 fn occurrence(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftOccurrence {

@@ -20,6 +20,7 @@ pub(super) const EXPECT: SchemaTable = SchemaTable {
         key("events", List(&EXPECTED_EVENT), "when something happens"),
         key("count", List(&EXPECTED_COUNT), "how often it happens"),
         key("brackets", List(&EXPECTED_BRACKET), "what brackets are"),
+        key("steps", List(&EXPECTED_STEP), "transformations that are a step of a method"),
         key(
             "invariants",
             Number,
@@ -76,6 +77,19 @@ pub(in crate::preset) const EXPECTED_BRACKET: SchemaTable = SchemaTable {
         key("f", Formula, "the first").needed("write f = \"...\""),
         key("g", Formula, "the second").needed("write g = \"...\""),
         key("is", Formula, "what [f, g] is").needed("write is = \"...\""),
+        SOURCE,
+    ],
+};
+
+/// An expected step of a method.
+pub(in crate::preset) const EXPECTED_STEP: SchemaTable = SchemaTable {
+    head: "`steps` of [expect]",
+    about: "A transformation that is one step of a method: the same images, and the same derivatives of them.",
+    keys: &[
+        key("transformation", Text, "its name").needed("write transformation = \"...\""),
+        key("method", Text, "the method").needed("write method = \"symplectic-euler\""),
+        key("step", Formula, "its step, in parameters").needed("write step = \"h\""),
+        WITHIN,
         SOURCE,
     ],
 };

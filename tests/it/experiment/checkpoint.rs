@@ -399,3 +399,30 @@ fn a_state_is_taken_up_as_it_is_up_to_a_billionth_of_a_constraint() {
     let notices = beyond.snapshot().notices;
     assert!(notices.iter().any(|n| n.starts_with("the motion starts again: ")), "{notices:?}");
 }
+
+/// Another law with another auxiliary number, here the work that a ramp does, takes the action up where it was: S goes on
+/// through the change, and is ∫ L dt over both parts of the motion.
+#[test]
+fn the_action_goes_on_in_a_changed_system() {
+    let text = |ramp: &str| {
+        format!(
+            "title = \"t\"\n[coordinates]\nq = {{ initial = 1.0, velocity = 0.5 }}\n[parameters]\nw = 1.0\n{ramp}\
+             [lagrangian]\nL = \"q'^2/2 - w^2*q^2/2\"\n[[observables]]\nname = \"S\"\nexpression = \"action\"\n"
+        )
+    };
+    let mut left = build(&text(""), |_| {});
+    run(&mut left, 2.0);
+    let before = value(&left, "S");
+    // ∫ ½(q̇² − q²) dt = ½ [q q̇]
+    let (q, v) = (2.0_f64.cos() + 0.5 * 2.0_f64.sin(), 0.5 * 2.0_f64.cos() - 2.0_f64.sin());
+    assert!((before - 0.5 * (q * v - 0.5)).abs() < 1e-13, "{before}");
+    let ramp = "[[ramps]]\nparameter = \"w\"\nto = 2\nstart = 2\nduration = 3\n";
+    let mut taken = build(&text(ramp), |_| {});
+    let mut whole = build(&text(ramp), |_| {});
+    taken.execute(Command::TakeUp(Box::new(kept(&left))));
+    assert_eq!(value(&taken, "S").to_bits(), before.to_bits());
+    run(&mut taken, 6.0);
+    run(&mut whole, 6.0);
+    let (taken, whole) = (value(&taken, "S"), value(&whole, "S"));
+    assert!((taken - whole).abs() < 1e-12, "{taken} and {whole}");
+}

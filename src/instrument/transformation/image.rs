@@ -1,0 +1,39 @@
+//! What is said of the image of the moving point, and of those on other branches.
+//!
+//! In: how the map is given, whether the image is there, how many branches were found and how many of them lead to the
+//! point. Out: lines of the legend. Never here: how images are found (`branches`).
+
+use crate::model::{Transformation, TransformationLaw};
+
+/// The image of the moving point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Image {
+    /// Whether it is found by Newton's method.
+    pub(super) solved: bool,
+    /// Whether there is one.
+    pub(super) exists: bool,
+}
+
+impl Image {
+    /// What is said of it.
+    pub(super) fn line(self, law: &Transformation) -> Option<&'static str> {
+        match (&law.law, self) {
+            (_, Image { solved: true, exists: true }) => Some("solved numerically"),
+            (_, Image { solved: false, exists: true }) => None,
+            // a written map has no value where a root in it is negative, or where it divides by zero
+            (TransformationLaw::Explicit { .. }, _) => Some("no image: the map has no value here"),
+            _ => Some("no image: a caustic, det ∂²F/∂old∂new = 0"),
+        }
+    }
+}
+
+/// What is said of the other branches: how many there are, and how many of them lead to the point.
+pub(super) fn of_branches(others: usize, rings: usize) -> Option<String> {
+    match (others, rings) {
+        (0, _) => None,
+        (1, 0) => Some("dim grid: the other branch, which does not lead to here".to_owned()),
+        (1, _) => Some("ring, dim grid: the other branch".to_owned()),
+        (n, k) if n == k => Some(format!("rings, dim grids: {n} other branches")),
+        (n, k) => Some(format!("rings, dim grids: {n} other branches, {k} lead to here")),
+    }
+}
