@@ -240,7 +240,8 @@ impl App {
             None => false,
         };
         if !added {
-            return self.notify(if plot.seeds.is_empty() { NO_STARTS } else { NO_MORE });
+            let why = if plot.seeds.is_empty() { NO_STARTS } else { NO_MORE };
+            return self.notify(why);
         }
         lab.redraw(index, |plot, _| *plot = changed);
         Vec::new()
@@ -259,7 +260,8 @@ impl App {
             None => false,
         };
         if !filled {
-            return self.notify(if plot.seeds.is_empty() { NO_STARTS } else { NO_MORE });
+            let why = if plot.seeds.is_empty() { NO_STARTS } else { NO_MORE };
+            return self.notify(why);
         }
         lab.redraw(index, |plot, _| *plot = changed);
         Vec::new()
