@@ -139,6 +139,8 @@ pub enum Action {
     ClearCompanions,
     /// Add orbits to a section: the one through its cursor, or some spread over what is seen.
     AddOrbits,
+    /// Fill what is seen of a section with many orbits.
+    FillSection,
     /// Remove the orbits that were added to a section, and the past crossings of the motion.
     ClearOrbits,
     /// Move within the focused element.

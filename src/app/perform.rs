@@ -169,6 +169,7 @@ impl App {
             Action::Pin => vec![Effect::Tell(Command::Pin)],
             Action::ClearCompanions => self.clear_companions(),
             Action::AddOrbits => self.add_orbits(),
+            Action::FillSection => self.fill_section(),
             Action::ClearOrbits => self.clear_orbits(),
             Action::Change { sign, coarse } => {
                 let Some(target) = lab.selected() else { return Vec::new() };

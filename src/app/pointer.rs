@@ -19,6 +19,10 @@ const LINES: isize = 3;
 /// The magnification per notch of the wheel.
 const NOTCH: f64 = 1.25;
 
+/// Why orbits are not added to a section.
+const NO_STARTS: &str = "No orbits can be added here: points of this section cannot be starts.";
+const NO_MORE: &str = "No more orbits can be added; N removes those added.";
+
 impl App {
     /// Handles a mouse event; the left button and the wheel have an effect, and the right button, which Shift makes of the
     /// left one, adds a motion.
@@ -236,11 +240,27 @@ impl App {
             None => false,
         };
         if !added {
-            let why = if plot.seeds.is_empty() {
-                "No orbits can be added here: points of this section cannot be starts."
-            } else {
-                "No more orbits can be added; N removes those added."
-            };
+            let why = if plot.seeds.is_empty() { NO_STARTS } else { NO_MORE };
+            return self.notify(why);
+        }
+        lab.redraw(index, |plot, _| *plot = changed);
+        Vec::new()
+    }
+
+    /// Fills what is seen of the focused section with orbits.
+    pub(super) fn fill_section(&mut self) -> Vec<Effect> {
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        let Some((index, plot)) = lab.focused_plot() else { return Vec::new() };
+        if !plot.kind.is_section() {
+            return self.notify("G fills a section with orbits; v chooses one.");
+        }
+        let mut changed = plot.clone();
+        let filled = match lab.present() {
+            Some(present) => changed.fill(&present, lab.answer(plot)),
+            None => false,
+        };
+        if !filled {
+            let why = if plot.seeds.is_empty() { NO_STARTS } else { NO_MORE };
             return self.notify(why);
         }
         lab.redraw(index, |plot, _| *plot = changed);

@@ -12,14 +12,15 @@ mod members;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::direction::Direction;
 use super::error::DynamicsError;
 use super::family::{Along, Family, Member};
 use super::linear;
-use super::orbit::{Fixed, Newton, Orbit};
+use super::newton::{Fixed, Newton, Reached};
+use super::orbit::Orbit;
 use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings};
-use crate::num::DoubleDouble;
 use crate::system::State;
 
 /// The most steps in one direction.
@@ -76,10 +77,6 @@ pub fn family(
     (along, fixed): (Along, Fixed),
     values: &[f64],
 ) -> Result<Family, DynamicsError> {
-    if space.is_constrained() {
-        let why = "families of orbits are followed in independent coordinates, and constraints hold these";
-        return Err(DynamicsError::Unsuited(why.to_owned()));
-    }
     let conserved = space.is_autonomous() && space.is_hamiltonian();
     if !matches!(along, Along::Parameter(_)) && !conserved {
         return Err(DynamicsError::Unsuited(
@@ -114,6 +111,34 @@ pub fn family(
     }
     family.members.extend(after);
     Ok(family)
+}
+
+/// The equations of an orbit at a point, and their derivatives.
+struct Equations {
+    /// What is missing.
+    missing: DVector<f64>,
+    matrix: DMatrix<f64>,
+    here: Reached,
+}
+
+impl Equations {
+    /// A change of (z, T, μ) in coordinates of the displacements of z that are allowed.
+    fn within(&self, change: &DVector<f64>) -> DVector<f64> {
+        let (basis, n) = (&self.here.circuit.basis, change.len() - 2);
+        let allowed = basis.transpose() * change.rows(0, n);
+        let mut within = allowed.resize_vertically(basis.ncols() + 2, 0.0);
+        within.rows_mut(basis.ncols(), 2).copy_from(&change.rows(n, 2));
+        within
+    }
+
+    /// The same back.
+    fn outside(&self, within: &DVector<f64>) -> DVector<f64> {
+        let basis = &self.here.circuit.basis;
+        let (n, allowed) = (basis.nrows(), basis.ncols());
+        let mut change = (basis * within.rows(0, allowed)).resize_vertically(n + 2, 0.0);
+        change.rows_mut(n, 2).copy_from(&within.rows(allowed, 2));
+        change
+    }
 }
 
 struct Continuation<'a> {
@@ -194,31 +219,34 @@ impl Continuation<'_> {
         Newton { space, method: self.method, fixed: self.held(), units }
     }
 
-    /// The residual of the orbit's equations at (z, T, μ), and their derivatives.
+    /// The equations of an orbit at (z, T, μ), with their derivatives by the displacements of z that are allowed, T and μ.
     fn equations(
         &self,
         state: &State,
         period: f64,
         parameter: f64,
-    ) -> Result<(DVector<f64>, DMatrix<f64>, f64), DynamicsError> {
+    ) -> Result<Equations, DynamicsError> {
         let n = self.space.dimension();
         let space = self.space_at(parameter);
         let newton = self.newton(&space);
-        let look = newton.look(state, period)?;
-        let (matrix, right) = newton.equations(&look);
-        let mut full = DMatrix::zeros(n + 2, n + 2);
-        full.view_mut((0, 0), (n + 2, n + 1)).copy_from(&matrix);
+        let here = newton.reached(state.clone(), period)?;
+        let (matrix, missing) = newton.equations(&here.circuit);
+        let columns = matrix.ncols();
+        let mut full = DMatrix::zeros(n + 2, columns + 1);
+        full.view_mut((0, 0), (n + 2, columns)).copy_from(&matrix);
         if let Along::Parameter(_) = self.along {
             let step = DIFFERENCE * parameter.abs().max(1e-2);
+            let none = DVector::zeros(n);
             let at = |parameter: f64| -> Result<DVector<f64>, DynamicsError> {
                 let space = self.space_at(parameter);
                 let newton = self.newton(&space);
-                Ok(newton.missed(&newton.look(state, period)?))
+                let there = newton.displaced(state, &none)?;
+                Ok(newton.missed(&newton.circuit(&there, period)?))
             };
             let slope = (at(parameter + step)? - at(parameter - step)?) / (2.0 * step);
-            full.view_mut((0, n + 1), (n + 2, 1)).copy_from(&slope);
+            full.view_mut((0, columns), (n + 2, 1)).copy_from(&slope);
         }
-        Ok((right, full, look.size))
+        Ok(Equations { missing, matrix: full, here })
     }
 
     /// The unit direction of the family at a point, along `before` if that is given.
@@ -228,15 +256,15 @@ impl Continuation<'_> {
         before: Option<&DVector<f64>>,
     ) -> Result<DVector<f64>, DynamicsError> {
         let n = self.space.dimension();
-        let (_, matrix, _) = self.equations(&point.state, point.period, point.parameter)?;
+        let found = self.equations(&point.state, point.period, point.parameter)?;
         // the last column does not exist where no parameter changes
-        let kept = if matches!(self.along, Along::Parameter(_)) { n + 2 } else { n + 1 };
-        let matrix = matrix.columns(0, kept).into_owned();
-        let kernel = linear::kernel(&matrix, 1e-7);
+        let missing = usize::from(!matches!(self.along, Along::Parameter(_)));
+        let kept = found.matrix.ncols() - missing;
+        let kernel = linear::kernel(&found.matrix.columns(0, kept).into_owned(), 1e-7);
         let guide = match before {
-            Some(before) => before.rows(0, kept).into_owned(),
+            Some(before) => before.clone(),
             None => {
-                let mut guide = DVector::zeros(kept);
+                let mut guide = DVector::zeros(n + 2);
                 match self.along {
                     Along::Parameter(_) => guide[n + 1] = 1.0,
                     Along::Period => guide[n] = 1.0,
@@ -248,6 +276,7 @@ impl Continuation<'_> {
                 guide
             }
         };
+        let guide = found.within(&guide).rows(0, kept).into_owned();
         let mut direction = DVector::zeros(kept);
         for vector in &kernel {
             direction.axpy(vector.dot(&guide), vector, 1.0);
@@ -258,14 +287,12 @@ impl Continuation<'_> {
                     .to_owned(),
             ));
         };
-        Ok(unit.resize_vertically(n + 2, 0.0))
+        Ok(found.outside(&unit.resize_vertically(kept + missing, 0.0)))
     }
 
     /// ∇H = −𝕁 f.
     fn gradient(&self, point: &FamilyPoint) -> Result<DVector<f64>, DynamicsError> {
-        let mut field = self.space_at(point.parameter).vector_field();
-        field.evaluate(point.state.time, self.space.variables(&point.state))?;
-        let rate = field.rate();
+        let rate = Direction::new(&self.space_at(point.parameter)).at(&point.state)?;
         let half = rate.len() / 2;
         Ok(DVector::from_fn(
             rate.len(),
@@ -292,42 +319,44 @@ impl Continuation<'_> {
         step: f64,
     ) -> Result<Option<(FamilyPoint, usize)>, DynamicsError> {
         let n = self.space.dimension();
-        let moved = |state: &State, by: &DVector<f64>| {
-            let mut there = state.clone();
-            for i in 0..n {
-                there.set(i, state.exact(i) + DoubleDouble::from(by[i]));
+        let moved = |state: &State, by: &DVector<f64>, parameter: f64| {
+            let space = self.space_at(parameter);
+            let there = self.newton(&space).displaced(state, &by.rows(0, n).into_owned());
+            match there {
+                Err(error) if error.is_cancelled() => Err(error),
+                there => Ok(there.ok()),
             }
-            there
         };
         let by = &from.tangent * step;
-        let mut state = moved(&from.state, &by);
         let (mut period, mut parameter) = (from.period + by[n], from.parameter + by[n + 1]);
+        let Some(mut state) = moved(&from.state, &by, parameter)? else { return Ok(None) };
         for count in 0..CORRECTIONS {
             if period <= 0.0 {
                 return Ok(None);
             }
             let found = self.equations(&state, period, parameter);
-            let (missing, matrix, size) = match found {
+            let found = match found {
                 Ok(found) => found,
                 Err(error) if error.is_cancelled() => return Err(error),
                 Err(_) => return Ok(None),
             };
-            if missing.norm() <= CLOSED * size {
-                let Some(point) = self.point(from, state, period, parameter)? else {
-                    return Ok(None);
-                };
+            if found.missing.norm() <= CLOSED * found.here.circuit.size {
+                let point = self.point(from, &found.here, parameter)?;
                 return Ok(Some((point, count)));
             }
             // across the family only
-            let mut all = DMatrix::zeros(n + 3, n + 2);
-            all.view_mut((0, 0), (n + 2, n + 2)).copy_from(&matrix);
-            all.view_mut((n + 2, 0), (1, n + 2)).copy_from(&from.tangent.transpose());
-            let right = missing.clone().resize_vertically(n + 3, 0.0);
-            let cut = 1e-10 * matrix.amax() + 1e-4 * missing.norm();
+            let columns = found.matrix.ncols();
+            let mut all = found.matrix.clone().resize_vertically(n + 3, 0.0);
+            all.view_mut((n + 2, 0), (1, columns))
+                .copy_from(&found.within(&from.tangent).transpose());
+            let right = found.missing.clone().resize_vertically(n + 3, 0.0);
+            let cut = 1e-10 * found.matrix.amax() + 1e-4 * found.missing.norm();
             let Some(change) = linear::least_squares(&all, &right, cut) else { return Ok(None) };
-            state = moved(&state, &change);
+            let change = found.outside(&change);
             period += change[n];
             parameter += change[n + 1];
+            let Some(there) = moved(&state, &change, parameter)? else { return Ok(None) };
+            state = there;
         }
         Ok(None)
     }
@@ -335,18 +364,17 @@ impl Continuation<'_> {
     fn point(
         &self,
         from: &FamilyPoint,
-        state: State,
-        period: f64,
+        here: &Reached,
         parameter: f64,
-    ) -> Result<Option<FamilyPoint>, DynamicsError> {
+    ) -> Result<FamilyPoint, DynamicsError> {
         let space = self.space_at(parameter);
-        let newton = self.newton(&space);
-        let orbit = newton.at(&state, period)?;
+        let orbit = Orbit::of(&self.newton(&space), here)?;
+        let (state, period) = (here.state.clone(), here.period);
         let tangent = from.tangent.clone();
         let value = self.value_of(&orbit, parameter);
         let mut point = FamilyPoint { state, period, parameter, tangent, value, orbit };
         point.tangent = self.direction(&point, Some(&from.tangent))?;
-        Ok(Some(point))
+        Ok(point)
     }
 
     /// Follows the family along its tangent and collects its members. Returns why it ends before

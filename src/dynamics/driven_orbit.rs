@@ -5,7 +5,8 @@
 use super::error::DynamicsError;
 use super::first_return::difference;
 use super::flow_map::flow_map;
-use super::orbit::{Fixed, Orbit, periodic_orbit};
+use super::newton::Fixed;
+use super::orbit::{Orbit, periodic_orbit};
 use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings};
 use crate::system::State;

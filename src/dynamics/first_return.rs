@@ -1,4 +1,4 @@
-//! The first return of a motion near its start, from which the search for a periodic orbit begins.
+//! The returns of a motion near its start, from which the search for a periodic orbit begins.
 //!
 //! In: a state. Out: a time, or why there is none: what was looked for, for how long. Never here: whether an orbit closes.
 
@@ -42,11 +42,12 @@ pub(super) fn difference(space: &PhaseSpace, end: &State, start: &State) -> DVec
     })
 }
 
-/// The time of the first return near the start.
-pub(super) fn first_return(
+/// The time of a return near the start, after as many others.
+pub(super) fn return_near(
     space: &PhaseSpace,
     (method, settings): (&'static Method, Settings),
     start: &State,
+    others: usize,
 ) -> Result<f64, DynamicsError> {
     let mut carrier = Carrier::new(space, method, settings, 0)?;
     carrier.start(start, &DMatrix::zeros(space.dimension(), 0))?;
@@ -98,13 +99,16 @@ pub(super) fn first_return(
         };
         let all: Vec<f64> = seen.iter().map(|(_, apart)| distance(apart)).collect();
         let farthest = all.iter().copied().fold(0.0, f64::max);
-        let mut left = false;
+        let (mut left, mut passed) = (false, 0);
         best = None;
         for k in 1..all.len() - 1 {
             left |= all[k] > 0.6 * farthest;
             if left && all[k] <= all[k - 1] && all[k] <= all[k + 1] {
                 let part = all[k] / farthest;
                 if part < NEAR {
+                    passed += 1;
+                }
+                if passed > others {
                     return Ok(seen[k].0 - start.time);
                 }
                 if best.is_none_or(|(least, _)| part < least) {
@@ -114,7 +118,7 @@ pub(super) fn first_return(
         }
     }
     match best {
-        Some((part, time)) if part < FAR => Ok(time),
+        Some((part, time)) if part < FAR && others == 0 => Ok(time),
         _ => {
             let rests = extent.iter().all(|extent| *extent == 0.0);
             Err(no_return(space, best, seen[seen.len() - 1].0 - start.time, (rests, stopped)))

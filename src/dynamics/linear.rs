@@ -36,6 +36,22 @@ pub(super) fn least_squares(a: &DMatrix<f64>, b: &DVector<f64>, cut: f64) -> Opt
     svd.solve(b, cut.max(1e-12 * largest)).ok().filter(|x| x.iter().all(|x| x.is_finite()))
 }
 
+/// The singular values of a matrix, the largest first, with unit vectors as columns: A = Σ sᵢ lᵢ rᵢᵀ.
+pub(super) struct SingularValues {
+    pub(super) sizes: DVector<f64>,
+    pub(super) left: DMatrix<f64>,
+    pub(super) right: DMatrix<f64>,
+}
+
+/// The singular values of a matrix of finite entries.
+pub(super) fn singular_values(matrix: &DMatrix<f64>) -> Option<SingularValues> {
+    if matrix.iter().any(|x| !x.is_finite()) {
+        return None;
+    }
+    let svd = matrix.clone().try_svd(true, true, f64::EPSILON, SWEEPS)?;
+    Some(SingularValues { sizes: svd.singular_values, left: svd.u?, right: svd.v_t?.transpose() })
+}
+
 /// Unit vectors that span what a matrix takes to zero: up to a part `cut` of what it does to others.
 /// There is at least one.
 pub(super) fn kernel(matrix: &DMatrix<f64>, cut: f64) -> Vec<DVector<f64>> {

@@ -190,6 +190,16 @@ impl Plot {
         added.is_some()
     }
 
+    /// Fills what is seen of a section with orbits, and says whether it could.
+    pub fn fill(&mut self, present: &Present<'_>, answer: Option<&Answer>) -> bool {
+        let added = match self.kind.seed(self, present, answer) {
+            Some(Seed::Spread(window)) if self.seeds.len() < MOST_SEEDS => Seed::Fill(window),
+            _ => return false,
+        };
+        self.seeds.push(added);
+        true
+    }
+
     /// The camera, if it has one.
     pub fn eye(&self) -> Option<CameraPose> {
         match self.sight {

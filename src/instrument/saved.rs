@@ -163,7 +163,9 @@ impl SavedPlot {
             return None;
         }
         let finite = |seed: &Seed| match seed {
-            Seed::Spread(window) => window.as_flattened().iter().all(|x| x.is_finite()),
+            Seed::Spread(window) | Seed::Fill(window) => {
+                window.as_flattened().iter().all(|x| x.is_finite())
+            }
             Seed::Through(point) => point.iter().all(|x| x.is_finite()),
             Seed::Shell => true,
         };

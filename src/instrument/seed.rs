@@ -10,6 +10,8 @@ use serde::{Deserialize, Serialize};
 pub enum Seed {
     /// Orbits whose starts are spread over a window.
     Spread([[f64; 2]; 2]),
+    /// Many orbits of a section, with many crossings each, whose starts are spread over a window.
+    Fill([[f64; 2]; 2]),
     /// The orbit through a point.
     Through([f64; 2]),
     /// Starts spread over the states of the motion's energy.

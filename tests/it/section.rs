@@ -384,6 +384,39 @@ fn keys_add_orbits_and_clear_them_and_sessions_have_them() {
 }
 
 #[test]
+fn one_key_fills_a_section() {
+    let (mut app, index) = opened(prepared(OSCILLATORS), 30.0);
+    let plot = |app: &App| app.lab.as_ref().unwrap().plots[index].clone();
+    typed(&mut app, "Tab Tab Tab");
+    let [orbits, crossings] = ["orbits", "crossings"].map(|word| measure(&app, &plot(&app), word));
+    typed(&mut app, "G");
+    let filled = plot(&app);
+    let [Seed::Fill(_)] = filled.seeds[..] else { panic!("{:?}", filled.seeds) };
+    assert_eq!(measure(&app, &filled, "orbits"), orbits + 100.0);
+    // a start is on the section too
+    assert_eq!(measure(&app, &filled, "crossings"), crossings + 100.0 * 101.0);
+    // each is on the ellipse p²/2 + y² = e of an oscillator of its own, within the energy 3/2
+    for layer in layers(&app, &filled) {
+        let Layer::Points(points, _) = layer else { continue };
+        let size = |at: &[f64; 2]| at[0] * at[0] + at[1] * at[1] / 2.0;
+        assert!(points.iter().all(|at| (size(at) - size(&points[0])).abs() < 1e-9), "{points:?}");
+        assert!(size(&points[0]) < 1.5);
+    }
+    // again, it has other orbits, and a session has both
+    typed(&mut app, "G");
+    assert_eq!(measure(&app, &plot(&app), "orbits"), orbits + 200.0);
+    let read: Saved = toml::from_str(&toml::to_string(&app.saved().unwrap()).unwrap()).unwrap();
+    let physics = app.lab.as_ref().unwrap().loaded.physics();
+    assert_eq!(read.plots[index].place(physics), Some(plot(&app)));
+    typed(&mut app, "N");
+    assert_eq!(measure(&app, &plot(&app), "orbits"), orbits);
+    // elsewhere it says what it is for
+    let (mut app, _) = opened(shipped("henon-heiles"), 1.0);
+    typed(&mut app, "Tab Tab Tab Tab Tab G");
+    assert!(app.notice.take().is_some_and(|notice| notice.text.contains("section")));
+}
+
+#[test]
 fn enter_begins_at_the_cursor_or_says_why_not() {
     let (mut app, _) = opened(shipped("henon-heiles"), 0.01);
     let at = |app: &mut App, point: [f64; 2]| {

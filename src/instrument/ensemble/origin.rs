@@ -55,13 +55,13 @@ impl CloudOrigin {
             centre: own,
             radii: [1.0; 2],
             shape: match seed {
-                Some(Seed::Spread(_)) => CloudShape::Box,
+                Some(Seed::Spread(_) | Seed::Fill(_)) => CloudShape::Box,
                 Some(Seed::Shell) => shell(present)?,
                 _ => CloudShape::Disc,
             },
         };
         Some(match seed {
-            Some(Seed::Spread(window)) => Self {
+            Some(Seed::Spread(window) | Seed::Fill(window)) => Self {
                 centre: window.map(|[from, to]| f64::midpoint(from, to)),
                 radii: window.map(|[from, to]| (to - from) / 2.0),
                 ..origin

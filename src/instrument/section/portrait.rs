@@ -2,7 +2,7 @@
 //!
 //! In: a plane of section, what is there already. Out: a portrait, a part of it at a time. Never here: what is drawn of it.
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
 use crate::dynamics::{NoRotation, Rotation, rotation};
@@ -21,7 +21,12 @@ use crate::system::{ChannelKind, System};
 const BATCH: usize = 16;
 pub(super) const COUNT: u64 = 60;
 
-/// The orbits of one part of the work, after which the picture is drawn anew.
+/// The orbits of an addition that fills the section, and the crossings of each.
+const FILL: usize = 100;
+const COUNT_FILLING: u64 = 100;
+
+/// The orbits of one part of the work, after which the picture is drawn anew: a share of all, and these at least.
+const SHARE: usize = 5;
 const PART: usize = 2 * SECTION_GROUP;
 
 /// The crossings of an orbit through a point that a person chose.
@@ -135,15 +140,21 @@ impl Task {
         let (mut points, count) = match (self.seed, begun) {
             // each addition continues where the one before ended
             (Some(Seed::Spread(window)), _) => {
-                (self.starts(&system, &region, window, self.seeds.len() * BATCH * TRIES), COUNT)
+                let places = Self::places(BATCH, self.seeds.len());
+                (self.starts(&system, &region, window, places), COUNT)
+            }
+            (Some(Seed::Fill(window)), _) => {
+                let places = Self::places(FILL, self.seeds.len());
+                (self.starts(&system, &region, window, places), COUNT_FILLING)
             }
             (Some(Seed::Through(point)), _) => (vec![point], COUNT_CHOSEN),
             (None, Some(begun)) => begun.pending.clone(),
             (Some(Seed::Shell), _) | (None, None) => {
-                (self.starts(&system, &region, region.window, 0), COUNT)
+                (self.starts(&system, &region, region.window, Self::places(BATCH, 0)), COUNT)
             }
         };
-        let pending = (points.split_off(points.len().min(PART)), count);
+        let part = PART.max(if count == COUNT_FILLING { FILL / SHARE } else { 0 });
+        let pending = (points.split_off(points.len().min(part)), count);
         let plan = SectionPlan { count: Some(count), ..self.plan.clone() };
         progress.expect(points.len() as u64);
         let shift = points.first().and_then(|&at| self.shift(&system, at));
@@ -190,21 +201,27 @@ impl Task {
         PhaseShift::new((system, backwards), method, &start, &self.plan.event).ok()
     }
 
+    /// The number of starts that an addition has, and where they are tried, apart from those of additions before.
+    fn places(count: usize, before: usize) -> (usize, Range<usize>) {
+        let from = before * count * TRIES;
+        (count, from..from + count * TRIES)
+    }
+
     /// Points of a window that are starts.
     fn starts(
         &self,
         system: &System,
         region: &Region,
         window: [[f64; 2]; 2],
-        from: usize,
+        (count, places): (usize, Range<usize>),
     ) -> Vec<[f64; 2]> {
         let mut observer = system.observer(self.plane.parameters());
-        let points = (from..from + BATCH * TRIES).map(|index| spread(index, window));
+        let points = places.map(|index| spread(index, window));
         points
             .filter(|&at| {
                 region.contains(at) && self.plane.start(system, &mut observer, at).is_ok()
             })
-            .take(BATCH)
+            .take(count)
             .collect()
     }
 

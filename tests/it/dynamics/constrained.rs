@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 use phaselab::dynamics::{
-    Chaos, DynamicsError, Fixed, FlowMap, Orbit, PhaseSpace, flow_map, gali, lyapunov,
-    periodic_orbit,
+    Along, Chaos, DynamicsError, Fixed, FlowMap, Orbit, PhaseSpace, family, flow_map, gali,
+    lyapunov, periodic_orbit,
 };
 
 use super::{Case, case_in, file, method, taylor};
@@ -336,4 +336,47 @@ fn orbits_of_a_double_pendulum_by_constraints_are_those_of_its_angles() {
     }
     let upper = found.state.values[0].powi(2) + found.state.values[1].powi(2);
     assert!((upper - 1.0).abs() < 1e-15, "{upper}");
+}
+
+/// The same system with the length of its lower rod as a parameter, on which a constraint depends: families in the energy and in
+/// that length have the members and the bifurcations of those in its angles.
+#[test]
+fn families_under_constraints_are_those_of_independent_coordinates() {
+    let rods = held(
+        "title = \"t\"\n[coordinates]\nx = { initial = \"sin(0.5)\", velocity = 0 }\ny = { initial = \"-cos(0.5)\" }\n\
+         u = { initial = \"sin(0.5) + l*sin(0.7)\", velocity = 0 }\nv = { initial = \"-cos(0.5) - l*cos(0.7)\" }\n\
+         [parameters]\nl = 1.0\n[lagrangian]\nL = \"1/2*(x'^2 + y'^2 + u'^2 + v'^2) - y - v\"\n\
+         [[constraints]]\nname = \"upper\"\nexpression = \"x^2 + y^2 - 1\"\n\
+         [[constraints]]\nname = \"lower\"\nexpression = \"(u - x)^2 + (v - y)^2 - l^2\"\n",
+    );
+    let angles = file(
+        "title = \"t\"\n[coordinates]\na = { initial = 0.5, velocity = 0 }\nb = { initial = 0.7, velocity = 0 }\n\
+         [parameters]\nl = 1.0\n[lagrangian]\n\
+         L = \"a'^2 + 1/2*l^2*b'^2 + l*a'*b'*cos(a - b) + 2*cos(a) + l*cos(b)\"\n",
+        &[],
+    );
+    let walk = |case: &Case, along: Along, values: &[f64]| {
+        let first = orbit(case);
+        let found =
+            family(&case.space, taylor(), &first, (along, Fixed::Energy(first.energy)), values);
+        let found = found.unwrap();
+        assert!(found.ended.is_empty(), "{:?}", found.ended);
+        found.members
+    };
+    for (along, values) in
+        [(Along::Energy, [-2.7, -2.4, -1.9]), (Along::Parameter(0), [0.7, 0.9, 1.2])]
+    {
+        let (found, wanted) = (walk(&rods, along, &values), walk(&angles, along, &values));
+        assert_eq!(found.len(), wanted.len());
+        assert_eq!(wanted.iter().filter(|member| member.bifurcation.is_none()).count(), 3);
+        for (one, other) in found.iter().zip(&wanted) {
+            assert_eq!(one.bifurcation, other.bifurcation);
+            assert!((one.value - other.value).abs() < 1e-8, "{} {}", one.value, other.value);
+            let (one, other) = (&one.orbit, &other.orbit);
+            assert!((one.period - other.period).abs() < 1e-7, "{} {}", one.period, other.period);
+            assert!((one.energy - other.energy).abs() < 1e-9);
+            let (a, b) = (one.transverse.trace(), other.transverse.trace());
+            assert!((a - b).abs() < 1e-6 * (1.0 + b.abs()), "{a} {b}");
+        }
+    }
 }

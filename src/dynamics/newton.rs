@@ -1,0 +1,287 @@
+//! Newton's method on the flow map: the equations of a periodic orbit, and steps that leave less missing.
+//!
+//! In: a state near the orbit, a period, what is held fixed. Out: where the steps have come to. Never here: whether that is an
+//! orbit.
+//!
+//! Unknown are the state and the period; the equations are that the motion closes, that the state
+//! does not move along the orbit, and that the energy (or the period) is the given one. They are
+//! solved by least squares, because with a conserved energy one of them follows from the others, and
+//! symmetries leave a choice (Viswanath, SIAM Review 43 (2001) 478, has the method). Under constraints the state moves by
+//! displacements that they allow, and back onto them.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::direction::{Direction, basis_of_range};
+use super::error::DynamicsError;
+use super::first_return::difference;
+use super::flow_map::flow_map;
+use super::linear;
+use super::orbit_units::OrbitUnits;
+use super::phase_space::PhaseSpace;
+use crate::integrate::{Method, Settings};
+use crate::num::{DoubleDouble, math};
+use crate::system::State;
+
+/// The maximal number of steps of Newton's method, and of halvings of one.
+const STEPS: usize = 50;
+const HALVINGS: u32 = 10;
+
+/// The maximal number of corrections of the period alone, before those of the state.
+const SETTLINGS: usize = 6;
+
+/// An orbit is closed up to this part of its size.
+pub(super) const CLOSED: f64 = 1e-9;
+
+/// A residual below this part of the size is rounding.
+pub(super) const ROUNDING: f64 = 2e-15;
+
+/// What is the same for the orbit that is searched for.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Fixed {
+    /// The energy.
+    Energy(f64),
+    /// The period.
+    Period(f64),
+    /// Neither: a limit cycle.
+    Nothing,
+}
+
+pub(super) struct Newton<'a> {
+    pub(super) space: &'a PhaseSpace,
+    pub(super) method: (&'static Method, Settings),
+    pub(super) fixed: Fixed,
+    pub(super) units: OrbitUnits,
+}
+
+/// The motion over one period, in the units of the orbit but for the monodromy matrix and the energy.
+pub(super) struct Circuit {
+    miss: DVector<f64>,
+    pub(super) monodromy: DMatrix<f64>,
+    /// The displacements that constraints allow at the start, as columns of unit length; all without constraints.
+    pub(super) basis: DMatrix<f64>,
+    /// The rates at its two ends.
+    pub(super) rates: [DVector<f64>; 2],
+    energy: f64,
+    pub(super) size: f64,
+    pub(super) settings: Settings,
+}
+
+/// Where a search has come to: a state, a period, the motion over it, and what is missing of an orbit.
+pub(super) struct Reached {
+    pub(super) state: State,
+    pub(super) period: f64,
+    pub(super) circuit: Circuit,
+    pub(super) residual: f64,
+}
+
+impl Reached {
+    /// Whether nothing but rounding is missing.
+    pub(super) fn is_exact(&self) -> bool {
+        self.residual <= ROUNDING * self.circuit.size
+    }
+}
+
+impl Newton<'_> {
+    pub(super) fn circuit(&self, state: &State, period: f64) -> Result<Circuit, DynamicsError> {
+        let (space, method) = (self.space, self.method);
+        let map = flow_map(space, method, state, state.time + period, &mut |_| {})?;
+        if let Some(fault) = map.failure {
+            return Err(fault.into());
+        }
+        let mut direction = Direction::new(space);
+        let rates = [direction.at(state)?, direction.at(&map.state)?];
+        let miss = self.units.scaled(&difference(space, &map.state, state));
+        let energy = space.system().energy(state, space.parameters())?;
+        let rates = rates.map(|rate| self.units.rates(&rate));
+        let basis = self.basis(state)?;
+        let size = self.size(state).max(rates[0].amax() * (period / self.units.time()).min(1.0));
+        Ok(Circuit {
+            miss,
+            monodromy: map.matrix,
+            basis,
+            rates,
+            energy,
+            size,
+            settings: map.settings,
+        })
+    }
+
+    /// The displacements that constraints allow, in the units of the orbit.
+    pub(super) fn basis(&self, state: &State) -> Result<DMatrix<f64>, DynamicsError> {
+        let (allowed, dimension) = self.space.allowed_displacements(state)?;
+        if !self.space.is_constrained() {
+            return Ok(allowed);
+        }
+        Ok(basis_of_range(&self.units.map(&allowed), dimension))
+    }
+
+    /// A state displaced by as much, on the constraints.
+    pub(super) fn displaced(
+        &self,
+        state: &State,
+        by: &DVector<f64>,
+    ) -> Result<State, DynamicsError> {
+        let mut there = state.clone();
+        for i in 0..self.space.dimension() {
+            there.set(i, state.exact(i) + DoubleDouble::from(by[i]));
+        }
+        let (system, parameters) = (self.space.system(), self.space.parameters());
+        let Some(mut projector) = system.projector(parameters) else { return Ok(there) };
+        let mut native = system.convert(&there, system.form(), parameters)?;
+        projector.project(&mut native)?;
+        Ok(self.space.state(&native)?)
+    }
+
+    /// The size of a state.
+    pub(super) fn size(&self, state: &State) -> f64 {
+        let variables = DVector::from_column_slice(self.space.variables(state));
+        self.units.scaled(&variables).amax()
+    }
+
+    /// What is missing: closure, and the energy in units of length.
+    pub(super) fn residual(&self, circuit: &Circuit) -> f64 {
+        let energy = match self.fixed {
+            Fixed::Energy(wanted) => {
+                let slope = self.units.gradient(&circuit.rates[0]).norm();
+                (wanted - circuit.energy) / slope.max(f64::MIN_POSITIVE)
+            }
+            _ => 0.0,
+        };
+        math::hypot(circuit.miss.norm(), energy)
+    }
+
+    /// The period at which the motion misses its start across itself only: a start that lies on a periodic orbit
+    /// is then left as it is.
+    pub(super) fn settled(&self, start: &State, period: f64) -> f64 {
+        let mut time = period;
+        if !self.space.is_autonomous() || matches!(self.fixed, Fixed::Period(_)) {
+            return time;
+        }
+        let Ok(mut circuit) = self.circuit(start, time) else { return time };
+        for _ in 0..SETTLINGS {
+            let rate = &circuit.rates[1];
+            let later = time - circuit.miss.dot(rate) / rate.norm_squared() * self.units.time();
+            if !(0.5 * period..2.0 * period).contains(&later) {
+                break;
+            }
+            match self.circuit(start, later) {
+                Ok(found) if found.miss.norm() < circuit.miss.norm() => {
+                    (time, circuit) = (later, found);
+                }
+                _ => break,
+            }
+        }
+        time
+    }
+
+    /// What a search begins with.
+    pub(super) fn reached(&self, state: State, period: f64) -> Result<Reached, DynamicsError> {
+        let circuit = self.circuit(&state, period)?;
+        let residual = self.residual(&circuit);
+        Ok(Reached { state, period, circuit, residual })
+    }
+
+    /// Newton's steps from there as long as they leave less missing; the period stays within five times `first`.
+    pub(super) fn approach(&self, mut here: Reached, first: f64) -> Result<Reached, DynamicsError> {
+        let mut stalled = 0;
+        for _ in 0..STEPS {
+            if here.is_exact() || stalled > 1 {
+                break;
+            }
+            // a direction that hardly matters must not be moved along as long as there is much to do, unless that is all
+            // that is left
+            let next = match self.advanced(&here, first, 1e-3 * here.residual)? {
+                None => self.advanced(&here, first, 0.0)?,
+                next => next,
+            };
+            let Some(next) = next else { break };
+            // parts of steps are slow far from the orbit; close to it slowness is rounding
+            let slow = if here.residual <= CLOSED * here.circuit.size { 0.5 } else { 0.95 };
+            stalled = if next.residual > slow * here.residual { stalled + 1 } else { 0 };
+            here = next;
+        }
+        Ok(here)
+    }
+
+    /// A step of the state and the period, in the units of the orbit and the coordinates of the allowed displacements, if the
+    /// period stays within five times `first` and the motion can be followed there.
+    pub(super) fn stepped(
+        &self,
+        from: &Reached,
+        step: &DVector<f64>,
+        first: f64,
+    ) -> Result<Option<Reached>, DynamicsError> {
+        let n = from.circuit.basis.ncols();
+        let change = self.units.unscaled(&(&from.circuit.basis * step.rows(0, n)));
+        let later = from.period + step[n] * self.units.time();
+        if !(0.2 * first..5.0 * first).contains(&later) {
+            return Ok(None);
+        }
+        let there = self.displaced(&from.state, &change);
+        match there.and_then(|there| self.reached(there, later)) {
+            Err(error) if error.is_cancelled() => Err(error),
+            found => Ok(found.ok()),
+        }
+    }
+
+    /// After a correction, or a part of it, that leaves less missing. Singular values up to `cut` count as zero.
+    fn advanced(
+        &self,
+        from: &Reached,
+        first: f64,
+        cut: f64,
+    ) -> Result<Option<Reached>, DynamicsError> {
+        let (matrix, right) = self.equations(&from.circuit);
+        let step = linear::least_squares(&matrix, &right, 1e-11 * matrix.amax() + cut);
+        let Some(step) = step else { return Ok(None) };
+        let mut part = 1.0;
+        for _ in 0..HALVINGS {
+            let found = self.stepped(from, &(&step * part), first)?;
+            if let Some(found) = found.filter(|found| found.residual < from.residual) {
+                return Ok(Some(found));
+            }
+            part *= 0.5;
+        }
+        Ok(None)
+    }
+
+    /// What is missing, equation by equation, and the derivatives by the displacements of the state that are allowed, and T.
+    pub(super) fn equations(&self, circuit: &Circuit) -> (DMatrix<f64>, DVector<f64>) {
+        let (n, basis) = (self.space.dimension(), &circuit.basis);
+        let allowed = basis.ncols();
+        let autonomous = self.space.is_autonomous();
+        let mut matrix = DMatrix::zeros(n + 2, allowed + 1);
+        let identity = DMatrix::identity(n, n);
+        matrix
+            .view_mut((0, 0), (n, allowed))
+            .copy_from(&((self.units.map(&circuit.monodromy) - identity) * basis));
+        let speed = circuit.rates[0].norm();
+        let mut row = |i: usize, of: DVector<f64>| {
+            matrix.view_mut((i, 0), (1, allowed)).copy_from(&(of.transpose() * basis));
+        };
+        if autonomous && speed > 0.0 {
+            // the state does not move along the orbit
+            row(n, &circuit.rates[0] / speed);
+        }
+        if let Fixed::Energy(_) = self.fixed {
+            row(n + 1, self.units.gradient(&circuit.rates[0]).normalize());
+        }
+        if !matches!(self.fixed, Fixed::Period(_)) {
+            matrix.view_mut((0, allowed), (n, 1)).copy_from(&circuit.rates[1]);
+        }
+        (matrix, -self.missed(circuit))
+    }
+
+    /// The distance by which the motion does not close, no motion along the orbit, and the energy in
+    /// excess in units of its gradient.
+    pub(super) fn missed(&self, circuit: &Circuit) -> DVector<f64> {
+        let n = self.space.dimension();
+        let mut missed = DVector::zeros(n + 2);
+        missed.rows_mut(0, n).copy_from(&circuit.miss);
+        if let Fixed::Energy(wanted) = self.fixed {
+            missed[n + 1] =
+                (circuit.energy - wanted) / self.units.gradient(&circuit.rates[0]).norm();
+        }
+        missed
+    }
+}
