@@ -38,11 +38,17 @@ pub(super) fn sign_changes(coefficients: &[f64], end: f64) -> impl Iterator<Item
         power *= end;
     }
     let mut waiting = Vec::new();
+    let mut straight = None;
     if n > 0 && others.is_finite() && bernstein[0].abs() <= others - bernstein[0].abs() {
-        to_bernstein(&mut bernstein[..n]);
-        waiting.push(PolynomialPiece { bernstein, from: 0.0, width: 1.0, depth: 0 });
+        match monotone(&bernstein[..n], others) {
+            Some(ends) => straight = bracket(ends, 0.0, 1.0),
+            None => {
+                to_bernstein(&mut bernstein[..n]);
+                waiting.push(PolynomialPiece { bernstein, from: 0.0, width: 1.0, depth: 0 });
+            }
+        }
     }
-    let brackets = Brackets { n, waiting, sign: 0.0 };
+    let brackets = straight.into_iter().chain(Brackets { n, waiting, sign: 0.0 });
     brackets.map(move |Bracket { from, to, rises }| {
         let sign = if rises { 1.0 } else { -1.0 };
         let x = if from == to {
@@ -52,6 +58,27 @@ pub(super) fn sign_changes(coefficients: &[f64], end: f64) -> impl Iterator<Item
         };
         SignChange { x, rises }
     })
+}
+
+/// A value at an end that is less than this part of the terms may be rounding.
+const SIGNLESS: f64 = 1e-12;
+
+/// The values at both ends of the unit interval of a polynomial whose slope surely keeps its sign there, so that all its
+/// Bernstein coefficients rise, or all fall; `None` otherwise, and where a value may be rounding.
+fn monotone(c: &[f64], size: f64) -> Option<(f64, f64)> {
+    let (first, slope) = (*c.first()?, *c.get(1)?);
+    let (mut end, mut others) = (first + slope, 0.0);
+    for (k, x) in c.iter().enumerate().skip(2) {
+        end += x;
+        others += k as f64 * x.abs();
+    }
+    let is_clear = |value: f64| value.abs() > SIGNLESS * size;
+    (others < slope.abs() && is_clear(first) && is_clear(end)).then_some((first, end))
+}
+
+/// The interval as a bracket, if the values at its ends have opposite signs.
+fn bracket((first, last): (f64, f64), from: f64, to: f64) -> Option<Bracket> {
+    (first * last < 0.0).then_some(Bracket { from, to, rises: last > 0.0 })
 }
 
 /// A part of the unit interval in which a polynomial changes its sign once.
@@ -91,8 +118,8 @@ impl Iterator for Brackets {
             if last != 0.0 {
                 self.sign = last;
             }
-            if first * last < 0.0 {
-                return Some(Bracket { from, to, rises: last > 0.0 });
+            if let Some(found) = bracket((first, last), from, to) {
+                return Some(found);
             }
         }
         None

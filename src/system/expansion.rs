@@ -39,6 +39,8 @@ pub(super) struct Expansion {
     numbers: Option<Vec<usize>>,
     /// A series of the motion shifted to another time.
     moved: Vec<f64>,
+    /// Such series of the numbers that the functions are.
+    shifted: Vec<f64>,
 }
 
 impl Expansion {
@@ -58,6 +60,7 @@ impl Expansion {
             jet: Jet::new(program, order),
             functions,
             moved: vec![0.0; order + 1],
+            shifted: Vec::new(),
         }
     }
 
@@ -72,6 +75,9 @@ impl Expansion {
     /// Expands the functions about a time `x` after the origin of the motion's series, in its unit.
     /// Returns false if a coefficient is not finite.
     pub(super) fn about(&mut self, series: &dyn StepSeries, x: f64) -> bool {
+        if self.numbers.is_some() {
+            return self.numbers_about(series, x);
+        }
         self.take_in(series, x);
         let time = (series.time() + DoubleDouble::from(x) * series.scale()).high;
         if !self.grow(time, series.scale()) {
@@ -84,6 +90,17 @@ impl Expansion {
             self.jet.set_side(i, side);
         }
         !turned || self.grow(time, series.scale())
+    }
+
+    /// The same where the functions are numbers of the motion.
+    fn numbers_about(&mut self, series: &dyn StepSeries, x: f64) -> bool {
+        self.shifted.clear();
+        for &number in self.numbers.iter().flatten() {
+            shift(series.coefficients(number), x, &mut self.moved);
+            let unit = series.unit(number);
+            self.shifted.extend(self.moved.iter().map(|c| c * unit));
+        }
+        self.shifted.iter().all(|c| c.is_finite())
     }
 
     /// Sets the coefficients of what the functions depend on.
@@ -103,20 +120,12 @@ impl Expansion {
         }
     }
 
-    /// Expands Σ cₖ (x + y)ᵏ in powers of y, by repeated division, where the cₖ are in a unit.
+    /// Sets those of one number, which are in a unit.
     fn take_in_one(&mut self, place: usize, (coefficients, unit): (&[f64], f64), x: f64) {
         if !self.read[place] {
             return;
         }
-        let order = self.order();
-        self.moved.copy_from_slice(&coefficients[..=order]);
-        if x != 0.0 {
-            for first in 0..order {
-                for k in (first..order).rev() {
-                    self.moved[k] += self.moved[k + 1] * x;
-                }
-            }
-        }
+        shift(coefficients, x, &mut self.moved);
         for (k, &c) in self.moved.iter().enumerate() {
             self.jet.set_input(place, k, c * unit);
         }
@@ -150,6 +159,9 @@ impl Expansion {
 
     /// The coefficients of an event's function.
     pub(super) fn function(&self, event: usize) -> &[f64] {
+        if self.numbers.is_some() {
+            return &self.shifted[event * self.moved.len()..][..self.moved.len()];
+        }
         self.jet.output_series(event)
     }
 
@@ -169,18 +181,31 @@ impl Expansion {
         // mostly they do so all the way, which takes no root to see
         let (functions, arguments) = (0..self.functions, self.functions..self.outputs);
         let series = |i: usize| self.jet.output_series(i);
-        if functions.clone().all(|i| is_valid(series(i), cut_off, whole))
+        if functions.clone().all(|i| is_valid(self.function(i), cut_off, whole))
             && arguments.clone().all(|i| stays(series(i), whole))
             && self.switches().all(|c| is_valid(c, cut_off, whole))
         {
             return whole;
         }
-        let functions = functions.map(|i| validity(series(i), cut_off));
+        let functions = functions.map(|i| validity(self.function(i), cut_off));
         let arguments = arguments.map(|i| moving(series(i)));
         let switches = self.switches().map(|c| validity(c, cut_off));
         // a NaN must not be lost
         let least = |reach: f64, own: f64| if own < reach || own.is_nan() { own } else { reach };
         functions.chain(arguments).chain(switches).fold(whole, least)
+    }
+}
+
+/// Writes the coefficients of Σ cₖ (x + y)ᵏ in powers of y, by repeated division.
+fn shift(coefficients: &[f64], x: f64, out: &mut [f64]) {
+    let order = out.len() - 1;
+    out.copy_from_slice(&coefficients[..=order]);
+    if x != 0.0 {
+        for first in 0..order {
+            for k in (first..order).rev() {
+                out[k] += out[k + 1] * x;
+            }
+        }
     }
 }
 
