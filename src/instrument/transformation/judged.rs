@@ -82,7 +82,7 @@ fn step_lines(found: &MethodStep, method: &str, within: f64) -> Vec<String> {
     ];
     let [map, step] = &found.first;
     if map.len() <= ENTRIES {
-        lines.push(format!("map:  M = ({})", written(map)));
+        lines.push(format!("map: M = ({})", written(map)));
         lines.push(format!("step: M = ({})", written(step)));
     }
     lines
