@@ -358,9 +358,10 @@ fn sentences(answer: Option<&Answer>, (begin, coordinate): (f64, Option<&str>)) 
     };
     let short = |x: f64| significant(x, 5, 1e-3..1e5).replace('-', "−");
     let at = |focus: &f64| format!("t = {}", short(begin + focus));
-    let not_least = match computed.principle {
-        Principle::Maupertuis => "not least at equal H",
-        Principle::Hamilton | Principle::PhaseSpace => "not least",
+    // as many negative directions as foci that were passed (M. Morse)
+    let not_least = |foci: usize| match computed.principle {
+        Principle::Maupertuis => "not least at equal H".to_owned(),
+        Principle::Hamilton | Principle::PhaseSpace => format!("not least: Morse index {foci}"),
     };
     let rest = match found.foci.as_deref() {
         Some(_) if computed.principle == Principle::PhaseSpace => {
@@ -379,11 +380,11 @@ fn sentences(answer: Option<&Answer>, (begin, coordinate): (f64, Option<&str>)) 
         None => vec!["not stationary: forces act that have no potential".to_owned()],
         Some([]) => vec!["least of all paths nearby".to_owned()],
         Some([focus]) => {
-            vec![not_least.to_owned(), format!("kinetic focus at {}", at(focus))]
+            vec![not_least(1), format!("kinetic focus at {}", at(focus))]
         }
         Some(foci @ [first, ..]) => {
             let count = foci.len();
-            vec![not_least.to_owned(), format!("{count} kinetic foci from {}", at(first))]
+            vec![not_least(count), format!("{count} kinetic foci from {}", at(first))]
         }
     };
     let (letter, value) = (computed.principle.letter(), short(found.varied.action));

@@ -73,18 +73,17 @@ fn step_lines(found: &MethodStep, method: &str, within: f64) -> Vec<String> {
         let rows = rows.map(|row| row.iter().map(|&x| short(x)).collect::<Vec<_>>().join(" "));
         rows.collect::<Vec<_>>().join(" | ")
     };
-    let is = found.image <= within && found.derivative <= within;
-    let is = if is { "is the map" } else { "is not the map" };
     let off = |x: f64| if x == 0.0 { "0".to_owned() } else { significant(x, 2, 1e-3..1e3) };
+    let is = if found.image <= within && found.derivative <= within { "is" } else { "is not" };
     let (image, derivative) = (off(found.image), off(found.derivative));
     let mut lines = vec![
-        format!("one step of {method} {is}:"),
+        format!("{is} one step of {method}"),
         format!("images to {image}, M to {derivative}, {} points", found.points),
     ];
     let [map, step] = &found.first;
     if map.len() <= ENTRIES {
-        lines.push(format!("M = ({}) of the map", written(map)));
-        lines.push(format!("M = ({}) of the step", written(step)));
+        lines.push(format!("map: M = ({})", written(map)));
+        lines.push(format!("step: M = ({})", written(step)));
     }
     lines
 }
