@@ -42,6 +42,7 @@ mod picture;
 mod plain;
 pub mod plot;
 mod prediction;
+mod primes;
 mod prompt;
 mod quantity;
 mod region;

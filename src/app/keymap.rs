@@ -278,7 +278,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('2')], Action::Show(Page::Equations), "", "page 2: what follows from L or H"),
     row(Place::Experiment, &[c('3')], Action::Show(Page::Notes), "", "page 3: notes, source and expectations"),
     row(Place::Experiment, &[c('4')], Action::Show(Page::Numbers), "", "page 4: energy, momenta and every other quantity as numbers"),
-    row(Place::Experiment, &[c('<')], Action::FewerFrames, "", "lower frame rate, for a slow line"),
+    row(Place::Experiment, &[c('<')], Action::FewerFrames, "", "lower frame rate, for a slow connection"),
     row(Place::Experiment, &[c('>')], Action::MoreFrames, "", "higher frame rate"),
     row(Place::Experiment, &[c('M')], Action::Mouse, "", "use the mouse here, or leave it to the terminal to select text"),
 

@@ -54,6 +54,8 @@ impl App {
                 menu.selected = line;
                 return self.perform(Action::Accept);
             }
+            // Nothing has been typed in this field yet.
+            (Some(Overlay::Field(field)), _) if field.whole => self.overlay = None,
             // A click beside a list closes it; an accidental click does not discard text being typed.
             (Some(Overlay::Menu(_)), HitTarget::Menu)
             | (Some(Overlay::Field(_) | Overlay::Prompt(_)), _) => {}

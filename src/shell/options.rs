@@ -48,7 +48,7 @@ pub struct Options {
     /// a whole number from 1 to 240, or auto (30, and 15 over ssh)
     #[arg(long, value_name = "N", default_value = "auto", allow_hyphen_values = true)]
     pub fps: Auto<FrameRate>,
-    /// The most that is sent in a second; where it is too little less is drawn.
+    /// The most that is sent in a second; where that is too little, less is drawn.
     ///
     /// bytes a second such as 16k or 1M, off, or auto (off, and 64k over ssh)
     #[arg(long, value_name = "WORD", default_value = "auto", allow_hyphen_values = true)]

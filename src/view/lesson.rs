@@ -9,6 +9,7 @@ use unicode_width::UnicodeWidthStr;
 use super::RenderStyle;
 use super::canvas::{Canvas, columns, row};
 use super::number::{with_minus_signs, with_powers};
+use super::primes::with_primes;
 use super::theme::Role;
 use super::wrap::words;
 
@@ -106,7 +107,7 @@ pub fn draw(look: &RenderStyle, speech: &Speech, area: Rect, buffer: &mut Buffer
             ParagraphKind::Selected => text.clone(),
             _ => with_powers(&with_minus_signs(text, look.glyphs), look.glyphs),
         };
-        let text = canvas.text(&text);
+        let text = canvas.text(&with_primes(&text));
         for (index, line) in words(&text, room(area.width)).iter().enumerate() {
             let row = row(inner, used);
             if index == 0 {

@@ -8,6 +8,7 @@ use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns, row};
 use super::emphasis::{Styles, marked, spans};
+use super::primes::with_primes;
 use super::theme::Role;
 use super::wrap::{formula_beside, words};
 use crate::app::Drawn;
@@ -202,7 +203,7 @@ impl TextPage {
                     }));
                 }
                 TextBlock::Notes(role, text) => {
-                    let text = marked(&canvas.text(text));
+                    let text = marked(&canvas.text(&with_primes(text)));
                     let [plain, emphasis, typed] =
                         [*role, Role::Text, Role::Accent].map(|role| canvas.style(role));
                     let emphasis = match role {

@@ -9,9 +9,13 @@ use phaselab::diagnostic::Document;
 use phaselab::experiment::{Experiment, Prepared};
 use phaselab::instrument::{Layer, Picture};
 use phaselab::job::Progress;
+use phaselab::view::RenderStyle;
+use phaselab::view::colour::ColourDepth;
+use phaselab::view::glyphs::Glyphs;
+use phaselab::view::theme::Theme;
 
 use crate::hand::{catalog, press};
-use crate::screen::{rich, rows};
+use crate::screen::{rich, rows, screen};
 
 /// Hénon's and Heiles's system at E = 1/8, a little beside the orbit B.
 const HENON_HEILES: &str = r#"
@@ -234,4 +238,21 @@ fn a_motion_that_never_returns_is_told_what_was_looked_for() {
     {
         assert!(said.contains(words), "{said}");
     }
+}
+
+/// The trail of a periodic motion lies on its orbit: without colour the orbit is dashed, so that both are seen.
+#[test]
+fn without_colour_the_orbit_is_told_from_the_trail() {
+    let (mut app, _) = opened(&one("1/2*q'^2 - 1/2*q^2", ""), 0.3);
+    press(&mut app, "z");
+    let dots = |depth| {
+        let look = RenderStyle { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
+        let text = rows(&screen(&app, &look, (120, 40))).concat();
+        let braille = text.chars().map(u32::from).filter(|c| (0x2800..0x2900).contains(c));
+        braille.map(|c| (c - 0x2800).count_ones()).sum::<u32>()
+    };
+    let (coloured, plain) = (dots(ColourDepth::True), dots(ColourDepth::None));
+    assert!(coloured > 200, "the orbit is drawn: {coloured} dots");
+    let share = f64::from(plain) / f64::from(coloured);
+    assert!((0.4..0.75).contains(&share), "{plain} of {coloured} dots");
 }

@@ -6,12 +6,14 @@ use super::body::Outline;
 use super::solid::{self, Occluder};
 use super::{BODY, SURFACE, ScenePainter, circle};
 use crate::model::Shape;
+use crate::view::colour::ColourDepth;
 use crate::view::plot::Pen;
 use crate::view::theme::Role;
 
 /// The share of a surface's dots that are drawn in the shade, and in full light: of spheres, on which curves are drawn,
-/// of other solids, and of masses.
+/// of other solids, and of masses. Without colour a curve is told from the dots of its sphere by their number alone.
 const SPHERE: [f64; 2] = [0.06, 0.55];
+const COLOURLESS_SPHERE: [f64; 2] = [0.02, 0.12];
 const OPAQUE: [f64; 2] = [0.2, 0.9];
 const WHOLE: [f64; 2] = [1.0, 1.0];
 
@@ -38,10 +40,12 @@ impl ScenePainter<'_> {
                 let [low, high] = solid::rims([from, to], self.q.number(*radius));
                 (faint, solid::tube(&low, &high, true))
             }
-            Shape::Sphere { centre, radius } => (
-                (faint.0, SPHERE),
-                vec![Occluder::Ball(self.point(centre), self.q.number(*radius).abs())],
-            ),
+            Shape::Sphere { centre, radius } => {
+                let colourless = theme.depth() == ColourDepth::None;
+                let shares = if colourless { COLOURLESS_SPHERE } else { SPHERE };
+                let ball = Occluder::Ball(self.point(centre), self.q.number(*radius).abs());
+                ((faint.0, shares), vec![ball])
+            }
             Shape::Mass { at, radius: Some(radius) } => {
                 let radius = self.q.number(*radius).abs();
                 if self.cells(radius).is_none() {

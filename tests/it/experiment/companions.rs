@@ -187,7 +187,7 @@ fn more_than_the_most_and_neighbours_under_constraints_are_refused_in_words() {
 #[test]
 fn methods_are_compared_side_by_side_from_one_start() {
     const STEP: f64 = 0.5;
-    const END: f64 = 1000.0;
+    const END: f64 = 100.0;
     let mut both = shipped("harmonic-oscillator");
     let loaded = loaded("harmonic-oscillator", 1);
     let channel = loaded.system.channels().iter().position(|c| c.name == "energy").unwrap();
@@ -211,7 +211,13 @@ fn methods_are_compared_side_by_side_from_one_start() {
     let (m, k) = (seen.parameters[0], seen.parameters[1]);
     let square = STEP * STEP * k / m;
     let factor = 1.0 - square.powi(3) / 72.0 + square.powi(4) / 576.0;
-    for [time, found] in lossy.iter().filter(|[time, _]| (time / STEP).fract() == 0.0) {
+    let at_steps: Vec<[f64; 2]> = lossy
+        .iter()
+        .copied()
+        .filter(|[time, _]| (time / STEP - (time / STEP).round()).abs() < 1e-9)
+        .collect();
+    assert!(at_steps.len() > 100, "{} rows at the ends of steps", at_steps.len());
+    for [time, found] in at_steps {
         let expected = lossy[0][1] * factor.powf(time / STEP);
         assert!((found / expected - 1.0).abs() < 1e-9, "{found} and not {expected} at {time}");
     }
@@ -222,5 +228,5 @@ fn methods_are_compared_side_by_side_from_one_start() {
     let (first, last) = (swing(&level[..tenth]), swing(&level[9 * tenth..]));
     assert!(first > 1e-3 && (last / first - 1.0).abs() < 0.05, "{first} and {last}");
     let lost = 1.0 - lossy.last().unwrap()[1] / lossy[0][1];
-    assert!(lost > 0.05, "{lost}");
+    assert!(lost > 0.005, "{lost}");
 }

@@ -344,6 +344,17 @@ fn a_value_is_selected_by_one_click_and_typed_by_two() {
     assert!(real.app.overlay.is_none());
     click(&mut real, size, place);
     assert!(matches!(&real.app.overlay, Some(Overlay::Field(_))));
+    // A click elsewhere does what it does there, as long as nothing has been typed, and discards no text.
+    let plot = places(&real.app, size, |target| matches!(target, HitTarget::Plot { .. }))[0];
+    click(&mut real, size, plot);
+    assert!(real.app.overlay.is_none());
+    assert!(matches!(real.lab().focus, Pane::Plot(_)), "{:?}", real.lab().focus);
+    click(&mut real, size, place);
+    click(&mut real, size, place);
+    real.press("7");
+    click(&mut real, size, plot);
+    let Some(Overlay::Field(field)) = &real.app.overlay else { panic!("the text is discarded") };
+    assert_eq!(field.input.value(), "7");
 }
 
 #[test]

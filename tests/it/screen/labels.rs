@@ -6,7 +6,9 @@ use phaselab::app::{Event, Notification};
 use phaselab::experiment::{Gauge, Growth, Verdict};
 use phaselab::model::{Model, Shape};
 use phaselab::view::RenderStyle;
+use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
+use phaselab::view::theme::Theme;
 use ratatui::buffer::Buffer;
 use ratatui::style::Color;
 
@@ -198,4 +200,21 @@ fn a_notification_takes_nothing_from_the_frame_below_it() {
     let long = text.chars().count() as u16;
     assert!((x..x + long).all(|at| modifiers(at) == modifiers(x)), "{:?}", rows(&buffer));
     assert_eq!(modifiers(x), rich().theme[phaselab::view::theme::Role::Good].add_modifier);
+}
+
+/// The sphere is shaded by dots, of the same colour as the curve on it where there is none: few, so that it is seen.
+#[test]
+fn without_colour_a_sphere_leaves_the_curve_on_it_in_sight() {
+    let dots = |depth| {
+        let look = RenderStyle { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
+        // At the start there is hardly a curve yet, and all dots are those of the sphere.
+        let buffer = screen(&lab("neumann", 1e-3), &look, (120, 40));
+        let dots = |x: u16, y: u16| {
+            let symbol = buffer[(x, y)].symbol().chars().next().map_or(0, u32::from);
+            if (0x2800..0x2900).contains(&symbol) { (symbol - 0x2800).count_ones() } else { 0 }
+        };
+        (2..22).flat_map(|y| (2..38).map(move |x| (x, y))).map(|(x, y)| dots(x, y)).sum::<u32>()
+    };
+    let (coloured, plain) = (dots(ColourDepth::True), dots(ColourDepth::None));
+    assert!(plain > 100 && 2 * plain < coloured, "{plain} of {coloured} dots");
 }
