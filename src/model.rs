@@ -29,7 +29,7 @@ pub use coordinate::Coordinate;
 pub use description::{CommonSymbols, Info, Mechanics, Model, RunSettings};
 pub use occurrence::{Direction, Event, EventAction, Impulse};
 pub use parameter::{Parameter, RangeSpacing};
-pub use picture::{Channel, Follow, Point, Shape, Variation, View, Viewpoint};
+pub use picture::{Follow, Point, Shape, Variation, View, Viewpoint, WrittenExpr};
 pub use ramp::{Ramp, RampRefused, replace_by_ramps};
 pub use ramped::{RampForm, RampPart, Ramped};
 pub use scope::{Allowed, Scope};

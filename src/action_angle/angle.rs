@@ -35,7 +35,7 @@ pub fn angle(
         return Err(never());
     }
     let period = potential.period();
-    let mut along = Along { potential, energy: row.energy };
+    let mut along = TravelTime { potential, energy: row.energy };
     match (row.kind, &row.turning_points[..], period) {
         (RegionKind::Libration, &[left, right], period) => {
             let (middle, half) = (f64::midpoint(left, right), 0.5 * (right - left));
@@ -71,12 +71,12 @@ pub fn angle(
 }
 
 /// A coordinate at an energy.
-struct Along<'a, 'b> {
+struct TravelTime<'a, 'b> {
     potential: &'a mut EffectivePotential<'b>,
     energy: f64,
 }
 
-impl Along<'_, '_> {
+impl TravelTime<'_, '_> {
     /// ∫ dq/|q̇| from 0 to `to` of a variable that gives the place and its derivative.
     fn time(
         &mut self,

@@ -18,7 +18,7 @@ use crate::expr::{Expr, FunctionId, Pool, Symbol};
 use crate::integrate::{METHODS, Method, Settings};
 use crate::mechanics::{NoClosedForm, derive_for_motion};
 use crate::model::{
-    Channel, Direction, Event, EventAction, Expect, Impulse, Model, Parameter, RangeSpacing,
+    Direction, Event, EventAction, Expect, Impulse, Model, Parameter, RangeSpacing, WrittenExpr,
 };
 use crate::num::Number;
 use crate::system::{ChannelKind, CompileError, InitialOverride, MotionError, System};
@@ -127,7 +127,7 @@ impl HeldSystem {
         model.pool.set_cancel(cancel.clone());
         let depends_on_time = hold_time(&mut model);
         let action = model.pool.variable(model.symbols.action);
-        let columns = [Channel { written: "action".to_owned(), expression: action }];
+        let columns = [WrittenExpr { written: "action".to_owned(), expression: action }];
         let compile = |model: &Model| -> Result<System, NotHeld> {
             let equations = derive_for_motion(model)?;
             if equations.energy_rate != Expr::ZERO {

@@ -37,8 +37,8 @@ impl App {
         })]
     }
 
-    /// Groups all changes from now until [`App::drop_hold`] into one.
-    pub fn hold_on(&mut self) {
+    /// Groups all changes from now until [`App::end_group`] into one.
+    pub fn begin_group(&mut self) {
         if let Some(lab) = &mut self.lab {
             lab.history.begin_group();
         }

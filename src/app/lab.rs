@@ -143,10 +143,10 @@ impl Lab {
             return false;
         }
         let stopped = matches!(snapshot.status, Status::Failed(_));
-        if self.awaited.is_some() && !(snapshot.taken_up || stopped) {
+        if self.awaited.is_some() && !(snapshot.restored || stopped) {
             return false;
         }
-        if snapshot.taken_up {
+        if snapshot.restored {
             self.awaited = None;
         }
         self.speed_wish = self.speed_wish.filter(|requested| *requested != snapshot.speed);

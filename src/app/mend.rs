@@ -64,7 +64,7 @@ impl App {
         if self.page != Page::Picker {
             self.go(Page::Picker);
         }
-        self.drop_hold();
+        self.end_group();
         self.asked = None;
         self.workbench.clear();
         self.workbench.lay_text(text);

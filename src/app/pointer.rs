@@ -39,7 +39,7 @@ impl App {
     }
 
     /// Ends a drag, even if the terminal did not report the release of the button.
-    pub fn drop_hold(&mut self) {
+    pub fn end_group(&mut self) {
         self.hold = None;
         if let Some(lab) = &mut self.lab {
             lab.history.end_group();
@@ -47,7 +47,7 @@ impl App {
     }
 
     fn touch(&mut self, hit: HitTarget) -> Vec<Effect> {
-        self.drop_hold();
+        self.end_group();
         match (&mut self.overlay, hit) {
             (_, HitTarget::Hint(action)) => return self.perform(action),
             (Some(Overlay::Menu(menu)), HitTarget::Line(line)) => {

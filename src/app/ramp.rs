@@ -11,15 +11,15 @@ use crate::model::{Model, RampForm};
 use crate::preset::NewRamp;
 
 /// What is typed: where the parameter goes, in which time, and how.
-struct RampWish {
+struct RampRequest {
     to: f64,
     duration: f64,
     form: &'static str,
 }
 
-impl RampWish {
+impl RampRequest {
     /// Reads `VALUE in TIME [FORM]`, or `VALUE:TIME[:FORM]` as on the command line.
-    fn read(model: &Model, parameters: &[f64], typed: &str) -> Result<RampWish, String> {
+    fn read(model: &Model, parameters: &[f64], typed: &str) -> Result<RampRequest, String> {
         let forms = RampForm::NAMED.map(|(name, _)| name);
         let text = typed.trim();
         let named = forms.iter().find_map(|&form| {
@@ -36,7 +36,7 @@ impl RampWish {
         if duration <= 0.0 {
             return Err("The time of a ramp must be more than zero.".to_owned());
         }
-        Ok(RampWish { to, duration, form })
+        Ok(RampRequest { to, duration, form })
     }
 }
 
@@ -58,18 +58,18 @@ impl App {
         let Some(lab) = &self.lab else { return Vec::new() };
         let Some(snapshot) = lab.seen() else { return Vec::new() };
         let model = &lab.loaded.model;
-        let read = RampWish::read(model, &snapshot.parameters, field.input.value());
+        let read = RampRequest::read(model, &snapshot.parameters, field.input.value());
         let Some(parameter) = model.parameters.get(index) else { return Vec::new() };
         let (name, start) = (parameter.name.clone(), snapshot.time);
-        let wish = match read {
-            Ok(wish) => wish,
+        let request = match read {
+            Ok(request) => request,
             Err(sentence) => {
                 field.mistake = Some(sentence);
                 self.overlay = Some(Overlay::Field(field));
                 return Vec::new();
             }
         };
-        let RampWish { to, duration, form } = wish;
+        let RampRequest { to, duration, form } = request;
         let ramp = NewRamp { parameter: name.clone(), to, start, duration, form };
         let Some(buffer) = self.ready_buffer() else { return Vec::new() };
         match ramp.added_to(&buffer.editor.text()) {

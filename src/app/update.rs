@@ -102,7 +102,7 @@ impl App {
     }
 
     fn press(&mut self, key: KeyEvent) -> Vec<Effect> {
-        self.drop_hold();
+        self.end_group();
         self.mending = None;
         if let Some(lab) = self.lab.as_mut().filter(|_| self.page != Page::Picker) {
             lab.untouched = false;
@@ -203,7 +203,7 @@ impl App {
 
     pub(super) fn loaded(&mut self, loaded: Loaded) -> Vec<Effect> {
         let answered = self.answered(&loaded.name);
-        self.drop_hold();
+        self.end_group();
         let stale = self.workbench.put_off().then_some(Effect::StopCheck);
         self.workbench.clear();
         self.overlay.take_if(|overlay| matches!(overlay, Overlay::Workbench));

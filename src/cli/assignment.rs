@@ -7,7 +7,7 @@ use crate::diagnostic::{Diagnostic, report};
 use crate::expr::{Expr, Pool};
 use crate::integrate::ACCURACIES;
 use crate::mechanics::{Valuation, body_constants};
-use crate::model::{Allowed, Channel, Model, Scope};
+use crate::model::{Allowed, Model, Scope, WrittenExpr};
 use crate::num::Number;
 use crate::system::InitialOverride;
 
@@ -238,7 +238,7 @@ pub(super) fn column(
     pool: &mut Pool,
     text: &str,
     called: &str,
-) -> Result<Channel, CommandError> {
+) -> Result<WrittenExpr, CommandError> {
     let (name, written) = match text.split_once('=') {
         Some((name, expression)) => (name.trim(), expression.trim()),
         None => (text.trim(), text.trim()),
@@ -248,7 +248,7 @@ pub(super) fn column(
         return Err(CommandError::WrongUse(format!("{called} {text}: a name comes before the =")));
     }
     let expression = expression(model, pool, written, called)?;
-    Ok(Channel { written: name.to_owned(), expression })
+    Ok(WrittenExpr { written: name.to_owned(), expression })
 }
 
 /// Parses an expression that may use whatever an observable may. `called` is its name in messages;

@@ -16,7 +16,7 @@ use crate::expr::{Expr, Symbol, Zero};
 use crate::mechanics::{
     self, ChainRule, ChartBracket, Equations, NoClosedForm, Recognised, Valuation,
 };
-use crate::model::{Channel, Model};
+use crate::model::{Model, WrittenExpr};
 use crate::system::{ChannelKind, InitialOverride, System};
 
 /// Compute the Poisson bracket of two expressions.
@@ -99,7 +99,7 @@ struct BracketPoint {
 impl BracketPoint {
     /// The value of a function on phase space.
     fn value(&self, derived: &Derived, e: Expr) -> Result<f64, String> {
-        let channel = Channel { written: "bracket".to_owned(), expression: e };
+        let channel = WrittenExpr { written: "bracket".to_owned(), expression: e };
         let system = derived.compile(&[channel]).map_err(|e| e.to_string())?;
         let values = self.values(&derived.model, &system)?;
         let extra = system.channels().iter().position(|c| c.kind == ChannelKind::Extra(0));

@@ -1,13 +1,13 @@
 //! `phaselab section`: where orbits cross a surface of section.
 
 mod report;
-mod turning;
+mod rotation_columns;
 
 use std::ops::Range;
 use std::path::PathBuf;
 
 use self::report::{SectionReport, ShownColumn};
-use self::turning::Turning;
+use self::rotation_columns::RotationColumns;
 use super::assignment::{self, number};
 use super::cells::TableFormat;
 use super::crowd::{self, Crowd};
@@ -126,8 +126,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let on = surface(&mut reading.model, &arguments.on, "--on")?;
     let event = add_section(&mut reading.model, on, arguments.direction.direction());
     let wanted = arguments.columns.as_deref().map(split);
-    let turning = arguments.rotation.as_deref().map(split);
-    let named: Vec<String> = wanted.iter().chain(&turning).flatten().cloned().collect();
+    let rotation_names = arguments.rotation.as_deref().map(split);
+    let named: Vec<String> = wanted.iter().chain(&rotation_names).flatten().cloned().collect();
     let extra = unknown_columns(&reading.model, &named);
     let laid = arguments.motion.compile(reading, &extra, "--columns", interrupt)?;
     let starts = match &arguments.orbits {
@@ -145,7 +145,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let plan =
         SectionPlan { event, count, until: arguments.until, idle: IDLE, all_channels: false };
     let shown = shown_columns(&laid, wanted.as_deref())?;
-    let turning = turning.map(|names| Turning::of(&laid, &names)).transpose()?;
+    let rotation_columns =
+        rotation_names.map(|names| RotationColumns::of(&laid, &names)).transpose()?;
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
 
     let completed = |start: &Start| {
@@ -168,8 +169,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         format: arguments.format,
         orbits: &orbits,
         shown: &shown,
-        rotations: turning.map_or_else(Vec::new, |turning| {
-            orbits.iter().map(|orbit| turning.rotation(&orbit.rows)).collect()
+        rotations: rotation_columns.map_or_else(Vec::new, |columns| {
+            orbits.iter().map(|orbit| columns.rotation(&orbit.rows)).collect()
         }),
     };
     interrupt.is_prepared();

@@ -56,8 +56,8 @@ pub fn varied_action(
     duration: f64,
 ) -> Result<VariedAction, DynamicsError> {
     let mut value = |time: f64, state: &[f64]| lagrangian.value(time, state);
-    let followed = Followed::of(motion, duration, 0, &mut value)?;
-    let variation = |k| Variation { coordinate, k };
+    let followed = SampledMotion::of(motion, duration, 0, &mut value)?;
+    let variation = |k| SineVariation { coordinate, k };
     let curve = |k| followed.curve(variation(k), &mut value);
     Ok(VariedAction { action: followed.integral, curves: (1..=VARIATIONS).map(curve).collect() })
 }
@@ -78,7 +78,7 @@ pub fn varied_abbreviated_action(
         let momenta = lagrangian.momenta(time, state);
         product(&momenta, state)
     };
-    let followed = Followed::of(motion, duration, WITH_CORNERS, &mut own)?;
+    let followed = SampledMotion::of(motion, duration, WITH_CORNERS, &mut own)?;
     let Some(((time, _), state)) = followed.nodes.first().zip(followed.path.first()) else {
         return Err(unsuited("the motion cannot be followed so far"));
     };
@@ -92,7 +92,7 @@ pub fn varied_abbreviated_action(
                 f64::NAN
             }
         };
-    let curve = |k| followed.curve(Variation { coordinate, k }, &mut value);
+    let curve = |k| followed.curve(SineVariation { coordinate, k }, &mut value);
     let curves = (1..=VARIATIONS).map(curve).collect();
     if law {
         Ok(VariedAction { action: followed.integral, curves })
@@ -121,14 +121,15 @@ pub fn varied_phase_action(
         let momenta = lagrangian.momenta(time, state);
         at(time, state, &momenta)
     };
-    let followed = Followed::of(motion, duration, 0, &mut own)?;
+    let followed = SampledMotion::of(motion, duration, 0, &mut own)?;
     let nodes = followed.nodes.iter().zip(&followed.path);
     let momenta: Vec<Vec<f64>> =
         nodes.map(|(&(time, _), state)| lagrangian.momenta(time, state)).collect();
     let scale = half_range(&momenta, coordinate) / half_range(&followed.path, coordinate);
-    let variation = Variation { coordinate, k: 1 };
+    let variation = SineVariation { coordinate, k: 1 };
     let mut curves = Vec::new();
-    for (with_q, with_p) in [(true, Beside::Kept), (false, Beside::Varied), (true, Beside::OfPath)]
+    for (with_q, with_p) in
+        [(true, MomentumRule::Kept), (false, MomentumRule::Varied), (true, MomentumRule::OfPath)]
     {
         let mut rise = |epsilon: f64| {
             let terms = followed.nodes.iter().zip(followed.path.iter().zip(&momenta));
@@ -137,11 +138,11 @@ pub fn varied_phase_action(
                 let varied = variation.of(state, (time, duration), size);
                 let mut p = own.clone();
                 match with_p {
-                    Beside::Kept => {}
-                    Beside::Varied => {
+                    MomentumRule::Kept => {}
+                    MomentumRule::Varied => {
                         p[coordinate] += epsilon * scale * math::cos(PI * time / duration);
                     }
-                    Beside::OfPath => p = lagrangian.momenta(time, &varied),
+                    MomentumRule::OfPath => p = lagrangian.momenta(time, &varied),
                 }
                 weight * (at(time, &varied, &p) - at(time, state, own))
             });
@@ -154,7 +155,7 @@ pub fn varied_phase_action(
 
 /// What becomes of the momenta.
 #[derive(Clone, Copy)]
-enum Beside {
+enum MomentumRule {
     /// They are those of the motion.
     Kept,
     /// They are varied by themselves.
@@ -183,12 +184,12 @@ fn half_range(path: &[Vec<f64>], index: usize) -> f64 {
 
 /// ε sin(kπs)/k, added to a coordinate.
 #[derive(Clone, Copy)]
-struct Variation {
+struct SineVariation {
     coordinate: usize,
     k: usize,
 }
 
-impl Variation {
+impl SineVariation {
     /// q and q̇ of the varied path.
     fn of(self, state: &[f64], (time, duration): (f64, f64), epsilon: f64) -> Vec<f64> {
         let mut varied = state.to_vec();
@@ -201,7 +202,7 @@ impl Variation {
 }
 
 /// A motion at the nodes of a rule by which the integral of its action settles.
-struct Followed {
+struct SampledMotion {
     duration: f64,
     /// Times and weights.
     nodes: Vec<(f64, f64)>,
@@ -210,13 +211,13 @@ struct Followed {
     integral: f64,
 }
 
-impl Followed {
+impl SampledMotion {
     fn of(
         motion: Motion<'_>,
         duration: f64,
         fewest: usize,
         integrand: &mut dyn FnMut(f64, &[f64]) -> f64,
-    ) -> Result<Followed, DynamicsError> {
+    ) -> Result<SampledMotion, DynamicsError> {
         let (mut before, mut size_before) = (f64::NAN, f64::NAN);
         for parts in PARTS.into_iter().filter(|&parts| parts >= fewest) {
             let nodes = nodes(parts, duration);
@@ -233,7 +234,7 @@ impl Followed {
             let size: f64 = terms.iter().map(|term| term.abs()).sum();
             let bounded = (size - size_before).abs() <= SIZE_SETTLED * size;
             if bounded && (integral - before).abs() <= SETTLED * size {
-                return Ok(Followed { duration, nodes, path, integral });
+                return Ok(SampledMotion { duration, nodes, path, integral });
             }
             (before, size_before) = (integral, size);
         }
@@ -243,7 +244,7 @@ impl Followed {
     /// A(ε) − A(0) of a variation, where there is an action.
     fn curve(
         &self,
-        variation: Variation,
+        variation: SineVariation,
         integrand: &mut dyn FnMut(f64, &[f64]) -> f64,
     ) -> Vec<[f64; 2]> {
         let mut rise = |epsilon: f64| {

@@ -242,7 +242,7 @@ impl Experiment {
     /// Resumes from a checkpoint of this system or of one with similar names. Whatever does not apply here is
     /// reported in a notice.
     pub fn restore(&mut self, checkpoint: &Checkpoint) {
-        self.taken_up = true;
+        self.restored = true;
         let mut lost = self.restore_setup(checkpoint);
         self.running = checkpoint.running;
         let notices = std::mem::take(&mut self.notices);

@@ -56,7 +56,7 @@ pub struct Experiment {
     /// The event that ended the motion.
     pub(super) ended: Option<String>,
     /// Whether the motion was resumed from a checkpoint.
-    pub(super) taken_up: bool,
+    pub(super) restored: bool,
     pub(super) row_spacing: RowSpacing,
 }
 
@@ -94,7 +94,7 @@ impl Experiment {
             companions: Companions::default(),
             reported_names: Vec::new(),
             ended: None,
-            taken_up: false,
+            restored: false,
             row_spacing: RowSpacing::default(),
             setup,
         };
@@ -237,7 +237,7 @@ impl Experiment {
             released: (0..self.system().constraints())
                 .filter(|&k| self.system().is_released(k))
                 .collect(),
-            taken_up: self.taken_up,
+            restored: self.restored,
         }
     }
 }

@@ -39,7 +39,7 @@ impl Export {
         if begun && all_active && model.impulses.iter().any(|impulse| impulse.period.is_some()) {
             missing.push("Periodic impulses count from the new start.".to_owned());
         }
-        let mut edition = Rewrite {
+        let mut rewrite = Rewrite {
             parameters: checkpoint.parameters.iter().map(|p| (p.name.clone(), p.value)).collect(),
             method: checkpoint.method.clone(),
             run: [
@@ -53,12 +53,12 @@ impl Export {
             ..Rewrite::default()
         };
         if begun && all_active {
-            edition.start = Some(snapshot.time).filter(|time| *time != model.run.start);
-            edition.initial = beginnings(model, |kind| value(system, snapshot, kind));
-            edition.attitude = attitude(system, snapshot).filter(|_| is_integrated(model));
+            rewrite.start = Some(snapshot.time).filter(|time| *time != model.run.start);
+            rewrite.initial = beginnings(model, |kind| value(system, snapshot, kind));
+            rewrite.attitude = attitude(system, snapshot).filter(|_| is_integrated(model));
         } else {
             let count = model.coordinates.len();
-            edition.initial = beginnings(model, |kind| match kind {
+            rewrite.initial = beginnings(model, |kind| match kind {
                 ChannelKind::Position(i) => snapshot.initial.get(i).copied(),
                 ChannelKind::Velocity(i) | ChannelKind::Momentum(i) => {
                     snapshot.initial.get(count + i).copied()
@@ -66,7 +66,7 @@ impl Export {
                 _ => None,
             });
         }
-        let words = edition.of(&document.text).map_err(|error| error.to_string())?;
+        let words = rewrite.of(&document.text).map_err(|error| error.to_string())?;
         let (text, left_out) = with_what_holds(document, words, &wrong_as_written)?;
         missing.extend(left_out.then(|| LEFT_OUT.to_owned()));
         Ok(Export { text, missing })

@@ -62,7 +62,7 @@ impl ObservedMotion {
     }
 
     /// Another motion of the same system, to be [looked with](ObservedMotion::look_at).
-    pub(super) fn twin(&self, parameters: &[f64]) -> Result<ObservedMotion, MethodError> {
+    pub(super) fn another(&self, parameters: &[f64]) -> Result<ObservedMotion, MethodError> {
         ObservedMotion::new(self.inner.whole(), self.method(), self.settings(), parameters)
     }
 

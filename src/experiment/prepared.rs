@@ -11,7 +11,7 @@ use crate::cancel::Cancel;
 use crate::claims::structure_diagnostics;
 use crate::diagnostic::{Diagnostic, Document};
 use crate::mechanics::{self, Equations, NoClosedForm};
-use crate::model::{Channel, Model};
+use crate::model::{Model, WrittenExpr};
 use crate::system::{CompileError, System};
 
 /// A model with its derived equations.
@@ -42,7 +42,7 @@ impl Derived {
     ///
     /// # Errors
     /// Returns an error if an expression cannot be evaluated during a motion.
-    pub fn compile(&self, columns: &[Channel]) -> Result<System, CompileError> {
+    pub fn compile(&self, columns: &[WrittenExpr]) -> Result<System, CompileError> {
         System::compile(&self.model, &self.equations, columns)
     }
 }

@@ -35,7 +35,7 @@ impl Experiment {
         let variables = self.variables();
         let mut echo = Echo::of(run, self.recorder.trail(), &variables);
         let parameters = &self.setup.parameters;
-        if let (Some(echo), Ok(back)) = (&mut echo, self.motion.twin(parameters)) {
+        if let (Some(echo), Ok(back)) = (&mut echo, self.motion.another(parameters)) {
             let periods = self.periods(&variables);
             echo.measure_step(back, HORIZON * self.setup.spacing, (&variables, &periods));
         }

@@ -37,7 +37,7 @@ impl Experiment {
         let Some(known) = self.motion.known_at(time, start) else { return };
         let viewer = match self.scrubbed.take() {
             Some(scrubbed) => Ok(scrubbed.motion),
-            None => self.motion.twin(&self.setup.parameters),
+            None => self.motion.another(&self.setup.parameters),
         };
         let mut motion = match viewer {
             Ok(motion) => motion,

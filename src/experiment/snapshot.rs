@@ -54,7 +54,7 @@ pub struct Snapshot {
     /// The indices of the released constraints.
     pub released: Vec<usize>,
     /// Whether the motion was resumed from a checkpoint.
-    pub taken_up: bool,
+    pub restored: bool,
 }
 
 impl Snapshot {
@@ -83,7 +83,7 @@ impl Snapshot {
             companions: Arc::default(),
             separations: Arc::default(),
             released: Vec::new(),
-            taken_up: false,
+            restored: false,
         }
     }
 }

@@ -7,13 +7,12 @@ use rustc_hash::FxHashMap;
 
 use super::node::{Expr, Node};
 use super::pool::Pool;
+use super::product::Factor;
 use super::zero_test::Zero;
 use crate::num::Number;
 
 /// Numbers with a larger denominator stay as they are.
 const LARGEST_DENOMINATOR: i64 = 1000;
-
-type Factor = (Expr, Number);
 
 impl Pool {
     /// Takes out of every root of a sum what all its terms have in common, denominators and a leading number included, and

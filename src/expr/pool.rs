@@ -187,11 +187,6 @@ impl Pool {
         info.rank = rank;
     }
 
-    /// The number of symbols in the pool.
-    pub fn symbol_count(&self) -> usize {
-        self.symbols.len()
-    }
-
     /// The expression of a symbol.
     pub fn variable(&mut self, symbol: Symbol) -> Expr {
         self.intern(Node::Symbol(symbol))

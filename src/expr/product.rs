@@ -7,7 +7,7 @@ use super::pool::Pool;
 use crate::num::Number;
 use crate::num::math;
 
-type Factor = (Expr, Number);
+pub(super) type Factor = (Expr, Number);
 
 /// Powers of coefficients stay with their base beyond this number and its inverse.
 const LARGE: f64 = 1e150;

@@ -8,13 +8,12 @@ use rustc_hash::FxHashMap;
 use super::expand::TRIAL_TERMS;
 use super::node::{Expr, FunctionId, Node};
 use super::pool::Pool;
+use super::product::Factor;
 use super::symbol::Rank;
 use crate::num::Number;
 
 /// Heavier expressions are printed as they stand.
 const HEAVIEST: u64 = 250;
-
-type Factor = (Expr, Number);
 
 impl Pool {
     /// Hands `print` the expression as a textbook writes it, and the pool it is in.

@@ -8,7 +8,7 @@
 
 use std::sync::Arc;
 
-use super::motion_state::{self, HeldCourse, MotionState};
+use super::motion_state::{self, CoordinateState, HeldCourse};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, Present, Sign, Upwards,
@@ -104,7 +104,7 @@ impl Instrument for AnglePlot {
     }
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
-        let Some(state) = MotionState::of(plot, present) else { return Need::Nothing };
+        let Some(state) = CoordinateState::of(plot, present) else { return Need::Nothing };
         let known = computed(answer);
         if known.is_some_and(|known| known.course.leads_to(&state) && known.holds_at(state.time)) {
             return Need::Held;
@@ -114,7 +114,7 @@ impl Instrument for AnglePlot {
         Need::Job(Job::new("angle", move |progress: &Progress| {
             let known = known.as_ref();
             let mut course = HeldCourse::continued(known, &state, &model, progress, |m| m.time);
-            let MotionState { time, parameters, positions, momenta, .. } = &state;
+            let CoordinateState { time, parameters, positions, momenta, .. } = &state;
             let found =
                 course.held.as_ref().map_err(Clone::clone).and_then(|held| {
                     AngleMoment::of(held, *time, parameters, [positions, momenta])

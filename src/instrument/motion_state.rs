@@ -29,7 +29,7 @@ pub(super) fn offers(physics: Physics<'_>, what: &str, about: &str) -> Vec<Offer
 
 /// A state of the motion, for one of its coordinates.
 #[derive(Clone)]
-pub(super) struct MotionState {
+pub(super) struct CoordinateState {
     pub(super) coordinate: usize,
     pub(super) time: f64,
     pub(super) parameters: Vec<f64>,
@@ -38,9 +38,9 @@ pub(super) struct MotionState {
     pub(super) momenta: Vec<f64>,
 }
 
-impl MotionState {
+impl CoordinateState {
     /// The current state; `None` if the plot is over no coordinate.
-    pub(super) fn of(plot: &Plot, present: &Present<'_>) -> Option<MotionState> {
+    pub(super) fn of(plot: &Plot, present: &Present<'_>) -> Option<CoordinateState> {
         let channel = plot.column(0)?;
         let physics = &present.physics;
         let ChannelKind::Position(coordinate) = physics.system.channels()[channel].kind else {
@@ -51,7 +51,7 @@ impl MotionState {
             let of = |i| physics.channel(kind(i)).map_or(f64::NAN, |c| present.value(c));
             (0..degrees).map(of).collect()
         };
-        Some(MotionState {
+        Some(CoordinateState {
             coordinate,
             time: present.time,
             parameters: present.parameters.to_vec(),
@@ -66,7 +66,7 @@ impl MotionState {
 #[derive(Clone)]
 pub(super) struct HeldCourse<M> {
     /// The last state that was looked at.
-    pub(super) state: MotionState,
+    pub(super) state: CoordinateState,
     pub(super) held: Result<Arc<HeldSystem>, String>,
     /// What was found at the instants, in their order.
     pub(super) past: Vec<M>,
@@ -74,15 +74,16 @@ pub(super) struct HeldCourse<M> {
 
 impl<M: Clone> HeldCourse<M> {
     /// Whether these are instants of the motion on which a state lies.
-    pub(super) fn leads_to(&self, state: &MotionState) -> bool {
-        let conditions = |s: &MotionState| (s.coordinate, s.parameters.clone(), s.initial.clone());
+    pub(super) fn leads_to(&self, state: &CoordinateState) -> bool {
+        let conditions =
+            |s: &CoordinateState| (s.coordinate, s.parameters.clone(), s.initial.clone());
         conditions(&self.state) == conditions(state)
     }
 
     /// Goes on to a state, with the instants before it if they are of the same motion; `time` is that of an instant.
     pub(super) fn continued(
         known: Option<&HeldCourse<M>>,
-        state: &MotionState,
+        state: &CoordinateState,
         model: &Model,
         progress: &Progress,
         time: fn(&M) -> f64,

@@ -34,7 +34,7 @@ impl Plot {
         index: usize,
     ) -> Option<Self> {
         let view = physics.model.views.get(index)?;
-        let channel = |c: &crate::model::Channel| physics.system.channel_of(c.expression);
+        let channel = |c: &crate::model::WrittenExpr| physics.system.channel_of(c.expression);
         let chosen = kind.chosen();
         let columns: Columns = (chosen.iter().enumerate())
             .map(|(axis, _)| {

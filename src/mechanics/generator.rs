@@ -11,7 +11,7 @@ use super::bracket::{bracket, in_phase_space};
 use super::derive::derive_for_motion;
 use super::equations::{Conserved, Equations, NoClosedForm, Reason};
 use crate::expr::{Expr, Zero};
-use crate::model::{Channel, Mechanics, Model, Observable};
+use crate::model::{Mechanics, Model, Observable, WrittenExpr};
 use crate::num::Number;
 
 /// A model that moves along the flow of a generator.
@@ -22,7 +22,7 @@ pub struct GeneratorFlow {
     /// Its equations.
     pub equations: Equations,
     /// The columns, as functions of (q, p).
-    pub columns: Vec<Channel>,
+    pub columns: Vec<WrittenExpr>,
     /// The observables that are no functions of q and p, and why.
     pub left_out: Vec<(String, NoClosedForm)>,
 }
@@ -36,7 +36,7 @@ pub fn flow_of(
     model: &Model,
     equations: &mut Equations,
     (name, generator): (&str, Expr),
-    columns: &[Channel],
+    columns: &[WrittenExpr],
     time: f64,
 ) -> Result<GeneratorFlow, NoClosedForm> {
     if !model.constraints.is_empty() {

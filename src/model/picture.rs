@@ -5,7 +5,7 @@ use crate::expr::Expr;
 
 /// An expression to be shown, with its source text.
 #[derive(Clone, Debug)]
-pub struct Channel {
+pub struct WrittenExpr {
     /// As written in the file.
     pub written: String,
     /// The expression itself.
@@ -20,7 +20,7 @@ pub struct View {
     /// A title, or empty.
     pub title: String,
     /// The expressions on each axis of the instrument, in order.
-    pub axes: Vec<Vec<Channel>>,
+    pub axes: Vec<Vec<WrittenExpr>>,
     /// The frame from which a picture in space is seen; the axes of `[space]` if there is none.
     pub frame: Option<usize>,
     /// The shapes that a picture in space draws instead of the model's.

@@ -122,7 +122,7 @@ impl Lesson {
     /// Returns an error of the script that only its system reveals.
     pub fn resume(&mut self, place: usize) -> Result<(), Diagnostic> {
         while self.runner.next < place && !matches!(self.stage, LessonStage::Ended) {
-            match self.runner.beat()? {
+            match self.runner.next_event()? {
                 RunnerEvent::Lesson(_, LessonStep::Task { .. } | LessonStep::Free(_)) => {
                     self.begin_anew();
                 }
@@ -194,7 +194,7 @@ impl Lesson {
                     && (self.runner.lab.clock.left() == 0
                         || self.runner.lab.clock.next() <= self.time)
                 {
-                    self.beat()?;
+                    self.next_event()?;
                 }
                 Ok(before != self.runner.now() || !matches!(self.stage, LessonStage::Playing))
             }
@@ -212,7 +212,7 @@ impl Lesson {
     }
 
     /// Performs the next action of the script.
-    pub(super) fn beat(&mut self) -> Result<(), Diagnostic> {
+    pub(super) fn next_event(&mut self) -> Result<(), Diagnostic> {
         // what is said of a task is said of what the person did
         let next = self.runner.script.steps.get(self.runner.next).map(|(_, step)| step);
         let is_said = matches!(
@@ -222,7 +222,7 @@ impl Lesson {
         if self.personal && !is_said {
             self.begin_anew();
         }
-        match self.runner.beat()? {
+        match self.runner.next_event()? {
             RunnerEvent::Lesson(place, step) => self.take(place, step)?,
             RunnerEvent::Claim(place, claim) if self.unattended => {
                 let finding = self.find(&claim)?;

@@ -80,7 +80,7 @@ fn take(
     let mut tasks = 0;
     loop {
         match &lesson.stage {
-            LessonStage::Playing => lesson.beat().map_err(|mistake| vec![mistake])?,
+            LessonStage::Playing => lesson.next_event().map_err(|mistake| vec![mistake])?,
             LessonStage::Said | LessonStage::Free => lesson.go_on(),
             LessonStage::Choosing(_) | LessonStage::Typing(..) | LessonStage::Pointing(_) => {
                 let index = lesson.verdicts.len();

@@ -74,7 +74,7 @@ impl Lesson {
             LessonStage::Task { .. } | LessonStage::Free => {
                 if pressed {
                     // Not every terminal reports the release of a button.
-                    self.runner.lab.app.drop_hold();
+                    self.runner.lab.app.end_group();
                 }
                 if let Some(hit) = self.runner.hit(style, column, row) {
                     self.runner.lab.happen(Event::Mouse(kind, hit));

@@ -159,7 +159,7 @@ struct Take {
 impl Take {
     /// Records the next event; returns whether there are more.
     fn advance(&mut self) -> Result<bool, Diagnostic> {
-        let next = self.performance.beat()?;
+        let next = self.performance.next_event()?;
         let now = self.performance.now();
         match next {
             RunnerEvent::Frame => self.draw(now).map_err(|why| unwritten(&why))?,

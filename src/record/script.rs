@@ -286,11 +286,6 @@ impl Script {
         usize::from(width).saturating_sub(4)
     }
 
-    /// Whether a row of the screen is reserved for captions.
-    pub fn has_captions(&self) -> bool {
-        self.steps.iter().any(|(_, step)| matches!(step, ScriptStep::Caption(_)))
-    }
-
     /// The duration, without the time for keys.
     fn length(&self) -> Micros {
         let (mut pace, mut length) = (PACE, 0_u64);

@@ -126,7 +126,7 @@ impl ScriptRunner {
     /// Returns an error of the script that only its system reveals.
     pub fn go_on(&mut self, time: Micros) -> Result<bool, Diagnostic> {
         while !self.begun || self.lab.clock.next() <= time {
-            match self.beat()? {
+            match self.next_event()? {
                 RunnerEvent::Overlay => return Ok(false),
                 RunnerEvent::Lesson(place, _) => return Err(waits(place)),
                 _ => {}
@@ -141,7 +141,7 @@ impl ScriptRunner {
     }
 
     /// Performs the next action.
-    pub(super) fn beat(&mut self) -> Result<RunnerEvent, Diagnostic> {
+    pub(super) fn next_event(&mut self) -> Result<RunnerEvent, Diagnostic> {
         loop {
             if self.begins && !self.begun {
                 self.begun = true;
@@ -168,8 +168,8 @@ impl ScriptRunner {
                     self.end_sweep();
                 }
                 PartialStep::Nothing => {
-                    if let Some(beat) = self.step()? {
-                        return Ok(beat);
+                    if let Some(next_event) = self.step()? {
+                        return Ok(next_event);
                     }
                 }
             }
@@ -232,7 +232,7 @@ impl ScriptRunner {
                     format!("{} from {from} to {to}", way.name.text)
                 });
                 let moves = moves.collect::<Vec<_>>().join(", ");
-                self.lab.app.hold_on();
+                self.lab.app.begin_group();
                 self.pass(time);
                 let count = self.lab.clock.left();
                 self.under_way = PartialStep::Sweep { courses, frame: 0, count };
@@ -310,7 +310,7 @@ impl ScriptRunner {
     /// Ends a sweep, after which undo reverts all of it at once.
     fn end_sweep(&mut self) {
         self.under_way = PartialStep::Nothing;
-        self.lab.app.drop_hold();
+        self.lab.app.end_group();
     }
 
     /// Lets time pass; its frames are the next events.

@@ -272,7 +272,7 @@ impl Screen for Session {
             TerminalEvent::Mouse(mouse) => {
                 if mouse.kind == MouseEventKind::Down(MouseButton::Left) {
                     // Not every terminal reports the release of a button.
-                    self.app.drop_hold();
+                    self.app.end_group();
                 }
                 let area = Rect::from((Position::ORIGIN, self.size));
                 match view::hit_test(&self.app, &self.look, area, mouse.column, mouse.row) {

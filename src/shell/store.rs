@@ -90,7 +90,7 @@ impl Store {
             troubles,
             _lock: lock,
         };
-        store.take_up_others(session);
+        store.adopt_others(session);
         store
     }
 
@@ -115,7 +115,7 @@ impl Store {
     }
 
     /// Adopts the texts of other programs that have ended without passing them on.
-    fn take_up_others(&mut self, session: &Path) {
+    fn adopt_others(&mut self, session: &Path) {
         let Some(texts) = self.texts.clone() else { return };
         for number in 2..=PROGRAMS {
             let theirs = numbered(session, number);

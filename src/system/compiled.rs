@@ -60,7 +60,7 @@ pub(super) struct Shared {
     /// Whether the time of its states is −t.
     backwards: bool,
     /// The channels that were given beside those of the model.
-    extra: Vec<model::Channel>,
+    extra: Vec<model::WrittenExpr>,
 }
 
 /// Returns what the file specifies about an initial rate.
@@ -85,7 +85,7 @@ impl System {
     pub fn compile(
         model: &Model,
         equations: &Equations,
-        extra: &[model::Channel],
+        extra: &[model::WrittenExpr],
     ) -> Result<System, CompileError> {
         Self::compile_along(model, equations, extra, false)
     }
@@ -111,7 +111,7 @@ impl System {
     fn compile_along(
         model: &Model,
         equations: &Equations,
-        extra: &[model::Channel],
+        extra: &[model::WrittenExpr],
         backwards: bool,
     ) -> Result<System, CompileError> {
         let mut equations = equations.clone();

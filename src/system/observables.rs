@@ -46,7 +46,7 @@ impl ObservableList {
     pub(super) fn of(
         model: &Model,
         equations: &mut Equations,
-        extra: &[model::Channel],
+        extra: &[model::WrittenExpr],
     ) -> ObservableList {
         let mut list = ObservableList::default();
         list.add_state(model, equations);
@@ -214,7 +214,7 @@ impl ObservableList {
     }
 
     /// Names a channel after a view if it has no name yet.
-    fn name(&mut self, written: &model::Channel, shown: &str) {
+    fn name(&mut self, written: &model::WrittenExpr, shown: &str) {
         let channel = self.index.get(&written.expression).map(|&i| &mut self.channels[i]);
         if let Some(channel) = channel.filter(|channel| channel.name.is_empty()) {
             channel.name.clone_from(&written.written);

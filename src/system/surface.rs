@@ -9,8 +9,6 @@ use super::projector::ConstraintProjector;
 /// One constraint A q̇ + A₀ = 0 at one place.
 #[derive(Clone, Debug)]
 pub struct SurfaceRow {
-    /// Its index.
-    pub constraint: usize,
     /// A.
     pub row: Vec<f64>,
     /// A₀: what velocities it asks for where nothing else moves.
@@ -30,7 +28,6 @@ impl ConstraintProjector {
         let conditions = self.projection.conditions();
         conditions.look(state.exact_time(), &self.numbers);
         let rows = enforced.into_iter().map(|(k, holonomic)| SurfaceRow {
-            constraint: k,
             row: (0..degrees).map(|i| conditions.entry(k, i).high).collect(),
             rate: conditions.rate(k).high,
             distance: holonomic.then(|| conditions.position(k).value.high),

@@ -95,7 +95,7 @@ pub(crate) fn snapshot(loaded: &Loaded, time: f64) -> Snapshot {
         trail: Trail::from_rows(width, &rows),
         gauges: [gauge("energy", "E", rows[200][1 + energy], Verdict::Bounded)].into(),
         method: MethodFact { name: "taylor", step: 0.0123, steps: 4321, tolerance: Some(1e-15) },
-        taken_up: true,
+        restored: true,
         ..Snapshot::empty(loaded.epoch)
     }
 }

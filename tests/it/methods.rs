@@ -12,7 +12,7 @@ mod turning_point;
 
 use phaselab::integrate::{METHODS, Method, Settings, Stepper, Stepping, method_named};
 use phaselab::mechanics;
-use phaselab::model::{Channel, Model};
+use phaselab::model::{Model, WrittenExpr};
 use phaselab::system::{Form, State, System};
 
 use crate::build::{hamiltonian, lagrangian, read};
@@ -28,7 +28,7 @@ fn case(mut model: Model, form: Form, numbers: &[f64]) -> Case {
     // watching the action adds it to every state
     let action = read(&mut model, "action");
     let equations = mechanics::derive(&model).expect("derivable");
-    let extra = Channel { written: "action".to_owned(), expression: action };
+    let extra = WrittenExpr { written: "action".to_owned(), expression: action };
     let system = System::compile(&model, &equations, &[extra]).expect("compiles");
     let mut values = numbers.to_vec();
     values.resize(system.state_len(), 0.0);

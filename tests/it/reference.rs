@@ -18,7 +18,7 @@ use phaselab::experiment::{AdvanceOutcome, Experiment, Setup, Status};
 use phaselab::expr::Pool;
 use phaselab::integrate::{Occurrence, OccurrenceKind as occurrence};
 use phaselab::mechanics;
-use phaselab::model::{Channel, Coordinate, Model};
+use phaselab::model::{Coordinate, Model, WrittenExpr};
 use phaselab::system::{ChannelKind, System};
 
 use serde::Deserialize;
@@ -223,15 +223,15 @@ fn find(experiment: &Experiment, kind: ChannelKind) -> Result<(f64, &str), Strin
 }
 
 /// The coordinates and velocities of the wrong mechanics, if the file asks for them.
-fn others(model: &Model, pool: &mut Pool) -> Vec<Channel> {
+fn others(model: &Model, pool: &mut Pool) -> Vec<WrittenExpr> {
     if model.comparison.is_none() {
         return Vec::new();
     }
     let mut channel = |c: &Coordinate, prime: &str| {
         let written = format!("other_{}{prime}", c.name);
-        Channel { expression: pool.named(&written), written }
+        WrittenExpr { expression: pool.named(&written), written }
     };
-    let positions: Vec<Channel> = model.coordinates.iter().map(|c| channel(c, "")).collect();
+    let positions: Vec<WrittenExpr> = model.coordinates.iter().map(|c| channel(c, "")).collect();
     let velocities = model.coordinates.iter().map(|c| channel(c, "'"));
     positions.into_iter().chain(velocities).collect()
 }

@@ -9,8 +9,8 @@ use phaselab::expr::{Expr, Pool, Zero};
 use phaselab::integrate::{Settings, method_named};
 use phaselab::mechanics::{self, COMPONENTS, Class, body_constants, principal};
 use phaselab::model::{
-    Attitude, AttitudeSource, Body, BodyNames, Channel, Model, Observable, Piece, PieceOrientation,
-    Solid,
+    Attitude, AttitudeSource, Body, BodyNames, Model, Observable, Piece, PieceOrientation, Solid,
+    WrittenExpr,
 };
 use phaselab::num::DoubleDouble;
 use phaselab::preset;
@@ -315,7 +315,7 @@ fn its_names_follow_the_parameters_into_the_motion() {
     model.coordinates[0].initial = scope(&mut model, "I3/I1");
     let watched = scope(&mut model, "theta''");
     let equations = mechanics::derive(&model).expect("derivable");
-    let extra = Channel { written: "a".to_owned(), expression: watched };
+    let extra = WrittenExpr { written: "a".to_owned(), expression: watched };
     let system = System::compile(&model, &equations, &[extra]).expect("compiles");
     let place = system.channels().iter().position(|c| c.name == "a").unwrap();
     for [m, a, h, k] in [[1.0_f64, 1.0, 1.0, 1.0], [2.0, 0.5, 3.0, 0.7]] {
@@ -381,11 +381,11 @@ fn an_attitude_by_angles_is_the_matrix_of_the_books() {
         model.coordinates[i].initial = model.pool.ratio(value, 10);
     }
     let mut equations = mechanics::derive(&model).expect("derivable");
-    let channels: Vec<Channel> = matrix
+    let channels: Vec<WrittenExpr> = matrix
         .concat()
         .iter()
-        .map(|&s| Channel { written: String::new(), expression: equations.pool.variable(s) })
-        .chain([Channel { written: String::new(), expression: trace }])
+        .map(|&s| WrittenExpr { written: String::new(), expression: equations.pool.variable(s) })
+        .chain([WrittenExpr { written: String::new(), expression: trace }])
         .collect();
     let system = System::compile(&model, &equations, &channels).expect("compiles");
     let state = system.initial(0.0, &[], &[]).expect("a start");
@@ -457,7 +457,7 @@ fn a_free_body_keeps_its_angular_momentum_in_space() {
     // and numerically, up to the end of five turns of the racket
     let mut channels = Vec::new();
     for e in [norm].into_iter().chain(model.observables.iter().map(|o| o.expression)) {
-        channels.push(Channel { written: String::new(), expression: e });
+        channels.push(WrittenExpr { written: String::new(), expression: e });
     }
     let system = System::compile(&model, &equations, &channels).expect("compiles");
     let parameters = model.parameter_values();
@@ -518,7 +518,7 @@ fn the_attitude_of_a_top_is_that_of_its_angles() {
         let entry = model.pool.named(entry);
         let right = read(&mut model, right);
         let expression = model.pool.sub(entry, right);
-        channels.push(Channel { written: String::new(), expression });
+        channels.push(WrittenExpr { written: String::new(), expression });
     }
     let equations = mechanics::derive(&model).expect("derivable");
     let system = System::compile(&model, &equations, &channels).expect("compiles");

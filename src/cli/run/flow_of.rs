@@ -8,21 +8,21 @@ use crate::cli::failure::CommandError;
 use crate::cli::stderr;
 use crate::experiment::Derived;
 use crate::mechanics::{GeneratorFlow, flow_of};
-use crate::model::Channel;
+use crate::model::WrittenExpr;
 use crate::printable;
 use crate::system::{Form, InitialOverride};
 
 /// A system that moves along the flow of a generator.
 pub(super) struct CarriedSystem {
     pub(super) derived: Derived,
-    pub(super) columns: Vec<Channel>,
+    pub(super) columns: Vec<WrittenExpr>,
     pub(super) given: Vec<InitialOverride>,
 }
 
 /// Puts the generator in place of the law of motion.
 pub(super) fn carried(
     derived: Derived,
-    columns: &[Channel],
+    columns: &[WrittenExpr],
     written: &str,
     parameters: &[f64],
     given: &[InitialOverride],

@@ -10,8 +10,8 @@ use crate::ensemble::section_name;
 use crate::expr::{Expr, Symbol};
 use crate::instrument::Instrument;
 use crate::model::{
-    Allowed, Channel, Direction, Event, EventAction, Follow, Mechanics, Point, Scope, Shape,
-    Variation, View, Viewpoint,
+    Allowed, Direction, Event, EventAction, Follow, Mechanics, Point, Scope, Shape, Variation,
+    View, Viewpoint, WrittenExpr,
 };
 use crate::preset::draft::{
     DraftCamera, DraftFollow, DraftSection, DraftShape, DraftShapeKind, DraftView, Formula,
@@ -38,7 +38,7 @@ impl Check<'_> {
                         continue;
                     };
                     let written = formula.get_ref().trim().to_owned();
-                    let channel = Channel { written, expression };
+                    let channel = WrittenExpr { written, expression };
                     if axis.is_some_and(|axis| axis.coordinate) {
                         self.along_a_coordinate(&channel, formula, view.kind);
                     }
@@ -111,7 +111,7 @@ impl Check<'_> {
         &mut self,
         written: &DraftSection,
         place: &std::ops::Range<usize>,
-    ) -> Option<(Channel, usize)> {
+    ) -> Option<(WrittenExpr, usize)> {
         let mut scope = Scope::new(&self.model, Allowed::Event, "a section");
         let direction = written.direction.as_ref().map_or(Direction::Rising, |d| self.sense(d));
         let on = written.on.as_ref()?;
@@ -124,7 +124,7 @@ impl Check<'_> {
         let action = EventAction::Section(index);
         let place = place.clone();
         self.model.sections.push(Event { name, when, direction, action, place });
-        Some((Channel { written: on.get_ref().trim().to_owned(), expression: when }, index))
+        Some((WrittenExpr { written: on.get_ref().trim().to_owned(), expression: when }, index))
     }
 
     /// Reads the two ends of an axis, which may use the parameters.
@@ -137,7 +137,7 @@ impl Check<'_> {
     }
 
     /// An axis of a transformation must be one of its new variables.
-    fn is_transformed(&mut self, channel: &Channel, written: &Formula) {
+    fn is_transformed(&mut self, channel: &WrittenExpr, written: &Formula) {
         let symbol = self.model.pool.as_symbol(channel.expression);
         let all: Vec<_> = self.model.transformations.iter().flat_map(|t| t.new.concat()).collect();
         if symbol.is_some_and(|symbol| all.contains(&symbol)) {
@@ -172,7 +172,7 @@ impl Check<'_> {
     }
 
     /// An axis of a map must be a parameter, or an initial value.
-    fn variation(&mut self, channel: &Channel, written: &Formula) -> Option<Variation> {
+    fn variation(&mut self, channel: &WrittenExpr, written: &Formula) -> Option<Variation> {
         let model = &self.model;
         let symbol = model.pool.as_symbol(channel.expression);
         let is = |other: Symbol| symbol == Some(other);
@@ -198,7 +198,7 @@ impl Check<'_> {
     /// The horizontal axis of this kind must be a coordinate, because everything else is fixed while it varies.
     fn along_a_coordinate(
         &mut self,
-        x: &Channel,
+        x: &WrittenExpr,
         written: &Formula,
         kind: &'static dyn Instrument,
     ) {

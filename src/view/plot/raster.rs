@@ -77,8 +77,6 @@ pub enum Marker {
     Cross,
     /// `◆`, or `*`: an event.
     Diamond,
-    /// `■`, or `#`: a fixed body.
-    Square,
     /// The number of a motion among several, one digit.
     Number(usize),
 }
@@ -91,7 +89,6 @@ impl Marker {
             Self::Ring => glyphs.pick('○', 'o'),
             Self::Cross => glyphs.pick('×', 'x'),
             Self::Diamond => glyphs.pick('◆', '*'),
-            Self::Square => glyphs.pick('■', '#'),
             Self::Number(number) => char::from(b'0' + (number % 10) as u8),
         }
     }

@@ -438,7 +438,7 @@ fn a_second_rebuild_before_the_first_was_seen_goes_on_with_the_same_motion() {
     press(&mut app, "x Backspace");
     let first = rest(&mut app);
     // a snapshot of the new system from before the motion was restored
-    let early = Snapshot { epoch: 2, taken_up: false, ..snapshot(&pendulum(), 0.0) };
+    let early = Snapshot { epoch: 2, restored: false, ..snapshot(&pendulum(), 0.0) };
     app.update(Event::Snapshot(Arc::new(early)));
     assert!(app.snapshot().is_none(), "it is not shown");
     press(&mut app, "x Backspace");

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use phaselab::expr::{Expr, Zero};
 use phaselab::integrate::{Settings, Stepper, method_named};
 use phaselab::mechanics::{self, ChainRule, Equations, Flow, bracket, recognise};
-use phaselab::model::{Allowed, Channel, Mechanics, Model, Observable, Scope};
+use phaselab::model::{Allowed, Mechanics, Model, Observable, Scope, WrittenExpr};
 use phaselab::preset::Catalog;
 use phaselab::system::System;
 use proptest::prelude::*;
@@ -309,8 +309,8 @@ fn the_bracket_with_h_is_the_rate_seen_along_the_motion() {
         let mut channels = Vec::new();
         for (name, f) in watched {
             let Ok(rate) = mechanics::rate_by_bracket(&model, &mut e, f) else { continue };
-            channels.push(Channel { written: name.clone(), expression: f });
-            channels.push(Channel { written: format!("{name}'s rate"), expression: rate });
+            channels.push(WrittenExpr { written: name.clone(), expression: f });
+            channels.push(WrittenExpr { written: format!("{name}'s rate"), expression: rate });
         }
         let system = System::compile(&model, &e, &channels).expect("compiles");
         let parameters = model.parameter_values();

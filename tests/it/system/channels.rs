@@ -73,7 +73,7 @@ fn extra_channels_are_columns_after_the_observables() {
     let expression = model.pool.variable(q);
     let expression = model.pool.powi(expression, 2);
     let equations = derive(&model).expect("small");
-    let extra = model::Channel { written: "theta^2".to_owned(), expression };
+    let extra = model::WrittenExpr { written: "theta^2".to_owned(), expression };
     let system = System::compile(&model, &equations, &[extra]).expect("complete");
     let columns = &names(&system)[..system.columns()];
     assert_eq!(columns, ["theta", "theta'", "p_theta", "energy", "pull", "theta^2"]);
@@ -84,7 +84,7 @@ fn extra_channels_are_columns_after_the_observables() {
 fn channels_are_found_by_their_expressions() {
     let (model, system) = compile(PENDULUM);
     let view = &model.views[0];
-    let place = |c: &model::Channel| system.channel_of(c.expression);
+    let place = |c: &model::WrittenExpr| system.channel_of(c.expression);
     assert_eq!(place(&view.axes[0][0]), Some(0));
     assert_eq!(place(&view.axes[1][0]), Some(2));
     let sine = place(&model.views[1].axes[0][0]).expect("it is watched");

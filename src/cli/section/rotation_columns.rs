@@ -8,19 +8,19 @@ use crate::dynamics::{NoRotation, Rotation, angle_rotation, rotation};
 use crate::printable;
 
 /// What turns from one crossing to the next: the places of one or two columns in a row, and their periods.
-pub(super) struct Turning {
+pub(super) struct RotationColumns {
     places: Vec<usize>,
     periods: [Option<f64>; 2],
 }
 
-impl Turning {
-    pub(super) fn of(laid: &Laid, names: &[String]) -> Result<Turning, CommandError> {
+impl RotationColumns {
+    pub(super) fn of(laid: &Laid, names: &[String]) -> Result<RotationColumns, CommandError> {
         let wrong = |why: String| Err(CommandError::WrongUse(format!("--rotation: {why}")));
         if names.is_empty() || names.len() > 2 {
             return wrong("name one column that is an angle, or two columns".to_owned());
         }
         let columns = laid.header().columns;
-        let mut turning = Turning { places: Vec::new(), periods: [None; 2] };
+        let mut turning = RotationColumns { places: Vec::new(), periods: [None; 2] };
         for (i, name) in names.iter().enumerate() {
             let called = name.split_once('=').map_or(name.as_str(), |(name, _)| name).trim();
             let place = columns.iter().position(|column| column == called);
