@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
-    Offer, Physics, Picture, Plot, Present, Seed, Sign, Upwards,
+    Offer, Physics, Picture, Plot, PlotTable, Present, Seed, Sign, Upwards,
 };
 use crate::dynamics::{Rotation, rotation};
 use crate::ensemble::{NotInPlane, PhaseShift, SectionPlan, SectionPlane};
@@ -227,6 +227,18 @@ impl Instrument for SectionPlot {
         let job = Job::new("orbits", move |progress| Answer::new(task.portrait(progress)));
         // what a person asks for is computed in any case
         if plot.seeds.is_empty() { Need::Addition(job) } else { Need::Job(job) }
+    }
+
+    fn table(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        answer: Option<&Answer>,
+    ) -> Option<PlotTable> {
+        let channels = present.physics.system.channels();
+        let axis = |k| Some(channels.get(plot.column(k)?)?.name.clone());
+        let columns = vec!["orbit".to_owned(), axis(0)?, axis(1)?];
+        Some(PlotTable { columns, rows: portrait(answer)?.rows() })
     }
 
     fn measures(&self) -> &'static [Measure] {

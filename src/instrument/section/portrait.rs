@@ -54,6 +54,17 @@ pub(super) struct Portrait {
     pub(super) pending: (Vec<[f64; 2]>, u64),
 }
 
+impl Portrait {
+    /// A row for each point: the number of its orbit, from 1 on, and its place.
+    pub(super) fn rows(&self) -> Vec<Vec<f64>> {
+        let row = |index: usize, at: &[f64; 2]| vec![(index + 1) as f64, at[0], at[1]];
+        let orbits = self.orbits.iter().enumerate();
+        orbits
+            .flat_map(|(index, orbit)| orbit.points.iter().map(move |at| row(index, at)))
+            .collect()
+    }
+}
+
 /// The points of an orbit, and its rotation number.
 #[derive(Clone)]
 pub(super) struct DrawnOrbit {
