@@ -85,9 +85,8 @@ impl Instrument for SectionPlot {
         let count = present.crossings.counts().get(view.section?).copied().unwrap_or(0);
         let own = own_rotation(plot, present);
         let rotation = own.map(|own| format!("rotation {}", to_its_error(own.number, own.error)));
-        let words = surface(present.physics, view);
+        let (words, zero) = (surface(present.physics, view), zero(present.physics, view));
         // the title may say it
-        let zero = zero(present.physics, view);
         let titled = plot.title(present.physics).is_some_and(|title| title.contains(&zero));
         let on = if titled { words.split(", ").nth(1) } else { Some(words.as_str()) };
         let counted = match count {
@@ -236,9 +235,8 @@ impl Instrument for SectionPlot {
         answer: Option<&Answer>,
     ) -> Option<PlotTable> {
         let channels = present.physics.system.channels();
-        let axis = |k| Some(channels.get(plot.column(k)?)?.name.clone());
-        let columns = vec!["orbit".to_owned(), axis(0)?, axis(1)?];
-        Some(PlotTable { columns, rows: portrait(answer)?.rows() })
+        let named = |k| Some(channels.get(plot.column(k)?)?.name.clone());
+        Some(portrait(answer)?.table([named(0)?, named(1)?]))
     }
 
     fn measures(&self) -> &'static [Measure] {

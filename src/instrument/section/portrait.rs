@@ -9,7 +9,7 @@ use crate::dynamics::{NoRotation, Rotation, rotation};
 use crate::ensemble::{
     Crossings, PhaseShift, Region, SectionPlan, SectionPlane, crossings, in_order, spread,
 };
-use crate::instrument::{Present, Seed};
+use crate::instrument::{PlotTable, Present, Seed};
 use crate::integrate::{Method, Settings};
 use crate::job::Progress;
 use crate::mechanics::Equations;
@@ -56,12 +56,13 @@ pub(super) struct Portrait {
 
 impl Portrait {
     /// A row for each point: the number of its orbit, from 1 on, and its place.
-    pub(super) fn rows(&self) -> Vec<Vec<f64>> {
+    pub(super) fn table(&self, [x, y]: [String; 2]) -> PlotTable {
         let row = |index: usize, at: &[f64; 2]| vec![(index + 1) as f64, at[0], at[1]];
         let orbits = self.orbits.iter().enumerate();
-        orbits
+        let rows = orbits
             .flat_map(|(index, orbit)| orbit.points.iter().map(move |at| row(index, at)))
-            .collect()
+            .collect();
+        PlotTable { columns: vec!["orbit".to_owned(), x, y], rows }
     }
 }
 
