@@ -23,6 +23,7 @@ mod orbit;
 mod phase;
 mod picture;
 mod plot;
+mod plot_table;
 mod potential;
 mod present;
 mod saved;
@@ -47,6 +48,7 @@ pub use kind::{Axis, Columns, Instrument, Measure, NoStart, Offer, Plot};
 pub use picture::{
     Across, Entry, Field, Heading, Ink, Layer, Level, Picture, Sign, Stroke, Upwards,
 };
+pub use plot_table::PlotTable;
 pub use potential::PotentialView;
 pub use present::{Physics, Present, Returned};
 pub use saved::{Quantity, SavedPlot, SavedVariations};

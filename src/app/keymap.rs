@@ -272,7 +272,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Experiment, &[c('E')], Action::Edit, "edit", "edit the system's file while it runs; the motion follows the text"),
     row(Place::Experiment, &[ctrl('n')], Action::NewSystem, "", "new system: begin a file of your own, in the editor; this motion can be continued from the list of systems"),
     row(Place::Experiment, &[c('S')], Action::Still, "", "write a screenshot (a drawing, SVG) into the current folder"),
-    row(Place::Experiment, &[c('D')], Action::Data, "", "write the data of the motion so far as a table (CSV) into the current folder"),
+    row(Place::Experiment, &[c('D')], Action::Data, "", "write a table (CSV) into the current folder: what the focused diagram, map or section has computed, otherwise the motion so far"),
     row(Place::Experiment, &[c('O')], Action::Record, "", "record the screen into a cast in the current folder, or end the recording"),
     row(Place::Experiment, &[c('1')], Action::Show(Page::Lab), "", "page 1: the lab"),
     row(Place::Experiment, &[c('2')], Action::Show(Page::Equations), "", "page 2: what follows from L or H"),

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::answers::{Answers, PlotJob};
 use super::{App, Asker, Computation, Effect, Event, Lab, Overlay, Page, UnderWay};
 use crate::experiment::Command;
-use crate::instrument::{Answer, Need, Plot};
+use crate::instrument::{Answer, Need, Plot, PlotTable};
 use crate::job::{Job, Outcome, Progress, Share};
 use crate::mechanics::Equations;
 
@@ -19,6 +19,13 @@ impl Lab {
     /// Returns the result computed for a plot.
     pub fn answer(&self, plot: &Plot) -> Option<&Answer> {
         self.answers.of(plot)?.answer.as_ref()
+    }
+
+    /// Returns the kind of the focused plot and what its job has computed, where that is a table.
+    pub fn focused_table(&self) -> Option<(&'static str, PlotTable)> {
+        let (_, plot) = self.focused_plot()?;
+        let table = plot.kind.table(plot, &self.present()?, self.answer(plot))?;
+        Some((plot.kind.name(), table))
     }
 
     /// Returns the job under way for a plot.

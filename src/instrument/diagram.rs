@@ -13,7 +13,7 @@ use super::straight_line::StraightLine;
 use super::varied::{self, VariedConditions, VariedMotions};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
-    Physics, Picture, Plot, Present, Upwards,
+    Physics, Picture, Plot, PlotTable, Present, Upwards,
 };
 use crate::ensemble::{SectionPlan, crossings, in_order};
 use crate::expr::Expr;
@@ -175,6 +175,20 @@ impl Instrument for Diagram {
         let first = task.columns.len() < AT_ONCE * PART;
         let job = Job::new("diagram", move |progress| Answer::new(task.next_part(progress)));
         if first { Need::Job(job) } else { Need::Addition(job) }
+    }
+
+    fn table(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        answer: Option<&Answer>,
+    ) -> Option<PlotTable> {
+        let mut rows: Vec<Vec<f64>> =
+            computed(answer)?.points.iter().map(|at| at.to_vec()).collect();
+        // the values were taken ever more closely; crossings stay in their order
+        rows.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let over = varied::written(present.physics, *plot.over.first()?).to_owned();
+        Some(PlotTable { columns: vec![over, quantity(plot, present.physics)], rows })
     }
 
     fn measures(&self) -> &'static [Measure] {

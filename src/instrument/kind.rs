@@ -6,7 +6,7 @@
 
 use std::fmt;
 
-use super::{Across, Answer, Heading, Need, Physics, Picture, Present, Seed, Sight};
+use super::{Across, Answer, Heading, Need, Physics, Picture, PlotTable, Present, Seed, Sight};
 use crate::model::{Variation, View};
 use crate::system::InitialOverride;
 
@@ -160,6 +160,16 @@ pub trait Instrument: Sync {
     /// The background job that the picture needs, given the last result.
     fn job(&self, _plot: &Plot, _present: &Present<'_>, _answer: Option<&Answer>) -> Need {
         Need::Nothing
+    }
+
+    /// What its job has computed, as a table to be written to a file; `None` if it is the motion itself.
+    fn table(
+        &self,
+        _plot: &Plot,
+        _present: &Present<'_>,
+        _answer: Option<&Answer>,
+    ) -> Option<PlotTable> {
+        None
     }
 
     /// The numbers that a script can assert about it.

@@ -11,7 +11,7 @@ use super::section::zero;
 use super::varied::{self, VariedConditions, VariedMotions};
 use super::{
     Across, Answer, Axis, Entry, Field, Heading, Ink, Instrument, Layer, Level, Measure, Need,
-    NoStart, Offer, Physics, Picture, Plot, Present, Sign, Upwards,
+    NoStart, Offer, Physics, Picture, Plot, PlotTable, Present, Sign, Upwards,
 };
 use crate::ensemble::{SectionPlan, Start, SystemFlow, crossings, in_order};
 use crate::job::{Job, Progress};
@@ -223,6 +223,28 @@ impl Instrument for Map {
         if first { Need::Job(job) } else { Need::Addition(job) }
     }
 
+    fn table(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        answer: Option<&Answer>,
+    ) -> Option<PlotTable> {
+        let found = computed(answer)?;
+        let named = |over: &Variation| varied::written(present.physics, *over).to_owned();
+        let columns = plot.over.iter().map(named).chain([quantity(plot, present.physics)]);
+        let mut rows: Vec<([usize; 2], Vec<f64>)> = places()
+            .into_iter()
+            .zip(&found.values)
+            .map(|((place, _), &value)| {
+                let [x, y] = coordinates(&found.conditions.window, place);
+                (place, vec![x, y, value])
+            })
+            .collect();
+        rows.sort_by_key(|(place, _)| *place);
+        let rows = rows.into_iter().map(|(_, row)| row).collect();
+        Some(PlotTable { columns: columns.collect(), rows })
+    }
+
     fn measures(&self) -> &'static [Measure] {
         &[
             Measure {
@@ -289,10 +311,7 @@ impl Task {
 
     /// The numbers of a place.
     fn at(&self, place: [usize; 2]) -> [f64; 2] {
-        [0, 1].map(|axis| {
-            let [from, to] = self.motions.conditions.window[axis];
-            from + (to - from) * (place[axis] as f64 + 0.5) / LATTICE[axis] as f64
-        })
+        coordinates(&self.motions.conditions.window, place)
     }
 
     /// The number of the motion that begins at a place.
@@ -338,6 +357,14 @@ impl Task {
         let value = *value.ok_or("the motion cannot be followed to its end")?;
         Ok(varied::within(value, system.period(channel, &start.parameters)))
     }
+}
+
+/// The numbers of a place of a window.
+fn coordinates(window: &[[f64; 2]], place: [usize; 2]) -> [f64; 2] {
+    [0, 1].map(|axis| {
+        let [from, to] = window[axis];
+        from + (to - from) * (place[axis] as f64 + 0.5) / LATTICE[axis] as f64
+    })
 }
 
 /// The places of the lattice in the order in which they are taken, each with the distance to its neighbours of the pass.

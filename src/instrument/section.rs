@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
-    Offer, Physics, Picture, Plot, Present, Seed, Sign, Upwards,
+    Offer, Physics, Picture, Plot, PlotTable, Present, Seed, Sign, Upwards,
 };
 use crate::dynamics::{Rotation, rotation};
 use crate::ensemble::{NotInPlane, PhaseShift, SectionPlan, SectionPlane};
@@ -85,9 +85,8 @@ impl Instrument for SectionPlot {
         let count = present.crossings.counts().get(view.section?).copied().unwrap_or(0);
         let own = own_rotation(plot, present);
         let rotation = own.map(|own| format!("rotation {}", to_its_error(own.number, own.error)));
-        let words = surface(present.physics, view);
+        let (words, zero) = (surface(present.physics, view), zero(present.physics, view));
         // the title may say it
-        let zero = zero(present.physics, view);
         let titled = plot.title(present.physics).is_some_and(|title| title.contains(&zero));
         let on = if titled { words.split(", ").nth(1) } else { Some(words.as_str()) };
         let counted = match count {
@@ -227,6 +226,17 @@ impl Instrument for SectionPlot {
         let job = Job::new("orbits", move |progress| Answer::new(task.portrait(progress)));
         // what a person asks for is computed in any case
         if plot.seeds.is_empty() { Need::Addition(job) } else { Need::Job(job) }
+    }
+
+    fn table(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        answer: Option<&Answer>,
+    ) -> Option<PlotTable> {
+        let channels = present.physics.system.channels();
+        let named = |k| Some(channels.get(plot.column(k)?)?.name.clone());
+        Some(portrait(answer)?.table([named(0)?, named(1)?]))
     }
 
     fn measures(&self) -> &'static [Measure] {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{App, Drawn, Effect, Event, Saved};
+use phaselab::app::{App, Drawn, Effect, Event, Pane, Saved};
 use phaselab::experiment::Command;
 use phaselab::instrument::{Across, Layer, Picture, Plot, SavedVariations, Upwards};
 use phaselab::model::Variation;
@@ -56,6 +56,34 @@ fn the_answer_of_a_linear_oscillator_grows_with_its_drive() {
     let ends = points.iter().fold([9.0_f64, 0.0], |[lo, hi], at| [lo.min(at[0]), hi.max(at[0])]);
     assert!(ends[0] == 1.0 && ends[1] > 2.9 && ends[1] <= 3.0, "{ends:?}");
     assert!((measure(&app, &diagram(&app), "value") - 1.2).abs() < 0.05);
+}
+
+/// What is computed is written as a table that reads as it was computed: every value of the parameter with its crossings.
+#[test]
+fn a_diagram_is_saved_as_a_table() {
+    let mut app = begun(DRIVEN);
+    let index =
+        app.lab.as_ref().unwrap().plots.iter().position(|plot| plot.kind.name() == "diagram");
+    let focus = |app: &mut App, pane: Pane| app.lab.as_mut().unwrap().focus = pane;
+    // the motion itself where no diagram is focused
+    focus(&mut app, Pane::Parameters);
+    assert_eq!(app.lab.as_ref().unwrap().focused_table(), None);
+    focus(&mut app, Pane::Plot(index.unwrap()));
+    let lab = app.lab.as_ref().unwrap();
+    let (kind, table) = lab.focused_table().unwrap();
+    assert_eq!((kind, table.columns[0].as_str(), table.columns.len()), ("diagram", "A", 2));
+    let mut text = Vec::new();
+    let snapshot = lab.seen().unwrap();
+    phaselab::record::data::write_table(&lab.loaded, snapshot, &table, &mut text).unwrap();
+    let text = String::from_utf8(text).unwrap();
+    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+    assert!(lines.next().unwrap().starts_with("A,"), "{text}");
+    let rows: Vec<Vec<f64>> =
+        lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
+    assert_eq!(rows, table.rows);
+    assert_eq!(rows.len(), points(&app).len());
+    assert!(rows.windows(2).all(|pair| pair[0][0] <= pair[1][0]));
+    assert!(rows.iter().all(|row| (row[1] - 0.8 * row[0]).abs() < 1e-8));
 }
 
 /// The straight line of least squares, only where the file asks for it: the crossings are 0.8 A.

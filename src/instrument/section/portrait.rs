@@ -10,7 +10,7 @@ use crate::ensemble::{
     Crossings, PhaseShift, Region, SECTION_GROUP, SectionPlan, SectionPlane, crossings_of_all,
     in_order, spread,
 };
-use crate::instrument::{Present, Seed};
+use crate::instrument::{PlotTable, Present, Seed};
 use crate::integrate::{Method, Settings};
 use crate::job::Progress;
 use crate::mechanics::Equations;
@@ -53,6 +53,18 @@ pub(super) struct Portrait {
     pub(super) orbits: Vec<DrawnOrbit>,
     /// The starts of the orbits to come, and the crossings of each.
     pub(super) pending: (Vec<[f64; 2]>, u64),
+}
+
+impl Portrait {
+    /// A row for each point: the number of its orbit, from 1 on, and its place.
+    pub(super) fn table(&self, [x, y]: [String; 2]) -> PlotTable {
+        let row = |index: usize, at: &[f64; 2]| vec![(index + 1) as f64, at[0], at[1]];
+        let orbits = self.orbits.iter().enumerate();
+        let rows = orbits
+            .flat_map(|(index, orbit)| orbit.points.iter().map(move |at| row(index, at)))
+            .collect();
+        PlotTable { columns: vec!["orbit".to_owned(), x, y], rows }
+    }
 }
 
 /// The points of an orbit, and its rotation number.

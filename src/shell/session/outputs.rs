@@ -16,7 +16,7 @@ use super::super::new_file;
 use super::super::recorder::CastRecorder;
 use super::super::writer::WriteReport;
 use super::Session;
-use crate::app::{Event, Loaded, Notification};
+use crate::app::{Event, Lab, Loaded, Notification};
 use crate::experiment::{Export, Snapshot};
 use crate::record::{data, plain, screenshot};
 use crate::view::colour::ColourDepth;
@@ -96,15 +96,23 @@ impl Session {
         self.write_file(move || put(&stem, ending, text.as_bytes()));
     }
 
-    /// Saves a table of the recorded motion.
+    /// Saves a table of what the focused instrument has computed, or of the recorded motion.
     pub(super) fn data(&mut self) {
         let Some((loaded, snapshot)) = self.seen() else {
             return self.report(Err("There is no motion here to save.".to_owned()));
         };
+        let computed = self.app.lab.as_ref().and_then(Lab::focused_table);
         self.write_file(move || {
             let mut table = Vec::new();
-            data::write(&loaded, &snapshot, &mut table).map_err(|why| why.to_string())?;
-            put(&loaded.name, "csv", &table)
+            let (stem, written) = match computed {
+                Some((kind, computed)) => (
+                    format!("{}-{kind}", loaded.name),
+                    data::write_table(&loaded, &snapshot, &computed, &mut table),
+                ),
+                None => (loaded.name.clone(), data::write(&loaded, &snapshot, &mut table)),
+            };
+            written.map_err(|why| why.to_string())?;
+            put(&stem, "csv", &table)
         });
     }
 

@@ -1,0 +1,12 @@
+//! What an instrument has computed, as a table.
+//!
+//! In: numbers. Out: [`PlotTable`]. Never here: files.
+
+/// Named columns and rows of numbers.
+#[derive(Clone, PartialEq, Debug)]
+pub struct PlotTable {
+    /// The names of the columns.
+    pub columns: Vec<String>,
+    /// The rows, each with a number for every column.
+    pub rows: Vec<Vec<f64>>,
+}
