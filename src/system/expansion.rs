@@ -11,19 +11,9 @@ use std::sync::Arc;
 use super::System;
 use super::jet::{Jet, Side};
 use super::program::Program;
-use super::sign_bound::{keeps_sign, stays};
+use super::sign_bound::{LAST, bound, keeps_sign, stays};
 use super::step_series::StepSeries;
 use crate::num::{DoubleDouble, math};
-
-/// The number of last orders that enter the estimate: those of even and of odd functions vanish in
-/// turn.
-pub(super) const LAST: usize = 3;
-
-/// The argument of an exponential may change by this amount, …
-const FARTHEST_ARGUMENT: f64 = 3.0;
-
-/// … or by this part of itself: far out in the tail nothing happens.
-const PART_OF_ARGUMENT: f64 = 0.5;
 
 /// The series of the functions, up to one order.
 #[derive(Clone, Debug)]
@@ -243,12 +233,6 @@ fn validity(c: &[f64], cut_off: f64) -> f64 {
         length = length.min((0..k).map(to_term).fold(0.0, f64::max));
     }
     length
-}
-
-/// How far the argument of an exponential may change.
-#[inline(always)]
-pub(super) fn bound(argument: f64) -> f64 {
-    0.5 * FARTHEST_ARGUMENT.max(PART_OF_ARGUMENT * argument.abs())
 }
 
 /// How far the argument of an exponential stays in one range of its values.

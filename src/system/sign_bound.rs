@@ -4,8 +4,17 @@
 //! the opposite sign together, and the truncated series represents the function. Never here: where a function changes its
 //! sign.
 
-use super::expansion::{LAST, bound};
 use crate::num::{Analytic, BATCH, Batch};
+
+/// The number of last orders that enter the estimate: those of even and of odd functions vanish in
+/// turn.
+pub(super) const LAST: usize = 3;
+
+/// The argument of an exponential may change by this amount, …
+const FARTHEST_ARGUMENT: f64 = 3.0;
+
+/// … or by this part of itself: far out in the tail nothing happens.
+const PART_OF_ARGUMENT: f64 = 0.5;
 
 /// The first term must outweigh the others by this part of it, …
 const MARGIN: f64 = 1e-3;
@@ -29,6 +38,12 @@ pub(super) fn keeps_sign(c: &[f64], cut_off: f64, time: f64) -> bool {
         against += size - term;
     }
     represented && 0.5 * against < (1.0 - MARGIN) * first && LEAST * all < first
+}
+
+/// How far the argument of an exponential may change.
+#[inline(always)]
+pub(super) fn bound(argument: f64) -> f64 {
+    0.5 * FARTHEST_ARGUMENT.max(PART_OF_ARGUMENT * argument.abs())
 }
 
 /// Whether the argument of an exponential stays in one range of its values up to a time.
