@@ -26,7 +26,7 @@ const FAR: f64 = 1e150;
 
 /// Over a longer time than this, in the shortest times in which velocity and acceleration at the
 /// start change anything, a velocity on a kink is nothing beside what forces do there, …
-const SOON: f64 = 1e10;
+const SOON: f64 = 1e6;
 
 /// … and over longer ones than this the squares of what a parabola covers between two kinks are no
 /// numbers; but so many of the longest of these times must be ahead.

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::phaselab;
+use super::{phaselab, with_file};
 
 fn json(words: &[&str]) -> Value {
     serde_json::from_str(&phaselab(words).success()).expect("JSON")
@@ -84,4 +84,76 @@ fn similarity_is_told() {
     assert!(answer["similarity"].is_null());
     assert_eq!(answer["symmetries"], serde_json::json!([]));
     assert_eq!(answer["point_symmetries"]["found"][0]["name"], "time shift");
+}
+
+/// Mass, length and time of natural, atomic, galactic and other units.
+const UNITS: [(f64, f64, f64); 4] = [
+    (1.0, 1.0, 1.0),
+    (9.109_383_7e-31, 5.291_77e-11, 2.418_884_3e-17),
+    (1.988_92e30, 3.085_7e16, 3.155_76e13),
+    (0.3, 2.7, 0.011),
+];
+
+/// A particle in the plane in a potential with the parameters k (of the dimension given by the powers of mass, length and time) and
+/// a (an inverse length).
+fn in_units((m, l, t): (f64, f64, f64), potential: &str, [a, b, c]: [i32; 3]) -> String {
+    let k = m.powi(a) * l.powi(b) * t.powi(c);
+    format!(
+        "title = \"Units\"\n[parameters]\nm = {m:?}\nk = {k:?}\na = {:?}\n[coordinates]\n\
+         x = {{ initial = {:?}, velocity = {:?} }}\ny = {{ initial = {:?}, velocity = {:?} }}\n\
+         [lagrangian]\nL = \"1/2*m*(x'^2 + y'^2) - ({potential})\"\n",
+        1.0 / l,
+        0.4 * l,
+        0.1 * l / t,
+        0.7 * l,
+        0.3 * l / t
+    )
+}
+
+/// Values with so many digits that their products are rounded change no relation between them: what is found is the same in
+/// all units, with the names of the parameters, and no more is independent than there can be.
+#[test]
+fn constants_are_the_same_in_any_units() {
+    for (potential, dimension, found) in [
+        ("-k/sqrt(x^2 + y^2)", [1, 3, -2], 3),
+        ("1/2*k*(x^2 + y^2)", [1, 0, -2], 3),
+        ("k*(exp(a*(x - y)) + exp(-a*(x + y)))", [1, 2, -2], 2),
+        ("k*(1 - exp(-a*x))^2 + k*(1 - exp(-a*y))^2", [1, 2, -2], 2),
+    ] {
+        let told = UNITS.map(|units| {
+            let text = in_units(units, potential, dimension);
+            let out = with_file(&text, &["invariants", "system.toml", "--degree", "2"]).success();
+            let independent = out.lines().nth(1).unwrap_or_default();
+            let expected = match found {
+                2 => "2 in involution: integrable".to_owned(),
+                n => format!("{n} independent constants of the motion"),
+            };
+            assert!(independent.contains(&expected), "{potential} {units:?}: {out}");
+            let constants =
+                out.lines().filter(|line| line.starts_with("  I") && line.contains('='));
+            constants.collect::<Vec<_>>().join("\n")
+        });
+        assert!(told.iter().all(|text| *text == told[0]), "{potential}: {told:#?}");
+    }
+}
+
+/// A search through a Morse potential whose numbers are no short fractions finds the symmetry under time, and makes no claim
+/// on others; with literals it says what to do.
+#[test]
+fn symmetries_of_a_law_with_long_numbers_are_searched() {
+    let potential = "k*(1 - exp(-a*x))^2 + k*(1 - exp(-a*y))^2";
+    for units in UNITS {
+        let text = in_units(units, potential, [1, 2, -2]);
+        let out = with_file(&text, &["symmetries", "system.toml"]).success();
+        assert!(out.contains("time shift"), "{units:?}: {out}");
+        assert_eq!(
+            out.contains("there are no others (proved)"),
+            units.0 == 1.0,
+            "{units:?}: {out}"
+        );
+    }
+    let literal = "title = \"Morse\"\n[coordinates]\nx = { initial = 1 }\n\
+                   [lagrangian]\nL = \"1/2*x'^2 - 5*(1 - exp(-0.48148148148148145*x))^2\"\n";
+    let said = "a number in an angle or exponent is no short fraction: make it a parameter";
+    with_file(literal, &["symmetries", "system.toml"]).fails(1, &[said]);
 }
