@@ -33,7 +33,7 @@ fn primed(text: &str) -> String {
             out.push(c);
             continue;
         }
-        let within = rest.peek().is_some_and(|next| belongs(*next));
+        let within = rest.peek().is_some_and(|next| next.is_alphabetic());
         prime = !within && (prime || is_symbol(&word));
         out.push(if prime { '′' } else { c });
         if within {
