@@ -160,7 +160,7 @@ fn reach(
     // Widened by factors of four until the region ends inside, then sampled once more in its own
     // range.
     let mut closer = false;
-    while vertical[1] <= limit[1] {
+    while vertical[1] <= limit[1] && limit[1].is_finite() {
         let rates = spread(vertical, SEARCH);
         let values = energy.grid(&positions, &rates);
         let below = |i: usize, j: usize| values[j * SEARCH + i] <= top;

@@ -82,3 +82,19 @@ fn where_nothing_is_finite_there_is_no_landscape() {
     let plane = Plane { parameters: &loaded.model.parameter_values(), ..plane };
     assert!(Landscape::survey(&plane, [[f64::NAN, 1.0], [0.0, 1.0]]).is_none());
 }
+
+/// A rate of which even a little more is no number has no region around it to be searched.
+#[test]
+fn a_motion_at_the_end_of_the_numbers_has_an_end_to_its_search() {
+    let loaded = loaded("pendulum", 1);
+    let parameters = loaded.model.parameter_values();
+    let system = &*loaded.system;
+    for form in [Form::Momentum, Form::Velocity] {
+        let period = Some(std::f64::consts::TAU);
+        let plane = Plane { system, parameters: &parameters, time: 0.0, form, period };
+        for far in [1e300, 1.5e308] {
+            let found = Landscape::survey(&plane, [[-1.0, 1.0], [-far, far]]);
+            assert!(found.is_none_or(|found| found.window[1][1] >= far), "{far}");
+        }
+    }
+}
