@@ -375,30 +375,6 @@ fn a_motion_that_goes_back_is_taken_up_going_back() {
     assert!(pairs.filter(|(a, _)| a.is_finite()).all(|(a, b)| (a - b).abs() < 1e-13));
 }
 
-/// A state of a file whose constraint has moved a little: up to a billionth of its terms, which are two of one size, the motion
-/// and its gauges continue; beyond that it is moved onto the constraint, and they begin anew.
-#[test]
-fn a_state_is_taken_up_as_it_is_up_to_a_billionth_of_a_constraint() {
-    let on = |place: &str| {
-        SPRING.replace("velocity = 0.5", "velocity = 0.0")
-            + &format!("[[constraints]]\nname = \"line\"\nexpression = \"y - {place}\"\n")
-    };
-    let mut left = build(&on("2"), |_| ());
-    run(&mut left, 0.8);
-    let taken = |place: &str| {
-        let mut taken =
-            build(&on(place).replace("initial = 2.0", &format!("initial = {place}")), |_| ());
-        taken.execute(Command::TakeUp(Box::new(kept(&left))));
-        taken
-    };
-    let within = taken("2.0000000036");
-    assert_eq!(within.time(), 0.8);
-    assert_eq!(gauge(&within.snapshot(), "energy").reference_time, 0.0);
-    let beyond = taken("2.0000000044");
-    assert_eq!(beyond.time(), 0.8);
-    assert_eq!(gauge(&beyond.snapshot(), "energy").reference_time, 0.8);
-}
-
 /// Another law with another auxiliary number, here the work that a ramp does, takes the action up where it was: S goes on
 /// through the change, and is ∫ L dt over both parts of the motion.
 #[test]
