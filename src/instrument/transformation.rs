@@ -1,9 +1,8 @@
 //! `transformation`: the orbit in the new variables of a transformation (q, p) → (Q, P), with the grid of the old ones.
 //!
-//! In the passive view the point of the motion is the same, and its coordinates are others. The lines on which one of the
-//! old variables is constant are drawn in the plane of the new ones; where the new variables jump, as an angle does, a line
-//! is not joined. In the active view the coordinates stay, and the map moves the point: (q, p) and its image (Q, P) in one
-//! plane. The job finds the lines, whether the map is canonical, and K.
+//! In the passive view the point is the same, and its coordinates are others: lines of constant old variables are drawn in
+//! the plane of the new ones, parted where these jump. In the active view the map moves the point: (q, p) and its image
+//! (Q, P) in one plane. The job finds the lines, whether the map is canonical, and K.
 //! Source: *The Principles of Dynamics*, §§ 3.2.2, 3.3.
 
 mod branches;
