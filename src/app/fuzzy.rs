@@ -129,12 +129,15 @@ impl Word {
         Some(FuzzyMatch { score: score + more, messages })
     }
 
-    /// Returns the word's score in a description: three letters match anywhere, two only at the start of a word.
+    /// Returns the word's score in a description, where a word must begin with it, by two letters at least: otherwise
+    /// `pend` would be found in what depends on something.
     fn described(&self, text: &str, matcher: &mut Matcher) -> Option<u32> {
-        let mut buffer = Vec::new();
-        let score = self.plain.score(Utf32Str::new(text, &mut buffer), matcher)?.into();
-        let meant = self.messages > 2 || self.messages == 2 && score >= LEAST * self.messages;
-        meant.then_some(score)
+        let (mut buffer, mut places) = (Vec::new(), Vec::new());
+        let text = Utf32Str::new(text, &mut buffer);
+        let score = u32::from(self.plain.indices(text, matcher, &mut places)?);
+        let first = *places.iter().min()?;
+        let begins = first == 0 || !text.get(first - 1).is_alphanumeric();
+        (begins && self.messages > 1).then_some(score)
     }
 }
 
@@ -173,6 +176,7 @@ mod tests {
         assert!(score("type l", "type l, length") > score("type l", "type it, 2*l"));
         let described = |query| fit(query, "zoom").map_or(0, |f| f.score);
         assert!(described("second") > described("about"), "a name counts more than what is said");
-        assert!(described("line") > described("ine"));
+        assert!(described("line") > 0 && described("li") > 0);
+        assert_eq!([described("ine"), described("l")], [0, 0], "a word begins with it");
     }
 }

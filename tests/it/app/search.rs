@@ -46,6 +46,10 @@ fn the_best_system_is_first() {
         let found = systems(query);
         assert_eq!(found.first().map(String::as_str), Some(first), "{query}: {found:?}");
     }
+    // A system whose description has a word that begins so comes later, and one that depends on something not at all.
+    let found = systems("pend");
+    assert!(found.contains(&"least-action".to_owned()), "{found:?}");
+    assert!(!found.contains(&"darwin".to_owned()), "{found:?}");
     assert_eq!(systems("zzz"), [""; 0]);
     assert_eq!(systems("").len(), at_picker().picker.entries.len());
 }
