@@ -29,7 +29,7 @@ fn bench(c: &mut Criterion) {
         ("henon-heiles", HENON_HEILES, 6),
         ("three bodies", THREE_BODIES, 2),
     ] {
-        let model = read(text).unwrap_or_else(|mistakes| panic!("{mistakes:?}")).model;
+        let model = read(text).unwrap_or_else(|diagnostics| panic!("{diagnostics:?}")).model;
         let equations = mechanics::derive(&model).expect("derivable");
         group.bench_function(name, |b| {
             b.iter(|| {

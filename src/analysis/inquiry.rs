@@ -180,10 +180,10 @@ fn read(
     }
     let whole = crate::expr::Span { start: 0, end: text.len() };
     let unknown = || SyntaxError::new(whole, "this cannot be read");
-    let mut mistake = scope.mistakes.into_iter().next().unwrap_or_else(unknown);
-    mistake.span.start += start;
-    mistake.span.end += start;
-    Err(mistake)
+    let mut diagnostic = scope.diagnostics.into_iter().next().unwrap_or_else(unknown);
+    diagnostic.span.start += start;
+    diagnostic.span.end += start;
+    Err(diagnostic)
 }
 
 fn bracket(model: &Model, equations: &mut Equations, sides: [Expr; 2]) -> InquiryAnswer {

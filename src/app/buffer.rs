@@ -205,7 +205,7 @@ impl SourceBuffer {
     }
 
     /// Returns the number of errors, which keep the text from being used.
-    pub fn mistakes(&self) -> usize {
+    pub fn diagnostics(&self) -> usize {
         self.diagnostics.iter().filter(|diagnostic| !diagnostic.warning).count()
     }
 
@@ -288,11 +288,11 @@ impl SourceBuffer {
     }
 
     /// Stores the errors found, unless the text may be an incomplete file that is read once more.
-    pub(super) fn is_wrong(&mut self, mistakes: &[Diagnostic]) {
+    pub(super) fn is_wrong(&mut self, diagnostics: &[Diagnostic]) {
         if self.half {
             (self.half, self.rest) = (false, Some(PATIENCE));
         } else {
-            self.note(mistakes);
+            self.note(diagnostics);
             self.state = BufferState::Wrong;
         }
     }
@@ -304,7 +304,7 @@ impl SourceBuffer {
         let Some(diagnostic) = diagnostic.filter(|_| self.state == BufferState::Wrong) else {
             return Some(format!("Saved: {shown}"));
         };
-        let count = match self.mistakes() {
+        let count = match self.diagnostics() {
             1 => "1 error".to_owned(),
             n => format!("{n} errors"),
         };
@@ -327,21 +327,21 @@ impl SourceBuffer {
     }
 
     /// Stores the diagnostics, each at its position.
-    fn note(&mut self, mistakes: &[Diagnostic]) {
-        let diagnostic = |mistake: &Diagnostic| {
-            let from = self.editor.caret_at(mistake.place.start);
-            let end = self.editor.caret_at(mistake.place.end);
+    fn note(&mut self, diagnostics: &[Diagnostic]) {
+        let diagnostic = |diagnostic: &Diagnostic| {
+            let from = self.editor.caret_at(diagnostic.place.start);
+            let end = self.editor.caret_at(diagnostic.place.end);
             let length = self.editor.lines()[from.row].chars().count();
             let column = if end.row == from.row { end.column } else { length };
             BufferDiagnostic {
                 from,
                 to: Caret { row: from.row, column: column.max(from.column) },
-                warning: mistake.severity == Severity::Warning,
-                message: mistake.message.clone(),
-                help: mistake.help.clone(),
+                warning: diagnostic.severity == Severity::Warning,
+                message: diagnostic.message.clone(),
+                help: diagnostic.help.clone(),
             }
         };
-        self.diagnostics = mistakes.iter().map(diagnostic).collect();
+        self.diagnostics = diagnostics.iter().map(diagnostic).collect();
     }
 
     /// Goes to the first error.

@@ -171,7 +171,7 @@ impl App {
         let value = match field.read(&lab.loaded.model, &parameters) {
             Ok(value) => value,
             Err(sentence) => {
-                field.mistake = Some(sentence);
+                field.diagnostic = Some(sentence);
                 self.overlay = Some(Overlay::Field(field));
                 return Vec::new();
             }

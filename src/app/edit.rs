@@ -394,10 +394,10 @@ impl App {
             }
             // Errors of a text that has changed since are out of date.
             (Err(_), Found::Older) => Vec::new(),
-            (Err(mistakes), Found::Newest) => {
+            (Err(diagnostics), Found::Newest) => {
                 self.typed_axis = None;
                 let Some(buffer) = self.buffer() else { return Vec::new() };
-                buffer.is_wrong(&mistakes);
+                buffer.is_wrong(&diagnostics);
                 if mends {
                     buffer.step_to_first();
                 }

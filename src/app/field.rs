@@ -47,14 +47,14 @@ pub struct InputField {
     /// Whether the text is still the initial one, selected as a whole: typing replaces it.
     pub whole: bool,
     /// What was wrong with the text when it was last submitted.
-    pub mistake: Option<String>,
+    pub diagnostic: Option<String>,
 }
 
 impl InputField {
     /// Creates a field with an initial text.
     pub fn new(purpose: Purpose, text: String) -> Self {
         let whole = !text.is_empty();
-        Self { purpose, input: Input::new(text), whole, mistake: None }
+        Self { purpose, input: Input::new(text), whole, diagnostic: None }
     }
 
     /// Handles an editing key and clears the last error message.
@@ -65,7 +65,7 @@ impl InputField {
             self.input.reset();
         }
         if edit(&mut self.input, key) || emptied {
-            self.mistake = None;
+            self.diagnostic = None;
         }
     }
 
@@ -74,7 +74,7 @@ impl InputField {
         if std::mem::take(&mut self.whole) {
             self.input.reset();
         }
-        self.mistake = None;
+        self.diagnostic = None;
         paste(&mut self.input, text)
     }
 
@@ -104,9 +104,9 @@ pub(super) fn number(model: &Model, parameters: &[f64], text: &str) -> Result<f6
     let mut pool: Pool = model.pool.clone();
     let mut scope = Scope::new(model, Allowed::Parameters, "a typed value");
     let Some(expression) = scope.read(&mut pool, text) else {
-        let mistake = scope.mistakes.first();
-        let what = mistake.map_or("it cannot be read".to_owned(), ToString::to_string);
-        let help = mistake.and_then(|m| m.help.clone());
+        let diagnostic = scope.diagnostics.first();
+        let what = diagnostic.map_or("it cannot be read".to_owned(), ToString::to_string);
+        let help = diagnostic.and_then(|m| m.help.clone());
         let help = help.map_or(String::new(), |help| format!(": {help}"));
         return Err(format!("`{}` is not a number: {what}{help}.", text.trim()));
     };

@@ -269,8 +269,8 @@ impl App {
         let mut equations = (*lab.loaded.equations).clone();
         let mut scope = Scope::new(model, Allowed::Bracket, "a generator");
         let read = scope.read(&mut equations.pool, written).ok_or_else(|| {
-            let mistake = scope.mistakes.first();
-            let what = mistake.map_or("it cannot be read".to_owned(), ToString::to_string);
+            let diagnostic = scope.diagnostics.first();
+            let what = diagnostic.map_or("it cannot be read".to_owned(), ToString::to_string);
             format!("`{}` is not a generator: {what}.", written.trim())
         });
         match read.and_then(|e| Ok((e, number(model, &parameters, far)?))) {
@@ -278,7 +278,7 @@ impl App {
                 self.follow(FlowGenerator::Constant(generator), equations, epsilon)
             }
             Err(sentence) => {
-                field.mistake = Some(sentence);
+                field.diagnostic = Some(sentence);
                 self.overlay = Some(Overlay::Field(field));
                 Vec::new()
             }

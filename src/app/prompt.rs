@@ -23,7 +23,7 @@ pub struct Prompt {
     /// The question answered last, and its answer.
     pub answered: Option<(String, Box<Inquiry>)>,
     /// The syntax error of the text submitted last.
-    pub mistake: Option<SyntaxError>,
+    pub diagnostic: Option<SyntaxError>,
     /// The question that is being answered.
     pub under_way: Option<(String, UnderWay)>,
 }
@@ -32,7 +32,7 @@ impl Prompt {
     /// Handles an editing key and clears the last error message.
     pub(super) fn press(&mut self, key: KeyEvent) {
         if edit(&mut self.input, key) {
-            self.mistake = None;
+            self.diagnostic = None;
         }
     }
 
@@ -54,10 +54,12 @@ impl Prompt {
         let Outcome::Done(answer) = outcome else { return };
         match answer.of::<Result<Inquiry, SyntaxError>>() {
             Some(Ok(inquiry)) => {
-                self.mistake = None;
+                self.diagnostic = None;
                 self.answered = Some((text, Box::new(inquiry.clone())));
             }
-            Some(Err(mistake)) => (self.mistake, self.answered) = (Some(mistake.clone()), None),
+            Some(Err(diagnostic)) => {
+                (self.diagnostic, self.answered) = (Some(diagnostic.clone()), None)
+            }
             None => {}
         }
     }

@@ -64,7 +64,7 @@ impl App {
         let request = match read {
             Ok(request) => request,
             Err(sentence) => {
-                field.mistake = Some(sentence);
+                field.diagnostic = Some(sentence);
                 self.overlay = Some(Overlay::Field(field));
                 return Vec::new();
             }

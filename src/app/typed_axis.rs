@@ -21,7 +21,7 @@ impl App {
         let mut pool = lab.loaded.equations.pool.clone();
         let mut scope = Scope::new(model, Allowed::Observable, "an axis");
         let Some(expression) = scope.read(&mut pool, &typed) else {
-            let what = scope.mistakes.first().map(ToString::to_string);
+            let what = scope.diagnostics.first().map(ToString::to_string);
             let what = what.unwrap_or_else(|| "it cannot be read".to_owned());
             let sentence = format!("No line has `{typed}`, and as an expression: {what}.");
             self.overlay = Some(Overlay::Menu(menu.clone()));

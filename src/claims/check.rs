@@ -16,39 +16,39 @@ use crate::system::System;
 
 /// Returns a diagnostic for each false claim of a model, at its place.
 pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
-    let mut mistakes = structure_diagnostics(model, equations);
-    if !mistakes.is_empty() {
+    let mut diagnostics = structure_diagnostics(model, equations);
+    if !diagnostics.is_empty() {
         // without a Poisson structure the motion is meaningless
-        return mistakes;
+        return diagnostics;
     }
-    mistakes.extend(denied(model, equations));
-    mistakes.extend(false_brackets(model, equations));
-    mistakes.extend(false_count(model, equations));
-    mistakes.extend(incomplete(model, equations));
+    diagnostics.extend(denied(model, equations));
+    diagnostics.extend(false_brackets(model, equations));
+    diagnostics.extend(false_count(model, equations));
+    diagnostics.extend(incomplete(model, equations));
     let mut extended = equations.clone();
     let claims = open_claims(model, &mut extended);
     let equations = &extended;
     let system = match System::compile(model, equations, &[]) {
         Ok(system) => system,
         Err(why) => {
-            mistakes.push(Diagnostic::error(0..0, why.to_string()));
-            return mistakes;
+            diagnostics.push(Diagnostic::error(0..0, why.to_string()));
+            return diagnostics;
         }
     };
     match ClaimedMotion::begin(model, equations, &system) {
         Ok(motion) => {
-            mistakes.extend(own_method::mistake(model, &system));
-            mistakes.extend(false_steps(model, equations, &system));
-            motion.follow(model, equations, claims, &mut mistakes);
+            diagnostics.extend(own_method::diagnostic(model, &system));
+            diagnostics.extend(false_steps(model, equations, &system));
+            motion.follow(model, equations, claims, &mut diagnostics);
         }
-        Err(mistake) => mistakes.push(mistake),
+        Err(diagnostic) => diagnostics.push(diagnostic),
     }
     for e in mechanics::widened(model, equations) {
         let message = format!(
             "`{}` is under a root that is squared away: the equations continue where it is below zero",
             equations.pool.text(e)
         );
-        mistakes.push(Diagnostic::warning(model.law_place.clone(), message));
+        diagnostics.push(Diagnostic::warning(model.law_place.clone(), message));
     }
     for name in system.redundant() {
         let constraint = model.constraints.iter().find(|c| c.name == name);
@@ -57,9 +57,9 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
             constraint.map_or_else(|| model.law_place.clone(), |c| c.place.clone()),
             message,
         );
-        mistakes.push(warning.with_help("their multipliers are those of least norm"));
+        diagnostics.push(warning.with_help("their multipliers are those of least norm"));
     }
-    mistakes
+    diagnostics
 }
 
 /// Returns the errors in the brackets and Casimirs of a file, with which it has no motion.

@@ -82,7 +82,7 @@ impl Claim {
         Some(Diagnostic::error(self.place.clone(), message).with_help(help))
     }
 
-    pub(super) fn mistake(&self, equations: &Equations, end: f64) -> Option<Diagnostic> {
+    pub(super) fn diagnostic(&self, equations: &Equations, end: f64) -> Option<Diagnostic> {
         let Claim { name, .. } = self;
         if self.first.is_nan() {
             let message = format!("`{name}` is claimed to be conserved, but it is not a number");

@@ -148,7 +148,7 @@ impl<'a> ClaimedMotion<'a> {
         let own = || own_method::first_step(model, system, &state, &parameters);
         let fault = fault.filter(|_| !matches!(own(), Some(Ok(()))));
         match motion.at_the_start(model, equations, fault.as_ref()) {
-            Some(mistake) => Err(mistake),
+            Some(diagnostic) => Err(diagnostic),
             None => {
                 if motion.course.begin(&state, &parameters).is_err() {
                     return Err(refused(model.law_place.clone(), "its state is lost".into()));
@@ -167,7 +167,7 @@ impl<'a> ClaimedMotion<'a> {
     ) -> Option<Diagnostic> {
         let energy = self.seen(ChannelKind::Energy);
         let at = |symbol| self.value_of(model, equations, symbol, model.run.start);
-        start::mistake(model, equations, fault, energy, &at)
+        start::diagnostic(model, equations, fault, energy, &at)
     }
 
     /// The value of a channel at the last sample.
@@ -206,7 +206,7 @@ impl<'a> ClaimedMotion<'a> {
         model: &Model,
         equations: &Equations,
         mut claims: Vec<Claim>,
-        mistakes: &mut Vec<Diagnostic>,
+        diagnostics: &mut Vec<Diagnostic>,
     ) {
         let start = model.run.start;
         let end = model.run.until.unwrap_or(start + LENGTH);
@@ -222,7 +222,7 @@ impl<'a> ClaimedMotion<'a> {
         for (k, &(time, value)) in schedule.iter().enumerate() {
             if let (true, Some(value)) = (time < start, value) {
                 let message = format!("the motion begins at {start}; {time} is before it");
-                mistakes.push(Diagnostic::error(value.place.clone(), message));
+                diagnostics.push(Diagnostic::error(value.place.clone(), message));
                 continue;
             }
             if let Err(short) = self.reach(time, last) {
@@ -232,26 +232,26 @@ impl<'a> ClaimedMotion<'a> {
                     let message = format!("`{name}` cannot be checked: {short}");
                     Diagnostic::error(place.clone(), message)
                 };
-                mistakes.extend(values.map(unchecked));
+                diagnostics.extend(values.map(unchecked));
                 // what is conserved is so until the motion ends
                 if matches!(short, Short::Ended(_)) {
                     self.sample(model, equations, &mut claims);
                     break;
                 }
                 let claims = claims.iter().map(|claim| (&claim.name, &claim.place));
-                return mistakes.extend(claims.map(unchecked));
+                return diagnostics.extend(claims.map(unchecked));
             }
             match value {
-                Some(value) => mistakes.extend(self.compare(value)),
+                Some(value) => diagnostics.extend(self.compare(value)),
                 None => self.sample(model, equations, &mut claims),
             }
         }
-        mistakes.extend(claims.iter().filter_map(|claim| {
-            claim.mistake(equations, end).or_else(|| claim.unseen(equations, end))
+        diagnostics.extend(claims.iter().filter_map(|claim| {
+            claim.diagnostic(equations, end).or_else(|| claim.unseen(equations, end))
         }));
         if !(model.expect.events.is_empty() && model.expect.counts.is_empty()) {
             let short = self.reach(last, last).err().filter(|why| !matches!(why, Short::Ended(_)));
-            mistakes.extend(self.false_occurrences(model, short.as_ref()));
+            diagnostics.extend(self.false_occurrences(model, short.as_ref()));
         }
     }
 
@@ -261,7 +261,7 @@ impl<'a> ClaimedMotion<'a> {
             self.occurrences.iter().filter(|h| h.name == name).map(|h| h.time).collect()
         };
         let until = short.map_or(String::new(), |why| format!("; {why}"));
-        let mut mistakes = Vec::new();
+        let mut diagnostics = Vec::new();
         for expected in &model.expect.events {
             let (name, nth, at) = (&expected.name, expected.nth, expected.at);
             let message = match times(name).get(nth.wrapping_sub(1)) {
@@ -272,7 +272,7 @@ impl<'a> ClaimedMotion<'a> {
                 ),
                 None => format!("`{name}` does not happen {nth} times{until}"),
             };
-            mistakes.push(Diagnostic::error(expected.place.clone(), message));
+            diagnostics.push(Diagnostic::error(expected.place.clone(), message));
         }
         for expected in &model.expect.counts {
             let (name, is) = (&expected.name, expected.is);
@@ -290,9 +290,9 @@ impl<'a> ClaimedMotion<'a> {
                     format!("`{name}` happens {found} times until t = {}, not {is}", expected.until)
                 }
             };
-            mistakes.push(Diagnostic::error(expected.place.clone(), message));
+            diagnostics.push(Diagnostic::error(expected.place.clone(), message));
         }
-        mistakes
+        diagnostics
     }
 
     fn reach(&mut self, time: f64, limit: f64) -> Result<(), Short> {

@@ -30,7 +30,7 @@ pub(super) fn first_step(
 }
 
 /// Why the method that the file names cannot begin, if the motion itself can.
-pub(super) fn mistake(model: &Model, system: &System) -> Option<Diagnostic> {
+pub(super) fn diagnostic(model: &Model, system: &System) -> Option<Diagnostic> {
     let parameters = model.parameter_values();
     let state = system.initial(model.run.start, &parameters, &[]).ok()?;
     let fault = first_step(model, system, &state, &parameters)?.err()?;

@@ -15,7 +15,7 @@ const LONGEST: u64 = 60;
 
 /// Returns why nothing can start with this energy, or with the error of the first step, or `None`
 /// if it can.
-pub(super) fn mistake(
+pub(super) fn diagnostic(
     model: &Model,
     equations: &Equations,
     fault: Option<&MotionError>,

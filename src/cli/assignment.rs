@@ -72,16 +72,16 @@ pub(super) fn number(text: &str) -> Result<f64, String> {
             let mut nothing = Model::new("");
             let mut scope = Scope::new(&nothing, Allowed::Parameters, "a number");
             let read = scope.read(&mut nothing.pool, text);
-            let e = read.ok_or_else(|| first_mistake(&scope))?;
+            let e = read.ok_or_else(|| first_error(&scope))?;
             nothing.pool.evaluate(e, &|_| f64::NAN)
         }
     };
     if value.is_finite() { Ok(value) } else { Err("it is not finite".to_owned()) }
 }
 
-fn first_mistake(scope: &Scope) -> String {
-    let mistake = scope.mistakes.first().map(|mistake| mistake.message.clone());
-    mistake.map_or_else(
+fn first_error(scope: &Scope) -> String {
+    let diagnostic = scope.diagnostics.first().map(|diagnostic| diagnostic.message.clone());
+    diagnostic.map_or_else(
         || "it is not a number".to_owned(),
         |why| {
             let why = printable::shortened(&why, LONGEST_REASON);
@@ -183,7 +183,7 @@ fn initial_value(
     let mut scope = Scope::new(model, Allowed::Parameters, "an initial value");
     let e = scope
         .read(&mut pool, &assignment.value)
-        .ok_or_else(|| wrong(assignment, &first_mistake(&scope)))?;
+        .ok_or_else(|| wrong(assignment, &first_error(&scope)))?;
     let body = body_constants(model, parameters);
     let value = Valuation::of_parameters(model, parameters).with(body).value(&pool, e);
     if value.is_finite() { Ok(value) } else { Err(wrong(assignment, "it is not finite")) }
@@ -289,15 +289,15 @@ fn read(
     if let Some(e) = scope.read(pool, written) {
         return Ok(e);
     }
-    let mistakes: Vec<Diagnostic> = scope
-        .mistakes
+    let diagnostics: Vec<Diagnostic> = scope
+        .diagnostics
         .into_iter()
-        .map(|mistake| {
-            let place = mistake.span.start..mistake.span.end;
-            Diagnostic { help: mistake.help, ..Diagnostic::error(place, mistake.message) }
+        .map(|diagnostic| {
+            let place = diagnostic.span.start..diagnostic.span.end;
+            Diagnostic { help: diagnostic.help, ..Diagnostic::error(place, diagnostic.message) }
         })
         .collect();
-    stderr::show(&report(written, called, &mistakes, stderr::has_colour()));
+    stderr::show(&report(written, called, &diagnostics, stderr::has_colour()));
     let written = printable::quoted(written);
     Err(CommandError::WrongUse(format!(
         "{called}: `{written}` is not an expression of this system"

@@ -53,18 +53,18 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
             Err(why) if why.kind() == ErrorKind::NotFound && !is_path(path) => open::find(path)?,
             read => read.map_err(|why| CommandError::reading(path, &why))?,
         };
-        let (mistakes, found) = findings(&document);
-        errors += mistakes.iter().filter(|m| m.severity == Severity::Error).count();
+        let (diagnostics, found) = findings(&document);
+        errors += diagnostics.iter().filter(|m| m.severity == Severity::Error).count();
         match arguments.format {
             Format::Text => {
-                stderr::show(&document.report(&mistakes, stderr::has_colour()));
-                let found = found.filter(|_| mistakes.is_empty() && stdout().is_terminal());
+                stderr::show(&document.report(&diagnostics, stderr::has_colour()));
+                let found = found.filter(|_| diagnostics.is_empty() && stdout().is_terminal());
                 if let Some(found) = found {
                     let name = printable::path(path);
                     Output::print(OutputForm::Text, &format!("{name}: no errors; {found}\n"))?;
                 }
             }
-            Format::Json => files.push(object(&document, &mistakes)),
+            Format::Json => files.push(object(&document, &diagnostics)),
         }
     }
     if arguments.format == Format::Json {
@@ -83,26 +83,26 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
 fn findings(document: &Document) -> (Vec<Diagnostic>, Option<String>) {
     let checked = match document.read() {
         Ok(checked) => checked,
-        Err(mistakes) => return (mistakes, None),
+        Err(diagnostics) => return (diagnostics, None),
     };
     let mut found = None;
-    let mut mistakes = checked.warnings;
+    let mut diagnostics = checked.warnings;
     let unknown_method = open::unknown_method(&checked.model);
     let is_known = unknown_method.is_none();
-    mistakes.extend(unknown_method);
+    diagnostics.extend(unknown_method);
     let place = checked.model.law_place.clone();
     match Derived::of(checked.model) {
         Ok(derived) => {
             found = Some(description(&derived));
-            mistakes.extend(false_claims(&derived.model, &derived.equations));
+            diagnostics.extend(false_claims(&derived.model, &derived.equations));
             if is_known && let Ok(system) = derived.compile(&[]) {
-                mistakes.extend(open::unfit_method(&derived.model, &system));
+                diagnostics.extend(open::unfit_method(&derived.model, &system));
             }
         }
-        Err(why) => mistakes.push(Diagnostic::error(place, why.to_string())),
+        Err(why) => diagnostics.push(Diagnostic::error(place, why.to_string())),
     }
-    mistakes.sort_by_key(|mistake| mistake.place.start);
-    (mistakes, found)
+    diagnostics.sort_by_key(|diagnostic| diagnostic.place.start);
+    (diagnostics, found)
 }
 
 /// What a system consists of and what it conserves: `2 coordinates, conserved: p_x, E`.
@@ -125,22 +125,22 @@ fn description(derived: &Derived) -> String {
     }
 }
 
-fn object(document: &Document, mistakes: &[Diagnostic]) -> Value {
-    let mistakes: Vec<Value> = mistakes
+fn object(document: &Document, diagnostics: &[Diagnostic]) -> Value {
+    let diagnostics: Vec<Value> = diagnostics
         .iter()
-        .map(|mistake| {
-            let (line, column) = document.line_and_column(mistake.place.start);
+        .map(|diagnostic| {
+            let (line, column) = document.line_and_column(diagnostic.place.start);
             json!({
-                "severity": match mistake.severity {
+                "severity": match diagnostic.severity {
                     Severity::Error => "error",
                     Severity::Warning => "warning",
                 },
                 "line": line,
                 "column": column,
-                "message": mistake.message,
-                "help": mistake.help,
+                "message": diagnostic.message,
+                "help": diagnostic.help,
             })
         })
         .collect();
-    json!({ "file": document.path, "mistakes": mistakes })
+    json!({ "file": document.path, "mistakes": diagnostics })
 }

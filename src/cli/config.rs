@@ -79,7 +79,7 @@ fn path() -> Result<PathBuf, CommandError> {
 }
 
 fn read(document: &Document) -> Result<Words, CommandError> {
-    config::read(document).map_err(|mistakes| open::refuse(document, &mistakes))
+    config::read(document).map_err(|diagnostics| open::refuse(document, &diagnostics))
 }
 
 fn print(text: &str) -> Result<(), CommandError> {

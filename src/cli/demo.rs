@@ -46,7 +46,8 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
 }
 
 fn check(source: &Document) -> Result<(), CommandError> {
-    let script = Script::read(source).map_err(|mistakes| record::located(source, &mistakes))?;
+    let script =
+        Script::read(source).map_err(|diagnostics| record::located(source, &diagnostics))?;
     let Some(system) = &script.head.open else { return Ok(()) };
     let document = open::find(&system.text)?;
     let recording = record::recorded(&script, source, &document, &system.text, None)?;

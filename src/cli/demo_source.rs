@@ -26,7 +26,8 @@ pub(super) fn source(name: Option<&str>) -> Result<Document, CommandError> {
 
 /// A script with its system and the system's name on the screen.
 pub(super) fn scripted(source: &Document) -> Result<(Script, Document, String), CommandError> {
-    let script = Script::read(source).map_err(|mistakes| record::located(source, &mistakes))?;
+    let script =
+        Script::read(source).map_err(|diagnostics| record::located(source, &diagnostics))?;
     let Some(system) = &script.head.open else {
         let what = format!("{} does not say which system it is about: Open NAME", source.path);
         return Err(CommandError::WrongFile(what));

@@ -31,9 +31,9 @@ pub(super) struct Arguments {
 pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     for path in &arguments.files {
         let document = Document::open(path).map_err(|why| CommandError::reading(path, &why))?;
-        let checked = document.read().map_err(|mistakes| {
-            stderr::show(&document.report(&mistakes, stderr::has_colour()));
-            CommandError::WrongFile(open::count(mistakes.len(), &printable::path(path)))
+        let checked = document.read().map_err(|diagnostics| {
+            stderr::show(&document.report(&diagnostics, stderr::has_colour()));
+            CommandError::WrongFile(open::count(diagnostics.len(), &printable::path(path)))
         })?;
         let text = checked.in_plain_form(&document.text);
         if !arguments.write {

@@ -89,7 +89,7 @@ fn perform_demo(
     let request = request(None, words, read)?;
     let source = demo_source::source(arguments.name.as_deref())?;
     let (script, system, name) = demo_source::scripted(&source)?;
-    let wrong = |mistake| record::located(&source, &[mistake]);
+    let wrong = |diagnostic| record::located(&source, &[diagnostic]);
     let performance = ScriptRunner::watched(script, &system, &name).map_err(wrong)?;
     let (ending, outcome) = match shell::perform_demo(performance, &request) {
         Ok(done) => done,

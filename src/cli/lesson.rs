@@ -139,7 +139,7 @@ pub(super) fn check(arguments: &Check, shared: &LessonHost) -> Result<(), Comman
 fn check_one(source: &Document, shared: &LessonHost) -> Result<(), CommandError> {
     let (script, system, name) = (shared.scripted)(source)?;
     let report = check_lesson(&script, &system, &name);
-    let report = report.map_err(|mistakes| record::located(source, &mistakes))?;
+    let report = report.map_err(|diagnostics| record::located(source, &diagnostics))?;
     stderr::tell(&format!(
         "{}: right answers to {} questions, {} wrong answers, tasks: {}; all as the lesson says",
         printable::line(&source.path),
@@ -208,7 +208,7 @@ fn take(
     let request = (shared.request)()?;
     let source = source(name)?;
     let (script, system, called) = (shared.scripted)(&source)?;
-    let located = |mistakes: Vec<_>| record::located(&source, &mistakes);
+    let located = |diagnostics: Vec<_>| record::located(&source, &diagnostics);
     let mut lesson = Lesson::watched(script, &system, &called).map_err(located)?;
     // the progress of a file of one's own is not kept: another file may have its name tomorrow
     let file =
@@ -221,7 +221,7 @@ fn take(
         match LessonProgress::read(file) {
             Ok(progress) => {
                 let step = progress.lessons.get(name).map_or(0, |mark| mark.step);
-                lesson.resume(step).map_err(|mistake| located(vec![mistake]))?;
+                lesson.resume(step).map_err(|diagnostic| located(vec![diagnostic]))?;
             }
             Err(why) => stderr::tell(&why.to_string()),
         }
@@ -237,7 +237,7 @@ fn take(
         LessonProgress::note(file, name, mark)
             .map_err(|why| CommandError::CouldNotWrite(why.to_string()))?;
     }
-    outcome.map_err(|mistake| located(vec![mistake]))?;
+    outcome.map_err(|diagnostic| located(vec![diagnostic]))?;
     if ending == Ending::Quit && !mark.finished && file.is_some() {
         stderr::tell(&format!("`phaselab lessons {}` continues here", printable::line(name)));
     }

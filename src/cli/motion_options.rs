@@ -76,9 +76,9 @@ impl MotionOptions {
         assignment::begin_at(&mut model, &overrides);
         let settings = settings(self.step, self.tolerance, &model)?;
         if self.method.is_none()
-            && let Some(mistake) = open::unknown_method(&model)
+            && let Some(diagnostic) = open::unknown_method(&model)
         {
-            return Err(open::refuse(&document, &[mistake]));
+            return Err(open::refuse(&document, &[diagnostic]));
         }
         let start = Start { time: model.run.start, parameters, overrides };
         Ok(ModelReading { document, model, start, settings })
@@ -109,8 +109,8 @@ impl MotionOptions {
             stderr::tell(&format!("the constraint `{name}` repeats what those before it say"));
         }
         let of_file = self.method.is_none() && (self.step, self.tolerance) == (None, None);
-        if of_file && let Some(mistake) = open::unfit_method(&model, &system) {
-            return Err(open::refuse(&document, &[mistake]));
+        if of_file && let Some(diagnostic) = open::unfit_method(&model, &system) {
+            return Err(open::refuse(&document, &[diagnostic]));
         }
         let name = self.method.as_deref().unwrap_or(&model.run.method);
         let method =

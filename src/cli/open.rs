@@ -26,7 +26,7 @@ pub(super) fn find(name: impl AsRef<OsStr>) -> Result<Document, CommandError> {
 pub(super) fn read(document: &Document) -> Result<Model, CommandError> {
     match document.read() {
         Ok(checked) => Ok(checked.model),
-        Err(mistakes) => Err(refuse(document, &mistakes)),
+        Err(diagnostics) => Err(refuse(document, &diagnostics)),
     }
 }
 
@@ -36,8 +36,8 @@ pub(super) fn derive(document: &Document, model: Model) -> Result<Derived, Comma
     let derived = Derived::of(model);
     let derived =
         derived.map_err(|why| CommandError::WrongFile(format!("{}: {why}", document.path)))?;
-    let mistakes = derived.diagnostics();
-    if mistakes.is_empty() { Ok(derived) } else { Err(refuse(document, &mistakes)) }
+    let diagnostics = derived.diagnostics();
+    if diagnostics.is_empty() { Ok(derived) } else { Err(refuse(document, &diagnostics)) }
 }
 
 /// The error of a file whose method is not in the table.
@@ -47,13 +47,12 @@ pub(super) fn unknown_method(model: &Model) -> Option<Diagnostic> {
         return None;
     }
     let place = model.run.method_place.clone().unwrap_or_default();
-    let mistake = Diagnostic::error(place, format!("there is no method `{name}`"));
+    let diagnostic = Diagnostic::error(place, format!("there is no method `{name}`"));
     let names = METHODS.iter().map(|method| method.name);
     Some(match nearest(name, names.clone().chain([AUTO])) {
-        Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
-        None => {
-            mistake.with_help(format!("there are {AUTO} {}", names.collect::<Vec<_>>().join(" ")))
-        }
+        Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),
+        None => diagnostic
+            .with_help(format!("there are {AUTO} {}", names.collect::<Vec<_>>().join(" "))),
     })
 }
 
@@ -75,14 +74,14 @@ pub(super) fn unfit_method(model: &Model, system: &System) -> Option<Diagnostic>
 }
 
 /// Shows the errors of a file with their ranges.
-pub(super) fn refuse(document: &Document, mistakes: &[Diagnostic]) -> CommandError {
-    stderr::show(&document.report(mistakes, stderr::has_colour()));
-    CommandError::WrongFile(count(mistakes.len(), &document.path))
+pub(super) fn refuse(document: &Document, diagnostics: &[Diagnostic]) -> CommandError {
+    stderr::show(&document.report(diagnostics, stderr::has_colour()));
+    CommandError::WrongFile(count(diagnostics.len(), &document.path))
 }
 
 /// `2 errors in pendulum.toml`.
-pub(super) fn count(mistakes: usize, path: &str) -> String {
-    match mistakes {
+pub(super) fn count(diagnostics: usize, path: &str) -> String {
+    match diagnostics {
         1 => format!("1 error in {path}"),
         n => format!("{n} errors in {path}"),
     }

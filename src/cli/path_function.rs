@@ -42,9 +42,9 @@ impl PathFunctions {
             }
             let mut scope = Scope::new(model, Allowed::Configuration, "a path");
             let read = scope.read(&mut equations.pool, text);
-            let mistake = scope.mistakes.first().map(|mistake| mistake.message.clone());
+            let diagnostic = scope.diagnostics.first().map(|diagnostic| diagnostic.message.clone());
             let e = read.ok_or_else(|| {
-                let why = mistake.unwrap_or_else(|| "it cannot be read".to_owned());
+                let why = diagnostic.unwrap_or_else(|| "it cannot be read".to_owned());
                 wrong(format!("{}: {}", printable::quoted(text), printable::line(&why)))
             })?;
             let moving: Vec<_> = model.coordinates.iter().map(|c| c.position).collect();

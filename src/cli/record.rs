@@ -72,7 +72,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
         Some(path) => Document::open(path).map_err(|why| CommandError::reading(path, &why))?,
         None => own_demo(&printable::os(&arguments.name), "give one with --script")?,
     };
-    let script = Script::read(&source).map_err(|mistakes| located(&source, &mistakes))?;
+    let script = Script::read(&source).map_err(|diagnostics| located(&source, &diagnostics))?;
     let name = printable::os(&arguments.name);
     let recording = recorded(&script, &source, &system, &name, arguments.size)?;
     if arguments.format != Format::Account {
@@ -150,7 +150,7 @@ pub(super) fn recorded(
     // the errors of the system are reported for the system's own file
     open::read(system)?;
     let size = size.unwrap_or((80, 24));
-    play(script, system, called(name), size).map_err(|mistakes| located(source, &mistakes))
+    play(script, system, called(name), size).map_err(|diagnostics| located(source, &diagnostics))
 }
 
 /// Reports the claims that are false.
@@ -163,6 +163,6 @@ pub(super) fn hold(source: &Document, recording: &Recording) -> Result<(), Comma
 }
 
 /// Shows errors with their ranges.
-pub(super) fn located(source: &Document, mistakes: &[Diagnostic]) -> CommandError {
-    open::refuse(source, mistakes)
+pub(super) fn located(source: &Document, diagnostics: &[Diagnostic]) -> CommandError {
+    open::refuse(source, diagnostics)
 }

@@ -132,9 +132,9 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let settings = settings(arguments.step, arguments.tolerance, &model)?;
 
     if arguments.method.is_none()
-        && let Some(mistake) = open::unknown_method(&model)
+        && let Some(diagnostic) = open::unknown_method(&model)
     {
-        return Err(open::refuse(&document, &[mistake]));
+        return Err(open::refuse(&document, &[diagnostic]));
     }
 
     let mut derived = open::derive(&document, model)?;
@@ -165,8 +165,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     // if all settings are the file's, an unsuitable method is the file's error
     let of_file =
         arguments.method.is_none() && (arguments.step, arguments.tolerance) == (None, None);
-    if of_file && let Some(mistake) = open::unfit_method(&model, &system) {
-        return Err(open::refuse(&document, &[mistake]));
+    if of_file && let Some(diagnostic) = open::unfit_method(&model, &system) {
+        return Err(open::refuse(&document, &[diagnostic]));
     }
     let name = arguments.method.as_deref().unwrap_or(&model.run.method);
     let method =

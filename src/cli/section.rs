@@ -188,12 +188,12 @@ pub(super) fn surface(
     let mut scope = Scope::new(model, Allowed::Event, "a section");
     let read = scope.read(&mut pool, written);
     let Some(e) = read else {
-        let mistakes = scope.mistakes.into_iter().map(|mistake| {
-            let place = mistake.span.start..mistake.span.end;
-            Diagnostic { help: mistake.help, ..Diagnostic::error(place, mistake.message) }
+        let diagnostics = scope.diagnostics.into_iter().map(|diagnostic| {
+            let place = diagnostic.span.start..diagnostic.span.end;
+            Diagnostic { help: diagnostic.help, ..Diagnostic::error(place, diagnostic.message) }
         });
-        let mistakes: Vec<Diagnostic> = mistakes.collect();
-        stderr::show(&report(written, called, &mistakes, stderr::has_colour()));
+        let diagnostics: Vec<Diagnostic> = diagnostics.collect();
+        stderr::show(&report(written, called, &diagnostics, stderr::has_colour()));
         let written = printable::quoted(written);
         let message = format!("{called}: `{written}` is not an expression of this system");
         return Err(CommandError::WrongUse(message));

@@ -92,8 +92,8 @@ impl Document {
     }
 
     /// Formats errors found in the document, see [`report()`].
-    pub fn report(&self, mistakes: &[Diagnostic], colour: bool) -> String {
-        report(&self.text, &self.path, mistakes, colour)
+    pub fn report(&self, diagnostics: &[Diagnostic], colour: bool) -> String {
+        report(&self.text, &self.path, diagnostics, colour)
     }
 }
 

@@ -81,18 +81,19 @@ pub struct Diagnostics {
 
 impl Diagnostics {
     /// Records an error.
-    pub fn push(&mut self, mut mistake: Diagnostic) {
-        shorten(&mut mistake.message);
-        if let Some(help) = &mut mistake.help {
+    pub fn push(&mut self, mut diagnostic: Diagnostic) {
+        shorten(&mut diagnostic.message);
+        if let Some(help) = &mut diagnostic.help {
             shorten(help);
         }
-        let overlaps =
-            |lost: &SourceRange| mistake.place.start <= lost.end && lost.start <= mistake.place.end;
+        let overlaps = |lost: &SourceRange| {
+            diagnostic.place.start <= lost.end && lost.start <= diagnostic.place.end
+        };
         if self.lost_values.iter().any(overlaps) {
             return;
         }
-        if self.list.len() < MOST || mistake.severity == Severity::Error && self.make_room() {
-            self.list.push(mistake);
+        if self.list.len() < MOST || diagnostic.severity == Severity::Error && self.make_room() {
+            self.list.push(diagnostic);
         } else {
             self.left_out += 1;
         }
@@ -109,9 +110,9 @@ impl Diagnostics {
     }
 
     /// Records that something called `key` is missing, unless a TOML syntax error explains it.
-    pub fn missing(&mut self, key: &str, mistake: Diagnostic) {
+    pub fn missing(&mut self, key: &str, diagnostic: Diagnostic) {
         if !self.lost_keys.contains(key) {
-            self.push(mistake);
+            self.push(diagnostic);
         }
     }
 

@@ -19,24 +19,24 @@ const FARTHEST: usize = 65_536;
 /// Formats errors found in `text`, the content of `path`, each followed by an empty line. Without
 /// colour the frame around the file's own lines is ASCII. Characters that would control a terminal
 /// are escaped.
-pub fn report(text: &str, path: &str, mistakes: &[Diagnostic], colour: bool) -> String {
+pub fn report(text: &str, path: &str, diagnostics: &[Diagnostic], colour: bool) -> String {
     let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
     let path = printable::line(path);
     let mut drawn = String::new();
-    for mistake in mistakes {
-        let level = match mistake.severity {
+    for diagnostic in diagnostics {
+        let level = match diagnostic.severity {
             Severity::Error => Level::ERROR,
             Severity::Warning => Level::WARNING,
         };
-        let title = level.primary_title(sentence(&mistake.message));
-        let place = one_line(text, &mistake.place);
+        let title = level.primary_title(sentence(&diagnostic.message));
+        let place = one_line(text, &diagnostic.place);
         let mut group =
             if line_end(text, place.start) - line_start(text, place.start) > LONGEST_LINE {
                 title.element(origin(text, &path, place.start))
             } else {
-                title.element(snippet(text, &path, &place, mistake))
+                title.element(snippet(text, &path, &place, diagnostic))
             };
-        if let Some(help) = &mistake.help {
+        if let Some(help) = &diagnostic.help {
             group = group.element(Level::HELP.message(sentence(help)));
         }
         let rendered = renderer.render(&[group]);
@@ -55,9 +55,9 @@ fn snippet<'t>(
     text: &str,
     path: &'t str,
     place: &SourceRange,
-    mistake: &'t Diagnostic,
+    diagnostic: &'t Diagnostic,
 ) -> Snippet<'t, Annotation<'t>> {
-    let also = mistake.also.as_ref().map(|(place, what)| (one_line(text, place), what));
+    let also = diagnostic.also.as_ref().map(|(place, what)| (one_line(text, place), what));
     let also = also.filter(|(other, _)| other.start.abs_diff(place.start) < FARTHEST);
     let other = also.as_ref().map_or(place, |(other, _)| other);
     let first = place.start.min(other.start);

@@ -102,8 +102,9 @@ fn with_what_holds(
     let mut text = words;
     let mut left_out = false;
     loop {
-        let (mistakes, report) = wrong_with(&Document::new(&document.path, &text));
-        let places: Vec<_> = mistakes.iter().map(|mistake| mistake.place.clone()).collect();
+        let (diagnostics, report) = wrong_with(&Document::new(&document.path, &text));
+        let places: Vec<_> =
+            diagnostics.iter().map(|diagnostic| diagnostic.place.clone()).collect();
         let fewer = Rewrite::without_expectations(&text, &places).map_err(|why| why.to_string())?;
         match (fewer, report) {
             // each pass removes at least one
@@ -117,7 +118,7 @@ fn with_what_holds(
 /// The errors of a text, without its motion.
 fn wrong_as_written(document: &Document) -> Wrong {
     match Prepared::of(document) {
-        Err(unready) => (unready.mistakes, Some(unready.report)),
+        Err(unready) => (unready.diagnostics, Some(unready.report)),
         Ok(_) => (Vec::new(), None),
     }
 }
@@ -125,10 +126,10 @@ fn wrong_as_written(document: &Document) -> Wrong {
 /// The errors of a text, including the expectations that its motion does not fulfil.
 fn wrong_in_motion(document: &Document) -> Wrong {
     match Prepared::of(document) {
-        Err(unready) => (unready.mistakes, Some(unready.report)),
+        Err(unready) => (unready.diagnostics, Some(unready.report)),
         Ok(Prepared { model, equations, .. }) => {
-            let mistakes = false_claims(&model, &equations).into_iter();
-            (mistakes.filter(|m| m.severity == Severity::Error).collect(), None)
+            let diagnostics = false_claims(&model, &equations).into_iter();
+            (diagnostics.filter(|m| m.severity == Severity::Error).collect(), None)
         }
     }
 }

@@ -68,7 +68,7 @@ pub struct PrepareError {
     /// A report for the user, in one or more lines.
     pub report: String,
     /// Each error with its range; one without a range has the beginning of the file.
-    pub mistakes: Vec<Diagnostic>,
+    pub diagnostics: Vec<Diagnostic>,
 }
 
 impl PrepareError {
@@ -76,7 +76,7 @@ impl PrepareError {
     fn stopped(document: &Document) -> PrepareError {
         let message = "stopped before it was ready";
         let report = format!("{}: {message}", document.path);
-        PrepareError { report, mistakes: vec![Diagnostic::error(0..0, message)] }
+        PrepareError { report, diagnostics: vec![Diagnostic::error(0..0, message)] }
     }
 }
 
@@ -104,21 +104,21 @@ impl Prepared {
         let stop =
             || if cancel.is_cancelled() { Err(PrepareError::stopped(document)) } else { Ok(()) };
         let read = document.read_with(cancel);
-        let report = |mistakes: Vec<Diagnostic>| PrepareError {
-            report: document.report(&mistakes, false),
-            mistakes,
+        let report = |diagnostics: Vec<Diagnostic>| PrepareError {
+            report: document.report(&diagnostics, false),
+            diagnostics,
         };
         let model = read.map_err(&report)?.model;
         let why = |what: &dyn Display| PrepareError {
             report: format!("{}: {what}", document.path),
-            mistakes: vec![Diagnostic::error(0..0, what.to_string())],
+            diagnostics: vec![Diagnostic::error(0..0, what.to_string())],
         };
         stop()?;
         let derived = Derived::of(model).map_err(|error| why(&error))?;
         stop()?;
-        let mistakes = derived.diagnostics();
-        if !mistakes.is_empty() {
-            return Err(report(mistakes));
+        let diagnostics = derived.diagnostics();
+        if !diagnostics.is_empty() {
+            return Err(report(diagnostics));
         }
         stop()?;
         let system = derived.compile(&[]).map_err(|error| why(&error))?;

@@ -24,10 +24,10 @@ const NESTING_LIMIT: usize = 256;
 /// # Errors
 /// Returns the first syntax error, with its span and a correction.
 pub fn parse(text: &str) -> Result<Syntax, SyntaxError> {
-    let (syntax, mut mistakes) = parse_all(text);
+    let (syntax, mut diagnostics) = parse_all(text);
     match syntax {
-        Some(syntax) if mistakes.is_empty() => Ok(syntax),
-        _ => Err(mistakes.swap_remove(0)),
+        Some(syntax) if diagnostics.is_empty() => Ok(syntax),
+        _ => Err(diagnostics.swap_remove(0)),
     }
 }
 

@@ -46,11 +46,11 @@ pub struct Scope {
     /// The plain form of the last expression read, if it was written in the notation of the screen.
     pub plain: Option<String>,
     /// The number of errors found, including those that are not reported.
-    mistake_count: usize,
+    error_count: usize,
     /// Whether the coordinates are variables of a Poisson system, which have no momenta.
     poisson: bool,
     /// The errors found so far; the caller takes them out to report them.
-    pub mistakes: Vec<SyntaxError>,
+    pub diagnostics: Vec<SyntaxError>,
     /// The names used so far, so that unused ones can be reported.
     pub used: BTreeSet<String>,
 }
@@ -126,9 +126,9 @@ impl Scope {
             names,
             kinds,
             offenders: FxHashMap::default(),
-            mistake_count: 0,
+            error_count: 0,
             poisson: model.is_poisson(),
-            mistakes: Vec::new(),
+            diagnostics: Vec::new(),
             used: BTreeSet::new(),
         }
     }
@@ -170,20 +170,20 @@ impl Scope {
     }
 
     /// Reads an expression in this scope. Returns `None` if there were errors, which are then in
-    /// [`Scope::mistakes`].
+    /// [`Scope::errors`].
     pub fn read(&mut self, pool: &mut Pool, text: &str) -> Option<Expr> {
-        let before = self.mistake_count;
+        let before = self.error_count;
         self.plain = None;
-        let (syntax, mistakes) = parse_all(text);
-        for mistake in mistakes {
-            self.complain(mistake);
+        let (syntax, diagnostics) = parse_all(text);
+        for diagnostic in diagnostics {
+            self.complain(diagnostic);
         }
         let syntax = syntax?;
         let e = syntax.lower(pool, self);
-        if self.mistake_count == before {
+        if self.error_count == before {
             self.check_result(pool, e, syntax.span);
         }
-        if self.mistake_count > before {
+        if self.error_count > before {
             return None;
         }
         self.plain = self.plain_form(text, &syntax);
@@ -232,7 +232,7 @@ impl Scope {
 
     fn unknown(&self, name: &str, primes: usize, span: Span) -> SyntaxError {
         let error = SyntaxError::new(span, format!("unknown name `{name}`"));
-        if self.mistakes.len() >= MOST_MISTAKES {
+        if self.diagnostics.len() >= MOST_MISTAKES {
             return error;
         }
         let bare = name.strip_prefix("p_").filter(|_| self.poisson && primes == 0);
@@ -401,8 +401,8 @@ impl Resolve for Scope {
     fn name(&mut self, pool: &mut Pool, name: &str, primes: usize, span: Span) -> Option<Expr> {
         match self.meaning(pool, name, primes, span) {
             Ok(e) => Some(e),
-            Err(mistake) => {
-                self.complain(mistake);
+            Err(diagnostic) => {
+                self.complain(diagnostic);
                 None
             }
         }
@@ -423,9 +423,9 @@ impl Resolve for Scope {
     }
 
     fn complain(&mut self, error: SyntaxError) {
-        self.mistake_count += 1;
-        if self.mistakes.len() < MOST_MISTAKES {
-            self.mistakes.push(error);
+        self.error_count += 1;
+        if self.diagnostics.len() < MOST_MISTAKES {
+            self.diagnostics.push(error);
         }
     }
 }

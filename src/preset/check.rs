@@ -37,16 +37,16 @@ pub(super) fn check(
     file: &str,
     draft: &Draft,
     cancel: &Cancel,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Model> {
     let mut model = Model::new(&draft.info.title);
     model.pool.set_cancel(cancel.clone());
     model.info = draft.info.clone();
-    let mut check = Check { file, mistakes, model, used: BTreeSet::new() };
+    let mut check = Check { file, diagnostics, model, used: BTreeSet::new() };
     if check.beyond_limits(draft) {
         return None;
     }
-    let mut names = Names::of(draft, check.mistakes);
+    let mut names = Names::of(draft, check.diagnostics);
     check.moving(draft);
     for written in &draft.parameters {
         check.parameter(written);
@@ -83,7 +83,7 @@ pub(super) fn check(
     check.views(&draft.views, &mut nodes);
     check.model.space = check.shapes(&draft.shapes, &mut nodes);
     check.camera(&draft.camera);
-    if !check.mistakes.any_error() {
+    if !check.diagnostics.any_error() {
         check.unused(draft);
     }
     law.map(|_| check.model)
@@ -93,7 +93,7 @@ pub(super) fn check(
 struct Check<'c> {
     /// The file's text, for locating a position inside an expression.
     file: &'c str,
-    mistakes: &'c mut Diagnostics,
+    diagnostics: &'c mut Diagnostics,
     model: Model,
     /// Every name that some expression uses.
     used: BTreeSet<String>,
@@ -107,19 +107,19 @@ impl Check<'_> {
             return None;
         }
         let e = scope.at(called).read(&mut self.model.pool, formula.get_ref());
-        self.mistakes.note_plain(formula.span(), scope.plain.take());
-        for slip in scope.mistakes.drain(..) {
+        self.diagnostics.note_plain(formula.span(), scope.plain.take());
+        for slip in scope.diagnostics.drain(..) {
             let place = place::within(self.file, formula, slip.span);
-            let mut mistake = Diagnostic::error(place, slip.message);
-            mistake.help = slip.help;
-            self.mistakes.push(mistake);
+            let mut diagnostic = Diagnostic::error(place, slip.message);
+            diagnostic.help = slip.help;
+            self.diagnostics.push(diagnostic);
         }
         self.used.append(&mut scope.used);
         e
     }
 
     fn error(&mut self, at: std::ops::Range<usize>, message: impl Into<String>) {
-        self.mistakes.push(Diagnostic::error(at, message));
+        self.diagnostics.push(Diagnostic::error(at, message));
     }
 
     /// Reads the definitions in order; each may use the names above it.
@@ -205,8 +205,8 @@ impl Check<'_> {
             named(shapes, 1024, "shapes"),
         ];
         let mut beyond = false;
-        for mistake in errors.into_iter().flatten() {
-            self.mistakes.push(mistake);
+        for diagnostic in errors.into_iter().flatten() {
+            self.diagnostics.push(diagnostic);
             beyond = true;
         }
         beyond
@@ -219,7 +219,7 @@ impl Check<'_> {
         for (name, kind) in parameters.chain(definitions) {
             if !self.used.contains(name.get_ref()) {
                 let message = format!("the {kind} `{}` is not used", name.get_ref());
-                self.mistakes.push(Diagnostic::warning(name.span(), message));
+                self.diagnostics.push(Diagnostic::warning(name.span(), message));
             }
         }
     }

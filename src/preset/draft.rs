@@ -109,35 +109,35 @@ impl Draft {
 const TOP_LEVEL: [&str; 6] = ["title", "summary", "source", "chapter", "topics", "notes"];
 
 /// Reads the whole file.
-pub(super) fn read(file: &Spanned<DeTable<'_>>, mistakes: &mut Diagnostics) -> Draft {
+pub(super) fn read(file: &Spanned<DeTable<'_>>, diagnostics: &mut Diagnostics) -> Draft {
     let mut top = Table::new("the file", 0..0, file.get_ref()).with(&FILE);
-    let info = read_info(&mut top, mistakes);
-    let (shapes, camera) = picture::space(&mut top, mistakes);
+    let info = read_info(&mut top, diagnostics);
+    let (shapes, camera) = picture::space(&mut top, diagnostics);
     let draft = Draft {
         info,
-        moving: system::moving(&mut top, mistakes),
-        parameters: system::parameters(&mut top, mistakes),
-        ramps: system::ramps(&mut top, mistakes),
-        definitions: system::definitions(&mut top, mistakes),
-        mechanics: law::mechanics(&mut top, mistakes),
-        constraints: constraint::constraints(&mut top, mistakes),
-        impulses: occurrence::impulses(&mut top, mistakes),
-        events: occurrence::events(&mut top, mistakes),
-        body: body::body(&mut top, mistakes),
-        attitude: body::attitude(&mut top, mistakes),
-        comparison: body::comparison(&mut top, mistakes),
-        transformations: transformation::transformations(&mut top, mistakes),
-        generators: transformation::generators(&mut top, mistakes),
-        integral: transformation::integral(&mut top, mistakes),
-        observables: claims::observables(&mut top, mistakes),
-        expect: claims::expect(&mut top, mistakes),
-        frames: frame::frames(&mut top, mistakes),
-        views: picture::views(&mut top, mistakes),
+        moving: system::moving(&mut top, diagnostics),
+        parameters: system::parameters(&mut top, diagnostics),
+        ramps: system::ramps(&mut top, diagnostics),
+        definitions: system::definitions(&mut top, diagnostics),
+        mechanics: law::mechanics(&mut top, diagnostics),
+        constraints: constraint::constraints(&mut top, diagnostics),
+        impulses: occurrence::impulses(&mut top, diagnostics),
+        events: occurrence::events(&mut top, diagnostics),
+        body: body::body(&mut top, diagnostics),
+        attitude: body::attitude(&mut top, diagnostics),
+        comparison: body::comparison(&mut top, diagnostics),
+        transformations: transformation::transformations(&mut top, diagnostics),
+        generators: transformation::generators(&mut top, diagnostics),
+        integral: transformation::integral(&mut top, diagnostics),
+        observables: claims::observables(&mut top, diagnostics),
+        expect: claims::expect(&mut top, diagnostics),
+        frames: frame::frames(&mut top, diagnostics),
+        views: picture::views(&mut top, diagnostics),
         shapes,
         camera,
-        run: run::read(&mut top, mistakes),
+        run: run::read(&mut top, diagnostics),
     };
-    top.finish(mistakes);
+    top.finish(diagnostics);
     draft
 }
 
@@ -147,29 +147,29 @@ pub(super) fn read_head(file: &Spanned<DeTable<'_>>) -> Info {
     read_info(&mut top, &mut Diagnostics::default())
 }
 
-fn read_info(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Info {
-    let line = |found: Option<Spanned<String>>, mistakes: &mut Diagnostics| match found {
-        Some(text) => value::one_line(&text, mistakes).unwrap_or_default(),
+fn read_info(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Info {
+    let line = |found: Option<Spanned<String>>, diagnostics: &mut Diagnostics| match found {
+        Some(text) => value::one_line(&text, diagnostics).unwrap_or_default(),
         None => String::new(),
     };
-    let title = top.text("title", mistakes);
+    let title = top.text("title", diagnostics);
     if let Some(blank) = title.as_ref().filter(|t| t.get_ref().trim().is_empty()) {
-        mistakes.push(Diagnostic::error(blank.span(), "the title is empty"));
+        diagnostics.push(Diagnostic::error(blank.span(), "the title is empty"));
     }
-    let notes = top.text("notes", mistakes);
+    let notes = top.text("notes", diagnostics);
     Info {
-        title: line(title, mistakes),
-        summary: line(top.text("summary", mistakes), mistakes),
-        source: line(top.text("source", mistakes), mistakes),
-        chapter: line(top.text("chapter", mistakes), mistakes),
+        title: line(title, diagnostics),
+        summary: line(top.text("summary", diagnostics), diagnostics),
+        source: line(top.text("source", diagnostics), diagnostics),
+        chapter: line(top.text("chapter", diagnostics), diagnostics),
         topics: top
-            .list("topics", mistakes)
+            .list("topics", diagnostics)
             .iter()
             .filter_map(|item| {
-                let topic = value::text(item, "a topic", mistakes)?;
-                value::one_line(&topic, mistakes)
+                let topic = value::text(item, "a topic", diagnostics)?;
+                value::one_line(&topic, diagnostics)
             })
             .collect(),
-        notes: notes.and_then(|text| value::lines(&text, mistakes)).unwrap_or_default(),
+        notes: notes.and_then(|text| value::lines(&text, diagnostics)).unwrap_or_default(),
     }
 }

@@ -54,28 +54,31 @@ pub fn read_with(text: &str, cancel: &Cancel) -> Result<Checked, Vec<Diagnostic>
     if text.len() > TEXT_LIMIT {
         return Err(vec![too_long(text.len() as u64)]);
     }
-    let mut mistakes = Diagnostics::default();
-    let table = toml_errors::parse(text, &mut mistakes);
-    if mistakes.lost_track() {
-        return conclude(mistakes, None);
+    let mut diagnostics = Diagnostics::default();
+    let table = toml_errors::parse(text, &mut diagnostics);
+    if diagnostics.lost_track() {
+        return conclude(diagnostics, None);
     }
-    let draft = draft::read(&table, &mut mistakes);
-    let model = check::check(text, &draft, cancel, &mut mistakes);
-    conclude(mistakes, model)
+    let draft = draft::read(&table, &mut diagnostics);
+    let model = check::check(text, &draft, cancel, &mut diagnostics);
+    conclude(diagnostics, model)
 }
 
 /// Returns the model with its warnings, or all diagnostics if one of them is an error.
-fn conclude(mut mistakes: Diagnostics, model: Option<Model>) -> Result<Checked, Vec<Diagnostic>> {
+fn conclude(
+    mut diagnostics: Diagnostics,
+    model: Option<Model>,
+) -> Result<Checked, Vec<Diagnostic>> {
     match model {
-        Some(mut model) if !mistakes.any_error() => {
-            let plain = mistakes.take_plain();
+        Some(mut model) if !diagnostics.any_error() => {
+            let plain = diagnostics.take_plain();
             let untitled = model.info.title.is_empty();
             if untitled {
                 UNTITLED.clone_into(&mut model.info.title);
             }
-            Ok(Checked { model, plain, untitled, warnings: mistakes.into_warnings() })
+            Ok(Checked { model, plain, untitled, warnings: diagnostics.into_warnings() })
         }
-        _ => Err(mistakes.into_list()),
+        _ => Err(diagnostics.into_list()),
     }
 }
 
@@ -95,7 +98,7 @@ impl Document {
     /// Returns all its errors, see [`read`](read).
     pub fn read_with(&self, cancel: &Cancel) -> Result<Checked, Vec<Diagnostic>> {
         match self.unreadable() {
-            Some(mistake) => Err(vec![mistake.clone()]),
+            Some(diagnostic) => Err(vec![diagnostic.clone()]),
             None => {
                 let mut checked = read_with(&self.text, cancel)?;
                 if let Some(stem) = self.stem().filter(|_| checked.untitled) {

@@ -40,13 +40,13 @@ impl Document {
     /// Reads a file that may have only these keys. `called` is its name in messages. Returns the values that could be
     /// read, every TOML error and every unknown key.
     pub fn settings(&self, called: &str, keys: &[&'static str]) -> (Vec<Setting>, Vec<Diagnostic>) {
-        if let Some(mistake) = self.unreadable() {
-            return (Vec::new(), vec![mistake.clone()]);
+        if let Some(diagnostic) = self.unreadable() {
+            return (Vec::new(), vec![diagnostic.clone()]);
         }
-        let mut mistakes = Diagnostics::default();
-        let file = toml_errors::parse(&self.text, &mut mistakes);
+        let mut diagnostics = Diagnostics::default();
+        let file = toml_errors::parse(&self.text, &mut diagnostics);
         let mut entries = Vec::new();
-        if !mistakes.lost_track() {
+        if !diagnostics.lost_track() {
             let mut table = Table::new(called, 0..0, file.get_ref());
             for &key in keys {
                 if let Some((_, value)) = table.take(key) {
@@ -57,12 +57,12 @@ impl Document {
                     });
                 }
             }
-            table.finish(&mut mistakes);
+            table.finish(&mut diagnostics);
         }
-        let mistakes = mistakes.into_list();
+        let diagnostics = diagnostics.into_list();
         // a value that is not TOML is already reported
-        entries.retain(|entry| !mistakes.iter().any(|m| m.place == entry.place));
-        (entries, mistakes)
+        entries.retain(|entry| !diagnostics.iter().any(|m| m.place == entry.place));
+        (entries, diagnostics)
     }
 }
 

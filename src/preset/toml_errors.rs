@@ -17,7 +17,7 @@ use crate::expr::plain_name;
 use crate::printable;
 
 /// Parses the file as a table. Whatever is not TOML is reported, then dropped or patched.
-pub(super) fn parse<'f>(text: &'f str, mistakes: &mut Diagnostics) -> Spanned<DeTable<'f>> {
+pub(super) fn parse<'f>(text: &'f str, diagnostics: &mut Diagnostics) -> Spanned<DeTable<'f>> {
     let (table, errors) = DeTable::parse_recoverable(text);
     let mut slips = if errors.is_empty() { Vec::new() } else { slips(text) };
     // the remaining errors lie beyond the grammar, such as duplicate keys
@@ -30,47 +30,47 @@ pub(super) fn parse<'f>(text: &'f str, mistakes: &mut Diagnostics) -> Spanned<De
     slips.sort_by_key(|slip| slip.place.start);
     for Slip { place, message, help, loses } in slips {
         // once the parser has lost track, the errors that follow are mostly consequences
-        if mistakes.lost_track() {
+        if diagnostics.lost_track() {
             break;
         }
-        let mut mistake = Diagnostic::error(place.clone(), message);
-        mistake.help = help;
-        mistakes.push(mistake);
+        let mut diagnostic = Diagnostic::error(place.clone(), message);
+        diagnostic.help = help;
+        diagnostics.push(diagnostic);
         match loses {
-            Loses::Key => mistakes.lose_key(text[place].trim_matches(['"', '\''])),
-            Loses::Value => mistakes.lose_value(place),
-            Loses::Track => mistakes.lose_track(),
+            Loses::Key => diagnostics.lose_key(text[place].trim_matches(['"', '\''])),
+            Loses::Value => diagnostics.lose_value(place),
+            Loses::Track => diagnostics.lose_track(),
         }
     }
-    steering(table.get_ref(), mistakes);
+    steering(table.get_ref(), diagnostics);
     table
 }
 
 /// Reports every name and text that contains a terminal control character; no further errors are reported for it.
-fn steering(table: &DeTable<'_>, mistakes: &mut Diagnostics) {
+fn steering(table: &DeTable<'_>, diagnostics: &mut Diagnostics) {
     for (key, value) in table {
         if let Some(c) = key.get_ref().chars().find(|&c| printable::is_steering(c)) {
             let message = format!("the character U+{:04X} may not be used in a name", c as u32);
-            mistakes.push(Diagnostic::error(key.span(), message));
-            mistakes.lose_key(key.get_ref());
-            mistakes.lose_value(key.span());
+            diagnostics.push(Diagnostic::error(key.span(), message));
+            diagnostics.lose_key(key.get_ref());
+            diagnostics.lose_value(key.span());
         }
-        steering_value(value, mistakes);
+        steering_value(value, diagnostics);
     }
 }
 
-fn steering_value(value: &Spanned<DeValue<'_>>, mistakes: &mut Diagnostics) {
+fn steering_value(value: &Spanned<DeValue<'_>>, diagnostics: &mut Diagnostics) {
     match value.get_ref() {
         DeValue::String(text) => {
             let layout = |c: char| matches!(c, '\n' | '\r' | '\t');
             if let Some(c) = text.chars().find(|&c| printable::is_steering(c) && !layout(c)) {
                 let message = format!("the character U+{:04X} may not be used in a text", c as u32);
-                mistakes.push(Diagnostic::error(value.span(), message));
-                mistakes.lose_value(value.span());
+                diagnostics.push(Diagnostic::error(value.span(), message));
+                diagnostics.lose_value(value.span());
             }
         }
-        DeValue::Array(items) => items.iter().for_each(|item| steering_value(item, mistakes)),
-        DeValue::Table(table) => steering(table, mistakes),
+        DeValue::Array(items) => items.iter().for_each(|item| steering_value(item, diagnostics)),
+        DeValue::Table(table) => steering(table, diagnostics),
         _ => {}
     }
 }

@@ -215,13 +215,13 @@ pub(super) fn value(app: &App, written: &LineText) -> Result<f64, Diagnostic> {
     let mut pool = lab.loaded.equations.pool.clone();
     let mut scope = Scope::new(&lab.loaded.model, Allowed::Observable, "a script");
     let Some(e) = scope.read(&mut pool, &written.text) else {
-        let mistake = scope.mistakes.into_iter().next();
-        return Err(mistake.map_or_else(
+        let diagnostic = scope.diagnostics.into_iter().next();
+        return Err(diagnostic.map_or_else(
             || Diagnostic::error(written.place.clone(), "this is not an expression"),
-            |mistake| {
+            |diagnostic| {
                 let start = written.place.start;
-                let place = start + mistake.span.start..start + mistake.span.end;
-                Diagnostic { help: mistake.help, ..Diagnostic::error(place, mistake.message) }
+                let place = start + diagnostic.span.start..start + diagnostic.span.end;
+                Diagnostic { help: diagnostic.help, ..Diagnostic::error(place, diagnostic.message) }
             },
         ));
     };
@@ -275,15 +275,15 @@ pub(super) fn missing<'a>(
     system: &str,
 ) -> Diagnostic {
     let message = format!("{system} has no {kind} `{}`", name.text);
-    let mistake = Diagnostic::error(name.place.clone(), message);
+    let diagnostic = Diagnostic::error(name.place.clone(), message);
     match nearest(&name.text, names.clone()) {
-        Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
+        Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),
         None => {
             let all: Vec<&str> = names.collect();
             if all.is_empty() {
-                mistake.with_help("there are none")
+                diagnostic.with_help("there are none")
             } else {
-                mistake.with_help(format!("there are {}", all.join(", ")))
+                diagnostic.with_help(format!("there are {}", all.join(", ")))
             }
         }
     }

@@ -221,7 +221,7 @@ impl HeadlessLab {
         };
         let outcome = match Prepared::of(&Document::new(title, text)) {
             Ok(ready) => Ok(self.begin(name, ready)),
-            Err(unready) => Err(unready.mistakes),
+            Err(unready) => Err(unready.diagnostics),
         };
         let took = Duration::ZERO;
         self.happen(Event::Checked(Box::new(CheckedText { ticket, outcome, took })));

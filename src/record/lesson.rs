@@ -13,7 +13,7 @@ use super::clock::Micros;
 use super::headless_lab::Budget;
 use super::lesson_finding::in_words;
 use super::lesson_look::LessonView;
-use super::lesson_order::mistakes_in;
+use super::lesson_order::errors_in;
 use super::lesson_question::{AnswerChoice, AnswerVerdict, GivenAnswer, Question, QuestionKind};
 use super::recording::rows;
 use super::script::{Asked, Assert, LessonStep, Script, ScriptStep};
@@ -92,15 +92,15 @@ impl Lesson {
         called: &str,
         budget: Budget,
     ) -> Result<Lesson, Vec<Diagnostic>> {
-        let mistakes = mistakes_in(&script);
-        if !mistakes.is_empty() {
-            return Err(mistakes);
+        let diagnostics = errors_in(&script);
+        if !diagnostics.is_empty() {
+            return Err(diagnostics);
         }
         let title = script.head.title.clone().unwrap_or_else(|| called.to_owned());
         let size = Size::new(80, 24);
         let runner = ScriptRunner::new(script, document, called, size, budget);
         Ok(Lesson {
-            runner: runner.map_err(|mistake| vec![mistake])?,
+            runner: runner.map_err(|diagnostic| vec![diagnostic])?,
             title,
             stage: LessonStage::Playing,
             question: None,

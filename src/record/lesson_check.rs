@@ -43,14 +43,14 @@ pub fn check_lesson(
     };
     // the truth does not depend on what is answered
     let (truth, tasks) = pass(&|_, question| question.any_answer())?;
-    let mut mistakes: Vec<Diagnostic> = truth.iter().flat_map(faults).collect();
-    if !mistakes.is_empty() {
-        return Err(mistakes);
+    let mut diagnostics: Vec<Diagnostic> = truth.iter().flat_map(faults).collect();
+    if !diagnostics.is_empty() {
+        return Err(diagnostics);
     }
     let (answered, _) = pass(&|index, _| truth[index].right_answer())?;
     for verdict in answered.iter().filter(|verdict| !verdict.right) {
         let message = "the right answer is called wrong";
-        mistakes.push(Diagnostic::error(verdict.question.place.clone(), message));
+        diagnostics.push(Diagnostic::error(verdict.question.place.clone(), message));
     }
     let mut wrong = 0;
     let most = truth.iter().map(|verdict| verdict.wrong_answers().len()).max().unwrap_or(0);
@@ -64,12 +64,16 @@ pub fn check_lesson(
             wrong += usize::from(round < before.wrong_answers().len());
             if verdict.right {
                 let message = "a wrong answer is called right";
-                mistakes.push(Diagnostic::error(verdict.question.place.clone(), message));
+                diagnostics.push(Diagnostic::error(verdict.question.place.clone(), message));
             }
         }
     }
     let questions = truth.len();
-    if mistakes.is_empty() { Ok(LessonReport { questions, wrong, tasks }) } else { Err(mistakes) }
+    if diagnostics.is_empty() {
+        Ok(LessonReport { questions, wrong, tasks })
+    } else {
+        Err(diagnostics)
+    }
 }
 
 /// Takes a lesson to its end; returns the number of tasks.
@@ -80,7 +84,7 @@ fn take(
     let mut tasks = 0;
     loop {
         match &lesson.stage {
-            LessonStage::Playing => lesson.next_event().map_err(|mistake| vec![mistake])?,
+            LessonStage::Playing => lesson.next_event().map_err(|diagnostic| vec![diagnostic])?,
             LessonStage::Said | LessonStage::Free => lesson.go_on(),
             LessonStage::Choosing(_) | LessonStage::Typing(..) | LessonStage::Pointing(_) => {
                 let index = lesson.verdicts.len();
@@ -88,7 +92,7 @@ fn take(
                 lesson.commit(answer.unwrap_or(GivenAnswer::Option(0)));
             }
             LessonStage::Task { .. } => {
-                solve(lesson).map_err(|mistake| vec![mistake])?;
+                solve(lesson).map_err(|diagnostic| vec![diagnostic])?;
                 tasks += 1;
             }
             LessonStage::Ended => return Ok(tasks),

@@ -13,10 +13,10 @@ const MOST_ROWS: u16 = 11;
 const MOST_OPTIONS: usize = 6;
 
 /// The errors in the order of a lesson.
-pub(super) fn mistakes_in(script: &Script) -> Vec<Diagnostic> {
-    let mut mistakes = Vec::new();
+pub(super) fn errors_in(script: &Script) -> Vec<Diagnostic> {
+    let mut diagnostics = Vec::new();
     let mut wrong = |place: &SourceRange, message: &str, help: &str| {
-        mistakes.push(Diagnostic::error(place.clone(), message.to_owned()).with_help(help));
+        diagnostics.push(Diagnostic::error(place.clone(), message.to_owned()).with_help(help));
     };
     let mut open: Option<SourceRange> = None;
     let no_outcome = "the outcome of this question is never shown";
@@ -101,7 +101,7 @@ pub(super) fn mistakes_in(script: &Script) -> Vec<Diagnostic> {
             wrong(place, &message, "say it in fewer words, or in two steps");
         }
     }
-    mistakes
+    diagnostics
 }
 
 /// The paragraphs of each step that speaks, as long as they can become.

@@ -88,13 +88,13 @@ pub fn play(
     size: (u16, u16),
 ) -> Result<Recording, Vec<Diagnostic>> {
     let size = script.head.size.unwrap_or(size);
-    let mistakes = too_long(script, size.0);
-    if !mistakes.is_empty() {
-        return Err(mistakes);
+    let diagnostics = too_long(script, size.0);
+    if !diagnostics.is_empty() {
+        return Err(diagnostics);
     }
     let area = Size::from(size);
     let (fps, title) = (script.head.fps, script.head.title.clone());
-    let alone = |mistake| vec![mistake];
+    let alone = |diagnostic| vec![diagnostic];
     let performance = ScriptRunner::new(script.clone(), document, called, area, Budget::RECORDED);
     let mut take = Take {
         performance: performance.map_err(alone)?,

@@ -267,7 +267,7 @@ impl ScriptHeader {
     /// Returns every error up to there with its range.
     pub fn read(document: &Document) -> Result<ScriptHeader, Vec<Diagnostic>> {
         let reading = ScriptReading::of(document, |reading| reading.steps.is_empty())?;
-        if reading.mistakes.is_empty() { Ok(reading.head) } else { Err(reading.mistakes) }
+        if reading.diagnostics.is_empty() { Ok(reading.head) } else { Err(reading.diagnostics) }
     }
 }
 
@@ -315,7 +315,7 @@ struct ScriptReading {
     given: HashMap<&'static str, SourceRange>,
     steps: Vec<(SourceRange, ScriptStep)>,
     markers: HashMap<String, SourceRange>,
-    mistakes: Vec<Diagnostic>,
+    diagnostics: Vec<Diagnostic>,
 }
 
 /// The meaning of a line.
@@ -332,8 +332,8 @@ const MOST_MISTAKES: usize = 100;
 impl ScriptReading {
     /// Reads the lines of a text for as long as a condition holds.
     fn of(document: &Document, goes_on: impl Fn(&Self) -> bool) -> Result<Self, Vec<Diagnostic>> {
-        if let Some(mistake) = document.unreadable() {
-            return Err(vec![mistake.clone()]);
+        if let Some(diagnostic) = document.unreadable() {
+            return Err(vec![diagnostic.clone()]);
         }
         let (mut reading, mut start) = (Self::default(), 0);
         for text in document.text.split('\n') {
@@ -350,10 +350,10 @@ impl ScriptReading {
     fn line(&mut self, text: &str, start: usize) {
         let mut line = Line::new(text, start);
         let Some(word) = line.word() else { return };
-        if let Err(mistake) = self.command(&word, &mut line)
-            && self.mistakes.len() < MOST_MISTAKES
+        if let Err(diagnostic) = self.command(&word, &mut line)
+            && self.diagnostics.len() < MOST_MISTAKES
         {
-            self.mistakes.push(mistake);
+            self.diagnostics.push(diagnostic);
         }
     }
 
@@ -372,8 +372,8 @@ impl ScriptReading {
                 }
                 if let Some(first) = self.given.insert(command.name, word.place.clone()) {
                     let message = format!("`{}` is given twice", word.text);
-                    let mistake = Diagnostic::error(word.place.clone(), message);
-                    return Err(mistake.with_also(first, "it was given here"));
+                    let diagnostic = Diagnostic::error(word.place.clone(), message);
+                    return Err(diagnostic.with_also(first, "it was given here"));
                 }
                 say(&mut self.head);
             }
@@ -383,8 +383,8 @@ impl ScriptReading {
                 {
                     let message = format!("there are two markers `{name}`");
                     let help = "a player finds a chapter by its name: give each its own";
-                    let mistake = Diagnostic::error(place, message).with_help(help);
-                    return Err(mistake.with_also(first, "the first one"));
+                    let diagnostic = Diagnostic::error(place, message).with_help(help);
+                    return Err(diagnostic.with_also(first, "the first one"));
                 }
                 self.steps.push((place, step));
             }
@@ -404,32 +404,31 @@ impl ScriptReading {
                     let message = format!(
                         "a caption may have {room} characters at this size; this one has {many}"
                     );
-                    self.mistakes.push(Diagnostic::error(place.clone(), message));
+                    self.diagnostics.push(Diagnostic::error(place.clone(), message));
                 }
             }
         }
         let length = script.length();
-        if self.mistakes.is_empty() && length > LONGEST * SECOND {
+        if self.diagnostics.is_empty() && length > LONGEST * SECOND {
             let message = format!("a demo may last an hour; this one lasts {} s", length / SECOND);
-            self.mistakes.push(Diagnostic::error(end..end, message));
+            self.diagnostics.push(Diagnostic::error(end..end, message));
         }
-        if self.mistakes.is_empty() && length.saturating_mul(script.head.fps.into()) < SECOND {
+        if self.diagnostics.is_empty() && length.saturating_mul(script.head.fps.into()) < SECOND {
             let message = "there is nothing to see: no time passes in this script";
             let help = "let it pass with `Wait 2s`";
-            self.mistakes.push(Diagnostic::error(end..end, message).with_help(help));
+            self.diagnostics.push(Diagnostic::error(end..end, message).with_help(help));
         }
-        if self.mistakes.is_empty() { Ok(script) } else { Err(self.mistakes) }
+        if self.diagnostics.is_empty() { Ok(script) } else { Err(self.diagnostics) }
     }
 }
 
 fn unknown(word: &LineText) -> Diagnostic {
     let message = format!("there is no command `{}`", word.text);
-    let mistake = Diagnostic::error(word.place.clone(), message);
+    let diagnostic = Diagnostic::error(word.place.clone(), message);
     let names = COMMANDS.iter().map(|command| command.name);
     match nearest(&word.text, names.clone()) {
-        Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
-        None => {
-            mistake.with_help(format!("a line begins with {}", names.collect::<Vec<_>>().join(" ")))
-        }
+        Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),
+        None => diagnostic
+            .with_help(format!("a line begins with {}", names.collect::<Vec<_>>().join(" "))),
     }
 }

@@ -44,7 +44,7 @@ impl Checker {
         // The token passes to the system once that exists.
         let check = Job::new("checking", move |progress| {
             let ready = Prepared::with(&document, progress.token());
-            ready.map(Box::new).map_err(|unready| unready.mistakes)
+            ready.map(Box::new).map_err(|unready| unready.diagnostics)
         });
         self.side.begin(ticket, check);
     }

@@ -43,16 +43,16 @@ pub fn find() -> io::Result<Option<Document>> {
 pub fn read(document: &Document) -> Result<Words, Vec<Diagnostic>> {
     let mut words = Words::new();
     let names: Vec<&str> = rows().iter().map(|row| row.name.as_str()).collect();
-    let (entries, mut mistakes) = document.settings("the configuration", &names);
+    let (entries, mut diagnostics) = document.settings("the configuration", &names);
     for entry in entries {
         let Some(row) = rows().iter().find(|row| row.name == entry.key) else { continue };
         match word(row, &entry) {
             Ok(word) => words.push((entry.key, word)),
-            Err(mistake) => mistakes.push(mistake),
+            Err(diagnostic) => diagnostics.push(diagnostic),
         }
     }
-    mistakes.sort_by_key(|mistake| mistake.place.start);
-    if mistakes.is_empty() { Ok(words) } else { Err(mistakes) }
+    diagnostics.sort_by_key(|diagnostic| diagnostic.place.start);
+    if diagnostics.is_empty() { Ok(words) } else { Err(diagnostics) }
 }
 
 /// Returns the value as a word that the option accepts.
@@ -63,9 +63,13 @@ fn word(row: &OptionRow, entry: &Setting) -> Result<String, Diagnostic> {
         Plain::Flag(flag) => flag.to_string(),
         Plain::Number(number) => number.clone(),
         Plain::Text(text) if row.is_switch => {
-            let mistake = at(format!("`{}` must be true or false, not a text", row.name));
+            let diagnostic = at(format!("`{}` must be true or false, not a text", row.name));
             let quoted = ["true", "false"].contains(&text.as_str());
-            return Err(if quoted { mistake.with_help("remove the quotes") } else { mistake });
+            return Err(if quoted {
+                diagnostic.with_help("remove the quotes")
+            } else {
+                diagnostic
+            });
         }
         Plain::Text(text) => text.clone(),
         Plain::Other(kind) => {
@@ -74,10 +78,10 @@ fn word(row: &OptionRow, entry: &Setting) -> Result<String, Diagnostic> {
         }
     };
     row.accept(&word).map(|()| word).map_err(|wrong| {
-        let mistake = at(wrong.message);
+        let diagnostic = at(wrong.message);
         match wrong.help {
-            Some(help) => mistake.with_help(help),
-            None => mistake,
+            Some(help) => diagnostic.with_help(help),
+            None => diagnostic,
         }
     })
 }

@@ -74,7 +74,7 @@ impl Screen for Demo {
         match self.performance.go_on(self.time.as_micros() as u64) {
             Ok(true) => {}
             Ok(false) => self.end = Some(Ok(())),
-            Err(mistake) => self.end = Some(Err(mistake)),
+            Err(diagnostic) => self.end = Some(Err(diagnostic)),
         }
         before == 0 || self.performance.now() != before
     }

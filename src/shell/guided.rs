@@ -88,24 +88,24 @@ impl Guided {
             GuideKind::Demo => preset::demo(&name),
         };
         let source = source.ok_or_else(|| format!("{name} is no longer there"))?;
-        let report = |mistakes: &[Diagnostic]| source.report(mistakes, false);
-        let script = Script::read(&source).map_err(|mistakes| report(&mistakes))?;
+        let report = |diagnostics: &[Diagnostic]| source.report(diagnostics, false);
+        let script = Script::read(&source).map_err(|diagnostics| report(&diagnostics))?;
         let open = script.head.open.as_ref().map_or_else(|| name.clone(), |open| open.text.clone());
         let system = preset::find(&open).map_err(|why| why.to_string())?;
         let screen = match guide.kind {
             GuideKind::Lesson(_) => {
                 let lesson = Lesson::watched(script, &system, called(&open));
-                let mut lesson = lesson.map_err(|mistakes| report(&mistakes))?;
+                let mut lesson = lesson.map_err(|diagnostics| report(&diagnostics))?;
                 let progress = LessonProgress::known().ok();
                 let mark = progress.and_then(|all| all.lessons.get(&name).copied());
                 lesson
                     .resume(mark.unwrap_or_default().step)
-                    .map_err(|mistake| report(&[mistake]))?;
+                    .map_err(|diagnostic| report(&[diagnostic]))?;
                 GuideScreen::Lesson(Box::new(LessonScreen::new(lesson, look)))
             }
             GuideKind::Demo => {
                 let runner = ScriptRunner::watched(script, &system, called(&open));
-                let runner = runner.map_err(|mistake| report(&[mistake]))?;
+                let runner = runner.map_err(|diagnostic| report(&[diagnostic]))?;
                 GuideScreen::Demo(Box::new(Demo::new(runner, look)))
             }
         };
@@ -120,13 +120,13 @@ impl Guided {
     /// Leaves it, and keeps the progress of a lesson. Returns what is wrong with its script, or why progress is not kept.
     pub(super) fn leave(self) -> Option<String> {
         match self.screen {
-            GuideScreen::Demo(demo) => demo.outcome().err().map(|mistake| mistake.message),
+            GuideScreen::Demo(demo) => demo.outcome().err().map(|diagnostic| diagnostic.message),
             GuideScreen::Lesson(screen) => {
                 let (lesson, outcome) = screen.outcome();
                 let mark = LessonMark::of(&lesson);
                 let kept = LessonProgress::file()
                     .and_then(|path| LessonProgress::note(&path, &self.name, mark));
-                let wrong = outcome.err().map(|mistake| mistake.message);
+                let wrong = outcome.err().map(|diagnostic| diagnostic.message);
                 wrong.or_else(|| kept.err().map(|why| why.to_string()))
             }
         }

@@ -25,18 +25,18 @@ pub(super) struct LessonScreen<L> {
     lesson: L,
     look: RenderStyle,
     detail: Detail,
-    mistake: Option<Diagnostic>,
+    diagnostic: Option<Diagnostic>,
 }
 
 impl<L: BorrowMut<Lesson>> LessonScreen<L> {
     /// Creates the screen of a lesson.
     pub(super) fn new(lesson: L, look: RenderStyle) -> Self {
-        Self { lesson, look, detail: Detail::default(), mistake: None }
+        Self { lesson, look, detail: Detail::default(), diagnostic: None }
     }
 
     /// Returns the lesson, and what is wrong with its script, if anything is.
     pub(super) fn outcome(self) -> (L, Result<(), Diagnostic>) {
-        (self.lesson, self.mistake.map_or(Ok(()), Err))
+        (self.lesson, self.diagnostic.map_or(Ok(()), Err))
     }
 }
 
@@ -65,13 +65,13 @@ impl<L: BorrowMut<Lesson>> Screen for LessonScreen<L> {
     }
 
     fn advance(&mut self, elapsed: Duration) -> bool {
-        if self.mistake.is_some() {
+        if self.diagnostic.is_some() {
             return false;
         }
         match self.lesson.borrow_mut().advance(elapsed.min(LONGEST).as_micros() as u64) {
             Ok(changed) => changed,
-            Err(mistake) => {
-                self.mistake = Some(mistake);
+            Err(diagnostic) => {
+                self.diagnostic = Some(diagnostic);
                 true
             }
         }
@@ -87,7 +87,7 @@ impl<L: BorrowMut<Lesson>> Screen for LessonScreen<L> {
     }
 
     fn is_done(&self) -> bool {
-        self.mistake.is_some()
+        self.diagnostic.is_some()
     }
 
     fn reduce(&mut self, detail: Detail) {

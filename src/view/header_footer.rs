@@ -370,8 +370,8 @@ fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &InputField
     let room = 20.min(area.width / 3);
     typing(canvas, columns(area, used, room), field);
     let rest = columns(area, used + room + 2, area.width);
-    let (role, text) = match (&field.mistake, facts) {
-        (Some(mistake), _) => (Role::Bad, mistake.clone()),
+    let (role, text) = match (&field.diagnostic, facts) {
+        (Some(diagnostic), _) => (Role::Bad, diagnostic.clone()),
         (None, _) if field.purpose == Purpose::TypedFlow => {
             (Role::Dim, "a function of q, p and t; p_x*y - p_y*x; 0.1".to_owned())
         }

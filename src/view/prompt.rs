@@ -49,11 +49,12 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, prompt: &Prom
     canvas.left(columns(field, used, field.width), Role::Text, &shown);
     let cursor = prompt.input.visual_cursor().saturating_sub(scroll) as u16;
     canvas.point(columns(field, used + cursor, 1).as_position());
-    if let Some(mistake) = &prompt.mistake {
+    if let Some(diagnostic) = &prompt.diagnostic {
         // A caret under each character that is wrong.
         let text = prompt.input.value();
-        let before = text.get(..mistake.span.start).unwrap_or(text).chars().count();
-        let wrong = text.get(mistake.span.start..mistake.span.end).unwrap_or("").chars().count();
+        let before = text.get(..diagnostic.span.start).unwrap_or(text).chars().count();
+        let wrong =
+            text.get(diagnostic.span.start..diagnostic.span.end).unwrap_or("").chars().count();
         let start = used + before.saturating_sub(scroll) as u16;
         let carets = "^".repeat(wrong.clamp(1, room.max(1)));
         canvas.left(columns(row(inner, 1), start, inner.width), Role::Bad, &carets);
@@ -69,10 +70,10 @@ fn lines(canvas: &Canvas<'_>, lab: &Lab, prompt: &Prompt, width: usize) -> Vec<V
         page.words(Role::Dim, &status);
         return page.lines;
     }
-    match (&prompt.mistake, &prompt.answered) {
-        (Some(mistake), _) => {
-            page.words(Role::Bad, &mistake.message);
-            page.words(Role::Text, mistake.help.as_deref().unwrap_or_default());
+    match (&prompt.diagnostic, &prompt.answered) {
+        (Some(diagnostic), _) => {
+            page.words(Role::Bad, &diagnostic.message);
+            page.words(Role::Text, diagnostic.help.as_deref().unwrap_or_default());
         }
         (None, None) => page.words(Role::Dim, HELP),
         (None, Some((asked, inquiry))) => match &inquiry.answer {

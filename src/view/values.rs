@@ -155,7 +155,7 @@ pub(super) fn typing(canvas: &mut Canvas<'_>, area: Rect, field: &InputField) {
     let room = usize::from(area.width - 1);
     let skipped = if field.whole { 0 } else { field.input.visual_scroll(room) };
     let text: String = field.input.value().chars().skip(skipped).take(room).collect();
-    let role = if field.mistake.is_some() { Role::Bad } else { Role::Text };
+    let role = if field.diagnostic.is_some() { Role::Bad } else { Role::Text };
     canvas.left(area, role, &format!("{text:<room$}"));
     canvas.tint(area, Role::Title);
     if field.whole {

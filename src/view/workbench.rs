@@ -190,7 +190,7 @@ fn foot(
     if let Some(asking) = &sheet.asking {
         return self::asking(canvas, area, asking, notice);
     }
-    let count = sheet.mistakes();
+    let count = sheet.diagnostics();
     let (role, text) = match sheet.state {
         BufferState::Runs(None) => (Role::Dim, "Running this version.".to_owned()),
         BufferState::Runs(Some(took)) => {

@@ -62,12 +62,12 @@ pub(crate) fn hamiltonian(coordinates: &[&str], parameters: &[&str], h: &str) ->
 pub(crate) fn try_read(model: &mut Model, text: &str) -> Result<Expr, Vec<SyntaxError>> {
     let mut scope = Scope::new(model, Allowed::Observable, "a test");
     let e = scope.read(&mut model.pool, text);
-    e.ok_or(scope.mistakes)
+    e.ok_or(scope.diagnostics)
 }
 
 /// Parses a valid expression in a model's names.
 pub(crate) fn read(model: &mut Model, text: &str) -> Expr {
-    try_read(model, text).unwrap_or_else(|mistakes| panic!("{text}: {mistakes:?}"))
+    try_read(model, text).unwrap_or_else(|diagnostics| panic!("{text}: {diagnostics:?}"))
 }
 
 /// A reproducible value in (0.2, 1.2) for each symbol; it depends on the seed.

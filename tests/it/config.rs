@@ -22,7 +22,7 @@ fn corpus() -> Vec<PathBuf> {
 }
 
 #[test]
-fn each_mistake_gives_its_report() {
+fn each_error_gives_its_report() {
     let update = std::env::var_os("UPDATE_EXPECT").is_some();
     let files = corpus();
     assert!(files.len() >= 20, "the corpus holds {} files", files.len());
@@ -32,7 +32,7 @@ fn each_mistake_gives_its_report() {
         document.path = format!("{}", path.file_name().unwrap().display());
         let given = match config::read(&document) {
             Ok(options) => panic!("{} was read as {options:?}", document.path),
-            Err(mistakes) => document.report(&mistakes, false),
+            Err(diagnostics) => document.report(&diagnostics, false),
         };
         let expected = path.with_extension("txt");
         if update {

@@ -131,13 +131,13 @@ fn examples(document: &str) -> Vec<String> {
 }
 
 #[test]
-fn the_examples_of_the_documents_have_no_mistakes() {
+fn the_examples_of_the_documents_have_no_errors() {
     for document in ["README.md", "docs/preset-format.md"] {
         let examples = examples(document);
         assert!(!examples.is_empty(), "no example in {document}");
         for text in examples {
-            if let Err(mistakes) = phaselab::preset::read(&text) {
-                panic!("{}", phaselab::diagnostic::report(&text, document, &mistakes, false));
+            if let Err(diagnostics) = phaselab::preset::read(&text) {
+                panic!("{}", phaselab::diagnostic::report(&text, document, &diagnostics, false));
             }
         }
     }

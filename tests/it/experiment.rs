@@ -28,7 +28,7 @@ pub(crate) const PLENTY: u64 = 10_000_000;
 
 /// Builds an experiment from a file's text, with a setup changed by `change`.
 pub(crate) fn build(text: &str, change: impl FnOnce(&mut Setup)) -> Experiment {
-    let model = preset::read(text).unwrap_or_else(|mistakes| panic!("{mistakes:?}")).model;
+    let model = preset::read(text).unwrap_or_else(|diagnostics| panic!("{diagnostics:?}")).model;
     let equations = mechanics::derive(&model).expect("it derives");
     let system = System::compile(&model, &equations, &[]).expect("it compiles");
     let mut setup = Setup::of(&model);

@@ -37,7 +37,7 @@ pub(crate) fn lowered(text: &str) -> Loaded {
 }
 
 fn lower(name: &str, epoch: u64, document: Document) -> Loaded {
-    let model = document.read().unwrap_or_else(|mistakes| panic!("{mistakes:?}")).model;
+    let model = document.read().unwrap_or_else(|diagnostics| panic!("{diagnostics:?}")).model;
     let equations = derive(&model).unwrap();
     let system = System::compile(&model, &equations, &[]).unwrap();
     let (model, equations, system) = (Arc::new(model), Arc::new(equations), Arc::new(system));

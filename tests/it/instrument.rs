@@ -163,9 +163,9 @@ fn a_misspelt_kind_gets_the_nearest_of_the_table() {
             "title = 'a test'\n[coordinates]\nx = {{ initial = 1.0 }}\n[lagrangian]\nL = \"1/2*x'^2\"\n\
              [[views]]\nkind = \"{wrong}\"\n"
         );
-        let mistakes = preset::read(&text).expect_err("there is no such kind");
+        let diagnostics = preset::read(&text).expect_err("there is no such kind");
         let help = format!("did you mean `{}`?", kind.name());
-        assert_eq!(mistakes[0].help.as_deref(), Some(help.as_str()), "{wrong}");
+        assert_eq!(diagnostics[0].help.as_deref(), Some(help.as_str()), "{wrong}");
     }
 }
 

@@ -19,7 +19,7 @@ use std::fmt::Write;
 
 /// The model of a file.
 pub(crate) fn model(text: &str) -> Model {
-    read(text).unwrap_or_else(|mistakes| panic!("{text}: {mistakes:?}")).model
+    read(text).unwrap_or_else(|diagnostics| panic!("{text}: {diagnostics:?}")).model
 }
 
 /// A file of canonical coordinates with parameters that have values.

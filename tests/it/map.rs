@@ -181,8 +181,8 @@ fn a_point_sets_parameters_and_initial_values() {
 fn an_end_before_the_start_is_refused() {
     for wrong in ["-1", "0", "g - g", "0/0"] {
         let text = BALL.replace("until = \"4\"", &format!("until = \"{wrong}\""));
-        let mistakes = phaselab::preset::read(&text).expect_err(wrong);
-        assert!(!format!("{mistakes:?}").is_empty(), "{wrong}");
+        let diagnostics = phaselab::preset::read(&text).expect_err(wrong);
+        assert!(!format!("{diagnostics:?}").is_empty(), "{wrong}");
     }
 }
 
@@ -190,8 +190,8 @@ fn an_end_before_the_start_is_refused() {
 fn an_axis_that_is_no_number_of_the_motion_is_refused() {
     for wrong in ["x + 1", "energy", "t"] {
         let text = BALL.replacen("x = \"x\"", &format!("x = \"{wrong}\""), 1);
-        let mistakes = phaselab::preset::read(&text).expect_err(wrong);
-        let text = format!("{mistakes:?}");
+        let diagnostics = phaselab::preset::read(&text).expect_err(wrong);
+        let text = format!("{diagnostics:?}");
         assert!(text.contains("a parameter or an initial value"), "{wrong}: {text}");
     }
 }

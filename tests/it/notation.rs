@@ -36,7 +36,7 @@ fn model() -> Model {
 fn typed(model: &Model, pool: &mut Pool, text: &str) -> Result<Expr, Vec<String>> {
     let mut scope = Scope::new(model, Allowed::Observable, "an observable");
     scope.read(pool, text).ok_or_else(|| {
-        let told = scope.mistakes.iter().map(|m| {
+        let told = scope.diagnostics.iter().map(|m| {
             assert!(text.get(m.span.start..m.span.end).is_some(), "{text}: {m:?}");
             format!("{m}; {}", m.help.clone().unwrap_or_default())
         });
@@ -100,8 +100,8 @@ fn what_could_be_read_in_two_ways_is_refused_with_both() {
     let model = model();
     let check = |text: &str, told: &[&str]| {
         let mut pool = model.pool.clone();
-        let mistakes = typed(&model, &mut pool, text).expect_err(text);
-        assert_eq!(mistakes, told, "{text}");
+        let diagnostics = typed(&model, &mut pool, text).expect_err(text);
+        assert_eq!(diagnostics, told, "{text}");
     };
     check("m/l x", &["`m/l x` can be read in two ways; write `(m/l) x` or `m/(l x)`"]);
     check("1/2 m", &["`1/2 m` can be read in two ways; write `(1/2) m` or `1/(2 m)`"]);

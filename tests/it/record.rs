@@ -23,7 +23,7 @@ use crate::hand::catalog;
 pub(crate) fn script(text: &str) -> Script {
     let document = Document::new("test.demo", text);
     Script::read(&document)
-        .unwrap_or_else(|mistakes| panic!("{}", document.report(&mistakes, false)))
+        .unwrap_or_else(|diagnostics| panic!("{}", document.report(&diagnostics, false)))
 }
 
 /// Plays a script of a preset, whose claims all hold.
@@ -40,7 +40,7 @@ pub(crate) fn recorded(preset: &str, text: &str) -> Recording {
     let document = Document::new("test.demo", text);
     let system = catalog().find(preset).expect("a preset");
     play(&script(text), &system, preset, (80, 24))
-        .unwrap_or_else(|mistakes| panic!("{}", document.report(&mistakes, false)))
+        .unwrap_or_else(|diagnostics| panic!("{}", document.report(&diagnostics, false)))
 }
 
 /// Plays a preset's own demo.

@@ -149,7 +149,7 @@ fn systems() -> Vec<PathBuf> {
 fn experiment(file: &Path) -> Result<Experiment, String> {
     let document = Document::open(file).map_err(|why| why.to_string())?;
     let read = document.read();
-    let model = read.map_err(|mistakes| document.report(&mistakes, false))?.model;
+    let model = read.map_err(|diagnostics| document.report(&diagnostics, false))?.model;
     let mut equations = mechanics::derive(&model).map_err(|why| why.to_string())?;
     let others = others(&model, &mut equations.pool);
     let system = System::compile(&model, &equations, &others).map_err(|why| why.to_string())?;

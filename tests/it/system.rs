@@ -13,7 +13,7 @@ use phaselab::system::System;
 
 /// The model and system of a file's text.
 pub(crate) fn compile(text: &str) -> (Model, System) {
-    let checked = preset::read(text).unwrap_or_else(|mistakes| panic!("{mistakes:?}"));
+    let checked = preset::read(text).unwrap_or_else(|diagnostics| panic!("{diagnostics:?}"));
     let equations = derive(&checked.model).expect("small enough");
     let system = System::compile(&checked.model, &equations, &[]).expect("complete");
     (checked.model, system)

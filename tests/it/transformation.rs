@@ -161,7 +161,7 @@ fn only_new_variables_are_its_axes() {
         [[views]]\nkind = \"transformation\"\nx = \"X\"\ny = \"p_q\"\n";
     let report = |text: &str| match preset::read(text) {
         Ok(_) => String::new(),
-        Err(mistakes) => format!("{mistakes:?}"),
+        Err(diagnostics) => format!("{diagnostics:?}"),
     };
     let said = report(text);
     assert!(said.contains("is shown in its new variables, and this is none"), "{said}");

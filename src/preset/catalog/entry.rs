@@ -69,8 +69,8 @@ impl CatalogEntry {
             Err(unreadable) => entry.fault = Some(unreadable.to_string()),
             Ok(document) => {
                 entry.info = head(&document.text);
-                if let Err(mistakes) = document.read() {
-                    entry.fault = mistakes
+                if let Err(diagnostics) = document.read() {
+                    entry.fault = diagnostics
                         .iter()
                         .find(|m| m.severity == Severity::Error)
                         .map(|m| located(&document, m));
@@ -113,9 +113,9 @@ fn head(text: &str) -> Info {
     Info { notes: String::new(), ..draft::read_head(&table) }
 }
 
-fn located(document: &Document, mistake: &Diagnostic) -> String {
-    let (line, column) = document.line_and_column(mistake.place.start);
-    format!("{}:{line}:{column}: {}", document.path, printable::line(&mistake.message))
+fn located(document: &Document, diagnostic: &Diagnostic) -> String {
+    let (line, column) = document.line_and_column(diagnostic.place.start);
+    format!("{}:{line}:{column}: {}", document.path, printable::line(&diagnostic.message))
 }
 
 fn stem(path: &Path) -> String {

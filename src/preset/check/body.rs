@@ -66,8 +66,8 @@ impl Check<'_> {
             let is = if sum.abs() <= 1e-12 * size { 0.0 } else { sum };
             let message = format!("the masses of the pieces sum to {is}");
             let help = "a body needs a mass, or it has no centre of mass";
-            let mistake = Diagnostic::error(written.place.clone(), message);
-            self.mistakes.push(mistake.with_help(help));
+            let diagnostic = Diagnostic::error(written.place.clone(), message);
+            self.diagnostics.push(diagnostic.with_help(help));
         }
         if let Some(body) = &mut self.model.body {
             body.pieces = pieces;

@@ -32,12 +32,12 @@ impl Check<'_> {
                 Some(index) => match seen.iter().find(|n| n.get_ref() == name.get_ref()) {
                     Some(first) => {
                         let message = format!("`{}` is eliminated twice", name.get_ref());
-                        let mistake = Diagnostic::error(name.span(), message);
-                        self.mistakes.push(mistake.with_also(first.span(), "the first time"));
+                        let diagnostic = Diagnostic::error(name.span(), message);
+                        self.diagnostics.push(diagnostic.with_also(first.span(), "the first time"));
                     }
                     None => eliminate.push(index),
                 },
-                None => self.mistakes.push(self.not_eliminated(name)),
+                None => self.diagnostics.push(self.not_eliminated(name)),
             }
             seen.push(name);
         }
@@ -62,7 +62,8 @@ impl Check<'_> {
         if constraints == 0 || !self.model.is_lagrangian() {
             let message = "there is nothing to compare: the file has no constraints";
             let help = "[comparison] puts the [[constraints]] of a Lagrangian into it";
-            self.mistakes.push(Diagnostic::error(written.place.clone(), message).with_help(help));
+            self.diagnostics
+                .push(Diagnostic::error(written.place.clone(), message).with_help(help));
         } else if written.eliminate.len() != constraints && written.list != (0..0) {
             let count =
                 |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
@@ -72,7 +73,7 @@ impl Check<'_> {
                 count(constraints, "constraint")
             );
             let help = "each constraint is solved for the velocity of one coordinate";
-            self.mistakes.push(Diagnostic::error(written.list.clone(), message).with_help(help));
+            self.diagnostics.push(Diagnostic::error(written.list.clone(), message).with_help(help));
         }
     }
 }

@@ -26,13 +26,13 @@ impl Check<'_> {
             let same = taken.iter().find(|(known, _)| *known == multiplier);
             let first = same.and_then(|(_, first)| first.name.as_ref());
             if let Some(first) = first.filter(|first| first.get_ref() == name.get_ref()) {
-                report_twice(name, first.span(), "a constraint", self.mistakes);
+                report_twice(name, first.span(), "a constraint", self.diagnostics);
             } else if let Some(first) = first {
                 let message =
                     format!("a constraint before this one has the multiplier `{multiplier}` too");
-                let mistake =
+                let diagnostic =
                     Diagnostic::error(name.span(), message).with_help("rename one of them");
-                self.mistakes.push(mistake.with_also(first.span(), "the first one"));
+                self.diagnostics.push(diagnostic.with_also(first.span(), "the first one"));
             }
             taken.push((multiplier, written));
         }
@@ -57,7 +57,7 @@ impl Check<'_> {
             let law = if self.model.is_poisson() { "[poisson]" } else { "[hamiltonian]" };
             let message = format!("constraints hold a Lagrangian; beside {law} there are none");
             let help = "give the law in [lagrangian], or leave the constrained coordinate out";
-            self.mistakes.push(Diagnostic::error(first.place.clone(), message).with_help(help));
+            self.diagnostics.push(Diagnostic::error(first.place.clone(), message).with_help(help));
             return;
         }
         let mut scope = Scope::new(&self.model, Allowed::Lagrangian, "a constraint");
@@ -141,11 +141,12 @@ impl Check<'_> {
             true
         };
         if !binds {
-            let mistake = Diagnostic::error(
+            let diagnostic = Diagnostic::error(
                 formula.span(),
                 format!("{called} binds no coordinate or velocity"),
             );
-            self.mistakes.push(mistake.with_help("what is to vanish depends on where things are"));
+            self.diagnostics
+                .push(diagnostic.with_help("what is to vanish depends on where things are"));
             return None;
         }
         Some(form)
@@ -174,7 +175,7 @@ impl Check<'_> {
         let message = format!("{called} is not linear {culprit}");
         let help = "a constraint is a sum of velocities, each times a function of q and t, and of \
                     such a function";
-        self.mistakes.push(Diagnostic::error(formula.span(), message).with_help(help));
+        self.diagnostics.push(Diagnostic::error(formula.span(), message).with_help(help));
     }
 }
 

@@ -143,7 +143,7 @@ impl Check<'_> {
             None => format!("there is {}", known.collect::<Vec<_>>().join(", ")),
         };
         let message = format!("there is no transformation `{}`", name.get_ref());
-        self.mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
+        self.diagnostics.push(Diagnostic::error(name.span(), message).with_help(help));
         None
     }
 
@@ -178,7 +178,7 @@ impl Check<'_> {
             None => format!("what may happen is {}", known.join(", ")),
         };
         let message = format!("there is no event or impulse `{}`", name.get_ref());
-        self.mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
+        self.diagnostics.push(Diagnostic::error(name.span(), message).with_help(help));
         None
     }
 
@@ -244,7 +244,7 @@ impl Check<'_> {
                     }
                     None => "name `energy`, a momentum p_..., or an observable".to_owned(),
                 };
-                self.mistakes.push(Diagnostic::error(claim.span(), message).with_help(help));
+                self.diagnostics.push(Diagnostic::error(claim.span(), message).with_help(help));
             }
         }
         None

@@ -19,14 +19,14 @@ impl Check<'_> {
         for frame in written {
             if let Some(name) = &frame.name {
                 match before.iter().find(|known| known.get_ref() == name.get_ref()) {
-                    Some(first) => report_twice(name, first.span(), "a frame", self.mistakes),
+                    Some(first) => report_twice(name, first.span(), "a frame", self.diagnostics),
                     None => before.push(name),
                 }
             }
             if let (Some(place), None) = (&frame.attitude, &self.model.attitude) {
                 let message = "there is no [attitude] for this frame to turn with";
                 let help = "say how the body stands in [attitude]";
-                self.mistakes.push(Diagnostic::error(place.clone(), message).with_help(help));
+                self.diagnostics.push(Diagnostic::error(place.clone(), message).with_help(help));
             }
             let axis = frame.axis.as_ref().map(|f| self.axis(f, &mut fixed));
             let angle = frame.angle.as_ref().map(|f| self.formula(&mut scope, "a frame", f));
@@ -77,7 +77,7 @@ impl Check<'_> {
                 None => format!("the frames are {}", known.join(", ")),
             };
             let message = format!("there is no frame `{}`", name.get_ref());
-            self.mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
+            self.diagnostics.push(Diagnostic::error(name.span(), message).with_help(help));
         }
         found
     }

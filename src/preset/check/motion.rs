@@ -34,7 +34,7 @@ impl Check<'_> {
             _ => None,
         };
         if let Some((place, message, help)) = wrong {
-            self.mistakes.push(Diagnostic::error(place.clone(), message).with_help(help));
+            self.diagnostics.push(Diagnostic::error(place.clone(), message).with_help(help));
         }
     }
 
@@ -43,10 +43,10 @@ impl Check<'_> {
         let (first, others) = given.split_first()?;
         for other in others {
             let message = "the file gives more than one law of motion";
-            let mistake = Diagnostic::error(other.place.clone(), message)
+            let diagnostic = Diagnostic::error(other.place.clone(), message)
                 .with_help("keep one of [lagrangian], [hamiltonian] and [poisson]")
                 .with_also(first.place.clone(), "the first one");
-            self.mistakes.push(mistake);
+            self.diagnostics.push(diagnostic);
         }
         for law in given {
             let mechanics = self.mechanics(law, names);
@@ -77,7 +77,7 @@ impl Check<'_> {
             let force = read(self, "a force", formula);
             match self.model.coordinate(name.get_ref()) {
                 Some(index) => forces[index] = force,
-                None => self.mistakes.push(self.no_coordinate(name)),
+                None => self.diagnostics.push(self.no_coordinate(name)),
             }
         }
         match written.law {
@@ -96,12 +96,12 @@ impl Check<'_> {
     fn no_coordinate(&self, name: &toml::Spanned<String>) -> Diagnostic {
         let kind = if self.model.is_poisson() { "variable" } else { "coordinate" };
         let message = format!("there is no {kind} `{}` for a force to act on", name.get_ref());
-        let mistake = Diagnostic::error(name.span(), message);
+        let diagnostic = Diagnostic::error(name.span(), message);
         let known: Vec<&str> = self.model.coordinates.iter().map(|c| c.name.as_str()).collect();
         let bare = name.get_ref().trim_end_matches('\'');
         match nearest(bare.strip_prefix("p_").unwrap_or(bare), known.iter().copied()) {
-            Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
-            None => mistake.with_help(format!("the {kind}s are {}", known.join(", "))),
+            Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),
+            None => diagnostic.with_help(format!("the {kind}s are {}", known.join(", "))),
         }
     }
 
@@ -146,8 +146,8 @@ impl Check<'_> {
         };
         if let Some((place, _)) = wrong {
             let message = format!("a `{given}` is given, but {of} starts from a `{wanted}`");
-            let mistake = Diagnostic::error(place.clone(), message);
-            self.mistakes.push(mistake.with_help(format!("did you mean `{wanted}`?")));
+            let diagnostic = Diagnostic::error(place.clone(), message);
+            self.diagnostics.push(diagnostic.with_help(format!("did you mean `{wanted}`?")));
         }
     }
 

@@ -23,7 +23,7 @@ pub(super) struct Names {
 
 impl Names {
     /// Checks the names of coordinates, parameters and definitions.
-    pub(super) fn of(draft: &Draft, mistakes: &mut Diagnostics) -> Names {
+    pub(super) fn of(draft: &Draft, diagnostics: &mut Diagnostics) -> Names {
         let coordinates = draft.moving.all.iter().map(|c| c.name.get_ref().clone()).collect();
         let constraints = draft.constraints.iter().filter_map(|c| c.name.as_ref());
         let multipliers = constraints
@@ -34,13 +34,13 @@ impl Names {
         names.given(draft);
         let kind = if poisson { "a variable" } else { "a coordinate" };
         for coordinate in &draft.moving.all {
-            names.word(&coordinate.name, kind, mistakes);
+            names.word(&coordinate.name, kind, diagnostics);
         }
         for parameter in &draft.parameters {
-            names.word(&parameter.name, "a parameter", mistakes);
+            names.word(&parameter.name, "a parameter", diagnostics);
         }
         for (name, _) in &draft.definitions {
-            names.word(name, "a definition", mistakes);
+            names.word(name, "a definition", diagnostics);
         }
         names
     }
@@ -72,16 +72,16 @@ impl Names {
     pub(super) fn new_variable(
         &mut self,
         name: &Spanned<String>,
-        mistakes: &mut Diagnostics,
+        diagnostics: &mut Diagnostics,
     ) -> bool {
         const KIND: &str = "a new variable";
         if let Some((kind, _)) = self.taken.get(name.get_ref()).filter(|(kind, _)| *kind != KIND) {
             let message = format!("the new variable `{}` would be {kind} too", name.get_ref());
             let help = "give the new variables other names: new = [\"...\", \"...\"]";
-            mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
+            diagnostics.push(Diagnostic::error(name.span(), message).with_help(help));
             false
         } else {
-            self.kind(name.get_ref()).is_some() || self.word(name, KIND, mistakes)
+            self.kind(name.get_ref()).is_some() || self.word(name, KIND, diagnostics)
         }
     }
 
@@ -90,12 +90,12 @@ impl Names {
         &mut self,
         name: &Spanned<String>,
         kind: &'static str,
-        mistakes: &mut Diagnostics,
+        diagnostics: &mut Diagnostics,
     ) -> bool {
         let written = name.get_ref();
         if is_word(written) {
             let before = self.taken.len();
-            self.claim(name, kind, mistakes);
+            self.claim(name, kind, diagnostics);
             return self.taken.len() > before;
         }
         let message = format!("`{written}` cannot name {kind}");
@@ -107,7 +107,7 @@ impl Names {
         } else {
             rule.to_owned()
         };
-        mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
+        diagnostics.push(Diagnostic::error(name.span(), message).with_help(help));
         false
     }
 
@@ -116,14 +116,15 @@ impl Names {
         &mut self,
         name: &Spanned<String>,
         kind: &'static str,
-        mistakes: &mut Diagnostics,
+        diagnostics: &mut Diagnostics,
     ) {
         let written = name.get_ref().as_str();
         if let Some(meaning) = self.reserved(written) {
             let message = format!("`{written}` cannot name {kind}: it is {meaning}");
-            mistakes.push(Diagnostic::error(name.span(), message).with_help("choose another name"));
+            diagnostics
+                .push(Diagnostic::error(name.span(), message).with_help("choose another name"));
         } else if let Some((first, place)) = self.taken.get(written) {
-            report_twice(name, place.clone(), first, mistakes);
+            report_twice(name, place.clone(), first, diagnostics);
         } else {
             self.taken.insert(written.to_owned(), (kind, name.span()));
         }
@@ -170,13 +171,13 @@ pub(super) fn report_twice(
     name: &Spanned<String>,
     first: SourceRange,
     kind: &str,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) {
     let message = format!("the name `{}` is given twice", name.get_ref());
-    let mistake = Diagnostic::error(name.span(), message)
+    let diagnostic = Diagnostic::error(name.span(), message)
         .with_help("rename one of them")
         .with_also(first, format!("here it names {kind}"));
-    mistakes.push(mistake);
+    diagnostics.push(diagnostic);
 }
 
 /// Whether expressions can use it as a name.

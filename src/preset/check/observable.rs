@@ -51,7 +51,7 @@ impl Check<'_> {
         let same = self.model.definitions.iter().any(|(n, e)| n == name && Some(*e) == read);
         let again = self.model.observables.iter().any(|o| o.name == name);
         if !(same && !again && names.kind(name) == Some("a definition")) {
-            names.claim(written, kind, self.mistakes);
+            names.claim(written, kind, self.diagnostics);
         }
         Some(name.to_owned())
     }

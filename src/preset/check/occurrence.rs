@@ -24,7 +24,7 @@ impl Check<'_> {
         for (name, kind) in all {
             match before.iter().find(|(known, _)| known.get_ref() == name.get_ref()) {
                 Some((first, what)) => {
-                    report_twice(name, first.span(), what, self.mistakes);
+                    report_twice(name, first.span(), what, self.diagnostics);
                 }
                 None => before.push((name, kind)),
             }
@@ -54,7 +54,7 @@ impl Check<'_> {
                 let jump = formula.and_then(|f| self.formula(&mut scope, &called, f));
                 match self.after_impulse(name.get_ref()) {
                     Some(index) => change[index] = jump.unwrap_or(Expr::ZERO),
-                    None => self.mistakes.push(self.unknown_momentum(name)),
+                    None => self.diagnostics.push(self.unknown_momentum(name)),
                 }
             }
             let mut scheduled = at.iter().chain(&period);
@@ -84,7 +84,7 @@ impl Check<'_> {
             let place = if at < start { "before the start" } else { "the start itself" };
             let start = number(start);
             let message = format!("this is {place}, t = {start}; it does not act");
-            self.mistakes.push(Diagnostic::warning(formula.span(), message));
+            self.diagnostics.push(Diagnostic::warning(formula.span(), message));
         }
         Some(e)
     }
@@ -160,9 +160,9 @@ impl Check<'_> {
         };
         let moves = !self.model.pool.symbols_of(e).into_iter().all(constant);
         if !moves {
-            let mistake = Diagnostic::error(formula.span(), "this does not change in time");
+            let diagnostic = Diagnostic::error(formula.span(), "this does not change in time");
             let help = "an event happens where its expression crosses zero";
-            self.mistakes.push(mistake.with_help(help));
+            self.diagnostics.push(diagnostic.with_help(help));
         }
         moves
     }
@@ -179,7 +179,7 @@ impl Check<'_> {
                     None => "a direction is `rising`, `falling` or `either`".to_owned(),
                 };
                 let message = format!("there is no direction `{other}`");
-                self.mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
+                self.diagnostics.push(Diagnostic::error(written.span(), message).with_help(help));
                 Direction::Either
             }
         }
@@ -199,7 +199,7 @@ impl Check<'_> {
             }
             ("impulse", Some(_)) => self.model.impulses.iter().map(|i| i.name.as_str()).collect(),
             _ => {
-                self.mistakes.push(no_action(written, verb));
+                self.diagnostics.push(no_action(written, verb));
                 return None;
             }
         };
@@ -219,7 +219,7 @@ impl Check<'_> {
             None => format!("the {kind}s are {}", known.join(", ")),
         };
         let message = format!("there is no {kind} `{object}`");
-        self.mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
+        self.diagnostics.push(Diagnostic::error(written.span(), message).with_help(help));
         None
     }
 }

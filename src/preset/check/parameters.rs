@@ -44,7 +44,7 @@ impl Check<'_> {
                     None => "a scale is `linear` or `log`".to_owned(),
                 };
                 let message = format!("there is no scale `{other}`");
-                self.mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
+                self.diagnostics.push(Diagnostic::error(written.span(), message).with_help(help));
                 RangeSpacing::Linear
             }
         }

@@ -101,7 +101,7 @@ impl Check<'_> {
                 None => format!("the parameters are {}", known.join(", ")),
             };
             let message = format!("there is no parameter `{}`", name.get_ref());
-            self.mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
+            self.diagnostics.push(Diagnostic::error(name.span(), message).with_help(help));
         }
         found
     }
@@ -151,7 +151,7 @@ impl Check<'_> {
         } else {
             format!("write one of {}", names.join(", "))
         };
-        self.mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
+        self.diagnostics.push(Diagnostic::error(written.span(), message).with_help(help));
     }
 
     /// The end of the motions of a map must come after their start, at the file's parameters.
@@ -167,7 +167,7 @@ impl Check<'_> {
         }
         let message = format!("the motions of a map begin at {start}, and this is {end}");
         let help = "write a later time";
-        self.mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
+        self.diagnostics.push(Diagnostic::error(written.span(), message).with_help(help));
         false
     }
 
@@ -190,7 +190,7 @@ impl Check<'_> {
             let rates = if model.is_lagrangian() { "velocity" } else { "momentum" };
             let message = "an axis of a map is a parameter or an initial value, and this is none";
             let help = format!("write a parameter, a coordinate or its {rates}");
-            self.mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
+            self.diagnostics.push(Diagnostic::error(written.span(), message).with_help(help));
         }
         found
     }
@@ -210,7 +210,7 @@ impl Check<'_> {
                 kind.name()
             );
             let help = format!("write one of {}", names.join(", "));
-            self.mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
+            self.diagnostics.push(Diagnostic::error(written.span(), message).with_help(help));
         }
     }
 
@@ -226,8 +226,8 @@ impl Check<'_> {
                     if self.model.body.is_none() {
                         let message = "there is no [body] to draw";
                         let help = "put it together from pieces in [body]";
-                        let mistake = Diagnostic::error(written.place.clone(), message);
-                        self.mistakes.push(mistake.with_help(help));
+                        let diagnostic = Diagnostic::error(written.place.clone(), message);
+                        self.diagnostics.push(diagnostic.with_help(help));
                     }
                     at.map(|at| Shape::Body { at })
                 }
@@ -244,7 +244,7 @@ impl Check<'_> {
             && !(-90.0..=90.0).contains(elevation.get_ref())
         {
             let message = "`elevation` is an angle from -90 to 90, in degrees";
-            self.mistakes.push(Diagnostic::error(elevation.span(), message));
+            self.diagnostics.push(Diagnostic::error(elevation.span(), message));
         }
         let angle = |written: &Option<Spanned<f64>>| {
             written.as_ref().map(|degrees| degrees.get_ref().to_radians())

@@ -31,8 +31,8 @@ impl Check<'_> {
                     second.get_ref()
                 );
                 let help = "{b, a} is -{a, b}: one of them gives both";
-                let mistake = Diagnostic::error(bracket.place.clone(), message).with_help(help);
-                self.mistakes.push(mistake.with_also(before.clone(), "the first time"));
+                let diagnostic = Diagnostic::error(bracket.place.clone(), message).with_help(help);
+                self.diagnostics.push(diagnostic.with_also(before.clone(), "the first time"));
                 continue;
             }
             given[i][j] = Some(bracket.place.clone());
@@ -43,8 +43,9 @@ impl Check<'_> {
                 matrix[j][i] = self.model.pool.neg(value);
             } else if value != Expr::ZERO {
                 let message = format!("the bracket of `{}` with itself is 0", first.get_ref());
-                let mistake = Diagnostic::error(bracket.value.span(), message);
-                self.mistakes.push(mistake.with_help("brackets are antisymmetric: leave it out"));
+                let diagnostic = Diagnostic::error(bracket.value.span(), message);
+                self.diagnostics
+                    .push(diagnostic.with_help("brackets are antisymmetric: leave it out"));
             }
         }
         matrix
@@ -60,7 +61,7 @@ impl Check<'_> {
                 None => format!("the variables are {}", known.join(", ")),
             };
             let message = format!("there is no variable `{}`", name.get_ref());
-            self.mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
+            self.diagnostics.push(Diagnostic::error(name.span(), message).with_help(help));
         }
         found
     }

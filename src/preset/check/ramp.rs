@@ -40,7 +40,7 @@ impl Check<'_> {
                     None => "a ramp is `smooth`, `cubic` or `linear`".to_owned(),
                 };
                 let message = format!("there is no form `{}` of a ramp", form.get_ref());
-                self.mistakes.push(Diagnostic::error(form.span(), message).with_help(help));
+                self.diagnostics.push(Diagnostic::error(form.span(), message).with_help(help));
             }
             known.map(|(_, form)| *form)
         });
@@ -49,13 +49,13 @@ impl Check<'_> {
         let symbol = known.map(|parameter| parameter.symbol);
         if symbol.is_none() {
             let names = self.model.parameters.iter().map(|p| p.name.as_str());
-            let mistake = Diagnostic::error(
+            let diagnostic = Diagnostic::error(
                 name.span(),
                 format!("there is no parameter `{}`", name.get_ref()),
             );
-            self.mistakes.push(match nearest(name.get_ref(), names) {
-                Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
-                None => mistake.with_help("give it a value in [parameters]"),
+            self.diagnostics.push(match nearest(name.get_ref(), names) {
+                Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),
+                None => diagnostic.with_help("give it a value in [parameters]"),
             });
         }
         let mut scope = Scope::new(&self.model, Allowed::Parameters, "a ramp");

@@ -33,7 +33,7 @@ impl Check<'_> {
             if let Some(name) = &written.name {
                 let first = taken.iter().find(|first| first.get_ref() == name.get_ref());
                 if let Some(first) = first {
-                    report_twice(name, first.span(), "a transformation", self.mistakes);
+                    report_twice(name, first.span(), "a transformation", self.diagnostics);
                 }
                 taken.push(name);
             }
@@ -48,8 +48,8 @@ impl Check<'_> {
             for name in &written.constants {
                 const KIND: &str = "a constant of the complete integral";
                 let beta = Spanned::new(name.span(), format!("beta_{}", name.get_ref()));
-                if names.word(name, KIND, self.mistakes)
-                    && names.word(&beta, "what is conjugate to a constant", self.mistakes)
+                if names.word(name, KIND, self.diagnostics)
+                    && names.word(&beta, "what is conjugate to a constant", self.diagnostics)
                 {
                     let symbol = self.introduce(name.get_ref(), Rank::Constant);
                     let conjugate = self.introduce(beta.get_ref(), Rank::Constant);
@@ -91,7 +91,7 @@ impl Check<'_> {
             let message = format!("`new` names {} variables where there are {}", all.len(), 2 * n);
             let help = "name every new coordinate, then every new momentum";
             let place = written.new.first().map_or(place, Spanned::span);
-            self.mistakes.push(Diagnostic::error(place, message).with_help(help));
+            self.diagnostics.push(Diagnostic::error(place, message).with_help(help));
         }
         let mut symbols = Vec::new();
         for (k, name) in all.iter().enumerate() {
@@ -99,7 +99,7 @@ impl Check<'_> {
                 let message = format!("`{}` would be two new variables", name.get_ref());
                 self.error(name.span(), message);
             }
-            symbols.push(if names.new_variable(name, self.mistakes) {
+            symbols.push(if names.new_variable(name, self.diagnostics) {
                 self.introduce(name.get_ref(), Rank::Momentum)
             } else {
                 // what has the name already keeps it
@@ -129,7 +129,7 @@ impl Check<'_> {
             let e = formula.and_then(|f| self.formula(&mut scope, "a generator", f));
             let Some(name) = &written.name else { continue };
             if let Some(first) = taken.iter().find(|first| first.get_ref() == name.get_ref()) {
-                report_twice(name, first.span(), "a generator", self.mistakes);
+                report_twice(name, first.span(), "a generator", self.diagnostics);
             }
             taken.push(name);
             if let (Some(expression), Some(formula)) = (e, formula) {
@@ -189,7 +189,7 @@ impl Check<'_> {
         let types = self.types(written, n)?;
         if given {
             let message = "a transformation by a generating function has no `Q` and `P` of its own";
-            self.mistakes.push(
+            self.diagnostics.push(
                 Diagnostic::error(written.place.clone(), message)
                     .with_help("write kind = \"explicit\", or leave them out"),
             );
@@ -197,7 +197,8 @@ impl Check<'_> {
         let Some(formula) = &written.function else {
             let message = "this transformation has no `F`";
             let help = "write F = \"...\", or kind = \"explicit\" with Q = { ... } and P = { ... }";
-            self.mistakes.push(Diagnostic::error(written.place.clone(), message).with_help(help));
+            self.diagnostics
+                .push(Diagnostic::error(written.place.clone(), message).with_help(help));
             return None;
         };
         let function = self.formula(&mut scope, "a generating function", formula)?;
@@ -236,7 +237,7 @@ impl Check<'_> {
             } else {
                 "write of = [\"first\", \"second\"], transformations above this one, the first to act first"
             };
-            self.mistakes.push(Diagnostic::error(place, message).with_help(help));
+            self.diagnostics.push(Diagnostic::error(place, message).with_help(help));
             return None;
         }
         let mut found = Vec::new();
@@ -252,7 +253,7 @@ impl Check<'_> {
                         None if names.is_empty() => "there is none above".to_owned(),
                         None => format!("there are {}", names.join(", ")),
                     };
-                    self.mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
+                    self.diagnostics.push(Diagnostic::error(name.span(), message).with_help(help));
                 }
             }
         }
@@ -275,7 +276,7 @@ impl Check<'_> {
                     Some(near) => format!("did you mean `{near}`?"),
                     None => format!("there are {}", all.join(", ")),
                 };
-                self.mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
+                self.diagnostics.push(Diagnostic::error(name.span(), message).with_help(help));
             }
             found
         };
@@ -286,7 +287,7 @@ impl Check<'_> {
                 let message = format!("`types` has {} entries for {n} pairs", types.len());
                 let place = written.types.first().map_or(written.place.clone(), Spanned::span);
                 let help = "write one of F1, F2, F3, F4 for each coordinate";
-                self.mistakes.push(Diagnostic::error(place, message).with_help(help));
+                self.diagnostics.push(Diagnostic::error(place, message).with_help(help));
                 return None;
             }
             if let (Some(kind), None) = (&written.kind, mixed) {
@@ -298,7 +299,8 @@ impl Check<'_> {
         let Some(kind) = &written.kind else {
             let message = "this transformation has no `kind`";
             let help = "write kind = \"F1\", \"F2\", \"F3\", \"F4\", \"explicit\", \"inverse\" or \"compose\"";
-            self.mistakes.push(Diagnostic::error(written.place.clone(), message).with_help(help));
+            self.diagnostics
+                .push(Diagnostic::error(written.place.clone(), message).with_help(help));
             return None;
         };
         read(kind, &["explicit", "mixed", "inverse", "compose"]).map(|kind| vec![kind; n])
@@ -318,7 +320,8 @@ impl Check<'_> {
         let Some(table) = table else {
             let message = format!("this transformation has no `{letter}`");
             let help = format!("write {letter} = {{ {letter} = \"...\" }}");
-            self.mistakes.push(Diagnostic::error(written.place.clone(), message).with_help(help));
+            self.diagnostics
+                .push(Diagnostic::error(written.place.clone(), message).with_help(help));
             return None;
         };
         let mut found: Vec<Option<Expr>> = vec![None; new.len()];
@@ -331,7 +334,7 @@ impl Check<'_> {
                 None => {
                     let message = format!("`{}` is not a new variable here", name.get_ref());
                     let help = format!("the variables are {}", wanted.join(", "));
-                    self.mistakes.push(Diagnostic::error(name.span(), message).with_help(help));
+                    self.diagnostics.push(Diagnostic::error(name.span(), message).with_help(help));
                     return None;
                 }
             }
@@ -380,7 +383,7 @@ impl Check<'_> {
         let Some((symbol, help)) = wrong else { return true };
         let name = &self.model.pool.symbol_info(symbol).name;
         let message = format!("this generating function may not depend on `{name}`");
-        self.mistakes.push(Diagnostic::error(place_of(formula), message).with_help(help));
+        self.diagnostics.push(Diagnostic::error(place_of(formula), message).with_help(help));
         false
     }
 }

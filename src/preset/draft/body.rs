@@ -54,37 +54,38 @@ pub(in crate::preset) struct DraftComparison {
     pub(in crate::preset) eliminate: Vec<Spanned<String>>,
 }
 
-pub(super) fn body(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftBody> {
-    let mut table = top.table("body", mistakes)?;
+pub(super) fn body(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Option<DraftBody> {
+    let mut table = top.table("body", diagnostics)?;
     let example = "{ solid = \"sphere\", mass = \"m\", radius = \"a\" }";
     let mut pieces = Vec::new();
     if let Some((_, found)) = table.take("pieces") {
-        let items = value::list(found, "`pieces`", mistakes);
+        let items = value::list(found, "`pieces`", diagnostics);
         if items.is_some_and(|items| items.is_empty()) {
-            let mistake = Diagnostic::error(found.span(), "a body is made of at least one piece");
-            mistakes.push(mistake.with_help(format!("write pieces = [ {example} ]")));
+            let diagnostic =
+                Diagnostic::error(found.span(), "a body is made of at least one piece");
+            diagnostics.push(diagnostic.with_help(format!("write pieces = [ {example} ]")));
         }
         for item in items.into_iter().flatten() {
-            let entry = Table::of(item, "this piece", item.span(), example, mistakes);
-            pieces.extend(entry.and_then(|entry| piece(entry.with(&PIECE), mistakes)));
+            let entry = Table::of(item, "this piece", item.span(), example, diagnostics);
+            pieces.extend(entry.and_then(|entry| piece(entry.with(&PIECE), diagnostics)));
         }
     }
     let place = table.place.clone();
-    table.finish(mistakes);
+    table.finish(diagnostics);
     Some(DraftBody { place, pieces })
 }
 
-fn piece(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftPiece> {
-    let point = table.flag("point", mistakes).filter(|flag| *flag.get_ref());
-    let (had, written) = (table.has("solid"), table.text("solid", mistakes));
+fn piece(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> Option<DraftPiece> {
+    let point = table.flag("point", diagnostics).filter(|flag| *flag.get_ref());
+    let (had, written) = (table.has("solid"), table.text("solid", diagnostics));
     let solid = match (&point, &written) {
         (Some(_), Some(solid)) => {
             let message = "a piece is a point or a solid, not both";
-            mistakes.push(Diagnostic::error(solid.span(), message));
+            diagnostics.push(Diagnostic::error(solid.span(), message));
             return None;
         }
         (Some(_), None) => None,
-        (None, Some(solid)) => Some(known(solid, mistakes)?),
+        (None, Some(solid)) => Some(known(solid, diagnostics)?),
         (None, None) => {
             if !had {
                 let message = "this piece has no `solid`";
@@ -93,35 +94,35 @@ fn piece(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftPiece>
                     "solid",
                     Diagnostic::error(table.place.clone(), message).with_help(help),
                 );
-                table.finish_unread(mistakes);
+                table.finish_unread(diagnostics);
             }
             return None;
         }
     };
     table.called = format!("this {}", solid.unwrap_or("point"));
     table.is_of_kind(solid.unwrap_or("point"));
-    let mass = table.formula("mass", mistakes);
+    let mass = table.formula("mass", diagnostics);
     let mut sizes = Vec::new();
     let sized =
         |row: &&Key| row.only.len() < SOLIDS.len() && solid.is_some_and(|s| row.only.contains(&s));
     for key in PIECE.keys.iter().filter(sized).map(|row| row.name) {
         if key == "size" {
-            let edges = vector::triple(&mut table, key, mistakes);
+            let edges = vector::triple(&mut table, key, diagnostics);
             let edges = edges.map(Formulas::into_inner);
             let edge = |i| edges.as_ref().and_then(|edges: &Vec<Formula>| edges.get(i).cloned());
             sizes.extend((0..3).map(|i| (key, edge(i))));
         } else {
-            sizes.push((key, table.formula(key, mistakes)));
+            sizes.push((key, table.formula(key, diagnostics)));
         }
     }
-    let at = vector::triple(&mut table, "at", mistakes);
-    let turn = if solid.is_some() { turn(&mut table, mistakes) } else { DraftTurn::None };
+    let at = vector::triple(&mut table, "at", diagnostics);
+    let turn = if solid.is_some() { turn(&mut table, diagnostics) } else { DraftTurn::None };
     let place = table.place.clone();
-    table.finish(mistakes);
+    table.finish(diagnostics);
     Some(DraftPiece { solid, sizes, mass, at, turn, place })
 }
 
-fn known(solid: &Spanned<String>, mistakes: &mut Diagnostics) -> Option<&'static str> {
+fn known(solid: &Spanned<String>, diagnostics: &mut Diagnostics) -> Option<&'static str> {
     let name = solid.get_ref().as_str();
     let known = SOLIDS.iter().find(|known| **known == name);
     if known.is_none() {
@@ -130,15 +131,15 @@ fn known(solid: &Spanned<String>, mistakes: &mut Diagnostics) -> Option<&'static
             None => format!("the solids are {}", SOLIDS.join(", ")),
         };
         let message = format!("there is no solid `{name}`");
-        mistakes.push(Diagnostic::error(solid.span(), message).with_help(help));
+        diagnostics.push(Diagnostic::error(solid.span(), message).with_help(help));
     }
     known.copied()
 }
 
-fn turn(table: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftTurn {
+fn turn(table: &mut Table<'_>, diagnostics: &mut Diagnostics) -> DraftTurn {
     let Some((place, found)) = table.take("turned") else { return DraftTurn::None };
     let shape = "turned = { axis = [\"0\", \"0\", \"1\"], angle = \"...\" }";
-    let Some(table) = Table::of(found, "`turned`", place, shape, mistakes) else {
+    let Some(table) = Table::of(found, "`turned`", place, shape, diagnostics) else {
         return DraftTurn::None;
     };
     let mut table = table.with(&TURN);
@@ -146,26 +147,29 @@ fn turn(table: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftTurn {
         for (key, _) in table.entries() {
             if let "axis" | "angle" = key.get_ref().as_str() {
                 let message = "a piece is turned by `axis` and `angle` or by `euler`, not by both";
-                mistakes.push(Diagnostic::error(key.span(), message));
+                diagnostics.push(Diagnostic::error(key.span(), message));
             }
         }
         table.pass_over(&["axis", "angle"]);
-        DraftTurn::Euler(vector::triple(&mut table, "euler", mistakes))
+        DraftTurn::Euler(vector::triple(&mut table, "euler", diagnostics))
     } else {
-        let axis = vector::triple(&mut table, "axis", mistakes);
-        DraftTurn::Axis { axis, angle: table.formula("angle", mistakes) }
+        let axis = vector::triple(&mut table, "axis", diagnostics);
+        DraftTurn::Axis { axis, angle: table.formula("angle", diagnostics) }
     };
-    table.finish(mistakes);
+    table.finish(diagnostics);
     turn
 }
 
-pub(super) fn attitude(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftAttitude> {
-    let mut table = top.table("attitude", mistakes)?;
+pub(super) fn attitude(
+    top: &mut Table<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<DraftAttitude> {
+    let mut table = top.table("attitude", diagnostics)?;
     let (has_euler, has_omega) = (table.has("euler"), table.has("omega"));
-    let euler = vector::triple(&mut table, "euler", mistakes);
-    let omega = vector::triple(&mut table, "omega", mistakes);
+    let euler = vector::triple(&mut table, "euler", diagnostics);
+    let omega = vector::triple(&mut table, "omega", diagnostics);
     let (start_key, _) = table.take("start").unzip();
-    let start = vector::triple(&mut table, "start", mistakes);
+    let start = vector::triple(&mut table, "start", diagnostics);
     match (has_euler, has_omega, start_key) {
         (false, false, _) => {
             let message = "[attitude] has neither `euler` nor `omega`";
@@ -176,33 +180,33 @@ pub(super) fn attitude(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Optio
         (true, true, _) => {
             let message = "[attitude] has both `euler` and `omega`";
             let help = "either angles or an angular velocity say how a body stands";
-            mistakes.push(Diagnostic::error(table.place.clone(), message).with_help(help));
+            diagnostics.push(Diagnostic::error(table.place.clone(), message).with_help(help));
         }
         (true, false, Some(start)) => {
             let message = "`start` goes with `omega`; the angles of `euler` need none";
-            mistakes.push(Diagnostic::error(start, message));
+            diagnostics.push(Diagnostic::error(start, message));
         }
         _ => {}
     }
     let place = table.place.clone();
-    table.finish(mistakes);
+    table.finish(diagnostics);
     Some(DraftAttitude { place, euler, omega, start })
 }
 
 pub(super) fn comparison(
     top: &mut Table<'_>,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Option<DraftComparison> {
-    let mut table = top.table("comparison", mistakes)?;
+    let mut table = top.table("comparison", diagnostics)?;
     let found = table.take("eliminate");
     let list = found.as_ref().map_or(0..0, |(_, found)| found.span());
-    let items = found.and_then(|(_, found)| value::list(found, "`eliminate`", mistakes));
+    let items = found.and_then(|(_, found)| value::list(found, "`eliminate`", diagnostics));
     let eliminate = items
         .into_iter()
         .flatten()
-        .filter_map(|item| value::text(item, "a coordinate to eliminate", mistakes))
+        .filter_map(|item| value::text(item, "a coordinate to eliminate", diagnostics))
         .collect();
     let place = table.place.clone();
-    table.finish(mistakes);
+    table.finish(diagnostics);
     Some(DraftComparison { place, list, eliminate })
 }

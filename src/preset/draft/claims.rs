@@ -80,110 +80,113 @@ pub(in crate::preset) struct DraftValue {
     pub(in crate::preset) place: SourceRange,
 }
 
-pub(super) fn observables(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftObservable> {
+pub(super) fn observables(
+    top: &mut Table<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<DraftObservable> {
     let mut all = Vec::new();
-    for mut table in top.tables("observables", "this observable", mistakes) {
+    for mut table in top.tables("observables", "this observable", diagnostics) {
         all.push(DraftObservable {
-            name: table.text("name", mistakes),
-            expression: table.formula("expression", mistakes),
-            conserved: table.flag("conserved", mistakes),
+            name: table.text("name", diagnostics),
+            expression: table.formula("expression", diagnostics),
+            conserved: table.flag("conserved", diagnostics),
         });
-        table.finish(mistakes);
+        table.finish(diagnostics);
     }
     all
 }
 
-pub(super) fn expect(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftExpect {
-    let Some(mut table) = top.table("expect", mistakes) else { return DraftExpect::default() };
+pub(super) fn expect(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> DraftExpect {
+    let Some(mut table) = top.table("expect", diagnostics) else { return DraftExpect::default() };
     let conserves = table
-        .list("conserves", mistakes)
+        .list("conserves", diagnostics)
         .iter()
-        .filter_map(|item| value::text(item, "what is conserved", mistakes))
+        .filter_map(|item| value::text(item, "what is conserved", diagnostics))
         .collect();
     let (value, event) =
         ("{ expression = \"...\", at = 1.0, is = 2.0 }", "{ name = \"...\", at = 1.0 }");
     let count = "{ name = \"...\", until = 10.0, is = 3 }";
     let bracket = "{ f = \"...\", g = \"...\", is = \"...\" }";
-    let values = table.items("values", ("this expected value", value), mistakes);
-    let events = table.items("events", ("this expected event", event), mistakes);
-    let counts = table.items("count", ("this expected count", count), mistakes);
-    let brackets = table.items("brackets", ("this expected bracket", bracket), mistakes);
+    let values = table.items("values", ("this expected value", value), diagnostics);
+    let events = table.items("events", ("this expected event", event), diagnostics);
+    let counts = table.items("count", ("this expected count", count), diagnostics);
+    let brackets = table.items("brackets", ("this expected bracket", bracket), diagnostics);
     let step = "{ transformation = \"...\", method = \"symplectic-euler\", step = \"h\" }";
-    let steps = table.items("steps", ("this expected step", step), mistakes);
-    let invariants = table.number("invariants", mistakes);
-    let degree = table.number("degree", mistakes);
-    table.finish(mistakes);
+    let steps = table.items("steps", ("this expected step", step), diagnostics);
+    let invariants = table.number("invariants", diagnostics);
+    let degree = table.number("degree", diagnostics);
+    table.finish(diagnostics);
     DraftExpect {
         conserves,
-        values: values.into_iter().map(|entry| expected(entry, mistakes)).collect(),
-        events: events.into_iter().map(|entry| occurrence(entry, mistakes)).collect(),
-        counts: counts.into_iter().map(|entry| self::count(entry, mistakes)).collect(),
-        brackets: brackets.into_iter().map(|entry| self::bracket(entry, mistakes)).collect(),
-        steps: steps.into_iter().map(|entry| self::step(entry, mistakes)).collect(),
+        values: values.into_iter().map(|entry| expected(entry, diagnostics)).collect(),
+        events: events.into_iter().map(|entry| occurrence(entry, diagnostics)).collect(),
+        counts: counts.into_iter().map(|entry| self::count(entry, diagnostics)).collect(),
+        brackets: brackets.into_iter().map(|entry| self::bracket(entry, diagnostics)).collect(),
+        steps: steps.into_iter().map(|entry| self::step(entry, diagnostics)).collect(),
         invariants,
         degree,
     }
 }
 
-fn step(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftStep {
+fn step(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> DraftStep {
     let claim = DraftStep {
-        transformation: table.text("transformation", mistakes),
-        method: table.text("method", mistakes),
-        step: table.formula("step", mistakes),
-        within: table.number("within", mistakes),
-        source: table.line("source", mistakes),
+        transformation: table.text("transformation", diagnostics),
+        method: table.text("method", diagnostics),
+        step: table.formula("step", diagnostics),
+        within: table.number("within", diagnostics),
+        source: table.line("source", diagnostics),
         place: table.place.clone(),
     };
-    table.finish(mistakes);
+    table.finish(diagnostics);
     claim
 }
 
-fn occurrence(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftOccurrence {
-    let name = table.name(mistakes);
+fn occurrence(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> DraftOccurrence {
+    let name = table.name(diagnostics);
     let claim = DraftOccurrence {
         name,
-        nth: table.number("nth", mistakes),
-        at: table.number("at", mistakes),
-        within: table.number("within", mistakes),
-        source: table.line("source", mistakes),
+        nth: table.number("nth", diagnostics),
+        at: table.number("at", diagnostics),
+        within: table.number("within", diagnostics),
+        source: table.line("source", diagnostics),
         place: table.place.clone(),
     };
-    table.finish(mistakes);
+    table.finish(diagnostics);
     claim
 }
 
-fn count(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftCount {
-    let name = table.name(mistakes);
+fn count(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> DraftCount {
+    let name = table.name(diagnostics);
     let claim = DraftCount {
         name,
-        until: table.number("until", mistakes),
-        is: table.number("is", mistakes),
-        source: table.line("source", mistakes),
+        until: table.number("until", diagnostics),
+        is: table.number("is", diagnostics),
+        source: table.line("source", diagnostics),
         place: table.place.clone(),
     };
-    table.finish(mistakes);
+    table.finish(diagnostics);
     claim
 }
 
-fn bracket(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftBracketClaim {
-    let [f, g, is] = ["f", "g", "is"].map(|key| table.formula(key, mistakes));
-    let source = table.line("source", mistakes);
+fn bracket(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> DraftBracketClaim {
+    let [f, g, is] = ["f", "g", "is"].map(|key| table.formula(key, diagnostics));
+    let source = table.line("source", diagnostics);
     let place = table.place.clone();
-    table.finish(mistakes);
+    table.finish(diagnostics);
     DraftBracketClaim { f, g, is, source, place }
 }
 
-fn expected(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftValue {
-    let name = table.line("name", mistakes);
+fn expected(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> DraftValue {
+    let name = table.line("name", diagnostics);
     let value = DraftValue {
         name,
-        expression: table.formula("expression", mistakes),
-        at: table.number("at", mistakes),
-        is: table.number("is", mistakes),
-        within: table.number("within", mistakes),
-        source: table.line("source", mistakes),
+        expression: table.formula("expression", diagnostics),
+        at: table.number("at", diagnostics),
+        is: table.number("is", diagnostics),
+        within: table.number("within", diagnostics),
+        source: table.line("source", diagnostics),
         place: table.place.clone(),
     };
-    table.finish(mistakes);
+    table.finish(diagnostics);
     value
 }

@@ -16,18 +16,21 @@ pub(in crate::preset) struct DraftConstraint {
     pub(in crate::preset) place: SourceRange,
 }
 
-pub(super) fn constraints(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftConstraint> {
+pub(super) fn constraints(
+    top: &mut Table<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<DraftConstraint> {
     let mut all = Vec::new();
-    for mut table in top.tables("constraints", "this constraint", mistakes) {
-        let name = table.name(mistakes);
+    for mut table in top.tables("constraints", "this constraint", diagnostics) {
+        let name = table.name(diagnostics);
         all.push(DraftConstraint {
             name,
-            expression: table.formula("expression", mistakes),
-            unit: table.line("unit", mistakes),
-            about: table.line("about", mistakes),
+            expression: table.formula("expression", diagnostics),
+            unit: table.line("unit", diagnostics),
+            about: table.line("about", diagnostics),
             place: table.place.clone(),
         });
-        table.finish(mistakes);
+        table.finish(diagnostics);
     }
     all
 }

@@ -21,16 +21,16 @@ pub(in crate::preset) struct DraftFrame {
     pub(in crate::preset) place: SourceRange,
 }
 
-pub(super) fn frames(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftFrame> {
-    let tables = top.tables("frames", "this frame", mistakes);
-    tables.into_iter().map(|table| frame(table, mistakes)).collect()
+pub(super) fn frames(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Vec<DraftFrame> {
+    let tables = top.tables("frames", "this frame", diagnostics);
+    tables.into_iter().map(|table| frame(table, diagnostics)).collect()
 }
 
-fn frame(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftFrame {
-    let name = table.name(mistakes);
-    let attitude = table.flag("attitude", mistakes).filter(|flag| *flag.get_ref());
+fn frame(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> DraftFrame {
+    let name = table.name(diagnostics);
+    let attitude = table.flag("attitude", diagnostics).filter(|flag| *flag.get_ref());
     let (axis_key, _) = table.take("axis").unzip();
-    let axis = vector::triple(&mut table, "axis", mistakes);
+    let axis = vector::triple(&mut table, "axis", diagnostics);
     let (angle_key, found) = match &attitude {
         Some(_) => table.take("angle"),
         None => {
@@ -39,23 +39,23 @@ fn frame(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftFrame {
         }
     }
     .unzip();
-    let angle = found.and_then(|found| value::formula(found, "`angle`", mistakes));
+    let angle = found.and_then(|found| value::formula(found, "`angle`", diagnostics));
     if attitude.is_some() {
         for key in [axis_key, angle_key].into_iter().flatten() {
             let message = "the frame of the body turns with [attitude]; it has no axis and angle";
-            mistakes.push(Diagnostic::error(key, message));
+            diagnostics.push(Diagnostic::error(key, message));
         }
     }
-    let origin = vector::triple(&mut table, "origin", mistakes);
+    let origin = vector::triple(&mut table, "origin", diagnostics);
     let mut particles = Vec::new();
     let particle = ("this particle", "{ at = [\"x\", \"y\", \"0\"], mass = \"m\" }");
-    for mut entry in table.items("particles", particle, mistakes) {
-        let at = vector::triple(&mut entry, "at", mistakes);
-        particles.push((at, entry.formula("mass", mistakes)));
-        entry.finish(mistakes);
+    for mut entry in table.items("particles", particle, diagnostics) {
+        let at = vector::triple(&mut entry, "at", diagnostics);
+        particles.push((at, entry.formula("mass", diagnostics)));
+        entry.finish(diagnostics);
     }
     let place = table.place.clone();
-    table.finish(mistakes);
+    table.finish(diagnostics);
     let attitude = attitude.map(|flag| flag.span());
     DraftFrame { name, axis, angle, origin, particles, attitude, place }
 }

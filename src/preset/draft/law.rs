@@ -58,9 +58,9 @@ impl Law {
     }
 }
 
-pub(super) fn mechanics(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftMechanics> {
+pub(super) fn mechanics(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Vec<DraftMechanics> {
     let laws = [Law::Lagrangian, Law::Hamiltonian, Law::Poisson];
-    let given = laws.map(|one| law(one, top, mistakes));
+    let given = laws.map(|one| law(one, top, diagnostics));
     if !laws.into_iter().any(|law| top.has(law.table())) {
         let missing = Diagnostic::error(0..0, "the file has no law of motion");
         let (key, help) = if top.has("variables") {
@@ -73,29 +73,29 @@ pub(super) fn mechanics(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<
     given.into_iter().flatten().collect()
 }
 
-fn law(law: Law, top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftMechanics> {
-    let mut table = top.table(law.table(), mistakes)?;
-    let function = table.formula(if law == Law::Lagrangian { "L" } else { "H" }, mistakes);
+fn law(law: Law, top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Option<DraftMechanics> {
+    let mut table = top.table(law.table(), diagnostics)?;
+    let function = table.formula(if law == Law::Lagrangian { "L" } else { "H" }, diagnostics);
     let mut dissipation = None;
     if law == Law::Lagrangian {
-        dissipation = table.formula("dissipation", mistakes);
+        dissipation = table.formula("dissipation", diagnostics);
     }
     let (mut brackets, mut brackets_place, mut casimirs) = (Vec::new(), 0..0, Vec::new());
     if law == Law::Poisson {
         if let Some((_, found)) = table.take("brackets") {
             brackets_place = found.span();
-            let items = value::list(found, "`brackets`", mistakes);
+            let items = value::list(found, "`brackets`", diagnostics);
             brackets = items
                 .map_or(&[][..], |items| items)
                 .iter()
-                .filter_map(|item| bracket(item, mistakes))
+                .filter_map(|item| bracket(item, diagnostics))
                 .collect();
         }
-        casimirs = named(&mut table, "casimirs", "C", "the Casimir", mistakes);
+        casimirs = named(&mut table, "casimirs", "C", "the Casimir", diagnostics);
     }
-    let forces = named(&mut table, "forces", "x", "the force on", mistakes);
+    let forces = named(&mut table, "forces", "x", "the force on", diagnostics);
     let place = table.place.clone();
-    table.finish(mistakes);
+    table.finish(diagnostics);
     Some(DraftMechanics {
         law,
         place,
@@ -114,16 +114,16 @@ fn named(
     key: &'static str,
     example: &str,
     called: &str,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Vec<NamedFormula> {
     let Some((place, found)) = table.take(key) else { return Vec::new() };
     let shape = format!("{key} = {{ {example} = \"...\" }}");
-    let table = Table::of(found, format!("`{key}`"), place, &shape, mistakes);
-    table.map_or(Vec::new(), |t| formulas(&t, called, mistakes))
+    let table = Table::of(found, format!("`{key}`"), place, &shape, diagnostics);
+    table.map_or(Vec::new(), |t| formulas(&t, called, diagnostics))
 }
 
 /// `["a", "b", "{a, b}"]`.
-fn bracket(found: &Value<'_>, mistakes: &mut Diagnostics) -> Option<DraftBracket> {
+fn bracket(found: &Value<'_>, diagnostics: &mut Diagnostics) -> Option<DraftBracket> {
     let items = match found.get_ref() {
         DeValue::Array(items) if items.len() == 3 => items,
         other => {
@@ -133,12 +133,12 @@ fn bracket(found: &Value<'_>, mistakes: &mut Diagnostics) -> Option<DraftBracket
             };
             let message = format!("a bracket must be a list of three, not {is}");
             let help = "two variables and their bracket: [\"a\", \"b\", \"{a, b}\"]";
-            mistakes.push(Diagnostic::error(found.span(), message).with_help(help));
+            diagnostics.push(Diagnostic::error(found.span(), message).with_help(help));
             return None;
         }
     };
-    let mut name = |item: &Value<'_>| value::text(item, "a variable of a bracket", mistakes);
+    let mut name = |item: &Value<'_>| value::text(item, "a variable of a bracket", diagnostics);
     let (first, second) = (name(&items[0]), name(&items[1]));
-    let value = value::formula(&items[2], "a bracket", mistakes);
+    let value = value::formula(&items[2], "a bracket", diagnostics);
     Some(DraftBracket { pair: [first?, second?], value: value?, place: found.span() })
 }

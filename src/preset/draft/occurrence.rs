@@ -31,58 +31,58 @@ pub(in crate::preset) struct DraftEvent {
     pub(in crate::preset) place: SourceRange,
 }
 
-pub(super) fn impulses(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftImpulse> {
-    let tables = top.tables("impulses", "this impulse", mistakes);
-    tables.into_iter().map(|table| impulse(table, mistakes)).collect()
+pub(super) fn impulses(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Vec<DraftImpulse> {
+    let tables = top.tables("impulses", "this impulse", diagnostics);
+    tables.into_iter().map(|table| impulse(table, diagnostics)).collect()
 }
 
-fn impulse(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftImpulse {
-    let name = table.name(mistakes);
+fn impulse(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> DraftImpulse {
+    let name = table.name(diagnostics);
     let at = table.take("at");
     let every = table.take("every");
     if let (Some((at, _)), Some((every, _))) = (&at, &every) {
-        let mistake = Diagnostic::error(every.clone(), "`at` and `every` exclude each other");
-        let mistake = mistake.with_also(at.clone(), "the times are given here");
-        mistakes.push(mistake.with_help("write two impulses"));
+        let diagnostic = Diagnostic::error(every.clone(), "`at` and `every` exclude each other");
+        let diagnostic = diagnostic.with_also(at.clone(), "the times are given here");
+        diagnostics.push(diagnostic.with_help("write two impulses"));
     }
     let at = at.map_or(Vec::new(), |(_, found)| match found.get_ref() {
         DeValue::Array(items) => {
             if items.is_empty() {
-                mistakes.push(Diagnostic::error(found.span(), "this list is empty"));
+                diagnostics.push(Diagnostic::error(found.span(), "this list is empty"));
             }
-            items.iter().filter_map(|v| value::formula(v, "a time in `at`", mistakes)).collect()
+            items.iter().filter_map(|v| value::formula(v, "a time in `at`", diagnostics)).collect()
         }
-        _ => value::formula(found, "`at`", mistakes).into_iter().collect(),
+        _ => value::formula(found, "`at`", diagnostics).into_iter().collect(),
     });
-    let every = every.and_then(|(_, found)| value::formula(found, "`every`", mistakes));
+    let every = every.and_then(|(_, found)| value::formula(found, "`every`", diagnostics));
     let change = table.take("change");
     let change = change.and_then(|(place, found)| {
         let shape = "change = { p_x = \"...\" }";
-        let changes = Table::of(found, "`change`", place, shape, mistakes)?;
+        let changes = Table::of(found, "`change`", place, shape, diagnostics)?;
         if changes.entries().next().is_none() {
-            let mistake = Diagnostic::error(found.span(), "this impulse changes nothing");
-            mistakes.push(mistake.with_help(format!("write {shape}")));
+            let diagnostic = Diagnostic::error(found.span(), "this impulse changes nothing");
+            diagnostics.push(diagnostic.with_help(format!("write {shape}")));
         }
-        Some(formulas(&changes, "the change of", mistakes))
+        Some(formulas(&changes, "the change of", diagnostics))
     });
-    let about = table.line("about", mistakes);
+    let about = table.line("about", diagnostics);
     let place = table.place.clone();
-    table.finish(mistakes);
+    table.finish(diagnostics);
     DraftImpulse { name, at, every, change, about, place }
 }
 
-pub(super) fn events(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftEvent> {
+pub(super) fn events(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Vec<DraftEvent> {
     let mut all = Vec::new();
-    for mut table in top.tables("events", "this event", mistakes) {
-        let name = table.name(mistakes);
+    for mut table in top.tables("events", "this event", diagnostics) {
+        let name = table.name(diagnostics);
         all.push(DraftEvent {
             name,
-            when: table.formula("when", mistakes),
-            direction: table.text("direction", mistakes),
-            action: table.text("action", mistakes),
+            when: table.formula("when", diagnostics),
+            direction: table.text("direction", diagnostics),
+            action: table.text("action", diagnostics),
             place: table.place.clone(),
         });
-        table.finish(mistakes);
+        table.finish(diagnostics);
     }
     all
 }

@@ -135,12 +135,12 @@ const SHAPES: [&str; 14] = [
     "cone", "cylinder", "caption", "body",
 ];
 
-pub(super) fn views(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftView> {
-    let tables = top.tables("views", "this view", mistakes);
-    tables.into_iter().filter_map(|table| view(table, mistakes)).collect()
+pub(super) fn views(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Vec<DraftView> {
+    let tables = top.tables("views", "this view", diagnostics);
+    tables.into_iter().filter_map(|table| view(table, diagnostics)).collect()
 }
 
-fn view(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftView> {
+fn view(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> Option<DraftView> {
     let help = format!("write kind = {}", listed("\"", "or"));
     let Some((_, found)) = table.require("kind", &help) else {
         let axes = INSTRUMENTS.into_iter().flat_map(Instrument::written);
@@ -151,55 +151,56 @@ fn view(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftView> {
         {
             table.take(key);
         }
-        table.finish(mistakes);
+        table.finish(diagnostics);
         return None;
     };
-    let written = value::text(found, "`kind`", mistakes)?;
-    let kind = view_kind(&written, mistakes)?;
+    let written = value::text(found, "`kind`", diagnostics)?;
+    let kind = view_kind(&written, diagnostics)?;
     table.called = format!("this view of kind {}", written.get_ref());
-    let title = table.line("title", mistakes);
+    let title = table.line("title", diagnostics);
     let place = table.place.clone();
     let mut axes: Vec<Vec<Formula>> =
-        kind.written().iter().map(|axis| several(&mut table, axis, mistakes)).collect();
+        kind.written().iter().map(|axis| several(&mut table, axis, diagnostics)).collect();
     let (mut frame, mut shapes) = (None, None);
     if kind.is_scene() {
-        frame = table.text("frame", mistakes);
-        shapes = table.has("shapes").then(|| shapes_of(&mut table, mistakes));
+        frame = table.text("frame", diagnostics);
+        shapes = table.has("shapes").then(|| shapes_of(&mut table, diagnostics));
     }
     let mut until = None;
     if kind.follows_motions() {
         let of = table.take("of");
         axes.extend(of.map(|(_, found)| {
-            value::formula(found, "`of`", mistakes).into_iter().collect::<Vec<_>>()
+            value::formula(found, "`of`", diagnostics).into_iter().collect::<Vec<_>>()
         }));
         let found = table.take("until");
-        until = found.and_then(|(_, found)| value::formula(found, "`until`", mistakes));
+        until = found.and_then(|(_, found)| value::formula(found, "`until`", diagnostics));
     }
-    let section = kind.is_section().then(|| section(&mut table, !kind.follows_motions(), mistakes));
+    let section =
+        kind.is_section().then(|| section(&mut table, !kind.follows_motions(), diagnostics));
     let (mut over, mut slope) = (None, false);
     if kind.is_over_a_parameter() {
-        over = table.text("over", mistakes);
+        over = table.text("over", diagnostics);
         if over.is_none() {
             table.require("over", "write over = \"...\", a parameter");
         }
-        slope = table.flag("slope", mistakes).is_some_and(|flag| *flag.get_ref());
+        slope = table.flag("slope", diagnostics).is_some_and(|flag| *flag.get_ref());
     }
-    table.finish(mistakes);
+    table.finish(diagnostics);
     Some(DraftView { place, kind, title, axes, frame, shapes, section, over, until, slope })
 }
 
 /// The keys of a section besides its axes.
 const SECTION_KEYS: [&str; 4] = ["on", "direction", "x_range", "y_range"];
 
-fn section(table: &mut Table<'_>, needed: bool, mistakes: &mut Diagnostics) -> DraftSection {
+fn section(table: &mut Table<'_>, needed: bool, diagnostics: &mut Diagnostics) -> DraftSection {
     let on = if needed {
         table.require("on", "write on = \"...\", which vanishes on the surface")
     } else {
         table.take("on")
     };
-    let on = on.and_then(|(_, found)| value::formula(found, "`on`", mistakes));
-    let direction = table.text("direction", mistakes);
-    let ranges = ["x_range", "y_range"].map(|key| range(table, key, mistakes));
+    let on = on.and_then(|(_, found)| value::formula(found, "`on`", diagnostics));
+    let direction = table.text("direction", diagnostics);
+    let ranges = ["x_range", "y_range"].map(|key| range(table, key, diagnostics));
     DraftSection { on, direction, ranges }
 }
 
@@ -207,7 +208,7 @@ fn section(table: &mut Table<'_>, needed: bool, mistakes: &mut Diagnostics) -> D
 fn range(
     table: &mut Table<'_>,
     key: &'static str,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Option<[Formula; 2]> {
     let (_, found) = table.take(key)?;
     let items = match found.get_ref() {
@@ -215,17 +216,17 @@ fn range(
         _ => {
             let message = format!("`{key}` must be the two ends of the axis");
             let help = format!("write {key} = [\"-pi\", \"pi\"]");
-            mistakes.push(Diagnostic::error(found.span(), message).with_help(help));
+            diagnostics.push(Diagnostic::error(found.span(), message).with_help(help));
             return None;
         }
     };
-    let mut end = |place: usize| value::formula(&items[place], &format!("`{key}`"), mistakes);
+    let mut end = |place: usize| value::formula(&items[place], &format!("`{key}`"), diagnostics);
     let (from, to) = (end(0), end(1));
     Some([from?, to?])
 }
 
 /// The expressions of an axis: one, or a list if the axis takes several.
-fn several(table: &mut Table<'_>, axis: &Axis, mistakes: &mut Diagnostics) -> Vec<Formula> {
+fn several(table: &mut Table<'_>, axis: &Axis, diagnostics: &mut Diagnostics) -> Vec<Formula> {
     let key = axis.key;
     let Some((_, found)) = table.require(key, &format!("write {key} = \"...\"")) else {
         return Vec::new();
@@ -234,18 +235,18 @@ fn several(table: &mut Table<'_>, axis: &Axis, mistakes: &mut Diagnostics) -> Ve
     match found.get_ref() {
         DeValue::Array(items) if axis.several => {
             if items.is_empty() {
-                mistakes.push(Diagnostic::error(found.span(), "this list is empty"));
+                diagnostics.push(Diagnostic::error(found.span(), "this list is empty"));
             }
-            items.iter().filter_map(|v| value::formula(v, &called, mistakes)).collect()
+            items.iter().filter_map(|v| value::formula(v, &called, diagnostics)).collect()
         }
-        _ => value::formula(found, &called, mistakes).into_iter().collect(),
+        _ => value::formula(found, &called, diagnostics).into_iter().collect(),
     }
 }
 
 /// The kind that a name denotes.
 fn view_kind(
     written: &Spanned<String>,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Option<&'static dyn Instrument> {
     let name = written.get_ref().as_str();
     let kind = named(name);
@@ -255,7 +256,7 @@ fn view_kind(
             None => format!("the kinds are {}", listed("", "and")),
         };
         let message = format!("there is no view of kind `{name}`");
-        mistakes.push(Diagnostic::error(written.span(), message).with_help(help));
+        diagnostics.push(Diagnostic::error(written.span(), message).with_help(help));
     }
     kind
 }
@@ -263,33 +264,33 @@ fn view_kind(
 /// Reads `[space]`: its shapes, and the camera: where it stands, and what it follows.
 pub(super) fn space(
     top: &mut Table<'_>,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> (Vec<DraftShape>, DraftCamera) {
-    let Some(mut table) = top.table("space", mistakes) else { return Default::default() };
-    let all = shapes_of(&mut table, mistakes);
+    let Some(mut table) = top.table("space", diagnostics) else { return Default::default() };
+    let all = shapes_of(&mut table, diagnostics);
     let follow = table.has("follow").then(|| DraftFollow {
-        at: point(&mut table, "follow", mistakes),
-        reach: size(&mut table, "reach", mistakes),
+        at: point(&mut table, "follow", diagnostics),
+        reach: size(&mut table, "reach", diagnostics),
     });
-    let azimuth = table.number("azimuth", mistakes);
-    let elevation = table.number("elevation", mistakes);
-    table.finish(mistakes);
+    let azimuth = table.number("azimuth", diagnostics);
+    let elevation = table.number("elevation", diagnostics);
+    table.finish(diagnostics);
     (all, DraftCamera { follow, azimuth, elevation })
 }
 
 /// The list of shapes of a table.
-fn shapes_of(table: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftShape> {
+fn shapes_of(table: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Vec<DraftShape> {
     let mut all = Vec::new();
-    for item in table.list("shapes", mistakes) {
+    for item in table.list("shapes", diagnostics) {
         let shape = "{ line = [\"0\", \"0\", \"0\"], to = [\"x\", \"y\", \"0\"] }";
-        if let Some(entry) = Table::of(item, "this shape", item.span(), shape, mistakes) {
-            all.extend(self::shape(entry, mistakes));
+        if let Some(entry) = Table::of(item, "this shape", item.span(), shape, diagnostics) {
+            all.extend(self::shape(entry, diagnostics));
         }
     }
     all
 }
 
-fn shape(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftShape> {
+fn shape(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> Option<DraftShape> {
     let given: Vec<&'static str> = SHAPES.into_iter().filter(|kind| table.has(kind)).collect();
     let [kind] = given[..] else {
         let message = match given[..] {
@@ -299,7 +300,7 @@ fn shape(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftShape>
         let misspelt = table
             .entries()
             .find_map(|(key, _)| nearest(key.get_ref(), SHAPES).map(|near| (key.span(), near)));
-        let mistake = match misspelt {
+        let diagnostic = match misspelt {
             Some((place, near)) if given.is_empty() => {
                 Diagnostic::error(place, message).with_help(format!("did you mean `{near}`?"))
             }
@@ -309,70 +310,77 @@ fn shape(mut table: Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftShape>
                 Diagnostic::error(table.place.clone(), message).with_help(help)
             }
         };
-        mistakes.push(mistake);
+        diagnostics.push(diagnostic);
         return None;
     };
     table.called = format!("the shape `{kind}`");
-    let first = point(&mut table, kind, mistakes);
+    let first = point(&mut table, kind, diagnostics);
     let kind = match kind {
-        "line" => DraftShapeKind::Line { from: first, to: point(&mut table, "to", mistakes) },
-        "spring" => DraftShapeKind::Spring { from: first, to: point(&mut table, "to", mistakes) },
+        "line" => DraftShapeKind::Line { from: first, to: point(&mut table, "to", diagnostics) },
+        "spring" => {
+            DraftShapeKind::Spring { from: first, to: point(&mut table, "to", diagnostics) }
+        }
         "trace" => DraftShapeKind::Trace { at: first },
         "circle" => DraftShapeKind::Circle {
             centre: first,
-            radius: size(&mut table, "radius", mistakes),
-            normal: optional_point(&mut table, "normal", mistakes),
+            radius: size(&mut table, "radius", diagnostics),
+            normal: optional_point(&mut table, "normal", diagnostics),
         },
         "body" => DraftShapeKind::Body { at: first },
-        "mass" => DraftShapeKind::Mass { at: first, radius: table.formula("radius", mistakes) },
+        "mass" => DraftShapeKind::Mass { at: first, radius: table.formula("radius", diagnostics) },
         "path" => DraftShapeKind::Path {
             curve: first,
-            from: size(&mut table, "from", mistakes),
-            to: size(&mut table, "to", mistakes),
-            samples: table.number("samples", mistakes),
+            from: size(&mut table, "from", diagnostics),
+            to: size(&mut table, "to", diagnostics),
+            samples: table.number("samples", diagnostics),
         },
         "vector" => {
-            let label = table.line("label", mistakes);
-            let components = point(&mut table, "to", mistakes);
+            let label = table.line("label", diagnostics);
+            let components = point(&mut table, "to", diagnostics);
             DraftShapeKind::Vector { at: first, components, label }
         }
         "disc" => DraftShapeKind::Disc {
             centre: first,
-            radius: size(&mut table, "radius", mistakes),
-            normal: optional_point(&mut table, "normal", mistakes),
+            radius: size(&mut table, "radius", diagnostics),
+            normal: optional_point(&mut table, "normal", diagnostics),
         },
-        "sphere" => {
-            DraftShapeKind::Sphere { centre: first, radius: size(&mut table, "radius", mistakes) }
-        }
+        "sphere" => DraftShapeKind::Sphere {
+            centre: first,
+            radius: size(&mut table, "radius", diagnostics),
+        },
         "cone" => DraftShapeKind::Cone {
             tip: first,
-            base: point(&mut table, "to", mistakes),
-            radius: size(&mut table, "radius", mistakes),
+            base: point(&mut table, "to", diagnostics),
+            radius: size(&mut table, "radius", diagnostics),
         },
         "caption" => {
             if !table.has("text") {
                 table.lacks_key("text", "write text = \"...\"");
             }
-            DraftShapeKind::Caption { at: first, text: table.line("text", mistakes) }
+            DraftShapeKind::Caption { at: first, text: table.line("text", diagnostics) }
         }
         "cylinder" => DraftShapeKind::Cylinder {
             from: first,
-            to: point(&mut table, "to", mistakes),
-            radius: size(&mut table, "radius", mistakes),
+            to: point(&mut table, "to", diagnostics),
+            radius: size(&mut table, "radius", diagnostics),
         },
         _ => DraftShapeKind::Plane {
             at: first,
-            normal: optional_point(&mut table, "normal", mistakes),
-            size: size(&mut table, "size", mistakes),
+            normal: optional_point(&mut table, "normal", diagnostics),
+            size: size(&mut table, "size", diagnostics),
         },
     };
     let place = table.place.clone();
-    table.finish(mistakes);
+    table.finish(diagnostics);
     Some(DraftShape { place, kind })
 }
 
 /// A required number or expression.
-fn size(table: &mut Table<'_>, key: &'static str, mistakes: &mut Diagnostics) -> Option<Formula> {
+fn size(
+    table: &mut Table<'_>,
+    key: &'static str,
+    diagnostics: &mut Diagnostics,
+) -> Option<Formula> {
     let (_, found) = table.require(key, &format!("write {key} = \"...\""))?;
-    value::formula(found, &format!("`{key}`"), mistakes)
+    value::formula(found, &format!("`{key}`"), diagnostics)
 }

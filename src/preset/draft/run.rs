@@ -16,16 +16,16 @@ pub(in crate::preset) struct DraftRun {
     pub(in crate::preset) tolerance: Option<Spanned<f64>>,
 }
 
-pub(super) fn read(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftRun {
-    let Some(mut table) = top.table("run", mistakes) else { return DraftRun::default() };
+pub(super) fn read(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> DraftRun {
+    let Some(mut table) = top.table("run", diagnostics) else { return DraftRun::default() };
     let run = DraftRun {
-        method: table.text("method", mistakes),
-        speed: table.number("speed", mistakes),
-        start: table.number("start", mistakes),
-        until: table.number("until", mistakes),
-        step: table.number("step", mistakes),
-        tolerance: table.number("tolerance", mistakes),
+        method: table.text("method", diagnostics),
+        speed: table.number("speed", diagnostics),
+        start: table.number("start", diagnostics),
+        until: table.number("until", diagnostics),
+        step: table.number("step", diagnostics),
+        tolerance: table.number("tolerance", diagnostics),
     };
-    table.finish(mistakes);
+    table.finish(diagnostics);
     run
 }

@@ -71,7 +71,7 @@ pub(in crate::preset) struct DraftMoving {
     pub(in crate::preset) variables: Option<SourceRange>,
 }
 
-pub(super) fn moving(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftMoving {
+pub(super) fn moving(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> DraftMoving {
     let mut moving = DraftMoving { all: Vec::new(), coordinates: None, variables: None };
     if !top.has("coordinates") && !top.has("variables") {
         let key = if top.has("poisson") { "variables" } else { "coordinates" };
@@ -80,22 +80,22 @@ pub(super) fn moving(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftMo
         top.lacks(key, missing.with_help(help));
     }
     let tables = ["coordinates", "variables"].map(|key| {
-        let table = top.table(key, mistakes)?;
+        let table = top.table(key, diagnostics)?;
         if table.entries().next().is_none() {
             let what = key.trim_end_matches('s');
             let message = format!("there is no {what} here");
             let missing = Diagnostic::error(table.place.clone(), message);
-            mistakes.missing(key, missing.with_help("write x = 1.0"));
+            diagnostics.missing(key, missing.with_help("write x = 1.0"));
         }
         Some(table)
     });
     let [coordinates, variables] = tables;
     if let Some(table) = coordinates {
-        moving.all.extend(table.entries().map(|(name, v)| coordinate(name, v, mistakes)));
+        moving.all.extend(table.entries().map(|(name, v)| coordinate(name, v, diagnostics)));
         moving.coordinates = Some(table.place);
     }
     if let Some(table) = variables {
-        moving.all.extend(table.entries().map(|(name, v)| variable(name, v, mistakes)));
+        moving.all.extend(table.entries().map(|(name, v)| variable(name, v, diagnostics)));
         moving.variables = Some(table.place);
     }
     moving
@@ -105,25 +105,25 @@ pub(super) fn moving(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> DraftMo
 fn coordinate<'d>(
     name: Spanned<String>,
     entry: &'d Value<'d>,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> DraftCoordinate {
     let called = format!("the coordinate `{}`", name.get_ref());
     let mut coordinate = DraftCoordinate::unread(name);
     let DeValue::Table(entries) = entry.get_ref() else {
-        coordinate.initial = value::formula(entry, &called, mistakes);
+        coordinate.initial = value::formula(entry, &called, diagnostics);
         return coordinate;
     };
     let mut table = Table::new(called, coordinate.name.span(), entries).with(&COORDINATE);
-    coordinate.initial = table.formula("initial", mistakes);
+    coordinate.initial = table.formula("initial", diagnostics);
     let mut rate = |key| {
         let (place, found) = table.take(key)?;
-        value::formula(found, &format!("`{key}`"), mistakes).map(|f| (place, f))
+        value::formula(found, &format!("`{key}`"), diagnostics).map(|f| (place, f))
     };
     (coordinate.velocity, coordinate.momentum) = (rate("velocity"), rate("momentum"));
-    coordinate.symbol = symbol(&mut table, mistakes);
-    coordinate.unit = table.line("unit", mistakes);
-    coordinate.period = table.formula("period", mistakes);
-    table.finish(mistakes);
+    coordinate.symbol = symbol(&mut table, diagnostics);
+    coordinate.unit = table.line("unit", diagnostics);
+    coordinate.period = table.formula("period", diagnostics);
+    table.finish(diagnostics);
     coordinate
 }
 
@@ -131,49 +131,53 @@ fn coordinate<'d>(
 fn variable<'d>(
     name: Spanned<String>,
     entry: &'d Value<'d>,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> DraftCoordinate {
     let called = format!("the variable `{}`", name.get_ref());
     let mut variable = DraftCoordinate::unread(name);
     let DeValue::Table(entries) = entry.get_ref() else {
-        variable.initial = value::formula(entry, &called, mistakes);
+        variable.initial = value::formula(entry, &called, diagnostics);
         return variable;
     };
     let mut table = Table::new(called, variable.name.span(), entries).with(&VARIABLE);
-    variable.initial = table.formula("initial", mistakes);
-    variable.symbol = symbol(&mut table, mistakes);
-    variable.unit = table.line("unit", mistakes);
-    variable.period = table.formula("period", mistakes);
+    variable.initial = table.formula("initial", diagnostics);
+    variable.symbol = symbol(&mut table, diagnostics);
+    variable.unit = table.line("unit", diagnostics);
+    variable.period = table.formula("period", diagnostics);
     for (key, _) in table.entries() {
         if let rate @ ("velocity" | "momentum") = key.get_ref().as_str() {
             let message = format!("a variable has no `{rate}`");
-            let mistake = Diagnostic::error(key.span(), message);
-            mistakes.push(mistake.with_help("its rate of change follows from H and the brackets"));
+            let diagnostic = Diagnostic::error(key.span(), message);
+            diagnostics
+                .push(diagnostic.with_help("its rate of change follows from H and the brackets"));
         }
     }
     table.pass_over(&["velocity", "momentum"]);
-    table.finish(mistakes);
+    table.finish(diagnostics);
     variable
 }
 
 /// The display symbol of a name; empty if the file gives none.
-fn symbol(table: &mut Table<'_>, mistakes: &mut Diagnostics) -> String {
-    let Some(text) = table.text("symbol", mistakes) else { return String::new() };
+fn symbol(table: &mut Table<'_>, diagnostics: &mut Diagnostics) -> String {
+    let Some(text) = table.text("symbol", diagnostics) else { return String::new() };
     if text.get_ref().trim().is_empty() {
-        mistakes.push(Diagnostic::error(text.span(), "the symbol is empty"));
+        diagnostics.push(Diagnostic::error(text.span(), "the symbol is empty"));
     }
-    value::one_line(&text, mistakes).unwrap_or_default()
+    value::one_line(&text, diagnostics).unwrap_or_default()
 }
 
-pub(super) fn parameters(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftParameter> {
-    let Some(table) = top.table("parameters", mistakes) else { return Vec::new() };
-    table.entries().map(|(name, entry)| parameter(name, entry, mistakes)).collect()
+pub(super) fn parameters(
+    top: &mut Table<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<DraftParameter> {
+    let Some(table) = top.table("parameters", diagnostics) else { return Vec::new() };
+    table.entries().map(|(name, entry)| parameter(name, entry, diagnostics)).collect()
 }
 
 fn parameter<'d>(
     name: Spanned<String>,
     entry: &'d Value<'d>,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> DraftParameter {
     let called = format!("the parameter `{}`", name.get_ref());
     let mut parameter = DraftParameter {
@@ -190,51 +194,51 @@ fn parameter<'d>(
         DeValue::Table(entries) => {
             let mut table = Table::new(called, parameter.name.span(), entries).with(&PARAMETER);
             let found = table.take("value");
-            parameter.value = found.and_then(|(_, v)| value::constant(v, "`value`", mistakes));
-            parameter.min = table.number("min", mistakes);
-            parameter.max = table.number("max", mistakes);
-            parameter.scale = table.text("scale", mistakes);
-            parameter.unit = table.line("unit", mistakes);
-            parameter.symbol = symbol(&mut table, mistakes);
-            parameter.about = table.line("about", mistakes);
-            table.finish(mistakes);
+            parameter.value = found.and_then(|(_, v)| value::constant(v, "`value`", diagnostics));
+            parameter.min = table.number("min", diagnostics);
+            parameter.max = table.number("max", diagnostics);
+            parameter.scale = table.text("scale", diagnostics);
+            parameter.unit = table.line("unit", diagnostics);
+            parameter.symbol = symbol(&mut table, diagnostics);
+            parameter.about = table.line("about", diagnostics);
+            table.finish(diagnostics);
         }
-        _ => parameter.value = value::constant(entry, &called, mistakes),
+        _ => parameter.value = value::constant(entry, &called, diagnostics),
     }
     parameter
 }
 
-pub(super) fn ramps(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftRamp> {
+pub(super) fn ramps(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Vec<DraftRamp> {
     let mut all = Vec::new();
-    for mut table in top.tables("ramps", "this ramp", mistakes) {
+    for mut table in top.tables("ramps", "this ramp", diagnostics) {
         all.push(DraftRamp {
-            parameter: table.text("parameter", mistakes),
-            to: table.formula("to", mistakes),
-            start: table.formula("start", mistakes),
-            duration: table.formula("duration", mistakes),
-            form: table.text("form", mistakes),
+            parameter: table.text("parameter", diagnostics),
+            to: table.formula("to", diagnostics),
+            start: table.formula("start", diagnostics),
+            duration: table.formula("duration", diagnostics),
+            form: table.text("form", diagnostics),
         });
-        table.finish(mistakes);
+        table.finish(diagnostics);
     }
     all
 }
 
-pub(super) fn definitions(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<NamedFormula> {
-    let Some(table) = top.table("definitions", mistakes) else { return Vec::new() };
-    formulas(&table, "the definition", mistakes)
+pub(super) fn definitions(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Vec<NamedFormula> {
+    let Some(table) = top.table("definitions", diagnostics) else { return Vec::new() };
+    formulas(&table, "the definition", diagnostics)
 }
 
 /// A table of names and expressions.
 pub(super) fn formulas(
     table: &Table<'_>,
     called: &str,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Vec<NamedFormula> {
     table
         .entries()
         .map(|(name, entry)| {
             let called = format!("{called} `{}`", name.get_ref());
-            let formula = value::formula(entry, &called, mistakes);
+            let formula = value::formula(entry, &called, diagnostics);
             (name, formula)
         })
         .collect()

@@ -67,15 +67,15 @@ impl<'d> Table<'d> {
         called: impl Into<String>,
         place: SourceRange,
         shape: &str,
-        mistakes: &mut Diagnostics,
+        diagnostics: &mut Diagnostics,
     ) -> Option<Table<'d>> {
         let called = called.into();
         match value.get_ref() {
             DeValue::Table(entries) => Some(Table::new(called, place, entries)),
             other => {
                 let message = format!("{called} must be a table, not {}", value::kind(other));
-                let mistake = Diagnostic::error(value.span(), message);
-                mistakes.push(mistake.with_help(format!("write {shape}")));
+                let diagnostic = Diagnostic::error(value.span(), message);
+                diagnostics.push(diagnostic.with_help(format!("write {shape}")));
                 None
             }
         }
@@ -104,8 +104,8 @@ impl<'d> Table<'d> {
 
     pub(super) fn lacks_key(&mut self, key: &'static str, help: &str) {
         let message = format!("{} has no `{key}`", self.called);
-        let mistake = Diagnostic::error(self.place.clone(), message);
-        self.lacks(key, mistake.with_help(help));
+        let diagnostic = Diagnostic::error(self.place.clone(), message);
+        self.lacks(key, diagnostic.with_help(help));
     }
 
     /// A key that is required in this case.
@@ -122,37 +122,37 @@ impl<'d> Table<'d> {
     }
 
     /// Notes that a key is missing. It is reported at the end, unless it turns out to be misspelled.
-    pub(super) fn lacks(&mut self, key: &'static str, mistake: Diagnostic) {
-        self.absent.push((key, mistake));
+    pub(super) fn lacks(&mut self, key: &'static str, diagnostic: Diagnostic) {
+        self.absent.push((key, diagnostic));
     }
 
     /// A text.
     pub(super) fn text(
         &mut self,
         key: &'static str,
-        mistakes: &mut Diagnostics,
+        diagnostics: &mut Diagnostics,
     ) -> Option<Spanned<String>> {
         debug_assert!(self.agrees(key, |kind| matches!(kind, ValueKind::Text)), "{key} is no text");
         let (_, found) = self.take(key)?;
-        value::text(found, &format!("`{key}`"), mistakes)
+        value::text(found, &format!("`{key}`"), diagnostics)
     }
 
     /// A text for display on one line; empty if it is missing.
-    pub(super) fn line(&mut self, key: &'static str, mistakes: &mut Diagnostics) -> String {
-        let text = self.text(key, mistakes);
-        text.and_then(|text| value::one_line(&text, mistakes)).unwrap_or_default()
+    pub(super) fn line(&mut self, key: &'static str, diagnostics: &mut Diagnostics) -> String {
+        let text = self.text(key, diagnostics);
+        text.and_then(|text| value::one_line(&text, diagnostics)).unwrap_or_default()
     }
 
     /// The required name of an entry, by which messages call the entry from then on.
-    pub(super) fn name(&mut self, mistakes: &mut Diagnostics) -> Option<Spanned<String>> {
+    pub(super) fn name(&mut self, diagnostics: &mut Diagnostics) -> Option<Spanned<String>> {
         let (_, found) = self.take("name")?;
-        let name = value::text(found, "`name`", mistakes)?;
+        let name = value::text(found, "`name`", diagnostics)?;
         let shown = name.get_ref().trim();
         if shown.is_empty() || shown.chars().any(char::is_control) {
             let kind = self.called.replacen("this ", "", 1);
             let article = if kind.starts_with(['e', 'i', 'o', 'a']) { "an" } else { "a" };
             let message = format!("{article} {kind} needs a name that can be shown");
-            mistakes.push(Diagnostic::error(name.span(), message));
+            diagnostics.push(Diagnostic::error(name.span(), message));
             return None;
         }
         self.called = format!("{} `{shown}`", self.called.replacen("this", "the", 1));
@@ -163,51 +163,52 @@ impl<'d> Table<'d> {
     pub(super) fn number(
         &mut self,
         key: &'static str,
-        mistakes: &mut Diagnostics,
+        diagnostics: &mut Diagnostics,
     ) -> Option<Spanned<f64>> {
         debug_assert!(
             self.agrees(key, |kind| matches!(kind, ValueKind::Number)),
             "{key} is not a number"
         );
         let (_, found) = self.take(key)?;
-        value::number(found, &format!("`{key}`"), mistakes)
+        value::number(found, &format!("`{key}`"), diagnostics)
     }
 
     /// A number or an expression in quotes.
     pub(super) fn formula(
         &mut self,
         key: &'static str,
-        mistakes: &mut Diagnostics,
+        diagnostics: &mut Diagnostics,
     ) -> Option<Formula> {
         debug_assert!(
             self.agrees(key, |kind| matches!(kind, ValueKind::Formula)),
             "{key} is no formula"
         );
         let (_, found) = self.take(key)?;
-        value::formula(found, &format!("`{key}`"), mistakes)
+        value::formula(found, &format!("`{key}`"), diagnostics)
     }
 
     /// `true` or `false`.
     pub(super) fn flag(
         &mut self,
         key: &'static str,
-        mistakes: &mut Diagnostics,
+        diagnostics: &mut Diagnostics,
     ) -> Option<Spanned<bool>> {
         debug_assert!(self.agrees(key, |kind| matches!(kind, ValueKind::Flag)), "{key} is no flag");
         let (_, found) = self.take(key)?;
-        value::flag(found, &format!("`{key}`"), mistakes)
+        value::flag(found, &format!("`{key}`"), diagnostics)
     }
 
     /// The items of a list; empty if the key is missing.
     pub(super) fn list(
         &mut self,
         key: &'static str,
-        mistakes: &mut Diagnostics,
+        diagnostics: &mut Diagnostics,
     ) -> &'d [Value<'d>] {
         match self.take(key) {
             None => &[],
             Some((_, found)) => {
-                let items: Option<&DeArray<'d>> = value::list(found, &format!("`{key}`"), mistakes);
+                let items: Option<&DeArray<'d>> =
+                    value::list(found, &format!("`{key}`"), diagnostics);
                 items.map_or(&[], |items| items)
             }
         }
@@ -217,10 +218,10 @@ impl<'d> Table<'d> {
     pub(super) fn table(
         &mut self,
         key: &'static str,
-        mistakes: &mut Diagnostics,
+        diagnostics: &mut Diagnostics,
     ) -> Option<Table<'d>> {
         let (place, found) = self.take(key)?;
-        let table = Table::of(found, format!("[{key}]"), place, &format!("[{key}]"), mistakes)?;
+        let table = Table::of(found, format!("[{key}]"), place, &format!("[{key}]"), diagnostics)?;
         Some(match self.row(key).map(|row| row.kind) {
             Some(ValueKind::Table(section)) => table.with(section),
             _ => table,
@@ -232,11 +233,12 @@ impl<'d> Table<'d> {
         &mut self,
         key: &'static str,
         (called, shape): (&str, &str),
-        mistakes: &mut Diagnostics,
+        diagnostics: &mut Diagnostics,
     ) -> Vec<Table<'d>> {
         let section = self.row(key).and_then(|row| row.kind.section());
-        let items = self.list(key, mistakes).iter();
-        let tables = items.filter_map(|item| Table::of(item, called, item.span(), shape, mistakes));
+        let items = self.list(key, diagnostics).iter();
+        let tables =
+            items.filter_map(|item| Table::of(item, called, item.span(), shape, diagnostics));
         tables.map(|table| Table { section, ..table }).collect()
     }
 
@@ -245,7 +247,7 @@ impl<'d> Table<'d> {
         &mut self,
         key: &'static str,
         called: &str,
-        mistakes: &mut Diagnostics,
+        diagnostics: &mut Diagnostics,
     ) -> Vec<Table<'d>> {
         let Some((place, found)) = self.take(key) else { return Vec::new() };
         let head = format!("[[{key}]]");
@@ -256,14 +258,14 @@ impl<'d> Table<'d> {
         match found.get_ref() {
             DeValue::Array(items) => items
                 .iter()
-                .filter_map(|item| Table::of(item, called, item.span(), &head, mistakes))
+                .filter_map(|item| Table::of(item, called, item.span(), &head, diagnostics))
                 .map(|table| Table { section, ..table })
                 .collect(),
             other => {
                 let is = value::kind(other);
                 let message = format!("`{key}` must be a list of tables, not {is}");
                 let help = format!("head each one with {head}, in double brackets");
-                mistakes.push(Diagnostic::error(place, message).with_help(help));
+                diagnostics.push(Diagnostic::error(place, message).with_help(help));
                 Vec::new()
             }
         }
@@ -282,18 +284,18 @@ impl<'d> Table<'d> {
     }
 
     /// Reports every unknown key and every missing one, once all allowed keys have been read.
-    pub(in crate::preset) fn finish(self, mistakes: &mut Diagnostics) {
+    pub(in crate::preset) fn finish(self, diagnostics: &mut Diagnostics) {
         let read = |name: &str| self.asked.contains(&name) || self.passed.contains(&name);
         let unread = self
             .entries
             .keys()
             .find(|key| self.row(key.get_ref()).is_some() && !read(key.get_ref()));
         debug_assert!(unread.is_none(), "nobody reads {unread:?} in {}", self.called);
-        self.finish_unread(mistakes);
+        self.finish_unread(diagnostics);
     }
 
     /// Like [`finish`](Table::finish), for a table whose reading was abandoned.
-    pub(super) fn finish_unread(mut self, mistakes: &mut Diagnostics) {
+    pub(super) fn finish_unread(mut self, diagnostics: &mut Diagnostics) {
         let mut known: Vec<&'static str> = match self.section {
             Some(section) => {
                 let rows = section.keys.iter().filter(|row| self.allows(row));
@@ -322,10 +324,10 @@ impl<'d> Table<'d> {
             } else {
                 format!("the keys here are {}", known.join(", "))
             };
-            mistakes.push(Diagnostic::error(key.span(), message).with_help(help));
+            diagnostics.push(Diagnostic::error(key.span(), message).with_help(help));
         }
-        for (key, mistake) in self.absent {
-            mistakes.missing(key, mistake);
+        for (key, diagnostic) in self.absent {
+            diagnostics.missing(key, diagnostic);
         }
     }
 }

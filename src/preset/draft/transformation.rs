@@ -38,22 +38,22 @@ pub(in crate::preset) struct DraftIntegral {
 
 pub(super) fn transformations(
     top: &mut Table<'_>,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Vec<DraftTransformation> {
-    let tables = top.tables("transformations", "this transformation", mistakes);
-    tables.into_iter().map(|table| transformation(table, mistakes)).collect()
+    let tables = top.tables("transformations", "this transformation", diagnostics);
+    tables.into_iter().map(|table| transformation(table, diagnostics)).collect()
 }
 
-fn transformation(mut table: Table<'_>, mistakes: &mut Diagnostics) -> DraftTransformation {
-    let name = table.name(mistakes);
-    let kind = table.text("kind", mistakes);
-    let types = names(&mut table, "types", "a type", mistakes);
-    let of = names(&mut table, "of", "a transformation", mistakes);
-    let function = table.formula("F", mistakes);
-    let [positions, momenta] = ["Q", "P"].map(|key| named(&mut table, key, mistakes));
-    let new = names(&mut table, "new", "a new variable", mistakes);
+fn transformation(mut table: Table<'_>, diagnostics: &mut Diagnostics) -> DraftTransformation {
+    let name = table.name(diagnostics);
+    let kind = table.text("kind", diagnostics);
+    let types = names(&mut table, "types", "a type", diagnostics);
+    let of = names(&mut table, "of", "a transformation", diagnostics);
+    let function = table.formula("F", diagnostics);
+    let [positions, momenta] = ["Q", "P"].map(|key| named(&mut table, key, diagnostics));
+    let new = names(&mut table, "new", "a new variable", diagnostics);
     let place = table.place.clone();
-    table.finish(mistakes);
+    table.finish(diagnostics);
     DraftTransformation { name, kind, types, of, function, positions, momenta, new, place }
 }
 
@@ -62,41 +62,47 @@ fn names(
     table: &mut Table<'_>,
     key: &'static str,
     called: &str,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Vec<Spanned<String>> {
-    let items = table.list(key, mistakes).iter();
-    items.filter_map(|item| value::text(item, called, mistakes)).collect()
+    let items = table.list(key, diagnostics).iter();
+    items.filter_map(|item| value::text(item, called, diagnostics)).collect()
 }
 
 /// A table of new variables with their expressions.
 fn named(
     table: &mut Table<'_>,
     key: &'static str,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Vec<NamedFormula>> {
     let (place, found) = table.take(key)?;
     let shape = format!("{key} = {{ {key} = \"...\" }}");
-    let inner = Table::of(found, format!("`{key}`"), place, &shape, mistakes)?;
-    Some(formulas(&inner, "the new variable", mistakes))
+    let inner = Table::of(found, format!("`{key}`"), place, &shape, diagnostics)?;
+    Some(formulas(&inner, "the new variable", diagnostics))
 }
 
-pub(super) fn generators(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Vec<DraftGenerator> {
+pub(super) fn generators(
+    top: &mut Table<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<DraftGenerator> {
     let mut all = Vec::new();
-    for mut table in top.tables("generators", "this generator", mistakes) {
+    for mut table in top.tables("generators", "this generator", diagnostics) {
         all.push(DraftGenerator {
-            name: table.name(mistakes),
-            function: table.formula("G", mistakes),
+            name: table.name(diagnostics),
+            function: table.formula("G", diagnostics),
             place: table.place.clone(),
         });
-        table.finish(mistakes);
+        table.finish(diagnostics);
     }
     all
 }
 
-pub(super) fn integral(top: &mut Table<'_>, mistakes: &mut Diagnostics) -> Option<DraftIntegral> {
-    let mut table = top.table("hamilton_jacobi", mistakes)?;
-    let function = table.formula("S", mistakes);
-    let constants = names(&mut table, "constants", "a constant", mistakes);
-    table.finish(mistakes);
+pub(super) fn integral(
+    top: &mut Table<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<DraftIntegral> {
+    let mut table = top.table("hamilton_jacobi", diagnostics)?;
+    let function = table.formula("S", diagnostics);
+    let constants = names(&mut table, "constants", "a constant", diagnostics);
+    table.finish(diagnostics);
     Some(DraftIntegral { function, constants })
 }

@@ -23,21 +23,21 @@ pub(in crate::preset) fn kind(value: &DeValue<'_>) -> &'static str {
     }
 }
 
-fn wrong(value: &Value<'_>, called: &str, wanted: &str, mistakes: &mut Diagnostics) {
+fn wrong(value: &Value<'_>, called: &str, wanted: &str, diagnostics: &mut Diagnostics) {
     let message = format!("{called} must be {wanted}, not {}", kind(value.get_ref()));
-    mistakes.push(Diagnostic::error(value.span(), message));
+    diagnostics.push(Diagnostic::error(value.span(), message));
 }
 
 /// A text.
 pub(super) fn text(
     value: &Value<'_>,
     called: &str,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Spanned<String>> {
     match value.get_ref() {
         DeValue::String(text) => Some(Spanned::new(value.span(), text.to_string())),
         _ => {
-            wrong(value, called, "a text in quotes", mistakes);
+            wrong(value, called, "a text in quotes", diagnostics);
             None
         }
     }
@@ -47,12 +47,12 @@ pub(super) fn text(
 pub(super) fn flag(
     value: &Value<'_>,
     called: &str,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Spanned<bool>> {
     match value.get_ref() {
         DeValue::Boolean(flag) => Some(Spanned::new(value.span(), *flag)),
         _ => {
-            wrong(value, called, "true or false", mistakes);
+            wrong(value, called, "true or false", diagnostics);
             None
         }
     }
@@ -62,12 +62,12 @@ pub(super) fn flag(
 pub(super) fn list<'d>(
     value: &'d Value<'d>,
     called: &str,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Option<&'d DeArray<'d>> {
     match value.get_ref() {
         DeValue::Array(items) => Some(items),
         _ => {
-            wrong(value, called, "a list in [ ]", mistakes);
+            wrong(value, called, "a list in [ ]", diagnostics);
             None
         }
     }
@@ -77,17 +77,18 @@ pub(super) fn list<'d>(
 pub(super) fn number(
     value: &Value<'_>,
     called: &str,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Spanned<f64>> {
     let digits = match value.get_ref() {
-        DeValue::Integer(_) | DeValue::Float(_) => digits(value, called, mistakes)?,
+        DeValue::Integer(_) | DeValue::Float(_) => digits(value, called, diagnostics)?,
         DeValue::String(_) => {
             let message = format!("{called} must be a number, not a text in quotes");
-            mistakes.push(Diagnostic::error(value.span(), message).with_help("remove the quotes"));
+            diagnostics
+                .push(Diagnostic::error(value.span(), message).with_help("remove the quotes"));
             return None;
         }
         _ => {
-            wrong(value, called, "a number", mistakes);
+            wrong(value, called, "a number", diagnostics);
             return None;
         }
     };
@@ -98,21 +99,21 @@ pub(super) fn number(
 pub(super) fn constant(
     value: &Value<'_>,
     called: &str,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Spanned<f64>> {
     let DeValue::String(text) = value.get_ref() else {
-        return number(value, called, mistakes);
+        return number(value, called, diagnostics);
     };
     let mut nothing = Model::new("");
     let mut scope = Scope::new(&nothing, Allowed::Parameters, "a number");
-    let read = scope.read(&mut nothing.pool, text).filter(|_| scope.mistakes.is_empty());
-    mistakes.note_plain(value.span(), scope.plain.take());
+    let read = scope.read(&mut nothing.pool, text).filter(|_| scope.diagnostics.is_empty());
+    diagnostics.note_plain(value.span(), scope.plain.take());
     let found = read.map(|e| nothing.pool.evaluate(e, &|_| f64::NAN));
     let Some(found) = found.filter(|x| x.is_finite()) else {
         let message = format!("{called} must be a finite number, or an expression of numbers");
         let help =
             "write 2.5 or \"2*pi\"; what follows from other parameters belongs in [definitions]";
-        mistakes.push(Diagnostic::error(value.span(), message).with_help(help));
+        diagnostics.push(Diagnostic::error(value.span(), message).with_help(help));
         return None;
     };
     Some(Spanned::new(value.span(), found))
@@ -122,13 +123,13 @@ pub(super) fn constant(
 pub(super) fn formula(
     value: &Value<'_>,
     called: &str,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Formula> {
     let written = match value.get_ref() {
         DeValue::String(text) => text.to_string(),
-        DeValue::Integer(_) | DeValue::Float(_) => digits(value, called, mistakes)?,
+        DeValue::Integer(_) | DeValue::Float(_) => digits(value, called, diagnostics)?,
         _ => {
-            wrong(value, called, "a number or an expression in quotes", mistakes);
+            wrong(value, called, "a number or an expression in quotes", diagnostics);
             return None;
         }
     };
@@ -136,7 +137,7 @@ pub(super) fn formula(
 }
 
 /// The decimal digits of a TOML number, as expressions write them.
-fn digits(value: &Value<'_>, called: &str, mistakes: &mut Diagnostics) -> Option<String> {
+fn digits(value: &Value<'_>, called: &str, diagnostics: &mut Diagnostics) -> Option<String> {
     let written = match value.get_ref() {
         DeValue::Integer(integer) if integer.radix() == 10 => Some(integer.as_str().to_owned()),
         DeValue::Integer(integer) => {
@@ -150,27 +151,27 @@ fn digits(value: &Value<'_>, called: &str, mistakes: &mut Diagnostics) -> Option
         Some(digits) => Some(digits),
         None => {
             let message = format!("{called} must be a finite number");
-            mistakes.push(Diagnostic::error(value.span(), message));
+            diagnostics.push(Diagnostic::error(value.span(), message));
             None
         }
     }
 }
 
 /// A text for display on one line, without terminal control characters.
-pub(super) fn one_line(text: &Spanned<String>, mistakes: &mut Diagnostics) -> Option<String> {
-    shown(text, |_| false, mistakes).map(|text| text.trim().to_owned())
+pub(super) fn one_line(text: &Spanned<String>, diagnostics: &mut Diagnostics) -> Option<String> {
+    shown(text, |_| false, diagnostics).map(|text| text.trim().to_owned())
 }
 
 /// A text for display on several lines.
-pub(super) fn lines(text: &Spanned<String>, mistakes: &mut Diagnostics) -> Option<String> {
-    shown(text, |c| matches!(c, '\n' | '\r' | '\t'), mistakes)
+pub(super) fn lines(text: &Spanned<String>, diagnostics: &mut Diagnostics) -> Option<String> {
+    shown(text, |c| matches!(c, '\n' | '\r' | '\t'), diagnostics)
         .map(|text| text.trim().replace("\r\n", "\n").replace('\t', "    "))
 }
 
 fn shown<'t>(
     text: &'t Spanned<String>,
     allowed: impl Fn(char) -> bool,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Option<&'t str> {
     match text.get_ref().chars().find(|&c| is_steering(c) && !allowed(c)) {
         None => Some(text.get_ref()),
@@ -181,9 +182,9 @@ fn shown<'t>(
                 '\t' => Some("use spaces"),
                 _ => None,
             };
-            let mut mistake = Diagnostic::error(text.span(), message);
-            mistake.help = help.map(str::to_owned);
-            mistakes.push(mistake);
+            let mut diagnostic = Diagnostic::error(text.span(), message);
+            diagnostic.help = help.map(str::to_owned);
+            diagnostics.push(diagnostic);
             None
         }
     }

@@ -15,31 +15,31 @@ pub(in crate::preset) type Formulas = Spanned<Vec<Formula>>;
 pub(super) fn point(
     table: &mut Table<'_>,
     key: &'static str,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Formulas> {
     let help = format!("write {key} = [\"x\", \"y\", \"z\"]");
     let (_, found) = table.require(key, &help)?;
-    entries(found, key, 2, mistakes)
+    entries(found, key, 2, diagnostics)
 }
 
 /// An optional point or direction; its third component is also optional.
 pub(super) fn optional_point(
     table: &mut Table<'_>,
     key: &'static str,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Formulas> {
     let (_, found) = table.take(key)?;
-    entries(found, key, 2, mistakes)
+    entries(found, key, 2, diagnostics)
 }
 
 /// Three expressions.
 pub(super) fn triple(
     table: &mut Table<'_>,
     key: &'static str,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Formulas> {
     let (_, found) = table.take(key)?;
-    entries(found, key, 3, mistakes)
+    entries(found, key, 3, diagnostics)
 }
 
 /// A list of `least` to three expressions.
@@ -47,7 +47,7 @@ fn entries(
     found: &Value<'_>,
     key: &str,
     least: usize,
-    mistakes: &mut Diagnostics,
+    diagnostics: &mut Diagnostics,
 ) -> Option<Formulas> {
     let items = match found.get_ref() {
         DeValue::Array(items) if (least..=3).contains(&items.len()) => items,
@@ -58,13 +58,13 @@ fn entries(
             };
             let many = if least == 3 { "three" } else { "two or three" };
             let message = format!("`{key}` must be a list of {many} expressions, not {is}");
-            mistakes.push(Diagnostic::error(found.span(), message));
+            diagnostics.push(Diagnostic::error(found.span(), message));
             return None;
         }
     };
     let called = if least == 3 { format!("an entry of `{key}`") } else { COORDINATE.to_owned() };
     let formulas: Vec<Formula> =
-        items.iter().filter_map(|item| value::formula(item, &called, mistakes)).collect();
+        items.iter().filter_map(|item| value::formula(item, &called, diagnostics)).collect();
     (formulas.len() == items.len()).then(|| Formulas::new(found.span(), formulas))
 }
 

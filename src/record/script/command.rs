@@ -168,11 +168,11 @@ fn keys(line: &mut Line<'_>) -> Result<Vec<KeyEvent>, Diagnostic> {
                 return Err(Diagnostic::error(word.place, message).with_help("as in Press Down x3"));
             }
             (None, _) => keys.push(key::named(&word.text).map_err(|near| {
-                let mistake =
+                let diagnostic =
                     Diagnostic::error(word.place, format!("there is no key `{}`", word.text));
                 match near {
-                    Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
-                    None => mistake.with_help("keys are z Tab Enter Shift-Left Ctrl-r F1 …"),
+                    Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),
+                    None => diagnostic.with_help("keys are z Tab Enter Shift-Left Ctrl-r F1 …"),
                 }
             })?),
         }
@@ -201,8 +201,10 @@ fn sweep(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
         let name = line.name("the name of a parameter or an initial value")?;
         if let Some(first) = ways.iter().find(|way| way.name.text == name.text) {
             let message = format!("`{}` cannot go two ways at once", name.text);
-            let mistake = Diagnostic::error(name.place, message);
-            return Err(mistake.with_also(first.name.place.clone(), "it is carried here already"));
+            let diagnostic = Diagnostic::error(name.place, message);
+            return Err(
+                diagnostic.with_also(first.name.place.clone(), "it is carried here already")
+            );
         }
         let from = line.take("from").then(|| line.until(&["to"], "a value")).transpose()?;
         expect(line, "to")?;

@@ -187,10 +187,10 @@ impl<'a> Line<'a> {
         if let Some(known) = words.iter().find(|known| **known == word.text) {
             return Ok(known);
         }
-        let mistake = Diagnostic::error(word.place, format!("`{}` is not {what}", word.text));
+        let diagnostic = Diagnostic::error(word.place, format!("`{}` is not {what}", word.text));
         Err(match nearest(&word.text, words.iter().copied()) {
-            Some(near) => mistake.with_help(format!("did you mean `{near}`?")),
-            None => mistake.with_help(format!("there are {}", words.join(" "))),
+            Some(near) => diagnostic.with_help(format!("did you mean `{near}`?")),
+            None => diagnostic.with_help(format!("there are {}", words.join(" "))),
         })
     }
 

@@ -18,10 +18,10 @@ fn claim(model: &mut Model, f: &str, g: &str, is: &str) {
 fn told(mut model: Model, f: &str, g: &str, is: &str) -> String {
     claim(&mut model, f, g, is);
     let equations = derive(&model).expect("derivable");
-    let mistakes = false_claims(&model, &equations);
-    assert!(mistakes.iter().all(|m| m.place == (3..7)), "{mistakes:?}");
+    let diagnostics = false_claims(&model, &equations);
+    assert!(diagnostics.iter().all(|m| m.place == (3..7)), "{diagnostics:?}");
     let lines =
-        mistakes.iter().map(|m| format!("{}; {}", m.message, m.help.as_deref().unwrap_or("")));
+        diagnostics.iter().map(|m| format!("{}; {}", m.message, m.help.as_deref().unwrap_or("")));
     lines.collect::<Vec<_>>().join("\n")
 }
 

@@ -13,7 +13,7 @@ const PLANE: &str = "title = 'a test'\n[coordinates]\nx = { initial = 1.0 }\ny =
 
 fn system(law: &str) -> (Model, Equations) {
     let text = format!("{PLANE}{law}");
-    let model = preset::read(&text).unwrap_or_else(|mistakes| panic!("{mistakes:?}")).model;
+    let model = preset::read(&text).unwrap_or_else(|diagnostics| panic!("{diagnostics:?}")).model;
     let equations = derive(&model).unwrap();
     (model, equations)
 }
@@ -23,7 +23,8 @@ fn kepler() -> (Model, Equations) {
 }
 
 fn ask((model, equations): &(Model, Equations), text: &str) -> Inquiry {
-    Inquiry::of(model, equations, text).unwrap_or_else(|mistake| panic!("{text}: {mistake:?}"))
+    Inquiry::of(model, equations, text)
+        .unwrap_or_else(|diagnostic| panic!("{text}: {diagnostic:?}"))
 }
 
 #[test]
@@ -85,7 +86,7 @@ fn one_expression_alone_asks_whether_it_is_conserved() {
 }
 
 #[test]
-fn a_mistake_is_reported_at_its_place_in_the_whole_text() {
+fn an_error_is_reported_at_its_place_in_the_whole_text() {
     let (model, equations) = kepler();
     for (text, place, says) in [
         ("x*p_y - y*p_z, H", "p_z", "p_z"),
@@ -95,12 +96,14 @@ fn a_mistake_is_reported_at_its_place_in_the_whole_text() {
         ("x, ", "", "missing"),
         ("x 2", "x 2", "in front"),
     ] {
-        let Err(mistake) = Inquiry::of(&model, &equations, text) else { panic!("{text} is read") };
-        assert!(mistake.span.start <= text.len(), "{text}: {mistake:?}");
+        let Err(diagnostic) = Inquiry::of(&model, &equations, text) else {
+            panic!("{text} is read")
+        };
+        assert!(diagnostic.span.start <= text.len(), "{text}: {diagnostic:?}");
         if !place.is_empty() {
-            assert_eq!(&text[mistake.span.start..mistake.span.end], place, "{text}");
+            assert_eq!(&text[diagnostic.span.start..diagnostic.span.end], place, "{text}");
         }
-        assert!(mistake.message.contains(says), "{text}: {mistake:?}");
+        assert!(diagnostic.message.contains(says), "{text}: {diagnostic:?}");
     }
 }
 
@@ -108,7 +111,7 @@ fn a_mistake_is_reported_at_its_place_in_the_whole_text() {
 #[test]
 fn a_bracket_is_answered_in_the_new_variables_too() {
     let text = include_str!("../../../presets/canonical/moving-axes.toml");
-    let model = preset::read(text).unwrap_or_else(|mistakes| panic!("{mistakes:?}")).model;
+    let model = preset::read(text).unwrap_or_else(|diagnostics| panic!("{diagnostics:?}")).model;
     let equations = derive(&model).unwrap();
     let inquiry = ask(&(model, equations), "X, p_x");
     let InquiryAnswer::Bracket { charts, .. } = &inquiry.answer else { panic!("a bracket") };

@@ -245,5 +245,5 @@ fn a_generator_that_is_typed_or_of_the_file_carries_the_state() {
     real.press(&"Down ".repeat(line));
     real.press("Enter y Enter");
     let Some(Overlay::Field(field)) = &real.app.overlay else { panic!("no field") };
-    assert!(field.mistake.as_ref().is_some_and(|why| why.contains("unknown name `y`")));
+    assert!(field.diagnostic.as_ref().is_some_and(|why| why.contains("unknown name `y`")));
 }

@@ -27,7 +27,7 @@ fn rest(app: &mut App) {
     let document = Document::new(title, text.clone());
     let outcome = match document.read() {
         Ok(_) => Ok(lowered(&text)),
-        Err(mistakes) => Err(mistakes),
+        Err(diagnostics) => Err(diagnostics),
     };
     let outcome = outcome.map(|mut loaded| {
         loaded.name = app.checked_system().expect("a name");
@@ -44,7 +44,7 @@ fn text_of(app: &App) -> String {
 }
 
 #[test]
-fn a_wrong_file_is_edited_at_its_first_mistake_and_then_runs() {
+fn a_wrong_file_is_edited_at_its_first_error_and_then_runs() {
     let name = "./wrong.toml";
     let (mut app, _) = App::new(catalog(), Some(name));
     let message = "error: a mistake".to_owned();

@@ -67,7 +67,11 @@ fn what_is_no_ramp_is_refused() {
         let mut real = Real::with(lowered(OSCILLATOR));
         ask(&mut real, typed);
         let Some(Overlay::Field(field)) = &real.app.overlay else { panic!("{typed}") };
-        assert!(field.mistake.as_ref().is_some_and(|m| m.contains(why)), "{:?}", field.mistake);
+        assert!(
+            field.diagnostic.as_ref().is_some_and(|m| m.contains(why)),
+            "{:?}",
+            field.diagnostic
+        );
         real.strike(key("Esc"));
         assert!(text(&mut real).is_none());
     }

@@ -14,7 +14,7 @@ fn typed(text: &str) -> (Vec<Effect>, Option<String>, String) {
     }
     let effects = press(&mut app, "Enter");
     match app.overlay {
-        Some(Overlay::Field(field)) => (effects, field.mistake, field.input.value().to_owned()),
+        Some(Overlay::Field(field)) => (effects, field.diagnostic, field.input.value().to_owned()),
         _ => (effects, None, String::new()),
     }
 }
@@ -30,8 +30,8 @@ fn a_typed_value_may_be_any_expression_in_parameters() {
         ("sqrt(2)", std::f64::consts::SQRT_2),
         ("-1", -1.0),
     ] {
-        let (effects, mistake, _) = typed(text);
-        assert_eq!(mistake, None, "{text}");
+        let (effects, diagnostic, _) = typed(text);
+        assert_eq!(diagnostic, None, "{text}");
         assert_eq!(effects, [Effect::Tell(Command::Parameter { index: 0, value })], "{text}");
     }
 }
@@ -46,10 +46,10 @@ fn a_bad_value_is_reported_and_nothing_is_lost() {
         ("ln(-1)", "has no finite value"),
         ("1,5", "a decimal fraction is written with a point"),
     ] {
-        let (effects, mistake, kept) = typed(text);
+        let (effects, diagnostic, kept) = typed(text);
         assert_eq!(effects, [], "{text}");
-        let mistake = mistake.unwrap_or_default();
-        assert!(mistake.contains(told), "{text}: {mistake}");
+        let diagnostic = diagnostic.unwrap_or_default();
+        assert!(diagnostic.contains(told), "{text}: {diagnostic}");
         assert_eq!(kept, text);
     }
 }
@@ -62,7 +62,7 @@ fn steps_and_tolerances_must_be_positive() {
             press(&mut app, ": m e t h o d Space r k 4 Enter");
         }
         assert_eq!(press(&mut app, keys), [], "{keys}");
-        assert!(matches!(app.overlay, Some(Overlay::Field(f)) if f.mistake.is_some()), "{keys}");
+        assert!(matches!(app.overlay, Some(Overlay::Field(f)) if f.diagnostic.is_some()), "{keys}");
     }
 }
 

@@ -28,7 +28,7 @@ fn checked(app: &App, effect: &Effect) -> Event {
         Ok(Prepared { document, model, equations, system, .. }) => {
             Ok(Loaded { name, epoch: 2, document, model, equations, system })
         }
-        Err(unready) => Err(unready.mistakes),
+        Err(unready) => Err(unready.diagnostics),
     };
     let took = Duration::from_millis(7);
     Event::Checked(Box::new(CheckedText { ticket: *ticket, outcome, took }))
@@ -105,7 +105,7 @@ fn what_has_a_name_in_both_texts_is_looked_at_as_before() {
 }
 
 #[test]
-fn mistakes_stand_in_their_places_until_the_text_is_right_again() {
+fn errors_stand_in_their_places_until_the_text_is_right_again() {
     let mut app = edited();
     replace(&mut app, "cos(theta)", "cos(thet)");
     assert_eq!(rest(&mut app), [], "the old system goes on");
@@ -135,7 +135,7 @@ fn mistakes_stand_in_their_places_until_the_text_is_right_again() {
 }
 
 #[test]
-fn next_and_previous_go_round_all_mistakes() {
+fn next_and_previous_go_round_all_errors() {
     let mut app = edited();
     app.update(Event::Paste("oops = 1\n".to_owned()));
     replace(&mut app, "cos(theta)", "cos(thet)");
@@ -152,7 +152,7 @@ fn next_and_previous_go_round_all_mistakes() {
 }
 
 #[test]
-fn an_answer_to_an_older_text_shows_no_mistakes() {
+fn an_answer_to_an_older_text_shows_no_errors() {
     let mut app = edited();
     press(&mut app, "Ctrl-Home x");
     let effects = app.update(Event::Tick(Duration::from_millis(200)));
@@ -391,7 +391,7 @@ fn a_text_that_is_not_saved_outlives_the_session() {
 }
 
 #[test]
-fn a_text_with_mistakes_that_is_not_saved_outlives_the_session_too() {
+fn a_text_with_errors_that_is_not_saved_outlives_the_session_too() {
     let mut app = edited();
     replace(&mut app, "cos(theta)", "cos(thet)");
     rest(&mut app);
@@ -493,7 +493,7 @@ fn reading_anew_gives_a_shipped_text_back() {
 }
 
 #[test]
-fn saving_what_has_a_mistake_says_so() {
+fn saving_what_has_an_error_says_so() {
     let told = |app: &App| app.notice.clone().map(|notice| notice.text).unwrap_or_default();
     let saved = |app: &mut App| {
         let [Effect::Save { place, text, .. }] = &press(app, "Ctrl-s")[..] else { panic!("no") };

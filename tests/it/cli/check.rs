@@ -7,12 +7,12 @@ fn claim(lines: &str) -> String {
 }
 
 #[test]
-fn a_file_without_mistakes_is_passed_in_silence() {
+fn a_file_without_errors_is_passed_in_silence() {
     assert_eq!(with_file(PENDULUM, &["check", "system.toml"]).success(), "");
 }
 
 #[test]
-fn mistakes_are_shown_at_their_places_with_exit_65() {
+fn errors_are_shown_at_their_places_with_exit_65() {
     let wrong = PENDULUM.replace("m*cos(theta)", "m*cso(theta) + k");
     with_file(&wrong, &["check", "system.toml"]).fails(
         65,
@@ -27,7 +27,7 @@ fn mistakes_are_shown_at_their_places_with_exit_65() {
 }
 
 #[test]
-fn a_file_with_mistakes_is_neither_run_nor_derived() {
+fn a_file_with_errors_is_neither_run_nor_derived() {
     let wrong = PENDULUM.replace("theta'^2", "theta''^2");
     for command in ["run", "derive"] {
         with_file(&wrong, &[command, "system.toml"])
@@ -44,7 +44,7 @@ fn a_warning_is_shown_and_is_no_failure() {
 }
 
 #[test]
-fn a_false_claim_of_conservation_is_a_mistake_where_it_stands() {
+fn a_false_claim_of_conservation_is_an_error_where_it_stands() {
     let file =
         claim("[[observables]]\nname = \"speed\"\nexpression = \"theta'\"\nconserved = true");
     with_file(&file, &["check", "system.toml"]).fails(
@@ -75,7 +75,7 @@ fn what_is_conserved_may_not_be_denied() {
 }
 
 #[test]
-fn a_wrong_number_is_a_mistake_and_a_right_one_is_not() {
+fn a_wrong_number_is_an_error_and_a_right_one_is_not() {
     // the height of the throw: cos θ = 1 − w²/2, at a quarter of the period 4 K(w²/4)
     let value = |at: &str, is: &str| {
         claim(&format!(
@@ -114,10 +114,10 @@ fn json_goes_to_standard_output() {
     let done = with_file(&wrong, &["check", "system.toml", "--format", "json"]);
     assert_eq!(done.code, 65);
     let object: serde_json::Value = serde_json::from_str(&done.stdout).expect("JSON");
-    let mistake = &object["files"][0]["mistakes"][0];
-    assert_eq!(mistake["severity"], "error");
-    assert_eq!((mistake["line"].as_u64(), mistake["column"].as_u64()), (Some(12), Some(23)));
-    assert!(mistake["message"].as_str().is_some_and(|m| m.contains("`n`")), "{object}");
+    let diagnostic = &object["files"][0]["mistakes"][0];
+    assert_eq!(diagnostic["severity"], "error");
+    assert_eq!((diagnostic["line"].as_u64(), diagnostic["column"].as_u64()), (Some(12), Some(23)));
+    assert!(diagnostic["message"].as_str().is_some_and(|m| m.contains("`n`")), "{object}");
 }
 
 #[test]

@@ -88,7 +88,7 @@ fn every_preset_derives_in_its_own_syntax() {
             .collect();
         for (quantity, e) in all {
             let read = scope.read(&mut model.pool, text(e));
-            assert!(read.is_some(), "{name}, {quantity}: {:?}", scope.mistakes);
+            assert!(read.is_some(), "{name}, {quantity}: {:?}", scope.diagnostics);
         }
     }
 }

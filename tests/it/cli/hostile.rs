@@ -131,7 +131,7 @@ fn no_text_of_a_file_steers_the_terminal() {
 
 /// The content of a comment does not matter until its line is shown because of another error.
 #[test]
-fn a_comment_beside_a_mistake_is_written_out_and_the_caret_stands_under_its_place() {
+fn a_comment_beside_an_error_is_written_out_and_the_caret_stands_under_its_place() {
     let home = tempfile::tempdir().unwrap();
     let (before, after) = ("\u{9b}\u{202e}", "\u{9b}31m\u{200b}");
     let text = PENDULUM.replace(

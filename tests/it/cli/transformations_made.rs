@@ -88,7 +88,7 @@ fn scale_transformations_make_a_group_with_their_valences() {
 }
 
 #[test]
-fn what_is_made_of_nothing_is_a_mistake() {
+fn what_is_made_of_nothing_is_an_error() {
     let check = |rest: &[&str], words: &[&str]| {
         let text = format!("{FREE}{}", rest.join("\n"));
         with_file(&text, &["derive", "system.toml"]).fails(65, words);

@@ -29,7 +29,7 @@ pub(crate) fn check(bytes: &[u8]) {
     let document = Document::from_bytes("config.toml", bytes);
     let options = match config::read(&document) {
         Ok(options) => options,
-        Err(mistakes) => return are_placed(&document, &mistakes),
+        Err(diagnostics) => return are_placed(&document, &diagnostics),
     };
     let mut text = String::new();
     for (name, word) in &options {
@@ -39,6 +39,6 @@ pub(crate) fn check(bytes: &[u8]) {
         writeln!(text, "{name} = {word}").unwrap();
     }
     let again = config::read(&Document::new("again.toml", text.as_str()));
-    let again = again.unwrap_or_else(|mistakes| panic!("{text}: {mistakes:?}"));
+    let again = again.unwrap_or_else(|diagnostics| panic!("{text}: {diagnostics:?}"));
     assert_eq!(options, again, "{text}");
 }

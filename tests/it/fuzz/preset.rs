@@ -44,19 +44,19 @@ const RUN: u64 = 4;
 const SHORT: usize = 3000;
 
 /// Asserts that there are errors, and that each lies in the text and can be rendered.
-pub(super) fn are_placed(document: &Document, mistakes: &[Diagnostic]) {
-    assert!(!mistakes.is_empty());
-    for mistake in mistakes {
-        assert!(document.text.get(mistake.place.clone()).is_some(), "{mistake:?}");
+pub(super) fn are_placed(document: &Document, diagnostics: &[Diagnostic]) {
+    assert!(!diagnostics.is_empty());
+    for diagnostic in diagnostics {
+        assert!(document.text.get(diagnostic.place.clone()).is_some(), "{diagnostic:?}");
     }
-    let drawn = document.report(mistakes, false);
-    assert_eq!(drawn.matches(&format!("{}:", document.path)).count(), mistakes.len(), "{drawn}");
+    let drawn = document.report(diagnostics, false);
+    assert_eq!(drawn.matches(&format!("{}:", document.path)).count(), diagnostics.len(), "{drawn}");
 }
 
 pub(crate) fn check(bytes: &[u8]) {
     let document = Document::from_bytes("stranger.toml", bytes);
     match document.read() {
-        Err(mistakes) => return are_placed(&document, &mistakes),
+        Err(diagnostics) => return are_placed(&document, &diagnostics),
         Ok(checked) if checked.warnings.is_empty() => {}
         Ok(checked) => are_placed(&document, &checked.warnings),
     }
@@ -67,14 +67,14 @@ pub(crate) fn check(bytes: &[u8]) {
     }
     let mut experiment = match Prepared::of(&document) {
         Ok(ready) => ready.experiment,
-        Err(why) => return assert!(!why.report.is_empty() && !why.mistakes.is_empty()),
+        Err(why) => return assert!(!why.report.is_empty() && !why.diagnostics.is_empty()),
     };
     let frame = experiment.time() + 0.02 * experiment.speed().min(1e3);
     experiment.advance(frame, 20);
     let parts = (&**experiment.model(), experiment.system());
     if let Ok(export) = Export::of(&document, parts, &experiment.snapshot()) {
         let written = Document::new("written.toml", export.text.as_str());
-        let mistakes = written.read().err().unwrap_or_default();
-        assert!(mistakes.is_empty(), "{}", written.report(&mistakes, false));
+        let diagnostics = written.read().err().unwrap_or_default();
+        assert!(diagnostics.is_empty(), "{}", written.report(&diagnostics, false));
     }
 }

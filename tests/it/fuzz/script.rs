@@ -33,6 +33,6 @@ pub(crate) fn check(bytes: &[u8]) {
             assert!(places.iter().all(|place| document.text.get(place.clone()).is_some()));
             assert!(places.is_sorted_by_key(|place| place.start), "{places:?}");
         }
-        Err(mistakes) => are_placed(&document, &mistakes),
+        Err(diagnostics) => are_placed(&document, &diagnostics),
     }
 }

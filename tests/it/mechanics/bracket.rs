@@ -39,7 +39,9 @@ fn kepler(by_velocities: bool) -> Model {
 /// Reads an expression in the names of a model.
 fn look(model: &Model, equations: &mut Equations, text: &str) -> Expr {
     let mut scope = Scope::new(model, Allowed::Observable, "a test");
-    scope.read(&mut equations.pool, text).unwrap_or_else(|| panic!("{text}: {:?}", scope.mistakes))
+    scope
+        .read(&mut equations.pool, text)
+        .unwrap_or_else(|| panic!("{text}: {:?}", scope.diagnostics))
 }
 
 /// The bracket of two observables as text, and how its form was established.

@@ -9,7 +9,7 @@ fn derived(text: &str) -> (Model, Equations) {
     let document = Document::new("system.toml", text);
     let model = match document.read() {
         Ok(checked) => checked.model,
-        Err(mistakes) => panic!("{text}\n{mistakes:?}"),
+        Err(diagnostics) => panic!("{text}\n{diagnostics:?}"),
     };
     let equations = mechanics::derive(&model).expect("derivable");
     (model, equations)

@@ -13,7 +13,7 @@ fn seen(frame: &str) -> (Equations, Apparent) {
          L = \"m/2*(x'^2 + y'^2 + z'^2)\"\n[[frames]]\nname = 'f'\n{frame}\n\
          particles = [{{ at = ['x', 'y', 'z'], mass = 'm' }}]\n"
     );
-    let model = preset::read(&text).unwrap_or_else(|mistakes| panic!("{mistakes:?}")).model;
+    let model = preset::read(&text).unwrap_or_else(|diagnostics| panic!("{diagnostics:?}")).model;
     let equations = derive(&model).unwrap();
     let apparent = equations.supplements.frames[0][0].clone();
     (equations, apparent)

@@ -7,7 +7,7 @@ use super::{BODY, LOTKA_VOLTERRA, TOP};
 
 /// The reports on a file's brackets and Casimirs, each with the text at its position.
 fn told(text: &str) -> Vec<String> {
-    let model = preset::read(text).unwrap_or_else(|mistakes| panic!("{mistakes:?}")).model;
+    let model = preset::read(text).unwrap_or_else(|diagnostics| panic!("{diagnostics:?}")).model;
     let equations = mechanics::derive(&model).expect("derivable");
     let found = structure_diagnostics(&model, &equations);
     let claims = false_claims(&model, &equations);

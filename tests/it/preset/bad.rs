@@ -18,7 +18,7 @@ fn corpus() -> Vec<PathBuf> {
 }
 
 #[test]
-fn each_mistake_gives_its_report() {
+fn each_error_gives_its_report() {
     let update = std::env::var_os("UPDATE_EXPECT").is_some();
     let files = corpus();
     assert!(files.len() >= 40, "the corpus holds {} files", files.len());
@@ -26,9 +26,9 @@ fn each_mistake_gives_its_report() {
     for path in files {
         let mut document = Document::open(&path).unwrap();
         document.path = format!("{}", path.file_name().unwrap().display());
-        let mistakes = document.read().expect_err(&document.path);
-        assert!(mistakes.iter().any(|m| m.severity == Severity::Error), "{}", document.path);
-        let given = document.report(&mistakes, false);
+        let diagnostics = document.read().expect_err(&document.path);
+        assert!(diagnostics.iter().any(|m| m.severity == Severity::Error), "{}", document.path);
+        let given = document.report(&diagnostics, false);
         let expected = path.with_extension("txt");
         if update {
             fs::write(&expected, given).unwrap();
@@ -53,9 +53,9 @@ fn each_expected_report_has_its_file() {
 fn places_lie_in_the_file() {
     for path in corpus() {
         let document = Document::open(&path).unwrap();
-        for mistake in document.read().unwrap_err() {
-            let place = mistake.place.clone();
-            assert!(document.text.get(place).is_some(), "{}: {mistake:?}", path.display());
+        for diagnostic in document.read().unwrap_err() {
+            let place = diagnostic.place.clone();
+            assert!(document.text.get(place).is_some(), "{}: {diagnostic:?}", path.display());
         }
     }
 }

@@ -125,7 +125,7 @@ fn the_users_own_win_over_shipped_ones() {
 }
 
 #[test]
-fn a_broken_file_is_listed_with_its_mistake() {
+fn a_broken_file_is_listed_with_its_error() {
     let user = folder(&[
         ("broken.toml", GOOD.replace("k*x", "kk*x").as_bytes()),
         ("latin.toml", b"title = \"caf\xe9\"\n"),
@@ -172,7 +172,7 @@ fn a_misspelt_name_gets_the_nearest() {
 }
 
 #[test]
-fn a_folder_that_is_not_there_is_no_mistake() {
+fn a_folder_that_is_not_there_is_no_error() {
     let nowhere = tempfile::tempdir().unwrap().path().join("nowhere");
     let catalog = Catalog::with_folder(Some(&nowhere));
     assert_eq!(catalog.entries().len(), Catalog::with_folder(None).entries().len());

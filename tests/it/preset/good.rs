@@ -16,7 +16,7 @@ use super::GOOD;
 pub(super) fn checked(text: &str) -> Checked {
     match read(text) {
         Ok(checked) => checked,
-        Err(mistakes) => panic!("{}", report(text, "test.toml", &mistakes, false)),
+        Err(diagnostics) => panic!("{}", report(text, "test.toml", &diagnostics, false)),
     }
 }
 
@@ -46,7 +46,7 @@ fn every_shipped_preset_can_be_read() {
         assert!(entry.name.chars().all(kebab), "{} is not kebab-case", entry.name);
         let document = entry.document().unwrap();
         match document.read() {
-            Err(mistakes) => panic!("{}", document.report(&mistakes, false)),
+            Err(diagnostics) => panic!("{}", document.report(&diagnostics, false)),
             Ok(Checked { model, warnings, .. }) => {
                 assert!(warnings.is_empty(), "{}", document.report(&warnings, false));
                 assert_eq!(model.info.title, entry.info.title);
@@ -381,11 +381,11 @@ fn places_pass_through_quotes_and_escapes() {
         "\"\"\"k\r\n*zzz\"\"\"",
     ] {
         let text = GOOD.replace("\"1/2*m*x'^2 - 1/2*k*x^2\"", quoted);
-        let mistakes = read(&text).unwrap_err();
-        let first = mistakes.iter().find(|m| m.message.contains("zzz"));
+        let diagnostics = read(&text).unwrap_err();
+        let first = diagnostics.iter().find(|m| m.message.contains("zzz"));
         match first {
-            Some(mistake) => assert_eq!(&text[mistake.place.clone()], "zzz", "{quoted}"),
-            None => assert_eq!(&text[mistakes[0].place.clone()], "\\\"", "{quoted}"),
+            Some(diagnostic) => assert_eq!(&text[diagnostic.place.clone()], "zzz", "{quoted}"),
+            None => assert_eq!(&text[diagnostics[0].place.clone()], "\\\"", "{quoted}"),
         }
     }
 }
@@ -396,8 +396,8 @@ fn a_byte_order_mark_is_passed_over() {
     let text = format!("\u{feff}{GOOD}");
     model(&text);
     let text = text.replace("k*x", "zzz*x");
-    let mistakes = read(&text).unwrap_err();
-    assert_eq!(&text[mistakes[0].place.clone()], "zzz");
+    let diagnostics = read(&text).unwrap_err();
+    assert_eq!(&text[diagnostics[0].place.clone()], "zzz");
 }
 
 /// Names that a constraint or another coordinate would reserve are free if there is none.

@@ -15,20 +15,20 @@ use crate::hand::catalog;
 /// Reads bytes and renders all errors in them; all positions lie in the text.
 fn survive(bytes: &[u8]) {
     let document = Document::from_bytes("hostile.toml", bytes);
-    let mistakes = match document.read() {
+    let diagnostics = match document.read() {
         Ok(checked) => checked.warnings,
-        Err(mistakes) => {
-            assert!(!mistakes.is_empty());
-            mistakes
+        Err(diagnostics) => {
+            assert!(!diagnostics.is_empty());
+            diagnostics
         }
     };
-    for mistake in &mistakes {
-        let place = mistake.place.clone();
-        assert!(document.text.get(place).is_some(), "{mistake:?}");
+    for diagnostic in &diagnostics {
+        let place = diagnostic.place.clone();
+        assert!(document.text.get(place).is_some(), "{diagnostic:?}");
     }
-    let drawn = document.report(&mistakes, false);
-    assert_eq!(drawn.matches("hostile.toml:").count(), mistakes.len());
-    document.report(&mistakes, true);
+    let drawn = document.report(&diagnostics, false);
+    assert_eq!(drawn.matches("hostile.toml:").count(), diagnostics.len());
+    document.report(&diagnostics, true);
 }
 
 fn shipped() -> &'static [String] {
@@ -104,9 +104,9 @@ proptest! {
 
 /// The only error of a text.
 fn only(text: &str) -> Diagnostic {
-    let mistakes = read(text).unwrap_err();
-    assert_eq!(mistakes.len(), 1, "{}", report(text, "test.toml", &mistakes, false));
-    mistakes[0].clone()
+    let diagnostics = read(text).unwrap_err();
+    assert_eq!(diagnostics.len(), 1, "{}", report(text, "test.toml", &diagnostics, false));
+    diagnostics[0].clone()
 }
 
 /// A file of just 1 MiB whose Lagrangian consists of one repeated piece.
@@ -130,9 +130,9 @@ fn a_file_beyond_the_limit_is_refused() {
     let path = folder.path().join("long.toml");
     std::fs::write(&path, &text).unwrap();
     let document = Document::open(&path).unwrap();
-    let mistakes = document.read().unwrap_err();
-    assert_eq!(mistakes[0].message, only(&text).message);
-    assert!(document.report(&mistakes, false).contains("long.toml"));
+    let diagnostics = document.read().unwrap_err();
+    assert_eq!(diagnostics[0].message, only(&text).message);
+    assert!(document.report(&diagnostics, false).contains("long.toml"));
 }
 
 #[test]
@@ -154,17 +154,17 @@ fn a_mebibyte_of_terms_is_read() {
 }
 
 #[test]
-fn a_mebibyte_of_mistakes_is_reported_in_a_hundred() {
+fn a_mebibyte_of_errors_is_reported_in_a_hundred() {
     let text = filled(|i| format!("y{i}+")).replace("+\"", "\"");
-    let mistakes = read(&text).unwrap_err();
-    assert_eq!(mistakes.len(), 100);
+    let diagnostics = read(&text).unwrap_err();
+    assert_eq!(diagnostics.len(), 100);
     let keys: String = (0..20_000).fold(String::new(), |mut keys, i| {
         let _ = writeln!(keys, "key{i} = 1");
         keys
     });
-    let mistakes = read(&(keys + GOOD)).unwrap_err();
-    assert_eq!(mistakes.len(), 101);
-    assert_eq!(mistakes[100].message, "19900 more errors are not listed");
+    let diagnostics = read(&(keys + GOOD)).unwrap_err();
+    assert_eq!(diagnostics.len(), 101);
+    assert_eq!(diagnostics[100].message, "19900 more errors are not listed");
 }
 
 #[test]
@@ -262,10 +262,10 @@ fn constraints_have_a_limit_together() {
     for i in 0..128 {
         writeln!(text, "[[constraints]]\nname = \"c{i}\"\nexpression = \"D + {i}\"").unwrap();
     }
-    let mistakes = read(&text).unwrap_err();
-    assert_eq!(mistakes.len(), 1);
+    let diagnostics = read(&text).unwrap_err();
+    assert_eq!(diagnostics.len(), 1);
     assert_eq!(
-        mistakes[0].message,
+        diagnostics[0].message,
         "with this, the constraints of the file are too long to be proved linear in the velocities"
     );
 }

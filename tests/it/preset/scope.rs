@@ -17,8 +17,8 @@ fn messages(allowed: Allowed, place: &str, text: &str) -> Vec<String> {
     let mut model = oscillator();
     let mut scope = Scope::new(&model, allowed, place);
     let read = scope.read(&mut model.pool, text);
-    assert_eq!(read.is_none(), !scope.mistakes.is_empty());
-    let told = scope.mistakes.iter();
+    assert_eq!(read.is_none(), !scope.diagnostics.is_empty());
+    let told = scope.diagnostics.iter();
     told.map(|m| match &m.help {
         Some(help) => format!("{}..{} {m}; {help}", m.span.start, m.span.end),
         None => format!("{}..{} {m}", m.span.start, m.span.end),
@@ -112,8 +112,8 @@ fn announced_names_wait_for_their_definition() {
     let mut scope = Scope::new(&model, Observable, "an observable");
     scope.announce("speed");
     assert!(scope.read(&mut model.pool, "2*speed").is_none());
-    assert_eq!(scope.mistakes[0].message, "`speed` is not defined yet at this place");
-    scope.mistakes.clear();
+    assert_eq!(scope.diagnostics[0].message, "`speed` is not defined yet at this place");
+    scope.diagnostics.clear();
     let rate = scope.read(&mut model.pool, "x'").unwrap();
     scope.define("speed", rate);
     let twice = scope.read(&mut model.pool, "2*speed").unwrap();

@@ -191,8 +191,8 @@ fn run(case: &Case, budget: Budget, cancel: &Cancel) -> Result<Told, Outcome> {
     let mut model = checked.model;
     model.pool.set_cancel(cancel.clone());
     let equations = derive(&model).map_err(|why| refused(why.to_string()))?;
-    let mistakes = false_claims(&model, &equations);
-    let errors = mistakes.iter().filter(|m| m.severity == Severity::Error);
+    let diagnostics = false_claims(&model, &equations);
+    let errors = diagnostics.iter().filter(|m| m.severity == Severity::Error);
     let check = errors.map(|m| m.message.clone()).collect();
     let system =
         System::compile(&model, &equations, &[]).map_err(|why| refused(why.to_string()))?;

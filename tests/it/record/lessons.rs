@@ -20,11 +20,11 @@ fn system(name: &str) -> Document {
 }
 
 /// What is wrong with a lesson about the planet.
-fn mistakes(text: &str) -> Vec<String> {
+fn diagnostics(text: &str) -> Vec<String> {
     let text = format!("Open planet\nSpeed 1/6\n{text}");
     let script = Script::read(&Document::new("my.lesson", &text)).expect("a script");
     let found = check_lesson(&script, &system("planet"), "planet").err().unwrap_or_default();
-    found.into_iter().map(|mistake| mistake.message).collect()
+    found.into_iter().map(|diagnostic| diagnostic.message).collect()
 }
 
 fn taken(text: &str) -> Lesson {
@@ -73,7 +73,7 @@ fn shipped_lessons_are_true_with_every_answer() {
     assert!(lessons().len() >= 8);
     on_all_cores(&lessons(), |name| {
         let source = lesson(name).expect("a lesson");
-        let report = |mistakes: &[_]| source.report(mistakes, false);
+        let report = |diagnostics: &[_]| source.report(diagnostics, false);
         let script = Script::read(&source).unwrap_or_else(|why| panic!("{}", report(&why)));
         assert!(script.head.title.is_some(), "{name} has a title");
         let open = script.head.open.clone().expect("a system").text;
@@ -150,15 +150,15 @@ fn a_wrong_option_says_why_and_which_is_right() {
 }
 
 #[test]
-fn what_is_false_is_a_mistake() {
+fn what_is_false_is_an_error() {
     let ask = |one: &str, two: &str| {
         format!("Ask \"?\"\nOption \"a\" {one}\nOption \"b\" {two}\nWait 3s\nOutcome\n")
     };
     let check = |text: &str, message: &str| {
-        let found = mistakes(text);
+        let found = diagnostics(text);
         assert!(found.iter().any(|found| found.contains(message)), "{text}: {found:?}");
     };
-    assert_eq!(mistakes(&ask("if r > 1", "why \"no\" if r < 1")), Vec::<String>::new());
+    assert_eq!(diagnostics(&ask("if r > 1", "why \"no\" if r < 1")), Vec::<String>::new());
     check(&ask("if r > 2", "why \"no\" if r < 1"), "none of the options is right");
     check(&ask("if r > 1", "why \"no\" if r < 2"), "2 of the options are right");
     check(&ask("if r > 1", "if r < 1"), "does not say why");
@@ -178,7 +178,7 @@ fn what_is_false_is_a_mistake() {
 fn a_task_ends_when_the_claim_holds_and_the_system_begins_anew() {
     let text = "Task \"do\" hint \"like this\" until e < 0.5\nSolution Down x3 Enter 0 Enter\n\
                 Predict \"e?\" e within 0.01\nWait 1s\nOutcome\n";
-    assert_eq!(mistakes(text), Vec::<String>::new());
+    assert_eq!(diagnostics(text), Vec::<String>::new());
     let mut lesson = taken(text);
     pass(&mut lesson, 1.0);
     assert!(!shown(&mut lesson).contains("like this"));
@@ -321,9 +321,9 @@ fn a_point_is_set_by_the_cursor_committed_and_kept_beside_the_outcome() {
                  Wait 3s\nOutcome\nSay \"after\"\n";
     let curve = point.replace("point", "curve");
     // the right answer and wrong ones are taken by the check, which finds what is false
-    assert_eq!(mistakes(point), Vec::<String>::new());
-    assert_eq!(mistakes(&curve), Vec::<String>::new());
-    assert!(!mistakes(&point.replace("p_r", "nothing")).is_empty());
+    assert_eq!(diagnostics(point), Vec::<String>::new());
+    assert_eq!(diagnostics(&curve), Vec::<String>::new());
+    assert!(!diagnostics(&point.replace("p_r", "nothing")).is_empty());
     let mut lesson = taken(point);
     pass(&mut lesson, 0.1);
     let wide = |lesson: &mut Lesson| screen(lesson, (120, 40), &plain()).join("\n");

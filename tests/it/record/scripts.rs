@@ -8,19 +8,19 @@ use phaselab::record::{Script, play, transcript};
 use super::{played, recorded, script};
 
 /// The errors of a script as `line:column message; help`.
-fn mistakes(text: &str) -> Vec<String> {
+fn diagnostics(text: &str) -> Vec<String> {
     let document = Document::new("test.demo", text);
-    let tell = |mistake: &Diagnostic| {
-        let (line, column) = document.line_and_column(mistake.place.start);
-        let help = mistake.help.as_deref().map_or(String::new(), |help| format!("; {help}"));
-        format!("{line}:{column} {}{help}", mistake.message)
+    let tell = |diagnostic: &Diagnostic| {
+        let (line, column) = document.line_and_column(diagnostic.place.start);
+        let help = diagnostic.help.as_deref().map_or(String::new(), |help| format!("; {help}"));
+        format!("{line}:{column} {}{help}", diagnostic.message)
     };
     let found = match Script::read(&document) {
-        Err(mistakes) => mistakes,
+        Err(diagnostics) => diagnostics,
         Ok(script) => {
             let system = Catalog::with_folder(None).find("pendulum").expect("a preset");
             match play(&script, &system, "pendulum", (80, 24)) {
-                Err(mistakes) => mistakes,
+                Err(diagnostics) => diagnostics,
                 Ok(recording) => recording.false_claims,
             }
         }
@@ -32,14 +32,14 @@ fn mistakes(text: &str) -> Vec<String> {
 fn a_demo_is_shown_without_the_footer() {
     let keys = "Assert screen \"? help\"";
     for (hide, seen) in [("", true), ("Hide footer\n", false)] {
-        let found = mistakes(&format!("{hide}Wait 1s\n{keys}"));
+        let found = diagnostics(&format!("{hide}Wait 1s\n{keys}"));
         assert_eq!(found.is_empty(), seen, "{found:?}");
     }
 }
 
 #[test]
-fn mistakes_stand_in_their_places() {
-    let check = |text: &str, expected: &[&str]| assert_eq!(mistakes(text), expected, "{text}");
+fn errors_stand_in_their_places() {
+    let check = |text: &str, expected: &[&str]| assert_eq!(diagnostics(text), expected, "{text}");
     check("Wait 1s", &[]);
     check("  # nothing\n\nWiat 2s", &["3:1 there is no command `Wiat`; did you mean `Wait`?"]);
     check("wait 2s", &["1:1 there is no command `wait`; did you mean `Wait`?"]);
@@ -100,13 +100,13 @@ fn mistakes_stand_in_their_places() {
     check("Speed -1\nWait 1s", &["1:7 a speed is above zero; this is -1"]);
     check("Press q\nWait 1s", &["2:1 the lab was left before this line"]);
     // several at once, each at its position
-    assert_eq!(mistakes("Wiat 1s\nPress Entr\nWait\n").len(), 3);
+    assert_eq!(diagnostics("Wiat 1s\nPress Entr\nWait\n").len(), 3);
 }
 
 #[test]
 fn claims_are_held_against_the_moment() {
     let check = |text: &str, expected: &[&str]| {
-        assert_eq!(mistakes(&format!("Wait 1s\n{text}")), expected, "{text}");
+        assert_eq!(diagnostics(&format!("Wait 1s\n{text}")), expected, "{text}");
     };
     check("Assert energy = -m*g*l*cos(theta0) within 1e-12", &[]);
     check("Assert t > 0.5", &[]);

@@ -302,7 +302,7 @@ fn nothing_jumps_while_numbers_change() {
 }
 
 #[test]
-fn a_mistake_in_a_field_is_read_beside_it() {
+fn an_error_in_a_field_is_read_beside_it() {
     let mut app = in_lab();
     press(&mut app, "Enter Ctrl-u 2 x Enter");
     let look = rich();
@@ -433,7 +433,7 @@ fn an_ended_motion_says_by_what_and_how_to_go_on() {
 }
 
 #[test]
-fn the_prompt_answers_in_mathematics_and_places_mistakes() {
+fn the_prompt_answers_in_mathematics_and_places_errors() {
     let ask = |text: &str| {
         let mut app = in_lab();
         press(&mut app, "{");

@@ -64,7 +64,7 @@ proptest! {
 }
 
 #[test]
-fn a_mistake_is_underlined_marked_and_told_below() {
+fn an_error_is_underlined_marked_and_told_below() {
     let mut app = edited();
     let sheet = app.workbench.top_mut().unwrap();
     let (from, to) = (Caret { row: 2, column: 10 }, Caret { row: 2, column: 13 });

@@ -244,7 +244,7 @@ fn a_plain_locale_gets_ascii() {
 }
 
 #[test]
-fn a_file_with_mistakes_is_shown_with_its_mistakes() {
+fn a_file_with_errors_is_shown_with_its_errors() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("wrong.toml");
     let text = "title = \"Wrong\"\n[coordinates]\nx = { initial = 1.0 }\n[lagrangian]\nL = \"y\"\n";

@@ -61,7 +61,7 @@ fn quits_from_bench(mut lab: Session, place: &Path) {
 }
 
 #[test]
-fn a_file_saved_elsewhere_is_taken_up_and_mistakes_do_not_stop_the_motion() {
+fn a_file_saved_elsewhere_is_taken_up_and_errors_do_not_stop_the_motion() {
     let (_folder, place, mut lab) = open(&["--watch"]);
     fs::write(&place, FILE.replace("k = 4.0", "kk = 4.0")).expect("it can be written");
     lab.shows("own.toml:");
