@@ -17,10 +17,10 @@ pub(super) fn false_steps(
     system: &System,
 ) -> Vec<Diagnostic> {
     let all = model.expect.steps.iter();
-    all.filter_map(|claim| mistake(model, equations, system, claim)).collect()
+    all.filter_map(|claim| diagnostic(model, equations, system, claim)).collect()
 }
 
-fn mistake(
+fn diagnostic(
     model: &Model,
     equations: &Equations,
     system: &System,

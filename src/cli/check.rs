@@ -24,7 +24,7 @@ use crate::printable;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
-  phaselab check my/system.toml          every mistake with a caret, and what would be right
+  phaselab check my/system.toml          every error with a caret, and what would be right
   phaselab check my/*.toml && echo fine
   phaselab check --format json my/system.toml | jq '.files[].mistakes'")]
 pub(super) struct Arguments {

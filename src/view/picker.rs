@@ -55,7 +55,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
             }
             Some(Above::Guides) => guided(app),
             Some(Above::NewSystem) => "Enter opens the editor with a small system to begin from: change its \
-                 Lagrangian, and the motion runs beside it as soon as there is no mistake. Nothing is written until you \
+                 Lagrangian, and the motion runs beside it as soon as there is no error. Nothing is written until you \
                  save it."
                 .to_owned(),
             None => "No system fits this search.".to_owned(),

@@ -76,12 +76,12 @@ fn the_matrix_of_a_step_is_that_of_the_flow() {
 
 #[test]
 fn what_a_file_says_of_a_step_is_checked() {
-    let mistakes = |text: &str| {
+    let diagnostics = |text: &str| {
         let loaded = lowered(text);
         let all = false_claims(&loaded.model, &loaded.equations).into_iter();
         all.map(|d| format!("{}: {}", d.message, d.help.unwrap_or_default())).collect::<Vec<_>>()
     };
-    assert!(mistakes(ENTANGLED).is_empty(), "{:?}", mistakes(ENTANGLED));
+    assert!(diagnostics(ENTANGLED).is_empty(), "{:?}", diagnostics(ENTANGLED));
     for (from, to, said) in [
         ("step = \"h\"", "step = \"2*h\"", "`step` is not a step of `symplectic-euler`"),
         ("step = \"h\"", "step = \"-h\"", "its step is not above 0"),
@@ -89,7 +89,7 @@ fn what_a_file_says_of_a_step_is_checked() {
         ("symplectic-euler", "taylor", "methods of fixed step are"),
         ("symplectic-euler", "rk4", "`step` is not a step of `rk4`"),
     ] {
-        let found = mistakes(&ENTANGLED.replace(from, to));
+        let found = diagnostics(&ENTANGLED.replace(from, to));
         assert!(found.len() == 1 && found[0].contains(said), "{to}: {found:?}");
     }
 }
