@@ -58,7 +58,7 @@ impl Prompt {
                 self.answered = Some((text, Box::new(inquiry.clone())));
             }
             Some(Err(diagnostic)) => {
-                (self.diagnostic, self.answered) = (Some(diagnostic.clone()), None)
+                (self.diagnostic, self.answered) = (Some(diagnostic.clone()), None);
             }
             None => {}
         }

@@ -28,7 +28,9 @@ impl ShownKeys {
     /// All of these keys.
     pub(super) fn of(keys: &[KeyEvent]) -> ShownKeys {
         let mut shown = ShownKeys::default();
-        keys.iter().for_each(|key| shown.press(key, false, 0));
+        for key in keys {
+            shown.press(key, false, 0);
+        }
         shown
     }
 

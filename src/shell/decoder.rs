@@ -356,7 +356,9 @@ mod tests {
     fn answered(bytes: &[u8]) -> (Option<Rgb>, Vec<Event>, bool) {
         let mut decoder = Decoder::default();
         decoder.expect_background(true);
-        bytes.iter().for_each(|byte| decoder.feed(&[*byte], Instant::now()));
+        for byte in bytes {
+            decoder.feed(&[*byte], Instant::now());
+        }
         if decoder.deadline().is_some() {
             decoder.expire();
         }

@@ -101,7 +101,7 @@ impl Expansion {
             self.take_in_one(place, (series.coefficients(place), series.unit(place)), x);
         }
         for (place, auxiliary) in (motion_len..).zip(self.system.carries()) {
-            if auxiliary && next < series.len() {
+            if auxiliary && next < series.count() {
                 self.take_in_one(place, (series.coefficients(next), series.unit(next)), x);
                 next += 1;
             } else {

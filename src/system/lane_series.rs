@@ -36,7 +36,7 @@ impl StepSeries for LaneSeries {
         self.order
     }
 
-    fn len(&self) -> usize {
+    fn count(&self) -> usize {
         self.coefficients.len() / (self.order + 1)
     }
 

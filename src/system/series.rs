@@ -316,7 +316,7 @@ impl StepSeries for Series {
         self.high.order
     }
 
-    fn len(&self) -> usize {
+    fn count(&self) -> usize {
         self.origin.len()
     }
 

@@ -10,7 +10,7 @@ pub trait StepSeries {
     fn order(&self) -> usize;
 
     /// The number of series.
-    fn len(&self) -> usize;
+    fn count(&self) -> usize;
 
     /// The time of the origin.
     fn time(&self) -> DoubleDouble;
