@@ -170,7 +170,7 @@ impl Scope {
     }
 
     /// Reads an expression in this scope. Returns `None` if there were errors, which are then in
-    /// [`Scope::errors`].
+    /// [`Scope::diagnostics`].
     pub fn read(&mut self, pool: &mut Pool, text: &str) -> Option<Expr> {
         let before = self.error_count;
         self.plain = None;

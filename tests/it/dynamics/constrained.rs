@@ -363,12 +363,10 @@ fn families_under_constraints_are_those_of_independent_coordinates() {
         assert!(found.ended.is_empty(), "{:?}", found.ended);
         found.members
     };
-    for (along, values) in
-        [(Along::Energy, [-2.7, -2.4, -1.9]), (Along::Parameter(0), [0.7, 0.9, 1.2])]
-    {
+    for (along, values) in [(Along::Energy, [-2.7, -2.3]), (Along::Parameter(0), [0.9, 1.1])] {
         let (found, wanted) = (walk(&rods, along, &values), walk(&angles, along, &values));
         assert_eq!(found.len(), wanted.len());
-        assert_eq!(wanted.iter().filter(|member| member.bifurcation.is_none()).count(), 3);
+        assert_eq!(wanted.iter().filter(|member| member.bifurcation.is_none()).count(), 2);
         for (one, other) in found.iter().zip(&wanted) {
             assert_eq!(one.bifurcation, other.bifurcation);
             assert!((one.value - other.value).abs() < 1e-8, "{} {}", one.value, other.value);
