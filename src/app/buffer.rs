@@ -205,7 +205,7 @@ impl SourceBuffer {
     }
 
     /// Returns the number of errors, which keep the text from being used.
-    pub fn diagnostics(&self) -> usize {
+    pub fn error_count(&self) -> usize {
         self.diagnostics.iter().filter(|diagnostic| !diagnostic.warning).count()
     }
 
@@ -304,7 +304,7 @@ impl SourceBuffer {
         let Some(diagnostic) = diagnostic.filter(|_| self.state == BufferState::Wrong) else {
             return Some(format!("Saved: {shown}"));
         };
-        let count = match self.diagnostics() {
+        let count = match self.error_count() {
             1 => "1 error".to_owned(),
             n => format!("{n} errors"),
         };

@@ -36,7 +36,7 @@ pub(super) struct Query {
 struct Word {
     fuzzy: Atom,
     plain: Atom,
-    messages: u32,
+    letters: u32,
 }
 
 /// The texts of a line.
@@ -56,7 +56,7 @@ pub struct FuzzyMatch {
     /// The score; higher is better.
     pub score: u32,
     /// The indices of the matched letters of the label, in rising order.
-    pub messages: Vec<usize>,
+    pub letters: Vec<usize>,
 }
 
 impl Query {
@@ -71,10 +71,10 @@ impl Query {
         for word in &self.words {
             let found = word.fit(texts, &mut self.matcher)?;
             fit.score += found.score;
-            fit.messages.extend(found.messages);
+            fit.letters.extend(found.letters);
         }
-        fit.messages.sort_unstable();
-        fit.messages.dedup();
+        fit.letters.sort_unstable();
+        fit.letters.dedup();
         Some(fit)
     }
 }
@@ -82,8 +82,8 @@ impl Query {
 impl Word {
     fn new(word: &str) -> Self {
         let atom = |kind| Atom::new(word, CaseMatching::Ignore, Normalization::Smart, kind, false);
-        let messages = word.chars().count() as u32;
-        Self { fuzzy: atom(AtomKind::Fuzzy), plain: atom(AtomKind::Substring), messages }
+        let letters = word.chars().count() as u32;
+        Self { fuzzy: atom(AtomKind::Fuzzy), plain: atom(AtomKind::Substring), letters }
     }
 
     /// Returns the word's score in these texts, and its letters in the label.
@@ -91,17 +91,17 @@ impl Word {
         let label = self.named(texts.label, matcher);
         let names = texts.names.iter().filter_map(|name| {
             let score = self.named(name, matcher)?.score.saturating_sub(SECOND);
-            Some(FuzzyMatch { score, messages: Vec::new() })
+            Some(FuzzyMatch { score, letters: Vec::new() })
         });
         // The label wins a tie, and its letters are highlighted even if another name fits better.
-        let letters = label.as_ref().map(|fit| fit.messages.clone()).unwrap_or_default();
+        let letters = label.as_ref().map(|fit| fit.letters.clone()).unwrap_or_default();
         let named = label.into_iter().chain(names);
         let best = named.reduce(|a, b| if b.score > a.score { b } else { a });
-        best.map(|fit| FuzzyMatch { messages: letters, ..fit }).or_else(|| {
+        best.map(|fit| FuzzyMatch { letters, ..fit }).or_else(|| {
             let described = texts.about.iter().filter_map(|text| self.described(text, matcher));
             described
                 .max()
-                .map(|score| FuzzyMatch { score: score / DESCRIBED, messages: Vec::new() })
+                .map(|score| FuzzyMatch { score: score / DESCRIBED, letters: Vec::new() })
         })
     }
 
@@ -114,19 +114,19 @@ impl Word {
         let parts = |place: u32| place >= text.len() as u32 || !text.get(place).is_alphanumeric();
         let starts = |place: &u32| *place == 0 || parts(*place - 1);
         let spread = last - first + 1;
-        let near = spread <= 2 * self.messages || places.iter().all(starts);
-        let together = self.messages >= 2 && spread == self.messages;
-        if !(together || near && score >= LEAST * self.messages) {
+        let near = spread <= 2 * self.letters || places.iter().all(starts);
+        let together = self.letters >= 2 && spread == self.letters;
+        if !(together || near && score >= LEAST * self.letters) {
             return None;
         }
         let more = [
             (first == 0, BEGINS),
             (parts(last + 1), ENDS),
-            (spread == self.messages && text.len() == places.len(), ALL),
+            (spread == self.letters && text.len() == places.len(), ALL),
         ];
         let more: u32 = more.into_iter().filter_map(|(is, more)| is.then_some(more)).sum();
-        let messages = places.into_iter().map(|place| place as usize).collect();
-        Some(FuzzyMatch { score: score + more, messages })
+        let letters = places.into_iter().map(|place| place as usize).collect();
+        Some(FuzzyMatch { score: score + more, letters })
     }
 
     /// Returns the word's score in a description, where a word must begin with it, by two letters at least: otherwise
@@ -137,7 +137,7 @@ impl Word {
         let score = u32::from(self.plain.indices(text, matcher, &mut places)?);
         let first = *places.iter().min()?;
         let begins = first == 0 || !text.get(first - 1).is_alphanumeric();
-        (begins && self.messages > 1).then_some(score)
+        (begins && self.letters > 1).then_some(score)
     }
 }
 
@@ -151,17 +151,17 @@ mod tests {
 
     #[test]
     fn letters_are_found_together_as_initials_or_within_a_word() {
-        let messages = |query, label| fit(query, label).map(|f| f.messages);
-        assert_eq!(messages("zom", "zoom"), Some(vec![0, 1, 3]));
-        assert_eq!(messages("Henon", "Hénon–Heiles"), Some(vec![0, 1, 2, 3, 4]));
-        assert_eq!(messages("heiles", "Hénon–Heiles"), Some((6..12).collect()));
-        assert_eq!(messages("dp", "Driven damped pendulum"), Some(vec![7, 14]));
-        assert_eq!(messages("ene", "let time run slower"), None, "chance is not meant");
-        assert_eq!(messages("ene", "everyone"), None, "nor in one long word");
-        assert_eq!(messages("m", "Sum"), None, "one letter begins a word");
-        assert_eq!(messages("abo", "zoom"), Some(vec![]), "reported, not named");
-        assert_eq!(messages("sec", "zoom"), Some(vec![]), "its second name");
-        assert_eq!(messages("zoom xyz", "zoom"), None);
+        let letters = |query, label| fit(query, label).map(|f| f.letters);
+        assert_eq!(letters("zom", "zoom"), Some(vec![0, 1, 3]));
+        assert_eq!(letters("Henon", "Hénon–Heiles"), Some(vec![0, 1, 2, 3, 4]));
+        assert_eq!(letters("heiles", "Hénon–Heiles"), Some((6..12).collect()));
+        assert_eq!(letters("dp", "Driven damped pendulum"), Some(vec![7, 14]));
+        assert_eq!(letters("ene", "let time run slower"), None, "chance is not meant");
+        assert_eq!(letters("ene", "everyone"), None, "nor in one long word");
+        assert_eq!(letters("m", "Sum"), None, "one letter begins a word");
+        assert_eq!(letters("abo", "zoom"), Some(vec![]), "reported, not named");
+        assert_eq!(letters("sec", "zoom"), Some(vec![]), "its second name");
+        assert_eq!(letters("zoom xyz", "zoom"), None);
         assert_eq!(fit("", "zoom"), Some(FuzzyMatch::default()));
     }
 

@@ -8,7 +8,7 @@
 use crossterm::event::{MouseButton, MouseEventKind};
 
 use super::hit_target::{Grab, HitTarget};
-use super::{Action, App, Effect, Lab, Overlay, Page, Pane, ValueId};
+use super::{Action, App, Effect, InputField, Lab, Overlay, Page, Pane, ValueId};
 use crate::experiment::Command;
 use crate::instrument::NoStart;
 use crate::system::InitialOverride;
@@ -48,14 +48,20 @@ impl App {
 
     fn touch(&mut self, hit: HitTarget) -> Vec<Effect> {
         self.end_group();
+        // nothing has been typed in this field yet: the click closes it and does what it does without it
+        let untyped = |field: &InputField| field.whole || field.input.value().is_empty();
+        if let (Some(Overlay::Field(field)), false) =
+            (&self.overlay, matches!(hit, HitTarget::Hint(_)))
+            && untyped(field)
+        {
+            self.overlay = None;
+        }
         match (&mut self.overlay, hit) {
             (_, HitTarget::Hint(action)) => return self.perform(action),
             (Some(Overlay::Menu(menu)), HitTarget::Line(line)) => {
                 menu.selected = line;
                 return self.perform(Action::Accept);
             }
-            // Nothing has been typed in this field yet.
-            (Some(Overlay::Field(field)), _) if field.whole => self.overlay = None,
             // A click beside a list closes it; an accidental click does not discard text being typed.
             (Some(Overlay::Menu(_)), HitTarget::Menu)
             | (Some(Overlay::Field(_) | Overlay::Prompt(_)), _) => {}
@@ -253,7 +259,7 @@ impl App {
     pub(super) fn fill_section(&mut self) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let Some((index, plot)) = lab.focused_plot() else { return Vec::new() };
-        if !plot.kind.is_section() {
+        if !(plot.kind.is_section() && plot.kind.takes_seeds()) {
             return self.notify("G fills a section with orbits; v chooses one.");
         }
         let mut changed = plot.clone();

@@ -110,15 +110,17 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     }
     let mut separatrices = Vec::new();
     let tops = potential.tops();
-    let whole = along.is_none() && interrupt.signal().is_none();
-    for top in tops.into_iter().filter(|_| whole) {
+    'tops: for top in tops.into_iter().filter(|_| along.is_none()) {
         let mut actions = Vec::new();
         for lobe in potential.lobes(top) {
-            actions.push(match (lobe.left, lobe.right) {
-                (Some(left), Some(right)) => action_between(&mut potential, left, right, top[1])
-                    .map_err(|why| could_not(why.to_string()))?,
-                _ => f64::INFINITY,
-            });
+            let action = match (lobe.left, lobe.right) {
+                (Some(left), Some(right)) => action_between(&mut potential, left, right, top[1]),
+                _ => Ok(f64::INFINITY),
+            };
+            if interrupt.signal().is_some() {
+                break 'tops;
+            }
+            actions.push(action.map_err(|why| could_not(why.to_string()))?);
         }
         separatrices.push(Separatrix { energy: top[1], actions });
     }

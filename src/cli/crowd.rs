@@ -73,7 +73,7 @@ impl Drop for Tally {
     }
 }
 
-/// Computes `count` items in groups of so many; after a signal those that are done before the first group that is not.
+/// Computes `count` items in groups of `size`; after a signal, those of the groups before the first unfinished one.
 pub(super) fn collect<T: Send>(
     crowd: &Crowd,
     (count, size): (usize, usize),

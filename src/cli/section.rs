@@ -19,7 +19,7 @@ use super::starts::Starts;
 use super::stderr;
 use crate::diagnostic::{Diagnostic, report};
 use crate::ensemble::{
-    Crossings, EnergyShell, Root, SECTION_GROUP, SectionPlan, Start, add_section, crossings_of_all,
+    Crossings, EnergyShell, Root, SectionPlan, Start, add_section, crossings_of_all, section_group,
 };
 use crate::expr::Expr;
 use crate::model::{Allowed, Direction, Model, Scope};
@@ -158,7 +158,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         let starts = starts[range].iter().map(completed).collect();
         crossings_of_all(&laid.system, laid.method, laid.settings, starts, &plan)
     };
-    let groups = (starts.len(), SECTION_GROUP);
+    let size = section_group(&laid.system, laid.method, laid.settings);
+    let groups = (starts.len(), size);
     let orbits = crowd::collect(&arguments.crowd, groups, interrupt, group)?;
     // the rest takes time with many crossings, also after a signal
     interrupt.prepares();

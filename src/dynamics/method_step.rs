@@ -67,13 +67,18 @@ impl MethodStep {
             let tangent = image.as_ref().and_then(|image| map.tangent(&equations.pool, image));
             let (Some(image), Some(tangent)) = (image, tangent) else { continue };
             let size = space.dimension();
-            carrier.start(&at, &DMatrix::identity(size, size))?;
-            carrier.step(time + step)?;
-            let (state, own) = carrier.at(carrier.time())?;
+            let begun = carrier.start(&at, &DMatrix::identity(size, size));
+            let stepped = begun.and_then(|()| Ok(carrier.step(time + step)?));
+            let (state, own) = match stepped.and_then(|()| Ok(carrier.at(carrier.time())?)) {
+                Err(why) if why.is_cancelled() => return Err(why),
+                // no step leads from there
+                Err(_) => continue,
+                Ok(carried) => carried,
+            };
             let new = map.implicit.new.iter().map(|&s| image.at(s));
             let apart =
                 new.zip(space.variables(&state)).map(|(a, b)| (a - b).abs() / a.abs().max(1.0));
-            let apart = apart.fold(0.0, f64::max);
+            let apart = apart.fold(0.0, larger);
             let differ = (&tangent - &own).amax() / tangent.amax().max(1.0);
             let known = found.get_or_insert(MethodStep {
                 points: 0,
@@ -82,12 +87,17 @@ impl MethodStep {
                 first: [tangent, own],
             });
             known.points += 1;
-            known.image = known.image.max(apart);
-            known.derivative = known.derivative.max(differ);
+            known.image = larger(known.image, apart);
+            known.derivative = larger(known.derivative, differ);
             if known.points == POINTS {
                 break;
             }
         }
         found.ok_or_else(|| unsuited("the map has no image near the start"))
     }
+}
+
+/// The larger of two distances; what is not a number is farther than any.
+fn larger(a: f64, b: f64) -> f64 {
+    if b > a || b.is_nan() { b } else { a }
 }

@@ -72,7 +72,7 @@ impl PhaseSpace {
         parameters: &[f64],
     ) -> Result<PhaseSpace, DynamicsError> {
         refuse_acts(system)?;
-        PhaseSpace::read(model, equations, system, parameters, refuse_acts(system).is_err())
+        PhaseSpace::read(model, equations, system, parameters, false)
     }
 
     /// The phase space of a system that constraints may hold. Its variables are not independent then: the states are those

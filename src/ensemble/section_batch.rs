@@ -15,9 +15,14 @@ use crate::system::{Observer, State, System};
 /// So few orbits are followed one by one: most lanes would be empty.
 const FEW: usize = 3;
 
-/// The number of orbits that one thread follows at a time: as many as there are lanes, and no more, so that there is work
-/// for all threads.
-pub const SECTION_GROUP: usize = BATCH;
+/// The number of orbits that one thread follows at a time: as many as there are lanes where orbits are followed side by
+/// side, otherwise one, so that there is work for all threads.
+pub fn section_group(system: &System, method: &'static Method, settings: Settings) -> usize {
+    match BatchPropagator::with_events(system, method, settings) {
+        Some(_) => BATCH,
+        None => 1,
+    }
+}
 
 /// Follows several orbits from one crossing to the next, side by side where the system and the method allow it. An orbit
 /// that could not begin is handed on.
@@ -115,11 +120,16 @@ impl Follower for OrbitsTogether<'_> {
 
     fn leave(&mut self, orbit: usize) {
         self.found[orbit] = OrbitFound::Alone;
+        let of_orbit =
+            |lane: &&mut Option<LaneOrbit>| lane.as_ref().is_some_and(|own| own.orbit == orbit);
+        if let Some(lane) = self.lanes.iter_mut().find(of_orbit) {
+            *lane = None;
+        }
     }
 }
 
 impl OrbitsTogether<'_> {
-    /// Takes up the crossings of the last step.
+    /// Records the crossings of the last step.
     fn follow(&mut self, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
         let Some(own) = &mut self.lanes[lane] else { return OrbitCourse::Over };
         own.steps += 1;
@@ -171,8 +181,11 @@ impl OrbitsTogether<'_> {
         for own in self.lanes.iter_mut().filter_map(Option::take) {
             self.found[own.orbit] = OrbitFound::Over(stopped_by_a_signal(own.rows));
         }
-        for found in self.found.iter_mut().filter(|found| !matches!(found, OrbitFound::Over(_))) {
-            *found = OrbitFound::Over(stopped_by_a_signal(Vec::new()));
+        for (found, start) in self.found.iter_mut().zip(self.starts) {
+            if !matches!(found, OrbitFound::Over(_)) {
+                let stopped = |_: &Start| stopped_by_a_signal(Vec::new());
+                *found = OrbitFound::Over(start.as_ref().map_or_else(Clone::clone, stopped));
+            }
         }
     }
 }

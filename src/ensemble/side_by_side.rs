@@ -6,7 +6,7 @@
 use crate::integrate::{BatchPropagator, LaneStatus};
 use crate::num::BATCH;
 
-/// How an orbit goes on.
+/// How an orbit continues.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum OrbitCourse {
     /// No farther than this time.

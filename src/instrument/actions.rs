@@ -328,7 +328,7 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
         let verdict = if height.abs() >= CHANGED && action.abs() <= FAR_LESS * height.abs() {
             "adiabatic"
         } else if action.abs().max(height.abs()) < SWINGS {
-            "hardly changed so far"
+            "undecided so far"
         } else {
             "not adiabatic"
         };

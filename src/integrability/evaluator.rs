@@ -39,7 +39,7 @@ enum Instruction {
     Atan(usize),
 }
 
-/// Whether a node itself has a number that is no short fraction.
+/// Whether a node itself has a number that is not a short fraction.
 fn has_real(pool: &Pool, e: Expr) -> bool {
     let real = |n: &Number| matches!(n, Number::Real(_));
     match pool.node(e) {
@@ -67,7 +67,7 @@ pub(super) struct ResidueEvaluator {
     units: Vec<bool>,
     /// Whether logarithms or arctangents may be related, so that points are too general.
     pub(super) overgeneral: bool,
-    /// Whether numbers are no short fractions. Their products are rounded, so that relations between them are lost.
+    /// Whether numbers are not short fractions. Their products are rounded, so that relations between them are lost.
     pub(super) inexact: bool,
     radicals: Radicals,
 }

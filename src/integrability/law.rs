@@ -63,7 +63,7 @@ pub(super) struct Law {
     pub(super) hamiltonian: bool,
 }
 
-/// The parameters and what follows from a body, each with an exact number: its value, or where that is no short fraction
+/// The parameters and what follows from a body, each with an exact number: its value, or where that is not a short fraction
 /// a stand-in, since products of such values are rounded and the relations of a search would no longer hold. Those whose
 /// ratio is a short fraction have stand-ins with that ratio.
 pub(super) fn constants(model: &Model, equations: &Equations) -> Vec<(Symbol, Number)> {
@@ -88,13 +88,12 @@ pub(super) fn has_stand_ins(model: &Model, equations: &Equations) -> bool {
     values(model, equations).iter().any(|(_, value)| matches!(value, Number::Real(_)))
 }
 
-/// The square of a fraction, so that roots of quotients are fractions; another one for each number.
+/// The square of a prime, so that roots of quotients are fractions; another one for each number. The primes are small, since
+/// products of many numbers must stay exact.
 fn square(k: usize) -> Number {
-    const ROOTS: [i64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
-    let (root, below) = (ROOTS[k % ROOTS.len()], (k / ROOTS.len()) as i64 + 1);
-    Number::Rational(root, 1)
-        * Number::Rational(root, 1)
-        * Number::ratio(1, i128::from(below * below))
+    let is_prime = |n: &i64| (2..=n.isqrt()).all(|d| n % d != 0);
+    let root = (2..).filter(is_prime).nth(k).unwrap_or(2);
+    Number::Rational(root, 1) * Number::Rational(root, 1)
 }
 
 /// The quotient of two numbers as a fraction of numbers this small, if it is one to rounding.

@@ -25,7 +25,7 @@ impl Units {
         for (c, term) in terms(pool, argument) {
             let Number::Rational(_, d) = c else {
                 return Err(Unsupported(
-                    "a number in an angle or exponent is no short fraction: make it a parameter"
+                    "a number in an angle or exponent is not a short fraction: make it a parameter"
                         .into(),
                 ));
             };
@@ -62,7 +62,7 @@ pub(super) fn terms(pool: &mut Pool, e: Expr) -> Vec<(Number, Expr)> {
     let mut all = Vec::new();
     for (c, term) in pool.summands(e) {
         match pool.node(term) {
-            // a constant that is no short fraction is a unit of its own
+            // a constant that is not a short fraction is a unit of its own
             Node::Number(n) => match c * *n {
                 whole @ Number::Rational(..) => all.push((whole, Expr::ONE)),
                 real @ Number::Real(_) => all.push((Number::ONE, pool.number(real))),

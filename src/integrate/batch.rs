@@ -17,7 +17,7 @@ use crate::system::{Form, MotionError, State, System};
 pub struct BatchPropagator {
     system: System,
     stepper: BatchStepper,
-    /// The search for events, if they are looked for.
+    /// The search for events, if they are searched for.
     events: Option<Box<BatchEvents>>,
 }
 
@@ -132,7 +132,7 @@ impl BatchPropagator {
     /// no other before the end of the step.
     ///
     /// # Errors
-    /// Returns an error if the functions of the events cannot be followed, or if events pile up.
+    /// Returns an error if the functions of the events cannot be followed, or if events accumulate.
     pub fn next_event(
         &mut self,
         lane: usize,

@@ -9,6 +9,7 @@
 //! high-order Taylor methods", Experimental Mathematics 14 (2005) 99; F. Biscani, D. Izzo, Monthly
 //! Notices of the Royal Astronomical Society 504 (2021) 2614.
 
+mod argument_step;
 mod batch;
 mod batch_step_size;
 mod branches;
@@ -18,6 +19,7 @@ mod expansion;
 mod kinks;
 mod last_orders;
 mod onset;
+mod rough_logarithms;
 mod steep;
 mod step_end;
 mod step_screen;

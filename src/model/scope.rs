@@ -29,7 +29,7 @@ use notation::ShownNames;
 const DEPTH_LIMIT: usize = 4 * 256;
 
 /// The largest number of errors reported at one place.
-const MOST_MISTAKES: usize = 100;
+const MOST_ERRORS: usize = 100;
 
 /// The names of a model that may be used at one place, and the errors found there.
 #[derive(Clone, Debug)]
@@ -232,7 +232,7 @@ impl Scope {
 
     fn unknown(&self, name: &str, primes: usize, span: Span) -> SyntaxError {
         let error = SyntaxError::new(span, format!("unknown name `{name}`"));
-        if self.diagnostics.len() >= MOST_MISTAKES {
+        if self.diagnostics.len() >= MOST_ERRORS {
             return error;
         }
         let bare = name.strip_prefix("p_").filter(|_| self.poisson && primes == 0);
@@ -424,7 +424,7 @@ impl Resolve for Scope {
 
     fn complain(&mut self, error: SyntaxError) {
         self.error_count += 1;
-        if self.diagnostics.len() < MOST_MISTAKES {
+        if self.diagnostics.len() < MOST_ERRORS {
             self.diagnostics.push(error);
         }
     }

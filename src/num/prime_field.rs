@@ -200,7 +200,7 @@ impl PrimeField {
         (r.0 == 1).then(|| self.pow(root, r.1.rem_euclid(order) as u64))
     }
 
-    /// The residue of a number; an `f64` that is no short fraction counts as the dyadic rational that it is. `None`
+    /// The residue of a number; an `f64` that is not a short fraction counts as the dyadic rational that it is. `None`
     /// if it is not finite or its denominator is a multiple of p.
     pub fn number(&self, n: Number) -> Option<Residue> {
         match n {

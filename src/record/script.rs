@@ -327,7 +327,7 @@ pub(super) enum Said {
 }
 
 /// At most this many errors are reported.
-const MOST_MISTAKES: usize = 100;
+const MOST_ERRORS: usize = 100;
 
 impl ScriptReading {
     /// Reads the lines of a text for as long as a condition holds.
@@ -351,7 +351,7 @@ impl ScriptReading {
         let mut line = Line::new(text, start);
         let Some(word) = line.word() else { return };
         if let Err(diagnostic) = self.command(&word, &mut line)
-            && self.diagnostics.len() < MOST_MISTAKES
+            && self.diagnostics.len() < MOST_ERRORS
         {
             self.diagnostics.push(diagnostic);
         }

@@ -55,7 +55,7 @@ pub fn diagnosis(variables: Variables<'_>, size: Option<(u16, u16)>) -> Vec<Doct
         (name, request.pace(variables).asks_background)
     };
     let theme = match theme_of(variables) {
-        (_, true) => "as the terminal answers when asked for its background",
+        (_, true) => "chosen by the terminal's background, once it has answered",
         (name, false) => name,
     };
     let glyphs = Glyphs::from_environment(variables);
@@ -134,7 +134,7 @@ mod tests {
         check(&rich, "glyphs", ["braille", "LANG=C.UTF-8"]);
         check(&rich, "terminal", ["xterm, 80x24", ""]);
         check(&[("LANG", "C.UTF-8"), ("LC_ALL", "C")], "glyphs", ["ascii", "LC_ALL=C"]);
-        let asked = "as the terminal answers when asked for its background";
+        let asked = "chosen by the terminal's background, once it has answered";
         check(&rich, "theme", [asked, "TERM=xterm"]);
         check(&[("TERM", "linux"), ("COLORFGBG", "0;15")], "theme", ["light", "COLORFGBG=0;15"]);
         check(&[], "link", ["near", "none of SSH_CONNECTION, SSH_TTY is set"]);

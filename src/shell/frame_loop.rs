@@ -148,7 +148,8 @@ pub fn perform(page: &mut impl Screen, pace: FramePace) -> Result<Ending, LabErr
     let ended = begun.and_then(|()| frame_loop.run(page));
     page.on_exit(!matches!(ended, Ok(Ending::Quit)));
     if let Ok(Ending::Quit) = ended {
-        frame_loop.hear_out()?;
+        // a terminal that is gone by now has nothing more to say
+        let _ = frame_loop.hear_out();
     }
     Ok(ended?)
 }

@@ -18,12 +18,14 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use self::damaged::read_or_put_aside;
-use self::error::PROGRAMS;
 pub(super) use self::error::StoreError;
 use self::lock::{lock, numbered};
 use super::file_writer::{self, FileWriter};
 use super::session_file::{contents, read_from, read_texts, session_path};
 use crate::app::{Saved, Unsaved};
+
+/// The maximum number of programs that store texts at the same time.
+const PROGRAMS: u32 = 64;
 
 /// The session folder, locked as long as this value lives.
 #[derive(Debug)]

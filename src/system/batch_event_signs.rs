@@ -40,7 +40,7 @@ impl System {
     pub fn batch_event_signs(&self, order: usize) -> Option<BatchEventSigns> {
         let program = &self.discontinuities().variation;
         let count = self.discontinuities().events.len();
-        let functions = match program.outputs_as_inputs() {
+        let functions = match program.outputs_as_inputs().filter(|_| program.switches() == 0) {
             Some(numbers) if numbers.iter().all(|&i| i < self.motion_len()) => {
                 Functions::Numbers(numbers)
             }

@@ -93,8 +93,13 @@ impl System {
             }
         }
         let time = DoubleDouble::written(start);
-        if let Some(i) = state.iter().position(|x| x.high.is_subnormal()) {
-            let kind = MotionErrorKind::TooSmall(self.name_of(i, self.form()));
+        let small = |x: &DoubleDouble| x.high.is_subnormal();
+        let other = if self.form() == Form::Velocity { Form::Momentum } else { Form::Velocity };
+        let given = targets.iter().position(|x| x.as_ref().is_some_and(small));
+        let too_small = (state.iter().position(small).map(|i| self.name_of(i, self.form())))
+            .or_else(|| given.map(|i| self.name_of(n + i, other)));
+        if let Some(name) = too_small {
+            let kind = MotionErrorKind::TooSmall(name);
             let values: Vec<f64> = state.iter().map(|x| x.high).collect();
             return Err(self.fault(kind, start, &values));
         }

@@ -226,7 +226,7 @@ impl fmt::Display for MotionError {
                  lies there"
             }
             MotionErrorKind::TooSmall(_) => {
-                ": numbers below 2.2e-308 have fewer digits; give 0, or choose other units"
+                ": numbers below 2.2e-308 do not keep all their digits; give 0, or choose other units"
             }
             MotionErrorKind::NoVelocities => ": the momenta may lie outside their range",
             MotionErrorKind::BranchLeft => {

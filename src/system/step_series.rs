@@ -1,4 +1,4 @@
-//! The power series of a step, as those read it who expand functions along the step.
+//! The power series of a step, as read by those who expand functions along it.
 //!
 //! Out: coefficients about the beginning of the step. Never here: how they are built.
 

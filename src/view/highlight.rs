@@ -17,7 +17,7 @@ pub(super) fn found_in(
     let mut spans: Vec<Span> = Vec::new();
     let mut last = None;
     for (place, letter) in text.chars().enumerate() {
-        let found = fit.messages.binary_search(&place).is_ok();
+        let found = fit.letters.binary_search(&place).is_ok();
         // A combining mark belongs to its letter.
         let combining = letter.width() == Some(0);
         if last != Some(found) && !combining || spans.is_empty() {

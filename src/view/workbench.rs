@@ -190,7 +190,7 @@ fn foot(
     if let Some(asking) = &sheet.asking {
         return self::asking(canvas, area, asking, notice);
     }
-    let count = sheet.diagnostics();
+    let count = sheet.error_count();
     let (role, text) = match sheet.state {
         BufferState::Runs(None) => (Role::Dim, "Running this version.".to_owned()),
         BufferState::Runs(Some(took)) => {

@@ -161,7 +161,7 @@ fn a_slow_change_leaves_the_action_and_a_fast_one_does_not() {
     let mut begun = Course::of(&tightened("60", RAMP));
     begun.go(0.0);
     begun.go(4.0);
-    assert!(begun.told().contains("since t = 0: hardly changed so far"), "{}", begun.told());
+    assert!(begun.told().contains("since t = 0: undecided so far"), "{}", begun.told());
     // nor is the other word true at any time of a slow ramp: J swings at its beginning, by the rate of ω
     for time in [9.0, 10.0, 11.5, 12.0, 14.0, 20.0, 35.0, 65.0] {
         begun.go(time);

@@ -6,7 +6,9 @@ use phaselab::ensemble::{
     Carried, SectionPlan, Start, SystemFlow, add_section, crossings, crossings_of_all,
 };
 use phaselab::experiment::Prepared;
-use phaselab::integrate::{BatchPropagator, LaneStatus, Settings, method_named};
+use phaselab::integrate::{
+    BatchPropagator, LaneStatus, Propagator, Reached, Settings, method_named,
+};
 use phaselab::mechanics::derive;
 use phaselab::model::{Allowed, Direction, Scope};
 use phaselab::num::BATCH;
@@ -312,4 +314,38 @@ fn events_with_effects_are_not_followed_side_by_side() {
     assert!(BatchPropagator::with_events(&system, method, Settings::default()).is_none());
     let leapfrog = method_named("leapfrog").unwrap();
     assert!(BatchPropagator::with_events(&system, leapfrog, Settings::default()).is_none());
+}
+
+/// Otherwise the orbits could all be followed alone, and nothing would be compared.
+#[test]
+fn events_are_found_in_the_lanes_themselves() {
+    let method = method_named("taylor").unwrap();
+    let (system, parameters, _) = with_section("henon-heiles", "x*(1 + y)", Direction::Rising);
+    let mut batch = BatchPropagator::with_events(&system, method, settings(1e-12)).unwrap();
+    let starts = starts(&system, &parameters, BATCH);
+    let mut here = starts[0].state(&system).unwrap();
+    for (lane, start) in starts.iter().enumerate() {
+        let state = start.state(&system).unwrap();
+        assert_eq!(batch.begin(lane, &state, &parameters), LaneStatus::Underway);
+    }
+    let mut times = vec![Vec::new(); BATCH];
+    while (0..BATCH).any(|lane| batch.state(lane).time < 30.0) {
+        assert!(batch.step(&[30.0; BATCH]));
+        for (lane, times) in times.iter_mut().enumerate() {
+            while let Some(event) = batch.next_event(lane, &mut here).unwrap() {
+                assert_eq!(here.time, event.time);
+                times.push(event.time);
+            }
+        }
+    }
+    for (start, times) in starts.iter().zip(&times) {
+        let mut motion = Propagator::new(&system, method, settings(1e-12), &parameters).unwrap();
+        motion.begin(&start.state(&system).unwrap(), &parameters).unwrap();
+        let mut alone = Vec::new();
+        while let Reached::Happened(event) = motion.reach(30.0, 30.0, &mut 10_000).unwrap() {
+            alone.push(event.time);
+        }
+        assert!(alone.len() >= 3, "{alone:?}");
+        assert_eq!(*times, alone);
+    }
 }

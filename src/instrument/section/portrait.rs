@@ -7,10 +7,10 @@ use std::sync::Arc;
 
 use crate::dynamics::{NoRotation, Rotation, rotation};
 use crate::ensemble::{
-    Crossings, PhaseShift, Region, SECTION_GROUP, SectionPlan, SectionPlane, crossings_of_all,
-    in_order, spread,
+    Crossings, PhaseShift, Region, SectionPlan, SectionPlane, crossings_of_all, in_order,
+    section_group, spread,
 };
-use crate::instrument::{PlotTable, Present, Seed};
+use crate::instrument::{MOST_SEEDS, PlotTable, Present, Seed};
 use crate::integrate::{Method, Settings};
 use crate::job::Progress;
 use crate::mechanics::Equations;
@@ -27,7 +27,7 @@ const COUNT_FILLING: u64 = 100;
 
 /// The orbits of one part of the work, after which the picture is drawn anew: a share of all, and these at least.
 const SHARE: usize = 5;
-const PART: usize = 2 * SECTION_GROUP;
+const PART: usize = 16;
 
 /// The crossings of an orbit through a point that a person chose.
 const COUNT_CHOSEN: u64 = 240;
@@ -170,7 +170,9 @@ impl Task {
         let plan = SectionPlan { count: Some(count), ..self.plan.clone() };
         progress.expect(points.len() as u64);
         let shift = points.first().and_then(|&at| self.shift(&system, at));
-        let groups: Vec<&[[f64; 2]]> = points.chunks(SECTION_GROUP).collect();
+        let settings = self.method.fast(self.conditions.settings);
+        let size = section_group(&system, self.method, settings);
+        let groups: Vec<&[[f64; 2]]> = points.chunks(size).collect();
         let group = |i: usize| {
             let mut observer = system.observer(self.plane.parameters());
             let mut start = |&at: &[f64; 2]| {
@@ -178,7 +180,6 @@ impl Task {
                 through.map_err(|why| Crossings::refused(&why))
             };
             let starts = groups[i].iter().map(&mut start).collect();
-            let settings = self.method.fast(self.conditions.settings);
             let found = crossings_of_all(&system, self.method, settings, starts, &plan);
             let drawn = |(found, &at)| self.drawn(&found, at);
             found.into_iter().zip(groups[i]).map(drawn).collect()
@@ -215,7 +216,8 @@ impl Task {
 
     /// The number of starts that an addition has, and where they are tried, apart from those of additions before.
     fn places(count: usize, before: usize) -> (usize, Range<usize>) {
-        let from = before * count * TRIES;
+        let first = if count == FILL { MOST_SEEDS * BATCH * TRIES } else { 0 };
+        let from = first + before * count * TRIES;
         (count, from..from + count * TRIES)
     }
 

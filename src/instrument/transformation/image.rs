@@ -20,9 +20,11 @@ impl Image {
         match (&law.law, self) {
             (_, Image { solved: true, exists: true }) => Some("solved numerically"),
             (_, Image { solved: false, exists: true }) => None,
+            (TransformationLaw::Generating { .. }, _) => {
+                Some("no image: a caustic, det ∂²F/∂old∂new = 0")
+            }
             // a written map has no value where a root in it is negative, or where it divides by zero
-            (TransformationLaw::Explicit { .. }, _) => Some("no image: the map has no value here"),
-            _ => Some("no image: a caustic, det ∂²F/∂old∂new = 0"),
+            _ => Some("no image: the map has no value here"),
         }
     }
 }

@@ -3,9 +3,11 @@
 //! In: the series of a [`BatchSeries`]. Out: for each lane the step that [`StepSize`](super::step_size::StepSize)
 //! finds for that orbit alone, to the last bit. Never here: the rule and its constants.
 
+use super::argument_step::{FARTHEST_ARGUMENT, of_argument};
 use super::last_orders::{FAINT, FIRST, ROOM, last_orders};
+use super::rough_logarithms::rough_logarithms;
 use super::step_screen::Screen;
-use super::step_size::{FARTHEST_ARGUMENT, Shares, of_argument, reciprocals, rough_logarithms};
+use super::step_size::{Shares, reciprocals};
 use crate::num::{Analytic, BATCH, Batch, Kernel, math, vectorized};
 use crate::system::BatchSeries;
 

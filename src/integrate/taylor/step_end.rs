@@ -234,7 +234,7 @@ impl Taylor {
             let terms = self.series.coefficients(i).iter();
             let powers = std::iter::successors(Some(1.0), |power| Some(power * x));
             let largest = terms.zip(powers).fold(0.0_f64, |m, (c, p)| m.max((c * p).abs()));
-            if self.state.values[i].abs() <= ROUNDING * largest {
+            if self.state.values[i].abs() <= ROUNDING * largest * self.series.unit(i) {
                 self.state.set(i, DoubleDouble::ZERO);
             }
         }

@@ -6,11 +6,10 @@
 //! |c_j| h^j, and stays inside the radius of convergence however small those terms are: a body far
 //! from a collision is hardly affected by it.
 
-use super::last_orders::{
-    FAINT, FIRST, INDULGENCE, LANES, ROOM, indulgence_of, larger, last_orders,
-};
+use super::argument_step::{FARTHEST_ARGUMENT, of_argument};
+use super::last_orders::{FIRST, INDULGENCE, LANES, ROOM, indulgence_of, larger, last_orders};
+use super::rough_logarithms::Logarithms;
 use super::step_screen::Screen;
-use crate::expr::FunctionId;
 use crate::num::{Kernel, all_finite, math, vectorized};
 use crate::system::Series;
 
@@ -27,17 +26,6 @@ const PART_OF_RADIUS: f64 = 0.6;
 /// The tolerance of an integral (action, work) and of a tangent vector, in tolerances of the motion:
 /// its errors have no effect on the motion.
 const SPARED: f64 = 1e3;
-
-/// The largest change of a function's argument in one step: a short-range potential must not be
-/// stepped over.
-pub(super) const FARTHEST_ARGUMENT: f64 = 6.0;
-
-/// Beyond this argument exponentials leave the range of `f64`, and functions that saturate with
-/// them no longer change: up to there an argument may move at once.
-const SATURATED: f64 = 750.0;
-
-/// The largest relative change of the argument of a function without scale (`ln`, `atan`).
-const PART_OF_ARGUMENT: f64 = 0.5;
 
 /// The order at which a tolerance costs least, for a motion of so many degrees of freedom. The step
 /// grows with the order. In large systems the work grows with its square (Jorba & Zou, proposition
@@ -165,39 +153,6 @@ impl Kernel for ByCoefficients<'_> {
     fn run<const FUSED: bool>(self) -> Option<f64> {
         self.rule.by_coefficients::<FUSED>(self.series)
     }
-}
-
-/// The step in which the argument of a function changes by the largest amount allowed.
-pub(super) fn of_argument(function: FunctionId, u: &[f64]) -> f64 {
-    let room = match function {
-        FunctionId::Exp | FunctionId::Sinh | FunctionId::Cosh | FunctionId::Tanh => {
-            u[0].abs() - SATURATED
-        }
-        FunctionId::Ln | FunctionId::Atan | FunctionId::Atan2 => u[0].abs() * PART_OF_ARGUMENT,
-        _ => 0.0,
-    };
-    let mut step = moving(FARTHEST_ARGUMENT, &u[..4]);
-    if room > FARTHEST_ARGUMENT {
-        // all terms together, each with a share
-        let mut safe = f64::INFINITY;
-        for (k, c) in u.iter().enumerate().skip(1).filter(|(_, c)| c.abs() >= FAINT) {
-            safe = safe.min(0.5 * math::powf(room / c.abs(), 1.0 / k as f64));
-        }
-        step = step.max(safe);
-    }
-    step
-}
-
-/// The time in which no term of a series exceeds `far`.
-fn moving(far: f64, u: &[f64]) -> f64 {
-    let mut shortest = f64::INFINITY;
-    for (k, c) in u.iter().enumerate().skip(1) {
-        let bound = math::powf(far / c.abs(), 1.0 / k as f64);
-        if bound.is_finite() {
-            shortest = shortest.min(bound);
-        }
-    }
-    shortest
 }
 
 /// The series of the coordinates and rates.
@@ -331,64 +286,10 @@ fn largest(logs: &[f64], own: f64, reciprocals: &[f64], shares: &[f64]) -> f64 {
     last.chain(most).fold(f64::NEG_INFINITY, larger)
 }
 
-/// The natural logarithms of the absolute values, to four digits or so. Returns whether all are
-/// finite.
-struct Logarithms<'a> {
-    of: &'a [f64],
-    logs: &'a mut [f64; ROOM],
-}
-
-impl Kernel for Logarithms<'_> {
-    type Output = bool;
-
-    #[inline(always)]
-    fn run<const FUSED: bool>(self) -> bool {
-        let mut finite = true;
-        let (chunks, rest) = self.of.as_chunks::<LANES>();
-        let mut last = [0.0; LANES];
-        last[..rest.len()].copy_from_slice(rest);
-        let places = self.logs.as_chunks_mut::<LANES>().0.iter_mut();
-        for (log, c) in places.zip(chunks.iter().chain([&last])) {
-            let mut x = *c;
-            for size in &mut x {
-                *size = size.abs();
-                finite &= *size < f64::INFINITY;
-            }
-            *log = rough_logarithms(x);
-        }
-        finite
-    }
-}
-
-/// The natural logarithms of positive numbers to four digits or so, by their exponents and a power
-/// series about the middle of the mantissas; −∞ for what is as good as zero. Written lane by lane,
-/// as vector instructions do it.
-#[inline(always)]
-pub(super) fn rough_logarithms<const N: usize>(x: [f64; N]) -> [f64; N] {
-    const MIDDLE: f64 = 1.5;
-    const LN_MIDDLE: f64 = 0.405_465_108_108_164_4;
-    const SHIFT: f64 = (1_u64 << 52) as f64;
-    const MANTISSA: u64 = 0x000F_FFFF_FFFF_FFFF;
-    let mut logs = [0.0; N];
-    for lane in 0..N {
-        let bits = x[lane].to_bits();
-        // in the last digits of 2⁵², since vectors of integers are not converted by one instruction
-        let exponent = f64::from_bits(SHIFT.to_bits() | (bits >> 52)) - (SHIFT + 1023.0);
-        let mantissa = f64::from_bits((bits & MANTISSA) | 0x3FF0_0000_0000_0000);
-        let t = (mantissa - MIDDLE) * (1.0 / MIDDLE);
-        let even = t * t;
-        let first = 1.0 + even * (1.0 / 3.0 + even * (0.2 + even * (1.0 / 7.0)));
-        let second = even * (0.5 + even * (0.25 + even * (1.0 / 6.0)));
-        let series = t * first - second;
-        let log = exponent * std::f64::consts::LN_2 + LN_MIDDLE + series;
-        logs[lane] = if x[lane] < FAINT { f64::NEG_INFINITY } else { log };
-    }
-    logs
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::integrate::taylor::last_orders::FAINT;
 
     /// A series whose terms grow by a factor from one to the next.
     fn geometric(ratio: f64) -> Vec<f64> {
@@ -399,14 +300,6 @@ mod tests {
     fn step_of(coefficients: &[f64], tolerance: f64) -> f64 {
         let shares = Shares::new(tolerance, coefficients.len() - 1);
         of_one::<false>(coefficients, &shares, f64::INFINITY).map_or(f64::NAN, math::exp)
-    }
-
-    #[test]
-    fn rough_logarithms_have_four_digits() {
-        for i in -2000..2000 {
-            let x = math::exp(f64::from(i) * 0.3137);
-            assert!((rough_logarithms([x; LANES])[0] - math::ln(x)).abs() < 1e-4, "{x}");
-        }
     }
 
     #[test]
@@ -494,18 +387,5 @@ mod tests {
     fn what_underflow_has_left_shortens_no_step() {
         // FAINT is far below the last digit of the largest coefficient, and above what underflows
         const { assert!(FAINT < 1e-250 && FAINT > f64::MIN_POSITIVE) }
-    }
-
-    #[test]
-    fn arguments_move_as_far_as_their_functions_stay_told() {
-        let line = |value: f64| [value, 1.0, 0.0, 0.0, 0.0];
-        let step = |function, value| of_argument(function, &line(value));
-        let near = |step: f64, wanted: f64| assert!((step / wanted - 1.0).abs() < 1e-9, "{step}");
-        near(step(FunctionId::Exp, 1.0), 6.0);
-        near(step(FunctionId::Exp, -749.0), 6.0);
-        // beyond the range of exponentials nothing changes until the argument comes back
-        near(step(FunctionId::Exp, -850.0), 50.0);
-        near(step(FunctionId::Ln, 100.0), 25.0);
-        near(step(FunctionId::Sin, 100.0), 6.0);
     }
 }

@@ -100,11 +100,15 @@ pub(super) const SPACE: SchemaTable = SchemaTable {
             "the point in the middle of the picture; else all of the motion is shown",
         ),
         key("reach", Formula, "how far the picture reaches from `follow`"),
-        key("azimuth", Number, "how far the eye is turned about z, in degrees; 30 where not given"),
+        key(
+            "azimuth",
+            Number,
+            "how far the eye is turned about z, in degrees; 30 where not given, 0 for a picture in the plane",
+        ),
         key(
             "elevation",
             Number,
-            "how high the eye stands above the plane of x and y, in degrees; 20 where not given",
+            "how high the eye stands above the plane of x and y, in degrees; 20 where not given, 90 for a picture in the plane",
         ),
     ],
 };

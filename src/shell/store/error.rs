@@ -5,10 +5,8 @@
 use std::io;
 use std::path::PathBuf;
 
+use super::PROGRAMS;
 use crate::printable;
-
-/// The maximum number of programs that store texts at the same time.
-pub(super) const PROGRAMS: u32 = 64;
 
 /// Why sessions are not stored, as a sentence for the user.
 #[derive(Debug, thiserror::Error)]

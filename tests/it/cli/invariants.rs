@@ -137,7 +137,7 @@ fn constants_are_the_same_in_any_units() {
     }
 }
 
-/// A search through a Morse potential whose numbers are no short fractions finds the symmetry under time, and makes no claim
+/// A search through a Morse potential whose numbers are not short fractions finds the symmetry under time, and makes no claim
 /// on others; with literals it says what to do.
 #[test]
 fn symmetries_of_a_law_with_long_numbers_are_searched() {
@@ -154,6 +154,6 @@ fn symmetries_of_a_law_with_long_numbers_are_searched() {
     }
     let literal = "title = \"Morse\"\n[coordinates]\nx = { initial = 1 }\n\
                    [lagrangian]\nL = \"1/2*x'^2 - 5*(1 - exp(-0.48148148148148145*x))^2\"\n";
-    let said = "a number in an angle or exponent is no short fraction: make it a parameter";
+    let said = "a number in an angle or exponent is not a short fraction: make it a parameter";
     with_file(literal, &["symmetries", "system.toml"]).fails(1, &[said]);
 }
