@@ -78,7 +78,7 @@ fn step_lines(found: &MethodStep, method: &str, within: f64) -> Vec<String> {
     let (image, derivative) = (off(found.image), off(found.derivative));
     let mut lines = vec![
         format!("{is} one step of {method}"),
-        format!("images to {image}, M to {derivative}, {} points", found.points),
+        format!("differences: {image}, in M {derivative} ({} points)", found.points),
     ];
     let [map, step] = &found.first;
     if map.len() <= ENTRIES {

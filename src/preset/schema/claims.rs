@@ -89,7 +89,11 @@ pub(in crate::preset) const EXPECTED_STEP: SchemaTable = SchemaTable {
         key("transformation", Text, "its name").needed("write transformation = \"...\""),
         key("method", Text, "the method").needed("write method = \"symplectic-euler\""),
         key("step", Formula, "its step, in parameters").needed("write step = \"h\""),
-        WITHIN,
+        key(
+            "within",
+            Number,
+            "how far image and M may be apart, in parts of their size or of 1; 1e-10 where not given",
+        ),
         SOURCE,
     ],
 };

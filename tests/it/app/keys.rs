@@ -110,7 +110,7 @@ fn states_made(place: Place) -> Vec<App> {
 /// The list of systems, with the errors of a file over it.
 fn wrong_file() -> App {
     let (mut app, _) = App::new(crate::hand::catalog(), Some("./wrong.toml"));
-    let (name, message) = ("./wrong.toml".to_owned(), "error: a mistake".to_owned());
+    let (name, message) = ("./wrong.toml".to_owned(), "error: a wrong line".to_owned());
     app.update(Event::Loaded(Err(LoadError { name, message })));
     app
 }

@@ -47,7 +47,7 @@ fn text_of(app: &App) -> String {
 fn a_wrong_file_is_edited_at_its_first_error_and_then_runs() {
     let name = "./wrong.toml";
     let (mut app, _) = App::new(catalog(), Some(name));
-    let message = "error: a mistake".to_owned();
+    let message = "error: a wrong line".to_owned();
     app.update(Event::Loaded(Err(LoadError { name: name.to_owned(), message })));
     assert!(matches!(app.overlay, Some(Overlay::Message(_))));
     assert!(text_of(&app).contains("E edit"), "the key is among the hints");
@@ -57,7 +57,7 @@ fn a_wrong_file_is_edited_at_its_first_error_and_then_runs() {
     let buffer = app.open_buffer().expect("the editor is open");
     assert_eq!(buffer.state, BufferState::Wrong);
     let line = wrong().lines().position(|line| line.contains("csc2")).unwrap();
-    assert_eq!(buffer.editor.cursor().row, line, "at the first mistake");
+    assert_eq!(buffer.editor.cursor().row, line, "at the first error");
     let text = text_of(&app);
     assert!(text.contains("1 error") && text.contains("csc2"), "{text}");
     assert!(!text.contains("last valid version"), "nothing runs yet: {text}");
@@ -80,7 +80,7 @@ fn a_wrong_file_is_edited_at_its_first_error_and_then_runs() {
 fn a_wrong_file_that_is_left_leads_back_to_the_systems() {
     let name = "./wrong.toml";
     let (mut app, _) = App::new(catalog(), Some(name));
-    let message = "error: a mistake".to_owned();
+    let message = "error: a wrong line".to_owned();
     app.update(Event::Loaded(Err(LoadError { name: name.to_owned(), message })));
     press(&mut app, "E");
     app.update(Event::FileRead { text: wrong(), asked: true });

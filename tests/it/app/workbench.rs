@@ -109,7 +109,7 @@ fn errors_stand_in_their_places_until_the_text_is_right_again() {
     let mut app = edited();
     replace(&mut app, "cos(theta)", "cos(thet)");
     assert_eq!(rest(&mut app), [], "the old system goes on");
-    let diagnostic = sheet(&app).diagnostic().expect("a mistake").clone();
+    let diagnostic = sheet(&app).diagnostic().expect("an error").clone();
     let line = &sheet(&app).editor.lines()[diagnostic.from.row];
     let word: String = line
         .chars()

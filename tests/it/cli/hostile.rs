@@ -166,7 +166,7 @@ fn the_caret_and_the_column_are_right_behind_what_is_written_out() {
     let told = String::from_utf8(output.stderr).unwrap();
     let shown = told.lines().position(|line| line.contains("\"nonsense\"")).expect("the line");
     let lines: Vec<&str> = told.lines().collect();
-    let place = lines.iter().rposition(|line| line.contains("`nonsense`")).expect("the mistake");
+    let place = lines.iter().rposition(|line| line.contains("`nonsense`")).expect("the error");
     let line = lines[place..].iter().position(|l| l.contains("\"nonsense\"")).unwrap() + place;
     assert!(shown <= line);
     let caret = lines[line + 1].find('^').unwrap();

@@ -56,7 +56,7 @@ fn a_derivation_ends_soon_after_it_is_cancelled() {
 #[test]
 fn a_cancelled_pool_grows_no_more() {
     let cancel = Cancel::new();
-    let mut pool = chain(4).read_with(&cancel).expect("it has no mistake").model.pool;
+    let mut pool = chain(4).read_with(&cancel).expect("it has no error").model.pool;
     let known = pool.named("a1");
     let next = pool.named("one more").index();
     cancel.cancel();

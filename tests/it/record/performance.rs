@@ -27,7 +27,7 @@ fn watched(
     let mut screen = Buffer::empty(Rect::new(0, 0, 90, 28));
     let mut more = true;
     for time in times {
-        more = it.go_on(time).expect("no mistakes");
+        more = it.go_on(time).expect("no errors");
         screen.reset();
         it.draw(look, screen.area, &mut screen);
     }
@@ -56,7 +56,7 @@ fn captions_are_broken_where_the_screen_is_narrow() {
     let long =
         "The separatrix leads to the top and never arrives; a little faster, and it goes over";
     let (mut it, look) = performance(&format!("Size 110x30\nCaption \"{long}\"\nWait 1s"));
-    it.go_on(0).expect("no mistakes");
+    it.go_on(0).expect("no errors");
     let mut screen = Buffer::empty(Rect::new(0, 0, 60, 24));
     it.draw(&look, screen.area, &mut screen);
     let row = |y: u16| (0..60).map(|x| screen[(x, y)].symbol()).collect::<String>();
@@ -70,7 +70,7 @@ fn a_screen_of_no_size_is_none_of_its_business() {
         let (mut it, look) = performance(SCRIPT);
         let mut screen = Buffer::empty(Rect::new(0, 0, width, height));
         for time in [0, 300_000] {
-            it.go_on(time).expect("no mistakes");
+            it.go_on(time).expect("no errors");
             it.draw(&look, screen.area, &mut screen);
         }
     }

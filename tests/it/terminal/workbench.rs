@@ -72,7 +72,7 @@ fn a_file_saved_elsewhere_is_taken_up_and_errors_do_not_stop_the_motion() {
     fs::write(&place, right).expect("it can be written");
     lab.shows("Another name");
     lab.shows("rebuilt in");
-    lab.until("the mistake is forgotten", |lab| {
+    lab.until("the error is forgotten", |lab| {
         !lab.text().contains("still running the last valid version")
     });
     let text = fs::read_to_string(&place).expect("it is there");
