@@ -30,6 +30,7 @@ mod sampling;
 mod splitting;
 mod splitting_batch;
 mod stability;
+mod stage_lanes;
 mod step_block;
 mod stepper;
 mod symplectic_euler;

@@ -8,6 +8,7 @@
 //! matrix of `f64`, [`gauss`] the nodes of a quadrature. Never here: expressions, units, files.
 
 mod batch;
+mod batch_double;
 mod compensated;
 mod convolution;
 mod double_double;
@@ -24,6 +25,7 @@ mod quadrature;
 mod real;
 
 pub use batch::{BATCH, Batch};
+pub use batch_double::BatchDouble;
 pub use compensated::accumulate;
 pub use double_double::DoubleDouble;
 pub use eigenvalues::eigenvalues;

@@ -19,6 +19,7 @@
 use super::fixed::Scheme;
 use super::method::{Method, MethodError};
 use super::roundoff;
+use super::stage_lanes::StageLanes;
 use super::tableau::Tableau;
 use crate::num::{DoubleDouble, Kernel, vectorized};
 use crate::system::{Form, MotionError, MotionErrorKind, Rates, State, System};
@@ -28,19 +29,19 @@ const PASSES: usize = 120;
 
 /// A number counts as moving by rounding alone only if it moves by less than this part of its size
 /// …
-const SMALL: f64 = 1e-9;
+pub(super) const SMALL: f64 = 1e-9;
 
 /// … or, checked after every so many passes, by less than this multiple of the rounding of its
 /// rate.
-const PATIENCE: usize = 12;
-const ROUNDINGS: f64 = 64.0;
+pub(super) const PATIENCE: usize = 12;
+pub(super) const ROUNDINGS: f64 = 64.0;
 
 /// A number that has come to rest moves on if it moves by more than this multiple of what it moved
 /// by then, or of its last digit.
-const RESTLESS: f64 = 4.0;
+pub(super) const RESTLESS: f64 = 4.0;
 
 /// The bound of a number that has not come to rest.
-const AFOOT: f64 = -1.0;
+pub(super) const AFOOT: f64 = -1.0;
 
 /// Checks that the method has the properties it is chosen for.
 pub(super) fn fits(method: &Method, system: &System) -> Result<(), MethodError> {
@@ -73,16 +74,26 @@ pub(super) struct Implicit {
     noise: Vec<f64>,
     sizes: Vec<f64>,
     scratch: Vec<f64>,
+    /// The stages side by side, where they may be, and whether the last step was taken there.
+    lanes: Option<Box<StageLanes>>,
+    in_lanes: bool,
 }
 
 impl Implicit {
     pub(super) fn new(system: &System, tableau: Tableau) -> Implicit {
+        Implicit::with_held(system, tableau, vec![false; system.state_len()])
+    }
+
+    fn with_held(system: &System, tableau: Tableau, held: Vec<bool>) -> Implicit {
         let (s, n) = (tableau.nodes.len(), system.state_len());
         let zeros = vec![0.0; s * n];
+        let rates = system.canonical_rates();
         Implicit {
-            rates: system.canonical_rates(),
+            lanes: StageLanes::new(&rates, &tableau, &held).map(Box::new),
+            in_lanes: false,
+            rates,
             tableau,
-            held: vec![false; n],
+            held,
             slopes: zeros.clone(),
             contiguous: false,
             stages: zeros.clone(),
@@ -98,14 +109,13 @@ impl Implicit {
 
     /// The same, partitioned: the momenta, and those of tangent vectors, alone move to the stages.
     pub(super) fn partitioned(system: &System, tableau: Tableau) -> Implicit {
-        let mut scheme = Implicit::new(system, tableau);
-        scheme.held.fill(true);
+        let mut held = vec![true; system.state_len()];
         let (degrees, moving) = (system.degrees(), system.moving());
         let vectors = (0..system.tangents()).map(|vector| system.tangent_place(vector));
         for first in std::iter::once(0).chain(vectors) {
-            scheme.held[first + degrees..first + moving].fill(false);
+            held[first + degrees..first + moving].fill(false);
         }
-        scheme
+        Implicit::with_held(system, tableau, held)
     }
 
     /// The initial slopes: the extrapolated polynomial of the last step, or else the slope at the
@@ -176,16 +186,64 @@ impl Implicit {
         }
     }
 
+    /// Takes a step with all stages side by side. Returns false, with the state unchanged, where they have to be computed
+    /// one by one: where there are no lanes, where numbers are not finite, where the iteration does not converge.
+    fn advance_in_lanes(&mut self, step: f64, state: &mut State) -> Result<bool, MotionError> {
+        let Some(mut lanes) = self.lanes.take_if(|lanes| lanes.suit()) else { return Ok(false) };
+        let outcome = self.advance_by(&mut lanes, step, state);
+        self.lanes = Some(lanes);
+        outcome
+    }
+
+    fn advance_by(
+        &mut self,
+        lanes: &mut StageLanes,
+        step: f64,
+        state: &mut State,
+    ) -> Result<bool, MotionError> {
+        if self.contiguous && !self.in_lanes {
+            return Ok(false);
+        }
+        self.noise.fill(0.0);
+        lanes.begin(step, state, self.contiguous);
+        let n = state.values.len();
+        for first in (0..PASSES).step_by(PATIENCE) {
+            self.check_cancelled(state)?;
+            if lanes.passes(first, step, state, &self.noise) {
+                if !lanes.end(step, state) {
+                    break;
+                }
+                (self.contiguous, self.in_lanes) = (true, true);
+                return Ok(true);
+            }
+            if !lanes.are_finite() {
+                break;
+            }
+            lanes.write_first_stage(&mut self.stages[..n], &mut self.slopes[..n]);
+            self.estimate_roundoff(step, state);
+        }
+        if self.contiguous {
+            lanes.write_slopes_before(&mut self.slopes);
+        }
+        self.in_lanes = false;
+        Ok(false)
+    }
+
+    fn check_cancelled(&self, state: &State) -> Result<(), MotionError> {
+        if self.rates.system().cancel().is_cancelled() {
+            let kind = MotionErrorKind::Cancelled;
+            return Err(self.rates.system().fault(kind, state.time, &state.values));
+        }
+        Ok(())
+    }
+
     fn solve(&mut self, step: f64, state: &State) -> Result<(), MotionError> {
         self.noise.fill(0.0);
         self.resting.fill(AFOOT);
         self.largest = [f64::INFINITY; 2];
         self.place(step, state);
         for count in 1..=PASSES {
-            if self.rates.system().cancel().is_cancelled() {
-                let kind = MotionErrorKind::Cancelled;
-                return Err(self.rates.system().fault(kind, state.time, &state.values));
-            }
+            self.check_cancelled(state)?;
             match self.pass(count - 1, step, state) {
                 Ok(true) => return Ok(()),
                 Ok(false) => {}
@@ -217,6 +275,9 @@ impl Scheme for Implicit {
 
     fn begin(&mut self, parameters: &[f64]) {
         self.rates.set_parameters(parameters);
+        if let Some(lanes) = &mut self.lanes {
+            lanes.set_parameters(&self.rates);
+        }
         self.contiguous = false;
     }
 
@@ -237,6 +298,9 @@ impl Scheme for Implicit {
     }
 
     fn advance(&mut self, step: f64, state: &mut State) -> Result<(), MotionError> {
+        if self.advance_in_lanes(step, state)? {
+            return Ok(());
+        }
         self.guess(state)?;
         self.contiguous = false;
         self.solve(step, state)?;

@@ -1,4 +1,4 @@
-//! The same number of several orbits, side by side.
+//! The same number of several orbits, or of several stages of a step, side by side.
 //!
 //! In and out: [`Batch`]es. Each operation does in every lane what it does with one `f64`, bit for
 //! bit, so that an orbit does not depend on its neighbours; the simple ones become vector
@@ -14,84 +14,84 @@ use super::real::{Analytic, Real};
 /// The number of orbits side by side.
 pub const BATCH: usize = 8;
 
-/// One number of each of [`BATCH`] orbits.
+/// One number of each of [`BATCH`] orbits, or of as many lanes as are said.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[repr(align(64))]
-pub struct Batch(pub [f64; BATCH]);
+pub struct Batch<const N: usize = BATCH>(pub [f64; N]);
 
 /// An operation on each lane by itself. A loop becomes vector instructions where the combinators of
 /// arrays, or a closure, may not be inlined.
 macro_rules! lanes {
     ($lane:ident => $x:expr) => {{
-        let mut lanes = [0.0; BATCH];
-        for $lane in 0..BATCH {
+        let mut lanes = [0.0; N];
+        for $lane in 0..N {
             lanes[$lane] = $x;
         }
         Batch(lanes)
     }};
 }
 
-impl Batch {
+impl<const N: usize> Batch<N> {
     /// The same number in every lane.
     #[inline(always)]
-    pub fn splat(x: f64) -> Batch {
-        Batch([x; BATCH])
+    pub fn splat(x: f64) -> Batch<N> {
+        Batch([x; N])
     }
 
     /// The absolute values.
     #[inline(always)]
     #[must_use]
-    pub fn abs(self) -> Batch {
+    pub fn abs(self) -> Batch<N> {
         lanes!(i => self.0[i].abs())
     }
 
     /// The larger of two numbers in each lane, the first where the second is NaN.
     #[inline(always)]
     #[must_use]
-    pub fn larger(self, other: Batch) -> Batch {
+    pub fn larger(self, other: Batch<N>) -> Batch<N> {
         lanes!(i => if other.0[i] > self.0[i] { other.0[i] } else { self.0[i] })
     }
 
     /// The smaller of two numbers in each lane, the first where the second is NaN.
     #[inline(always)]
     #[must_use]
-    pub fn smaller(self, other: Batch) -> Batch {
+    pub fn smaller(self, other: Batch<N>) -> Batch<N> {
         lanes!(i => if other.0[i] < self.0[i] { other.0[i] } else { self.0[i] })
     }
 
     /// `a` where this is the number `x`, else `b`.
     #[inline(always)]
     #[must_use]
-    pub fn where_equal(self, x: f64, a: Batch, b: Batch) -> Batch {
+    pub fn where_equal(self, x: f64, a: Batch<N>, b: Batch<N>) -> Batch<N> {
         lanes!(i => if self.0[i] == x { a.0[i] } else { b.0[i] })
     }
 
     /// `a` where this is below `x`, else `b`.
     #[inline(always)]
     #[must_use]
-    pub fn where_below(self, x: f64, a: Batch, b: Batch) -> Batch {
+    pub fn where_below(self, x: f64, a: Batch<N>, b: Batch<N>) -> Batch<N> {
         lanes!(i => if self.0[i] < x { a.0[i] } else { b.0[i] })
     }
 
     /// One where this is at most another number, else zero.
     #[inline(always)]
     #[must_use]
-    pub fn is_at_most(self, other: Batch) -> Batch {
+    pub fn is_at_most(self, other: Batch<N>) -> Batch<N> {
         lanes!(i => if self.0[i] <= other.0[i] { 1.0 } else { 0.0 })
     }
 
     /// One where this is above another number, else zero.
     #[inline(always)]
     #[must_use]
-    pub fn is_above(self, other: Batch) -> Batch {
+    pub fn is_above(self, other: Batch<N>) -> Batch<N> {
         lanes!(i => if self.0[i] > other.0[i] { 1.0 } else { 0.0 })
     }
 
     /// Whether no number is below that of another batch in its lane; NaN is.
     #[inline(always)]
-    pub fn all_reach(self, other: Batch) -> bool {
+    pub fn all_reach(self, other: Batch<N>) -> bool {
         let mut all = true;
-        for lane in 0..BATCH {
+        for lane in 0..N {
             all &= self.0[lane] >= other.0[lane];
         }
         all
@@ -99,7 +99,7 @@ impl Batch {
 
     /// The sum and its rounding error: [`DoubleDouble::sum`] in each lane.
     #[inline(always)]
-    pub fn sum_with_error(self, other: Batch) -> (Batch, Batch) {
+    pub fn sum_with_error(self, other: Batch<N>) -> (Batch<N>, Batch<N>) {
         let sum = self + other;
         let part = sum - self;
         (sum, (self - (sum - part)) + (other - part))
@@ -107,21 +107,21 @@ impl Batch {
 
     /// The product and its rounding error: that of [`DoubleDouble`] in each lane.
     #[inline(always)]
-    pub fn product_with_error<const FUSED: bool>(self, other: Batch) -> (Batch, Batch) {
+    pub fn product_with_error<const FUSED: bool>(self, other: Batch<N>) -> (Batch<N>, Batch<N>) {
         let product = self * other;
         let error = lanes!(i => DoubleDouble::product_by::<FUSED>(self.0[i], other.0[i]).low);
         (product, error)
     }
 
-    fn each(self, f: impl Fn(f64) -> f64) -> Batch {
+    fn each(self, f: impl Fn(f64) -> f64) -> Batch<N> {
         Batch(self.0.map(f))
     }
 
-    fn with(self, other: Batch, f: impl Fn(f64, f64) -> f64) -> Batch {
+    fn with(self, other: Batch<N>, f: impl Fn(f64, f64) -> f64) -> Batch<N> {
         lanes!(i => f(self.0[i], other.0[i]))
     }
 
-    fn pairs(self, f: impl Fn(f64) -> (f64, f64)) -> (Batch, Batch) {
+    fn pairs(self, f: impl Fn(f64) -> (f64, f64)) -> (Batch<N>, Batch<N>) {
         let pairs = self.0.map(f);
         (Batch(pairs.map(|pair| pair.0)), Batch(pairs.map(|pair| pair.1)))
     }
@@ -129,10 +129,10 @@ impl Batch {
 
 macro_rules! operator {
     ($operator:ident, $name:ident, $sign:tt) => {
-        impl $operator for Batch {
-            type Output = Batch;
+        impl<const N: usize> $operator for Batch<N> {
+            type Output = Batch<N>;
             #[inline(always)]
-            fn $name(self, other: Batch) -> Batch {
+            fn $name(self, other: Batch<N>) -> Batch<N> {
                 lanes!(i => self.0[i] $sign other.0[i])
             }
         }
@@ -144,82 +144,82 @@ operator!(Sub, sub, -);
 operator!(Mul, mul, *);
 operator!(Div, div, /);
 
-impl Neg for Batch {
-    type Output = Batch;
+impl<const N: usize> Neg for Batch<N> {
+    type Output = Batch<N>;
     #[inline(always)]
-    fn neg(self) -> Batch {
+    fn neg(self) -> Batch<N> {
         lanes!(i => -self.0[i])
     }
 }
 
-impl Add<f64> for Batch {
-    type Output = Batch;
+impl<const N: usize> Add<f64> for Batch<N> {
+    type Output = Batch<N>;
     #[inline(always)]
-    fn add(self, other: f64) -> Batch {
+    fn add(self, other: f64) -> Batch<N> {
         lanes!(i => self.0[i] + other)
     }
 }
 
-impl Mul<f64> for Batch {
-    type Output = Batch;
+impl<const N: usize> Mul<f64> for Batch<N> {
+    type Output = Batch<N>;
     #[inline(always)]
-    fn mul(self, factor: f64) -> Batch {
+    fn mul(self, factor: f64) -> Batch<N> {
         lanes!(i => self.0[i] * factor)
     }
 }
 
-impl Div<f64> for Batch {
-    type Output = Batch;
+impl<const N: usize> Div<f64> for Batch<N> {
+    type Output = Batch<N>;
     #[inline(always)]
-    fn div(self, divisor: f64) -> Batch {
+    fn div(self, divisor: f64) -> Batch<N> {
         lanes!(i => self.0[i] / divisor)
     }
 }
 
-impl Analytic for Batch {
-    const ZERO: Batch = Batch([0.0; BATCH]);
-    const ONE: Batch = Batch([1.0; BATCH]);
+impl<const N: usize> Analytic for Batch<N> {
+    const ZERO: Batch<N> = Batch([0.0; N]);
+    const ONE: Batch<N> = Batch([1.0; N]);
     const OF_SEVERAL: bool = true;
-    type Unit = Batch;
-    type Lanes = [f64; BATCH];
-    const ZEROS: [f64; BATCH] = [0.0; BATCH];
+    type Unit = Batch<N>;
+    type Lanes = [f64; N];
+    const ZEROS: [f64; N] = [0.0; N];
     const SIDE: usize = 1;
 
-    fn of(x: DoubleDouble) -> Batch {
+    fn of(x: DoubleDouble) -> Batch<N> {
         Batch::splat(x.high)
     }
 
     #[inline(always)]
-    fn scaled(self, power_of_two: Batch) -> Batch {
+    fn scaled(self, power_of_two: Batch<N>) -> Batch<N> {
         self * power_of_two
     }
 
     #[inline(always)]
-    fn side_by_side(number: impl Fn(usize) -> Batch) -> [f64; BATCH] {
+    fn side_by_side(number: impl Fn(usize) -> Batch<N>) -> [f64; N] {
         number(0).0
     }
 
     #[inline(always)]
     fn inner_products<const FUSED: bool>(
-        left: &[[f64; BATCH]],
-        right: &[[f64; BATCH]],
-        out: &mut [Batch],
+        left: &[[f64; N]],
+        right: &[[f64; N]],
+        out: &mut [Batch<N>],
     ) {
         out[0] = Batch(InnerProducts { left, right }.run::<FUSED>());
     }
 
     #[inline(always)]
-    fn where_positive(self, a: Batch, b: Batch) -> Batch {
+    fn where_positive(self, a: Batch<N>, b: Batch<N>) -> Batch<N> {
         lanes!(i => if self.0[i] > 0.0 { a.0[i] } else { b.0[i] })
     }
 
-    fn unless_vanishing(self, series: impl Iterator<Item = Batch>) -> Batch {
-        let mut vanishing = [true; BATCH];
+    fn unless_vanishing(self, series: impl Iterator<Item = Batch<N>>) -> Batch<N> {
+        let mut vanishing = [true; N];
         for term in series {
             for (vanishing, x) in vanishing.iter_mut().zip(term.0) {
                 *vanishing &= x == 0.0;
             }
-            if vanishing == [false; BATCH] {
+            if vanishing == [false; N] {
                 return self;
             }
         }
@@ -227,51 +227,51 @@ impl Analytic for Batch {
     }
 
     #[inline(always)]
-    fn sqrt(self) -> Batch {
+    fn sqrt(self) -> Batch<N> {
         lanes!(i => self.0[i].sqrt())
     }
 
-    fn exp(self) -> Batch {
+    fn exp(self) -> Batch<N> {
         self.each(Analytic::exp)
     }
 
-    fn ln(self) -> Batch {
+    fn ln(self) -> Batch<N> {
         self.each(Analytic::ln)
     }
 
-    fn sin_cos(self) -> (Batch, Batch) {
+    fn sin_cos(self) -> (Batch<N>, Batch<N>) {
         self.pairs(Analytic::sin_cos)
     }
 
-    fn tan(self) -> Batch {
+    fn tan(self) -> Batch<N> {
         self.each(Analytic::tan)
     }
 
-    fn sinh_cosh(self) -> (Batch, Batch) {
+    fn sinh_cosh(self) -> (Batch<N>, Batch<N>) {
         self.pairs(Analytic::sinh_cosh)
     }
 
-    fn tanh(self) -> Batch {
+    fn tanh(self) -> Batch<N> {
         self.each(Analytic::tanh)
     }
 
-    fn atan2(self, x: Batch) -> Batch {
+    fn atan2(self, x: Batch<N>) -> Batch<N> {
         self.with(x, Analytic::atan2)
     }
 
-    fn asin(self) -> Batch {
+    fn asin(self) -> Batch<N> {
         self.each(Analytic::asin)
     }
 
-    fn acos(self) -> Batch {
+    fn acos(self) -> Batch<N> {
         self.each(Analytic::acos)
     }
 
-    fn power(self, exponent: DoubleDouble) -> Batch {
+    fn power(self, exponent: DoubleDouble) -> Batch<N> {
         self.each(|x| x.power(exponent))
     }
 
-    fn raised(self, exponent: Batch) -> Batch {
+    fn raised(self, exponent: Batch<N>) -> Batch<N> {
         self.with(exponent, |x, exponent| x.power(exponent.double()))
     }
 }

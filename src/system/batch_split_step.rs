@@ -38,7 +38,7 @@ impl System {
         }
         let stages = StageList::new(&drift, &kick, weights)?;
         Some(BatchSplitStep {
-            registers: Registers::of(&stages),
+            registers: Registers::of(&stages.map),
             stages,
             halves: [drift, kick],
             before: vec![[Batch::ZERO; 2]; self.state_len()],
@@ -54,9 +54,9 @@ impl BatchSplitStep {
         for half in &mut self.halves {
             half.set_parameters(parameters);
         }
-        for &(half, operation, to) in &self.stages.fixed {
+        for &(half, operation, to) in &self.stages.map.fixed {
             self.registers.values[usize::from(to)].0[lane] =
-                self.halves[half as usize].values.register(operation);
+                self.halves[usize::from(half)].values.register(operation);
         }
         self.halves.iter().all(|half| half.values.is_ordinary())
     }
@@ -71,7 +71,7 @@ impl BatchSplitStep {
     /// Sets the numbers of a lane.
     pub fn set_state(&mut self, lane: usize, state: &State) {
         let numbers = state.values.iter().zip(&state.carry);
-        for (&place, (&value, &carry)) in self.stages.numbers.iter().zip(numbers) {
+        for (&place, (&value, &carry)) in self.stages.map.numbers.iter().zip(numbers) {
             self.registers.values[usize::from(place)].0[lane] = value;
             self.registers.carries[usize::from(place)].0[lane] = carry;
         }
@@ -81,7 +81,7 @@ impl BatchSplitStep {
     pub fn advance(&mut self, count: u64) {
         let BatchSplitStep { stages, registers, before, .. } = self;
         let mut keep = |registers: &Registers<Batch>| {
-            for (before, &place) in before.iter_mut().zip(&stages.numbers) {
+            for (before, &place) in before.iter_mut().zip(&stages.map.numbers) {
                 let place = usize::from(place);
                 *before = [registers.values[place], registers.carries[place]];
             }
@@ -100,7 +100,7 @@ impl BatchSplitStep {
     /// Whether the numbers of each lane are finite.
     pub fn are_finite(&self) -> [bool; BATCH] {
         let mut sum = Batch::ZERO;
-        for &place in &self.stages.numbers {
+        for &place in &self.stages.map.numbers {
             let place = usize::from(place);
             // zero times anything that is not finite is NaN
             sum = sum + (self.registers.values[place] + self.registers.carries[place]) * 0.0;
@@ -112,7 +112,7 @@ impl BatchSplitStep {
     pub fn write(&self, lane: usize, out: &mut State, before: &mut State) {
         let lane = lane % BATCH;
         let numbers = out.values.iter_mut().zip(&mut out.carry);
-        for (&place, (value, carry)) in self.stages.numbers.iter().zip(numbers) {
+        for (&place, (value, carry)) in self.stages.map.numbers.iter().zip(numbers) {
             *value = self.registers.values[usize::from(place)].0[lane];
             *carry = self.registers.carries[usize::from(place)].0[lane];
         }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::kink_sides::KinkSides;
 use super::legendre::{Legendre, LegendreError};
 use super::program::Program;
+use super::rates_list::RatesList;
 use super::separability::NotSeparable;
 use super::value::Evaluator;
 use super::{Form, MotionError, State, System};
@@ -20,6 +21,11 @@ pub struct Rates {
     pub(super) places: Vec<usize>,
     pub(super) program: Arc<Program>,
     pub(super) values: Evaluator<f64>,
+    /// The same program as a list, once parameters are set, unless it is none.
+    list: Option<Box<RatesList<f64>>>,
+    is_lowered: bool,
+    /// Whether the last evaluation was by the list.
+    by_list: bool,
     /// Finds the velocities, if the program needs them and the state has momenta.
     solver: Option<Solver>,
 }
@@ -101,6 +107,9 @@ impl Rates {
             places,
             values: Evaluator::new(Arc::clone(program)),
             program: Arc::clone(program),
+            list: None,
+            is_lowered: false,
+            by_list: false,
             solver: None,
         }
     }
@@ -109,6 +118,14 @@ impl Rates {
     pub fn set_parameters(&mut self, parameters: &[f64]) {
         let parameters = self.system.inputs(parameters);
         self.values.set_parameters(&parameters);
+        if !self.is_lowered {
+            self.is_lowered = true;
+            self.list = RatesList::new(self).map(Box::new);
+        }
+        if let Some(mut list) = self.list.take() {
+            list.set_parameters(self);
+            self.list = Some(list);
+        }
         if let Some(solver) = &mut self.solver {
             solver.legendre.set_parameters(&parameters);
             solver.under_way = false;
@@ -139,13 +156,23 @@ impl Rates {
         self.form
     }
 
+    /// Whether they are a function of the numbers of a state alone, without velocities to be solved for.
+    pub(super) fn is_direct(&self) -> bool {
+        self.solver.is_none()
+    }
+
     /// The system.
     pub fn system(&self) -> &System {
         &self.system
     }
 
     /// On which side of each kink the rates were last evaluated.
-    pub fn sides(&self) -> KinkSides {
+    pub fn sides(&mut self) -> KinkSides {
+        if let (true, Some(list)) = (std::mem::take(&mut self.by_list), &mut self.list) {
+            let numbers: Vec<f64> = (0..self.program.inputs()).map(|i| *list.number(i)).collect();
+            let outcome = self.values.evaluate(list.time(), &numbers);
+            debug_assert!(outcome.is_ok(), "a list solves no equations");
+        }
         self.values.sides()
     }
 
@@ -168,6 +195,13 @@ impl Rates {
                 &solver.rounded
             }
         };
+        self.by_list = match &mut self.list {
+            Some(list) if list.suits() => evaluate_by(list, time, inputs, &self.places, out),
+            _ => false,
+        };
+        if self.by_list {
+            return Ok(());
+        }
         self.values
             .evaluate(time, inputs)
             .map_err(|singular| self.system.singular(&self.program, singular, time, numbers))?;
@@ -176,6 +210,27 @@ impl Rates {
         }
         Ok(())
     }
+}
+
+/// Writes the rates of a list into `out`. Returns false where one of them is not finite.
+fn evaluate_by(
+    list: &mut RatesList<f64>,
+    time: f64,
+    numbers: &[f64],
+    places: &[usize],
+    out: &mut [f64],
+) -> bool {
+    for (i, &x) in numbers.iter().enumerate() {
+        *list.number(i) = x;
+    }
+    list.set_time(time);
+    list.evaluate();
+    let mut is_finite = true;
+    for (&place, &rate) in places.iter().zip(list.rates()) {
+        is_finite &= rate.is_finite();
+        out[place] = rate;
+    }
+    is_finite
 }
 
 impl Solver {

@@ -26,7 +26,7 @@ impl SplitStep {
     /// where they are no list.
     pub fn new(drift: &Rates, kick: &Rates, weights: &[f64]) -> Option<SplitStep> {
         let stages = StageList::new(drift, kick, weights)?;
-        let registers = Registers::of(&stages);
+        let registers = Registers::of(&stages.map);
         let halves = [drift.clone(), kick.clone()];
         Some(SplitStep { halves, stages, registers, suits: false })
     }
@@ -37,9 +37,9 @@ impl SplitStep {
             half.set_parameters(parameters);
         }
         self.suits = self.halves.iter().all(|half| half.values.is_ordinary());
-        for &(half, operation, to) in &self.stages.fixed {
+        for &(half, operation, to) in &self.stages.map.fixed {
             self.registers.values[usize::from(to)] =
-                self.halves[half as usize].values.register(operation);
+                self.halves[usize::from(half)].values.register(operation);
         }
     }
 
@@ -100,23 +100,23 @@ impl SplitStep {
         }
         let SplitStep { stages, registers, .. } = self;
         let numbers = state.values.iter().zip(&state.carry);
-        for (&place, (&value, &carry)) in stages.numbers.iter().zip(numbers) {
+        for (&place, (&value, &carry)) in stages.map.numbers.iter().zip(numbers) {
             registers.values[usize::from(place)] = value;
             registers.carries[usize::from(place)] = carry;
         }
         for (factor, x) in registers.factors.iter_mut().zip(stages.factors(step)) {
             *factor = x;
         }
-        let seen = |done, registers: &_| seen(done, registers, &stages.numbers);
+        let seen = |done, registers: &_| seen(done, registers, &stages.map.numbers);
         vectorized(Steps { registers, stages, count, from, seen });
         // what is not finite stays so
         let finite = |&place: &u8| {
             let place = usize::from(place);
             registers.values[place].is_finite() && registers.carries[place].is_finite()
         };
-        let is_finite = stages.numbers.iter().all(finite);
+        let is_finite = stages.map.numbers.iter().all(finite);
         if is_finite {
-            copy_out(registers, &stages.numbers, state);
+            copy_out(registers, &stages.map.numbers, state);
         }
         is_finite
     }

@@ -1,10 +1,12 @@
-//! Runs the instructions of a [`StageList`] on the numbers of one orbit, or of several at once.
+//! Runs instructions on the numbers of one orbit, or of several at once, and those of a [`StageList`] many times.
 //!
 //! In: instructions, registers. Out: registers after many steps, with the bits that single steps
 //! give. Never here: which steps, numbers that leave the range of `f64`.
 
+use super::instruction::{CHUNK, Instruction, Moved, REGISTERS};
 use super::program::Register;
-use super::stage_list::{CHUNK, Half, Instruction, Moved, REGISTERS, StageList};
+use super::register_map::RegisterMap;
+use super::stage_list::StageList;
 use super::value::value_of;
 use crate::num::{Analytic, Batch, Kernel};
 
@@ -26,11 +28,11 @@ impl StageNumber for f64 {
     }
 }
 
-impl StageNumber for Batch {
+impl<const N: usize> StageNumber for Batch<N> {
     const BY_CHUNKS: bool = false;
 
     #[inline(always)]
-    fn where_moving(self, moved: Batch, unmoved: Batch) -> Batch {
+    fn where_moving(self, moved: Batch<N>, unmoved: Batch<N>) -> Batch<N> {
         self.where_equal(0.0, unmoved, moved)
     }
 }
@@ -47,28 +49,28 @@ pub(super) struct Registers<R> {
 
 impl<R: StageNumber> Registers<R> {
     /// The registers of a list.
-    pub(super) fn of(stages: &StageList) -> Registers<R> {
+    pub(super) fn of(map: &RegisterMap) -> Registers<R> {
         let zeros = || Box::new([R::ZERO; REGISTERS]);
         let mut registers = Registers { values: zeros(), carries: zeros(), factors: zeros() };
-        registers.values[usize::from(stages.one)] = R::ONE;
+        registers.values[usize::from(map.one)] = R::ONE;
         registers
     }
 
     #[inline(always)]
-    fn run(&mut self, stages: &StageList, list: &[Instruction]) {
+    pub(super) fn run(&mut self, map: &RegisterMap, list: &[Instruction]) {
         let at = usize::from;
         for instruction in list {
             match *instruction {
-                Instruction::Sum1 { sum, to } => self.sum::<1, false>(stages, sum, to),
-                Instruction::Sum2 { sum, to } => self.sum::<2, false>(stages, sum, to),
-                Instruction::Sum3 { sum, to } => self.sum::<3, false>(stages, sum, to),
-                Instruction::Products1 { sum, to } => self.sum::<1, true>(stages, sum, to),
-                Instruction::Products2 { sum, to } => self.sum::<2, true>(stages, sum, to),
-                Instruction::Products3 { sum, to } => self.sum::<3, true>(stages, sum, to),
+                Instruction::Sum1 { sum, to } => self.sum::<1, false>(map, sum, to),
+                Instruction::Sum2 { sum, to } => self.sum::<2, false>(map, sum, to),
+                Instruction::Sum3 { sum, to } => self.sum::<3, false>(map, sum, to),
+                Instruction::Products1 { sum, to } => self.sum::<1, true>(map, sum, to),
+                Instruction::Products2 { sum, to } => self.sum::<2, true>(map, sum, to),
+                Instruction::Products3 { sum, to } => self.sum::<3, true>(map, sum, to),
                 Instruction::Sum { sum, to } => {
-                    self.sum::<3, true>(stages, sum, to);
+                    self.sum::<3, true>(map, sum, to);
                     let mut value = self.values[at(to)];
-                    for &(coefficient, [a, b]) in &stages.sums[at(sum)].further {
+                    for &(coefficient, [a, b]) in &map.sums[at(sum)].further {
                         value = value + self.values[at(a)] * self.values[at(b)] * coefficient;
                     }
                     self.values[at(to)] = value;
@@ -81,8 +83,8 @@ impl<R: StageNumber> Registers<R> {
                 }
                 Instruction::Root { a, to } => self.values[at(to)] = self.values[at(a)].sqrt(),
                 Instruction::Copy { a, to } => self.values[at(to)] = self.values[at(a)],
-                Instruction::Other { half, operation, to } => {
-                    self.other(stages, half, operation, to);
+                Instruction::Other { program, operation, to } => {
+                    self.other(map, program, operation, to);
                 }
                 Instruction::Move { factor, moved } => {
                     self.add([self.factors[at(factor)]], moved);
@@ -98,11 +100,11 @@ impl<R: StageNumber> Registers<R> {
     #[inline(always)]
     fn sum<const COUNT: usize, const PRODUCTS: bool>(
         &mut self,
-        stages: &StageList,
+        map: &RegisterMap,
         sum: u8,
         to: u8,
     ) {
-        let sum = &stages.sums[usize::from(sum)];
+        let sum = &map.sums[usize::from(sum)];
         let mut value = R::of(sum.constant.into());
         for k in 0..COUNT {
             let [a, b] = sum.registers[k].map(usize::from);
@@ -154,8 +156,8 @@ impl<R: StageNumber> Registers<R> {
     }
 
     #[inline(never)]
-    fn other(&mut self, stages: &StageList, half: Half, operation: Register, to: u8) {
-        let (program, places) = stages.half(half);
+    fn other(&mut self, map: &RegisterMap, program: u8, operation: Register, to: u8) {
+        let (program, places) = map.program(program);
         let get = |r: Register| self.values[usize::from(places[r as usize])];
         let op = program.ops[operation as usize];
         if let Some((value, companion)) = value_of(program, op, get) {
@@ -198,7 +200,7 @@ impl<R: StageNumber, F: FnMut(u64, &Registers<R>)> Kernel for Steps<'_, R, F> {
         let (stages, from) = (self.stages, self.from.min(self.count));
         let (mut done, mut list, mut ends) = (0, &stages.open, false);
         loop {
-            self.registers.run(stages, list);
+            self.registers.run(&stages.map, list);
             if ends {
                 (self.seen)(done, self.registers);
                 if done == self.count {

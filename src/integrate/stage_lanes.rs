@@ -1,0 +1,302 @@
+//! The stages of an implicit Runge–Kutta method side by side, a stage in each lane.
+//!
+//! In: a tableau, the rates, a state, a step. Out: the state after the step that [`Implicit`](super::implicit::Implicit)
+//! computes stage by stage, to the last bit. Never here: programs that are no list of instructions, numbers that leave
+//! the range of `f64`, iterations that do not converge: these are told apart and left to the stages one by one.
+
+use super::implicit::{AFOOT, PATIENCE, RESTLESS, ROUNDINGS, SMALL};
+use super::tableau::Tableau;
+use crate::num::{Analytic, Batch, BatchDouble, Kernel, vectorized};
+use crate::system::{Rates, STAGES, StageRates, Stages, State};
+
+/// As many numbers are moved side by side at the end of a step.
+const CHUNK: usize = 4;
+
+/// All stages of one method and system. Lanes without a stage repeat the first.
+#[derive(Clone)]
+pub(super) struct StageLanes {
+    rates: StageRates,
+    /// The index in a state of each number that moves, and of the others.
+    places: Vec<usize>,
+    others: Vec<usize>,
+    /// Whether stages may be evaluated side by side at these parameters.
+    suits: bool,
+    nodes: Stages,
+    /// The columns of a, exactly.
+    matrix: Vec<BatchDouble<STAGES>>,
+    weights: Vec<BatchDouble<CHUNK>>,
+    /// The columns of the extrapolation to the next step.
+    onward: Vec<Stages>,
+    /// Of the numbers that move, those that stay as they are at the stages of a partitioned method.
+    held: Vec<bool>,
+    iteration: Vec<Iteration>,
+    /// The slopes of the step before.
+    before: Vec<Stages>,
+    /// The largest movement of any number, in units of its size, in the last two passes.
+    largest: [f64; 2],
+}
+
+/// What the iteration remembers of one number.
+#[derive(Clone, Copy)]
+struct Iteration {
+    /// The movement in the last pass and in the one before, in turn.
+    moved: [Stages; 2],
+    /// The movement up to which the number has come to rest; negative where it has not.
+    resting: Stages,
+}
+
+const AT_FIRST: Iteration = Iteration { moved: [Stages::ZERO; 2], resting: Batch([AFOOT; STAGES]) };
+
+impl StageLanes {
+    /// `None` where there are too many stages, and where the rates are no list.
+    pub(super) fn new(rates: &Rates, tableau: &Tableau, held: &[bool]) -> Option<StageLanes> {
+        let stages = tableau.nodes.len();
+        let rates = rates.of_stages().filter(|_| stages <= STAGES)?;
+        let stage = |lane: usize| if lane < stages { lane } else { 0 };
+        let column = |j: usize| BatchDouble::each(|lane| tableau.matrix[stage(lane)][j]);
+        let onward = |j: usize| Batch(std::array::from_fn(|lane| tableau.onward[stage(lane)][j]));
+        let places = rates.places().to_vec();
+        Some(StageLanes {
+            suits: false,
+            others: (0..held.len()).filter(|i| !places.contains(i)).collect(),
+            nodes: Batch(std::array::from_fn(|lane| tableau.nodes[stage(lane)].high)),
+            matrix: (0..stages).map(column).collect(),
+            weights: tableau.weights.iter().map(|&b| BatchDouble::splat(b)).collect(),
+            onward: (0..stages).map(onward).collect(),
+            held: places.iter().map(|&i| held[i]).collect(),
+            iteration: vec![AT_FIRST; places.len()],
+            before: vec![Stages::ZERO; places.len()],
+            places,
+            largest: [f64::INFINITY; 2],
+            rates,
+        })
+    }
+
+    /// Sets the parameters to those of `rates`.
+    pub(super) fn set_parameters(&mut self, rates: &Rates) {
+        self.suits = self.rates.set_parameters(rates);
+    }
+
+    /// Whether stages may be evaluated side by side.
+    pub(super) fn suit(&self) -> bool {
+        self.suits
+    }
+
+    /// Writes the slopes of the step before, one stage after the other.
+    pub(super) fn write_slopes_before(&self, out: &mut [f64]) {
+        let n = out.len() / self.matrix.len();
+        for (stage, out) in out.chunks_exact_mut(n).enumerate() {
+            for (&i, slope) in self.places.iter().zip(&self.before) {
+                out[i] = slope.0[stage];
+            }
+        }
+    }
+
+    /// Begins a step: the stages from the slopes of the step before if this one is `contiguous`, or else from the slope
+    /// at its beginning.
+    pub(super) fn begin(&mut self, step: f64, state: &State, contiguous: bool) {
+        vectorized(Begin { lanes: self, step, state, contiguous });
+    }
+
+    /// Performs passes from the `first` one on, of which at most [`PATIENCE`]. Returns whether all numbers have converged.
+    pub(super) fn passes(&mut self, first: usize, step: f64, state: &State, noise: &[f64]) -> bool {
+        vectorized(Passes { lanes: self, first, step, state, noise })
+    }
+
+    /// Ends a step with all digits of the coefficients. Returns false, with the state unchanged, where a number is not
+    /// finite.
+    pub(super) fn end(&mut self, step: f64, state: &mut State) -> bool {
+        vectorized(End { lanes: self, step, state })
+    }
+
+    /// Whether all stages and their slopes are finite.
+    pub(super) fn are_finite(&mut self) -> bool {
+        self.rates.are_finite()
+    }
+
+    /// Writes the first stage and its slopes, of the numbers that move.
+    pub(super) fn write_first_stage(&mut self, stage: &mut [f64], slopes: &mut [f64]) {
+        let (numbers, rates) = self.rates.moving();
+        for ((&i, x), rate) in self.places.iter().zip(numbers).zip(rates) {
+            (stage[i], slopes[i]) = (x.0[0], rate.0[0]);
+        }
+    }
+}
+
+/// The stages of a number from Σ a f.
+#[inline(always)]
+fn stages_of(sum: Stages, step: f64, state: &State, i: usize) -> Stages {
+    (sum * step + state.carry[i]) + state.values[i]
+}
+
+/// Σ w f, over the stages: the columns times the slope of each stage.
+#[inline(always)]
+fn combine(columns: &[Stages], slopes: Stages) -> Stages {
+    let mut sum = columns[0] * slopes.0[0];
+    for (j, &column) in columns.iter().enumerate().skip(1) {
+        sum = sum + column * slopes.0[j];
+    }
+    sum
+}
+
+/// The same with the leading parts of the columns.
+#[inline(always)]
+fn combine_leading(columns: &[BatchDouble<STAGES>], slopes: Stages) -> Stages {
+    let mut sum = columns[0].high * slopes.0[0];
+    for (j, &column) in columns.iter().enumerate().skip(1) {
+        sum = sum + column.high * slopes.0[j];
+    }
+    sum
+}
+
+/// Begins a step.
+struct Begin<'a> {
+    lanes: &'a mut StageLanes,
+    step: f64,
+    state: &'a State,
+    contiguous: bool,
+}
+
+impl Kernel for Begin<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        let Begin { lanes, step, state, contiguous } = self;
+        let StageLanes { rates, places, others, matrix, onward, held, before, .. } = lanes;
+        if !contiguous {
+            rates.set_times(Stages::splat(state.time));
+            for &i in places.iter().chain(others.iter()) {
+                rates.set_number(i, Stages::splat(state.values[i]));
+            }
+            rates.evaluate();
+        }
+        rates.set_times(lanes.nodes * step + state.time);
+        for &i in others.iter() {
+            rates.set_number(i, Stages::splat(state.values[i] + state.carry[i]));
+        }
+        let (numbers, slopes) = rates.moving();
+        before.copy_from_slice(slopes);
+        for (k, &i) in places.iter().enumerate() {
+            numbers[k] = if held[k] {
+                Stages::splat(state.values[i])
+            } else {
+                let slope = if contiguous { combine(onward, slopes[k]) } else { slopes[k] };
+                stages_of(combine_leading(matrix, slope), step, state, i)
+            };
+        }
+        lanes.iteration.fill(AT_FIRST);
+        lanes.largest = [f64::INFINITY; 2];
+    }
+}
+
+/// Performs passes.
+struct Passes<'a> {
+    lanes: &'a mut StageLanes,
+    first: usize,
+    step: f64,
+    state: &'a State,
+    noise: &'a [f64],
+}
+
+impl Kernel for Passes<'_> {
+    /// Whether all numbers have converged.
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> bool {
+        let Passes { lanes, first, step, state, noise } = self;
+        let StageLanes { rates, places, matrix, held, iteration, .. } = lanes;
+        for count in first..first + PATIENCE {
+            rates.evaluate();
+            let (numbers, slopes) = rates.moving();
+            let (mut least_bound, mut largest) = (Stages::splat(f64::INFINITY), Stages::ZERO);
+            for (k, (&i, number)) in places.iter().zip(numbers).enumerate() {
+                let old = *number;
+                if !held[k] {
+                    *number = stages_of(combine_leading(matrix, slopes[k]), step, state, i);
+                }
+                let moved = (*number - old).abs();
+                let size = number.abs().larger((slopes[k] * step).abs());
+                let small = size * SMALL + ROUNDINGS * step.abs() * noise[i];
+                let Iteration { moved: before, resting } = &mut iteration[k];
+                // compares with two passes before, as positions and momenta may shrink alternately
+                let before = &mut before[count % 2];
+                for lane in 0..STAGES {
+                    let (moved, bound) = (moved.0[lane], resting.0[lane]);
+                    let level = count >= 2 && moved >= before.0[lane] && moved <= small.0[lane];
+                    let settled = if moved == 0.0 || level {
+                        RESTLESS * moved.max(f64::EPSILON * size.0[lane])
+                    } else {
+                        AFOOT
+                    };
+                    let rests = if moved > bound { AFOOT } else { bound };
+                    resting.0[lane] = if bound < 0.0 { settled } else { rests };
+                }
+                *before = moved;
+                least_bound = least_bound.smaller(*resting);
+                largest = largest.larger(moved / (size + f64::MIN_POSITIVE));
+            }
+            let largest = largest.0.into_iter().fold(0.0, f64::max);
+            let level = largest >= lanes.largest[0] || largest <= RESTLESS * f64::EPSILON;
+            lanes.largest = [lanes.largest[1], largest];
+            if level && least_bound.all_reach(Stages::ZERO) {
+                return true;
+            }
+        }
+        false
+    }
+}
+
+/// Ends a step.
+struct End<'a> {
+    lanes: &'a mut StageLanes,
+    step: f64,
+    state: &'a mut State,
+}
+
+impl Kernel for End<'_> {
+    /// Whether all numbers are finite.
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) -> bool {
+        let End { lanes, step, state } = self;
+        let StageLanes { rates, places, matrix, weights, held, .. } = lanes;
+        rates.evaluate();
+        let (numbers, slopes) = rates.moving();
+        for (k, &i) in places.iter().enumerate().filter(|&(k, _)| !held[k]) {
+            let mut change = BatchDouble::ZERO;
+            for (j, column) in matrix.iter().enumerate() {
+                change = change + column.times::<FUSED>(Batch::splat(slopes[k].0[j]));
+            }
+            let change = change.times::<FUSED>(Batch::splat(step));
+            numbers[k] = (BatchDouble::splat(state.exact(i)) + change).high;
+        }
+        rates.evaluate();
+        if !rates.are_finite() {
+            return false;
+        }
+        let (_, slopes) = rates.moving();
+        for (places, slopes) in places.chunks(CHUNK).zip(slopes.chunks(CHUNK)) {
+            let mut change = BatchDouble::ZERO;
+            for (j, &weight) in weights.iter().enumerate() {
+                let mut slope = Batch::ZERO;
+                for (lane, slopes) in slopes.iter().enumerate() {
+                    slope.0[lane] = slopes.0[j];
+                }
+                change = change + weight.times::<FUSED>(slope);
+            }
+            let change = change.times::<FUSED>(Batch::splat(step));
+            let mut begin = BatchDouble::ZERO;
+            for (lane, &i) in places.iter().enumerate() {
+                (begin.high.0[lane], begin.low.0[lane]) = (state.values[i], state.carry[i]);
+            }
+            let end = begin + change;
+            for (lane, &i) in places.iter().enumerate() {
+                state.set(i, end.lane(lane));
+            }
+        }
+        true
+    }
+}

@@ -1,0 +1,89 @@
+//! The rates of a motion as one straight list of instructions, for the numbers of one state or of several side by side.
+//!
+//! In: a time and the numbers of a state. Out: the rates that [`Rates`] computes operation by operation, to the last bit.
+//! Never here: programs that solve equations, numbers that leave the range of `f64`.
+
+use super::instruction::Instruction;
+use super::rates::Rates;
+use super::register_map::RegisterMap;
+use super::stage_machine::{Registers, StageNumber};
+
+/// The list of one program, with its registers.
+#[derive(Clone, Debug)]
+pub(super) struct RatesList<R> {
+    map: RegisterMap,
+    list: Vec<Instruction>,
+    registers: Registers<R>,
+    /// The register of the first rate; the others follow it in the order of the program's outputs.
+    first: usize,
+    count: usize,
+    /// Whether numbers that are finite are right at these parameters.
+    suits: bool,
+}
+
+impl<R: StageNumber> RatesList<R> {
+    /// The list of these rates. Returns `None` where their program is no list. The parameters must be set before the
+    /// first evaluation.
+    pub(super) fn new(rates: &Rates) -> Option<RatesList<R>> {
+        let others: Vec<usize> =
+            (0..rates.system().state_len()).filter(|i| !rates.places.contains(i)).collect();
+        let mut map = RegisterMap::new([&rates.places, &others], true)?;
+        let (list, moved) = map.lower(rates, [&rates.places])?;
+        let &[moved] = moved.as_slice() else { return None };
+        let registers = Registers::of(&map);
+        let (first, count) = (usize::from(moved.rate), usize::from(moved.count));
+        Some(RatesList { map, list, registers, first, count, suits: false })
+    }
+
+    /// Takes over what depends on parameters alone.
+    pub(super) fn set_parameters(&mut self, rates: &Rates) {
+        self.suits = rates.values.is_ordinary();
+        for &(_, operation, to) in &self.map.fixed {
+            self.registers.values[usize::from(to)] = R::of(rates.values.register(operation).into());
+        }
+    }
+
+    /// Whether its rates are those of the program, where they are finite.
+    pub(super) fn suits(&self) -> bool {
+        self.suits
+    }
+
+    /// Sets the time.
+    #[inline(always)]
+    pub(super) fn set_time(&mut self, time: R) {
+        if let Some(place) = self.map.time {
+            self.registers.values[usize::from(place)] = time;
+        }
+    }
+
+    /// The time of the last evaluation; zero where nothing depends on it.
+    pub(super) fn time(&self) -> R {
+        self.map.time.map_or(R::ZERO, |place| self.registers.values[usize::from(place)])
+    }
+
+    /// A number of the state.
+    #[inline(always)]
+    pub(super) fn number(&mut self, i: usize) -> &mut R {
+        &mut self.registers.values[usize::from(self.map.numbers[i])]
+    }
+
+    /// Evaluates the rates. Must be inlined into a kernel to have vector instructions.
+    #[inline(always)]
+    pub(super) fn evaluate(&mut self) {
+        self.registers.run(&self.map, &self.list);
+    }
+
+    /// The numbers that move, and their rates at the last evaluation, in the order of the program's outputs.
+    #[inline(always)]
+    pub(super) fn moving(&mut self) -> (&mut [R], &[R]) {
+        // the group that moves has the first registers
+        let (numbers, others) = self.registers.values.split_at_mut(self.first);
+        (&mut numbers[..self.count], &others[..self.count])
+    }
+
+    /// The rates of the last evaluation, in the order of the program's outputs.
+    #[inline(always)]
+    pub(super) fn rates(&self) -> &[R] {
+        &self.registers.values[self.first..self.first + self.count]
+    }
+}
