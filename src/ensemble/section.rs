@@ -8,7 +8,7 @@
 use super::Start;
 use crate::cancel::Cancel;
 use crate::expr::Expr;
-use crate::integrate::{Method, OccurrenceKind, Propagator, Reached, Settings};
+use crate::integrate::{Method, OccurrenceKind, Propagator, Reached, Settings, spacing};
 use crate::model::{Direction, Event, EventAction, Model};
 use crate::num::short;
 use crate::system::{MotionError, Observer, State, System};
@@ -88,14 +88,20 @@ impl SectionPlan {
 /// How far an orbit that begins at a time is followed at first, and a time that no step goes beyond. Where there is no end
 /// in time, no step ends early at one.
 pub(super) fn first_limit(plan: &SectionPlan, start: f64) -> (f64, f64) {
-    let target = plan.until.unwrap_or(start + FIRST_LOOK);
-    (target, plan.until.unwrap_or(target + FIRST_LOOK))
+    let target = plan.until.unwrap_or(start + look_ahead(start, FIRST_LOOK));
+    (target, plan.until.unwrap_or(target + look_ahead(target, FIRST_LOOK)))
 }
 
 /// The same for an orbit without an end in time that was followed to `target`, by a last step of this size.
 pub(super) fn next_limit(target: f64, step: f64) -> (f64, f64) {
-    let ahead = (GROWTH * step.abs()).max(FIRST_LOOK);
+    let ahead = look_ahead(target, (GROWTH * step.abs()).max(FIRST_LOOK));
     (target + ahead, target + ahead + ahead)
+}
+
+/// How far to look from a time on: `wanted`, or where times are so large that this is lost in their digits the least that
+/// is not.
+fn look_ahead(from: f64, wanted: f64) -> f64 {
+    wanted.max(2.0 * spacing(from))
 }
 
 /// An orbit that a signal has ended.

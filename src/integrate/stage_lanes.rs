@@ -133,8 +133,8 @@ fn stages_of(sum: Stages, step: f64, state: &State, i: usize) -> Stages {
 #[inline(always)]
 fn combine(columns: &[Stages], slopes: Stages) -> Stages {
     let mut sum = columns[0] * slopes.0[0];
-    for (j, &column) in columns.iter().enumerate().skip(1) {
-        sum = sum + column * slopes.0[j];
+    for j in 1..columns.len() {
+        sum = sum + columns[j] * slopes.0[j];
     }
     sum
 }
@@ -143,8 +143,8 @@ fn combine(columns: &[Stages], slopes: Stages) -> Stages {
 #[inline(always)]
 fn combine_leading(columns: &[BatchDouble<STAGES>], slopes: Stages) -> Stages {
     let mut sum = columns[0].high * slopes.0[0];
-    for (j, &column) in columns.iter().enumerate().skip(1) {
-        sum = sum + column.high * slopes.0[j];
+    for j in 1..columns.len() {
+        sum = sum + columns[j].high * slopes.0[j];
     }
     sum
 }
@@ -211,7 +211,8 @@ impl Kernel for Passes<'_> {
             rates.evaluate();
             let (numbers, slopes) = rates.moving();
             let (mut least_bound, mut largest) = (Stages::splat(f64::INFINITY), Stages::ZERO);
-            for (k, (&i, number)) in places.iter().zip(numbers).enumerate() {
+            for k in 0..places.len() {
+                let (i, number) = (places[k], &mut numbers[k]);
                 let old = *number;
                 if !held[k] {
                     *number = stages_of(combine_leading(matrix, slopes[k]), step, state, i);
@@ -222,14 +223,13 @@ impl Kernel for Passes<'_> {
                 let Iteration { moved: before, resting } = &mut iteration[k];
                 // compares with two passes before, as positions and momenta may shrink alternately
                 let before = &mut before[count % 2];
+                // choices without branches become vector instructions
                 for lane in 0..STAGES {
                     let (moved, bound) = (moved.0[lane], resting.0[lane]);
-                    let level = count >= 2 && moved >= before.0[lane] && moved <= small.0[lane];
-                    let settled = if moved == 0.0 || level {
-                        RESTLESS * moved.max(f64::EPSILON * size.0[lane])
-                    } else {
-                        AFOOT
-                    };
+                    let level = (moved >= before.0[lane]) & (moved <= small.0[lane]);
+                    let digit = f64::EPSILON * size.0[lane];
+                    let most = RESTLESS * if digit > moved { digit } else { moved };
+                    let settled = if (moved == 0.0) | level { most } else { AFOOT };
                     let rests = if moved > bound { AFOOT } else { bound };
                     resting.0[lane] = if bound < 0.0 { settled } else { rests };
                 }
@@ -237,7 +237,11 @@ impl Kernel for Passes<'_> {
                 least_bound = least_bound.smaller(*resting);
                 largest = largest.larger(moved / (size + f64::MIN_POSITIVE));
             }
-            let largest = largest.0.into_iter().fold(0.0, f64::max);
+            let mut most = 0.0;
+            for lane in 0..STAGES {
+                most = if largest.0[lane] > most { largest.0[lane] } else { most };
+            }
+            let largest = most;
             let level = largest >= lanes.largest[0] || largest <= RESTLESS * f64::EPSILON;
             lanes.largest = [lanes.largest[1], largest];
             if level && least_bound.all_reach(Stages::ZERO) {
@@ -265,13 +269,16 @@ impl Kernel for End<'_> {
         let StageLanes { rates, places, matrix, weights, held, .. } = lanes;
         rates.evaluate();
         let (numbers, slopes) = rates.moving();
-        for (k, &i) in places.iter().enumerate().filter(|&(k, _)| !held[k]) {
+        for k in 0..places.len() {
+            if held[k] {
+                continue;
+            }
             let mut change = BatchDouble::ZERO;
-            for (j, column) in matrix.iter().enumerate() {
-                change = change + column.times::<FUSED>(Batch::splat(slopes[k].0[j]));
+            for j in 0..matrix.len() {
+                change = change + matrix[j].times::<FUSED>(Batch::splat(slopes[k].0[j]));
             }
             let change = change.times::<FUSED>(Batch::splat(step));
-            numbers[k] = (BatchDouble::splat(state.exact(i)) + change).high;
+            numbers[k] = (BatchDouble::splat(state.exact(places[k])) + change).high;
         }
         rates.evaluate();
         if !rates.are_finite() {
@@ -280,12 +287,12 @@ impl Kernel for End<'_> {
         let (_, slopes) = rates.moving();
         for (places, slopes) in places.chunks(CHUNK).zip(slopes.chunks(CHUNK)) {
             let mut change = BatchDouble::ZERO;
-            for (j, &weight) in weights.iter().enumerate() {
+            for j in 0..weights.len() {
                 let mut slope = Batch::ZERO;
-                for (lane, slopes) in slopes.iter().enumerate() {
-                    slope.0[lane] = slopes.0[j];
+                for lane in 0..slopes.len() {
+                    slope.0[lane] = slopes[lane].0[j];
                 }
-                change = change + weight.times::<FUSED>(slope);
+                change = change + weights[j].times::<FUSED>(slope);
             }
             let change = change.times::<FUSED>(Batch::splat(step));
             let mut begin = BatchDouble::ZERO;

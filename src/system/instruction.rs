@@ -68,6 +68,11 @@ pub(super) enum Instruction {
         operation: Register,
         to: u8,
     },
+    /// Solves a block of equations; the unknowns are in the registers from `to` on.
+    Solve {
+        block: u8,
+        to: u8,
+    },
     /// Adds `factor · rate` to some numbers.
     Move {
         factor: u8,
@@ -106,4 +111,11 @@ pub(super) struct Sum {
     pub(super) registers: [[u8; 2]; 3],
     /// The terms after these.
     pub(super) further: Vec<(f64, [u8; 2])>,
+}
+
+/// Where the matrix, row by row, and the right-hand side of a block of equations are.
+#[derive(Clone, Debug)]
+pub(super) struct BlockPlaces {
+    pub(super) matrix: Vec<u8>,
+    pub(super) right: Vec<u8>,
 }

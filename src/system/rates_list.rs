@@ -1,7 +1,7 @@
 //! The rates of a motion as one straight list of instructions, for the numbers of one state or of several side by side.
 //!
 //! In: a time and the numbers of a state. Out: the rates that [`Rates`] computes operation by operation, to the last bit.
-//! Never here: programs that solve equations, numbers that leave the range of `f64`.
+//! Never here: matrices that are singular and numbers that leave the range of `f64`: its rates are then not finite.
 
 use super::instruction::Instruction;
 use super::rates::Rates;

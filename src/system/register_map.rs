@@ -1,12 +1,11 @@
 //! Where the operations of one or two programs lie in one file of registers, and the instructions that compute them.
 //!
 //! In: the rates of a motion, which numbers of a state move together. Out: instructions, the table of sums that they
-//! read, the registers of the numbers and of their rates. Never here: numbers, programs that solve equations: these are
-//! evaluated operation by operation.
+//! read, the registers of the numbers and of their rates. Never here: numbers.
 
 use std::sync::Arc;
 
-use super::instruction::{CHUNK, Instruction, Moved, REGISTERS, Sum};
+use super::instruction::{BlockPlaces, CHUNK, Instruction, Moved, REGISTERS, Sum};
 use super::program::{Op, Program, Register};
 use super::rates::Rates;
 
@@ -23,6 +22,8 @@ pub(super) struct RegisterMap {
     /// The register of the time, where programs may depend on it.
     pub(super) time: Option<u8>,
     pub(super) sums: Vec<Sum>,
+    /// The blocks of more than one equation.
+    pub(super) blocks: Vec<BlockPlaces>,
     /// The register that holds a one.
     pub(super) one: u8,
     /// The first register that is free.
@@ -41,6 +42,7 @@ impl RegisterMap {
             numbers: vec![0; count],
             time: None,
             sums: Vec::new(),
+            blocks: Vec::new(),
             one: 0,
             next: 0,
         };
@@ -70,8 +72,8 @@ impl RegisterMap {
     }
 
     /// The operations of a program that its outputs need, in order, and what they move: the numbers of each group, which
-    /// lie side by side. Returns `None` where it solves equations, where it depends on a time that has no register, and
-    /// where there are not enough registers.
+    /// lie side by side. Returns `None` where it depends on a time that has no register, and where there are not enough
+    /// registers.
     pub(super) fn lower<const N: usize>(
         &mut self,
         rates: &Rates,
@@ -168,7 +170,7 @@ impl RegisterMap {
         let at = |r: Register| places[r as usize];
         let to = at(operation);
         Some(match program.ops[operation as usize] {
-            Op::Time | Op::Solve(_) => return None,
+            Op::Time => return None,
             Op::Linear { constant, first, count } => {
                 let terms = &program.terms[first as usize..(first + count) as usize];
                 let one = self.one;
@@ -206,6 +208,20 @@ impl RegisterMap {
             }
             Op::Square(a) => Instruction::Multiply { a: at(a), b: at(a), to },
             Op::Divide(a, b) => Instruction::Divide { a: at(a), b: at(b), to },
+            Op::Solve(block) => {
+                let block = &program.blocks[block as usize];
+                if block.size() == 1 {
+                    return Some(Instruction::Divide {
+                        a: at(block.right[0]),
+                        b: at(block.matrix[0]),
+                        to,
+                    });
+                }
+                let places = |registers: &[Register]| registers.iter().map(|&r| at(r)).collect();
+                let (matrix, right) = (places(&block.matrix), places(&block.right));
+                self.blocks.push(BlockPlaces { matrix, right });
+                Instruction::Solve { block: u8::try_from(self.blocks.len() - 1).ok()?, to }
+            }
             Op::Root(a) => Instruction::Root { a: at(a), to },
             _ => Instruction::Other { program: own, operation, to },
         })
@@ -219,11 +235,18 @@ impl RegisterMap {
 
 /// Whether an operation writes no other register than its own.
 fn is_single(op: Op) -> bool {
-    !matches!(op, Op::Input(_) | Op::Call(..) | Op::Written | Op::ParametricPower(..))
+    !matches!(
+        op,
+        Op::Input(_)
+            | Op::Time
+            | Op::Call(..)
+            | Op::Solve(_)
+            | Op::Written
+            | Op::ParametricPower(..)
+    )
 }
 
-/// Which operations the outputs of a program need. `None` if one of them is not for a list: a block of equations, or
-/// the time, unless it has a register.
+/// Which operations the outputs of a program need. `None` if one of them is the time and that has no register.
 fn needed(program: &Program, timed: bool) -> Option<Vec<bool>> {
     let mut needed = vec![false; program.ops.len()];
     for &r in &program.outputs {
@@ -233,9 +256,12 @@ fn needed(program: &Program, timed: bool) -> Option<Vec<bool>> {
         match program.ops[r] {
             _ if !needed[r] => continue,
             Op::Time if !timed => return None,
-            Op::Solve(_) => return None,
             // with its companion
             Op::Call(..) => needed[r + 1] = true,
+            // with all its unknowns
+            Op::Solve(block) => {
+                needed[r..r + program.blocks[block as usize].size()].fill(true);
+            }
             _ => {}
         }
         program.each_operand(r as Register, &mut |operand| needed[operand as usize] = true);

@@ -33,7 +33,7 @@ impl<R: Real> Factored<R> {
     /// Factors the matrix whose entries `entry` gives by row and column. Returns false if it is
     /// singular; a matrix with an entry that is not finite counts as regular and propagates it.
     #[must_use]
-    pub(super) fn factor(&mut self, entry: impl Fn(usize, usize) -> R) -> bool {
+    pub(super) fn factor(&mut self, mut entry: impl FnMut(usize, usize) -> R) -> bool {
         let n = self.size;
         let mut finite = true;
         for i in 0..n {

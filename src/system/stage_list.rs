@@ -11,8 +11,7 @@
 //! ```
 //!
 //! In: the programs of both halves, the weights of the composition. Out: instructions. Never here:
-//! numbers, and systems whose halves depend on time or solve equations: these are evaluated operation
-//! by operation.
+//! numbers, and systems whose halves depend on time: these are evaluated operation by operation.
 
 use super::instruction::{Instruction, Moved};
 use super::rates::Rates;
@@ -31,8 +30,7 @@ pub(super) struct StageList {
 
 impl StageList {
     /// The list for the rates under T alone and under V alone, and these weights. Returns `None`
-    /// where V depends on time, where equations are solved, and where there are more numbers than
-    /// registers.
+    /// where V depends on time, and where there are more numbers than registers.
     pub(super) fn new(drift: &Rates, kick: &Rates, weights: &[f64]) -> Option<StageList> {
         let count = drift.system().state_len();
         let moves = |half: &Rates, i: usize| half.places.contains(&i);

@@ -6,6 +6,7 @@
 use super::instruction::{CHUNK, Instruction, Moved, REGISTERS};
 use super::program::Register;
 use super::register_map::RegisterMap;
+use super::solve::Factored;
 use super::stage_list::StageList;
 use super::value::value_of;
 use crate::num::{Analytic, Batch, Kernel};
@@ -15,12 +16,20 @@ pub(super) trait StageNumber: Analytic {
     /// Whether a whole [`CHUNK`] of numbers costs as much as one of them.
     const BY_CHUNKS: bool;
 
+    /// The numbers side by side.
+    fn lanes(&mut self) -> &mut [f64];
+
     /// `moved`, or `unmoved` where a rate is zero, so that the sign of a zero stays.
     fn where_moving(self, moved: Self, unmoved: Self) -> Self;
 }
 
 impl StageNumber for f64 {
     const BY_CHUNKS: bool = true;
+
+    #[inline(always)]
+    fn lanes(&mut self) -> &mut [f64] {
+        std::slice::from_mut(self)
+    }
 
     #[inline(always)]
     fn where_moving(self, moved: f64, unmoved: f64) -> f64 {
@@ -30,6 +39,11 @@ impl StageNumber for f64 {
 
 impl<const N: usize> StageNumber for Batch<N> {
     const BY_CHUNKS: bool = false;
+
+    #[inline(always)]
+    fn lanes(&mut self) -> &mut [f64] {
+        &mut self.0
+    }
 
     #[inline(always)]
     fn where_moving(self, moved: Batch<N>, unmoved: Batch<N>) -> Batch<N> {
@@ -45,13 +59,23 @@ pub(super) struct Registers<R> {
     pub(super) carries: Box<[R; REGISTERS]>,
     /// The factors of the sums.
     pub(super) factors: Box<[R; REGISTERS]>,
+    /// The blocks of equations, and room for the unknowns of one.
+    factored: Vec<Factored<f64>>,
+    unknowns: Vec<f64>,
 }
 
 impl<R: StageNumber> Registers<R> {
     /// The registers of a list.
     pub(super) fn of(map: &RegisterMap) -> Registers<R> {
         let zeros = || Box::new([R::ZERO; REGISTERS]);
-        let mut registers = Registers { values: zeros(), carries: zeros(), factors: zeros() };
+        let sizes = || map.blocks.iter().map(|block| block.right.len());
+        let mut registers = Registers {
+            values: zeros(),
+            carries: zeros(),
+            factors: zeros(),
+            factored: sizes().map(Factored::new).collect(),
+            unknowns: vec![0.0; sizes().max().unwrap_or(0)],
+        };
         registers.values[usize::from(map.one)] = R::ONE;
         registers
     }
@@ -81,6 +105,7 @@ impl<R: StageNumber> Registers<R> {
                 Instruction::Divide { a, b, to } => {
                     self.values[at(to)] = self.values[at(a)] / self.values[at(b)];
                 }
+                Instruction::Solve { block, to } => self.solve(map, block, to),
                 Instruction::Root { a, to } => self.values[at(to)] = self.values[at(a)].sqrt(),
                 Instruction::Copy { a, to } => self.values[at(to)] = self.values[at(a)],
                 Instruction::Other { program, operation, to } => {
@@ -107,7 +132,9 @@ impl<R: StageNumber> Registers<R> {
         let sum = &map.sums[usize::from(sum)];
         let mut value = R::of(sum.constant.into());
         for k in 0..COUNT {
-            let [a, b] = sum.registers[k].map(usize::from);
+            // a combinator of arrays may not be inlined
+            let [a, b] = sum.registers[k];
+            let (a, b) = (usize::from(a), usize::from(b));
             let term = if PRODUCTS { self.values[a] * self.values[b] } else { self.values[a] };
             value = value + term * sum.coefficients[k];
         }
@@ -153,6 +180,29 @@ impl<R: StageNumber> Registers<R> {
             }
         }
         (values[n], carries[n]) = (moved, left);
+    }
+
+    /// Solves a block of equations in each lane; the unknowns are NaN where it is singular.
+    #[inline(never)]
+    fn solve(&mut self, map: &RegisterMap, block: u8, to: u8) {
+        let at = usize::from;
+        let Registers { values, factored, unknowns, .. } = self;
+        let (places, factored) = (&map.blocks[at(block)], &mut factored[at(block)]);
+        let n = places.right.len();
+        for lane in 0..values[0].lanes().len() {
+            let mut get = |place: u8| values[at(place)].lanes()[lane];
+            if factored.factor(|i, j| get(places.matrix[i * n + j])) {
+                for (x, &place) in unknowns.iter_mut().zip(&places.right) {
+                    *x = get(place);
+                }
+                factored.solve(&mut unknowns[..n]);
+            } else {
+                unknowns.fill(f64::NAN);
+            }
+            for (x, unknown) in values[at(to)..].iter_mut().zip(&unknowns[..n]) {
+                x.lanes()[lane] = *unknown;
+            }
+        }
     }
 
     #[inline(never)]

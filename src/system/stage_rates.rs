@@ -73,9 +73,9 @@ impl StageRates {
     pub fn are_finite(&mut self) -> bool {
         let (numbers, rates) = self.list.moving();
         let mut sum = Stages::ZERO;
-        for (&x, &rate) in numbers.iter().zip(rates) {
+        for k in 0..numbers.len() {
             // zero times anything that is not finite is NaN
-            sum = sum + x * 0.0 + rate * 0.0;
+            sum = sum + numbers[k] * 0.0 + rates[k] * 0.0;
         }
         sum == Stages::ZERO
     }

@@ -3,6 +3,7 @@
 mod channels;
 mod images;
 mod program;
+mod rates;
 mod series;
 mod states;
 
