@@ -51,7 +51,7 @@ impl StageLanes {
     /// `None` where there are too many stages, and where the rates are no list.
     pub(super) fn new(rates: &Rates, tableau: &Tableau, held: &[bool]) -> Option<StageLanes> {
         let stages = tableau.nodes.len();
-        let rates = rates.of_stages().filter(|_| stages <= STAGES)?;
+        let rates = rates.of_stages(stages)?;
         let stage = |lane: usize| if lane < stages { lane } else { 0 };
         let column = |j: usize| BatchDouble::each(|lane| tableau.matrix[stage(lane)][j]);
         let onward = |j: usize| Batch(std::array::from_fn(|lane| tableau.onward[stage(lane)][j]));

@@ -35,6 +35,11 @@ impl<R: StageNumber> RatesList<R> {
         Some(RatesList { map, list, registers, first, count, suits: false })
     }
 
+    /// Says that only the first lanes differ from each other; the others are copies of the first.
+    pub(super) fn use_lanes(&mut self, count: usize) {
+        self.registers.used = count;
+    }
+
     /// Takes over what depends on parameters alone.
     pub(super) fn set_parameters(&mut self, rates: &Rates) {
         self.suits = rates.values.is_ordinary();

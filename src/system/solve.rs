@@ -33,103 +33,143 @@ impl<R: Real> Factored<R> {
     /// Factors the matrix whose entries `entry` gives by row and column. Returns false if it is
     /// singular; a matrix with an entry that is not finite counts as regular and propagates it.
     #[must_use]
-    pub(super) fn factor(&mut self, mut entry: impl FnMut(usize, usize) -> R) -> bool {
-        let n = self.size;
+    pub(super) fn factor(&mut self, entry: impl FnMut(usize, usize) -> R) -> bool {
+        // loops of a known length are unrolled
+        match self.size {
+            2 => self.factor_of::<2>(entry),
+            3 => self.factor_of::<3>(entry),
+            4 => self.factor_of::<4>(entry),
+            _ => self.factor_of::<0>(entry),
+        }
+    }
+
+    /// The same for a size that is known, or for any where that is zero.
+    #[inline]
+    fn factor_of<const SIZE: usize>(&mut self, mut entry: impl FnMut(usize, usize) -> R) -> bool {
+        let n = if SIZE == 0 { self.size } else { SIZE };
+        let (entries, rows) = (&mut self.entries[..n * n], &mut self.rows[..n]);
         let mut finite = true;
         for i in 0..n {
-            self.rows[i] = i;
+            rows[i] = i;
             for j in 0..n {
                 let x = entry(i, j);
                 finite &= x.value().is_finite();
-                self.entries[i * n + j] = x;
+                entries[i * n + j] = x;
             }
         }
         if !finite {
             return true;
         }
-        self.measure();
+        let (units, scales) = (&mut self.units[..n], &mut self.scales[..n]);
+        measure(entries, units, scales);
         for k in 0..n {
-            let unit = self.units[k];
-            let size = |i: &usize| self.entries[i * n + k].value().abs() * unit / self.scales[*i];
-            let Some(best) =
-                (k..n).max_by(|&a, &b| size(&self.rows[a]).total_cmp(&size(&self.rows[b])))
-            else {
-                return false;
-            };
-            self.rows.swap(k, best);
-            let pivot_row = self.rows[k];
+            let unit = units[k];
+            let size = |i: usize| entries[i * n + k].value().abs() * unit / scales[i];
+            let (mut best, mut largest) = (k, size(rows[k]));
+            for (at, &row) in rows.iter().enumerate().skip(k + 1) {
+                let size = size(row);
+                // of equal ones the last
+                if size.total_cmp(&largest).is_ge() {
+                    (best, largest) = (at, size);
+                }
+            }
+            rows.swap(k, best);
+            let pivot_row = rows[k];
             // a row of zeros has no scale, so its quotient is NaN
-            let pivot = size(&pivot_row);
-            if pivot.is_nan() || pivot <= SMALLEST_PIVOT || self.scales[pivot_row] == 0.0 {
+            if largest.is_nan() || largest <= SMALLEST_PIVOT || scales[pivot_row] == 0.0 {
                 return false;
             }
-            let pivot = self.entries[pivot_row * n + k];
-            for &row in &self.rows[k + 1..] {
-                let factor = self.entries[row * n + k] / pivot;
-                self.entries[row * n + k] = factor;
+            let pivot = entries[pivot_row * n + k];
+            for at in k + 1..n {
+                let row = rows[at];
+                let factor = entries[row * n + k] / pivot;
+                entries[row * n + k] = factor;
                 for j in k + 1..n {
-                    let product = factor * self.entries[pivot_row * n + j];
-                    self.entries[row * n + j] = self.entries[row * n + j] - product;
+                    let product = factor * entries[pivot_row * n + j];
+                    entries[row * n + j] = entries[row * n + j] - product;
                 }
             }
         }
         true
     }
 
-    /// Finds units in which the diagonal is 1: in a mass matrix 1/√Mᵢᵢ, whatever the units of the
-    /// masses (van der Sluis, Numer. Math. 14, 1969: nearly the best scaling of a symmetric
-    /// matrix). An unknown without a diagonal entry, as a constraint or a coordinate without mass,
-    /// takes its unit from the largest entry that couples it to one that has.
-    fn measure(&mut self) {
-        let n = self.size;
-        let at = |i: usize, j: usize| self.entries[i * n + j].value().abs();
-        let unit = |size: f64| Some(1.0 / size).filter(|x| x.is_normal());
-        let mut all = true;
-        for i in 0..n {
-            let own = unit(at(i, i).sqrt());
-            self.units[i] = own.unwrap_or(1.0);
-            all &= own.is_some();
-        }
-        let mut units: Vec<Option<f64>> = Vec::new();
-        if !all {
-            units.extend((0..n).map(|i| unit(at(i, i).sqrt())));
-        }
-        while units.contains(&None) {
-            let known = units.clone();
-            for i in (0..n).filter(|&i| known[i].is_none()) {
-                let ties = (0..n).filter_map(|j| known[j].map(|c| at(i, j) * c));
-                units[i] = unit(ties.fold(0.0, f64::max));
-            }
-            if units == known {
-                break;
-            }
-        }
-        for (own, found) in self.units.iter_mut().zip(&units) {
-            *own = found.unwrap_or(1.0);
-        }
-        for i in 0..n {
-            self.scales[i] = (0..n).map(|j| at(i, j) * self.units[j]).fold(0.0, f64::max);
+    /// Solves for a right-hand side, in place.
+    pub(super) fn solve(&mut self, right: &mut [R]) {
+        match self.size {
+            2 => self.solve_of::<2>(right),
+            3 => self.solve_of::<3>(right),
+            4 => self.solve_of::<4>(right),
+            _ => self.solve_of::<0>(right),
         }
     }
 
-    /// Solves for a right-hand side, in place.
-    pub(super) fn solve(&mut self, right: &mut [R]) {
-        let n = self.size;
+    #[inline]
+    fn solve_of<const SIZE: usize>(&mut self, right: &mut [R]) {
+        let n = if SIZE == 0 { self.size } else { SIZE };
+        let (entries, rows) = (&self.entries[..n * n], &self.rows[..n]);
+        let (right, scratch) = (&mut right[..n], &mut self.scratch[..n]);
         for k in 0..n {
-            let row = self.rows[k];
+            let row = rows[k];
             let mut sum = right[row];
             for j in 0..k {
-                sum = sum - self.entries[row * n + j] * self.scratch[j];
+                sum = sum - entries[row * n + j] * scratch[j];
             }
-            self.scratch[k] = sum;
+            scratch[k] = sum;
         }
         for k in (0..n).rev() {
-            let row = self.rows[k];
-            let mut sum = self.scratch[k];
+            let row = rows[k];
+            let mut sum = scratch[k];
             for j in k + 1..n {
-                sum = sum - self.entries[row * n + j] * right[j];
+                sum = sum - entries[row * n + j] * right[j];
             }
-            right[k] = sum / self.entries[row * n + k];
+            right[k] = sum / entries[row * n + k];
         }
+    }
+}
+
+/// Finds units in which the diagonal is 1: in a mass matrix 1/√Mᵢᵢ, whatever the units of the
+/// masses (van der Sluis, Numer. Math. 14, 1969: nearly the best scaling of a symmetric
+/// matrix). An unknown without a diagonal entry, as a constraint or a coordinate without mass,
+/// takes its unit from the largest entry that couples it to one that has.
+#[inline]
+fn measure<R: Real>(entries: &[R], units: &mut [f64], scales: &mut [f64]) {
+    let n = units.len();
+    let at = |i: usize, j: usize| entries[i * n + j].value().abs();
+    let unit = |size: f64| Some(1.0 / size).filter(|x| x.is_normal());
+    let mut all = true;
+    for i in 0..n {
+        let own = unit(at(i, i).sqrt());
+        units[i] = own.unwrap_or(1.0);
+        all &= own.is_some();
+    }
+    if !all {
+        measure_by_couplings(n, at, units);
+    }
+    for i in 0..n {
+        let mut largest = 0.0_f64;
+        for j in 0..n {
+            largest = largest.max(at(i, j) * units[j]);
+        }
+        scales[i] = largest;
+    }
+}
+
+/// The units where some diagonal entry gives none.
+#[inline(never)]
+fn measure_by_couplings(n: usize, at: impl Fn(usize, usize) -> f64, out: &mut [f64]) {
+    let unit = |size: f64| Some(1.0 / size).filter(|x| x.is_normal());
+    let mut units: Vec<Option<f64>> = (0..n).map(|i| unit(at(i, i).sqrt())).collect();
+    while units.contains(&None) {
+        let known = units.clone();
+        for i in (0..n).filter(|&i| known[i].is_none()) {
+            let ties = (0..n).filter_map(|j| known[j].map(|c| at(i, j) * c));
+            units[i] = unit(ties.fold(0.0, f64::max));
+        }
+        if units == known {
+            break;
+        }
+    }
+    for (own, found) in out.iter_mut().zip(&units) {
+        *own = found.unwrap_or(1.0);
     }
 }

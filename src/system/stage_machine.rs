@@ -62,12 +62,15 @@ pub(super) struct Registers<R> {
     /// The blocks of equations, and room for the unknowns of one.
     factored: Vec<Factored<f64>>,
     unknowns: Vec<f64>,
+    /// The number of lanes that differ; the others are copies of the first.
+    pub(super) used: usize,
 }
 
 impl<R: StageNumber> Registers<R> {
     /// The registers of a list.
     pub(super) fn of(map: &RegisterMap) -> Registers<R> {
         let zeros = || Box::new([R::ZERO; REGISTERS]);
+        let mut zero = R::ZERO;
         let sizes = || map.blocks.iter().map(|block| block.right.len());
         let mut registers = Registers {
             values: zeros(),
@@ -75,6 +78,7 @@ impl<R: StageNumber> Registers<R> {
             factors: zeros(),
             factored: sizes().map(Factored::new).collect(),
             unknowns: vec![0.0; sizes().max().unwrap_or(0)],
+            used: zero.lanes().len(),
         };
         registers.values[usize::from(map.one)] = R::ONE;
         registers
@@ -186,10 +190,10 @@ impl<R: StageNumber> Registers<R> {
     #[inline(never)]
     fn solve(&mut self, map: &RegisterMap, block: u8, to: u8) {
         let at = usize::from;
-        let Registers { values, factored, unknowns, .. } = self;
+        let Registers { values, factored, unknowns, used, .. } = self;
         let (places, factored) = (&map.blocks[at(block)], &mut factored[at(block)]);
         let n = places.right.len();
-        for lane in 0..values[0].lanes().len() {
+        for lane in 0..*used {
             let mut get = |place: u8| values[at(place)].lanes()[lane];
             if factored.factor(|i, j| get(places.matrix[i * n + j])) {
                 for (x, &place) in unknowns.iter_mut().zip(&places.right) {
@@ -200,7 +204,11 @@ impl<R: StageNumber> Registers<R> {
                 unknowns.fill(f64::NAN);
             }
             for (x, unknown) in values[at(to)..].iter_mut().zip(&unknowns[..n]) {
-                x.lanes()[lane] = *unknown;
+                let lanes = x.lanes();
+                lanes[lane] = *unknown;
+                if lane == 0 {
+                    lanes[*used..].fill(*unknown);
+                }
             }
         }
     }

@@ -22,10 +22,12 @@ pub struct StageRates {
 }
 
 impl Rates {
-    /// The same rates for stages side by side. There are none where velocities have to be solved for, and where the program
-    /// is no list.
-    pub fn of_stages(&self) -> Option<StageRates> {
-        let list = RatesList::new(self).filter(|_| self.is_direct())?;
+    /// The same rates for so many stages side by side; lanes without a stage must repeat the first. There are none where
+    /// velocities have to be solved for, where the program is no list, and for more than [`STAGES`].
+    pub fn of_stages(&self, count: usize) -> Option<StageRates> {
+        let possible = self.is_direct() && (1..=STAGES).contains(&count);
+        let mut list = RatesList::new(self).filter(|_| possible)?;
+        list.use_lanes(count);
         Some(StageRates { list, places: self.places.clone() })
     }
 }

@@ -30,7 +30,7 @@ fn every_stage_has_the_bits_that_it_has_alone() {
         let parameters = ready.model.parameter_values();
         for mut rates in [ready.system.native_rates(), ready.system.canonical_rates()] {
             rates.set_parameters(&parameters);
-            let Some(mut stages) = rates.of_stages() else { continue };
+            let Some(mut stages) = rates.of_stages(STAGES) else { continue };
             if !stages.set_parameters(&rates) {
                 continue;
             }
