@@ -6,6 +6,7 @@
 mod batch;
 mod batch_events;
 mod clock;
+mod convergence;
 mod dense_output;
 mod dop853;
 mod equal_steps;

@@ -88,20 +88,26 @@ impl SectionPlan {
 /// How far an orbit that begins at a time is followed at first, and a time that no step goes beyond. Where there is no end
 /// in time, no step ends early at one.
 pub(super) fn first_limit(plan: &SectionPlan, start: f64) -> (f64, f64) {
-    let target = plan.until.unwrap_or(start + look_ahead(start, FIRST_LOOK));
-    (target, plan.until.unwrap_or(target + look_ahead(target, FIRST_LOOK)))
+    let target = plan.until.unwrap_or(start + FIRST_LOOK);
+    (target, plan.until.unwrap_or(target + FIRST_LOOK))
 }
 
 /// The same for an orbit without an end in time that was followed to `target`, by a last step of this size.
 pub(super) fn next_limit(target: f64, step: f64) -> (f64, f64) {
-    let ahead = look_ahead(target, (GROWTH * step.abs()).max(FIRST_LOOK));
+    let ahead = (GROWTH * step.abs()).max(FIRST_LOOK);
     (target + ahead, target + ahead + ahead)
 }
 
-/// How far to look from a time on: `wanted`, or where times are so large that this is lost in their digits the least that
-/// is not.
-fn look_ahead(from: f64, wanted: f64) -> f64 {
-    wanted.max(2.0 * spacing(from))
+/// Why no crossing can be located from a time on: one unit is lost in its digits.
+pub(super) fn too_late(time: f64) -> Option<String> {
+    let spacing = spacing(time);
+    (spacing > FIRST_LOOK).then(|| {
+        format!(
+            "it begins at t = {}, where times are {} apart, so that no crossing can be located",
+            short(time),
+            short(spacing)
+        )
+    })
 }
 
 /// An orbit that a signal has ended.
@@ -161,6 +167,9 @@ pub fn crossings(
     start: &Start,
     plan: &SectionPlan,
 ) -> Crossings {
+    if let Some(why) = too_late(start.time) {
+        return Crossings::refused(&why);
+    }
     let made = Propagator::new(system, method, settings, &start.parameters);
     let mut motion = match made {
         Ok(motion) => motion,

@@ -6,6 +6,7 @@
 use super::Start;
 use super::section::{
     Crossings, OrbitStatus, SectionPlan, crossings, first_limit, next_limit, stopped_by_a_signal,
+    too_late,
 };
 use super::side_by_side::{Follower, OrbitCourse, side_by_side};
 use crate::integrate::{BatchPropagator, LaneStatus, Method, Settings};
@@ -99,7 +100,11 @@ impl Follower for OrbitsTogether<'_> {
         let Ok(start) = &self.starts[orbit] else { return OrbitCourse::Over };
         let Ok(state) = start.state(self.system) else { return OrbitCourse::Over };
         let regular = batch.begin(lane, &state, &start.parameters) == LaneStatus::Underway;
-        if !regular || self.plan.count == Some(0) || self.plan.until == Some(state.time) {
+        if !regular
+            || too_late(start.time).is_some()
+            || self.plan.count == Some(0)
+            || self.plan.until == Some(state.time)
+        {
             return OrbitCourse::Over;
         }
         self.here.copy_from(batch.state(lane));

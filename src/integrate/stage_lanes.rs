@@ -4,7 +4,7 @@
 //! computes stage by stage, to the last bit. Never here: programs that are no list of instructions, numbers that leave
 //! the range of `f64`, iterations that do not converge: these are told apart and left to the stages one by one.
 
-use super::implicit::{AFOOT, PATIENCE, RESTLESS, ROUNDINGS, SMALL};
+use super::convergence::{AFOOT, PATIENCE, RESTLESS, ROUNDINGS, SMALL, bound_after};
 use super::tableau::Tableau;
 use crate::num::{Analytic, Batch, BatchDouble, Kernel, vectorized};
 use crate::system::{Rates, STAGES, StageRates, Stages, State};
@@ -45,7 +45,9 @@ struct Iteration {
     resting: Stages,
 }
 
-const AT_FIRST: Iteration = Iteration { moved: [Stages::ZERO; 2], resting: Batch([AFOOT; STAGES]) };
+/// At first no movement is as large as two passes before.
+const AT_FIRST: Iteration =
+    Iteration { moved: [Batch([f64::INFINITY; STAGES]); 2], resting: Batch([AFOOT; STAGES]) };
 
 impl StageLanes {
     /// `None` where there are too many stages, and where the rates are no list.
@@ -221,17 +223,15 @@ impl Kernel for Passes<'_> {
                 let size = number.abs().larger((slopes[k] * step).abs());
                 let small = size * SMALL + ROUNDINGS * step.abs() * noise[i];
                 let Iteration { moved: before, resting } = &mut iteration[k];
-                // compares with two passes before, as positions and momenta may shrink alternately
                 let before = &mut before[count % 2];
-                // choices without branches become vector instructions
                 for lane in 0..STAGES {
-                    let (moved, bound) = (moved.0[lane], resting.0[lane]);
-                    let level = (moved >= before.0[lane]) & (moved <= small.0[lane]);
-                    let digit = f64::EPSILON * size.0[lane];
-                    let most = RESTLESS * if digit > moved { digit } else { moved };
-                    let settled = if (moved == 0.0) | level { most } else { AFOOT };
-                    let rests = if moved > bound { AFOOT } else { bound };
-                    resting.0[lane] = if bound < 0.0 { settled } else { rests };
+                    resting.0[lane] = bound_after(
+                        resting.0[lane],
+                        moved.0[lane],
+                        before.0[lane],
+                        small.0[lane],
+                        size.0[lane],
+                    );
                 }
                 *before = moved;
                 least_bound = least_bound.smaller(*resting);

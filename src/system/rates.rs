@@ -120,11 +120,10 @@ impl Rates {
         self.values.set_parameters(&parameters);
         if !self.is_lowered {
             self.is_lowered = true;
-            self.list = RatesList::new(self).map(Box::new);
+            self.list = RatesList::new(self.outputs(), self.system.state_len()).map(Box::new);
         }
-        if let Some(mut list) = self.list.take() {
-            list.set_parameters(self);
-            self.list = Some(list);
+        if let Some(list) = &mut self.list {
+            list.set_parameters(&self.values);
         }
         if let Some(solver) = &mut self.solver {
             solver.legendre.set_parameters(&parameters);
@@ -154,6 +153,11 @@ impl Rates {
     /// The form of the states.
     pub fn form(&self) -> Form {
         self.form
+    }
+
+    /// The program, and the index in a state of each of its outputs.
+    pub(super) fn outputs(&self) -> (&Arc<Program>, &[usize]) {
+        (&self.program, &self.places)
     }
 
     /// Whether they are a function of the numbers of a state alone, without velocities to be solved for.

@@ -1,12 +1,15 @@
 //! The rates of a motion as one straight list of instructions, for the numbers of one state or of several side by side.
 //!
-//! In: a time and the numbers of a state. Out: the rates that [`Rates`] computes operation by operation, to the last bit.
+//! In: a time and the numbers of a state. Out: the rates that an [`Evaluator`] computes operation by operation, to the last bit.
 //! Never here: matrices that are singular and numbers that leave the range of `f64`: its rates are then not finite.
 
+use std::sync::Arc;
+
 use super::instruction::Instruction;
-use super::rates::Rates;
+use super::program::Program;
 use super::register_map::RegisterMap;
 use super::stage_machine::{Registers, StageNumber};
+use super::value::Evaluator;
 
 /// The list of one program, with its registers.
 #[derive(Clone, Debug)]
@@ -22,13 +25,15 @@ pub(super) struct RatesList<R> {
 }
 
 impl<R: StageNumber> RatesList<R> {
-    /// The list of these rates. Returns `None` where their program is no list. The parameters must be set before the
-    /// first evaluation.
-    pub(super) fn new(rates: &Rates) -> Option<RatesList<R>> {
-        let others: Vec<usize> =
-            (0..rates.system().state_len()).filter(|i| !rates.places.contains(i)).collect();
-        let mut map = RegisterMap::new([&rates.places, &others], true)?;
-        let (list, moved) = map.lower(rates, [&rates.places])?;
+    /// The list of a program, whose outputs are the rates of the numbers with these indices in a state of `count`. Returns
+    /// `None` where the program is no list. The parameters must be set before the first evaluation.
+    pub(super) fn new(
+        (program, places): (&Arc<Program>, &[usize]),
+        count: usize,
+    ) -> Option<RatesList<R>> {
+        let others: Vec<usize> = (0..count).filter(|i| !places.contains(i)).collect();
+        let mut map = RegisterMap::new([places, &others], true)?;
+        let (list, moved) = map.lower((program, places), [places])?;
         let &[moved] = moved.as_slice() else { return None };
         let registers = Registers::of(&map);
         let (first, count) = (usize::from(moved.rate), usize::from(moved.count));
@@ -41,10 +46,10 @@ impl<R: StageNumber> RatesList<R> {
     }
 
     /// Takes over what depends on parameters alone.
-    pub(super) fn set_parameters(&mut self, rates: &Rates) {
-        self.suits = rates.values.is_ordinary();
+    pub(super) fn set_parameters(&mut self, values: &Evaluator<f64>) {
+        self.suits = values.is_ordinary();
         for &(_, operation, to) in &self.map.fixed {
-            self.registers.values[usize::from(to)] = R::of(rates.values.register(operation).into());
+            self.registers.values[usize::from(to)] = R::of(values.register(operation).into());
         }
     }
 

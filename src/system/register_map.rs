@@ -1,13 +1,12 @@
 //! Where the operations of one or two programs lie in one file of registers, and the instructions that compute them.
 //!
-//! In: the rates of a motion, which numbers of a state move together. Out: instructions, the table of sums that they
+//! In: programs of rates, which numbers of a state they move, and which of these together. Out: instructions, the table of sums that they
 //! read, the registers of the numbers and of their rates. Never here: numbers.
 
 use std::sync::Arc;
 
 use super::instruction::{BlockPlaces, CHUNK, Instruction, Moved, REGISTERS, Sum};
 use super::program::{Op, Program, Register};
-use super::rates::Rates;
 
 /// What instructions refer to.
 #[derive(Clone, Debug)]
@@ -76,10 +75,10 @@ impl RegisterMap {
     /// registers.
     pub(super) fn lower<const N: usize>(
         &mut self,
-        rates: &Rates,
+        (program, places_moved): (&Arc<Program>, &[usize]),
         groups: [&[usize]; N],
     ) -> Option<(Vec<Instruction>, Vec<Moved>)> {
-        let program = Arc::clone(&rates.program);
+        let program = Arc::clone(program);
         let own = self.programs.len() as u8;
         let mut needed = needed(&program, self.time.is_some())?;
         let factors = take_products(&program, &mut needed);
@@ -90,7 +89,7 @@ impl RegisterMap {
         let mut copies = Vec::new();
         let mut moved = Vec::new();
         for group in groups.into_iter().filter(|group| !group.is_empty()) {
-            let output = |i: &usize| rates.places.iter().position(|place| place == i);
+            let output = |i: &usize| places_moved.iter().position(|place| place == i);
             let outputs: Option<Vec<Register>> =
                 group.iter().map(|i| Some(program.outputs[output(i)?])).collect();
             let outputs = outputs?;

@@ -47,8 +47,8 @@ impl StageList {
             lead: Vec::new(),
             weights: weights.to_vec(),
         };
-        let (drift, drifted) = list.map.lower(drift, [&own[0], &both])?;
-        let (kick, kicked) = list.map.lower(kick, [&own[1], &both])?;
+        let (drift, drifted) = list.map.lower(drift.outputs(), [&own[0], &both])?;
+        let (kick, kicked) = list.map.lower(kick.outputs(), [&own[1], &both])?;
         list.put_together((&drift, &drifted), (&kick, &kicked))?;
         Some(list)
     }

@@ -26,7 +26,8 @@ impl Rates {
     /// velocities have to be solved for, where the program is no list, and for more than [`STAGES`].
     pub fn of_stages(&self, count: usize) -> Option<StageRates> {
         let possible = self.is_direct() && (1..=STAGES).contains(&count);
-        let mut list = RatesList::new(self).filter(|_| possible)?;
+        let mut list =
+            RatesList::new(self.outputs(), self.system().state_len()).filter(|_| possible)?;
         list.use_lanes(count);
         Some(StageRates { list, places: self.places.clone() })
     }
@@ -37,7 +38,7 @@ impl StageRates {
     /// must be evaluated one by one.
     #[must_use]
     pub fn set_parameters(&mut self, rates: &Rates) -> bool {
-        self.list.set_parameters(rates);
+        self.list.set_parameters(&rates.values);
         self.list.suits()
     }
 
