@@ -30,9 +30,12 @@ pub(super) const AFOOT: f64 = -1.0;
 /// The bound of a number after a pass in which it `moved`: the movement up to which it has come to rest, or [`AFOOT`].
 /// `before` is its movement two passes before, as positions and momenta may shrink alternately; infinite where there was
 /// none. `small` is a movement that may be rounding, `size` that of the number.
+#[expect(
+    clippy::needless_bitwise_bool,
+    reason = "choices without branches become vector instructions"
+)]
 #[inline(always)]
 pub(super) fn bound_after(bound: f64, moved: f64, before: f64, small: f64, size: f64) -> f64 {
-    // choices without branches become vector instructions
     let level = (moved >= before) & (moved <= small);
     let digit = f64::EPSILON * size;
     let most = RESTLESS * if digit > moved { digit } else { moved };

@@ -380,13 +380,13 @@ mod tests {
     fn stages_side_by_side_have_the_bits_of_stages_one_by_one() {
         let mut compared = 0;
         for entry in Catalog::with_folder(None).entries() {
-            let ready = Prepared::of(&entry.document().unwrap()).unwrap();
+            let ready = Prepared::of(&entry.document().expect("shipped")).expect("right");
             let (system, parameters) = (&ready.system, ready.model.parameter_values());
             if system.constraints() > 0 {
                 continue;
             }
             let begin = ready.model.run.start;
-            let first = system.initial(begin, &parameters, &[]).unwrap();
+            let first = system.initial(begin, &parameters, &[]).expect("a state");
             let form = system.canonical_rates().form();
             let Ok(first) = system.convert(&first, form, &parameters) else { continue };
             for tableau in [tableau::of_two_stages(), tableau::of_three_stages()] {
