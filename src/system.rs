@@ -13,6 +13,7 @@
 //!        ▼
 //!   Program (program)  one flat list; what depends on parameters alone stands in front of it
 //!        │   tangent: its derivative, a program again     split_step: both halves of a splitting step in one list
+//!        │                                                rates_list, stage_rates: rates in one list, for stages side by side
 //!        │
 //!        ├──────────────── values ────────────────┐  ┌───────── Taylor coefficients ─────────┐
 //!        ▼                                        │  │                                       ▼
