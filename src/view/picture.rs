@@ -204,8 +204,15 @@ pub(super) fn draw(
     }
     let frame = axes.draw(area, canvas.buffer, &look.theme, look.glyphs);
     let mut raster = Raster::new(frame.area, look.glyphs);
-    for (level, layer) in &layers {
-        draw_layer(canvas, &mut raster, (&frame, q), (*level, layer));
+    let is_line = |(_, layer): &(Level, Layer)| matches!(layer, Layer::Line(..));
+    for run in layers.chunk_by(|a, b| is_line(a) && is_line(b)) {
+        if run.len() > 1 {
+            draw_lines(canvas, &mut raster, (&frame, q), run);
+        } else {
+            run.iter().for_each(|(level, layer)| {
+                draw_layer(canvas, &mut raster, (&frame, q), (*level, layer))
+            });
+        }
     }
     let marks = occurrences.map_or_else(Marks::none, |(level, columns)| {
         let place = |row: &[f64]| {
@@ -254,6 +261,24 @@ fn axis_upwards(q: &Quantities<'_>, upwards: &Upwards, viewport: Viewport) -> Dr
             DrawnAxis::new(name, "", through(Scale::linear(lo, hi), (viewport, 1)))
         }
     }
+}
+
+/// Draws lines that often are those of the last frame.
+fn draw_lines(
+    canvas: &mut Canvas<'_>,
+    raster: &mut Raster,
+    (frame, q): (&PlotFrame, &Quantities<'_>),
+    lines: &[(Level, Layer)],
+) {
+    let mut kept = std::mem::take(&mut canvas.kept);
+    raster.lay(kept.lines(lines, frame, || {
+        let mut fresh = Raster::new(frame.area, canvas.look.glyphs);
+        for (level, layer) in lines {
+            draw_layer(canvas, &mut fresh, (frame, q), (*level, layer));
+        }
+        fresh
+    }));
+    canvas.kept = kept;
 }
 
 fn draw_layer(
