@@ -1,4 +1,5 @@
-//! What is kept between frames: drawn trails, level curves, lines of pictures and the text of the law, until what they show changes.
+//! What is kept between frames until what it shows changes: drawn trails, level curves, lines of pictures and the text of
+//! the law.
 //!
 //! In: the recorded motion, and what decides how it is drawn. Out: the same picture as without it, at the cost of what
 //! is new. Never here: anything that is not a pure function of the application and the render style.

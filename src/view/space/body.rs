@@ -116,6 +116,7 @@ fn turns(piece: &Piece, value: &impl Fn(Expr) -> f64) -> Vec<Turn> {
 }
 
 /// A rotation about an axis by the right-hand rule: v cos α + (n×v) sin α + n (n·v)(1 − cos α).
+#[derive(Clone, Copy)]
 struct Turn {
     n: [f64; 3],
     sin: f64,

@@ -105,9 +105,10 @@ impl Scene {
             Shape::Line { from, to } => {
                 let start = reach(q, from, reached);
                 let swings = rod && !is_free(q, from, to);
-                let end = if swings { swing(q, from, to, start) } else { reach(q, to, reached) };
                 self.reached(q, from, reached, 0.0);
-                reached.push((*to, end));
+                if swings && let Some(circle) = swing(q, from, to, start) {
+                    reached.push((*to, circle));
+                }
                 self.reached(q, to, reached, 0.0);
             }
             Shape::Mass { at, radius } => {
@@ -224,21 +225,21 @@ fn round_step(length: f64) -> f64 {
     digit.unwrap_or(1.0) * power
 }
 
-/// The box that the far end of a rod may reach: its extent so far and, in a plane, the circle around the near end. In
-/// space the motion rarely fills the sphere.
-fn swing(q: &Quantities<'_>, from: &Point, to: &Point, start: Span3) -> Span3 {
+/// The box that the far end of a rod may reach in a plane: its extent so far and the circle around the near end. In
+/// space there is none, because the motion rarely fills the sphere.
+fn swing(q: &Quantities<'_>, from: &Point, to: &Point, start: Span3) -> Option<Span3> {
     let own = extent(q, to);
     let (a, b) = (q.point(from), q.point(to));
     let length = (0..3).map(|k| math::powi(b[k] - a[k], 2)).sum::<f64>().sqrt();
     let plane = is_flat(q, from) && is_flat(q, to);
     if rests(q, to) || !plane || !length.is_finite() {
-        return own;
+        return None;
     }
     let round = grown(start, length, plane);
-    [0, 1].map(|end| {
+    Some([0, 1].map(|end| {
         [0, 1, 2]
             .map(|k| if end == 0 { own[0][k].min(round[0][k]) } else { own[1][k].max(round[1][k]) })
-    })
+    }))
 }
 
 /// Whether a rod swings around neither of its ends: both move with the same coordinates, so none of them is the angle at
