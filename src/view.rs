@@ -31,6 +31,7 @@ mod lab_page;
 mod layout;
 mod legend;
 pub mod lesson;
+mod level_curves;
 mod look;
 mod marks;
 mod menu;

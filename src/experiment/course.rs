@@ -9,6 +9,7 @@ use super::companions::Companions;
 use super::echo::Echo;
 use super::event_log::EventLog;
 use super::gauges::{GaugeInputs, Gauges};
+use super::hull::Hulls;
 use super::observed_motion::ObservedMotion;
 use super::recorder::Recorder;
 use super::row_spacing::RowSpacing;
@@ -83,7 +84,8 @@ impl Experiment {
             scrubbed: None,
             initial: Arc::default(),
             motion,
-            recorder: Recorder::new(system.channels().len(), setup.spacing),
+            recorder: Recorder::new(system.channels().len(), setup.spacing)
+                .with_hulls(Hulls::of(model, system)),
             gauges: Gauges::new(model, equations, system),
             running: true,
             fault: None,
@@ -226,6 +228,7 @@ impl Experiment {
             state: Arc::new(seen.dated_state()),
             values: seen.values().into(),
             bounds: self.recorder.bounds(),
+            hulls: self.recorder.hulls(),
             trail: if self.scrubbed.is_some() { trail.until(seen.time()) } else { trail },
             gauges: self.show_gauges(),
             method: self.method_fact(),

@@ -1,5 +1,6 @@
 //! Records a motion in bounded memory: the newest rows in full, older ones thinned to every second, fourth and
-//! eighth, and the oldest dropped. It also keeps the bounds of every channel over all rows ever recorded.
+//! eighth, and the oldest dropped. It also keeps the bounds of every channel, and the hulls of
+//! points of the picture, over all rows ever recorded.
 //!
 //! In: rows at even times. Out: a [`Trail`], cheap to clone. Never here: when a row is due for drawing, or what its
 //! numbers mean.
@@ -8,6 +9,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use super::Trail;
+use super::hull::{Hull, Hulls};
 use super::trail::THINNINGS;
 
 /// The number of rows in a sealed chunk.
@@ -36,6 +38,7 @@ pub(super) struct Recorder {
     sign: f64,
     open: Arc<Vec<f64>>,
     bounds: Vec<(f64, f64)>,
+    hulls: Hulls,
 }
 
 impl Recorder {
@@ -60,20 +63,23 @@ impl Recorder {
             sign: 1.0,
             open: Arc::default(),
             bounds: vec![(f64::INFINITY, f64::NEG_INFINITY); channels],
+            hulls: Hulls::default(),
         }
     }
 
     /// Clears the recorder; the next row is due at `origin`.
     pub(super) fn restart(&mut self, origin: f64) {
-        let (limits, spacing) = (self.limits, self.spacing);
-        *self = Recorder { origin, limits, ..Recorder::new(self.width - 1, spacing) };
+        let (limits, spacing, hulls) = (self.limits, self.spacing, self.hulls.begun_anew());
+        *self = Recorder { origin, limits, hulls, ..Recorder::new(self.width - 1, spacing) };
     }
 
     /// Clears the recorder of all but the bounds; the next row is due when the clock, −t if `backwards`, is at `origin`.
     pub(super) fn turn(&mut self, origin: f64, backwards: bool) {
         let bounds = std::mem::take(&mut self.bounds);
+        let hulls = std::mem::take(&mut self.hulls);
         self.restart(origin);
-        (self.bounds, self.sign) = (bounds, if backwards { -1.0 } else { 1.0 });
+        (self.bounds, self.hulls) = (bounds, hulls);
+        self.sign = if backwards { -1.0 } else { 1.0 };
     }
 
     /// The time between two rows.
@@ -182,8 +188,15 @@ impl Recorder {
         later.rows().for_each(|row| self.insert(row[0], &row[1..]));
     }
 
-    /// Widens the bounds to include these values.
+    /// Keeps the hulls of these points from now on.
+    #[must_use]
+    pub(super) fn with_hulls(self, hulls: Hulls) -> Recorder {
+        Recorder { hulls, ..self }
+    }
+
+    /// Widens the bounds and the hulls to include these values.
     pub(super) fn widen(&mut self, values: &[f64]) {
+        self.hulls.widen(values);
         for ((least, greatest), &value) in self.bounds.iter_mut().zip(values) {
             if value.is_finite() {
                 *least = least.min(value);
@@ -206,6 +219,11 @@ impl Recorder {
             if least <= greatest { (least, greatest) } else { (0.0, 0.0) }
         };
         self.bounds.iter().map(seen).collect()
+    }
+
+    /// The hulls of the points that are followed.
+    pub(super) fn hulls(&self) -> Arc<[Hull]> {
+        self.hulls.all().into()
     }
 
     /// Merges two chunks wherever a thinning has too many.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Companion, EventLog, Return, Setup, Trail};
+use super::{Companion, EventLog, Hull, Return, Setup, Trail};
 use crate::analysis::{CrossingLog, DistanceHistory, Verdict};
 use crate::system::{Form, State};
 
@@ -35,6 +35,8 @@ pub struct Snapshot {
     pub values: Arc<[f64]>,
     /// The least and greatest value of every channel since the last restart, for axes that do not move.
     pub bounds: Arc<[(f64, f64)]>,
+    /// What contains the points of the picture in space since the last restart, tighter than the bounds.
+    pub hulls: Arc<[Hull]>,
     /// The recorded motion: every channel at past times.
     pub trail: Trail,
     /// One gauge for each monitored invariant.
@@ -74,6 +76,7 @@ impl Snapshot {
             state: Arc::new(State::new(0.0, Form::Velocity, Vec::new())),
             values: Arc::default(),
             bounds: Arc::default(),
+            hulls: Arc::default(),
             trail: Trail::default(),
             gauges: Arc::default(),
             method: MethodFact { name: "", step: 0.0, steps: 0, tolerance: None },

@@ -36,7 +36,7 @@ impl Pool {
         (along, places): (Symbol, &[f64]),
         at: &dyn Fn(Symbol) -> f64,
     ) -> Vec<f64> {
-        let repeated = Repeated::of(self, e);
+        let repeated = Repeated::along(self, e, along, at);
         let value =
             |place: &f64| repeated.at(&|symbol| if symbol == along { *place } else { at(symbol) });
         places.iter().map(value).collect()
@@ -151,6 +151,31 @@ impl<'a> Repeated<'a> {
         let least = nodes.iter().map(|e| e.index()).min().unwrap_or(0);
         let values = RefCell::new(vec![(0.0, 0.0); whole.index() + 1 - least]);
         Self { pool, nodes, values, least, whole }
+    }
+
+    /// An expression of which only one symbol will take other values: what does not depend on it is computed now.
+    fn along(pool: &'a Pool, whole: Expr, along: Symbol, at: &dyn Fn(Symbol) -> f64) -> Self {
+        let mut all = Self::of(pool, whole);
+        let nodes = std::mem::take(&mut all.nodes);
+        let mut moves = vec![false; whole.index() + 1 - all.least];
+        for node in nodes {
+            let place = node.index() - all.least;
+            match pool.node(node) {
+                Node::Symbol(symbol) => moves[place] = *symbol == along,
+                other => {
+                    let mut any = false;
+                    other.for_each_part(|part| any |= moves[part.index() - all.least]);
+                    moves[place] = any;
+                }
+            }
+            if moves[place] {
+                all.nodes.push(node);
+            } else {
+                let values = all.values.get_mut();
+                values[place] = pool.value_of(node, &|e| values[e.index() - all.least], at);
+            }
+        }
+        all
     }
 
     /// The value as [`Pool::evaluate`] has it.

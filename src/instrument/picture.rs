@@ -182,7 +182,7 @@ impl Field {
 }
 
 /// The style of a line.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {
     /// The colour.
     pub ink: Ink,

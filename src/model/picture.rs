@@ -158,6 +158,29 @@ pub enum Shape {
     },
 }
 
+impl Shape {
+    /// The places and arrows that it is drawn from, without the directions that only turn it.
+    pub fn points(&self) -> Vec<Point> {
+        match self {
+            Self::Line { from, to } | Self::Spring { from, to } => vec![*from, *to],
+            Self::Circle { centre, .. }
+            | Self::Disc { centre, .. }
+            | Self::Sphere { centre, .. } => {
+                vec![*centre]
+            }
+            Self::Mass { at, .. }
+            | Self::Trace { at }
+            | Self::Body { at }
+            | Self::Caption { at, .. }
+            | Self::Plane { at, .. } => vec![*at],
+            Self::Cone { tip, base, .. } => vec![*tip, *base],
+            Self::Cylinder { from, to, .. } => vec![*from, *to],
+            Self::Vector { at, components, .. } => vec![*at, *components],
+            Self::Path { points } => points.clone(),
+        }
+    }
+}
+
 /// Where the camera of a picture in space stands at first, in radians; `None` is up to the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Viewpoint {

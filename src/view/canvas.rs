@@ -167,9 +167,13 @@ impl Canvas<'_> {
             // Spans after the first are shown whole or not at all.
             let mut used = self.spans(row, std::slice::from_ref(&gap));
             for (index, piece) in title.iter().enumerate() {
-                if index > 0
-                    && usize::from(used) + piece.0.trim_end().width() + 1 > row.width.into()
-                {
+                // A line between two titles is not left without the second.
+                let second = title.get(index + 1).filter(|_| ["│", "|"].contains(&piece.0.trim()));
+                let wide = second.map_or_else(
+                    || piece.0.trim_end().width(),
+                    |second| piece.0.width() + second.0.trim_end().width(),
+                );
+                if index > 0 && usize::from(used) + wide + 1 > row.width.into() {
                     break;
                 }
                 used += self.spans(columns(row, used, row.width), std::slice::from_ref(piece));

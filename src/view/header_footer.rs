@@ -279,7 +279,20 @@ pub(super) fn notice(canvas: &mut Canvas<'_>, body: Rect, app: &App) {
         // Nothing of the frame below is left, its weight included.
         canvas.blank(columns(at, 0, wide as u16 + 2));
         canvas.left(columns(at, 1, wide as u16), role, &format!("{line}{gap}"));
+        if index + 1 == lines.len() {
+            erase_rest(canvas, columns(at, wide as u16 + 2, at.width));
+        }
     }
+}
+
+/// Makes blank what a notification has left of the words in a frame, such as `wn` of `+1 down`.
+fn erase_rest(canvas: &mut Canvas<'_>, row: Rect) {
+    let rest = (0..row.width).take_while(|x| {
+        let symbol = canvas.buffer.cell((row.x + x, row.y)).map_or("", |cell| cell.symbol());
+        symbol.chars().all(|c| c.is_alphanumeric() || c == ' ' || c == '↓')
+    });
+    let rest = rest.count() as u16;
+    canvas.blank(columns(row, 0, rest));
 }
 
 /// What ended the motion, and how to continue.

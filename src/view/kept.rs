@@ -1,4 +1,5 @@
-//! What is kept between frames: drawn trails, level curves and the text of the law, until what they show changes.
+//! What is kept between frames until what it shows changes: drawn trails, level curves, lines of pictures and the text of
+//! the law.
 //!
 //! In: the recorded motion, and what decides how it is drawn. Out: the same picture as without it, at the cost of what
 //! is new. Never here: anything that is not a pure function of the application and the render style.
@@ -14,6 +15,7 @@ use super::quantity::Source;
 use super::theme::{Dash, Shade};
 use crate::analysis::Landscape;
 use crate::experiment::Trail;
+use crate::instrument::{Layer, Level};
 use crate::mechanics::Equations;
 
 /// The styled pieces of a row of text.
@@ -25,6 +27,7 @@ pub(super) struct Kept {
     look: Option<KeptStyle>,
     trails: Vec<Held<TrailKey, DrawnTrail>>,
     levels: Vec<Held<LevelsKey, Raster>>,
+    lines: Vec<Held<LinesKey, Raster>>,
     law: Option<(LawKey, Vec<Row>)>,
 }
 
@@ -81,6 +84,13 @@ struct LevelsKey {
     level: u8,
 }
 
+/// Lines of a picture, and where they are drawn.
+#[derive(Debug)]
+struct LinesKey {
+    lines: Vec<(Level, Layer)>,
+    frame: PlotFrame,
+}
+
 /// The law whose text is kept, and its width in columns.
 #[derive(Debug)]
 struct LawKey {
@@ -101,12 +111,14 @@ impl Kept {
         }
         self.trails.iter_mut().for_each(|kept| kept.used = false);
         self.levels.iter_mut().for_each(|kept| kept.used = false);
+        self.lines.iter_mut().for_each(|kept| kept.used = false);
     }
 
     /// Ends a frame: what it did not need is dropped.
     pub(super) fn end(&mut self) {
         self.trails.retain(|kept| kept.used);
         self.levels.retain(|kept| kept.used);
+        self.lines.retain(|kept| kept.used);
     }
 
     /// The trail of a motion, carried on to its newest row; `locate` gives the point of a row: right, up, towards the
@@ -157,6 +169,27 @@ impl Kept {
         });
         self.levels[index].used = true;
         &self.levels[index].value
+    }
+
+    /// The raster of lines, drawn where they are not those of the last frame.
+    pub(super) fn lines(
+        &mut self,
+        lines: &[(Level, Layer)],
+        frame: &PlotFrame,
+        draw: impl FnOnce() -> Raster,
+    ) -> &Raster {
+        let same = |kept: &Held<LinesKey, Raster>| {
+            kept.key.frame == *frame
+                && kept.key.lines.len() == lines.len()
+                && kept.key.lines.iter().zip(lines).all(|(a, b)| same_line(a, b))
+        };
+        let index = self.lines.iter().position(same).unwrap_or_else(|| {
+            let key = LinesKey { lines: lines.to_vec(), frame: *frame };
+            self.lines.push(Held { key, value: draw(), used: true });
+            self.lines.len() - 1
+        });
+        self.lines[index].used = true;
+        &self.lines[index].value
     }
 
     /// The rows of the law's text at a width, made where they are not known yet.
@@ -228,6 +261,16 @@ impl DrawnTrail {
         if let Some(newest) = rows.row(all.wrapping_sub(1)) {
             newest.clone_into(&mut self.last);
         }
+    }
+}
+
+/// Whether two layers are the same line.
+fn same_line((level, layer): &(Level, Layer), (other_level, other): &(Level, Layer)) -> bool {
+    match (layer, other) {
+        (Layer::Line(points, stroke), Layer::Line(others, other_stroke)) => {
+            level == other_level && stroke == other_stroke && points == others
+        }
+        _ => false,
     }
 }
 

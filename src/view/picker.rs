@@ -14,7 +14,7 @@ use super::picture;
 use super::quantity::Quantities;
 use super::theme::Role;
 use super::values::window;
-use super::wrap::{capitalised, shortened, words};
+use super::wrap::{capitalised, ending, shortened, words};
 use crate::app::{Above, App, FuzzyMatch, HitTarget, Picker, Saved};
 use crate::preset::{CatalogEntry, PresetOrigin};
 
@@ -153,7 +153,9 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
                 canvas.left(columns(area, 1, 1), Role::Accent, mark);
                 let role = if entry.fault.is_some() { Role::Bad } else { Role::Text };
                 let name = columns(area, 3, area.width.saturating_sub(4));
-                let title = found_in(canvas, &entry.info.title, (fit, role));
+                let whole = &entry.info.title;
+                let title = distinct(canvas, picker, whole, name.width.into());
+                let title = found_in(canvas, title.as_ref().unwrap_or(whole), (fit, role));
                 canvas.spans(name, &title);
                 if selected {
                     canvas.tint(columns(area, 1, area.width.saturating_sub(2)), Role::Selected);
@@ -161,6 +163,19 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
             }
         }
     }
+}
+
+/// The end of a title, where there is no room for the whole and its beginning is that of another one. The letters of a
+/// search are found in whole titles.
+fn distinct(canvas: &Canvas<'_>, picker: &Picker, title: &str, width: usize) -> Option<String> {
+    if title.width() <= width || picker.sought().is_some() {
+        return None;
+    }
+    let mark = canvas.look.glyphs.pick("…", "~");
+    let own = shortened(title, width, mark);
+    let others = picker.entries.iter().map(|entry| &entry.info.title);
+    let alike = others.filter(|other| shortened(other, width, mark) == own).count();
+    (alike > 1).then(|| ending(title, width, mark))
 }
 
 /// Says what lessons and demos are, and how many of them there are.

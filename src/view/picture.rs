@@ -4,7 +4,6 @@
 //! kind of plot.
 
 use ratatui::layout::Rect;
-use ratatui::style::Style;
 
 use super::canvas::{Canvas, Span, columns, groups, row, wide};
 use super::colour::ColourDepth;
@@ -16,17 +15,10 @@ use super::plot::{Ages, Axes, DrawnAxis, Marker, Pen, PlotFrame, Raster, Scale};
 use super::quantity::{Quantities, through};
 use super::theme::Role;
 use super::time_window::time_window;
-use super::{companions, cursor, field, legend, prediction, space};
-use crate::analysis::{Curve, Landscape};
+use super::{companions, cursor, field, legend, level_curves, prediction, space};
 use crate::instrument::{
     Across, Entry, Heading, Ink, Layer, Level, Picture, Plot, Sign, Upwards, Viewport,
 };
-
-/// A level curve is omitted if it shares more than this fraction of its cells with others: in ASCII, and with dots.
-const CROWDED: [f64; 2] = [0.25, 0.35];
-
-/// The number of cells above which all levels are drawn.
-const ROOMY: u32 = 2000;
 
 /// Builds the heading: what is shown, as many current values as fit, and what is being computed.
 pub(super) fn title(
@@ -204,8 +196,15 @@ pub(super) fn draw(
     }
     let frame = axes.draw(area, canvas.buffer, &look.theme, look.glyphs);
     let mut raster = Raster::new(frame.area, look.glyphs);
-    for (level, layer) in &layers {
-        draw_layer(canvas, &mut raster, (&frame, q), (*level, layer));
+    let is_line = |(_, layer): &(Level, Layer)| matches!(layer, Layer::Line(..));
+    for run in layers.chunk_by(|a, b| is_line(a) && is_line(b)) {
+        if run.len() > 1 {
+            draw_lines(canvas, &mut raster, (&frame, q), run);
+        } else {
+            run.iter().for_each(|(level, layer)| {
+                draw_layer(canvas, &mut raster, (&frame, q), (*level, layer))
+            });
+        }
     }
     let marks = occurrences.map_or_else(Marks::none, |(level, columns)| {
         let place = |row: &[f64]| {
@@ -256,6 +255,24 @@ fn axis_upwards(q: &Quantities<'_>, upwards: &Upwards, viewport: Viewport) -> Dr
     }
 }
 
+/// Draws lines that often are those of the last frame.
+fn draw_lines(
+    canvas: &mut Canvas<'_>,
+    raster: &mut Raster,
+    (frame, q): (&PlotFrame, &Quantities<'_>),
+    lines: &[(Level, Layer)],
+) {
+    let mut kept = std::mem::take(&mut canvas.kept);
+    raster.lay(kept.lines(lines, frame, || {
+        let mut fresh = Raster::new(frame.area, canvas.look.glyphs);
+        for (level, layer) in lines {
+            draw_layer(canvas, &mut fresh, (frame, q), (*level, layer));
+        }
+        fresh
+    }));
+    canvas.kept = kept;
+}
+
 fn draw_layer(
     canvas: &mut Canvas<'_>,
     raster: &mut Raster,
@@ -268,7 +285,7 @@ fn draw_layer(
             let mut kept = std::mem::take(&mut canvas.kept);
             raster.lay(kept.levels(landscape, (frame, level), || {
                 let mut fresh = Raster::new(frame.area, look.glyphs);
-                levels(canvas, &mut fresh, frame, landscape, level);
+                level_curves::draw(canvas, &mut fresh, frame, landscape, level);
                 fresh
             }));
             canvas.kept = kept;
@@ -383,7 +400,7 @@ fn crossings<'a>(
     rows.map(move |row| channels.map(|channel| row[1 + channel]))
 }
 
-fn pen(canvas: &Canvas<'_>, ink: Ink, level: Level) -> Pen {
+pub(super) fn pen(canvas: &Canvas<'_>, ink: Ink, level: Level) -> Pen {
     let theme = &canvas.look.theme;
     match ink {
         Ink::Plain => Pen::new(theme[Role::Text], level),
@@ -393,46 +410,6 @@ fn pen(canvas: &Canvas<'_>, ink: Ink, level: Level) -> Pen {
         Ink::Separatrix => Pen::shaded(theme.line(Role::Separatrix), level),
         Ink::Curve(index) => Pen::new(theme.curve(index), level),
         Ink::Companion(number) => Pen::new(companions::ink(theme, number), level),
-    }
-}
-
-/// Draws separatrices, and as many energy levels as fit beside each other.
-fn levels(
-    canvas: &Canvas<'_>,
-    raster: &mut Raster,
-    frame: &PlotFrame,
-    landscape: &Landscape,
-    lowest: Level,
-) {
-    let look = canvas.look;
-    let crowded = look.glyphs.pick(CROWDED[1], CROWDED[0]);
-    let plain = Pen::new(Style::new(), 0);
-    let trace = |raster: &mut Raster, curves: &[Curve], pen: &Pen| {
-        for curve in curves {
-            raster.polyline(frame, curve.iter().copied(), pen);
-        }
-    };
-    let parting = pen(canvas, Ink::Separatrix, lowest + 1);
-    trace(raster, &landscape.separatrices, &parting);
-    let faint = pen(canvas, Ink::Level, lowest);
-    if frame.area.area() > ROOMY && !look.glyphs.is_ascii() {
-        landscape.levels.iter().for_each(|level| trace(raster, level, &faint));
-    } else {
-        let blank = Raster::new(frame.area, look.glyphs);
-        let mut drawn = blank.clone();
-        trace(&mut drawn, &landscape.separatrices, &plain);
-        for level in &landscape.levels {
-            // Curves that share most of their cells cannot be distinguished.
-            let mut alone = blank.clone();
-            trace(&mut alone, level, &plain);
-            if alone.shared(&drawn) <= crowded {
-                trace(raster, level, &faint);
-                drawn.absorb(&alone);
-            }
-        }
-    }
-    for saddle in &landscape.saddles {
-        raster.marker(frame, *saddle, Marker::Cross, &parting);
     }
 }
 

@@ -7,6 +7,7 @@ mod arrow;
 mod body;
 mod circle;
 mod colours;
+mod line;
 mod reference_frame;
 mod rod;
 mod scene;
@@ -14,6 +15,7 @@ mod solid;
 mod surface;
 
 use ratatui::layout::Rect;
+use ratatui::style::Style;
 
 use super::canvas::Canvas;
 use super::companions;
@@ -51,12 +53,15 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, q: &Quantities<'_>, eye:
         q.snapshot.companions.iter().map(|one| companions::as_main(q.snapshot, one)).collect();
     let beside: Vec<_> = beside.iter().map(|snapshot| Quantities { snapshot, ..*q }).collect();
     let reference_frame = ReferenceFrame::of(q, eye.frame);
-    let scene = Scene::of(q, *eye, reference_frame.as_ref());
+    let outline = Outline::of(q, *eye);
+    let scene = Scene::of((q, outline.as_ref()), *eye, reference_frame.as_ref());
     let frame = scene.frame(&camera, area);
     let raster = Raster::new(area, canvas.look.glyphs);
     let depth = DepthBuffer::new(&frame, raster.size());
     let mut artist = ScenePainter {
         range: scene.depths(&camera),
+        outline: outline.as_ref(),
+        receding: Vec::new(),
         labels: Vec::new(),
         surfaces: Vec::new(),
         depth,
@@ -122,6 +127,10 @@ struct ScenePainter<'a> {
     surfaces: Vec<(Pen, [f64; 2])>,
     /// How near to the eye the back and the front of the scene are; `None` in a plane.
     range: Option<[f64; 2]>,
+    /// The model's body, if there is one in the picture.
+    outline: Option<&'a Outline>,
+    /// Styles, and how they look at each distance.
+    receding: Vec<(Style, [Style; DISTANCES])>,
     /// Names beside points.
     labels: Vec<Label>,
     /// The points that have a colour of their own.
@@ -274,46 +283,6 @@ impl ScenePainter<'_> {
         [right, up]
     }
 
-    /// Draws what is visible of a line through points, dimmer where it is farther away.
-    fn curve(&mut self, points: &[[f64; 3]], pen: &Pen) {
-        let projection = self.camera.projection();
-        let seen: Vec<_> = points.iter().map(|point| projection.of(*point)).collect();
-        self.in_view(&seen, pen);
-    }
-
-    /// Draws what is visible of a line through points in the coordinates of the camera.
-    fn in_view(&mut self, seen: &[[f64; 3]], pen: &Pen) {
-        let Some([far, near]) = self.range else {
-            let flat = seen.iter().map(|[x, y, _]| [*x, *y]);
-            return self.raster.polyline(&self.frame, flat, pen);
-        };
-        let last = DISTANCES - 1;
-        let theme = &self.q.look.theme;
-        let pens: Vec<Pen> = (0..DISTANCES)
-            .map(|step| {
-                let share = step as f64 / last as f64;
-                let style = theme.receding(pen.style, share);
-                Pen { style, fresh: (last - step) as u8, ..*pen }
-            })
-            .collect();
-        let line = self.depth.visible(seen).into_iter().map(|[x, y, depth]| {
-            let share = (near - depth) / (near - far) * DISTANCES as f64;
-            ([x, y], if share.is_finite() { share.clamp(0.0, last as f64) as usize } else { 0 })
-        });
-        let line: Vec<_> = line.collect();
-        self.raster.polyline_in(&self.frame, line, &pens);
-    }
-
-    /// Draws where a surface between two rims turns away from the eye.
-    fn silhouette(&mut self, low: &[[f64; 3]], high: &[[f64; 3]], pen: &Pen) {
-        let projection = self.camera.projection();
-        let [low, high]: [Vec<_>; 2] =
-            [low, high].map(|rim| rim.iter().map(|point| projection.of(*point)).collect());
-        for [from, to] in solid::silhouette(&low, &high) {
-            self.in_view(&[from, to], pen);
-        }
-    }
-
     /// A radius in cells, if it is large enough to be drawn.
     fn cells(&self, radius: f64) -> Option<f64> {
         let cell = (self.frame.x.hi - self.frame.x.lo) / f64::from(self.frame.area.width.max(1));
@@ -389,14 +358,14 @@ impl ScenePainter<'_> {
 
     /// Draws the pieces of the model's body and its principal axes, with its centre of mass at a point.
     fn body(&mut self, at: &Point) {
-        let Some(outline) = Outline::of(self.q) else { return };
+        let Some(outline) = self.outline else { return };
         let at = self.q.point(at);
-        let place = |own: [f64; 3]| self.place(at, own);
-        let placed = |lines: Vec<Vec<[f64; 3]>>| -> Vec<Vec<[f64; 3]>> {
-            lines.into_iter().map(|line| line.into_iter().map(place).collect()).collect()
+        let place = |own: &[f64; 3]| self.place(at, *own);
+        let placed = |lines: &[Vec<[f64; 3]>]| -> Vec<Vec<[f64; 3]>> {
+            lines.iter().map(|line| line.iter().map(place).collect()).collect()
         };
-        let (axes, edges) = (placed(outline.axes), placed(outline.edges));
-        let points: Vec<_> = outline.points.into_iter().map(place).collect();
+        let (axes, edges) = (placed(&outline.axes), placed(&outline.edges));
+        let points: Vec<_> = outline.points.iter().map(place).collect();
         let theme = &self.q.look.theme;
         for line in axes {
             self.curve(&line, &Pen::shaded(theme.line(Role::Separatrix), TRACK));

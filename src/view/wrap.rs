@@ -69,6 +69,15 @@ pub(super) fn shortened_within(text: &str, width: usize, mark: &str) -> String {
     format!("{begin}{end}")
 }
 
+/// The last words in `width` columns, with `mark` in place of those before, for a text of which others begin alike.
+pub(super) fn ending(text: &str, width: usize, mark: &str) -> String {
+    let mut ends =
+        text.char_indices().filter(|(_, c)| c.is_whitespace()).map(|(at, _)| &text[at..]);
+    let fits = |end: &&str| end.trim_start().width() + mark.width() <= width;
+    let end = ends.find(fits).filter(|_| text.width() > width);
+    end.map_or_else(|| shortened(text, width, mark), |end| format!("{mark}{}", end.trim_start()))
+}
+
 /// Words that a shortened text does not end with.
 const LINKS: &[&str] = &[
     "=", "+", "−", "a", "about", "along", "an", "and", "as", "at", "by", "for", "from", "if", "in",
@@ -313,7 +322,7 @@ fn split(text: &str, room: usize) -> (String, String) {
 
 #[cfg(test)]
 mod tests {
-    use super::{formula, report_line, shortened, shortened_within};
+    use super::{ending, formula, report_line, shortened, shortened_within};
 
     #[test]
     fn a_shortened_text_ends_with_a_word_that_says_something() {
@@ -346,6 +355,15 @@ mod tests {
                 assert!(unicode_width::UnicodeWidthStr::width(&*short) <= width, "{short} {width}");
             }
         }
+    }
+
+    #[test]
+    fn an_ending_is_whole_words_after_the_mark() {
+        let title = "Charge in the field of a magnetic dipole";
+        assert_eq!(ending(title, 27, "…"), "…field of a magnetic dipole");
+        assert_eq!(ending(title, 26, "…"), "…of a magnetic dipole");
+        assert_eq!(ending(title, 40, "…"), title);
+        assert_eq!(ending("unbroken", 5, "…"), "unbr…");
     }
 
     #[test]

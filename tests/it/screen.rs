@@ -5,6 +5,7 @@ mod cells;
 mod fit;
 mod golden;
 mod hit_test;
+mod kept;
 mod labels;
 mod motion;
 mod panes;

@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use ratatui::layout::Rect;
 
 use super::scale::{PlotFrame, Scale};
-use crate::num::math;
+use crate::num::{OrientationPolytope, math};
 
 /// A view of space, orthographic or with slight perspective.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,21 +81,31 @@ impl Camera {
     /// The frame over an area that shows a whole box with equal units, then zoomed and panned.
     pub fn frame(&self, bounds: &Bounds, area: Rect) -> PlotFrame {
         let [low, high] = bounds.ends.unwrap_or([[-1.0; 3], [1.0; 3]]);
-        self.frame_around(&[Extent { low, high, radius: 0.0 }], area)
+        self.frame_around(&[Extent { low, high, radius: 0.0, hull: None }], area)
     }
 
     /// The frame over an area that shows the whole of each extent with equal units, then zoomed and panned. The
     /// outline of all of them on the screen, not a box in space around it, fills the area in one of its directions.
     pub fn frame_around(&self, extents: &[Extent], area: Rect) -> PlotFrame {
         let projection = Self { distance: None, ..*self }.projection();
+        let axes = projection.axes();
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for extent in extents {
+            let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
             for corner in extent.corners() {
                 let seen = projection.of(corner);
                 for k in 0..2 {
-                    low[k] = low[k].min(seen[k] - extent.radius);
-                    high[k] = high[k].max(seen[k] + extent.radius);
+                    least[k] = least[k].min(seen[k]);
+                    most[k] = most[k].max(seen[k]);
                 }
+            }
+            for k in 0..2 {
+                if let Some(hull) = &extent.hull {
+                    least[k] = least[k].max(-hull.reach(axes[k].map(|x| -x)));
+                    most[k] = most[k].min(hull.reach(axes[k]));
+                }
+                low[k] = low[k].min(least[k] - extent.radius);
+                high[k] = high[k].max(most[k] + extent.radius);
             }
         }
         let half = |k: usize| high[k] / 2.0 - low[k] / 2.0;
@@ -120,6 +130,12 @@ pub struct CameraProjection {
 }
 
 impl CameraProjection {
+    /// The directions in space that are seen as horizontal and as vertical.
+    fn axes(&self) -> [[f64; 3]; 2] {
+        let ((sin_yaw, cos_yaw), (sin_pitch, cos_pitch)) = (self.yaw, self.pitch);
+        [[cos_yaw, sin_yaw, 0.0], [-sin_yaw * sin_pitch, cos_yaw * sin_pitch, cos_pitch]]
+    }
+
     /// Projects a point, see [`Camera::project`].
     pub fn of(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         let ((sin_yaw, cos_yaw), (sin_pitch, cos_pitch)) = (self.yaw, self.pitch);
@@ -170,7 +186,7 @@ impl Bounds {
     }
 }
 
-/// A box in space, each of whose points is the centre of a ball.
+/// A box in space, each of whose points is the centre of a ball, or what of it is within a polytope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extent {
     /// The lowest corner of the box.
@@ -179,6 +195,8 @@ pub struct Extent {
     pub high: [f64; 3],
     /// The radius of the balls; 0 where the extent is the box itself.
     pub radius: f64,
+    /// The polytope that contains the centres as well, if it is known.
+    pub hull: Option<OrientationPolytope>,
 }
 
 impl Extent {

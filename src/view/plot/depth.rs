@@ -32,27 +32,41 @@ pub struct Covered {
 pub struct DepthBuffer {
     frame: PlotFrame,
     size: [i32; 2],
-    /// Row by row; empty as long as there is no surface.
-    covered: Vec<Option<Covered>>,
+    /// How near the nearest surface is, row by row; −∞ where there is none. Empty as long as there is no surface.
+    nears: Vec<f64>,
+    /// Which surface that is, and how brightly it is lit.
+    surfaces: Vec<(u32, f32)>,
 }
 
 impl DepthBuffer {
     /// Creates a buffer without surfaces over a raster of this many dots.
     pub fn new(frame: &PlotFrame, size: [i32; 2]) -> Self {
-        Self { frame: *frame, size: size.map(|n| n.max(0)), covered: Vec::new() }
+        Self {
+            frame: *frame,
+            size: size.map(|n| n.max(0)),
+            nears: Vec::new(),
+            surfaces: Vec::new(),
+        }
     }
 
     /// Whether there is no surface.
     pub fn is_empty(&self) -> bool {
-        self.covered.is_empty()
+        self.nears.is_empty()
     }
 
     /// The covered dots.
     pub fn dots(&self) -> impl Iterator<Item = ([i32; 2], Covered)> {
         let wide = self.size[0].max(1) as usize;
-        let dots = self.covered.iter().enumerate();
-        dots.filter_map(move |(i, covered)| {
-            Some(([(i % wide) as i32, (i / wide) as i32], (*covered)?))
+        let rows = self.nears.chunks(wide).zip(self.surfaces.chunks(wide)).enumerate();
+        rows.flat_map(|(row, (nears, surfaces))| {
+            let dots = nears.iter().zip(surfaces).enumerate();
+            dots.filter(|(_, (near, _))| **near > f64::NEG_INFINITY).map(
+                move |(column, (&near, &(surface, light)))| {
+                    let covered =
+                        Covered { near, surface: surface as usize, light: f64::from(light) };
+                    ([column as i32, row as i32], covered)
+                },
+            )
         })
     }
 
@@ -81,17 +95,29 @@ impl DepthBuffer {
             let middle = |column: i32| [f64::from(column) + 0.5, f64::from(row) + 0.5];
             // How far right of the first column each edge lets the row begin and end.
             let (mut from, mut to) = (f64::from(columns.start), f64::from(columns.end));
-            for (k, p) in dots.iter().enumerate() {
-                let q = dots[(k + 1) % dots.len()];
-                let inside = whole.signum() * side([*p, q, middle(0)]);
+            let height = f64::from(row) + 0.5;
+            let mut previous = dots[dots.len() - 1];
+            let mut crossed = false;
+            for &dot in &dots {
+                let (p, q) = (previous, dot);
+                previous = dot;
+                // The face is convex: only the edges that pass this height bound the row.
+                if (p[1] < height && q[1] < height) || (p[1] > height && q[1] > height) {
+                    continue;
+                }
+                crossed = true;
+                let inside = whole.signum() * side([p, q, middle(0)]);
                 let slope = whole.signum() * (p[1] - q[1]);
                 if slope > 0.0 {
-                    from = from.max((-inside / slope).ceil());
+                    from = from.max(-(whole_below(inside / slope)));
                 } else if slope < 0.0 {
-                    to = to.min((-inside / slope).floor() + 1.0);
+                    to = to.min(whole_below(-inside / slope) + 1.0);
                 } else if inside < 0.0 {
                     to = from;
                 }
+            }
+            if !crossed {
+                continue;
             }
             for column in from as i32..to as i32 {
                 let near = near(middle(column));
@@ -127,18 +153,20 @@ impl DepthBuffer {
     /// Whether a surface is in front of a dot of something at this depth.
     pub fn hides(&self, [x, y]: [i32; 2], near: f64) -> bool {
         let [wide, high] = self.size;
-        if self.covered.is_empty() || !(0..wide).contains(&x) || !(0..high).contains(&y) {
+        if self.is_empty() || !(0..wide).contains(&x) || !(0..high).contains(&y) {
             return false;
         }
         let slack = TOLERANCE * (self.frame.x.hi - self.frame.x.lo).abs();
-        let covered = self.covered.get((y * wide + x) as usize).copied().flatten();
-        covered.is_some_and(|covered| covered.near > near + slack)
+        self.nears.get((y * wide + x) as usize).is_some_and(|covered| *covered > near + slack)
     }
 
     /// Whether a surface is in front of a point.
     pub fn hides_point(&self, [x, y, near]: [f64; 3]) -> bool {
+        if self.is_empty() {
+            return false;
+        }
         let dot = self.frame.dot([x, y], self.size);
-        dot.iter().all(|v| v.is_finite()) && self.hides(dot.map(|v| v.floor() as i32), near)
+        dot.iter().all(|v| v.is_finite()) && self.hides(dot.map(|v| whole_below(v) as i32), near)
     }
 
     /// A line through points in short pieces; a point without a position (NaN) stands for what is hidden.
@@ -151,18 +179,21 @@ impl DepthBuffer {
             let length = math::hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
             let count = (length / PIECE).ceil().clamp(1.0, MOST_PIECES);
             let place = |share: f64| [0, 1, 2].map(|k| a[k] + share * (b[k] - a[k]));
+            let mut begins = place(0.0);
             for piece in 0..count as u32 {
                 let share = |more: f64| (f64::from(piece) + more) / count;
-                if self.hides_point(place(share(0.5))) {
+                let ends = place(share(1.0));
+                if !self.is_empty() && self.hides_point(place(share(0.5))) {
                     seen.push([f64::NAN; 3]);
                     at = None;
-                    continue;
+                } else {
+                    if at != Some(begins) {
+                        seen.extend([[f64::NAN; 3], begins]);
+                    }
+                    seen.push(ends);
+                    at = Some(ends);
                 }
-                if at != Some(place(share(0.0))) {
-                    seen.extend([[f64::NAN; 3], place(share(0.0))]);
-                }
-                seen.push(place(share(1.0)));
-                at = Some(place(share(1.0)));
+                begins = ends;
             }
         }
         seen
@@ -182,15 +213,24 @@ impl DepthBuffer {
     }
 
     fn cover(&mut self, [x, y]: [i32; 2], new: Covered) {
-        if self.covered.is_empty() {
-            self.covered = vec![None; (self.size[0] * self.size[1]) as usize];
+        if self.nears.is_empty() {
+            let count = (self.size[0] * self.size[1]) as usize;
+            (self.nears, self.surfaces) = (vec![f64::NEG_INFINITY; count], vec![(0, 0.0); count]);
         }
-        if let Some(old) = self.covered.get_mut((y * self.size[0] + x) as usize)
-            && old.is_none_or(|old| old.near < new.near)
+        let place = (y * self.size[0] + x) as usize;
+        if let (Some(near), Some(surface)) =
+            (self.nears.get_mut(place), self.surfaces.get_mut(place))
+            && *near < new.near
         {
-            *old = Some(new);
+            (*near, *surface) = (new.near, (new.surface as u32, new.light as f32));
         }
     }
+}
+
+/// The greatest whole number that is not above one of the size of a screen, without a call.
+fn whole_below(x: f64) -> f64 {
+    let whole = x as i64 as f64;
+    if whole > x { whole - 1.0 } else { whole }
 }
 
 /// Twice the area of a triangle, with a sign for the way round.

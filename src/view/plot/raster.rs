@@ -28,6 +28,9 @@ use letter::letter;
 /// The most cells drawn in a row or column; no terminal has more.
 const MOST_CELLS: u16 = 1024;
 
+/// The share of dots from which on the shading of a surface is heavier in ASCII.
+const LIGHT: f64 = 0.6;
+
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pen {
@@ -168,6 +171,13 @@ impl Raster {
     /// Sets one dot; a dot outside the raster is ignored.
     pub fn dot(&mut self, dot: [i32; 2], pen: &Pen) {
         self.ink(dot, pen, None);
+    }
+
+    /// Sets one dot of a shaded surface. In ASCII a cell has a light character in place of its dots, so that lines on the
+    /// surface are seen.
+    pub fn shade(&mut self, dot: [i32; 2], pen: &Pen) {
+        let light = if pen.coverage < LIGHT { '.' } else { ':' };
+        self.ink(dot, pen, (self.glyphs.is_ascii() && pen.coverage < 1.0).then_some(light));
     }
 
     /// Draws single dots.
@@ -367,8 +377,9 @@ impl Raster {
 /// A value in 0..1 fixed to a dot, spread evenly along every direction (M. Roberts' R2 sequence, 2018), so that
 /// thinned lines neither flicker nor vanish.
 fn noise([x, y]: [i32; 2]) -> f64 {
-    (f64::from(x) * 0.754_877_666_246_692_7 + f64::from(y) * 0.569_840_290_998_053_2)
-        .rem_euclid(1.0)
+    let along = f64::from(x) * 0.754_877_666_246_692_7 + f64::from(y) * 0.569_840_290_998_053_2;
+    // Dots are counted from zero; a fraction taken by way of a whole number needs no call.
+    along - along as i64 as f64
 }
 
 /// Maps dots in row order to the order of Unicode's braille block.

@@ -4,11 +4,13 @@
 //! mass. Never here: moments of inertia, or the computation of the attitude.
 
 use std::f64::consts::TAU;
+use std::sync::LazyLock;
 
 use super::solid::{self, Occluder as Surface};
 use crate::expr::Expr;
+use crate::instrument::CameraPose;
 use crate::mechanics::principal;
-use crate::model::{Model, Piece, PieceOrientation, Solid};
+use crate::model::{Model, Piece, PieceOrientation, Shape, Solid};
 use crate::num::{DoubleDouble, math};
 use crate::system::ChannelKind;
 use crate::view::quantity::Quantities;
@@ -18,6 +20,11 @@ const SIDES: usize = 48;
 
 /// The length of the principal axes relative to the body.
 const AXES: f64 = 1.25;
+
+/// The sine and cosine of the direction of each corner of a rim.
+static DIRECTIONS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
+    (0..=SIDES).map(|side| math::sin_cos(side as f64 * TAU / SIDES as f64)).collect()
+});
 
 type Polyline3 = Vec<[f64; 3]>;
 
@@ -34,10 +41,13 @@ pub(super) struct Outline {
 }
 
 impl Outline {
-    /// The current outline of the model's body, or `None` if it has no body.
-    pub(super) fn of(q: &Quantities<'_>) -> Option<Self> {
+    /// The current outline of the model's body, or `None` if there is none in the picture.
+    pub(super) fn of(q: &Quantities<'_>, eye: CameraPose) -> Option<Self> {
         let model: &Model = &q.lab.loaded.model;
         let body = model.body.as_ref()?;
+        if !q.lab.shapes(eye).any(|(shape, _)| matches!(shape, Shape::Body { .. })) {
+            return None;
+        }
         let now = q.lab.valuation();
         let value = |e: Expr| now.value(&model.pool, e);
         let centre = body.names.centre.map(|symbol| now.at(symbol));
@@ -45,8 +55,9 @@ impl Outline {
             Self { edges: Vec::new(), axes: Vec::new(), surfaces: Vec::new(), points: Vec::new() };
         for piece in &body.pieces {
             let at = piece.at.map(value);
+            let turn = turns(piece, &value);
             let place = |own: [f64; 3]| {
-                let turned = turned(piece, own, &value);
+                let turned = turn.iter().fold(own, |v, turn| turn.of(v));
                 [0, 1, 2].map(|k| at[k] + turned[k] - centre[k])
             };
             if matches!(piece.solid, Solid::Point) {
@@ -91,28 +102,42 @@ impl Outline {
     }
 }
 
-/// Transforms a point from a piece's own axes to the body's.
-fn turned(piece: &Piece, own: [f64; 3], value: &impl Fn(Expr) -> f64) -> [f64; 3] {
+/// The rotations, the first one first, from a piece's own axes to the body's.
+fn turns(piece: &Piece, value: &impl Fn(Expr) -> f64) -> Vec<Turn> {
     match &piece.turn {
-        PieceOrientation::None => own,
-        PieceOrientation::Axis { axis, angle } => about(axis.map(value), value(*angle), own),
+        PieceOrientation::None => Vec::new(),
+        PieceOrientation::Axis { axis, angle } => vec![Turn::about(axis.map(value), value(*angle))],
         PieceOrientation::Euler([phi, theta, psi]) => {
             let (x, z) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
-            about(z, value(*phi), about(x, value(*theta), about(z, value(*psi), own)))
+            let turns = [(z, psi), (x, theta), (z, phi)];
+            turns.map(|(axis, angle)| Turn::about(axis, value(*angle))).to_vec()
         }
     }
 }
 
-/// Rotates a vector about an axis by the right-hand rule: v cos α + (n×v) sin α + n (n·v)(1 − cos α).
-fn about(axis: [f64; 3], angle: f64, v: [f64; 3]) -> [f64; 3] {
-    let length = axis.iter().map(|a| a * a).sum::<f64>().sqrt();
-    let n = axis.map(|a| a / length);
-    let (sin, cos) = math::sin_cos(angle);
-    let along: f64 = (0..3).map(|k| n[k] * v[k]).sum();
-    [0, 1, 2].map(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        v[k] * cos + (n[i] * v[j] - n[j] * v[i]) * sin + n[k] * along * (1.0 - cos)
-    })
+/// A rotation about an axis by the right-hand rule: v cos α + (n×v) sin α + n (n·v)(1 − cos α).
+#[derive(Clone, Copy)]
+struct Turn {
+    n: [f64; 3],
+    sin: f64,
+    cos: f64,
+}
+
+impl Turn {
+    fn about(axis: [f64; 3], angle: f64) -> Self {
+        let length = axis.iter().map(|a| a * a).sum::<f64>().sqrt();
+        let (sin, cos) = math::sin_cos(angle);
+        Self { n: axis.map(|a| a / length), sin, cos }
+    }
+
+    fn of(&self, v: [f64; 3]) -> [f64; 3] {
+        let Self { n, sin, cos } = *self;
+        let along: f64 = (0..3).map(|k| n[k] * v[k]).sum();
+        [0, 1, 2].map(|k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            v[k] * cos + (n[i] * v[j] - n[j] * v[i]) * sin + n[k] * along * (1.0 - cos)
+        })
+    }
 }
 
 /// The rims and edges of a solid in its own axes, about its centre of mass.
@@ -203,8 +228,5 @@ fn surfaces(solid: &Solid, value: &impl Fn(Expr) -> f64) -> Vec<Surface> {
 }
 
 fn circle(radius: f64) -> impl Iterator<Item = [f64; 2]> {
-    (0..=SIDES).map(move |side| {
-        let (sin, cos) = math::sin_cos(side as f64 * TAU / SIDES as f64);
-        [radius * cos, radius * sin]
-    })
+    DIRECTIONS.iter().map(move |(sin, cos)| [radius * cos, radius * sin])
 }

@@ -3,18 +3,25 @@
 //! In: a centre, a size, a normal. Out: points in order. Never here: what they belong to.
 
 use std::f64::consts::TAU;
+use std::sync::LazyLock;
 
 use crate::num::math;
 
+/// The number of sides of a circle.
+const SIDES: i32 = 96;
+
+/// The sine and cosine of the direction of each corner.
+static DIRECTIONS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
+    (0..=SIDES).map(|side| math::sin_cos(f64::from(side) * TAU / f64::from(SIDES))).collect()
+});
+
 /// The points of a circle about an axis.
 pub(super) fn circle(centre: [f64; 3], radius: f64, normal: [f64; 3]) -> Vec<[f64; 3]> {
-    let sides = 96;
     let [u, v] = perpendicular(normal);
-    let point = |side: i32| {
-        let (sin, cos) = math::sin_cos(f64::from(side) * TAU / f64::from(sides));
+    let point = |&(sin, cos): &(f64, f64)| {
         [0, 1, 2].map(|k| centre[k] + radius * (cos * u[k] + sin * v[k]))
     };
-    (0..=sides).map(point).collect()
+    DIRECTIONS.iter().map(point).collect()
 }
 
 /// The outline of a square with the given normal and edge.

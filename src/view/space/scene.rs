@@ -10,7 +10,7 @@ use super::reference_frame::ReferenceFrame;
 use crate::expr::Symbol;
 use crate::instrument::CameraPose;
 use crate::model::{Point, Shape};
-use crate::num::math;
+use crate::num::{OrientationPolytope, math};
 use crate::view::plot::{Bounds, Camera, Extent, PlotFrame};
 use crate::view::quantity::{Quantities, Source};
 
@@ -31,22 +31,27 @@ impl Scene {
     /// A rod (a line of constant length) may swing around one of its ends. The box contains its whole circle from the
     /// start, so that the picture does not shrink during the first swing. A free rod does not swing around its ends.
     pub(super) fn of(
-        q: &Quantities<'_>,
+        (q, body): (&Quantities<'_>, Option<&Outline>),
         eye: CameraPose,
         reference_frame: Option<&ReferenceFrame>,
     ) -> Self {
         let mut scene = Self { bounds: Bounds::EMPTY, extents: Vec::new() };
         if let Some(extent) = followed(q, eye, reference_frame) {
-            scene.add([extent.low, extent.high], extent.radius);
+            scene.add([extent.low, extent.high], extent.radius, None);
             return scene;
         }
         let mut reached: Vec<(Point, Span3)> = Vec::new();
         for (shape, rod) in q.lab.shapes(eye) {
-            scene.include(q, shape, rod, &mut reached);
+            scene.include((q, body), (shape, rod), &mut reached);
         }
         if let (Some(ends), Some(reference_frame)) = (scene.bounds.ends(), reference_frame) {
             scene.bounds = Bounds::around(reference_frame.around(q, ends));
-            let around = scene.bounds.ends().map(|[low, high]| Extent { low, high, radius: 0.0 });
+            let around = scene.bounds.ends().map(|[low, high]| Extent {
+                low,
+                high,
+                radius: 0.0,
+                hull: None,
+            });
             scene.extents = around.into_iter().collect();
         }
         // What moves is rounded outwards, so that the picture does not move while the motion grows a little.
@@ -56,7 +61,8 @@ impl Scene {
             scene.bounds = rounded([low, high], step).map_or(scene.bounds, Bounds::around);
             for extent in &mut scene.extents {
                 if let Some([low, high]) = rounded([extent.low, extent.high], step) {
-                    *extent = Extent { low, high, ..*extent };
+                    let hull = extent.hull.map(|hull| hull.rounded(step));
+                    *extent = Extent { low, high, hull, ..*extent };
                 }
             }
         }
@@ -87,34 +93,34 @@ impl Scene {
 
     fn include(
         &mut self,
-        q: &Quantities<'_>,
-        shape: &Shape,
-        rod: bool,
+        (q, body): (&Quantities<'_>, Option<&Outline>),
+        (shape, rod): (&Shape, bool),
         reached: &mut Vec<(Point, Span3)>,
     ) {
         match shape {
             Shape::Spring { from, to } => {
-                self.add(reach(q, from, reached), 0.0);
-                self.add(extent(q, to), 0.0);
+                self.reached(q, from, reached, 0.0);
+                self.add(extent(q, to), 0.0, hull(q, to));
             }
             Shape::Line { from, to } => {
                 let start = reach(q, from, reached);
                 let swings = rod && !is_free(q, from, to);
-                let end = if swings { swing(q, from, to, start) } else { reach(q, to, reached) };
-                self.add(start, 0.0);
-                self.add(end, 0.0);
-                reached.push((*to, end));
+                self.reached(q, from, reached, 0.0);
+                if swings && let Some(circle) = swing(q, from, to, start) {
+                    reached.push((*to, circle));
+                }
+                self.reached(q, to, reached, 0.0);
             }
             Shape::Mass { at, radius } => {
                 let radius = radius.map_or(0.0, |radius| q.number(radius).abs());
-                self.add(reach(q, at, reached), radius);
+                self.reached(q, at, reached, radius);
             }
-            Shape::Trace { at } => self.add(reach(q, at, reached), 0.0),
+            Shape::Trace { at } => self.reached(q, at, reached, 0.0),
             // Words need no room of their own: they end where the picture does.
             Shape::Caption { .. } => {}
             Shape::Body { at } => {
-                let radius = Outline::of(q).map_or(0.0, |outline| outline.reach());
-                self.add(reach(q, at, reached), radius);
+                let radius = body.map_or(0.0, Outline::reach);
+                self.reached(q, at, reached, radius);
             }
             Shape::Circle { centre, radius, normal } | Shape::Disc { centre, radius, normal } => {
                 let radius = q.number(*radius);
@@ -122,26 +128,28 @@ impl Scene {
                     self.points(circle(q.point(centre), radius, q.point(normal)));
                 } else {
                     // A rim that turns may be anywhere on the sphere.
-                    self.add(reach(q, centre, reached), radius.abs());
+                    self.reached(q, centre, reached, radius.abs());
                 }
             }
             Shape::Sphere { centre, radius } => {
-                self.add(reach(q, centre, reached), q.number(*radius).abs());
+                self.reached(q, centre, reached, q.number(*radius).abs());
             }
             Shape::Cone { tip, base, radius } => {
-                self.add(reach(q, tip, reached), 0.0);
-                self.add(reach(q, base, reached), q.number(*radius).abs());
+                self.reached(q, tip, reached, 0.0);
+                self.reached(q, base, reached, q.number(*radius).abs());
             }
             Shape::Cylinder { from, to, radius } => {
                 let radius = q.number(*radius).abs();
-                self.add(reach(q, from, reached), radius);
-                self.add(reach(q, to, reached), radius);
+                self.reached(q, from, reached, radius);
+                self.reached(q, to, reached, radius);
             }
             Shape::Vector { at, components, .. } => {
                 let foot = reach(q, at, reached);
-                self.add(foot, 0.0);
+                self.reached(q, at, reached, 0.0);
                 let along = extent(q, components);
-                self.add([0, 1].map(|end| [0, 1, 2].map(|k| foot[end][k] + along[end][k])), 0.0);
+                let tip = [0, 1].map(|end| [0, 1, 2].map(|k| foot[end][k] + along[end][k]));
+                let both = hull(q, at).zip(hull(q, components)).map(|(a, b)| a.plus(&b));
+                self.add(tip, 0.0, both);
             }
             Shape::Path { points } => self.points(points.iter().map(|point| q.point(point))),
             Shape::Plane { at, normal, size } => {
@@ -150,18 +158,32 @@ impl Scene {
         }
     }
 
-    fn add(&mut self, [low, high]: Span3, radius: f64) {
+    /// Adds what a point may reach, with a ball around it.
+    fn reached(
+        &mut self,
+        q: &Quantities<'_>,
+        point: &Point,
+        reached: &[(Point, Span3)],
+        radius: f64,
+    ) {
+        // The circle of a rod is wider than what its end has reached so far.
+        let swings = reached.iter().any(|(other, _)| other == point);
+        let hull = hull(q, point).filter(|_| !swings);
+        self.add(reach(q, point, reached), radius, hull);
+    }
+
+    fn add(&mut self, [low, high]: Span3, radius: f64, hull: Option<OrientationPolytope>) {
         let flat = low[2] == 0.0 && high[2] == 0.0;
         let [lowest, highest] = grown([low, high], radius, flat);
         if [lowest, highest].as_flattened().iter().all(|v| v.is_finite()) {
             self.bounds = self.bounds.with(lowest).with(highest);
-            self.extents.push(Extent { low, high, radius });
+            self.extents.push(Extent { low, high, radius, hull });
         }
     }
 
     fn points(&mut self, points: impl IntoIterator<Item = [f64; 3]>) {
         for point in points {
-            self.add([point, point], 0.0);
+            self.add([point, point], 0.0, None);
         }
     }
 }
@@ -183,6 +205,7 @@ fn followed(
         low: at,
         high: at,
         radius,
+        hull: None,
     })
 }
 
@@ -202,21 +225,21 @@ fn round_step(length: f64) -> f64 {
     digit.unwrap_or(1.0) * power
 }
 
-/// The box that the far end of a rod may reach: its extent so far and, in a plane, the circle around the near end. In
-/// space the motion rarely fills the sphere.
-fn swing(q: &Quantities<'_>, from: &Point, to: &Point, start: Span3) -> Span3 {
+/// The box that the far end of a rod may reach in a plane: its extent so far and the circle around the near end. In
+/// space there is none, because the motion rarely fills the sphere.
+fn swing(q: &Quantities<'_>, from: &Point, to: &Point, start: Span3) -> Option<Span3> {
     let own = extent(q, to);
     let (a, b) = (q.point(from), q.point(to));
     let length = (0..3).map(|k| math::powi(b[k] - a[k], 2)).sum::<f64>().sqrt();
     let plane = is_flat(q, from) && is_flat(q, to);
     if rests(q, to) || !plane || !length.is_finite() {
-        return own;
+        return None;
     }
     let round = grown(start, length, plane);
-    [0, 1].map(|end| {
+    Some([0, 1].map(|end| {
         [0, 1, 2]
             .map(|k| if end == 0 { own[0][k].min(round[0][k]) } else { own[1][k].max(round[1][k]) })
-    })
+    }))
 }
 
 /// Whether a rod swings around neither of its ends: both move with the same coordinates, so none of them is the angle at
@@ -248,6 +271,25 @@ fn extent(q: &Quantities<'_>, point: &Point) -> Span3 {
         Source::Channel(channel) => q.bounds(channel),
     });
     [ends.map(|end| end.0), ends.map(|end| end.1)]
+}
+
+/// The polytope that contains a point's motion so far, if its hull is recorded or it does not move.
+fn hull(q: &Quantities<'_>, point: &Point) -> Option<OrientationPolytope> {
+    let sources = point.map(|expression| q.place(expression));
+    let channels = sources.map(|source| match source {
+        Source::Channel(channel) => Some(channel),
+        Source::Number(_) => None,
+    });
+    let constant = sources.map(|source| match source {
+        Source::Number(number) => number,
+        Source::Channel(_) => 0.0,
+    });
+    let rest = OrientationPolytope::around(constant);
+    if channels == [None; 3] {
+        return Some(rest).filter(|rest| !rest.is_empty());
+    }
+    let known = q.snapshot.hulls.iter().find(|hull| hull.channels == channels)?;
+    Some(known.polytope).filter(|hull| !hull.is_empty()).map(|hull| hull.plus(&rest))
 }
 
 fn is_flat(q: &Quantities<'_>, point: &Point) -> bool {

@@ -2,7 +2,6 @@
 //!
 //! In: the shapes of a scene. Out: depths, dots. Never here: lines and masses.
 
-use super::body::Outline;
 use super::solid::{self, Occluder};
 use super::{BODY, SURFACE, ScenePainter, circle};
 use crate::model::Shape;
@@ -55,9 +54,9 @@ impl ScenePainter<'_> {
                 ((Pen::new(style, BODY), WHOLE), vec![Occluder::Ball(self.point(at), radius)])
             }
             Shape::Body { at } => {
-                let Some(outline) = Outline::of(self.q) else { return };
+                let Some(outline) = self.outline else { return };
                 let centre = self.q.point(at);
-                let solids = outline.surfaces.into_iter();
+                let solids = outline.surfaces.iter().cloned();
                 (faint, solids.map(|solid| solid.moved(|own| self.place(centre, own))).collect())
             }
             _ => return,
@@ -77,7 +76,7 @@ impl ScenePainter<'_> {
         for (dot, covered) in self.depth.dots() {
             let Some((pen, [shade, light])) = self.surfaces.get(covered.surface) else { continue };
             let coverage = shade + (light - shade) * covered.light * covered.light;
-            self.raster.dot(dot, &pen.covering(coverage));
+            self.raster.shade(dot, &pen.covering(coverage));
         }
     }
 }

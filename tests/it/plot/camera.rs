@@ -74,7 +74,7 @@ fn filled(camera: Camera, extents: &[Extent], points: &[[f64; 3]], area: Rect) -
 fn a_scene_fills_its_area_in_one_direction_from_everywhere() {
     // A slanted rod: the box around it in space is far larger than what is seen of it.
     let ends = [[0.0, 0.0, 0.0], [2.0, 1.0, 3.0]];
-    let rod = ends.map(|point| Extent { low: point, high: point, radius: 0.0 });
+    let rod = ends.map(|point| Extent { low: point, high: point, radius: 0.0, hull: None });
     for (wide, high) in [(40, 20), (80, 12), (20, 40)] {
         for turn in 0..24 {
             let camera = Camera::IN_SPACE.turned(f64::from(turn) * PI / 12.0, 0.0);
@@ -86,7 +86,7 @@ fn a_scene_fills_its_area_in_one_direction_from_everywhere() {
 
 #[test]
 fn a_ball_is_as_large_from_everywhere_and_whole() {
-    let ball = [Extent { low: [1.0, 2.0, 3.0], high: [1.0, 2.0, 3.0], radius: 0.5 }];
+    let ball = [Extent { low: [1.0, 2.0, 3.0], high: [1.0, 2.0, 3.0], radius: 0.5, hull: None }];
     let area = Rect::new(0, 0, 40, 20);
     for turn in 0..24 {
         let camera = Camera::IN_SPACE.turned(f64::from(turn) * PI / 12.0, f64::from(turn) / 24.0);

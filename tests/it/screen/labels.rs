@@ -202,6 +202,63 @@ fn a_notification_takes_nothing_from_the_frame_below_it() {
     assert_eq!(modifiers(x), rich().theme[phaselab::view::theme::Role::Good].add_modifier);
 }
 
+/// In a frame that is too narrow for all its titles none ends with the line that stands between two.
+#[test]
+fn no_line_between_titles_is_left_alone() {
+    for width in 40..100 {
+        for text in rows(&screen(&in_lab(), &rich(), (width, 17))) {
+            let alone = text.contains("│  ─") || text.contains("│ ─");
+            assert!(!alone, "{width}: {text}");
+        }
+    }
+}
+
+/// Titles that begin alike are told apart by their ends where the list has no room for them.
+#[test]
+fn no_two_rows_of_the_picker_are_the_same() {
+    let (app, _) = phaselab::app::App::new(catalog(), None);
+    for size in [(80, 250), (100, 250), (120, 250)] {
+        let buffer = screen(&app, &rich(), size);
+        let list = |row: String| row.chars().skip(3).take(30).collect::<String>().trim().to_owned();
+        let mut names: Vec<String> = rows(&buffer).into_iter().skip(5).map(list).collect();
+        names.retain(|name| name.chars().filter(|c| c.is_alphabetic()).count() > 3);
+        let count = names.len();
+        names.sort();
+        names.dedup();
+        assert!(count > 80 && names.len() == count, "{size:?}: {names:#?}");
+    }
+}
+
+/// Where a notification ends within the words of a frame, such as `+1 down`, nothing is left of them.
+#[test]
+fn a_notification_leaves_no_part_of_a_word_in_the_frame() {
+    let look = RenderStyle { theme: Theme::dark(ColourDepth::Ansi16), glyphs: Glyphs::Ascii };
+    let bottom = |app: &phaselab::app::App| rows(&screen(app, &look, (80, 24))).remove(21);
+    let mut app = lab("rolling-race", 1.3);
+    let frame = bottom(&app);
+    let mark = frame.find("+1 down").expect("a list that is clipped");
+    // From a notification that ends before the mark to one that covers it.
+    for long in mark - 8..mark + 9 {
+        let text = "x".repeat(long);
+        app.notice = Some(Notification::info(text.clone()));
+        let row = bottom(&app);
+        let rest = row.split_once(&text).expect("the notification").1.replace("+1 down", "");
+        assert!(!rest.contains(char::is_alphabetic), "{row}");
+    }
+}
+
+/// In ASCII a shaded sphere is made of points: a block in each shaded cell would hide the curves on it.
+#[test]
+fn in_ascii_a_sphere_is_shaded_by_points() {
+    let look = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
+    let buffer = screen(&lab("neumann", 1e-3), &look, (120, 40));
+    let count = |sign: &str| {
+        let cells = (2..21).flat_map(|y| (2..38).map(move |x| (x, y)));
+        cells.filter(|at| buffer[*at].symbol() == sign).count()
+    };
+    assert!(count(".") + count(":") > 40 && count("#") < 4, "{:#?}", rows(&buffer));
+}
+
 /// The sphere is shaded by dots, of the same colour as the curve on it where there is none: few, so that it is seen.
 #[test]
 fn without_colour_a_sphere_leaves_the_curve_on_it_in_sight() {

@@ -1,0 +1,57 @@
+//! Level curves: as many as can be told apart, and the separatrices above them.
+//!
+//! In: a landscape, the frame of the axes. Out: dots. Never here: the computation of the curves.
+
+use ratatui::style::Style;
+
+use super::canvas::Canvas;
+use super::picture::pen;
+use super::plot::{Marker, Pen, PlotFrame, Raster};
+use crate::analysis::{Curve, Landscape};
+use crate::instrument::{Ink, Level};
+
+/// A level curve is omitted if it shares more than this fraction of its cells with others: in ASCII, and with dots.
+const CROWDED: [f64; 2] = [0.25, 0.35];
+
+/// The number of cells above which all levels are drawn.
+const ROOMY: u32 = 2000;
+
+/// Draws separatrices, and as many energy levels as fit beside each other.
+pub(super) fn draw(
+    canvas: &Canvas<'_>,
+    raster: &mut Raster,
+    frame: &PlotFrame,
+    landscape: &Landscape,
+    lowest: Level,
+) {
+    let look = canvas.look;
+    let crowded = look.glyphs.pick(CROWDED[1], CROWDED[0]);
+    let plain = Pen::new(Style::new(), 0);
+    let trace = |raster: &mut Raster, curves: &[Curve], pen: &Pen| {
+        for curve in curves {
+            raster.polyline(frame, curve.iter().copied(), pen);
+        }
+    };
+    let parting = pen(canvas, Ink::Separatrix, lowest + 1);
+    trace(raster, &landscape.separatrices, &parting);
+    let faint = pen(canvas, Ink::Level, lowest);
+    if frame.area.area() > ROOMY && !look.glyphs.is_ascii() {
+        landscape.levels.iter().for_each(|level| trace(raster, level, &faint));
+    } else {
+        let blank = Raster::new(frame.area, look.glyphs);
+        let mut drawn = blank.clone();
+        trace(&mut drawn, &landscape.separatrices, &plain);
+        for level in &landscape.levels {
+            // Curves that share most of their cells cannot be distinguished.
+            let mut alone = blank.clone();
+            trace(&mut alone, level, &plain);
+            if alone.shared(&drawn) <= crowded {
+                trace(raster, level, &faint);
+                drawn.absorb(&alone);
+            }
+        }
+    }
+    for saddle in &landscape.saddles {
+        raster.marker(frame, *saddle, Marker::Cross, &parting);
+    }
+}
