@@ -43,8 +43,10 @@ mod spectral_line;
 mod spectrum;
 mod stationary_path;
 mod tangent_growth;
+mod torus;
 mod transverse;
 mod turning;
+mod unclosed_motion;
 mod variation;
 mod virtual_work;
 

@@ -235,7 +235,8 @@ fn text(study: &Study, orbit: &Orbit) -> String {
         text.push_str(&format!("∮ p dq   {action:?}\n"));
     }
     text.push_str(&format!("start    {}\n", start.join(", ")));
-    text.push_str(&format!("closure  {:.1e}\n", orbit.closure));
+    let only = if orbit.closes_exactly { "" } else { ", more than rounding: only to this digit" };
+    text.push_str(&format!("closure  {:.1e}{only}\n", orbit.closure));
     text.push_str("\nmultipliers\n");
     let rows = multiplier_rows(orbit);
     let widest = rows.iter().map(|(value, _)| value.chars().count()).max().unwrap_or(0);
