@@ -10,7 +10,8 @@ use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::study::{self, Study, StudyArguments, shown, table};
 use crate::dynamics::{
-    Along, Bifurcation, Family, Fixed, Orbit, Removed, driven_orbit, family, periodic_orbit,
+    Along, Bifurcation, Family, Fixed, Orbit, Removed, drive_period, driven_family, driven_orbit,
+    family, periodic_orbit,
 };
 use crate::printable;
 
@@ -89,7 +90,17 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let fixed = if study.space.is_autonomous() { fixed } else { Fixed::Period(orbit.period) };
     let values = arguments.along.as_ref().map_or(&[][..], |along| &along.values);
     let family = along
-        .map(|along| family(&study.space, method, &orbit, (along, fixed), values))
+        .map(|along| {
+            let (model, equations) = (&study.model, &study.equations);
+            let drive = |parameters: &[f64]| {
+                drive_period(model, equations, study.space.system(), parameters)
+            };
+            if study.space.is_autonomous() {
+                family(&study.space, method, &orbit, (along, fixed), values)
+            } else {
+                driven_family(&study.space, method, &orbit, (along, &drive), values)
+            }
+        })
         .transpose()
         .map_err(study::failed)?;
     let (mut object, mut text) = (object(&study, &orbit), text(&study, &orbit));
