@@ -10,7 +10,8 @@ use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::study::{self, Study, StudyArguments, shown, table};
 use crate::dynamics::{
-    Along, Bifurcation, Family, Fixed, Orbit, Removed, driven_orbit, family, periodic_orbit,
+    Along, Bifurcation, Family, Fixed, Orbit, Removed, drive_period, driven_family, driven_orbit,
+    family, periodic_orbit,
 };
 use crate::printable;
 
@@ -89,7 +90,17 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let fixed = if study.space.is_autonomous() { fixed } else { Fixed::Period(orbit.period) };
     let values = arguments.along.as_ref().map_or(&[][..], |along| &along.values);
     let family = along
-        .map(|along| family(&study.space, method, &orbit, (along, fixed), values))
+        .map(|along| {
+            let (model, equations) = (&study.model, &study.equations);
+            let drive = |parameters: &[f64]| {
+                drive_period(model, equations, study.space.system(), parameters)
+            };
+            if study.space.is_autonomous() {
+                family(&study.space, method, &orbit, (along, fixed), values)
+            } else {
+                driven_family(&study.space, method, &orbit, (along, &drive), values)
+            }
+        })
         .transpose()
         .map_err(study::failed)?;
     let (mut object, mut text) = (object(&study, &orbit), text(&study, &orbit));
@@ -235,7 +246,8 @@ fn text(study: &Study, orbit: &Orbit) -> String {
         text.push_str(&format!("∮ p dq   {action:?}\n"));
     }
     text.push_str(&format!("start    {}\n", start.join(", ")));
-    text.push_str(&format!("closure  {:.1e}\n", orbit.closure));
+    let only = if orbit.closes_exactly { "" } else { ", more than rounding: only to this digit" };
+    text.push_str(&format!("closure  {:.1e}{only}\n", orbit.closure));
     text.push_str("\nmultipliers\n");
     let rows = multiplier_rows(orbit);
     let widest = rows.iter().map(|(value, _)| value.chars().count()).max().unwrap_or(0);

@@ -8,8 +8,8 @@ use super::interrupt::Interrupt;
 use super::motion_options::Laid;
 use super::study::{self, StudyArguments, shown, table};
 use crate::dynamics::{
-    MeanRate, PhaseSpace, SpectralLine, Spectrum, driven_spectrum, independent_frequencies,
-    mean_rate, straightened,
+    FrequencyDrift, MeanRate, PhaseSpace, SpectralLine, Spectrum, driven_spectrum, frequency_drift,
+    independent_frequencies, mean_rate, straightened,
 };
 use crate::ensemble::SystemFlow;
 use crate::num::significant;
@@ -28,7 +28,7 @@ const COLUMN: &str = "quantity";
 /// The lines of a quantity, the strongest first: found one after the other under a window, polished together,
 /// and named as combinations k·ω of as few fundamental frequencies as the system has. The quantity is taken at
 /// equal intervals from the start; from an angle that advances, its mean advance is subtracted, and its mean rate
-/// (over 2π, the rotation number per unit of time) is given by a weighted average that converges fast.
+/// (over 2π, the rotation number per unit of time) is given by a weighted average that converges fast. The drift of the strongest frequency, between the halves of the time, measures chaos.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -63,6 +63,8 @@ struct Found {
     /// The frequency of the drive, if the motion has one.
     drive: Option<f64>,
     rate: Option<MeanRate>,
+    /// The strongest line in both halves of the time.
+    drift: Option<FrequencyDrift>,
 }
 
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
@@ -115,15 +117,17 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let drive = space.and_then(|space| space.drive()).map(|period| std::f64::consts::TAU / period);
     let spectrum = driven_spectrum(&straight, spacing, most, drive, &mut |_| true)
         .ok_or_else(|| CommandError::CouldNot("the quantity has no finite values".to_owned()))?;
+    let strongest = spectrum.lines.first();
+    let drift = strongest.and_then(|line| frequency_drift(&straight, spacing, line.frequency));
     let of = arguments.of.clone().unwrap_or_else(|| system.channels()[channel].name.clone());
-    let found = Found { of, from: start.time, until, count, spectrum, drive, rate };
+    let found = Found { of, from: start.time, until, count, spectrum, drive, rate, drift };
     let mut head = study::head(model, system, &start.parameters, (*method, *settings));
     head.append(&mut object(&found));
     study::write(&arguments.study, (head, text(&found)), None, interrupt)
 }
 
 fn object(found: &Found) -> Map<String, Value> {
-    let Found { of, from, until, count, spectrum, drive, rate } = found;
+    let Found { of, from, until, count, spectrum, drive, rate, drift } = found;
     let line = |line: &SpectralLine| {
         json!({
             "frequency": line.frequency,
@@ -145,12 +149,14 @@ fn object(found: &Found) -> Map<String, Value> {
     insert("fundamentals", json!(spectrum.fundamentals));
     insert("drive", json!(drive));
     insert("left", json!(spectrum.left));
+    let halves = |d: &FrequencyDrift| json!({ "first": d.first, "second": d.second, "relative": d.relative() });
+    insert("frequency_drift", drift.as_ref().map_or(Value::Null, halves));
     insert("mean_rate", rate.map_or(Value::Null, |r| json!({ "rate": r.rate, "error": r.error })));
     object
 }
 
 fn text(found: &Found) -> String {
-    let Found { of, from, until, count, spectrum, drive, rate } = found;
+    let Found { of, from, until, count, spectrum, drive, rate, drift } = found;
     let mut text = format!("{of} from t = {from:?} to {until:?}, {count} values\n\n");
     let head = ["", "ω", "", "amplitude", "phase"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
@@ -176,6 +182,12 @@ fn text(found: &Found) -> String {
     if spectrum.is_continuous() {
         let part = 100.0 * spectrum.part_left();
         text.push_str(&format!("that is {part:.0} % of it: it is not a sum of few lines\n"));
+    }
+    if let Some(drift) = drift {
+        text.push_str(&format!(
+            "the strongest ω drifts by {:.0e} of it from the first half of the time to the second\n",
+            drift.relative()
+        ));
     }
     if let Some(drive) = drive {
         text.push_str(&format!("Ω of the drive {}\n", significant(*drive, 12, 1e-4..1e6)));

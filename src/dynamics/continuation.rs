@@ -77,6 +77,30 @@ pub fn family(
     (along, fixed): (Along, Fixed),
     values: &[f64],
 ) -> Result<Family, DynamicsError> {
+    followed(&Continuation { space, method, along, fixed, values, drive: None }, orbit)
+}
+
+/// The same under a drive, whose period at some parameters `drive` gives: the orbits keep their multiple of it, also along a
+/// parameter on which it depends.
+///
+/// # Errors
+/// Returns an error if the family has no such values.
+pub fn driven_family(
+    space: &PhaseSpace,
+    method: (&'static Method, Settings),
+    orbit: &Orbit,
+    (along, drive): (Along, &dyn Fn(&[f64]) -> Option<f64>),
+    values: &[f64],
+) -> Result<Family, DynamicsError> {
+    let fixed = Fixed::Period(orbit.period);
+    let multiple = drive(space.parameters()).map(|period| (orbit.period / period).round());
+    // of another period than those of the law there is no multiple to keep
+    let drive = multiple.filter(|multiple| *multiple >= 1.0).map(|multiple| (multiple, drive));
+    followed(&Continuation { space, method, along, fixed, values, drive }, orbit)
+}
+
+fn followed(continuation: &Continuation<'_>, orbit: &Orbit) -> Result<Family, DynamicsError> {
+    let Continuation { space, along, values, .. } = continuation;
     let conserved = space.is_autonomous() && space.is_hamiltonian();
     if !matches!(along, Along::Parameter(_)) && !conserved {
         return Err(DynamicsError::Unsuited(
@@ -85,7 +109,6 @@ pub fn family(
                 .to_owned(),
         ));
     }
-    let continuation = Continuation { space, method, along, fixed, values };
     let first = continuation.first(orbit)?;
     let mut family = Family { members: Vec::new(), ended: Vec::new(), cancelled: false };
     let (low, high) = continuation.range();
@@ -147,9 +170,20 @@ struct Continuation<'a> {
     along: Along,
     fixed: Fixed,
     values: &'a [f64],
+    /// How many periods of a drive an orbit has, and that period at some parameters.
+    drive: Option<(f64, &'a dyn Fn(&[f64]) -> Option<f64>)>,
 }
 
 impl Continuation<'_> {
+    /// The period of an orbit at a parameter, if it is that of a drive.
+    fn driven(&self, parameter: f64, period: f64) -> Result<f64, DynamicsError> {
+        let Some((multiple, drive)) = self.drive else { return Ok(period) };
+        let known = drive(self.space_at(parameter).parameters());
+        known.map(|period| multiple * period).ok_or_else(|| {
+            DynamicsError::Unsuited(format!("the drive has no period at {parameter:?}"))
+        })
+    }
+
     fn range(&self) -> (f64, f64) {
         let low = self.values.iter().copied().fold(f64::INFINITY, f64::min);
         (low, self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max))
@@ -229,7 +263,7 @@ impl Continuation<'_> {
         let n = self.space.dimension();
         let space = self.space_at(parameter);
         let newton = self.newton(&space);
-        let here = newton.reached(state.clone(), period)?;
+        let here = newton.reached(state.clone(), self.driven(parameter, period)?)?;
         let (matrix, missing) = newton.equations(&here.circuit);
         let columns = matrix.ncols();
         let mut full = DMatrix::zeros(n + 2, columns + 1);
@@ -241,6 +275,7 @@ impl Continuation<'_> {
                 let space = self.space_at(parameter);
                 let newton = self.newton(&space);
                 let there = newton.displaced(state, &none)?;
+                let period = self.driven(parameter, period)?;
                 Ok(newton.missed(&newton.circuit(&there, period)?))
             };
             let slope = (at(parameter + step)? - at(parameter - step)?) / (2.0 * step);

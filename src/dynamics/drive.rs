@@ -19,7 +19,7 @@ pub(super) fn acts(model: &Model) -> Vec<Expr> {
 }
 
 /// The period of the drive of a law of motion at these parameters; `None` if it has none.
-pub(super) fn drive_period(
+pub fn drive_period(
     model: &Model,
     equations: &Equations,
     system: &System,

@@ -6,8 +6,9 @@ use super::error::DynamicsError;
 use super::first_return::difference;
 use super::flow_map::flow_map;
 use super::newton::Fixed;
-use super::orbit::{Orbit, periodic_orbit};
+use super::orbit::{Orbit, periodic_orbit, searched};
 use super::phase_space::PhaseSpace;
+use super::unclosed_motion::explained;
 use crate::integrate::{Method, Settings};
 use crate::system::State;
 
@@ -24,7 +25,8 @@ const SAME: f64 = 1e-9;
 /// near its start after one of them, that one comes first.
 ///
 /// # Errors
-/// Returns an error if there is none nearby, if the motion cannot be followed, or on cancellation.
+/// Returns an error if there is none nearby, which says what the motion is instead; if the motion cannot be followed; or on
+/// cancellation.
 pub fn driven_orbit(
     space: &PhaseSpace,
     method: (&'static Method, Settings),
@@ -46,16 +48,17 @@ pub fn driven_orbit(
     misses.sort_by_key(|(count, miss)| (*miss > NEAR * farthest, *count));
     for (count, _) in &misses {
         let period = f64::from(*count) * drive;
-        match periodic_orbit(space, method, start, Some(period), Fixed::Period(period)) {
-            Err(DynamicsError::Unsuited(_)) => {}
-            Ok(orbit) => return shortest(space, method, orbit, (*count, drive)),
+        match searched(space, method, start, Some(period), Fixed::Period(period)) {
+            Ok(Err(_)) | Err(DynamicsError::Unsuited(_)) => {}
+            Ok(Ok(orbit)) => return shortest(space, method, orbit, (*count, drive)),
             Err(fault) => return Err(fault),
         }
     }
-    Err(DynamicsError::Unsuited(format!(
+    let none = DynamicsError::Unsuited(format!(
         "no periodic orbit was found near the start with the period of the drive, {drive:.6}, or 2 to {MULTIPLES} times it: \
          begin nearer to one, where the motion has settled, or give the period of the orbit"
-    )))
+    ));
+    Err(explained(none, space, method, start))
 }
 
 /// The same orbit over the fewest periods of the drive after which it closes, a part of those that are known.

@@ -7,6 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use super::carrier::Carrier;
 use super::error::DynamicsError;
 use super::phase_space::PhaseSpace;
+use super::unclosed_motion::explained;
 use crate::integrate::{Method, Settings, Stepping};
 use crate::num::{DoubleDouble, short};
 use crate::system::State;
@@ -121,7 +122,9 @@ pub(super) fn return_near(
         Some((part, time)) if part < FAR && others == 0 => Ok(time),
         _ => {
             let rests = extent.iter().all(|extent| *extent == 0.0);
-            Err(no_return(space, best, seen[seen.len() - 1].0 - start.time, (rests, stopped)))
+            let why = no_return(space, best, seen[seen.len() - 1].0 - start.time, (rests, stopped));
+            let returns = best.is_some() && others == 0;
+            Err(if returns { explained(why, space, (method, settings), start) } else { why })
         }
     }
 }

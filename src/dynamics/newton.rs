@@ -63,8 +63,16 @@ pub(super) struct Circuit {
     pub(super) rates: [DVector<f64>; 2],
     energy: f64,
     pub(super) size: f64,
+    /// The largest singular value of the monodromy matrix.
+    growth: f64,
     pub(super) settings: Settings,
 }
+
+/// A singular value up to this part of the largest is that of a symmetry, whose direction matters nowhere.
+pub(super) const SYMMETRY: f64 = 1e-11;
+
+/// A residual up to this many times rounding, grown as neighbours of the orbit part in a period, is rounding.
+const TIMES: f64 = 100.0;
 
 /// Where a search has come to: a state, a period, the motion over it, and what is missing of an orbit.
 pub(super) struct Reached {
@@ -78,6 +86,13 @@ impl Reached {
     /// Whether nothing but rounding is missing.
     pub(super) fn is_exact(&self) -> bool {
         self.residual <= ROUNDING * self.circuit.size
+    }
+
+    /// Whether what is missing may be rounding, or within the tolerance, as it is grown over a period.
+    pub(super) fn is_rounding(&self) -> bool {
+        let tolerance = self.circuit.settings.tolerance.unwrap_or(0.0);
+        let grown = self.circuit.growth.max(1.0);
+        self.residual <= TIMES * ROUNDING.max(tolerance) * grown * self.circuit.size
     }
 }
 
@@ -95,8 +110,10 @@ impl Newton<'_> {
         let rates = rates.map(|rate| self.units.rates(&rate));
         let basis = self.basis(state)?;
         let size = self.size(state).max(rates[0].amax() * (period / self.units.time()).min(1.0));
+        let growth = self.units.map(&map.matrix).singular_values().max();
         Ok(Circuit {
             miss,
+            growth,
             monodromy: map.matrix,
             basis,
             rates,
@@ -203,6 +220,12 @@ impl Newton<'_> {
         Ok(here)
     }
 
+    /// The length of the step that Newton's method has left, where symmetries alone are left out.
+    pub(super) fn step_left(&self, here: &Reached) -> Option<f64> {
+        let (matrix, right) = self.equations(&here.circuit);
+        linear::least_squares(&matrix, &right, SYMMETRY * matrix.amax()).map(|step| step.norm())
+    }
+
     /// A step of the state and the period, in the units of the orbit and the coordinates of the allowed displacements, if the
     /// period stays within five times `first` and the motion can be followed there.
     pub(super) fn stepped(
@@ -232,7 +255,7 @@ impl Newton<'_> {
         cut: f64,
     ) -> Result<Option<Reached>, DynamicsError> {
         let (matrix, right) = self.equations(&from.circuit);
-        let step = linear::least_squares(&matrix, &right, 1e-11 * matrix.amax() + cut);
+        let step = linear::least_squares(&matrix, &right, SYMMETRY * matrix.amax() + cut);
         let Some(step) = step else { return Ok(None) };
         let mut part = 1.0;
         for _ in 0..HALVINGS {

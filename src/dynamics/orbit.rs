@@ -18,6 +18,7 @@ use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
 use super::resonance::along_resonance;
 use super::transverse::{self, Removed};
+use super::unclosed_motion::explained;
 use crate::integrate::{Method, Settings};
 use crate::num::{math, short};
 use crate::system::State;
@@ -27,6 +28,12 @@ const RETURNS: usize = 5;
 
 /// What moves less than this part of its size in a period rests.
 const STILL: f64 = 1e-6;
+
+/// What closes but for more than rounding is an orbit only if one is this near, in its own units, by the derivatives.
+const BESIDE: f64 = 1e-5;
+
+/// The rounds in which steps of both kinds are taken.
+const ROUNDS: usize = 4;
 
 /// A multiplier this close to the unit circle lies on it.
 const ON_CIRCLE: f64 = 1e-6;
@@ -42,6 +49,8 @@ pub struct Orbit {
     pub energy: f64,
     /// The distance by which it does not close, relative to its size.
     pub closure: f64,
+    /// Whether that is no more than rounding, or the tolerance, grown over a period.
+    pub closes_exactly: bool,
     /// ∮ p dq, for canonical variables.
     pub action: Option<f64>,
     /// The monodromy matrix.
@@ -82,6 +91,7 @@ impl Orbit {
             period: closed.period,
             energy: space.system().energy(&closed.state, space.parameters())?,
             closure: closed.residual / size.max(f64::MIN_POSITIVE),
+            closes_exactly: closed.is_rounding(),
             action: loop_action(space, newton.method, &closed.state, closed.period)?,
             state: closed.state.clone(),
             monodromy: circuit.monodromy.clone(),
@@ -117,7 +127,8 @@ impl Orbit {
 /// returns near the start.
 ///
 /// # Errors
-/// Returns an error if there is none nearby, if the motion cannot be followed, or on cancellation.
+/// Returns an error if there is none nearby, which says what the motion is instead; if the motion cannot be followed; or on
+/// cancellation.
 pub fn periodic_orbit(
     space: &PhaseSpace,
     method: (&'static Method, Settings),
@@ -125,6 +136,18 @@ pub fn periodic_orbit(
     period: Option<f64>,
     fixed: Fixed,
 ) -> Result<Orbit, DynamicsError> {
+    let found = searched(space, method, start, period, fixed)?;
+    found.map_err(|missed| explained(missed.told(), space, method, start))
+}
+
+/// The orbit, or by how much the best one misses itself.
+pub(super) fn searched(
+    space: &PhaseSpace,
+    method: (&'static Method, Settings),
+    start: &State,
+    period: Option<f64>,
+    fixed: Fixed,
+) -> Result<Result<Orbit, Missed>, DynamicsError> {
     let period = match (period, fixed) {
         (Some(period), _) | (None, Fixed::Period(period)) => Some(period),
         (None, _) if !space.is_autonomous() => {
@@ -140,7 +163,7 @@ pub fn periodic_orbit(
     if !(period > 0.0 && period.is_finite()) {
         return Err(unsuited("a period is above zero"));
     }
-    closed_near(space, method, (start, period), fixed)?.map_err(|missed| missed.told())
+    closed_near(space, method, (start, period), fixed)
 }
 
 /// The orbit near the first return from which the search comes to one.
@@ -149,7 +172,7 @@ fn near_returns(
     method: (&'static Method, Settings),
     start: &State,
     fixed: Fixed,
-) -> Result<Orbit, DynamicsError> {
+) -> Result<Result<Orbit, Missed>, DynamicsError> {
     let mut best: Option<Missed> = None;
     for count in 0..RETURNS {
         let found = match return_near(space, method, start, count) {
@@ -157,7 +180,7 @@ fn near_returns(
             Err(error) => Err(error),
         };
         match (found, &best) {
-            (Ok(Ok(orbit)), _) => return Ok(orbit),
+            (Ok(Ok(orbit)), _) => return Ok(Ok(orbit)),
             (Err(error), _) if error.is_cancelled() => return Err(error),
             (Err(error), None) => return Err(error),
             // of later returns there may be none
@@ -169,23 +192,18 @@ fn near_returns(
             }
         }
     }
-    Err(best.map_or_else(|| unsuited("no periodic orbit was searched for"), |missed| missed.told()))
+    best.map(Err).ok_or_else(|| unsuited("no periodic orbit was searched for"))
 }
 
-/// None was found: by how much the best one misses itself, as a part of its size, and its period.
-struct Missed {
+/// None was found: by how much the best one misses itself, as a part of its size, and that in words.
+pub(super) struct Missed {
     part: f64,
-    period: f64,
+    why: String,
 }
 
 impl Missed {
-    fn told(&self) -> DynamicsError {
-        unsuited(&format!(
-            "no periodic orbit was found near the start: the best one misses itself by {:.1e} \
-             of its size after {}",
-            self.part,
-            short(self.period)
-        ))
+    fn told(self) -> DynamicsError {
+        DynamicsError::Unsuited(self.why)
     }
 }
 
@@ -227,9 +245,7 @@ fn solve(
 ) -> Result<Result<Reached, Missed>, DynamicsError> {
     let begun = newton.reached(start.clone(), period)?;
     let speed = begun.circuit.rates[0].norm();
-    let stalled = newton.approach(begun, period)?;
-    let found =
-        if stalled.is_exact() { stalled } else { along_resonance(newton, stalled, period)? };
+    let found = polished(newton, begun, period)?;
     // rest is an equilibrium; under a drive it may be one of the orbits that have its period. At the origin a state is as
     // small as its rates, and what does not close is compared with what the search began with
     let turned = found.period / newton.units.time();
@@ -239,13 +255,39 @@ fn solve(
     let (moved, open) = (circuit.rates[0].norm() * turned, found.residual > CLOSED * near);
     let still = moved < STILL * circuit.size || open && moved <= STILL * speed;
     if newton.space.is_autonomous() && still {
-        return Err(rest(newton, &found.state));
+        return Ok(Err(Missed { part: f64::INFINITY, why: rest(newton, &found.state) }));
     }
-    if open {
-        let part = found.residual / near.max(f64::MIN_POSITIVE);
-        return Ok(Err(Missed { part, period: found.period }));
+    let part = found.residual / near.max(f64::MIN_POSITIVE);
+    let why = if open {
+        "the best one misses itself by"
+    } else if !found.is_rounding() && newton.step_left(&found).is_none_or(|step| step > BESIDE) {
+        // along a resonance of tori a motion nearly closes everywhere
+        "along a resonance of tori motions nearly close everywhere, and the best one still misses itself by"
+    } else {
+        return Ok(Ok(found));
+    };
+    let why = format!(
+        "no periodic orbit was found near the start: {why} {part:.1e} of its size after {}",
+        short(found.period)
+    );
+    Ok(Err(Missed { part, why }))
+}
+
+/// Where Newton's steps and those along a resonance come to by turns, for as long as they leave less missing.
+fn polished(newton: &Newton<'_>, begun: Reached, period: f64) -> Result<Reached, DynamicsError> {
+    let mut found = newton.approach(begun, period)?;
+    for _ in 0..ROUNDS {
+        if found.is_exact() {
+            break;
+        }
+        let before = found.residual;
+        found = along_resonance(newton, found, period)?;
+        if found.is_rounding() || found.residual > 0.5 * before {
+            break;
+        }
+        found = newton.approach(found, period)?;
     }
-    Ok(Ok(found))
+    Ok(found)
 }
 
 /// The orbit after a part of its period, if it closes there already.
@@ -258,7 +300,7 @@ fn part(newton: &Newton<'_>, closed: &Reached, parts: f64) -> Option<Reached> {
 }
 
 /// What was found is an equilibrium, which closes after any time.
-fn rest(newton: &Newton<'_>, state: &State) -> DynamicsError {
+fn rest(newton: &Newton<'_>, state: &State) -> String {
     let variables = newton.space.variables(state);
     let sizes = newton.units.scaled(&DVector::from_column_slice(variables));
     let place: Vec<String> = (newton.space.names().iter().zip(variables).zip(sizes.iter()))
@@ -266,9 +308,9 @@ fn rest(newton: &Newton<'_>, state: &State) -> DynamicsError {
             format!("{name} = {}", short(if size.abs() <= STILL { 0.0 } else { *value }))
         })
         .collect();
-    unsuited(&format!(
+    format!(
         "no periodic orbit was found near the start: the search ended at the equilibrium {}; begin farther from it, or \
          with another period or energy",
         place.join(", ")
-    ))
+    )
 }

@@ -13,6 +13,9 @@ use crate::integrate::{Method, Settings, Stepping};
 use crate::num::math;
 use crate::system::State;
 
+/// What moves by less than this part of its size does not move.
+const MOVED: f64 = 1e-12;
+
 /// A unit for each variable, and one of time.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct OrbitUnits {
@@ -45,6 +48,12 @@ impl OrbitUnits {
                 let now = begin + (end.min(until) - begin) * f64::from(part) / f64::from(parts);
                 let (state, _) = carrier.at(now)?;
                 extents = extents.sup(&apart(&state).abs());
+            }
+        }
+        // what a conserved quantity moves by is rounding
+        for (extent, &variable) in extents.iter_mut().zip(space.variables(start)) {
+            if *extent <= MOVED * variable.abs() {
+                *extent = 0.0;
             }
         }
         let variables = if space.is_hamiltonian() { conformal(&extents) } else { filled(&extents) };

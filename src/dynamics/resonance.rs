@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::error::DynamicsError;
 use super::linear::{self, SingularValues};
-use super::newton::{Newton, Reached};
+use super::newton::{Newton, Reached, SYMMETRY};
 
 /// What is missing may be this part of the size of an orbit for it to be near a resonance.
 const NEAR: f64 = 0.1;
@@ -33,9 +33,6 @@ const RESTORED: f64 = 0.1;
 
 /// A step that leaves more than this part missing is no progress.
 const PROGRESS: f64 = 0.999;
-
-/// A singular value up to this part of the largest is that of a symmetry, whose direction matters nowhere.
-const SYMMETRY: f64 = 1e-11;
 
 /// The small directions are smaller than the others by this factor at least.
 const GAP: f64 = 0.2;

@@ -15,7 +15,7 @@ use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, PlotTable, Present, Upwards,
 };
-use crate::ensemble::{SectionPlan, crossings, in_order};
+use crate::ensemble::{Crossings, SectionPlan, Start, crossings_of_all, in_order, section_group};
 use crate::expr::Expr;
 use crate::job::{Job, Progress};
 use crate::model::{Variation, View};
@@ -246,20 +246,24 @@ impl Task {
         let at = |i: usize| from + (to - from) * evenly(first + i);
         progress.expect(PART as u64);
         let mut refused = None;
-        let one = |i: usize| self.numbers(&system, at(i));
-        let take = |i: usize, found: Result<Vec<f64>, String>| {
-            progress.reach(i as u64 + 1);
-            match found {
-                Ok(numbers) => columns.push((at(i), numbers)),
-                Err(why) => {
-                    // a value without a motion leaves a gap; the reason is shown where none has one
-                    columns.push((at(i), Vec::new()));
+        let places: Vec<f64> = (0..PART).map(at).collect();
+        let groups: Vec<&[f64]> = places.chunks(self.group(&system)).collect();
+        let group = |i: usize| self.numbers(&system, groups[i]);
+        let mut done = 0;
+        let take = |i: usize, found: Vec<Result<Vec<f64>, String>>| {
+            done += found.len() as u64;
+            progress.reach(done);
+            for (&value, found) in groups[i].iter().zip(found) {
+                // a value without a motion leaves a gap; the reason is shown where none has one
+                let numbers = found.unwrap_or_else(|why| {
                     refused.get_or_insert(why);
-                }
+                    Vec::new()
+                });
+                columns.push((value, numbers));
             }
             ControlFlow::Continue(())
         };
-        let threads = in_order(0, PART, progress.token(), one, take);
+        let threads = in_order(0, groups.len(), progress.token(), group, take);
         if let Err(why) = threads {
             refused = Some(why.to_string());
         }
@@ -273,14 +277,21 @@ impl Task {
         ComputedDiagram { conditions, columns, points: Arc::new(points), extent, refused }
     }
 
-    /// The crossings of the motion at a value of the parameter, or its largest exponent.
-    fn numbers(&self, system: &System, value: f64) -> Result<Vec<f64>, String> {
+    /// How many motions one thread follows at a time.
+    fn group(&self, system: &System) -> usize {
+        let (method, settings) = self.motions.method;
+        self.section.map_or(1, |_| section_group(system, method, settings))
+    }
+
+    /// The crossings of the motions at values of the parameter, or their largest exponents.
+    fn numbers(&self, system: &System, values: &[f64]) -> Vec<Result<Vec<f64>, String>> {
         let VariedMotions { model, method: (method, settings), .. } = &self.motions;
-        let start = self.motions.start(&[value]);
+        let starts: Vec<Start> = values.iter().map(|&x| self.motions.start(&[x])).collect();
         let (Some(section), Some(channel)) = (self.section, self.channel) else {
             let length = SECONDS * model.run.speed;
-            let exponent = self.motions.exponent(system, &start, length)?;
-            return Ok(exponent.into_iter().collect());
+            let exponent =
+                |start| Ok(self.motions.exponent(system, start, length)?.into_iter().collect());
+            return starts.iter().map(exponent).collect();
         };
         let dissipates = model.mechanics.dissipation() != Expr::ZERO;
         let transient = if dissipates { TRANSIENT } else { 0 };
@@ -291,16 +302,21 @@ impl Task {
             idle: IDLE,
             all_channels: true,
         };
-        let found = crossings(system, method, *settings, &start, &plan);
-        let period = system.period(channel, &start.parameters);
-        let rows = found.rows.iter().skip(transient);
-        let numbers: Vec<f64> = rows
-            .filter_map(|row| row.get(1 + channel).map(|&x| varied::within(x, period)))
-            .collect();
-        match found.message {
-            Some(why) if numbers.is_empty() => Err(why),
-            _ => Ok(numbers),
-        }
+        let numbers = |(found, period): (Crossings, Option<f64>)| {
+            let rows = found.rows.iter().skip(transient);
+            let numbers: Vec<f64> = rows
+                .filter_map(|row| row.get(1 + channel).map(|&x| varied::within(x, period)))
+                .collect();
+            match found.message {
+                Some(why) if numbers.is_empty() => Err(why),
+                _ => Ok(numbers),
+            }
+        };
+        let periods: Vec<Option<f64>> =
+            starts.iter().map(|start| system.period(channel, &start.parameters)).collect();
+        let starts = starts.into_iter().map(Ok).collect();
+        let found = crossings_of_all(system, method, *settings, starts, &plan);
+        found.into_iter().zip(periods).map(numbers).collect()
     }
 }
 

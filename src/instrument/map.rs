@@ -4,32 +4,27 @@
 //! The job follows one motion for each place of a lattice, coarsely first and ever more finely, so that the picture sharpens
 //! as one looks and a zoom refines it. The running motion is a point of the plane, and any other point begins a motion.
 
-use std::ops::ControlFlow;
+mod lattice;
+
 use std::sync::Arc;
 
+use lattice::{ComputedMap, LATTICE, MapNumber, PART, Task, coordinates, places};
+
 use super::section::zero;
-use super::varied::{self, VariedConditions, VariedMotions};
+use super::varied::{self, VariedMotions};
 use super::{
-    Across, Answer, Axis, Entry, Field, Heading, Ink, Instrument, Layer, Level, Measure, Need,
-    NoStart, Offer, Physics, Picture, Plot, PlotTable, Present, Sign, Upwards,
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
+    Offer, Physics, Picture, Plot, PlotTable, Present, Sign, Upwards,
 };
-use crate::ensemble::{SectionPlan, Start, SystemFlow, crossings, in_order};
-use crate::job::{Job, Progress};
+use crate::job::Job;
 use crate::mechanics::Valuation;
 use crate::model::{Variation, View};
 use crate::num::significant;
-use crate::system::{InitialOverride, System};
+use crate::system::InitialOverride;
 
 /// The levels of the picture.
 const FIELD: Level = 0;
 const NOW: Level = 2;
-
-/// The places of the lattice, and how many of them make one part of the work, after which the picture is drawn anew.
-const LATTICE: [usize; 2] = [128, 64];
-const PART: usize = 64;
-
-/// The distance of neighbours in the first pass, a power of two; each further pass halves it.
-const COARSE: usize = 16;
 
 /// The parts that are waited for where there is no background.
 const AT_ONCE: usize = 2;
@@ -37,36 +32,11 @@ const AT_ONCE: usize = 2;
 /// Motions are followed over so many seconds of the wall clock at the file's own speed, where it does not say how long.
 const SECONDS: f64 = 60.0;
 
-/// The part of the numbers that the ramp of shades spans: single ones may be far above.
-const SHADED: f64 = 0.98;
-
 /// The numbers of coordinates and of parameters of which all pairs are offered.
 const OFFERED: usize = 3;
 
 /// The row.
 pub(super) struct Map;
-
-/// What was computed, and under which conditions.
-struct ComputedMap {
-    conditions: VariedConditions,
-    length: f64,
-    /// The numbers at the places, in their order.
-    values: Vec<f64>,
-    field: Arc<Field>,
-    /// Why a motion could not be followed, where none could.
-    refused: Option<String>,
-}
-
-/// The number of a motion that is shown.
-#[derive(Clone, Copy, PartialEq)]
-enum MapNumber {
-    /// Its largest Lyapunov exponent.
-    Exponent,
-    /// When it first crosses the surface of section of this index.
-    FirstCrossing(usize),
-    /// A channel at its end.
-    AtTheEnd(usize),
-}
 
 impl Instrument for Map {
     fn name(&self) -> &'static str {
@@ -270,137 +240,6 @@ impl Instrument for Map {
             },
         ]
     }
-}
-
-/// What a job computes: the numbers at the next places.
-struct Task {
-    motions: VariedMotions,
-    number: MapNumber,
-    length: f64,
-    values: Vec<f64>,
-}
-
-impl Task {
-    fn next_part(&self, progress: &Progress) -> ComputedMap {
-        let system = self.motions.system.with_cancel(progress.token().clone());
-        let mut values = self.values.clone();
-        let places = places();
-        let next = places.get(values.len()..).unwrap_or_default();
-        let next = &next[..next.len().min(PART)];
-        progress.expect(next.len() as u64);
-        let mut refused = None;
-        let one = |i: usize| self.value(&system, self.at(next[i].0));
-        let take = |i: usize, found: Result<f64, String>| {
-            progress.reach(i as u64 + 1);
-            // a place without a motion is left blank; the reason is shown where none has one
-            values.push(found.unwrap_or_else(|why| {
-                refused.get_or_insert(why);
-                f64::NAN
-            }));
-            ControlFlow::Continue(())
-        };
-        if let Err(why) = in_order(0, next.len(), progress.token(), one, take) {
-            refused = Some(why.to_string());
-        }
-        let nothing = values.iter().all(|x| x.is_nan());
-        let refused = refused.filter(|_| nothing);
-        let (conditions, length) = (self.motions.conditions.clone(), self.length);
-        let field = Arc::new(field(&conditions.window, &places, &values));
-        ComputedMap { conditions, length, values, field, refused }
-    }
-
-    /// The numbers of a place.
-    fn at(&self, place: [usize; 2]) -> [f64; 2] {
-        coordinates(&self.motions.conditions.window, place)
-    }
-
-    /// The number of the motion that begins at a place.
-    fn value(&self, system: &System, at: [f64; 2]) -> Result<f64, String> {
-        let VariedMotions { model, method: (method, settings), .. } = &self.motions;
-        let start = self.motions.start(&at);
-        match self.number {
-            MapNumber::Exponent => {
-                let found = self.motions.exponent(system, &start, self.length)?;
-                Ok(found.unwrap_or(f64::NAN))
-            }
-            MapNumber::FirstCrossing(section) => {
-                let plan = SectionPlan {
-                    event: model.sections[section].name.clone(),
-                    count: Some(1),
-                    until: Some(start.time + self.length),
-                    idle: u64::MAX,
-                    all_channels: false,
-                };
-                let found = crossings(system, method, *settings, &start, &plan);
-                match (found.rows.first(), found.message) {
-                    (Some(row), _) => Ok(row[0] - start.time),
-                    (None, Some(why)) => Err(why),
-                    (None, None) => Ok(f64::NAN),
-                }
-            }
-            MapNumber::AtTheEnd(channel) => self.at_the_end(system, &start, channel),
-        }
-    }
-
-    /// A channel at the end of a motion.
-    fn at_the_end(&self, system: &System, start: &Start, channel: usize) -> Result<f64, String> {
-        let state = start.state(system).map_err(|why| why.to_string())?;
-        let flow = SystemFlow {
-            system: system.clone(),
-            method: self.motions.method,
-            parameters: start.parameters.clone(),
-            start: start.time,
-            effort: None,
-        };
-        let carried = flow.carry(&state, &[start.time + self.length], &[channel]);
-        let value = carried.seen.first().and_then(|row| row.first());
-        let value = *value.ok_or("the motion cannot be followed to its end")?;
-        Ok(varied::within(value, system.period(channel, &start.parameters)))
-    }
-}
-
-/// The numbers of a place of a window.
-fn coordinates(window: &[[f64; 2]], place: [usize; 2]) -> [f64; 2] {
-    [0, 1].map(|axis| {
-        let [from, to] = window[axis];
-        from + (to - from) * (place[axis] as f64 + 0.5) / LATTICE[axis] as f64
-    })
-}
-
-/// The places of the lattice in the order in which they are taken, each with the distance to its neighbours of the pass.
-fn places() -> Vec<([usize; 2], usize)> {
-    let mut all = Vec::new();
-    let mut stride = COARSE;
-    while stride > 0 {
-        for j in (0..LATTICE[1]).step_by(stride) {
-            for i in (0..LATTICE[0]).step_by(stride) {
-                let before = stride < COARSE && i % (2 * stride) == 0 && j % (2 * stride) == 0;
-                if !before {
-                    all.push(([i, j], stride));
-                }
-            }
-        }
-        stride /= 2;
-    }
-    all
-}
-
-/// The numbers so far, each over the block that is its own until finer ones are there.
-fn field(window: &[[f64; 2]], places: &[([usize; 2], usize)], values: &[f64]) -> Field {
-    let [columns, rows] = LATTICE;
-    let mut lattice = vec![f64::NAN; columns * rows];
-    for (&([i, j], stride), &value) in places.iter().zip(values) {
-        for row in j..(j + stride).min(rows) {
-            lattice[row * columns..][i..(i + stride).min(columns)].fill(value);
-        }
-    }
-    let mut finite: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
-    finite.sort_by(f64::total_cmp);
-    let (low, most) = (finite.first(), finite.last());
-    let high = finite.get((SHADED * finite.len() as f64) as usize).filter(|&x| Some(x) > low);
-    let range = [low, high.or(most)].map(|x| x.copied().unwrap_or(0.0));
-    let window = [0, 1].map(|axis| window.get(axis).copied().unwrap_or_default());
-    Field { window, columns, values: lattice, range }
 }
 
 fn computed(answer: Option<&Answer>) -> Option<&ComputedMap> {

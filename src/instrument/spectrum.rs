@@ -10,8 +10,8 @@ use super::{
     Physics, Picture, Plot, Present, Upwards,
 };
 use crate::dynamics::{
-    MeanRate, PhaseSpace, SpectralLine, Spectrum as Lines, driven_spectrum,
-    independent_frequencies, mean_rate, straightened,
+    FrequencyDrift, MeanRate, PhaseSpace, SpectralLine, Spectrum as Lines, driven_spectrum,
+    frequency_drift, independent_frequencies, mean_rate, straightened,
 };
 use crate::ensemble::SystemFlow;
 use crate::integrate::method_named;
@@ -43,7 +43,15 @@ struct ComputedSpectrum {
     conditions: PlotConditions,
     /// The frequency of the drive, if the motion has one.
     drive: Option<f64>,
-    outcome: Result<(Lines, Option<MeanRate>), String>,
+    outcome: Result<Analysis, String>,
+}
+
+/// What a signal is made of.
+struct Analysis {
+    lines: Lines,
+    /// Of an angle.
+    rate: Option<MeanRate>,
+    drift: Option<FrequencyDrift>,
 }
 
 impl Instrument for SpectrumPlot {
@@ -163,7 +171,9 @@ impl Instrument for SpectrumPlot {
                 let most = (MOST, fundamentals);
                 let lines = driven_spectrum(&straight, spacing, most, drive, &mut look);
                 let lines = lines.ok_or_else(|| "the motion has no finite values".to_owned())?;
-                Ok((lines, rate))
+                let strongest = lines.lines.first().map(|line| line.frequency);
+                let drift = strongest.and_then(|at| frequency_drift(&straight, spacing, at));
+                Ok(Analysis { lines, rate, drift })
             });
             Answer::new(ComputedSpectrum { conditions: conditions.clone(), drive, outcome })
         }))
@@ -202,6 +212,11 @@ impl Instrument for SpectrumPlot {
                 value: |_, _, answer| Some(lines(answer)?.part_left()),
             },
             Measure {
+                word: "drift",
+                about: "by which part the strongest ω differs between the halves of the time: large where it is chaotic",
+                value: |_, _, answer| Some(drift(answer)?.relative()),
+            },
+            Measure {
                 word: "rate",
                 about: "the mean rate of an angle",
                 value: |_, _, answer| Some(mean(answer)?.rate),
@@ -215,11 +230,15 @@ fn found(answer: Option<&Answer>) -> Option<&ComputedSpectrum> {
 }
 
 fn lines(answer: Option<&Answer>) -> Option<&Lines> {
-    found(answer)?.outcome.as_ref().ok().map(|(lines, _)| lines)
+    found(answer)?.outcome.as_ref().ok().map(|found| &found.lines)
 }
 
 fn mean(answer: Option<&Answer>) -> Option<MeanRate> {
-    found(answer)?.outcome.as_ref().ok().and_then(|(_, rate)| *rate)
+    found(answer)?.outcome.as_ref().ok().and_then(|found| found.rate)
+}
+
+fn drift(answer: Option<&Answer>) -> Option<FrequencyDrift> {
+    found(answer)?.outcome.as_ref().ok().and_then(|found| found.drift)
 }
 
 /// What is said of the lines, or why there are none.
@@ -227,9 +246,15 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     let lines = match found(answer).map(|found| &found.outcome) {
         None => return vec!["searching for lines".to_owned()],
         Some(Err(why)) => return vec![why.clone()],
-        Some(Ok((lines, _))) => lines,
+        Some(Ok(found)) => &found.lines,
     };
     let short = |x: f64| significant(x, 9, 1e-4..1e6).replace('-', "−");
+    // no digit beyond the error
+    let known = |x: f64, error: f64| {
+        let digits = math::ln(x.abs() / error.abs()) / std::f64::consts::LN_10;
+        let digits = if digits.is_finite() { digits.ceil().clamp(1.0, 9.0) + 1.0 } else { 9.0 };
+        significant(x, (digits as usize).min(9), 1e-4..1e6).replace('-', "−")
+    };
     let brief = |x: f64| significant(x, 3, 1e-3..1e5).replace('-', "−");
     let unit = match physics.model.time_unit() {
         "" => String::new(),
@@ -243,8 +268,9 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
             // of what is no sum of lines no frequency is a combination of others
             let name = line.name().filter(|_| !lines.is_continuous());
             let name = name.unwrap_or_else(|| "ω".to_owned());
-            let (frequency, error) = (short(line.frequency), significant(line.error, 1, 1.0..10.0));
-            format!("{name} = {frequency} ± {error}{unit}, amplitude {}", brief(line.amplitude))
+            let (frequency, error) =
+                (known(line.frequency, line.error), significant(line.error, 1, 1.0..10.0));
+            format!("{name} = {frequency} ± {error}{unit}, a = {}", brief(line.amplitude))
         })
         .collect();
     let names = lines.lines.iter().filter_map(SpectralLine::name);
@@ -253,8 +279,15 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     {
         all.push(format!("Ω = {}{unit}, the drive", short(drive)));
     }
+    // the most important comes first: a small pane has no room for all
+    all.splice(
+        0..0,
+        drift(answer).map(|drift| {
+            format!("ω of the halves: apart by {}", significant(drift.relative(), 1, 1.0..10.0))
+        }),
+    );
     if lines.is_continuous() {
-        all.push(format!("these lines leave {:.0} %: not a sum of few", 100.0 * lines.part_left()));
+        all.insert(0, format!("no sum of lines: they leave {:.0} %", 100.0 * lines.part_left()));
     }
     if lines.lines.is_empty() {
         all.push("no line stands out".to_owned());

@@ -263,3 +263,27 @@ fn an_ellipse_is_regular_in_any_units() {
         assert!(pairs < 1e-13, "{units:?}: {pairs:e}");
     }
 }
+
+/// The frequency of a torus stays, that of a chaotic motion drifts (Hénon and Heiles' system, whose exponents say the same).
+#[test]
+fn the_frequency_of_chaos_drifts() {
+    let drift = |given: &[&str]| {
+        let all = [
+            &[
+                "spectrum",
+                "henon-heiles",
+                "--until=1200",
+                "--count=2048",
+                "--lines=4",
+                "--format=json",
+            ],
+            given,
+        ]
+        .concat();
+        phaselab(&all).json()["frequency_drift"]["relative"].as_f64().unwrap()
+    };
+    let torus = drift(&["--init=x=0", "--init=y=0.1", "--init=p_x=0.3", "--init=p_y=0.1"]);
+    let chaos = drift(&[]);
+    assert!(torus < 1e-6, "{torus}");
+    assert!(chaos > 1e-4, "{chaos}");
+}

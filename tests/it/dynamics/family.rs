@@ -1,8 +1,12 @@
 //! Families of periodic orbits.
 
-use phaselab::dynamics::{Along, Bifurcation, Family, Fixed, Member, family, periodic_orbit};
+use phaselab::dynamics::{
+    Along, Bifurcation, Family, Fixed, Member, drive_period, driven_family, driven_orbit, family,
+    periodic_orbit,
+};
 
 use super::{Case, file, taylor};
+use crate::hand::lowered;
 
 fn of(case: &Case, period: Option<f64>, (along, fixed): (Along, Fixed), values: &[f64]) -> Family {
     let orbit = periodic_orbit(&case.space, taylor(), &case.start, period, fixed).unwrap();
@@ -94,4 +98,57 @@ fn a_family_turns_back_at_its_fold() {
         assert!((member.orbit.period - std::f64::consts::TAU).abs() < 1e-10);
         assert_eq!(member.orbit.stable, k >= 3);
     }
+}
+
+/// A driven oscillator with friction, of which the period of the drive is the parameter.
+fn driven(cubic: &str, start: &[f64]) -> (phaselab::app::Loaded, Case) {
+    let text = format!(
+        "title = \"t\"\n[coordinates]\nx = {{ initial = 0.3, momentum = 0 }}\n[parameters]\nw = 1.0\n[hamiltonian]\n\
+         H = \"1/2*p_x^2 + 1/2*x^2 {cubic} - 0.3*x*cos(w*t)\"\nforces = {{ x = \"-0.1*p_x\" }}\n"
+    );
+    let loaded = lowered(&text);
+    let case = super::case(&loaded, &[], start);
+    (loaded, case)
+}
+
+fn along_the_drive(loaded: &phaselab::app::Loaded, case: &Case, values: &[f64]) -> Family {
+    let period = case.space.drive().unwrap();
+    let orbit = driven_orbit(&case.space, taylor(), &case.start, period).unwrap();
+    let drive = |parameters: &[f64]| {
+        drive_period(&loaded.model, &loaded.equations, case.space.system(), parameters)
+    };
+    driven_family(&case.space, taylor(), &orbit, (Along::Parameter(0), &drive), values).unwrap()
+}
+
+/// x = A(ω) cos ωt + B(ω) sin ωt: the period is that of the drive at each ω.
+#[test]
+fn the_orbits_of_a_driven_oscillator_have_the_period_of_the_drive_at_each_frequency() {
+    let (loaded, case) = driven("", &[0.3, 0.0]);
+    let found = along_the_drive(&loaded, &case, &[0.8, 1.2, 1.7]);
+    let members = asked(&found);
+    assert_eq!(members.len(), 3, "{:?}", found.ended);
+    for member in members {
+        let w = member.value;
+        let (stiff, loss) = (1.0 - w * w, 0.1 * w);
+        let size = 0.3 / (stiff * stiff + loss * loss);
+        let state = case.space.variables(&member.orbit.state);
+        assert!((member.orbit.period - std::f64::consts::TAU / w).abs() < 1e-12, "{w}");
+        assert!((state[0] - size * stiff).abs() < 1e-9, "{w}: {state:?}");
+        assert!((state[1] - size * loss * w).abs() < 1e-9, "{w}: {state:?}");
+    }
+}
+
+/// Duffing's oscillator bends to higher frequencies: the folds are those at which det(M − 1) vanishes by another integrator
+/// (heyoka with its variational equations, Newton's method).
+#[test]
+fn the_resonance_of_duffings_oscillator_folds_where_another_integrator_says() {
+    let (loaded, case) = driven("+ 1/4*x^4", &[1.0, 0.2]);
+    let found = along_the_drive(&loaded, &case, &[1.0, 2.2]);
+    let folds: Vec<f64> = (found.members.iter())
+        .filter(|member| member.bifurcation == Some(Bifurcation::Fold))
+        .map(|member| member.value)
+        .collect();
+    let [upper, lower] = folds[..] else { panic!("{folds:?} {:?}", found.ended) };
+    assert!((upper - 1.779_719_52).abs() < 1e-6, "{upper}");
+    assert!((lower - 1.324_236_20).abs() < 1e-6, "{lower}");
 }

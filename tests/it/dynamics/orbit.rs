@@ -214,3 +214,61 @@ fn an_orbit_along_a_resonance_is_found() {
     close(found.energy, wanted, 1e-13);
     assert!(found.closure < 1e-13 && found.stable, "{}", found.closure);
 }
+
+/// The reason that a search for an orbit with a period gives.
+fn refused(case: &Case, period: f64) -> String {
+    match periodic_orbit(&case.space, taylor(), &case.start, Some(period), Fixed::Period(period)) {
+        Ok(found) => panic!("{found:?}"),
+        Err(error) => error.to_string(),
+    }
+}
+
+/// Two oscillators that do not act on each other, whose frequencies are 1 and this.
+fn two_oscillators(frequency: f64) -> Case {
+    let text = format!(
+        "title = \"t\"\n[coordinates]\nx = {{ initial = 1, momentum = 0 }}\ny = {{ initial = 0.5, momentum = 0.3 }}\n\
+         [hamiltonian]\nH = \"1/2*(p_x^2 + p_y^2) + 1/2*x^2 + 1/2*({frequency:?})^2*y^2\"\n"
+    );
+    file(&text, &[1.0, 0.5, 0.0, 0.3])
+}
+
+/// No motion but rest has the period 2: what is said of the one from the start has its frequencies, in closed form.
+#[test]
+fn a_torus_that_is_not_closed_is_named_by_its_frequencies() {
+    let golden = refused(&two_oscillators(f64::midpoint(1.0, 5.0_f64.sqrt())), 2.0);
+    // 1/0.618… = 1.618…: either may come first
+    let ratio = golden.contains("1.618033988") || golden.contains("0.61803398");
+    assert!(ratio && golden.contains("lies on an irrational torus"), "{golden}");
+    // the convergents of the golden mean with numbers up to 12 end with 5 : 8
+    assert!(golden.contains("5 : 8") || golden.contains("8 : 5"), "{golden}");
+    let resonant = refused(&two_oscillators(1.5), 2.0);
+    assert!(resonant.contains("resonant torus") && !resonant.contains("irrational"), "{resonant}");
+    assert!(resonant.contains("2 : 3") || resonant.contains("3 : 2"), "{resonant}");
+    assert!(resonant.contains("closes after 12.5663706"), "{resonant}");
+}
+
+/// The rotation number 0.920604232837 and the frequency 0.991333945460 are those of 6312 crossings by another integrator
+/// (heyoka, to t = 40000) and their weighted Birkhoff averages.
+#[test]
+fn a_torus_of_henon_and_heiles_and_chaos_are_told_apart_where_no_orbit_is_found() {
+    let torus = refused(&preset("henon-heiles", &[], &[0.0, 0.1, 0.3, 0.1]), 4.0);
+    for words in ["irrational torus", "0.99133394", "0.920604", "12 : 11"] {
+        assert!(torus.contains(words), "{words}: {torus}");
+    }
+    let chaos = refused(&preset("henon-heiles", &[], &[0.0, -0.1, 0.49, 0.27]), 4.0);
+    assert!(chaos.contains("The motion from there is chaotic: "), "{chaos}");
+    assert!(!chaos.contains("torus"), "{chaos}");
+}
+
+/// p_φ moves by rounding alone, which is no unit: the bob goes round, and does not rest.
+#[test]
+fn a_conserved_momentum_does_not_make_a_motion_rest() {
+    let case = preset("spherical-pendulum", &[], &[]);
+    match periodic_orbit(&case.space, taylor(), &case.start, None, Fixed::Energy(energy(&case))) {
+        Ok(found) => {
+            close(found.energy, energy(&case), 1e-8);
+            assert!(found.closure < 1e-13 || !found.closes_exactly, "{}", found.closure);
+        }
+        Err(error) => assert!(!error.to_string().contains("equilibrium"), "{error}"),
+    }
+}

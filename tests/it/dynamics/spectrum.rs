@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use phaselab::diagnostic::Document;
-use phaselab::dynamics::{Spectrum, mean_rate, spectrum};
+use phaselab::dynamics::{Spectrum, frequency_drift, mean_rate, spectrum};
 use phaselab::ensemble::SystemFlow;
 use phaselab::experiment::Prepared;
 use phaselab::integrate::{Settings, method_named};
@@ -192,4 +192,24 @@ fn a_pendulum_that_turns_over_has_the_mean_rate_of_its_elliptic_integral() {
     let plain = (angle[1023] - angle[0]) / (1023.0 * 0.2);
     assert!((plain - exact).abs() > 1e-5, "{plain}");
     assert_eq!(mean_rate(&[0.0, TAU], 1.0), None);
+}
+
+/// A line whose frequency changes in the middle of the time drifts by as much, and one beside others that does not change, not at all.
+#[test]
+fn the_drift_of_a_frequency_is_its_change_between_the_halves() {
+    let count = 4096;
+    let signal = |later: f64| -> Vec<f64> {
+        let value = |k: usize| {
+            let t = 0.1 * k as f64;
+            let rate = if k < count / 2 { 1.0 } else { later };
+            (rate * t).cos() + 0.3 * (2.0_f64.sqrt() * t).sin()
+        };
+        (0..count).map(value).collect()
+    };
+    let drift = |later: f64| frequency_drift(&signal(later), 0.1, 1.0).unwrap();
+    let changed = drift(1.02);
+    assert!((changed.first - 1.0).abs() < 1e-7 && (changed.second - 1.02).abs() < 1e-7);
+    assert!((changed.relative() - 0.02 / 1.01).abs() < 1e-6, "{}", changed.relative());
+    assert!(drift(1.0).relative() < 1e-9);
+    assert_eq!(frequency_drift(&[0.0; 16], 0.1, 1.0), None);
 }

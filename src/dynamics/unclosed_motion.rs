@@ -1,0 +1,126 @@
+//! What a motion is, near which no periodic orbit was found: chaotic, or on a torus with frequencies that have no common period.
+//!
+//! In: the state at which the search began. Out: a sentence. Never here: how an orbit is searched for.
+
+use nalgebra::DMatrix;
+
+use super::carrier::Carrier;
+use super::error::DynamicsError;
+use super::lyapunov::{Chaos, lyapunov};
+use super::phase_space::PhaseSpace;
+use super::torus::{Signal, Torus};
+use crate::integrate::{Method, Settings, Stepping};
+use crate::system::{Form, State};
+
+/// The steps over which the motion is followed, of a series and of a fixed size, and the periods of a drive.
+const STEPS: u64 = 1500;
+const STEPS_FIXED: u64 = 40_000;
+const PERIODS: u32 = 1024;
+
+/// The number of samples over them.
+const SAMPLES: u32 = 4096;
+
+/// A time later than the end of any step.
+const ENDLESS: f64 = 1e150;
+
+/// The most frequencies that are searched for.
+const FREQUENCIES: usize = 3;
+
+/// An error that says beside what was not found what the motion from the start is, where that can be known.
+pub(super) fn explained(
+    error: DynamicsError,
+    space: &PhaseSpace,
+    method: (&'static Method, Settings),
+    start: &State,
+) -> DynamicsError {
+    let DynamicsError::Unsuited(why) = error else { return error };
+    match character(space, method, start) {
+        Err(error) if error.is_cancelled() => error,
+        Ok(Some(character)) => {
+            DynamicsError::Unsuited(format!("{why}. The motion from there {character}"))
+        }
+        // what cannot be followed further says nothing of it
+        Ok(None) | Err(_) => DynamicsError::Unsuited(why),
+    }
+}
+
+/// What the motion from a state is; nothing if it cannot be followed.
+fn character(
+    space: &PhaseSpace,
+    method: (&'static Method, Settings),
+    start: &State,
+) -> Result<Option<String>, DynamicsError> {
+    let drive = if space.is_autonomous() { None } else { space.drive() };
+    let Some(end) = end(space, method, start, drive)? else { return Ok(None) };
+    let found = lyapunov(space, method, start, end, &mut |_| ())?;
+    if let Some(failure) = found.failure {
+        return if failure.is_cancelled() { Err(failure) } else { Ok(None) };
+    }
+    let reason = &found.reason;
+    Ok(Some(match found.verdict {
+        Chaos::Chaotic => format!("is chaotic: {reason}"),
+        Chaos::Undecided => format!("may be regular or chaotic, which is undecided: {reason}"),
+        Chaos::Regular => match torus(space, method, (start, end), drive)? {
+            Some(torus) => torus.told(),
+            None => format!("is regular: {reason}"),
+        },
+    }))
+}
+
+/// The time until which the motion is followed; nothing if it ends before.
+fn end(
+    space: &PhaseSpace,
+    (method, settings): (&'static Method, Settings),
+    start: &State,
+    drive: Option<f64>,
+) -> Result<Option<f64>, DynamicsError> {
+    if let Some(drive) = drive {
+        return Ok(Some(start.time + f64::from(PERIODS) * drive));
+    }
+    let mut carrier = Carrier::new(space, method, settings, 0)?;
+    carrier.start(start, &DMatrix::zeros(space.dimension(), 0))?;
+    let steps = if method.stepping == Stepping::Fixed { STEPS_FIXED } else { STEPS };
+    for _ in 0..steps {
+        if let Err(fault) = carrier.step(ENDLESS) {
+            let fault = DynamicsError::from(fault);
+            return if fault.is_cancelled() { Err(fault) } else { Ok(None) };
+        }
+    }
+    let end = carrier.time();
+    Ok((end < ENDLESS).then_some(end))
+}
+
+/// The torus on which a regular motion of a conservative system lies, if its frequencies are found.
+fn torus(
+    space: &PhaseSpace,
+    method: (&'static Method, Settings),
+    (start, end): (&State, f64),
+    drive: Option<f64>,
+) -> Result<Option<Torus>, DynamicsError> {
+    let (_, dimension) = space.allowed_displacements(start)?;
+    let degrees = dimension / 2;
+    let conserves = space.is_conservative() || drive.is_some() && space.is_hamiltonian();
+    if !conserves || space.form() == Form::Variables || !(1..=FREQUENCIES).contains(&degrees) {
+        return Ok(None);
+    }
+    let count = if drive.is_some() { PERIODS } else { SAMPLES };
+    let spacing = (end - start.time) / f64::from(count);
+    let mut signals: Vec<Signal> = (space.periods().iter().take(space.dimension() / 2))
+        .map(|turn| Signal { values: Vec::new(), turn: *turn })
+        .collect();
+    let mut carrier = Carrier::new(space, method.0, method.1, 0)?;
+    carrier.start(start, &DMatrix::zeros(space.dimension(), 0))?;
+    // between the times of impulses, which are multiples of the period of their drive
+    let mut times = (0..count).map(|k| start.time + (f64::from(k) + 0.5) * spacing).peekable();
+    while times.peek().is_some() {
+        carrier.step(end)?;
+        let (_, reached) = carrier.interval();
+        while let Some(time) = times.next_if(|time| *time <= reached) {
+            let (state, _) = carrier.at(time)?;
+            for (signal, x) in signals.iter_mut().zip(space.variables(&state)) {
+                signal.values.push(*x);
+            }
+        }
+    }
+    Ok(Torus::of(&signals, spacing, degrees, drive.map(|period| std::f64::consts::TAU / period)))
+}
