@@ -74,6 +74,7 @@ mod projector;
 mod rates;
 mod rates_list;
 mod register_map;
+mod registers;
 mod resolution;
 mod rhs;
 mod saltation;

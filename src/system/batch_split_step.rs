@@ -8,8 +8,9 @@
 use super::compiled::System;
 use super::program::Op;
 use super::rates::Rates;
+use super::registers::Registers;
 use super::stage_list::StageList;
-use super::stage_machine::{Registers, Steps};
+use super::stage_machine::Steps;
 use super::state::State;
 use crate::num::{Analytic, BATCH, Batch, vectorized};
 

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::instruction::Instruction;
 use super::program::Program;
 use super::register_map::RegisterMap;
-use super::stage_machine::{Registers, StageNumber};
+use super::registers::{Registers, StageNumber};
 use super::value::Evaluator;
 
 /// The list of one program, with its registers.

@@ -7,8 +7,9 @@
 
 use super::State;
 use super::rates::Rates;
+use super::registers::Registers;
 use super::stage_list::StageList;
-use super::stage_machine::{Registers, Steps};
+use super::stage_machine::Steps;
 use crate::num::{BATCH, Batch, vectorized};
 
 /// Many steps of one splitting method.

@@ -6,6 +6,7 @@ mod faults;
 mod kepler;
 mod order;
 mod presets;
+mod side_by_side;
 mod stability;
 mod structure;
 mod turning_point;

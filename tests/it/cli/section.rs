@@ -165,7 +165,7 @@ fn each_direction_has_its_crossings_and_a_start_on_the_section_none() {
 fn an_orbit_that_begins_too_late_is_refused() {
     let late = format!("{OSCILLATOR}[run]\nstart = 1e17\n");
     let arguments = ["section", "system.toml", "--on=x", "--count=5", "--format=json"];
-    let found = with_file(&late, &arguments).json();
+    let found: Value = serde_json::from_str(&with_file(&late, &arguments).stdout).unwrap();
     assert_eq!(found["orbits"][0]["status"], "refused");
     let message = found["orbits"][0]["message"].as_str().unwrap();
     assert!(message.contains("times are 16 apart"), "{message}");
