@@ -149,7 +149,7 @@ fn object(found: &Found) -> Map<String, Value> {
     insert("fundamentals", json!(spectrum.fundamentals));
     insert("drive", json!(drive));
     insert("left", json!(spectrum.left));
-    let halves = |d: &FrequencyDrift| json!({ "first": d.first, "second": d.second, "relative": d.relative() });
+    let halves = |d: &FrequencyDrift| json!({ "first": d.first, "second": d.second, "relative": d.relative(), "error": d.relative_error() });
     insert("frequency_drift", drift.as_ref().map_or(Value::Null, halves));
     insert("mean_rate", rate.map_or(Value::Null, |r| json!({ "rate": r.rate, "error": r.error })));
     object
@@ -185,8 +185,9 @@ fn text(found: &Found) -> String {
     }
     if let Some(drift) = drift {
         text.push_str(&format!(
-            "the strongest ω drifts by {:.0e} of it from the first half of the time to the second\n",
-            drift.relative()
+            "the strongest ω drifts by {:.0e} ± {:.0e} of it from the first half of the time to the second\n",
+            drift.relative(),
+            drift.relative_error()
         ));
     }
     if let Some(drive) = drive {

@@ -21,12 +21,20 @@ pub struct FrequencyDrift {
     pub first: f64,
     /// In the second.
     pub second: f64,
+    /// What is not known of their difference, as if what the lines of a half leave were noise: much where lines are closer than a half can
+    /// tell apart, and in chaos.
+    pub error: f64,
 }
 
 impl FrequencyDrift {
     /// The difference as a part of the frequency.
     pub fn relative(&self) -> f64 {
         2.0 * (self.second - self.first).abs() / (self.first + self.second)
+    }
+
+    /// The error of that part.
+    pub fn relative_error(&self) -> f64 {
+        2.0 * self.error / (self.first + self.second)
     }
 }
 
@@ -38,7 +46,9 @@ pub fn frequency_drift(signal: &[f64], spacing: f64, strongest: f64) -> Option<F
         let largest = found.lines.iter().map(|line| line.amplitude).fold(0.0, f64::max);
         let strong = found.lines.iter().filter(|line| line.amplitude >= STRONG * largest);
         let away = |frequency: f64| (frequency - strongest).abs();
-        strong.map(|line| line.frequency).min_by(|a, b| away(*a).total_cmp(&away(*b)))
+        let known = strong.map(|line| (line.frequency, line.error));
+        known.min_by(|a, b| away(a.0).total_cmp(&away(b.0)))
     };
-    Some(FrequencyDrift { first: nearest(&signal[..half])?, second: nearest(&signal[half..])? })
+    let ((first, one), (second, other)) = (nearest(&signal[..half])?, nearest(&signal[half..])?);
+    Some(FrequencyDrift { first, second, error: one + other })
 }

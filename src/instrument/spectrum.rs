@@ -283,7 +283,9 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     all.splice(
         0..0,
         drift(answer).map(|drift| {
-            format!("ω of the halves: apart by {}", significant(drift.relative(), 1, 1.0..10.0))
+            let [apart, error] = [drift.relative(), drift.relative_error()];
+            let [apart, error] = [apart, error].map(|x| significant(x, 1, 1.0..10.0));
+            format!("halves: ω differs by {apart} ± {error}")
         }),
     );
     if lines.is_continuous() {
