@@ -26,6 +26,7 @@ mod header_footer;
 mod help;
 mod highlight;
 mod hit_test;
+mod ink;
 mod kept;
 mod lab_page;
 mod layout;

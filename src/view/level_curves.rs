@@ -5,7 +5,7 @@
 use ratatui::style::Style;
 
 use super::canvas::Canvas;
-use super::picture::pen;
+use super::ink::pen;
 use super::plot::{Marker, Pen, PlotFrame, Raster};
 use crate::analysis::{Curve, Landscape};
 use crate::instrument::{Ink, Level};

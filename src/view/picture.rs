@@ -7,6 +7,7 @@ use ratatui::layout::Rect;
 
 use super::canvas::{Canvas, Span, columns, groups, row, wide};
 use super::colour::ColourDepth;
+use super::ink::pen;
 use super::kept::{self, Track, TrailKey};
 use super::marks::{self, Marks};
 use super::number::readable;
@@ -398,19 +399,6 @@ fn crossings<'a>(
 ) -> impl DoubleEndedIterator<Item = [f64; 2]> + 'a {
     let rows = q.snapshot.crossings.rows(section, q.snapshot.values.len());
     rows.map(move |row| channels.map(|channel| row[1 + channel]))
-}
-
-pub(super) fn pen(canvas: &Canvas<'_>, ink: Ink, level: Level) -> Pen {
-    let theme = &canvas.look.theme;
-    match ink {
-        Ink::Plain => Pen::new(theme[Role::Text], level),
-        Ink::Accent => Pen::new(theme[Role::Accent], level),
-        Ink::Warn => Pen::new(theme[Role::Warn], level),
-        Ink::Level => Pen::shaded(theme.line(Role::Level), level),
-        Ink::Separatrix => Pen::shaded(theme.line(Role::Separatrix), level),
-        Ink::Curve(index) => Pen::new(theme.curve(index), level),
-        Ink::Companion(number) => Pen::new(companions::ink(theme, number), level),
-    }
 }
 
 /// One axis for all quantities: their names are in the frame, and the axis has the unit if they share it.
