@@ -140,7 +140,7 @@ pub fn periodic_orbit(
     if !(period > 0.0 && period.is_finite()) {
         return Err(unsuited("a period is above zero"));
     }
-    closed_near(space, method, (start, period), fixed)?.map_err(|missed| missed.told())
+    closed_near(space, method, (start, period), fixed)?.map_err(|missed| missed.error())
 }
 
 /// The orbit near the first return from which the search comes to one.
@@ -169,7 +169,8 @@ fn near_returns(
             }
         }
     }
-    Err(best.map_or_else(|| unsuited("no periodic orbit was searched for"), |missed| missed.told()))
+    Err(best
+        .map_or_else(|| unsuited("no periodic orbit was searched for"), |missed| missed.error()))
 }
 
 /// None was found: by how much the best one misses itself, as a part of its size, and its period.
@@ -179,7 +180,7 @@ struct Missed {
 }
 
 impl Missed {
-    fn told(&self) -> DynamicsError {
+    fn error(&self) -> DynamicsError {
         unsuited(&format!(
             "no periodic orbit was found near the start: the best one misses itself by {:.1e} \
              of its size after {}",

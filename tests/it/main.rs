@@ -7,6 +7,7 @@ mod app;
 mod batch;
 mod build;
 mod circles;
+mod claims;
 mod cli;
 mod config;
 mod constrain;
