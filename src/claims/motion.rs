@@ -357,3 +357,35 @@ impl<'a> ClaimedMotion<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mechanics;
+
+    fn steps(law: &str) -> (u64, u64) {
+        let text = format!(
+            "title = \"a\"\n[coordinates]\nx = {{ initial = 1 }}\n[lagrangian]\nL = \"{law}\""
+        );
+        let model = crate::preset::read(&text).expect("right").model;
+        let equations = mechanics::derive(&model).expect("derivable");
+        let Flow::Lagrange { mass, force, .. } = &equations.flow else { panic!("a Lagrangian") };
+        let roots: Vec<Expr> = mass.concat().into_iter().chain(force.clone()).collect();
+        (steps_for(&equations), equations.pool.reachable(&roots).len() as u64)
+    }
+
+    #[test]
+    fn claims_are_worth_four_million_evaluations_of_one_part() {
+        let (steps, parts) = steps("1/2*x'^2 - 1/2*x^2");
+        assert!(parts < 20);
+        assert_eq!(steps, 4_000_000 / parts);
+    }
+
+    #[test]
+    fn large_systems_are_still_given_five_thousand_steps() {
+        let terms: Vec<String> = (1..400).map(|k| format!("sin({k}*x)/({k} + x^2)")).collect();
+        let (steps, parts) = steps(&format!("1/2*x'^2 - ({})", terms.join(" + ")));
+        assert!(parts > 800, "{parts}");
+        assert_eq!(steps, 5_000);
+    }
+}

@@ -7,7 +7,6 @@ mod app;
 mod batch;
 mod build;
 mod circles;
-mod claims;
 mod cli;
 mod config;
 mod constrain;
