@@ -1,14 +1,18 @@
-//! Frames: their bytes, `view::frame` compared with ratatui's `CrosstermBackend` alone; and the time to draw one,
-//! `view::Painter`, which keeps what does not change, compared with drawing everything anew.
+//! Frames: their bytes and the time to encode them, `view::frame` compared with ratatui's `CrosstermBackend` alone; and the
+//! time to draw one, `view::Painter`, which keeps what does not change, compared with drawing everything anew.
 //!
 //! `cargo bench --bench frames` prints a line for each system and each depth of colour: the mean bytes of a frame in ten
-//! seconds of motion at 80 × 24, thirty frames a second, after the first two seconds. Then a line for each system: the
+//! seconds of motion at 80 × 24, thirty frames a second, after the first two seconds, and the median time from a picture to
+//! its bytes, both ways. Then a line for each system: the
 //! median time of a frame at 120 × 40 over a full trail, both ways in turn. `-- NAME…` prints only these lines, for the systems
 //! that are named; `-- all` prints the mean bytes for every preset, in true colour, at 80 × 24 and 120 × 40, and their means.
 
 #![allow(clippy::print_stdout, reason = "a benchmark reports on the terminal")]
 
+use std::cell::RefCell;
 use std::hint::black_box;
+use std::io::{self, Write};
+use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -20,9 +24,10 @@ use phaselab::view::frame::Frames;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::Theme;
 use phaselab::view::{self, Painter, RenderStyle};
-use ratatui::backend::{Backend, CrosstermBackend};
+use ratatui::backend::CrosstermBackend;
 use ratatui::buffer::Buffer;
-use ratatui::layout::{Rect, Size};
+use ratatui::layout::{Position, Rect, Size};
+use ratatui::{Terminal, TerminalOptions, Viewport};
 
 const SIZE: Size = Size { width: 80, height: 24 };
 const FIRST: u32 = 60;
@@ -64,32 +69,70 @@ impl Motion {
 
     fn picture(&mut self, frame: u32, size: Size) -> Buffer {
         self.advance(frame);
-        let area = Rect::from((ratatui::layout::Position::ORIGIN, size));
+        let area = Rect::from((Position::ORIGIN, size));
         let mut buffer = Buffer::empty(area);
         self.painter.draw(&self.app, &self.look, area, &mut buffer);
         buffer
     }
 }
 
-/// The mean bytes of a frame: crossterm's, and those of `view::frame`.
-fn bytes(name: &str, depth: ColourDepth, size: Size) -> (f64, f64) {
+/// The mean bytes of a frame, and the median time from a picture to its bytes.
+struct Encoded {
+    bytes: f64,
+    time: Duration,
+}
+
+impl Encoded {
+    fn of(frames: Vec<(usize, Duration)>) -> Self {
+        let (bytes, times): (Vec<usize>, Vec<Duration>) = frames.into_iter().unzip();
+        Self { bytes: bytes.iter().sum::<usize>() as f64 / bytes.len() as f64, time: median(times) }
+    }
+}
+
+fn median(mut times: Vec<Duration>) -> Duration {
+    times.sort_unstable();
+    times[times.len() / 2]
+}
+
+/// Bytes written, shared with the backend that writes them.
+#[derive(Clone, Default)]
+struct Written(Rc<RefCell<Vec<u8>>>);
+
+impl Write for Written {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.borrow_mut().write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// The same pictures drawn on ratatui's terminal with crossterm's backend, and on that of `view::frame`, which also
+/// looks for control characters in them.
+fn encoded(name: &str, depth: ColourDepth, size: Size) -> [Encoded; 2] {
     let mut motion = Motion::of(name, depth);
     let mut frames = Frames::new(false).expect("memory");
-    let mut shown = motion.picture(0, size);
-    let (mut plain, mut frugal) = (0, 0);
-    for frame in 1..FIRST + COUNT {
+    let written = Written::default();
+    let viewport = Viewport::Fixed(Rect::from((Position::ORIGIN, size)));
+    let backend = CrosstermBackend::new(written.clone());
+    let mut terminal =
+        Terminal::with_options(backend, TerminalOptions { viewport }).expect("memory");
+    let (mut plain, mut frugal) = (Vec::new(), Vec::new());
+    for frame in 0..FIRST + COUNT {
         let picture = motion.picture(frame, size);
-        let mut out = Vec::new();
-        let changed = shown.diff_iter(&picture);
-        CrosstermBackend::new(&mut out).draw(changed).expect("bytes");
+        let begun = Instant::now();
+        terminal.draw(|frame| frame.buffer_mut().clone_from(&picture)).expect("bytes");
+        let plainly = (written.0.take().len(), begun.elapsed());
+        let begun = Instant::now();
         let next = frames.next(size, |_, buffer| buffer.clone_from(&picture)).expect("bytes");
+        let frugally = (black_box(&next).len(), begun.elapsed());
         if frame >= FIRST {
-            (plain, frugal) = (plain + out.len(), frugal + next.len());
+            plain.push(plainly);
+            frugal.push(frugally);
         }
-        shown = picture;
     }
-    let mean = |sum: usize| sum as f64 / f64::from(COUNT);
-    (mean(plain), mean(frugal))
+    [plain, frugal].map(Encoded::of)
 }
 
 /// The median time of a frame over a full trail: drawn anew, and by a painter.
@@ -108,10 +151,6 @@ fn times(name: &str) -> (Duration, Duration) {
         painter.draw(&motion.app, &motion.look, area, black_box(&mut again));
         kept.push(begun.elapsed());
     }
-    let median = |mut times: Vec<Duration>| {
-        times.sort_unstable();
-        times[times.len() / 2]
-    };
     (median(anew), median(kept))
 }
 
@@ -120,7 +159,7 @@ fn all() {
     println!("{:28} {:>8} {:>8}", "preset", "80x24", "120x40");
     let sizes = [SIZE, Size { width: 120, height: 40 }];
     let catalog = Catalog::with_folder(None);
-    let of = |name: &str| sizes.map(|size| bytes(name, ColourDepth::True, size).1);
+    let of = |name: &str| sizes.map(|size| encoded(name, ColourDepth::True, size)[1].bytes);
     let mut rows = Vec::new();
     for entry in catalog.entries() {
         let row = of(&entry.name);
@@ -150,7 +189,9 @@ fn main() {
         ["all"] => return all(),
         _ => return timed(&names),
     }
-    println!("{:16} {:8} {:>10} {:>10} {:>6}", "system", "colours", "crossterm", "frames", "saved");
+    let titles = ["crossterm", "frames", "saved", "crossterm", "frames"];
+    let [a, b, c, d, e] = titles;
+    println!("{:16} {:8} {a:>10} {b:>10} {c:>6} {d:>10} {e:>10}", "system", "colours");
     for name in ["pendulum", "double-pendulum", "henon-heiles", "foucault"] {
         for (depth, called) in [
             (ColourDepth::None, "none"),
@@ -158,9 +199,12 @@ fn main() {
             (ColourDepth::Ansi256, "256"),
             (ColourDepth::True, "true"),
         ] {
-            let (plain, frugal) = bytes(name, depth, SIZE);
-            let saved = 100.0 * (1.0 - frugal / plain);
-            println!("{name:16} {called:8} {plain:10.0} {frugal:10.0} {saved:5.0}%");
+            let [plain, frugal] = encoded(name, depth, SIZE);
+            let saved = 100.0 * (1.0 - frugal.bytes / plain.bytes);
+            println!(
+                "{name:16} {called:8} {:10.0} {:10.0} {saved:5.0}% {:>10.1?} {:>10.1?}",
+                plain.bytes, frugal.bytes, plain.time, frugal.time
+            );
         }
     }
     timed(&["pendulum", "heavy-top", "double-pendulum", "chain-pendulum", "henon-heiles"]);

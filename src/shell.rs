@@ -55,6 +55,8 @@ pub use cast_player::CastPlayer;
 pub use decoder::{PASTE_LIMIT, decode};
 pub use diagnosis::{DoctorFinding, diagnosis};
 pub use frame_loop::{Ending, FramePace, Screen, ScreenRequest, perform};
+pub use governor::Governor;
+pub use guided::Guided;
 pub use lab::{perform_demo, run, show, take_lesson};
 pub use lab_error::LabError;
 pub use log::{LogError, LogFile};

@@ -117,7 +117,7 @@ pub enum Asking {
 }
 
 /// Whether a check result is about the current text.
-pub(super) enum Found {
+pub(super) enum CheckedRevision {
     /// It is about the current text.
     Newest,
     /// The text has changed since the check began.
@@ -282,9 +282,9 @@ impl SourceBuffer {
     }
 
     /// Ends the check.
-    pub(super) fn end_check(&mut self) -> Found {
+    pub(super) fn end_check(&mut self) -> CheckedRevision {
         let of = self.checking.take().map(|(_, revision)| revision);
-        if of == Some(self.revision) { Found::Newest } else { Found::Older }
+        if of == Some(self.revision) { CheckedRevision::Newest } else { CheckedRevision::Older }
     }
 
     /// Stores the errors found, unless the text may be an incomplete file that is read once more.

@@ -12,7 +12,7 @@ use std::time::Duration;
 use crossterm::event::KeyEvent;
 use tui_input::Input;
 
-use super::buffer::{Asking, BufferState, Found, SourceBuffer, Unsaved};
+use super::buffer::{Asking, BufferState, CheckedRevision, SourceBuffer, Unsaved};
 use super::field::paste;
 use super::{App, CheckedText, EditCommand, Effect, Lab, Notification, Overlay, Page, SaveError};
 use crate::preset::{PresetOrigin, is_path};
@@ -379,7 +379,7 @@ impl App {
         let found = buffer.end_check();
         match (outcome, found) {
             (Ok(loaded), found) => {
-                if let Found::Newest = found {
+                if let CheckedRevision::Newest = found {
                     buffer.diagnostics.clear();
                     buffer.state = BufferState::Runs(Some(took));
                 }
@@ -393,8 +393,8 @@ impl App {
                 self.rebuilt(loaded)
             }
             // Errors of a text that has changed since are out of date.
-            (Err(_), Found::Older) => Vec::new(),
-            (Err(diagnostics), Found::Newest) => {
+            (Err(_), CheckedRevision::Older) => Vec::new(),
+            (Err(diagnostics), CheckedRevision::Newest) => {
                 self.typed_axis = None;
                 let Some(buffer) = self.buffer() else { return Vec::new() };
                 buffer.is_wrong(&diagnostics);

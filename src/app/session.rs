@@ -112,7 +112,7 @@ impl App {
     /// Sends the awaited checkpoint to the experiment, if there is one.
     pub(super) fn restore(&mut self) -> Vec<Effect> {
         let awaited = self.lab.as_ref().and_then(|lab| lab.awaited.clone());
-        let command = |checkpoint| Effect::Tell(Command::TakeUp(Box::new(checkpoint)));
+        let command = |checkpoint| Effect::Tell(Command::Restore(Box::new(checkpoint)));
         awaited.map(command).into_iter().collect()
     }
 

@@ -96,14 +96,6 @@ pub(super) fn collect<T: Send>(
     Ok(results)
 }
 
-/// Puts what was computed into words as a whole, which is waited for after a signal.
-pub(super) fn formatted(interrupt: &Interrupt, text: impl FnOnce() -> String) -> String {
-    interrupt.prepares();
-    let text = text();
-    interrupt.is_prepared();
-    text
-}
-
 /// Writes all of a text. A file that is moved into place is waited for after a signal, and so is a reader that takes what
 /// a signal left.
 pub(super) fn write(out: Output, text: &str, interrupt: &Interrupt) -> Result<(), CommandError> {

@@ -38,18 +38,3 @@ pub(super) fn scripted(source: &Document) -> Result<(Script, Document, String), 
     let name = called(&system.text).to_owned();
     Ok((script, document, name))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::record::play;
-
-    #[test]
-    fn the_tour_is_short_and_true() {
-        let source = source(None).expect("there is one");
-        let (script, system, name) = scripted(&source).expect("without errors");
-        let recording = play(&script, &system, &name, (80, 24)).expect("it can be played");
-        assert_eq!(recording.false_claims, []);
-        assert!((8..=15).contains(&(recording.end / 1_000_000)), "{}", recording.end);
-    }
-}

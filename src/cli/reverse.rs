@@ -61,7 +61,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let rate = rate(&laid, returned.turned);
     let expected = expected(&laid, &returned);
     let bounded = returned.step.is_some() || laid.method.stepping == Stepping::Adaptive;
-    let found = Found { bounded, returned, steps, rate, expected };
+    let found = ReversedRun { bounded, returned, steps, rate, expected };
     let result = (found.object(&laid), found.text());
     study::write(&arguments.study, result, None, interrupt)
 }
@@ -82,7 +82,7 @@ fn expected(laid: &Laid, returned: &Return) -> Option<f64> {
 }
 
 /// How the motion returned, and what was expected.
-struct Found {
+struct ReversedRun {
     /// Whether what is expected is a bound.
     bounded: bool,
     returned: Return,
@@ -165,7 +165,7 @@ fn rate(laid: &Laid, until: f64) -> Result<(f64, f64), String> {
     Ok(least.map_or((0.0, 0.0), |(rate, off)| ((-rate).max(0.0), *off)))
 }
 
-impl Found {
+impl ReversedRun {
     fn object(&self, laid: &Laid) -> Map<String, Value> {
         let parameters = &laid.start.parameters;
         let method = (laid.method, laid.settings);

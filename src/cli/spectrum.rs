@@ -54,7 +54,7 @@ pub(super) struct Arguments {
 }
 
 /// What is found, and of what.
-struct Found {
+struct FoundSpectrum {
     of: String,
     from: f64,
     until: f64,
@@ -120,14 +120,14 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let strongest = spectrum.lines.first();
     let drift = strongest.and_then(|line| frequency_drift(&straight, spacing, line.frequency));
     let of = arguments.of.clone().unwrap_or_else(|| system.channels()[channel].name.clone());
-    let found = Found { of, from: start.time, until, count, spectrum, drive, rate, drift };
+    let found = FoundSpectrum { of, from: start.time, until, count, spectrum, drive, rate, drift };
     let mut head = study::head(model, system, &start.parameters, (*method, *settings));
     head.append(&mut object(&found));
     study::write(&arguments.study, (head, text(&found)), None, interrupt)
 }
 
-fn object(found: &Found) -> Map<String, Value> {
-    let Found { of, from, until, count, spectrum, drive, rate, drift } = found;
+fn object(found: &FoundSpectrum) -> Map<String, Value> {
+    let FoundSpectrum { of, from, until, count, spectrum, drive, rate, drift } = found;
     let line = |line: &SpectralLine| {
         json!({
             "frequency": line.frequency,
@@ -155,8 +155,8 @@ fn object(found: &Found) -> Map<String, Value> {
     object
 }
 
-fn text(found: &Found) -> String {
-    let Found { of, from, until, count, spectrum, drive, rate, drift } = found;
+fn text(found: &FoundSpectrum) -> String {
+    let FoundSpectrum { of, from, until, count, spectrum, drive, rate, drift } = found;
     let mut text = format!("{of} from t = {from:?} to {until:?}, {count} values\n\n");
     let head = ["", "ω", "", "amplitude", "phase"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];

@@ -122,7 +122,7 @@ pub fn equilibria_watched(
 }
 
 /// What must vanish at an equilibrium, and of what.
-enum Law {
+enum LawAtRest {
     /// The rates of the variables of the phase space.
     Free(Box<VectorField>),
     /// What remains of the forces under constraints, of coordinates and velocities.
@@ -132,7 +132,7 @@ enum Law {
 struct EquilibriumSearch<'a> {
     space: &'a PhaseSpace,
     start: &'a State,
-    law: Law,
+    law: LawAtRest,
     /// The variables of the search at the start: those of the space, or under constraints (q, q̇).
     middle: Vec<f64>,
     /// The variables that are searched for, by index.
@@ -155,14 +155,14 @@ impl<'a> EquilibriumSearch<'a> {
             let (middle, unknowns) = (balance.start(), balance.unknowns());
             let mut units = coordinate_units(space, &middle[..degrees]);
             units.extend(middle[degrees..].iter().map(|v| if *v == 0.0 { 1.0 } else { v.abs() }));
-            let law = Law::Constrained(Box::new(balance));
+            let law = LawAtRest::Constrained(Box::new(balance));
             return Ok(Self { space, start, law, middle, unknowns, cyclic, degrees, units });
         }
         let unknowns =
             (0..space.dimension()).filter(|i| !cyclic.contains(&(i % degrees))).collect();
         let mut field = space.vector_field();
         let units = units(space, start, &mut field);
-        let (law, middle) = (Law::Free(Box::new(field)), space.variables(start).to_vec());
+        let (law, middle) = (LawAtRest::Free(Box::new(field)), space.variables(start).to_vec());
         Ok(Self { space, start, law, middle, unknowns, cyclic, degrees, units })
     }
 
@@ -182,7 +182,7 @@ impl<'a> EquilibriumSearch<'a> {
         for (k, &i) in self.unknowns.iter().enumerate() {
             if canonical && i >= self.degrees {
                 // velocities of cyclic coordinates are those of the start
-                if matches!(self.law, Law::Free(_)) {
+                if matches!(self.law, LawAtRest::Free(_)) {
                     variables[i] = 0.0;
                 }
             } else if index > 0 {
@@ -200,8 +200,8 @@ impl<'a> EquilibriumSearch<'a> {
     /// What must vanish and its derivatives, in the units of the variables.
     fn look_in_units(&mut self, variables: &[f64]) -> Option<(DVector<f64>, DMatrix<f64>)> {
         let field = match &mut self.law {
-            Law::Constrained(balance) => return balance.equations(variables, &self.units),
-            Law::Free(field) => field,
+            LawAtRest::Constrained(balance) => return balance.equations(variables, &self.units),
+            LawAtRest::Free(field) => field,
         };
         let (mut f, mut df) = resting_rates(field, (self.start.time, variables), &self.unknowns)?;
         let unit = |k: usize| self.units[self.unknowns[k]];
@@ -291,8 +291,8 @@ impl<'a> EquilibriumSearch<'a> {
             }
         }
         match &mut self.law {
-            Law::Constrained(balance) => (!balance.drives(&variables)).then_some(variables),
-            Law::Free(field) => {
+            LawAtRest::Constrained(balance) => (!balance.drives(&variables)).then_some(variables),
+            LawAtRest::Free(field) => {
                 // a force on a cyclic coordinate, as friction, lets nothing rest
                 resting_rates(field, (self.start.time, &variables), &self.unknowns)?;
                 let (rate, derivative, units) = (field.rate(), field.derivative(), &self.units);
@@ -310,7 +310,7 @@ impl<'a> EquilibriumSearch<'a> {
 
     fn alike(&self, a: &[f64], b: &[f64]) -> bool {
         // velocities follow from the coordinates
-        let places = matches!(self.law, Law::Constrained(_));
+        let places = matches!(self.law, LawAtRest::Constrained(_));
         let mut unknowns = self.unknowns.iter().filter(|&&i| !places || i < self.degrees);
         unknowns.all(|&i| {
             let mut apart = a[i] - b[i];
@@ -323,8 +323,8 @@ impl<'a> EquilibriumSearch<'a> {
 
     fn described(&mut self, variables: &[f64]) -> Result<Option<Equilibrium>, DynamicsError> {
         let state = match &self.law {
-            Law::Free(_) => self.space.state_at(self.start, variables),
-            Law::Constrained(balance) => match balance.state(variables) {
+            LawAtRest::Free(_) => self.space.state_at(self.start, variables),
+            LawAtRest::Constrained(balance) => match balance.state(variables) {
                 Ok(state) => state,
                 Err(_) => return Ok(None),
             },
@@ -335,16 +335,16 @@ impl<'a> EquilibriumSearch<'a> {
             Err(_) => return Ok(None),
         };
         let found = match &mut self.law {
-            Law::Free(_) => self.around(variables),
-            Law::Constrained(_) => self.around_on_surface(variables),
+            LawAtRest::Free(_) => self.around(variables),
+            LawAtRest::Constrained(_) => self.around_on_surface(variables),
         };
         let Some((kind, eigenvalues, modes)) = found else { return Ok(None) };
         let rates = match &self.law {
-            Law::Free(field) => {
+            LawAtRest::Free(field) => {
                 let rate = field.rate();
                 self.cyclic.iter().map(|&i| (i, rate[i])).collect()
             }
-            Law::Constrained(_) => {
+            LawAtRest::Constrained(_) => {
                 self.cyclic.iter().map(|&i| (i, variables[self.degrees + i])).collect()
             }
         };
@@ -366,7 +366,7 @@ impl<'a> EquilibriumSearch<'a> {
 
     /// The kind, the eigenvalues and the modes at a place, of variables that are independent.
     fn around(&mut self, variables: &[f64]) -> Option<Around> {
-        let Law::Free(field) = &mut self.law else { return None };
+        let LawAtRest::Free(field) = &mut self.law else { return None };
         let (_, df) = resting_rates(field, (self.start.time, variables), &self.unknowns)?;
         let eigenvalues = linear::eigenvalues(&df);
         if self.space.form() != Form::Momentum {
@@ -385,7 +385,7 @@ impl<'a> EquilibriumSearch<'a> {
 
     /// The same of displacements along the surface of constraints.
     fn around_on_surface(&mut self, variables: &[f64]) -> Option<Around> {
-        let Law::Constrained(balance) = &mut self.law else { return None };
+        let LawAtRest::Constrained(balance) = &mut self.law else { return None };
         let around = balance.around(variables, &self.units)?;
         let eigenvalues = linear::eigenvalues(&around.matrix);
         let positive = |mass: &DMatrix<f64>| {

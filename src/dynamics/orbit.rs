@@ -137,7 +137,7 @@ pub fn periodic_orbit(
     fixed: Fixed,
 ) -> Result<Orbit, DynamicsError> {
     let found = searched(space, method, start, period, fixed)?;
-    found.map_err(|missed| explained(missed.told(), space, method, start))
+    found.map_err(|missed| explained(missed.error(), space, method, start))
 }
 
 /// The orbit, or by how much the best one misses itself.
@@ -202,7 +202,7 @@ pub(super) struct Missed {
 }
 
 impl Missed {
-    fn told(self) -> DynamicsError {
+    fn error(self) -> DynamicsError {
         DynamicsError::Unsuited(self.why)
     }
 }

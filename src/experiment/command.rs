@@ -69,5 +69,5 @@ pub enum Command {
     /// Removes all motions beside the main one.
     ClearCompanions,
     /// Resumes from a checkpoint.
-    TakeUp(Box<Checkpoint>),
+    Restore(Box<Checkpoint>),
 }

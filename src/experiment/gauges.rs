@@ -21,7 +21,7 @@ use crate::model::{Mechanics, Model};
 use crate::num::BATCH;
 use crate::system::{BatchTerms, ChannelKind, System, TermWatch};
 use followed::Followed;
-use invariant_monitor::{InvariantMonitor, LEDGER, StepEnd, Subject};
+use invariant_monitor::{ENERGY_BALANCE, InvariantMonitor, StepEnd, Subject};
 
 /// Rounding errors are measured once per this many samples.
 const MEASURED: u64 = 16;
@@ -75,10 +75,10 @@ impl Gauges {
             let kind = ChannelKind::Energy;
             add("energy", law.cause, Some(law.rate), kind, energy, equations.energy);
             let reason = "E − work done on it".to_owned();
-            add(LEDGER, reason, None, ChannelKind::Ledger, energy, equations.energy);
+            add(ENERGY_BALANCE, reason, None, ChannelKind::EnergyBalance, energy, equations.energy);
         } else if !model.impulses.is_empty() {
             let reason = "E − impulse work".to_owned();
-            add(LEDGER, reason, None, ChannelKind::Ledger, energy, equations.energy);
+            add(ENERGY_BALANCE, reason, None, ChannelKind::EnergyBalance, energy, equations.energy);
         }
         for (i, (name, casimir, law)) in changing_casimirs(model, equations) {
             let reason = "Casimir; a force acts".to_owned();

@@ -73,7 +73,7 @@ impl Experiment {
             | Command::FullReset
             | Command::Start(_)
             | Command::Initial { .. }
-            | Command::TakeUp(_) => {
+            | Command::Restore(_) => {
                 self.scrubbed = None;
                 false
             }

@@ -122,7 +122,7 @@ fn tolerance(x: f64) -> String {
 }
 
 /// A number with four digits, for display only.
-fn short(x: f64) -> String {
+pub(super) fn short(x: f64) -> String {
     significant(x, 4, 1e-3..1e6)
 }
 

@@ -3,7 +3,7 @@
 //! In: a claim, the application. Out: a sentence, unless the claim is too long to help. Never here: whether an answer is
 //! right, and what a check of the script reports.
 
-use super::assertion::{column, measured, value};
+use super::assertion::{column, measured, short, value};
 use super::script::{Assert, AssertedNumber, Comparator, LineText};
 use crate::app::App;
 use crate::model::{Allowed, Scope};
@@ -51,9 +51,4 @@ fn shown(app: &App, measure: AssertedNumber, of: &LineText) -> Option<String> {
     let mut pool = lab.loaded.equations.pool.clone();
     let mut scope = Scope::new(&lab.loaded.model, Allowed::Observable, "a script");
     scope.read(&mut pool, &of.text).map(|e| pool.unicode(e))
-}
-
-/// A number with four digits, for display only.
-pub(super) fn short(x: f64) -> String {
-    significant(x, 4, 1e-3..1e6)
 }

@@ -3,9 +3,10 @@
 //! In: an answer that was committed, a [`Lesson`] at the outcome. Out: whether it is right, what is right, and what is said.
 //! Never here: keys, or what comes next.
 
+use super::assertion::short;
 use super::assertion::{self, AssertionResult};
 use super::lesson::{Lesson, paragraph};
-use super::lesson_finding::{in_words, short};
+use super::lesson_finding::in_words;
 use super::lesson_question::{AnswerChoice, Truth};
 use super::script::{AskedAxis, LineText};
 use crate::app::{PredictedAxis, Prediction};

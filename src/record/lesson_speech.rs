@@ -6,8 +6,8 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
+use super::assertion::short;
 use super::lesson::{Lesson, LessonStage, paragraph};
-use super::lesson_finding::short;
 use super::lesson_judge::letter;
 use super::lesson_order::steps_of_person;
 use super::lesson_question::{Question, QuestionKind};

@@ -64,7 +64,7 @@ fn guide(
 }
 
 /// A lesson or demo that has the screen.
-pub(super) struct Guided {
+pub struct Guided {
     name: String,
     screen: GuideScreen,
     /// Whether the lab's motion was running before.
@@ -81,7 +81,7 @@ impl Guided {
     ///
     /// # Errors
     /// Returns what is wrong with its script or its system.
-    pub(super) fn open(guide: &Guide, look: RenderStyle) -> Result<Self, String> {
+    pub fn open(guide: &Guide, look: RenderStyle) -> Result<Self, String> {
         let name = guide.name.clone();
         let source = match guide.kind {
             GuideKind::Lesson(_) => preset::lesson(&name),
@@ -179,40 +179,5 @@ impl Screen for Guided {
 
     fn background(&mut self, colour: Rgb) {
         self.screen().background(colour);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::view::colour::ColourDepth;
-    use crate::view::glyphs::Glyphs;
-    use crate::view::theme::Theme;
-
-    /// A demo that has ended stands still, so that the picture with the way back must be asked for.
-    #[test]
-    fn a_demo_that_ends_asks_for_a_picture_that_says_so() {
-        let name = "sleeping-top".to_owned();
-        let guide =
-            Guide { kind: GuideKind::Demo, title: name.clone(), system: name.clone(), name };
-        let look = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
-        let mut guided = Guided::open(&guide, look).expect("a shipped demo");
-        let area = Rect::new(0, 0, 80, 24);
-        let last_row = |guided: &mut Guided| {
-            let mut buffer = Buffer::empty(area);
-            guided.draw(area, &mut buffer);
-            (0..area.width).map(|x| buffer[(x, area.bottom() - 1)].symbol()).collect::<String>()
-        };
-        assert!(!last_row(&mut guided).contains(LEADS_BACK));
-        let mut changed = false;
-        for _ in 0..600 {
-            if guided.is_over() {
-                break;
-            }
-            changed = guided.advance(Duration::from_millis(100));
-        }
-        assert!(guided.is_over() && changed);
-        assert!(last_row(&mut guided).ends_with(LEADS_BACK));
-        assert!(!guided.advance(Duration::from_millis(100)));
     }
 }

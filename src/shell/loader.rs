@@ -66,32 +66,3 @@ fn prepare(catalog: &Catalog, name: &str, cancel: &Cancel) -> Result<Box<Prepare
     let document = regular::find(catalog, name).map_err(|why| why.to_string())?;
     Prepared::with(&document, cancel).map(Box::new).map_err(|unready| unready.report)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::thread;
-    use std::time::Duration;
-
-    #[test]
-    fn what_was_loaded_for_an_earlier_request_is_no_answer_to_a_later_one() {
-        let mut loader = Loader::new(Arc::new(Catalog::with_folder(None)));
-        for _ in 0..3 {
-            loader.load("planet".to_owned());
-            // enough for it to be ready, and nobody has asked for it
-            thread::sleep(Duration::from_millis(200));
-            loader.load("pendulum".to_owned());
-            let outcome = loop {
-                match loader.take() {
-                    Some(outcome) => break outcome,
-                    None => thread::sleep(Duration::from_millis(1)),
-                }
-            };
-            let (name, prepared) = outcome.expect("shipped presets");
-            assert_eq!(
-                (&name[..], &prepared.model.info.title[..]),
-                ("pendulum", "Simple pendulum")
-            );
-        }
-    }
-}

@@ -44,7 +44,7 @@ pub enum ChannelKind {
     Extra(usize),
     /// The energy less the work done on the system, which is constant by the law of energy change.
     /// The channel exists only where the energy itself is not conserved.
-    Ledger,
+    EnergyBalance,
     /// An entry of the attitude matrix, in row-major order.
     Attitude(usize),
     /// The conserved quantity of this index in `Equations::conserved`.

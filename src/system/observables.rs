@@ -31,7 +31,7 @@ pub(super) struct Observables {
     pub(super) images: Vec<ImageProgram>,
 }
 
-/// A list of channels under construction, with their expressions; the ledger has none.
+/// A list of channels under construction, with their expressions; the balance has none.
 #[derive(Default)]
 pub(super) struct ObservableList {
     channels: Vec<Channel>,
@@ -59,7 +59,7 @@ impl ObservableList {
         }
         list.columns = list.channels.len();
         if equations.energy_rate != Expr::ZERO || !model.impulses.is_empty() {
-            list.push(ChannelKind::Ledger, "energy balance", "energy balance", None);
+            list.push(ChannelKind::EnergyBalance, "energy balance", "energy balance", None);
         }
         for (i, c) in equations.conserved.iter().enumerate() {
             let mut momenta = model.coordinates.iter().map(|q| model.pool.symbol_info(q.momentum));

@@ -32,7 +32,7 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
             matches!(
                 kind,
                 ChannelKind::Energy
-                    | ChannelKind::Ledger
+                    | ChannelKind::EnergyBalance
                     | ChannelKind::Observable(_)
                     | ChannelKind::Extra(_)
             )

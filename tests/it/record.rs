@@ -1,6 +1,7 @@
 //! Recordings: played on the virtual clock, written as casts, and replayed by independent terminals.
 
 mod demos;
+mod guided;
 mod lessons;
 mod performance;
 mod projector;

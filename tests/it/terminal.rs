@@ -1,7 +1,9 @@
 //! The program on a pseudo-terminal: the state in which it leaves the terminal on every exit, its input and output.
 
 mod background;
+mod decoder;
 mod endings;
+mod governor;
 mod hostile;
 mod kept;
 mod lab;

@@ -20,7 +20,7 @@ use crate::printable;
 use crate::system::ChannelKind;
 
 /// The rows, and whether the law depends on the time.
-struct Along {
+struct ActionsAlong {
     coordinate: String,
     places: Vec<f64>,
     moments: Vec<AngleMoment>,
@@ -64,7 +64,7 @@ fn followed(
     laid: &Laid,
     (index, until, count): (usize, f64, u32),
     interrupt: &Interrupt,
-) -> Result<Along, CommandError> {
+) -> Result<ActionsAlong, CommandError> {
     let could_not = |why: String| CommandError::CouldNot(why);
     let (system, start) = (&laid.system, &laid.start);
     let held = HeldSystem::of(&laid.model, index, HeldSystem::PRECISE, interrupt.cancel())
@@ -85,7 +85,7 @@ fn followed(
     };
     let times: Vec<f64> = divisions(start.time, until, count).collect();
     let seen = flow.carry(&state, &times, &channels).seen;
-    let mut along = Along {
+    let mut along = ActionsAlong {
         coordinate: laid.model.coordinates[index].name.clone(),
         places: Vec::new(),
         moments: Vec::new(),
@@ -118,7 +118,7 @@ fn followed(
     Ok(along)
 }
 
-impl Along {
+impl ActionsAlong {
     /// How far w is from w₀ + ν (t − t₀) at each time; none where the law depends on the time.
     fn residuals(&self) -> Option<Vec<f64>> {
         let first = self.moments.first().filter(|_| !self.depends_on_time)?;

@@ -55,9 +55,11 @@ impl SectionReport<'_> {
                 crowd::write_pieces(out, pieces, interrupt)
             }
             TableFormat::Text => {
-                let text = crowd::formatted(interrupt, || {
-                    cells::text(&columns, &self.rows().collect::<Vec<_>>()) + &self.remarks("")
-                });
+                // it takes time with many rows, also after a signal
+                interrupt.prepares();
+                let rows = self.rows().collect::<Vec<_>>();
+                let text = cells::text(&columns, &rows) + &self.remarks("");
+                interrupt.is_prepared();
                 crowd::write(out, &text, interrupt)
             }
         }

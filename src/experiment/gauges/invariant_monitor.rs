@@ -8,7 +8,7 @@ use crate::expr::Expr;
 use crate::system::{BatchTerms, TermSums, TermWatch};
 
 /// The name of the gauge that is constant by the law of the energy's change.
-pub(super) const LEDGER: &str = "energy balance";
+pub(super) const ENERGY_BALANCE: &str = "energy balance";
 
 /// Constant terms are large from this multiple of the others on: the value, in `f64`, has three digits fewer then than
 /// the sum of the others has.
@@ -25,7 +25,7 @@ pub(super) struct InvariantMonitor {
     /// The reason why it is not constant, if it is not.
     broken: Option<String>,
     pub(super) channel: usize,
-    /// The index of its quantity in a [`TermWatch`]; the ledger subtracts the work.
+    /// The index of its quantity in a [`TermWatch`]; the balance subtracts the work.
     quantity: Option<usize>,
     /// The expression that its rounding error is measured with.
     pub(super) expression: Expr,
@@ -87,7 +87,7 @@ impl InvariantMonitor {
         let Subject { name, shown, reason, proved, broken, channel, quantity, expression } =
             subject;
         InvariantMonitor {
-            jumps: name != LEDGER,
+            jumps: name != ENERGY_BALANCE,
             name,
             shown,
             reason,

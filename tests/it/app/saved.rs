@@ -35,7 +35,7 @@ fn what_was_looked_at_is_looked_at_again() {
     let (lab, before) = (again.lab.as_ref().unwrap(), app.lab.as_ref().unwrap());
     assert_eq!(lab.plots, before.plots);
     assert_eq!((lab.focus, lab.zoomed, lab.selection), (before.focus, true, before.selection));
-    assert_eq!(effects, [Effect::Tell(Command::TakeUp(Box::new(saved.moment)))]);
+    assert_eq!(effects, [Effect::Tell(Command::Restore(Box::new(saved.moment)))]);
     press(&mut app, "2");
     assert_eq!(resumed(kept(&app)).0.page, Page::Equations);
 }
@@ -102,7 +102,7 @@ fn a_rebuilt_system_is_looked_at_as_before() {
         names.collect::<Vec<_>>()
     };
     assert_eq!(names(lab), names(&before));
-    assert!(matches!(effects.as_slice(), [Effect::Tell(Command::TakeUp(_))]), "{effects:?}");
+    assert!(matches!(effects.as_slice(), [Effect::Tell(Command::Restore(_))]), "{effects:?}");
 }
 
 #[test]
@@ -134,7 +134,7 @@ fn the_first_row_of_the_list_goes_on_with_the_session() {
     let effects = app.update(Event::Loaded(Ok(pendulum())));
     let (by_option, effects_of_option) = resumed(saved.clone());
     assert_eq!(effects, effects_of_option);
-    assert_eq!(effects, [Effect::Tell(Command::TakeUp(Box::new(saved.moment)))]);
+    assert_eq!(effects, [Effect::Tell(Command::Restore(Box::new(saved.moment)))]);
     assert_eq!((app.page, by_option.page), (Page::Equations, Page::Equations));
     let (lab, other) = (app.lab.as_ref().unwrap(), by_option.lab.as_ref().unwrap());
     assert_eq!((lab.focus, lab.zoomed, &lab.plots), (other.focus, true, &other.plots));

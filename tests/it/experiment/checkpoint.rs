@@ -26,7 +26,7 @@ fn present(experiment: &Experiment) -> (u64, Vec<u64>, Vec<(String, u64, u64, u6
 }
 
 #[test]
-fn every_preset_is_taken_up_to_the_last_bit() {
+fn every_preset_is_restored_to_the_last_bit() {
     for entry in Catalog::with_folder(None).entries() {
         let mut left = shipped(&entry.name);
         let time = left.time() + 0.7 * left.speed();
@@ -35,19 +35,19 @@ fn every_preset_is_taken_up_to_the_last_bit() {
         left.advance(time + 0.3 * left.speed(), 2_000);
         left.execute(Command::Pause);
         let mut taken = shipped(&entry.name);
-        taken.execute(Command::TakeUp(Box::new(kept(&left))));
+        taken.execute(Command::Restore(Box::new(kept(&left))));
         assert_eq!(present(&taken), present(&left), "{}", entry.name);
     }
 }
 
 /// The greatest drift so far is retained for every kind of gauge: a quantity, a constraint or an attitude.
 #[test]
-fn the_greatest_drift_is_taken_up() {
+fn the_greatest_drift_is_restored() {
     for name in ["pendulum", "turning-wire", "free-rigid-body", "swinging-atwood", "heavy-top"] {
         let mut left = shipped(name);
         run(&mut left, 7.3);
         let mut taken = shipped(name);
-        taken.execute(Command::TakeUp(Box::new(kept(&left))));
+        taken.execute(Command::Restore(Box::new(kept(&left))));
         for (a, b) in left.snapshot().gauges.iter().zip(taken.snapshot().gauges.iter()) {
             assert_eq!((&a.name, a.reference_time), (&b.name, b.reference_time), "{name}");
             assert!(b.farthest >= a.farthest, "{name}: {a:?} became {b:?}");
@@ -68,7 +68,7 @@ fn both_go_on_alike() {
         let mut left = shipped(name);
         run(&mut left, time);
         let mut taken = shipped(name);
-        taken.execute(Command::TakeUp(Box::new(kept(&left))));
+        taken.execute(Command::Restore(Box::new(kept(&left))));
         let later = time + 0.9;
         run(&mut left, later);
         run(&mut taken, later);
@@ -87,7 +87,7 @@ fn a_constraint_that_was_let_go_stays_so() {
         assert_eq!(left.status(), Status::Running);
     }
     let mut taken = shipped("smooth-sphere");
-    taken.execute(Command::TakeUp(Box::new(kept(&left))));
+    taken.execute(Command::Restore(Box::new(kept(&left))));
     assert_eq!(taken.snapshot().released, [0]);
     let later = left.time() + 0.05;
     run(&mut left, later);
@@ -109,7 +109,7 @@ fn a_gauge_goes_on_from_its_own_beginning() {
         left.execute(Command::StepSize(0.05));
         left.advance(time, PLENTY);
         let mut taken = shipped(preset);
-        taken.execute(Command::TakeUp(Box::new(kept(&left))));
+        taken.execute(Command::Restore(Box::new(kept(&left))));
         let (before, after) = (left.snapshot(), taken.snapshot());
         let energy = &before.gauges[0];
         assert!(energy.reference != energy.initial || energy.max_drift > 0.1, "{energy:?}");
@@ -121,14 +121,14 @@ fn a_gauge_goes_on_from_its_own_beginning() {
 }
 
 #[test]
-fn every_method_is_taken_up_as_it_is() {
+fn every_method_is_restored_as_it_is() {
     for method in ["taylor", "dop853", "gauss6", "rk4"] {
         let mut left = shipped("double-pendulum");
         left.execute(Command::Method(method.to_owned()));
         assert_eq!(left.snapshot().method.name, method);
         left.advance(1.234, PLENTY);
         let mut taken = shipped("double-pendulum");
-        taken.execute(Command::TakeUp(Box::new(kept(&left))));
+        taken.execute(Command::Restore(Box::new(kept(&left))));
         assert_eq!(present(&taken).1, present(&left).1, "{method}");
         assert_eq!(taken.snapshot().method.name, method);
     }
@@ -138,7 +138,7 @@ fn every_method_is_taken_up_as_it_is() {
     assert_eq!(left.snapshot().method.name, "leapfrog");
     left.advance(1.234, PLENTY);
     let mut taken = shipped("henon-heiles");
-    taken.execute(Command::TakeUp(Box::new(kept(&left))));
+    taken.execute(Command::Restore(Box::new(kept(&left))));
     assert_eq!(present(&taken).1, present(&left).1);
     assert_eq!(taken.snapshot().setup.settings.step, Some(0.01));
 }
@@ -163,7 +163,7 @@ fn carried(change: impl FnOnce(String) -> String) -> (Experiment, Experiment) {
     left.execute(Command::Initial { index: 1, value: 3.0 });
     run(&mut left, 0.8);
     let mut taken = build(&change(SPRING.to_owned()), |_| ());
-    taken.execute(Command::TakeUp(Box::new(kept(&left))));
+    taken.execute(Command::Restore(Box::new(kept(&left))));
     (left, taken)
 }
 
@@ -233,7 +233,7 @@ fn an_ended_motion_is_still_ended() {
     let mut left = shipped("rolling-race");
     if left.advance(1e3, PLENTY) == phaselab::experiment::AdvanceOutcome::Ended {
         let mut taken = shipped("rolling-race");
-        taken.execute(Command::TakeUp(Box::new(kept(&left))));
+        taken.execute(Command::Restore(Box::new(kept(&left))));
         assert_eq!(taken.status(), left.status());
         assert_eq!(present(&taken), present(&left));
     } else {
@@ -247,7 +247,7 @@ fn a_method_that_is_refused_leaves_the_one_that_runs_with_its_settings() {
     let moment = Checkpoint { method, step: Some(0.01), ..kept(&shipped("double-pendulum")) };
     let mut taken = shipped("double-pendulum");
     let before = taken.snapshot();
-    taken.execute(Command::TakeUp(Box::new(moment)));
+    taken.execute(Command::Restore(Box::new(moment)));
     let after = taken.snapshot();
     assert_eq!(after.method.name, before.method.name);
     assert_eq!(after.setup.method, before.setup.method);
@@ -263,7 +263,7 @@ fn recalled(change: impl Fn(String) -> String) -> (Experiment, Experiment) {
     let moment = Checkpoint::of(left.model(), left.system(), &snapshot);
     let moment = moment.with_past(left.system(), &snapshot);
     let mut taken = build(&change(SPRING.to_owned()), |_| ());
-    taken.execute(Command::TakeUp(Box::new(moment)));
+    taken.execute(Command::Restore(Box::new(moment)));
     (left, taken)
 }
 
@@ -326,7 +326,7 @@ fn companions_are_restored_to_the_last_bit() {
     let read: Checkpoint = toml::from_str(&text).expect("it is read");
     assert_eq!(read, moment);
     let mut other = shipped("henon-heiles");
-    other.execute(Command::TakeUp(Box::new(read)));
+    other.execute(Command::Restore(Box::new(read)));
     let there = other.snapshot();
     let words = |s: &phaselab::experiment::Snapshot| -> Vec<(usize, &'static str, &'static str)> {
         s.companions.iter().map(|one| (one.number, one.origin.word(), one.method)).collect()
@@ -348,7 +348,7 @@ fn companions_are_restored_to_the_last_bit() {
     let mut broken = Checkpoint::of(experiment.model(), experiment.system(), &seen);
     broken.companions[0].initial[0].name = "nowhere".to_owned();
     let mut third = shipped("henon-heiles");
-    third.execute(Command::TakeUp(Box::new(broken)));
+    third.execute(Command::Restore(Box::new(broken)));
     let seen = third.snapshot();
     assert_eq!(seen.companions.len(), 2);
     assert_eq!(seen.notices.last().unwrap(), "no longer there: motion 1");
@@ -356,7 +356,7 @@ fn companions_are_restored_to_the_last_bit() {
 
 /// A session that is left while time runs backwards goes on backwards.
 #[test]
-fn a_motion_that_goes_back_is_taken_up_going_back() {
+fn a_motion_that_goes_back_is_restored_going_back() {
     let mut experiment = shipped("pendulum");
     run(&mut experiment, 5.0);
     experiment.execute(Command::Reverse);
@@ -365,7 +365,7 @@ fn a_motion_that_goes_back_is_taken_up_going_back() {
     let moment = Checkpoint::of(experiment.model(), experiment.system(), &seen);
     assert!(moment.backwards);
     let mut other = shipped("pendulum");
-    other.execute(Command::TakeUp(Box::new(moment)));
+    other.execute(Command::Restore(Box::new(moment)));
     assert!(other.is_backwards());
     assert_eq!(other.snapshot().state.values, seen.state.values);
     other.advance(-1.0, super::PLENTY);
@@ -394,7 +394,7 @@ fn the_action_goes_on_in_a_changed_system() {
     let ramp = "[[ramps]]\nparameter = \"w\"\nto = 2\nstart = 2\nduration = 3\n";
     let mut taken = build(&text(ramp), |_| {});
     let mut whole = build(&text(ramp), |_| {});
-    taken.execute(Command::TakeUp(Box::new(kept(&left))));
+    taken.execute(Command::Restore(Box::new(kept(&left))));
     assert_eq!(value(&taken, "S").to_bits(), before.to_bits());
     run(&mut taken, 6.0);
     run(&mut whole, 6.0);

@@ -57,9 +57,9 @@ fn energy_broken_by_the_physics_names_its_law_and_the_ledger_holds() {
         assert!(told.starts_with(law), "{preset}: {told}");
         assert!(energy.reason.contains(cause), "{preset}: {}", energy.reason);
         assert!(energy.max_drift > 1e-3, "{preset}: {energy:?}");
-        let ledger = gauge(&snapshot, "energy balance");
-        assert!(matches!(ledger.verdict, Verdict::Exact(_)), "{preset}: {ledger:?}");
-        assert!(ledger.max_drift < 1e-13, "{preset}: {ledger:?}");
+        let balance = gauge(&snapshot, "energy balance");
+        assert!(matches!(balance.verdict, Verdict::Exact(_)), "{preset}: {balance:?}");
+        assert!(balance.max_drift < 1e-13, "{preset}: {balance:?}");
     }
 }
 
@@ -210,7 +210,7 @@ fn no_shipped_motion_loses_what_it_conserves() {
             assert!(gauge.verdict != Verdict::Lost, "{}: {}", entry.name, gauge.name);
         }
     }
-    // inelastic impacts: exact between them, and a ledger of what they take
+    // inelastic impacts: exact between them, and a balance of what they take
     let mut experiment = shipped("bouncing-ball");
     run(&mut experiment, 4.0);
     let seen = experiment.snapshot();

@@ -122,8 +122,8 @@ fn a_damped_oscillator_grows_backwards_as_its_closed_form_says() {
         assert!((value(&experiment, "x'") - v).abs() < 1e-13 * size, "{back}");
     }
     // the work of friction is given back
-    let ledger = super::gauge(&experiment.snapshot(), "energy balance");
-    assert!(ledger.drift < 1e-11, "{}", ledger.drift);
+    let balance = super::gauge(&experiment.snapshot(), "energy balance");
+    assert!(balance.drift < 1e-11, "{}", balance.drift);
 }
 
 /// Time itself is the law's: a driven motion meets the same force at the same time.

@@ -75,3 +75,13 @@ fn demos_show_what_they_claim() {
         assert!(again == recording.events[..again.len()], "{name} is another every time");
     });
 }
+
+#[test]
+fn the_tour_is_short_and_true() {
+    let script = script(include_str!("../../../src/cli/tour.demo"));
+    let name = script.head.open.as_ref().expect("a system").text.clone();
+    let system = Catalog::with_folder(None).find(&name).expect("a preset");
+    let recording = play(&script, &system, &name, (80, 24)).expect("it can be played");
+    assert_eq!(recording.false_claims, []);
+    assert!((8..=15).contains(&(recording.end / 1_000_000)), "{}", recording.end);
+}

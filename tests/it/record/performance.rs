@@ -1,7 +1,8 @@
 //! Performances: the same as recordings, at the speed of the viewer.
 
+use phaselab::diagnostic::Document;
 use phaselab::preset::Catalog;
-use phaselab::record::ScriptRunner;
+use phaselab::record::{ScriptRunner, play};
 use phaselab::view::RenderStyle;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Rect;
@@ -74,4 +75,24 @@ fn a_screen_of_no_size_is_none_of_its_business() {
             it.draw(&look, screen.area, &mut screen);
         }
     }
+}
+
+/// A recording runs unattended and has a budget; whoever watches may leave.
+#[test]
+fn a_motion_too_slow_to_be_recorded_is_given_up_after_twenty_frames_and_is_watched_as_long_as_one_likes()
+ {
+    let text = "title = \"A spring\"\n[coordinates]\nx = { initial = 1.0 }\n[lagrangian]\n\
+                L = \"1/2*x'^2 - 1/2*x^2\"\n[run]\nmethod = \"leapfrog\"\nstep = 1e-12\n";
+    let spring = Document::new("spring.toml", text);
+    let recorded = |seconds: &str| {
+        let script = script(&format!("Fps 20\nWait {seconds}s"));
+        play(&script, &spring, "spring", (80, 24)).map(|recording| recording.frames)
+    };
+    assert!(recorded("0.5").is_ok_and(|frames| frames >= 10));
+    let why = recorded("1.5").expect_err("it is overdue");
+    let part = "20 frames took 100000 steps each and led only to t = ";
+    assert!(why.len() == 1 && why[0].message.contains(part), "{why:?}");
+    let watched = script("Fps 20\nWait 1.5s");
+    let mut watched = ScriptRunner::watched(watched, &spring, "spring").expect("it can be opened");
+    assert!(watched.go_on(1_400_000).expect("no errors"));
 }

@@ -193,17 +193,17 @@ L = "-sqrt(1 - x'^2) + sqrt(x)"
 #[test]
 fn the_ledger_stands_where_energy_is_not_conserved() {
     let (_, system) = compile(PENDULUM);
-    assert!(system.channels().iter().all(|c| c.kind != ChannelKind::Ledger));
+    assert!(system.channels().iter().all(|c| c.kind != ChannelKind::EnergyBalance));
     let (model, system) = compile(include_str!("../../../presets/pendulums/damped-pendulum.toml"));
-    let ledger = system.channels().iter().position(|c| c.kind == ChannelKind::Ledger);
-    let ledger = ledger.expect("friction does work");
+    let balance = system.channels().iter().position(|c| c.kind == ChannelKind::EnergyBalance);
+    let balance = balance.expect("friction does work");
     let mut state = system.initial(0.0, &parameters(&model), &[]).expect("regular");
     let before = values(&system, &model, &state);
     let last = state.values.len() - 1;
     state.values[last] = -1.5;
     let after = values(&system, &model, &state);
-    assert_eq!(before[3], before[ledger]);
-    assert!((after[ledger] - before[ledger] - 1.5).abs() < 1e-14);
+    assert_eq!(before[3], before[balance]);
+    assert!((after[balance] - before[balance] - 1.5).abs() < 1e-14);
 }
 
 #[test]

@@ -210,15 +210,15 @@ fn the_action_is_integrated_with_the_motion() {
 fn the_ledger_balances() {
     let mut run = Run::new(include_str!("../../../presets/pendulums/damped-pendulum.toml"));
     let system = run.system.clone();
-    let ledger = system.channels().iter().position(|c| c.name == "energy balance");
-    let ledger = ledger.expect("friction does work");
+    let balance = system.channels().iter().position(|c| c.name == "energy balance");
+    let balance = balance.expect("friction does work");
     let mut observer = system.observer(&run.parameters);
     let mut out = vec![0.0; system.channels().len()];
     observer.observe(run.stepper.state(), &mut out).expect("regular");
-    let before = out[ledger];
+    let before = out[balance];
     for t in [1.0, 5.0, 20.0, 200.0] {
         run.to(t);
         observer.observe(run.stepper.state(), &mut out).expect("regular");
-        assert!((out[ledger] - before).abs() < 1.5e-14, "{t}: {:e}", out[ledger] - before);
+        assert!((out[balance] - before).abs() < 1.5e-14, "{t}: {:e}", out[balance] - before);
     }
 }

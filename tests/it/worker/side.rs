@@ -54,6 +54,26 @@ fn the_next_job_stops_the_one_before_and_its_result_is_dropped() {
     assert!(side.take().is_none());
 }
 
+/// It may have ended, and nobody has asked for it.
+#[test]
+fn the_result_of_an_earlier_job_is_no_answer_to_a_later_one() {
+    let mut side = SideJob::new("test");
+    for _ in 0..100 {
+        let ended = Arc::new(AtomicBool::new(false));
+        let end = Arc::clone(&ended);
+        side.begin(
+            1,
+            Job::new("four", move |_| {
+                end.store(true, Ordering::SeqCst);
+                4
+            }),
+        );
+        until(|| ended.load(Ordering::SeqCst).then_some(()));
+        side.begin(2, Job::new("five", |_| 5));
+        assert_eq!(until(|| side.take()), (2, Outcome::Done(5)));
+    }
+}
+
 #[test]
 fn a_job_ends_with_its_owner_at_once() {
     let ended = Arc::new(AtomicBool::new(false));
