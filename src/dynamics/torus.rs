@@ -162,7 +162,7 @@ impl Torus {
     }
 
     /// What is to be said of it.
-    pub(super) fn told(&self) -> String {
+    pub(super) fn sentence(&self) -> String {
         let frequencies: Vec<String> =
             self.frequencies.iter().map(|(frequency, _)| digits(*frequency)).collect();
         let ratios = self.ratios();

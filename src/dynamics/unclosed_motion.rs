@@ -61,7 +61,7 @@ fn character(
         Chaos::Chaotic => format!("is chaotic: {reason}"),
         Chaos::Undecided => format!("may be regular or chaotic, which is undecided: {reason}"),
         Chaos::Regular => match torus(space, method, (start, end), drive)? {
-            Some(torus) => torus.told(),
+            Some(torus) => torus.sentence(),
             None => format!("is regular: {reason}"),
         },
     }))
