@@ -13,6 +13,14 @@ pub fn latex(report: &Report<'_>, further: &Further) -> String {
     let mut page = LatexReport { report, lines: Vec::new() };
     page.lines(report.body.iter().flat_map(|body| &body.lines));
     page.lines([&report.law].into_iter().chain(&report.dissipation));
+    for ramp in report.model.ramped.named() {
+        let parameter = &pool.symbol_info(ramp.parameter).latex;
+        page.add(&format!("{parameter}(t)"), &pool.latex(ramp.function));
+        for &(symbol, e) in &ramp.progress {
+            let symbol = &pool.symbol_info(symbol).latex;
+            page.add(symbol, &format!("{}, \\quad 0 \\le {symbol} \\le 1", pool.latex(e)));
+        }
+    }
     page.lines(report.forces.iter().chain(&report.brackets));
     for (i, (_, casimir)) in report.casimirs.iter().enumerate() {
         page.add(&format!("C_{{{}}}", i + 1), &pool.latex(*casimir));

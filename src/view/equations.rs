@@ -16,7 +16,7 @@ const MOST: u64 = 4_000;
 
 /// Builds the page.
 pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
-    let report = Report::of(&lab.loaded.model, &lab.loaded.equations);
+    let report = Report::readable(&lab.loaded.model, &lab.loaded.equations);
     let mut writer = EquationRows { report: &report, look, page: TextPage::default() };
     constants::verdict(lab, &mut writer.page);
     writer.law();
@@ -33,9 +33,10 @@ pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
 
 /// The law of motion, the solved equations and the notes of the file, for a small pane.
 pub(super) fn law(lab: &Lab, look: &RenderStyle) -> TextPage {
-    let report = Report::of(&lab.loaded.model, &lab.loaded.equations);
+    let report = Report::readable(&lab.loaded.model, &lab.loaded.equations);
     let mut writer = EquationRows { report: &report, look, page: TextPage::default() };
     writer.lines(&[report.law]);
+    writer.ramps();
     writer.page.gap();
     writer.solved();
     for paragraph in report.model.info.notes.split("\n\n").map(str::trim) {
@@ -102,6 +103,7 @@ impl EquationRows<'_> {
         let lagrangian = report.model.is_lagrangian();
         self.page.heading(if lagrangian { "Lagrangian" } else { "Hamiltonian" });
         self.lines([&report.law]);
+        self.ramps();
         if report.dissipation.is_some() {
             self.page.heading("Rayleigh's function");
             self.lines(&report.dissipation);
@@ -120,6 +122,16 @@ impl EquationRows<'_> {
             let title = if poisson { "Added to the rates" } else { "Forces without a potential" };
             self.page.heading(title);
             self.lines(&report.forces);
+        }
+    }
+
+    /// Adds the functions of the time behind the names of parameters.
+    fn ramps(&mut self) {
+        for ramp in self.report.model.ramped.named() {
+            self.put(&format!("{}(t)", self.symbol(ramp.parameter)), ramp.function, "");
+            for &(symbol, e) in &ramp.progress {
+                self.put(&self.symbol(symbol), e, "from 0 to 1");
+            }
         }
     }
 

@@ -76,3 +76,15 @@ fn what_is_no_ramp_is_refused() {
         assert!(text(&mut real).is_none());
     }
 }
+
+/// A second ramp continues what is known of the first: J and E are compared with what they were before any ramp, and with
+/// what they were when the last one began.
+#[test]
+fn a_second_ramp_by_the_key_keeps_what_the_first_has_changed() {
+    let frequencies = "Press c\nType \"4 in 400\"\nPress Enter\nSpeed 40\nWait 12s\n\
+                       Assert actions.last_change < 0.01\nAssert actions.change < 0.01\nAssert actions.change > -0.01\n\
+                       Press c\nType \"0.3 in 2\"\nPress Enter\nWait 2s\n\
+                       Assert screen \"since t = 0\"\nAssert screen \"the last ramp\"\n";
+    let text = format!("Open slow-oscillator\nSize 120x40\n{frequencies}");
+    crate::record::played("slow-oscillator", &text);
+}
