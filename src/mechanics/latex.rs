@@ -16,9 +16,13 @@ pub fn latex(report: &Report<'_>, further: &Further) -> String {
     for ramp in report.model.ramped.named() {
         let parameter = &pool.symbol_info(ramp.parameter).latex;
         page.add(&format!("{parameter}(t)"), &pool.latex(ramp.function));
-        for &(symbol, e) in &ramp.progress {
-            let symbol = &pool.symbol_info(symbol).latex;
-            page.add(symbol, &format!("{}, \\quad 0 \\le {symbol} \\le 1", pool.latex(e)));
+        for progress in &ramp.progress {
+            let symbol = &pool.symbol_info(progress.symbol).latex;
+            let [start, end] = progress.times.map(|e| pool.latex(e));
+            let line = format!(
+                "&{symbol} \\text{{ from 0 at }} t = {start} \\text{{ to 1 at }} t = {end}"
+            );
+            page.lines.push(line);
         }
     }
     page.lines(report.forces.iter().chain(&report.brackets));

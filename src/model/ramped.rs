@@ -56,8 +56,17 @@ pub struct NamedRamp {
     pub parameter: Symbol,
     /// Its value as a function of the progress of each part, and of the symbol of its value before the first.
     pub function: Expr,
-    /// The progress of each part, with the function of the time that it is where that lies between 0 and 1.
-    pub progress: Vec<(Symbol, Expr)>,
+    /// The progress of each part: it goes evenly from 0 to 1 between two times.
+    pub progress: Vec<RampProgress>,
+}
+
+/// How far a part of a ramp is.
+#[derive(Clone, Copy, Debug)]
+pub struct RampProgress {
+    /// Its symbol.
+    pub symbol: Symbol,
+    /// When the part begins, and when it ends.
+    pub times: [Expr; 2],
 }
 
 impl RampForm {
@@ -145,7 +154,7 @@ impl Ramped {
         };
         let added = vec![any(rate, 0.618_034), any(second, -0.414_214), any(instant, 0.302_776)];
         self.instant = Some(instant);
-        self.named.push(NamedRamp::of(pool, time, parameter, parts));
+        self.named.push(NamedRamp::of(pool, parameter, parts));
         let [own, rate, second, instant, time] =
             [parameter.symbol, rate, second, instant, time].map(|symbol| pool.variable(symbol));
         let since = pool.sub(time, instant);
@@ -196,7 +205,7 @@ impl Ramped {
 }
 
 impl NamedRamp {
-    fn of(pool: &mut Pool, time: Symbol, parameter: &Parameter, parts: &[RampPart]) -> NamedRamp {
+    fn of(pool: &mut Pool, parameter: &Parameter, parts: &[RampPart]) -> NamedRamp {
         let name = &parameter.name;
         let initial = unused(pool, [format!("{name}_i"), format!("{name}_before")]);
         pool.describe(
@@ -207,17 +216,15 @@ impl NamedRamp {
         );
         let initial = pool.variable(initial);
         let own = HashMap::from([(parameter.symbol, initial)]);
-        let time = pool.variable(time);
         let (mut function, mut last) = (initial, initial);
         let mut progress = Vec::new();
         for part in parts {
             let [to, start, duration] =
                 [part.to, part.start, part.duration].map(|e| pool.substitute(e, &own));
-            let passed = pool.sub(time, start);
-            let passed = pool.div(passed, duration);
+            let end = pool.add(start, duration);
             let symbol =
                 unused(pool, ["u".to_owned()].into_iter().chain((2..).map(|n| format!("u{n}"))));
-            progress.push((symbol, passed));
+            progress.push(RampProgress { symbol, times: [start, end] });
             let u = pool.variable(symbol);
             let share = part.form.share(pool, u);
             let change = pool.sub(to, last);

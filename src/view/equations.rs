@@ -10,6 +10,7 @@ use super::theme::Role;
 use crate::app::Lab;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{ConservedKind, Flow, Holonomy, LeftSide, Line, NoClosedForm, Report};
+use crate::num::significant;
 
 /// Expressions with more nodes than this are not written out.
 const MOST: u64 = 4_000;
@@ -59,6 +60,14 @@ impl EquationRows<'_> {
             return format!("… ({} pieces: phaselab derive prints them)", pool.weight(e));
         }
         if self.look.glyphs.is_ascii() { pool.ascii(e) } else { pool.unicode(e) }
+    }
+
+    /// A time, that of a key to as many digits as one reads.
+    fn time(&self, e: Expr) -> String {
+        match self.report.equations.pool.as_number(e) {
+            Some(number) => significant(number.value(), 6, 1e-3..1e6),
+            None => self.write(e),
+        }
     }
 
     fn symbol(&self, symbol: Symbol) -> String {
@@ -129,8 +138,11 @@ impl EquationRows<'_> {
     fn ramps(&mut self) {
         for ramp in self.report.model.ramped.named() {
             self.put(&format!("{}(t)", self.symbol(ramp.parameter)), ramp.function, "");
-            for &(symbol, e) in &ramp.progress {
-                self.put(&self.symbol(symbol), e, "from 0 to 1");
+            for progress in &ramp.progress {
+                let [start, end] = progress.times.map(|e| self.time(e));
+                let words = format!("0 … 1 from t = {start} to t = {end}");
+                let words = self.look.glyphs.text(&words).into_owned();
+                self.page.formula(&self.symbol(progress.symbol), words, "");
             }
         }
     }

@@ -115,8 +115,10 @@ impl TextReport<'_> {
         for ramp in ramps {
             let left = format!("{}(t)", self.symbol(ramp.parameter));
             rows.push((left, self.math(ramp.function)));
-            for &(symbol, e) in &ramp.progress {
-                rows.push((self.symbol(symbol), format!("{}, from 0 to 1", self.math(e))));
+            for progress in &ramp.progress {
+                let [start, end] = progress.times.map(|e| self.math(e));
+                let words = format!("0 … 1 from t = {start} to t = {end}");
+                rows.push((self.symbol(progress.symbol), self.words(&words)));
             }
         }
         self.section("Ramps", &rows);

@@ -104,11 +104,10 @@ fn a_ramped_law_is_written_with_the_parameter_and_its_rate() {
     assert_eq!(pool.text(named.equations.momenta[0]), "m*l^2*x'");
     // l(t) itself, once
     let [ramp] = named.model.ramped.named() else { panic!("one ramp") };
-    let [(u, progress)] = ramp.progress[..] else { panic!("one part") };
-    let at = HashMap::from([("t", 2.0)]);
-    let progress = value(&named.model.pool, progress, &at);
-    let name = named.model.pool.symbol_info(u).name.clone();
-    let at = HashMap::from([(name.as_str(), progress), ("l_i", 2.0)]);
+    let [progress] = ramp.progress[..] else { panic!("one part") };
+    let [start, end] = progress.times.map(|e| value(&named.model.pool, e, &HashMap::new()));
+    let name = named.model.pool.symbol_info(progress.symbol).name.clone();
+    let at = HashMap::from([(name.as_str(), (2.0 - start) / (end - start)), ("l_i", 2.0)]);
     let length = value(&named.model.pool, ramp.function, &at);
     assert!((length - (2.0 + 3.0 / 16.0 - 2.0 / 64.0)).abs() < 1e-14, "{length}");
 }
