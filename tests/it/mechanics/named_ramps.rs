@@ -33,6 +33,7 @@ fn states() -> Vec<[HashMap<&'static str, f64>; 2]> {
     let state = |(k, t): (usize, f64)| {
         let s = k as f64;
         let mut own = HashMap::from([("m", 1.5), ("g", 9.0), ("l", 2.0), ("t", t)]);
+        own.insert("lambda_string", 0.8 - 0.3 * s);
         own.extend([
             ("x", 0.3 + 0.2 * s),
             ("y", 0.9 - 0.1 * s),
