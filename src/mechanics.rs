@@ -33,6 +33,7 @@ mod latex;
 mod legendre;
 mod linear;
 mod modulo;
+mod named_ramps;
 mod new_hamiltonian;
 mod observe;
 mod poisson;
@@ -62,8 +63,8 @@ pub use derive::{derive, derive_for_motion};
 pub use domain::widened;
 pub use equations::{
     Apparent, Auxiliary, AuxiliaryRates, CLOSED_FORM_LIMIT, Conserved, ConstraintRow,
-    CoordinateSymbols, Equations, Flow, ImplicitMap, NoClosedForm, Reason, Separable, Supplements,
-    Vakonomic,
+    CoordinateSymbols, Equations, Flow, ImplicitMap, NamedRamps, NoClosedForm, Reason, Separable,
+    Supplements, Vakonomic,
 };
 pub use further::{Further, GeneratorReport, TransformationReport};
 pub use gauge::GaugeDifference;

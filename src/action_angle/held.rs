@@ -122,6 +122,7 @@ impl HeldSystem {
         model.observables.clear();
         model.space.clear();
         model.transformations.clear();
+        model.with_ramps_named = None;
         model.expect = Expect::default();
         model.run.start = 0.0;
         model.pool.set_cancel(cancel.clone());

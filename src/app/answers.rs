@@ -84,6 +84,27 @@ impl Answers {
         self.entries.iter().find(|entry| entry.is_of(plot))
     }
 
+    /// Takes over what stays of another law's answers, whose columns have these places now; a plot without all of its columns
+    /// is left out.
+    pub(super) fn inherit(&mut self, old: &Answers, place: &dyn Fn(usize) -> Option<usize>) {
+        for entry in &old.entries {
+            let columns = entry.columns.iter();
+            let columns: Option<Columns> =
+                columns.map(|axis| axis.iter().map(|&column| place(column)).collect()).collect();
+            let answer = entry.answer.as_ref().and_then(|answer| entry.kind.inherited(answer));
+            if let (Some(columns), Some(answer)) = (columns, answer) {
+                let answer = Some(answer);
+                self.entries.push(PlotJob { columns, answer, under_way: None, ..entry.clone() });
+            }
+        }
+    }
+
+    /// Up to when everything that is carried along beside the motion is known; infinite if there is no such thing.
+    pub(super) fn known_until(&self) -> f64 {
+        let known = |entry: &PlotJob| entry.kind.known_until(entry.answer.as_ref()?);
+        self.entries.iter().filter_map(known).fold(f64::INFINITY, f64::min)
+    }
+
     /// Takes in an outcome. Returns whether it was wanted.
     pub(super) fn take(&mut self, ticket: u64, outcome: &Outcome<Answer>) -> bool {
         let waits =

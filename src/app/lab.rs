@@ -169,6 +169,7 @@ impl Lab {
         Present {
             physics: self.loaded.physics(),
             time: snapshot.time,
+            carried: self.answers.known_until().min(snapshot.time),
             parameters: &snapshot.parameters,
             initial: &snapshot.initial,
             values: &snapshot.values,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::diagnostic::Document;
 use crate::instrument::Physics;
-use crate::mechanics::{Equations, Further, Report, latex};
+use crate::mechanics::{Equations, Further, NamedRamps, Report, latex};
 use crate::model::Model;
 use crate::system::System;
 
@@ -33,7 +33,10 @@ impl Loaded {
         let mut equations = (*self.equations).clone();
         equations.find_closed_forms();
         let further = Further::of(&self.model, &mut equations);
-        latex(&Report::of(&self.model, &equations), &further)
+        match NamedRamps::readable(&equations, &further) {
+            Some((named, further)) => latex(&Report::of(&named.model, &named.equations), &further),
+            None => latex(&Report::of(&self.model, &equations), &further),
+        }
     }
 
     /// Returns the system as instruments see it.

@@ -154,6 +154,11 @@ impl App {
             return vec![Effect::Tell(Command::Play)];
         };
         lab.restore_view(&saved);
+        let (known, now) = (old.loaded.system.channels(), lab.loaded.system.channels());
+        lab.answers.inherit(&old.answers, &|column| {
+            let name = &known.get(column)?.name;
+            now.iter().position(|channel| channel.name == *name)
+        });
         lab.awaited = Some(saved.moment);
         self.lab = Some(lab);
         let mut effects = self.restore();

@@ -14,7 +14,7 @@ use super::open;
 use super::output::Output;
 use super::script::MathScript;
 use crate::experiment::Derived;
-use crate::mechanics::{Further, Report, latex};
+use crate::mechanics::{Further, NamedRamps, Report, latex};
 
 /// Show what follows from L or H: equations of motion, and what is conserved and why.
 ///
@@ -52,10 +52,13 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let compared =
         given.map(|given| LagrangianComparison::of(&model, &mut equations, given)).transpose()?;
     let report = Report::of(&model, &equations);
-    let mut text = match arguments.format {
-        Format::Text => text::write(&report, &further, MathScript::of_locale()),
-        Format::Latex => latex(&report, &further),
-        Format::Json => json::write(&report, &further, compared.as_ref()),
+    let mut text = match (arguments.format, NamedRamps::readable(&equations, &further)) {
+        (Format::Json, _) => json::write(&report, &further, compared.as_ref()),
+        (format, Some((named, further))) => {
+            let report = Report::of(&named.model, &named.equations);
+            written(format, &report, &further)
+        }
+        (format, None) => written(format, &report, &further),
     };
     match (arguments.format, &compared) {
         (Format::Text, Some(known)) => {
@@ -65,4 +68,12 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
         _ => {}
     }
     Output::print(arguments.format.form(), &text)
+}
+
+/// The report as text or for typesetting.
+fn written(format: Format, report: &Report<'_>, further: &Further) -> String {
+    match format {
+        Format::Latex => latex(report, further),
+        Format::Text | Format::Json => text::write(report, further, MathScript::of_locale()),
+    }
 }

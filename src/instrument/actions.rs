@@ -38,6 +38,9 @@ const FAR_LESS: f64 = 0.1;
 const CHANGED: f64 = 0.01;
 const SWINGS: f64 = 0.1;
 
+/// What is said as long as nothing is known.
+const BEING_COMPUTED: &str = "being computed";
+
 /// Beyond this energy, relative to the motion's, a top is out of the picture.
 const FAR: f64 = 20.0;
 
@@ -62,6 +65,8 @@ struct Moment {
 struct Computed {
     course: HeldCourse<Moment>,
     found: Result<Found, String>,
+    /// The instants at which another law took the place of the one before, as a ramp by a key does.
+    replaced: Vec<Moment>,
 }
 
 /// The curve and the motion.
@@ -146,9 +151,13 @@ impl Instrument for ActionsPlot {
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
         let Some(state) = CoordinateState::of(plot, present) else { return Need::Nothing };
         let known = computed(answer);
-        if known.is_some_and(|known| known.course.leads_to(&state) && known.holds_at(state.time)) {
+        let leads = known.is_some_and(|known| known.course.leads_to(&state));
+        if leads && known.is_some_and(|known| known.holds_at(state.time)) {
             return Need::Held;
         }
+        let replaced = known.filter(|_| leads).map_or(&[][..], |known| &known.replaced);
+        let before = |instant: &&Moment| instant.time < state.time;
+        let replaced: Vec<Moment> = replaced.iter().filter(before).copied().collect();
         let known = known.map(|known| known.course.clone());
         let model = Arc::clone(present.physics.model);
         Need::Job(Job::new("actions", move |progress: &Progress| {
@@ -168,8 +177,17 @@ impl Instrument for ActionsPlot {
                 let (energy, action) = (own.energy, row.action);
                 course.past.push(Moment { time: *time, energy, height, action });
             }
-            Answer::new(Computed { course, found: found.map(|(found, _)| found) })
+            let found = found.map(|(found, _)| found);
+            Answer::new(Computed { course, found, replaced: replaced.clone() })
         }))
+    }
+
+    fn inherited(&self, answer: &Answer) -> Option<Answer> {
+        let known = answer.of::<Computed>()?;
+        let mut replaced = known.replaced.clone();
+        replaced.push(*known.course.past.last()?);
+        let course = known.course.of_a_replaced_law();
+        Some(Answer::new(Computed { course, found: Err(BEING_COMPUTED.to_owned()), replaced }))
     }
 
     fn measures(&self) -> &'static [Measure] {
@@ -190,6 +208,14 @@ impl Instrument for ActionsPlot {
                 value: |_, _, answer| found(answer)?.separatrices.first()?.actions.first().copied(),
             },
             Measure {
+                word: "last_change",
+                about: "by what fraction it has changed since the last ramp by a key",
+                value: |_, _, answer| {
+                    let computed = computed(answer)?;
+                    computed.changes_since(computed.replaced.last()?).map(|[action, _]| action)
+                },
+            },
+            Measure {
                 word: "change",
                 about: "by what fraction the action has changed since the start",
                 value: |_, _, answer| computed(answer)?.changes().map(|[action, _]| action),
@@ -202,6 +228,9 @@ impl Computed {
     /// Whether it is still what is to be seen at a time.
     fn holds_at(&self, time: f64) -> bool {
         let HeldCourse { state, past, .. } = &self.course;
+        if !self.course.is_of_this_law() {
+            return false;
+        }
         if !self.course.moves() {
             return true;
         }
@@ -214,7 +243,12 @@ impl Computed {
 
     /// By which part the action, and the height of the energy, have changed since the first instant.
     fn changes(&self) -> Option<[f64; 2]> {
-        let (first, last) = (self.course.past.first()?, self.course.past.last()?);
+        self.changes_since(self.course.past.first()?)
+    }
+
+    /// By which part they have changed since an instant.
+    fn changes_since(&self, first: &Moment) -> Option<[f64; 2]> {
+        let last = self.course.past.last()?;
         let part = |from: f64, to: f64| (to - from) / from;
         Some([part(first.action, last.action), part(first.height, last.height)])
     }
@@ -291,7 +325,7 @@ fn ranges(answer: Option<&Answer>) -> [[f64; 2]; 2] {
 
 /// What is said of the motion, or why it has no action.
 fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
-    let Some(computed) = computed(answer) else { return vec!["being computed".to_owned()] };
+    let Some(computed) = computed(answer) else { return vec![BEING_COMPUTED.to_owned()] };
     let found = match &computed.found {
         Err(why) => return vec![why.clone()],
         Ok(found) => found,
@@ -321,10 +355,6 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
     }
     if let Some([action, height]) = computed.changes().filter(|_| computed.course.past.len() > 1) {
         let since = computed.course.past.first().map_or(present.time, |first| first.time);
-        let signed = |x: f64| {
-            let size = significant(x.abs(), 2, 1e-3..1e5);
-            if x < 0.0 { format!("−{size}") } else { format!("+{size}") }
-        };
         let verdict = if height.abs() >= CHANGED && action.abs() <= FAR_LESS * height.abs() {
             "adiabatic"
         } else if action.abs().max(height.abs()) < SWINGS {
@@ -333,7 +363,22 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
             "not adiabatic"
         };
         lines.push(format!("since t = {}: {verdict}", short(since)));
-        lines.push(format!("ΔJ/J = {}, ΔE/(E − V₀) = {}", signed(action), signed(height)));
+        lines.push(changes_in_words([action, height]));
+    }
+    if let Some(last) = computed.replaced.last()
+        && let Some(changes) = computed.changes_since(last)
+    {
+        lines.push(format!("of these since t = {}, the last ramp:", short(last.time)));
+        lines.push(changes_in_words(changes));
     }
     lines
+}
+
+/// The relative changes of the action and of the energy above its least value.
+fn changes_in_words([action, height]: [f64; 2]) -> String {
+    let signed = |x: f64| {
+        let size = significant(x.abs(), 2, 1e-3..1e5);
+        if x < 0.0 { format!("−{size}") } else { format!("+{size}") }
+    };
+    format!("ΔJ/J = {}, ΔE/(E − V₀) = {}", signed(action), signed(height))
 }

@@ -164,7 +164,7 @@ impl Instrument for AnglePlot {
 impl Computed {
     /// Whether it is still what is to be seen at a time.
     fn holds_at(&self, time: f64) -> bool {
-        let HeldCourse { state, held, past } = &self.course;
+        let HeldCourse { state, held, past, .. } = &self.course;
         if held.is_err() {
             return true;
         }

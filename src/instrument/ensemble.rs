@@ -171,12 +171,18 @@ impl Instrument for Ensemble {
             conditions,
             origin,
             now: present.time,
+            shown: present.carried,
             // what was known beyond the current time is continued from
             known: answer.filter(|_| known.is_some_and(|known| known.began(present.time))).cloned(),
         };
         let job = Job::new("cloud", move |progress| Answer::new(task.next(progress)));
         // what a person asks for is computed in any case
         if plot.seeds.is_empty() { Need::Addition(job) } else { Need::Job(job) }
+    }
+
+    fn known_until(&self, answer: &Answer) -> Option<f64> {
+        let cloud = answer.of::<Cloud>().filter(|cloud| cloud.failure.is_none())?;
+        cloud.frames.last().map(|frame| frame.time)
     }
 
     fn measures(&self) -> &'static [Measure] {
@@ -246,10 +252,10 @@ fn cloud(answer: Option<&Answer>) -> Option<&Cloud> {
     answer?.of::<Cloud>()
 }
 
-/// The frame that is shown: the last that is not later than the motion.
+/// The frame that is shown: the last that is not later than the motion, and than what is known of clouds beside this one.
 fn shown<'a>(present: &Present<'_>, answer: Option<&'a Answer>) -> Option<&'a CloudFrame> {
     let cloud = cloud(answer)?;
-    let before = cloud.frames.iter().rfind(|frame| frame.time <= present.time);
+    let before = cloud.frames.iter().rfind(|frame| frame.time <= present.carried);
     before.or_else(|| cloud.frames.first())
 }
 

@@ -162,6 +162,17 @@ pub trait Instrument: Sync {
         Need::Nothing
     }
 
+    /// What of the last result stays when the law is replaced and the motion continues; `None` if nothing does.
+    fn inherited(&self, _answer: &Answer) -> Option<Answer> {
+        None
+    }
+
+    /// Up to when the last result is known, of what is carried along beside the motion: pictures of such results show the
+    /// same time.
+    fn known_until(&self, _answer: &Answer) -> Option<f64> {
+        None
+    }
+
     /// What its job has computed, as a table to be written to a file; `None` if it is the motion itself.
     fn table(
         &self,

@@ -70,6 +70,8 @@ pub(super) struct HeldCourse<M> {
     pub(super) held: Result<Arc<HeldSystem>, String>,
     /// What was found at the instants, in their order.
     pub(super) past: Vec<M>,
+    /// Whether the instants are those of a law that was replaced since.
+    replaced: bool,
 }
 
 impl<M: Clone> HeldCourse<M> {
@@ -80,6 +82,16 @@ impl<M: Clone> HeldCourse<M> {
         conditions(&self.state) == conditions(state)
     }
 
+    /// Whether it is still what is known of the law.
+    pub(super) fn is_of_this_law(&self) -> bool {
+        !self.replaced
+    }
+
+    /// The instants alone, for a law that replaces this one while the motion continues.
+    pub(super) fn of_a_replaced_law(&self) -> HeldCourse<M> {
+        HeldCourse { replaced: true, ..self.clone() }
+    }
+
     /// Goes on to a state, with the instants before it if they are of the same motion; `time` is that of an instant.
     pub(super) fn continued(
         known: Option<&HeldCourse<M>>,
@@ -88,7 +100,8 @@ impl<M: Clone> HeldCourse<M> {
         progress: &Progress,
         time: fn(&M) -> f64,
     ) -> HeldCourse<M> {
-        let same = known.filter(|known| known.state.coordinate == state.coordinate);
+        let same =
+            known.filter(|known| known.state.coordinate == state.coordinate && !known.replaced);
         let held = same.map_or_else(
             || {
                 HeldSystem::of(model, state.coordinate, HeldSystem::PRECISE, progress.token())
@@ -99,7 +112,7 @@ impl<M: Clone> HeldCourse<M> {
         );
         let past = known.filter(|known| known.leads_to(state)).map_or(&[][..], |known| &known.past);
         let past = past.iter().filter(|instant| time(instant) < state.time).cloned().collect();
-        HeldCourse { state: state.clone(), held, past }
+        HeldCourse { state: state.clone(), held, past, replaced: false }
     }
 
     /// Whether the law depends on the time.

@@ -29,6 +29,8 @@ pub struct Present<'a> {
     pub physics: Physics<'a>,
     /// The time.
     pub time: f64,
+    /// The time up to which everything is known that is carried along beside the motion, such as a cloud; at most the time.
+    pub carried: f64,
     /// The parameters.
     pub parameters: &'a [f64],
     /// The initial values: coordinates, then velocities or momenta.

@@ -6,6 +6,7 @@
 //! the fields asked for filled in. Each is found once. Never here: the elimination itself.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use super::derive::too_large;
 use super::equations::{CLOSED_FORM_LIMIT, Equations, Flow, NoClosedForm, Separable};
@@ -26,6 +27,9 @@ impl Equations {
         self.lagrangian();
         self.separable();
         self.separation();
+        if let Some(named) = &mut self.supplements.named_ramps {
+            Arc::make_mut(named).equations.find_closed_forms();
+        }
     }
 
     /// Returns whether a closed form has not been searched for yet.

@@ -2,14 +2,17 @@
 //!
 //! In: a [`Model`]. Out: [`Equations`]. Never here: the individual steps.
 
+use std::sync::Arc;
+
 use super::attitude;
-use super::equations::{Equations, Flow, NoClosedForm};
+use super::equations::{Equations, Flow, NamedRamps, NoClosedForm};
 use super::frames;
 use super::group;
 use super::hamilton;
 use super::hamilton_jacobi;
 use super::invariants;
 use super::lagrange;
+use super::named_ramps;
 use super::poisson;
 use super::rigid_body;
 use super::vakonomic;
@@ -33,6 +36,18 @@ pub fn derive(model: &Model) -> Result<Equations, NoClosedForm> {
 /// # Errors
 /// Returns an error if the derivation grows beyond [`crate::expr::NODE_LIMIT`] nodes.
 pub fn derive_for_motion(model: &Model) -> Result<Equations, NoClosedForm> {
+    let mut equations = derive_once(model)?;
+    // what only reads better is left out where it cannot be had
+    if let Some(named) = named_ramps::model(model)
+        && let Ok(derived) = derive_once(&named)
+    {
+        let named = NamedRamps::of(named, derived, &equations.conserved);
+        equations.supplements.named_ramps = Some(Arc::new(named));
+    }
+    Ok(equations)
+}
+
+fn derive_once(model: &Model) -> Result<Equations, NoClosedForm> {
     let mut pool = model.pool.clone();
     let constraints = model.constraints.iter().map(|c| c.expression);
     let given = [model.mechanics.function().1, model.mechanics.dissipation()];

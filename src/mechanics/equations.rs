@@ -1,6 +1,7 @@
 //! What follows from a law of motion: the equations and everything derived with them.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use super::rigid_body::{RigidBody, Tensor};
 use super::structure::{Holonomy, Separation};
@@ -118,8 +119,19 @@ pub struct Supplements {
     pub holonomy: Vec<Holonomy>,
     /// Whether Hamilton–Jacobi separates in the file's coordinates, once it has been found out.
     pub separation: Option<Separation>,
+    /// The law and what follows from it with ramped parameters by their names, if there are any.
+    pub named_ramps: Option<Arc<NamedRamps>>,
     /// The file's values of the parameters and of what follows from a body, as exact numbers.
     pub constants: Vec<(Symbol, Number)>,
+}
+
+/// A law whose parameters change with the time, and what follows from it, with these parameters and their rates as symbols.
+#[derive(Clone, Debug)]
+pub struct NamedRamps {
+    /// The model, with the parameters by name.
+    pub model: Model,
+    /// What follows from it.
+    pub equations: Equations,
 }
 
 impl Supplements {

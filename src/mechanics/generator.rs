@@ -96,6 +96,7 @@ pub fn flow_of(
     moved.attitude = None;
     moved.comparison = None;
     moved.transformations.clear();
+    moved.with_ramps_named = None;
     moved.generators.clear();
     moved.complete_integral = None;
     moved.expect = crate::model::Expect::default();

@@ -13,6 +13,18 @@ pub fn latex(report: &Report<'_>, further: &Further) -> String {
     let mut page = LatexReport { report, lines: Vec::new() };
     page.lines(report.body.iter().flat_map(|body| &body.lines));
     page.lines([&report.law].into_iter().chain(&report.dissipation));
+    for ramp in report.model.ramped.named() {
+        let parameter = &pool.symbol_info(ramp.parameter).latex;
+        page.add(&format!("{parameter}(t)"), &pool.latex(ramp.function));
+        for progress in &ramp.progress {
+            let symbol = &pool.symbol_info(progress.symbol).latex;
+            let [start, end] = progress.times.map(|e| pool.latex(e));
+            let line = format!(
+                "&{symbol} \\text{{ from 0 at }} t = {start} \\text{{ to 1 at }} t = {end}"
+            );
+            page.lines.push(line);
+        }
+    }
     page.lines(report.forces.iter().chain(&report.brackets));
     for (i, (_, casimir)) in report.casimirs.iter().enumerate() {
         page.add(&format!("C_{{{}}}", i + 1), &pool.latex(*casimir));

@@ -181,6 +181,14 @@ pub struct Report<'a> {
 }
 
 impl<'a> Report<'a> {
+    /// Compiles the report on a system as one reads it: with the names of parameters that change with the time.
+    pub fn readable(model: &'a Model, equations: &'a Equations) -> Report<'a> {
+        match equations.supplements.named_ramps.as_deref() {
+            Some(named) => Report::of(&named.model, &named.equations),
+            None => Report::of(model, equations),
+        }
+    }
+
     /// Compiles the report on a system.
     pub fn of(model: &'a Model, equations: &'a Equations) -> Report<'a> {
         let coordinates = &model.coordinates;

@@ -98,7 +98,7 @@ impl Coordinate {
 }
 
 /// The name with a dot (or two) over its first letter.
-fn dotted(shown: &str, mark: char) -> String {
+pub(super) fn dotted(shown: &str, mark: char) -> String {
     let mut messages = shown.chars();
     let first = messages.next().unwrap_or(' ');
     let precomposed = match (first, mark) {

@@ -30,6 +30,8 @@ pub struct Model {
     pub parameters: Vec<Parameter>,
     /// The parameters that change with the time, which stand in no expression but those of initial values.
     pub ramped: Ramped,
+    /// The same model with these parameters as symbols that have rates, for a law that can be read; see [`Ramped::keep`].
+    pub with_ramps_named: Option<Box<Model>>,
     /// Definitions, in order. They are already substituted wherever they are used, and are stored
     /// for display.
     pub definitions: Vec<(String, Expr)>,
@@ -252,6 +254,7 @@ impl Model {
             coordinates: Vec::new(),
             parameters: Vec::new(),
             ramped: Ramped::default(),
+            with_ramps_named: None,
             definitions: Vec::new(),
             mechanics: Mechanics::Lagrangian {
                 lagrangian: Expr::ZERO,

@@ -62,6 +62,7 @@ impl Ramp {
 /// Returns an error if a parameter determines something that cannot change with the time.
 pub fn replace_by_ramps(model: &mut Model, ramps: &[Ramp]) -> Result<Ramped, RampRefused> {
     let mut ramped = Ramped::default();
+    model.with_ramps_named = None;
     for ramp in ramps {
         let parameter = &model.parameters[ramp.parameter];
         let (name, symbol) = (parameter.name.clone(), parameter.symbol);

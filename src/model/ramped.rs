@@ -5,7 +5,9 @@
 
 use std::collections::HashMap;
 
-use crate::expr::{Expr, FunctionId, Pool, Symbol};
+use super::coordinate::dotted;
+use super::parameter::{Parameter, RangeSpacing};
+use crate::expr::{Expr, FunctionId, Pool, Rank, Symbol, latex_of_unicode};
 use crate::num::Number;
 
 /// A part of a parameter's way, as a file gives it: its numbers may be expressions in other parameters.
@@ -41,7 +43,52 @@ impl RampForm {
 
 /// Parameters as functions of the time.
 #[derive(Clone, Debug, Default)]
-pub struct Ramped(HashMap<Symbol, Expr>);
+pub struct Ramped {
+    functions: HashMap<Symbol, Expr>,
+    named: Vec<NamedRamp>,
+    instant: Option<Symbol>,
+}
+
+/// A parameter that keeps its name in the law, with the function of the time that it is.
+#[derive(Clone, Debug)]
+pub struct NamedRamp {
+    /// The parameter.
+    pub parameter: Symbol,
+    /// Its value as a function of the progress of each part, and of the symbol of its value before the first.
+    pub function: Expr,
+    /// The progress of each part: it goes evenly from 0 to 1 between two times.
+    pub progress: Vec<RampProgress>,
+}
+
+/// How far a part of a ramp is.
+#[derive(Clone, Copy, Debug)]
+pub struct RampProgress {
+    /// Its symbol.
+    pub symbol: Symbol,
+    /// When the part begins, and when it ends.
+    pub times: [Expr; 2],
+}
+
+impl RampForm {
+    /// Coefficients and powers of the progress.
+    fn powers(self) -> &'static [(i64, i64)] {
+        match self {
+            RampForm::Smooth => &[(10, 3), (-15, 4), (6, 5)],
+            RampForm::Cubic => &[(3, 2), (-2, 3)],
+            RampForm::Linear => &[(1, 1)],
+        }
+    }
+
+    /// How much of the way is behind at a progress.
+    fn share(self, pool: &mut Pool, progress: Expr) -> Expr {
+        let mut terms = Vec::new();
+        for &(coefficient, power) in self.powers() {
+            let power = pool.monomial(Number::ONE, &[(progress, Number::integer(power))]);
+            terms.push((Number::integer(coefficient), power));
+        }
+        pool.linear(Number::ZERO, &terms)
+    }
+}
 
 impl Ramped {
     /// Lets a parameter go its way, one part after the other, from its own value, which stays what it is before the first.
@@ -55,47 +102,148 @@ impl Ramped {
             let passed = pool.call(FunctionId::Max, &[passed, Expr::ZERO]);
             let one = pool.number(Number::ONE);
             let u = pool.call(FunctionId::Min, &[passed, one]);
-            let powers: &[(i64, i64)] = match part.form {
-                RampForm::Smooth => &[(10, 3), (-15, 4), (6, 5)],
-                RampForm::Cubic => &[(3, 2), (-2, 3)],
-                RampForm::Linear => &[(1, 1)],
-            };
-            let mut share = Vec::new();
-            for &(coefficient, power) in powers {
-                let power = pool.monomial(Number::ONE, &[(u, Number::integer(power))]);
-                share.push((Number::integer(coefficient), power));
-            }
-            let share = pool.linear(Number::ZERO, &share);
+            let share = part.form.share(pool, u);
             let change = pool.sub(part.to, last);
             let change = pool.mul(change, share);
             value = pool.linear(Number::ZERO, &[(Number::ONE, value), (Number::ONE, change)]);
             last = part.to;
         }
-        self.0.insert(parameter, value);
+        self.functions.insert(parameter, value);
+    }
+
+    /// Lets a parameter keep its name: it is l + l̇ (t − s) + ½ l̈ (t − s)², of which at the instant s = t the value and the first two
+    /// derivatives are those of any function of the time. No law has higher ones. Returns l̇, l̈ and s as parameters of any value.
+    pub fn keep(
+        &mut self,
+        pool: &mut Pool,
+        time: Symbol,
+        parameter: &Parameter,
+        parts: &[RampPart],
+    ) -> Vec<Parameter> {
+        let (name, shown) = (&parameter.name, &parameter.shown);
+        let latex = latex_of_unicode(shown);
+        let mut introduce = |written: &str, shown: &str, latex: &str, rank| {
+            let symbol = pool.symbol(written);
+            pool.describe(symbol, shown, latex, rank);
+            symbol
+        };
+        let dots = ["'", "''"].map(|dots| format!("{name}{dots}"));
+        let rate = introduce(
+            &dots[0],
+            &dotted(shown, '\u{307}'),
+            &format!("\\dot{{{latex}}}"),
+            Rank::Rate,
+        );
+        let second = introduce(
+            &dots[1],
+            &dotted(shown, '\u{308}'),
+            &format!("\\ddot{{{latex}}}"),
+            Rank::Rate,
+        );
+        let instant = introduce("the instant", "s", "s", Rank::Variable);
+        let any = |symbol, value| Parameter {
+            name: String::new(),
+            shown: String::new(),
+            symbol,
+            value,
+            min: value,
+            max: value,
+            scale: RangeSpacing::Linear,
+            unit: String::new(),
+            about: String::new(),
+        };
+        let added = vec![any(rate, 0.618_034), any(second, -0.414_214), any(instant, 0.302_776)];
+        self.instant = Some(instant);
+        self.named.push(NamedRamp::of(pool, parameter, parts));
+        let [own, rate, second, instant, time] =
+            [parameter.symbol, rate, second, instant, time].map(|symbol| pool.variable(symbol));
+        let since = pool.sub(time, instant);
+        let linear = pool.mul(rate, since);
+        let half = pool.ratio(1, 2);
+        let square =
+            pool.monomial(Number::ONE, &[(since, Number::integer(2)), (second, Number::ONE)]);
+        let square = pool.mul(half, square);
+        let value = pool.sum(&[own, linear, square]);
+        self.functions.insert(parameter.symbol, value);
+        added
+    }
+
+    /// The parameters that keep their names.
+    pub fn named(&self) -> &[NamedRamp] {
+        &self.named
+    }
+
+    /// The symbol of the instant around which parameters that keep their names are developed, if there are any.
+    pub fn instant(&self) -> Option<Symbol> {
+        self.instant
     }
 
     /// Lets a parameter be a function of the time.
     pub(super) fn insert(&mut self, parameter: Symbol, value: Expr) {
-        self.0.insert(parameter, value);
+        self.functions.insert(parameter, value);
     }
 
     /// Whether no parameter changes with the time.
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.functions.is_empty()
     }
 
     /// Each parameter with its function of the time.
     pub fn functions(&self) -> impl Iterator<Item = (Symbol, Expr)> {
-        self.0.iter().map(|(&symbol, &e)| (symbol, e))
+        self.functions.iter().map(|(&symbol, &e)| (symbol, e))
     }
 
     /// Whether an expression has a parameter that changes with the time.
     pub fn acts_on(&self, pool: &Pool, e: Expr) -> bool {
-        self.0.keys().any(|&symbol| pool.depends(e, symbol))
+        self.functions.keys().any(|&symbol| pool.depends(e, symbol))
     }
 
     /// An expression with these functions in place of the parameters.
     pub fn replace(&self, pool: &mut Pool, e: Expr) -> Expr {
-        if self.0.is_empty() { e } else { pool.substitute(e, &self.0) }
+        if self.functions.is_empty() { e } else { pool.substitute(e, &self.functions) }
     }
+}
+
+impl NamedRamp {
+    fn of(pool: &mut Pool, parameter: &Parameter, parts: &[RampPart]) -> NamedRamp {
+        let name = &parameter.name;
+        let initial = unused(pool, [format!("{name}_i"), format!("{name}_before")]);
+        pool.describe(
+            initial,
+            &format!("{}ᵢ", parameter.shown),
+            &format!("{{{}}}_i", latex_of_unicode(&parameter.shown)),
+            Rank::Constant,
+        );
+        let initial = pool.variable(initial);
+        let own = HashMap::from([(parameter.symbol, initial)]);
+        let (mut function, mut last) = (initial, initial);
+        let mut progress = Vec::new();
+        for part in parts {
+            let [to, start, duration] =
+                [part.to, part.start, part.duration].map(|e| pool.substitute(e, &own));
+            let end = pool.add(start, duration);
+            let symbol =
+                unused(pool, ["u".to_owned()].into_iter().chain((2..).map(|n| format!("u{n}"))));
+            progress.push(RampProgress { symbol, times: [start, end] });
+            let u = pool.variable(symbol);
+            let share = part.form.share(pool, u);
+            let change = pool.sub(to, last);
+            let change = pool.mul(change, share);
+            function = pool.add(function, change);
+            last = to;
+        }
+        NamedRamp { parameter: parameter.symbol, function, progress }
+    }
+}
+
+/// The symbol of the first name that the pool does not have; of the last, if it has them all.
+fn unused(pool: &mut Pool, names: impl IntoIterator<Item = String>) -> Symbol {
+    let mut chosen = String::new();
+    for name in names {
+        chosen = name;
+        if pool.find_symbol(&chosen).is_none() {
+            break;
+        }
+    }
+    pool.symbol(&chosen)
 }

@@ -39,10 +39,28 @@ pub(super) fn check(
     cancel: &Cancel,
     diagnostics: &mut Diagnostics,
 ) -> Option<Model> {
+    let mut model = check_once(file, draft, false, cancel, diagnostics)?;
+    if !draft.ramps.is_empty() && !diagnostics.any_error() {
+        // whatever there is to say of the file has been said
+        let mut silent = Diagnostics::default();
+        let named = check_once(file, draft, true, cancel, &mut silent);
+        model.with_ramps_named = named.filter(|_| !silent.any_error()).map(Box::new);
+    }
+    Some(model)
+}
+
+/// Checks a draft, whose ramped parameters are functions of the time, or keep their names.
+fn check_once(
+    file: &str,
+    draft: &Draft,
+    keeps_ramps: bool,
+    cancel: &Cancel,
+    diagnostics: &mut Diagnostics,
+) -> Option<Model> {
     let mut model = Model::new(&draft.info.title);
     model.pool.set_cancel(cancel.clone());
     model.info = draft.info.clone();
-    let mut check = Check { file, diagnostics, model, used: BTreeSet::new() };
+    let mut check = Check { file, diagnostics, model, used: BTreeSet::new(), keeps_ramps };
     if check.beyond_limits(draft) {
         return None;
     }
@@ -97,6 +115,8 @@ struct Check<'c> {
     model: Model,
     /// Every name that some expression uses.
     used: BTreeSet<String>,
+    /// Whether parameters that change with the time keep their names.
+    keeps_ramps: bool,
 }
 
 impl Check<'_> {

@@ -10,13 +10,14 @@ use super::theme::Role;
 use crate::app::Lab;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{ConservedKind, Flow, Holonomy, LeftSide, Line, NoClosedForm, Report};
+use crate::num::significant;
 
 /// Expressions with more nodes than this are not written out.
 const MOST: u64 = 4_000;
 
 /// Builds the page.
 pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
-    let report = Report::of(&lab.loaded.model, &lab.loaded.equations);
+    let report = Report::readable(&lab.loaded.model, &lab.loaded.equations);
     let mut writer = EquationRows { report: &report, look, page: TextPage::default() };
     constants::verdict(lab, &mut writer.page);
     writer.law();
@@ -33,9 +34,10 @@ pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
 
 /// The law of motion, the solved equations and the notes of the file, for a small pane.
 pub(super) fn law(lab: &Lab, look: &RenderStyle) -> TextPage {
-    let report = Report::of(&lab.loaded.model, &lab.loaded.equations);
+    let report = Report::readable(&lab.loaded.model, &lab.loaded.equations);
     let mut writer = EquationRows { report: &report, look, page: TextPage::default() };
     writer.lines(&[report.law]);
+    writer.ramps();
     writer.page.gap();
     writer.solved();
     for paragraph in report.model.info.notes.split("\n\n").map(str::trim) {
@@ -58,6 +60,14 @@ impl EquationRows<'_> {
             return format!("… ({} pieces: phaselab derive prints them)", pool.weight(e));
         }
         if self.look.glyphs.is_ascii() { pool.ascii(e) } else { pool.unicode(e) }
+    }
+
+    /// A time, that of a key to as many digits as one reads.
+    fn time(&self, e: Expr) -> String {
+        match self.report.equations.pool.as_number(e) {
+            Some(number) => significant(number.value(), 6, 1e-3..1e6),
+            None => self.write(e),
+        }
     }
 
     fn symbol(&self, symbol: Symbol) -> String {
@@ -102,6 +112,7 @@ impl EquationRows<'_> {
         let lagrangian = report.model.is_lagrangian();
         self.page.heading(if lagrangian { "Lagrangian" } else { "Hamiltonian" });
         self.lines([&report.law]);
+        self.ramps();
         if report.dissipation.is_some() {
             self.page.heading("Rayleigh's function");
             self.lines(&report.dissipation);
@@ -120,6 +131,19 @@ impl EquationRows<'_> {
             let title = if poisson { "Added to the rates" } else { "Forces without a potential" };
             self.page.heading(title);
             self.lines(&report.forces);
+        }
+    }
+
+    /// Adds the functions of the time behind the names of parameters.
+    fn ramps(&mut self) {
+        for ramp in self.report.model.ramped.named() {
+            self.put(&format!("{}(t)", self.symbol(ramp.parameter)), ramp.function, "");
+            for progress in &ramp.progress {
+                let [start, end] = progress.times.map(|e| self.time(e));
+                let words = format!("0 … 1 from t = {start} to t = {end}");
+                let words = self.look.glyphs.text(&words).into_owned();
+                self.page.formula(&self.symbol(progress.symbol), words, "");
+            }
         }
     }
 

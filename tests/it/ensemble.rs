@@ -452,3 +452,51 @@ fn a_narrow_pane_has_all_that_is_said_of_a_cloud() {
     assert!(said.contains("∝ e^(−0.25 t)"), "{screen}");
     assert!(said.contains(" to "), "{screen}");
 }
+
+/// Two pictures of the same cloud show the same moment, also where one of them is computed later than the other.
+#[test]
+fn two_pictures_of_a_cloud_show_the_same_moment() {
+    let (mut app, _, mut experiment) = opened(oscillator("1/2*q^2", "0"));
+    let lab = app.lab.as_mut().unwrap();
+    let mut other = lab.plots[0].clone();
+    other.columns.reverse();
+    lab.plots.push(other);
+    see(&mut app, &mut experiment, 0.011);
+    let seen = |app: &App| {
+        let lab = app.lab.as_ref().unwrap();
+        let present = lab.present().unwrap();
+        let of = |plot: &Plot| {
+            let picture = plot.kind.picture(plot, &present, [f64::NAN; 2], lab.answer(plot));
+            let Some(Picture::Axes { layers, .. }) = picture else { panic!("no picture") };
+            layers.iter().find_map(|(_, layer)| match layer {
+                Layer::Cloud(points) => Some(points.to_vec()),
+                _ => None,
+            })
+        };
+        lab.plots.iter().map(|plot| of(plot).expect("a cloud")).collect::<Vec<_>>()
+    };
+    // from here on the second is never finished
+    let mut waiting = Vec::new();
+    for k in 1..60 {
+        experiment.advance(0.011 + 0.05 * f64::from(k), u64::MAX);
+        let mut effects = app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
+        while let Some(effect) = effects.pop() {
+            let Effect::Compute(computation) = effect else { continue };
+            if computation.asker == phaselab::app::Asker::Plot(1) {
+                waiting.push(computation);
+                continue;
+            }
+            let outcome = computation.job.run(&Progress::new());
+            effects.extend(app.update(Event::Computed { ticket: computation.ticket, outcome }));
+        }
+        let [first, second] = &seen(&app)[..] else { panic!("two") };
+        // the law is linear, so the middle of a disc about the motion is the motion
+        let [first, second] = [first, second].map(|points| {
+            let sum = points.iter().fold([0.0; 2], |sum, at| [sum[0] + at[0], sum[1] + at[1]]);
+            sum.map(|x| x / points.len() as f64)
+        });
+        let off = (first[0] - second[1]).abs().max((first[1] - second[0]).abs());
+        assert!(off < 5e-3, "at step {k}: {first:?} {second:?}");
+    }
+    assert!(!waiting.is_empty());
+}

@@ -7,6 +7,7 @@ mod frames;
 mod gauge;
 mod holonomy;
 mod infinitesimal;
+mod named_ramps;
 mod similarity;
 
 use nalgebra::{DMatrix, DVector};

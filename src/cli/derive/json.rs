@@ -67,6 +67,19 @@ pub(super) fn write(
         "separates": report.separation.and_then(Separation::answer),
         "separation": page.separation(),
     });
+    let ramps: Vec<Value> = report
+        .model
+        .parameters
+        .iter()
+        .filter_map(|p| {
+            let mut all = report.model.ramped.functions();
+            let (_, e) = all.find(|(symbol, _)| *symbol == p.symbol)?;
+            Some(json!({ "parameter": p.name, "value": page.text(e) }))
+        })
+        .collect();
+    if !ramps.is_empty() {
+        object["ramps"] = ramps.into();
+    }
     if let Some(body) = &report.body {
         let expressions = page.map(&body.lines);
         let body = body.numbers(report.model, report.equations);

@@ -84,6 +84,7 @@ impl TextReport<'_> {
         let beside = report.dissipation.iter().chain(&report.forces);
         let law: Vec<Line> = [report.law].iter().chain(beside).copied().collect();
         self.lines(title, &law);
+        self.ramps();
         if report.model.is_poisson() {
             self.lines("Brackets", &report.brackets);
         }
@@ -102,6 +103,25 @@ impl TextReport<'_> {
                 casimirs.map(|&(name, e)| (self.words(name), self.math(e))).collect();
             self.section("Casimirs", &rows);
         }
+    }
+
+    /// The functions of the time behind the names of parameters.
+    fn ramps(&mut self) {
+        let ramps = self.report.model.ramped.named();
+        if ramps.is_empty() {
+            return;
+        }
+        let mut rows = Vec::new();
+        for ramp in ramps {
+            let left = format!("{}(t)", self.symbol(ramp.parameter));
+            rows.push((left, self.math(ramp.function)));
+            for progress in &ramp.progress {
+                let [start, end] = progress.times.map(|e| self.math(e));
+                let words = format!("0 … 1 from t = {start} to t = {end}");
+                rows.push((self.symbol(progress.symbol), self.words(&words)));
+            }
+        }
+        self.section("Ramps", &rows);
     }
 
     fn constraints(&mut self) {

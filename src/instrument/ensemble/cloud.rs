@@ -92,6 +92,8 @@ pub(super) struct Task {
     pub(super) conditions: PlotConditions,
     pub(super) origin: CloudOrigin,
     pub(super) now: f64,
+    /// The time of what is shown, which is earlier where clouds are behind the motion.
+    pub(super) shown: f64,
     pub(super) known: Option<Answer>,
 }
 
@@ -119,11 +121,12 @@ impl Task {
         let speed = Some(self.model.run.speed).filter(|s| s.is_finite() && *s > 0.0);
         let least = FRAMES as f64 * speed.unwrap_or(1.0) / RATE;
         let passed = known.map_or(0.0, |known| self.now - known.asked);
-        let spacing = (2.0 * passed).max(least) / FRAMES as f64;
-        let first = match known {
-            Some(known) if known.end > self.now => known.end + spacing,
-            _ => self.now,
-        };
+        let spacing = frame_spacing(passed, least);
+        // clouds of the same beginning have frames at the same times
+        let place = |time: f64| ((time - self.origin.time) / spacing + 1e-6).floor();
+        let place =
+            known.map_or(place(self.now), |known| place(self.now).max(place(known.end) + 1.0));
+        let first = self.origin.time + place * spacing;
         let frames = if known.is_some() { FRAMES } else { FIRST_FRAMES };
         let times: Vec<f64> = (0..frames).map(|k| first + k as f64 * spacing).collect();
         let seconds =
@@ -172,7 +175,7 @@ impl Task {
         let new: Vec<CloudFrame> = times.iter().enumerate().map(frame).collect();
         let extent = extent(known.map(|known| known.extent), &new);
         let known_frames = known.map_or(&[][..], |known| &known.frames);
-        let seen = known_frames.iter().rposition(|frame| frame.time <= self.now).unwrap_or(0);
+        let seen = known_frames.iter().rposition(|frame| frame.time <= self.shown).unwrap_or(0);
         let old = known_frames.iter().skip(seen).filter(|frame| frame.time < first).cloned();
         Cloud {
             conditions: self.conditions.clone(),
@@ -255,6 +258,17 @@ impl Task {
         let variables = states.iter().map(|state| space.variables(state));
         conformal_rate(&space, self.origin.time, variables).ok()?
     }
+}
+
+/// The time between frames of a part that is twice as long as the time `passed`, or `least`: the shortest, or so often twice as
+/// long that the frames of every part are among those of the shortest.
+fn frame_spacing(passed: f64, least: f64) -> f64 {
+    let shortest = least / FRAMES as f64;
+    let mut spacing = shortest;
+    while spacing * FRAMES as f64 <= passed * 2.0 && spacing.is_finite() {
+        spacing *= 2.0;
+    }
+    spacing
 }
 
 /// The extent of the bulk in all that was seen, with what is in these frames. Few that escape do not make it wider: a point

@@ -6,7 +6,7 @@
 use super::Check;
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::expr::{Expr, Symbol};
-use crate::model::{Allowed, RampForm, RampPart, Scope};
+use crate::model::{Allowed, Model, RampForm, RampPart, Scope};
 use crate::preset::draft::{Draft, DraftRamp};
 
 impl Check<'_> {
@@ -25,8 +25,13 @@ impl Check<'_> {
             }
         }
         let time = self.model.symbols.time;
+        let Model { ramped, pool, parameters, .. } = &mut self.model;
         for (symbol, parts) in ways {
-            self.model.ramped.lead(&mut self.model.pool, time, symbol, &parts);
+            let named = parameters.iter().find(|p| p.symbol == symbol && self.keeps_ramps).cloned();
+            match named {
+                Some(named) => parameters.extend(ramped.keep(pool, time, &named, &parts)),
+                None => ramped.lead(pool, time, symbol, &parts),
+            }
         }
     }
 

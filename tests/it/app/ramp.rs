@@ -76,3 +76,14 @@ fn what_is_no_ramp_is_refused() {
         assert!(text(&mut real).is_none());
     }
 }
+
+/// A second ramp continues what is known of the first: J and E are compared with what they were before any ramp, and with
+/// what they were when the last one began.
+#[test]
+fn a_second_ramp_by_the_key_keeps_what_the_first_has_changed() {
+    // a mass that is changed fast changes J, and one that goes to where it is does not
+    let text = "Open slow-oscillator\nSize 120x40\nPress c\nType \"4 in 1\"\nPress Enter\nWait 3s\nAssert actions.change > 2\n\
+                Press Shift-Tab x3\nPress c\nType \"4 in 1\"\nPress Enter\nWait 2s\nAssert actions.change > 2\n\
+                Assert actions.last_change < 0.01\nAssert actions.last_change > -0.01\n";
+    crate::record::played("slow-oscillator", text);
+}
