@@ -67,9 +67,12 @@ impl OrientationPolytope {
     /// The polytope with its faces moved outwards to multiples of a length, except where it is flat.
     #[must_use]
     pub fn rounded(&self, step: f64) -> Self {
-        let round = |[least, greatest]: [f64; 2]| match least == greatest {
-            true => [least, greatest],
-            false => [(least / step).floor() * step, (greatest / step).ceil() * step],
+        let round = |[least, greatest]: [f64; 2]| {
+            if least == greatest {
+                [least, greatest]
+            } else {
+                [(least / step).floor() * step, (greatest / step).ceil() * step]
+            }
         };
         Self { ranges: self.ranges.map(round) }
     }
@@ -137,11 +140,15 @@ mod tests {
     #[test]
     fn a_box_reaches_as_far_as_its_farthest_corner() {
         let corners: Vec<[f64; 3]> = (0..8)
-            .map(|i: usize| [0, 1, 2].map(|k| if i >> k & 1 == 0 { -1.0 - k as f64 } else { 2.0 }))
+            .map(|i: usize| {
+                [0, 1, 2].map(|k| if i >> k & 1 == 0 { -1.0 - f64::from(k) } else { 2.0 })
+            })
             .collect();
         let mut all = OrientationPolytope::EMPTY;
         assert!(all.is_empty());
-        corners.iter().for_each(|corner| all.include(*corner));
+        for corner in &corners {
+            all.include(*corner);
+        }
         all.include([f64::NAN, 99.0, 0.0]);
         for direction in everywhere(200) {
             let farthest =

@@ -202,9 +202,9 @@ pub(super) fn draw(
         if run.len() > 1 {
             draw_lines(canvas, &mut raster, (&frame, q), run);
         } else {
-            run.iter().for_each(|(level, layer)| {
-                draw_layer(canvas, &mut raster, (&frame, q), (*level, layer))
-            });
+            for (level, layer) in run {
+                draw_layer(canvas, &mut raster, (&frame, q), (*level, layer));
+            }
         }
     }
     let marks = occurrences.map_or_else(Marks::none, |(level, columns)| {
