@@ -88,24 +88,31 @@ impl SectionPlan {
 /// How far an orbit that begins at a time is followed at first, and a time that no step goes beyond. Where there is no end
 /// in time, no step ends early at one.
 pub(super) fn first_limit(plan: &SectionPlan, start: f64) -> (f64, f64) {
-    let target = plan.until.unwrap_or(start + FIRST_LOOK);
-    (target, plan.until.unwrap_or(target + FIRST_LOOK))
+    let target = plan.until.unwrap_or(start + look_ahead(start, FIRST_LOOK));
+    (target, plan.until.unwrap_or(target + look_ahead(target, FIRST_LOOK)))
 }
 
 /// The same for an orbit without an end in time that was followed to `target`, by a last step of this size.
 pub(super) fn next_limit(target: f64, step: f64) -> (f64, f64) {
-    let ahead = (GROWTH * step.abs()).max(FIRST_LOOK);
+    let ahead = look_ahead(target, (GROWTH * step.abs()).max(FIRST_LOOK));
     (target + ahead, target + ahead + ahead)
 }
 
-/// Why no crossing can be located from a time on: one unit is lost in its digits.
-pub(super) fn too_late(time: f64) -> Option<String> {
+/// How far to look from a time on: `wanted`, or where that is lost in the digits of the time the least that is not.
+fn look_ahead(from: f64, wanted: f64) -> f64 {
+    wanted.max(2.0 * spacing(from))
+}
+
+/// Why no crossing can be located after a first step of this size: times there are so far apart that the step is lost in
+/// their digits.
+pub(super) fn too_coarse(time: f64, step: f64) -> Option<String> {
     let spacing = spacing(time);
-    (spacing > FIRST_LOOK).then(|| {
+    (spacing > step.abs() / LEAST_TIMES).then(|| {
         format!(
-            "it begins at t = {}, where times are {} apart, so that no crossing can be located",
+            "at t = {} times are {} apart, which is too much for steps of {} to locate a crossing in",
             short(time),
-            short(spacing)
+            short(spacing),
+            short(step.abs())
         )
     })
 }
@@ -159,6 +166,9 @@ const STEPS_PER_LOOK: u64 = 64;
 const FIRST_LOOK: f64 = 1.0;
 const GROWTH: f64 = 8.0;
 
+/// A step in which a crossing can be located has at least so many times.
+const LEAST_TIMES: f64 = 16.0;
+
 /// Follows an orbit from one crossing to the next.
 pub fn crossings(
     system: &System,
@@ -167,9 +177,6 @@ pub fn crossings(
     start: &Start,
     plan: &SectionPlan,
 ) -> Crossings {
-    if let Some(why) = too_late(start.time) {
-        return Crossings::refused(&why);
-    }
     let made = Propagator::new(system, method, settings, &start.parameters);
     let mut motion = match made {
         Ok(motion) => motion,
@@ -204,12 +211,21 @@ impl SectionOrbit<'_> {
             (status, message)
         };
         let (mut target, mut limit) = first_limit(self.plan, self.start.time);
-        let mut last = self.motion.steps();
+        let begun = self.motion.steps();
+        let (mut last, mut is_first) = (begun, true);
         loop {
             if self.plan.count.is_some_and(|count| self.rows.len() as u64 >= count) {
                 return (OrbitStatus::Completed, None);
             }
-            match self.motion.reach(target, limit, &mut STEPS_PER_LOOK.clone()) {
+            let reached = self.motion.reach(target, limit, &mut STEPS_PER_LOOK.clone());
+            if is_first && self.motion.steps() > begun {
+                is_first = false;
+                let (time, step) = (self.motion.computed().time, self.motion.step_size());
+                if let Some(why) = too_coarse(time, step) {
+                    return (OrbitStatus::Faulted, Some(why));
+                }
+            }
+            match reached {
                 // a step that a signal has cancelled is not a fault of the motion
                 Err(_) if cancel.is_cancelled() => return stopped(),
                 Err(fault) => return (OrbitStatus::Faulted, Some(fault.to_string())),

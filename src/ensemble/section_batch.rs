@@ -6,7 +6,7 @@
 use super::Start;
 use super::section::{
     Crossings, OrbitStatus, SectionPlan, crossings, first_limit, next_limit, stopped_by_a_signal,
-    too_late,
+    too_coarse,
 };
 use super::side_by_side::{Follower, OrbitCourse, side_by_side};
 use crate::integrate::{BatchPropagator, LaneStatus, Method, Settings};
@@ -100,11 +100,7 @@ impl Follower for OrbitsTogether<'_> {
         let Ok(start) = &self.starts[orbit] else { return OrbitCourse::Over };
         let Ok(state) = start.state(self.system) else { return OrbitCourse::Over };
         let regular = batch.begin(lane, &state, &start.parameters) == LaneStatus::Underway;
-        if !regular
-            || too_late(start.time).is_some()
-            || self.plan.count == Some(0)
-            || self.plan.until == Some(state.time)
-        {
+        if !regular || self.plan.count == Some(0) || self.plan.until == Some(state.time) {
             return OrbitCourse::Over;
         }
         self.here.copy_from(batch.state(lane));
@@ -138,6 +134,11 @@ impl OrbitsTogether<'_> {
     fn follow(&mut self, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
         let Some(own) = &mut self.lanes[lane] else { return OrbitCourse::Over };
         own.steps += 1;
+        let (begin, end) = batch.interval(lane);
+        // the orbit alone says why
+        if own.steps == 1 && too_coarse(end, end - begin).is_some() {
+            return OrbitCourse::Over;
+        }
         loop {
             let event = match batch.next_event(lane, &mut self.here) {
                 // the orbit alone says what is wrong
@@ -157,7 +158,6 @@ impl OrbitsTogether<'_> {
                 return self.complete(lane);
             }
         }
-        let (begin, end) = batch.interval(lane);
         if let Some(until) = self.plan.until {
             return if end >= until { self.complete(lane) } else { OrbitCourse::Until(until) };
         }

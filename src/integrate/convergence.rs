@@ -4,7 +4,7 @@
 //! rounding. Fewer passes would leave an error of the same sign at every step. A number may rest for a pass while what it
 //! depends on still moves, as at a turning point; when it moves on, it no longer counts as at rest.
 //!
-//! In and out: nothing. Never here: the iteration.
+//! In: the movements of a number. Out: whether it has come to rest. Never here: the iteration.
 //!
 //! Source: E. Hairer, R. McLachlan, A. Razakarivony, BIT Numerical Mathematics 48 (2008) 231.
 
@@ -18,16 +18,17 @@ pub(super) const SMALL: f64 = 1e-9;
 /// … or, checked after every so many passes, by less than this multiple of the rounding of its
 /// rate.
 pub(super) const PATIENCE: usize = 12;
+const _: () = assert!(PASSES.is_multiple_of(PATIENCE), "passes are made by so many");
 pub(super) const ROUNDINGS: f64 = 64.0;
 
 /// A number that has come to rest moves on if it moves by more than this multiple of what it moved
 /// by then, or of its last digit.
-pub(super) const RESTLESS: f64 = 4.0;
+pub(super) const RESUMES: f64 = 4.0;
 
 /// The bound of a number that has not come to rest.
-pub(super) const AFOOT: f64 = -1.0;
+pub(super) const MOVING: f64 = -1.0;
 
-/// The bound of a number after a pass in which it `moved`: the movement up to which it has come to rest, or [`AFOOT`].
+/// The bound of a number after a pass in which it `moved`: the movement up to which it has come to rest, or [`MOVING`].
 /// `before` is its movement two passes before, as positions and momenta may shrink alternately; infinite where there was
 /// none. `small` is a movement that may be rounding, `size` that of the number.
 #[expect(
@@ -38,8 +39,8 @@ pub(super) const AFOOT: f64 = -1.0;
 pub(super) fn bound_after(bound: f64, moved: f64, before: f64, small: f64, size: f64) -> f64 {
     let level = (moved >= before) & (moved <= small);
     let digit = f64::EPSILON * size;
-    let most = RESTLESS * if digit > moved { digit } else { moved };
-    let settled = if (moved == 0.0) | level { most } else { AFOOT };
-    let rests = if moved > bound { AFOOT } else { bound };
+    let most = RESUMES * if digit > moved { digit } else { moved };
+    let settled = if (moved == 0.0) | level { most } else { MOVING };
+    let rests = if moved > bound { MOVING } else { bound };
     if bound < 0.0 { settled } else { rests }
 }

@@ -13,7 +13,7 @@
 //! Sources: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, II.1.3, VI.1.1,
 //! VIII.6; E. Hairer, R. McLachlan, A. Razakarivony, BIT Numerical Mathematics 48 (2008) 231.
 
-use super::convergence::{AFOOT, PASSES, PATIENCE, RESTLESS, ROUNDINGS, SMALL, bound_after};
+use super::convergence::{MOVING, PASSES, PATIENCE, RESUMES, ROUNDINGS, SMALL, bound_after};
 use super::fixed::Scheme;
 use super::method::{Method, MethodError};
 use super::roundoff;
@@ -78,7 +78,7 @@ impl Implicit {
             stages: zeros.clone(),
             moves: zeros.clone(),
             moves_before: zeros.clone(),
-            resting: vec![AFOOT; s * n],
+            resting: vec![MOVING; s * n],
             largest: [f64::INFINITY; 2],
             noise: vec![0.0; n],
             sizes: vec![0.0; n],
@@ -146,7 +146,7 @@ impl Implicit {
         self.place(step, state);
         std::mem::swap(&mut self.moves, &mut self.moves_before);
         let (rest, largest) = vectorized(Movements { scheme: self, count, step });
-        let level = largest >= self.largest[0] || largest <= RESTLESS * f64::EPSILON;
+        let level = largest >= self.largest[0] || largest <= RESUMES * f64::EPSILON;
         self.largest = [self.largest[1], largest];
         Ok(rest && level)
     }
@@ -170,6 +170,7 @@ impl Implicit {
     fn advance_in_lanes(&mut self, step: f64, state: &mut State) -> Result<bool, MotionError> {
         let Some(mut lanes) = self.lanes.take_if(|lanes| lanes.suit()) else { return Ok(false) };
         let outcome = self.advance_by(&mut lanes, step, state);
+        self.contiguous &= outcome.is_ok();
         self.lanes = Some(lanes);
         outcome
     }
@@ -180,8 +181,10 @@ impl Implicit {
         step: f64,
         state: &mut State,
     ) -> Result<bool, MotionError> {
-        if self.contiguous && !self.in_lanes {
-            return Ok(false);
+        match (self.contiguous, self.in_lanes) {
+            (true, true) => lanes.keep_slopes(),
+            (true, false) => lanes.set_slopes_before(&self.slopes),
+            (false, _) => {}
         }
         self.noise.fill(0.0);
         lanes.begin(step, state, self.contiguous);
@@ -219,7 +222,7 @@ impl Implicit {
 
     fn solve(&mut self, step: f64, state: &State) -> Result<(), MotionError> {
         self.noise.fill(0.0);
-        self.resting.fill(AFOOT);
+        self.resting.fill(MOVING);
         self.largest = [f64::INFINITY; 2];
         self.place(step, state);
         for count in 1..=PASSES {

@@ -1,10 +1,10 @@
 //! The stages of an implicit Runge–Kutta method side by side, a stage in each lane.
 //!
 //! In: a tableau, the rates, a state, a step. Out: the state after the step that [`Implicit`](super::implicit::Implicit)
-//! computes stage by stage, to the last bit. Never here: programs that are no list of instructions, numbers that leave
-//! the range of `f64`, iterations that do not converge: these are told apart and left to the stages one by one.
+//! computes stage by stage, to the last bit. Never here: programs that cannot be written as a list, numbers that leave
+//! the range of `f64`, iterations that do not converge: these are detected and left to the stages one by one.
 
-use super::convergence::{AFOOT, PATIENCE, RESTLESS, ROUNDINGS, SMALL, bound_after};
+use super::convergence::{MOVING, PATIENCE, RESUMES, ROUNDINGS, SMALL, bound_after};
 use super::tableau::Tableau;
 use crate::num::{Analytic, Batch, BatchDouble, Kernel, vectorized};
 use crate::system::{Rates, STAGES, StageRates, Stages, State};
@@ -47,10 +47,10 @@ struct Iteration {
 
 /// At first no movement is as large as two passes before.
 const AT_FIRST: Iteration =
-    Iteration { moved: [Batch([f64::INFINITY; STAGES]); 2], resting: Batch([AFOOT; STAGES]) };
+    Iteration { moved: [Batch([f64::INFINITY; STAGES]); 2], resting: Batch([MOVING; STAGES]) };
 
 impl StageLanes {
-    /// `None` where there are too many stages, and where the rates are no list.
+    /// `None` where there are too many stages, and where the rates cannot be written as a list.
     pub(super) fn new(rates: &Rates, tableau: &Tableau, held: &[bool]) -> Option<StageLanes> {
         let stages = tableau.nodes.len();
         let rates = rates.of_stages(stages)?;
@@ -92,6 +92,23 @@ impl StageLanes {
                 out[i] = slope.0[stage];
             }
         }
+    }
+
+    /// Sets the slopes of a step before that was taken stage by stage, one stage after the other.
+    pub(super) fn set_slopes_before(&mut self, slopes: &[f64]) {
+        let n = slopes.len() / self.matrix.len();
+        for (&i, before) in self.places.iter().zip(&mut self.before) {
+            *before = Stages::splat(slopes[i]);
+            for (stage, slopes) in slopes.chunks_exact(n).enumerate() {
+                before.0[stage] = slopes[i];
+            }
+        }
+    }
+
+    /// Keeps the slopes of a step before that was taken side by side.
+    pub(super) fn keep_slopes(&mut self) {
+        let (_, slopes) = self.rates.moving();
+        self.before.copy_from_slice(slopes);
     }
 
     /// Begins a step: the stages from the slopes of the step before if this one is `contiguous`, or else from the slope
@@ -178,12 +195,11 @@ impl Kernel for Begin<'_> {
             rates.set_number(i, Stages::splat(state.values[i] + state.carry[i]));
         }
         let (numbers, slopes) = rates.moving();
-        before.copy_from_slice(slopes);
         for (k, &i) in places.iter().enumerate() {
             numbers[k] = if held[k] {
                 Stages::splat(state.values[i])
             } else {
-                let slope = if contiguous { combine(onward, slopes[k]) } else { slopes[k] };
+                let slope = if contiguous { combine(onward, before[k]) } else { slopes[k] };
                 stages_of(combine_leading(matrix, slope), step, state, i)
             };
         }
@@ -242,7 +258,7 @@ impl Kernel for Passes<'_> {
                 most = if largest.0[lane] > most { largest.0[lane] } else { most };
             }
             let largest = most;
-            let level = largest >= lanes.largest[0] || largest <= RESTLESS * f64::EPSILON;
+            let level = largest >= lanes.largest[0] || largest <= RESUMES * f64::EPSILON;
             lanes.largest = [lanes.largest[1], largest];
             if level && least_bound.all_reach(Stages::ZERO) {
                 return true;

@@ -1,7 +1,7 @@
 //! A convex polytope around points of space with faces of fixed directions (a discrete orientation polytope): tighter
 //! than a box, and as cheap to widen.
 //!
-//! In: points. Out: how far they reach in any direction, at most an eighth too far for a ball. Never here: the points
+//! In: points. Out: how far they reach in any direction, at most 13 % too far for a ball. Never here: the points
 //! themselves, or what they are.
 
 /// The directions of the faces; each has one opposite to it. They are the axes, the diagonals of the faces of a cube and
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn no_point_lies_beyond_and_a_ball_reaches_an_eighth_too_far_at_most() {
+    fn no_point_lies_beyond_and_a_ball_reaches_thirteen_per_cent_too_far_at_most() {
         let mut ball = OrientationPolytope::EMPTY;
         everywhere(4000).for_each(|point| ball.include(point));
         let reaches: Vec<f64> = everywhere(1000).map(|direction| ball.reach(direction)).collect();

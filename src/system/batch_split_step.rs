@@ -26,7 +26,7 @@ pub struct BatchSplitStep {
 
 impl System {
     /// The steps of a composition with these weights, of several orbits. There are none where steps of
-    /// one orbit are no list, and where an orbit may take another course than its
+    /// one orbit cannot be written as a list, and where an orbit may take another course than its
     /// neighbours.
     pub fn batch_split_step(&self, weights: &[f64]) -> Option<BatchSplitStep> {
         let (drift, kick) = self.split_rates()?;

@@ -26,7 +26,7 @@ pub(super) struct RatesList<R> {
 
 impl<R: StageNumber> RatesList<R> {
     /// The list of a program, whose outputs are the rates of the numbers with these indices in a state of `count`. Returns
-    /// `None` where the program is no list. The parameters must be set before the first evaluation.
+    /// `None` where the program cannot be written as a list. The parameters must be set before the first evaluation.
     pub(super) fn new(
         (program, places): (&Arc<Program>, &[usize]),
         count: usize,

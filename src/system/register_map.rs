@@ -84,7 +84,7 @@ impl RegisterMap {
         let factors = take_products(&program, &mut needed);
         let mut places: Vec<Option<u8>> = vec![None; program.ops.len()];
         for (i, &r) in program.inputs.iter().enumerate() {
-            places[r as usize] = Some(self.numbers.get(i).copied().unwrap_or_default());
+            places[r as usize] = Some(*self.numbers.get(i)?);
         }
         let mut copies = Vec::new();
         let mut moved = Vec::new();
@@ -121,7 +121,7 @@ impl RegisterMap {
                 *place = Some(self.room_for_one()?);
             }
             if program.fixed[r] {
-                self.fixed.push((own, r as Register, place.unwrap_or_default()));
+                self.fixed.push((own, r as Register, (*place)?));
             }
         }
         let places: Vec<u8> = places.into_iter().map(Option::unwrap_or_default).collect();

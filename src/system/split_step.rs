@@ -24,7 +24,7 @@ pub struct SplitStep {
 
 impl SplitStep {
     /// The steps of the rates under T alone and under V alone, with these weights. Returns `None`
-    /// where they are no list.
+    /// where they cannot be written as a list.
     pub fn new(drift: &Rates, kick: &Rates, weights: &[f64]) -> Option<SplitStep> {
         let stages = StageList::new(drift, kick, weights)?;
         let registers = Registers::of(&stages.map);

@@ -1,7 +1,7 @@
 //! The rates of a motion at all stages of a step at once, a stage in each lane.
 //!
 //! In: times and numbers of the stages. Out: their rates, with the bits that each stage has by itself. Never here: which
-//! stages, programs that are no list of instructions.
+//! stages, programs that cannot be written as a list.
 
 use super::rates::Rates;
 use super::rates_list::RatesList;
@@ -23,7 +23,7 @@ pub struct StageRates {
 
 impl Rates {
     /// The same rates for so many stages side by side; lanes without a stage must repeat the first. There are none where
-    /// velocities have to be solved for, where the program is no list, and for more than [`STAGES`].
+    /// velocities have to be solved for, where the program cannot be written as a list, and for more than [`STAGES`].
     pub fn of_stages(&self, count: usize) -> Option<StageRates> {
         let possible = self.is_direct() && (1..=STAGES).contains(&count);
         let mut list =
