@@ -175,6 +175,7 @@ impl Rates {
         if let (true, Some(list)) = (std::mem::take(&mut self.by_list), &mut self.list) {
             let numbers: Vec<f64> = (0..self.program.inputs()).map(|i| *list.number(i)).collect();
             let outcome = self.values.evaluate(list.time(), &numbers);
+            // an error would be a singular matrix, where the list has no finite rates
             debug_assert!(outcome.is_ok(), "the list found finite rates there");
         }
         self.values.sides()
