@@ -574,3 +574,29 @@ fn an_accuracy_may_be_asked_for_by_name() {
     assert_eq!(refused.code, 2);
     assert!(refused.stderr.contains("`fast` and `exact`"), "{}", refused.stderr);
 }
+
+/// Across a kink a force has no slope: what starts on it is judged by the side it moves to.
+#[test]
+fn stability_is_judged_beside_a_kink() {
+    let unstable = |method: &str, velocity: &str, law: &str| {
+        let file = format!(
+            "title = \"K\"\n[coordinates]\nx = {{ initial = 0, velocity = {velocity} }}\n[lagrangian]\n\
+             L = \"1/2*x'^2 - {law}\"\n"
+        );
+        let arguments =
+            ["run", "system.toml", "--until", "0.1", "--step", "0.1", "--method", method];
+        let done = with_file(&file, &arguments);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        done.stderr.contains("is not stable with the step 0.1")
+    };
+    for method in ["rk4", "leapfrog", "symplectic-euler"] {
+        // constant forces on both sides
+        for velocity in ["1", "-1", "1e-9"] {
+            assert!(!unstable(method, velocity, "abs(x)"), "{method} {velocity}");
+        }
+        // a wall of frequency 100 on the left, nothing on the right
+        let wall = "5000*max(0, -x)^2";
+        assert!(unstable(method, "-1", wall), "{method} into the wall");
+        assert!(!unstable(method, "1", wall), "{method} away from the wall");
+    }
+}
