@@ -300,7 +300,8 @@ impl<'a> ClaimedMotion<'a> {
             match self.course.reach(time, limit, &mut self.budget).map_err(Short::MotionError)? {
                 Reached::There => break,
                 Reached::Underway => {
-                    return Err(Short::Long(self.allowed, self.course.state().time));
+                    // the state itself is that of the last sample
+                    return Err(Short::Long(self.allowed, self.course.undisturbed().1));
                 }
                 Reached::Ended => return Err(Short::Ended(self.course.state().time)),
                 // no claim is made of the crossings of a picture
