@@ -303,7 +303,10 @@ impl Gauges {
             let (_, error) = equations.pool.evaluate_with_error(monitor.expression, &at);
             // if the error of the terms is not finite, the value itself is the measure
             let value = now.values[monitor.channel].abs();
-            monitor.measure(if error.is_finite() { error.max(value) } else { value });
+            let error = if error.is_finite() { error.max(value) } else { value };
+            let has_size = || equations.pool.has_size(monitor.expression, &at);
+            let underflows = error < f64::MIN_POSITIVE && has_size();
+            monitor.measure(error, underflows);
         }
     }
 }

@@ -80,6 +80,12 @@ impl Pool {
         }
     }
 
+    /// Whether the value of `e`, or a term of it, is known to differ from 0, however small it is: in numbers that do not
+    /// underflow.
+    pub fn has_size(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> bool {
+        self.enclosure(e, at).is_some_and(|ball| !ball.is_zero())
+    }
+
     /// An enclosure of the value of `e`, or `None` if it has no value or no bound is known.
     pub(super) fn enclosure(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> Option<Ball> {
         self.enclosures(e, 0.0, at)[&e]

@@ -276,3 +276,17 @@ fn a_shipped_system_is_checked_by_its_name() {
     );
     phaselab(&["check", "./harmonic-oscillator"]).fails(2, &["cannot read ./harmonic-oscillator"]);
 }
+
+/// A square of 1e-170 is 0 in `f64`, and x² seems to be constant.
+#[test]
+fn what_underflows_is_not_claimed_to_be_conserved() {
+    let square = |start: &str| {
+        let law = "[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n[[observables]]\nname = \"square\"\n\
+                   expression = \"x^2\"\nconserved = true";
+        with_file(&one(&format!("x = {{ initial = {start} }}"), law), &["check", "system.toml"])
+    };
+    square("1e-170").fails(65, &["`square` cannot be checked: its terms underflow"]);
+    square("1e-100").fails(65, &["`square` is claimed to be conserved, but it is not"]);
+    // 0 is constant
+    assert_eq!(square("0").code, 0);
+}

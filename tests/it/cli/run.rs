@@ -575,6 +575,24 @@ fn an_accuracy_may_be_asked_for_by_name() {
     assert!(refused.stderr.contains("`fast` and `exact`"), "{}", refused.stderr);
 }
 
+/// The energy is 5e-341, which is 0 in `f64`: a drift of it would not be seen.
+#[test]
+fn of_an_energy_that_underflows_no_drift_is_known() {
+    let file = "title = \"Tiny\"\n[coordinates]\nx = { initial = 1e-170 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n";
+    let arguments = ["run", "system.toml", "--until", "20", "--every", "1", "--format", "json"];
+    let Done { code, stdout, stderr } = with_file(file, &arguments);
+    assert_eq!(code, 0, "{stderr}");
+    assert!(
+        stderr.contains("it is not known whether `energy` is conserved: its terms underflow"),
+        "{stderr}"
+    );
+    let object: Value = serde_json::from_str(&stdout).expect("JSON");
+    let energy = &object["invariants"][0];
+    assert_eq!(energy["verdict"], "unknown");
+    assert_eq!(energy["max_drift"], Value::Null);
+    assert_eq!(energy["reason"], "∂L/∂t = 0; its terms underflow");
+}
+
 /// Across a kink a force has no slope: what starts on it is judged by the side it moves to.
 #[test]
 fn stability_is_judged_beside_a_kink() {
