@@ -200,8 +200,7 @@ fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
     match verdict {
         Verdict::Open => "the motion is too short for a verdict".to_owned(),
         Verdict::Unknown => {
-            "not known: its terms are too small for numbers with all their digits (underflow)"
-                .to_owned()
+            "its terms are too small for numbers with all their digits (underflow)".to_owned()
         }
         Verdict::Exact(Growth::Level) => "at the rounding floor, and it stays there".to_owned(),
         Verdict::Exact(Growth::Root) => {
@@ -248,6 +247,7 @@ fn name_and_reason(
     let reason = canvas.text(&number::with_minus_signs(&gauge.reason, canvas.look.glyphs));
     let in_a_word = match (residual, gauge.proved) {
         (true, _) => "residual",
+        _ if gauge.verdict == Verdict::Unknown => "underflow",
         (false, true) => "proved",
         (false, false) => "",
     };
