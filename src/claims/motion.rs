@@ -351,10 +351,9 @@ impl<'a> ClaimedMotion<'a> {
             let Some(channel) = self.system.channel_of(claim.expression) else { continue };
             let value = self.values[channel];
             let (_, size) = equations.pool.evaluate_with_size(claim.expression, &at);
-            let size = if size.is_finite() { size } else { value.abs() };
-            claim.sample(value, size);
             claim.underflows |=
-                size < f64::MIN_POSITIVE && equations.pool.has_size(claim.expression, &at);
+                size < f64::MIN_POSITIVE && equations.pool.underflows(claim.expression, &at);
+            claim.sample(value, if size.is_finite() { size } else { value.abs() });
             claim.refuted |= claim
                 .rate
                 .is_some_and(|e| equations.pool.vanishes_at(e, SLACK, &at) == Some(false));

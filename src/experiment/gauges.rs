@@ -301,11 +301,11 @@ impl Gauges {
         };
         for monitor in &mut self.monitors {
             let (_, error) = equations.pool.evaluate_with_error(monitor.expression, &at);
+            let underflows =
+                error < f64::MIN_POSITIVE && equations.pool.underflows(monitor.expression, &at);
             // if the error of the terms is not finite, the value itself is the measure
             let value = now.values[monitor.channel].abs();
             let error = if error.is_finite() { error.max(value) } else { value };
-            let has_size = || equations.pool.has_size(monitor.expression, &at);
-            let underflows = error < f64::MIN_POSITIVE && has_size();
             monitor.measure(error, underflows);
         }
     }

@@ -351,6 +351,6 @@ fn a_drift_is_not_known_where_every_term_underflows() {
     assert_eq!(along_a_line(1e-153), ["exact", "exact"]);
     assert_eq!(along_a_line(1e-154), ["unknown", "exact"]);
     assert_eq!(along_a_line(1e-170), ["unknown", "exact"]);
-    // at rest in the middle nothing moves, and nothing is lost
+    // at rest in the middle nothing moves, and nothing underflows
     assert_eq!(along_a_line(0.0), ["exact", "exact"]);
 }

@@ -56,7 +56,7 @@ impl Followed {
         };
         let of = |e: Expr| {
             let (value, error) = pool.evaluate_with_error(e, &at);
-            (value, (error, error < f64::MIN_POSITIVE && pool.has_size(e, &at)))
+            (value, (error, error < f64::MIN_POSITIVE && pool.underflows(e, &at)))
         };
         self.monitors.iter().map(|monitor| of(monitor.expression)).collect()
     }
