@@ -14,6 +14,8 @@ pub enum Verdict {
     /// The motion is too short for a verdict: for any, for one on a function of the state that has
     /// not yet returned, or for one on an error that has changed but a few times and may add up.
     Open,
+    /// Not known: its terms underflow, so that no drift of it can be seen.
+    Unknown,
     /// At the rounding floor; contains how the error grows.
     Exact(Growth),
     /// Oscillates without trend, as the energy of a symplectic method does.
@@ -53,10 +55,11 @@ pub enum Growth {
 
 impl Verdict {
     /// The verdict in one to four words, for reports: `exact`, `bounded`, `secular`, `lost`,
-    /// `not conserved`, `open`.
+    /// `not conserved`, `open`, `unknown`.
     pub fn word(&self) -> &'static str {
         match self {
             Verdict::Open => "open",
+            Verdict::Unknown => "unknown",
             Verdict::Exact(_) => "exact",
             Verdict::Bounded => "bounded",
             Verdict::Secular(_) => "secular",

@@ -28,6 +28,8 @@ pub(super) struct Claim {
     pub(super) rate: Option<Expr>,
     /// Whether that rate is nonzero somewhere along the motion.
     pub(super) refuted: bool,
+    /// Whether its terms, which are not 0, were seen below the numbers that have all their digits.
+    pub(super) underflows: bool,
     first: f64,
     size: f64,
     farthest: f64,
@@ -48,6 +50,7 @@ pub(super) fn open_claims(model: &Model, equations: &mut Equations) -> Vec<Claim
             expression,
             rate: rate.filter(|&rate| equations.pool.may_hide(rate)),
             refuted: false,
+            underflows: false,
             first: f64::NAN,
             size: 0.0,
             farthest: 0.0,
@@ -87,6 +90,11 @@ impl Claim {
         if self.first.is_nan() {
             let message = format!("`{name}` is claimed to be conserved, but it is not a number");
             return Some(Diagnostic::error(self.place.clone(), message));
+        }
+        if self.underflows && self.size < f64::MIN_POSITIVE {
+            let message = format!("`{name}` cannot be checked: its terms underflow");
+            let help = "other units make them larger";
+            return Some(Diagnostic::error(self.place.clone(), message).with_help(help));
         }
         if self.farthest <= TOLERANCE * self.size {
             return None;

@@ -300,7 +300,8 @@ impl<'a> ClaimedMotion<'a> {
             match self.course.reach(time, limit, &mut self.budget).map_err(Short::MotionError)? {
                 Reached::There => break,
                 Reached::Underway => {
-                    return Err(Short::Long(self.allowed, self.course.state().time));
+                    // the state itself is that of the last sample
+                    return Err(Short::Long(self.allowed, self.course.undisturbed().1));
                 }
                 Reached::Ended => return Err(Short::Ended(self.course.state().time)),
                 // no claim is made of the crossings of a picture
@@ -350,6 +351,8 @@ impl<'a> ClaimedMotion<'a> {
             let Some(channel) = self.system.channel_of(claim.expression) else { continue };
             let value = self.values[channel];
             let (_, size) = equations.pool.evaluate_with_size(claim.expression, &at);
+            claim.underflows |=
+                size < f64::MIN_POSITIVE && equations.pool.underflows(claim.expression, &at);
             claim.sample(value, if size.is_finite() { size } else { value.abs() });
             claim.refuted |= claim
                 .rate

@@ -128,7 +128,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         return Err(CommandError::Signal(signal));
     }
     let out = Output::open(arguments.output.as_deref(), arguments.format.form())?;
-    let text = written(arguments.format, &systems.turning, &rows, &separatrices);
+    let stopped = interrupt.signal().is_some();
+    let text = written(arguments.format, &systems.turning, (&rows, &separatrices), stopped);
     crowd::write(out, &text, interrupt)?;
     if let Some(signal) = interrupt.signal() {
         return Err(CommandError::Signal(signal));
@@ -331,12 +332,15 @@ fn containing(
     regions.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).copied().into_iter().collect()
 }
 
-/// The table in a format.
+/// Why there are only some of the rows.
+const STOPPED: &str = "stopped by a signal";
+
+/// The table in a format, and whether a signal has stopped it.
 fn written(
     format: TableFormat,
     laid: &Laid,
-    rows: &[ActionRow],
-    separatrices: &[Separatrix],
+    (rows, separatrices): (&[ActionRow], &[Separatrix]),
+    stopped: bool,
 ) -> String {
     let frequency = |row: &ActionRow| match row.kind {
         RegionKind::Unbounded => f64::NAN,
@@ -365,6 +369,8 @@ fn written(
         let separatrices =
             separatrices.iter().map(|s| json!({ "energy": s.energy, "actions": s.actions }));
         members.insert("separatrices".to_owned(), separatrices.collect::<Value>());
+        members.insert("status".to_owned(), if stopped { "stopped" } else { "completed" }.into());
+        members.insert("message".to_owned(), json!(stopped.then_some(STOPPED)));
         return cells::object(&members);
     }
     let names =
@@ -394,12 +400,14 @@ fn written(
         format!("{lead}separatrix at energy {energy}: actions {actions}\n")
     };
     let separatrices = separatrices.iter().map(line).collect::<Vec<_>>().concat();
+    let end = if stopped { format!("{lead}stopped: {STOPPED}\n") } else { String::new() };
     if format == TableFormat::Csv {
         crowd::lead(&laid.header())
             + &separatrices
             + &cells::record(names)
             + &cells::csv(table.iter().map(Vec::as_slice))
+            + &end
     } else {
-        cells::text(&names, &table) + &separatrices
+        cells::text(&names, &table) + &separatrices + &end
     }
 }

@@ -47,9 +47,9 @@ pub(super) struct Invariant {
     #[serde(rename = "final")]
     pub(super) last: f64,
     /// Its greatest distance from the initial value over all steps, relative to the moving part of its terms. The
-    /// jumps of impulses do not count.
+    /// jumps of impulses do not count. Not a number (`null`) where the terms underflow.
     pub(super) max_drift: f64,
-    /// `exact`, `bounded`, `secular`, `lost`, `not conserved`, `open`, `adiabatic`.
+    /// `exact`, `bounded`, `secular`, `lost`, `not conserved`, `open`, `unknown`, `adiabatic`.
     pub(super) verdict: &'static str,
 }
 

@@ -178,7 +178,8 @@ impl MotionState {
             value: gauge.value,
             from: gauge.reference,
             since: gauge.reference_time,
-            max_drift: gauge.max_drift,
+            // where it is not known none has been seen
+            max_drift: if gauge.max_drift.is_nan() { 0.0 } else { gauge.max_drift },
             initial: Some(gauge.initial),
             scale: Some(gauge.scale),
             farthest: Some(gauge.farthest),

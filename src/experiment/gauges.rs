@@ -301,9 +301,12 @@ impl Gauges {
         };
         for monitor in &mut self.monitors {
             let (_, error) = equations.pool.evaluate_with_error(monitor.expression, &at);
+            let underflows =
+                error < f64::MIN_POSITIVE && equations.pool.underflows(monitor.expression, &at);
             // if the error of the terms is not finite, the value itself is the measure
             let value = now.values[monitor.channel].abs();
-            monitor.measure(if error.is_finite() { error.max(value) } else { value });
+            let error = if error.is_finite() { error.max(value) } else { value };
+            monitor.measure(error, underflows);
         }
     }
 }

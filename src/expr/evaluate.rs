@@ -80,6 +80,15 @@ impl Pool {
         }
     }
 
+    /// Whether the value of `e`, which is below the normal numbers in `f64`, is so by underflow: in a wider range it is not
+    /// 0, or its terms, which cancel, are all that small.
+    pub fn underflows(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> bool {
+        let least = i64::from(f64::MIN_EXP);
+        self.enclosure(e, at).is_some_and(|ball| {
+            ball.excludes_zero() || ball.magnitude().is_some_and(|size| size < least)
+        })
+    }
+
     /// An enclosure of the value of `e`, or `None` if it has no value or no bound is known.
     pub(super) fn enclosure(&self, e: Expr, at: &dyn Fn(Symbol) -> f64) -> Option<Ball> {
         self.enclosures(e, 0.0, at)[&e]

@@ -8,7 +8,7 @@ use super::stability::{self, Modes, Unstable};
 use super::step_block::StepBlock;
 use super::stepper::Stepper;
 use crate::num::{Analytic, BATCH, Batch, DoubleDouble, accumulate};
-use crate::system::{Form, MotionError, MotionErrorKind, State, System};
+use crate::system::{Form, KinkSides, MotionError, MotionErrorKind, State, System};
 
 /// Stability is checked after 1, 2, 4, … steps, and then at intervals of this many steps.
 const STEPS_PER_CHECK: u64 = 256;
@@ -48,6 +48,11 @@ pub(super) trait Scheme: Clone + Send {
 
     /// The rates of change at the numbers of a state.
     fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError>;
+
+    /// On which sides of the kinks the rates were last evaluated, for a scheme that has [modes](Scheme::modes).
+    fn sides(&mut self) -> Vec<KinkSides> {
+        Vec::new()
+    }
 }
 
 /// What many steps begin with and write.
@@ -138,7 +143,11 @@ impl<S: Scheme> FixedStep<S> {
         }
         let Some(modes) = self.scheme.modes() else { return };
         let (time, step, moving) = (self.state.time, self.steps.step.high, self.system.moving());
-        let rates = |numbers: &[f64], out: &mut [f64]| self.aside.rates(time, numbers, out).is_ok();
+        let scheme = &mut self.aside;
+        let rates = |numbers: &[f64], out: &mut [f64]| {
+            let outcome = scheme.rates(time, numbers, out);
+            outcome.is_ok().then(|| scheme.sides())
+        };
         let limit = stability::limit(modes, (&self.state.values, moving), step, rates);
         self.unstable = limit.map(|limit| Unstable { time, step: step.abs(), limit });
     }

@@ -10,7 +10,7 @@ use super::fixed::{FixedStep, Scheme, add};
 use super::method::{Method, Preserves, Stepping};
 use super::stability::Modes;
 use crate::num::math;
-use crate::system::{Form, MotionError, Rates, State, System};
+use crate::system::{Form, KinkSides, MotionError, Rates, State, System};
 
 pub(super) const METHOD: Method = Method {
     name: "rk4",
@@ -86,6 +86,10 @@ impl Scheme for RungeKutta {
 
     fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError> {
         self.rates.evaluate(time, numbers, out)
+    }
+
+    fn sides(&mut self) -> Vec<KinkSides> {
+        vec![self.rates.sides()]
     }
 }
 

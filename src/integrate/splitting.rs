@@ -8,7 +8,7 @@
 use super::fixed::{FixedStep, ManySteps, Scheme, add};
 use super::method::{Method, MethodError, Settings, StepperResult};
 use super::stability::{self, Modes};
-use crate::system::{Form, MotionError, Rates, SplitStep, State, System};
+use crate::system::{Form, KinkSides, MotionError, Rates, SplitStep, State, System};
 
 /// What it requires of a system.
 pub(super) const NEEDS: &str = "H = T(p) + V(q, t)";
@@ -128,6 +128,10 @@ impl Scheme for Splitting {
     fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError> {
         self.drift.evaluate(time, numbers, out)?;
         self.kick.evaluate(time, numbers, out)
+    }
+
+    fn sides(&mut self) -> Vec<KinkSides> {
+        vec![self.drift.sides(), self.kick.sides()]
     }
 }
 

@@ -1,6 +1,6 @@
 //! The stability of a fixed step: how a method amplifies small oscillations about the motion.
 //!
-//! The rates are linearised about the motion by differences. Each eigenvalue λ belongs to a mode
+//! The rates are linearised about the motion by differences, of rates on the same side of each kink. Each eigenvalue λ belongs to a mode
 //! e^{λt}, which a method multiplies in a step h by a factor that depends on z = hλ alone. If that
 //! exceeds 1 for a mode that does not grow by itself, the step is too long, and the motion is wrong
 //! whatever its local error.
@@ -13,6 +13,7 @@
 use nalgebra::DMatrix;
 
 use crate::num::{self, math};
+use crate::system::KinkSides;
 
 /// A mode that grows by less than this part in a step counts as constant.
 const GROWS: f64 = 1e-3;
@@ -90,13 +91,21 @@ impl Modes<'_> {
     }
 }
 
+/// Writes the rates at some numbers, and returns on which side of each kink they lie; `None` if there are no rates.
+pub(super) trait RatesWithSides:
+    FnMut(&[f64], &mut [f64]) -> Option<Vec<KinkSides>>
+{
+}
+
+impl<F: FnMut(&[f64], &mut [f64]) -> Option<Vec<KinkSides>>> RatesWithSides for F {}
+
 /// The longest stable step at a state, if `step` is not stable. `rates` gives the rates of the leading
 /// `moving` numbers.
 pub(super) fn limit(
     modes: Modes<'_>,
     (numbers, moving): (&[f64], usize),
     step: f64,
-    rates: impl FnMut(&[f64], &mut [f64]) -> bool,
+    rates: impl RatesWithSides,
 ) -> Option<f64> {
     let matrix = linearised(numbers, moving, step, rates)?;
     // no eigenvalue is larger than a norm
@@ -106,30 +115,66 @@ pub(super) fn limit(
     modes.limit(&num::eigenvalues(matrix), step)
 }
 
+/// The rates at some numbers, and the sides of the kinks these lie on.
+struct Point {
+    rates: Vec<f64>,
+    sides: Vec<KinkSides>,
+}
+
+impl Point {
+    /// Whether there is no kink between two points.
+    fn is_beside(&self, other: &Point) -> bool {
+        self.sides.iter().zip(&other.sides).all(|(a, b)| a.agrees(b))
+    }
+}
+
 /// The rates at a state, linearised, times the step; `None` if there are none.
 fn linearised(
     numbers: &[f64],
     moving: usize,
     step: f64,
-    mut rates: impl FnMut(&[f64], &mut [f64]) -> bool,
+    mut rates: impl RatesWithSides,
 ) -> Option<DMatrix<f64>> {
-    let (mut here, mut there) = (vec![0.0; numbers.len()], vec![0.0; numbers.len()]);
-    if !rates(numbers, &mut here) {
-        return None;
-    }
+    let mut point = |numbers: &[f64]| {
+        let mut out = vec![0.0; numbers.len()];
+        rates(numbers, &mut out).map(|sides| Point { rates: out, sides })
+    };
+    let here = point(numbers)?;
     let mut matrix = DMatrix::zeros(moving, moving);
     let mut moved = numbers.to_vec();
     for (j, &x) in numbers.iter().enumerate().take(moving) {
-        let size = x.abs().max((step * here[j]).abs());
-        moved[j] = x + DIFFERENCE * size;
-        let difference = moved[j] - x;
+        let ahead = step * here.rates[j];
+        let by = DIFFERENCE * x.abs().max(ahead.abs());
         // a number that stays at zero has no size, and no part in the motion
-        if difference.is_normal() && rates(&moved, &mut there) {
-            for (i, (there, here)) in there.iter().zip(&here).enumerate().take(moving) {
-                matrix[(i, j)] = step * ((there - here) / difference);
-            }
+        if !((x + by) - x).is_normal() {
+            continue;
         }
-        moved[j] = x;
+        let mut at = |offset: f64| {
+            moved[j] = x + offset;
+            let place = moved[j];
+            let found = point(&moved);
+            moved[j] = x;
+            found.map(|found| (place, found))
+        };
+        let beside = |(_, other): &(f64, Point)| here.is_beside(other);
+        let near = at(by).filter(beside).or_else(|| at(-by).filter(beside));
+        let mut write = |(from, here): (f64, &Point), (to, there): (f64, &Point)| {
+            let rates = there.rates.iter().zip(&here.rates);
+            for (i, (there, here)) in rates.enumerate().take(moving) {
+                matrix[(i, j)] = step * ((there - here) / (to - from));
+            }
+        };
+        if let Some((place, there)) = &near {
+            write((x, &here), (*place, there));
+            continue;
+        }
+        // on a kink the motion is that of the side it moves to
+        let by = by.copysign(ahead);
+        if let (Some((from, here)), Some((to, there))) = (at(by), at(2.0 * by))
+            && here.is_beside(&there)
+        {
+            write((from, &here), (to, &there));
+        }
     }
     Some(matrix)
 }

@@ -17,7 +17,7 @@ use super::method::{Method, MethodError, Preserves, Stepping};
 use super::splitting;
 use super::stability::Modes;
 use super::tableau;
-use crate::system::{Form, MotionError, Rates, State, System};
+use crate::system::{Form, KinkSides, MotionError, Rates, State, System};
 
 /// What it requires of a system.
 const NEEDS: &str = "momenta";
@@ -96,5 +96,9 @@ impl Scheme for KickDrift {
     fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError> {
         self.drift.evaluate(time, numbers, out)?;
         self.kick.evaluate(time, numbers, out)
+    }
+
+    fn sides(&mut self) -> Vec<KinkSides> {
+        vec![self.drift.sides(), self.kick.sides()]
     }
 }

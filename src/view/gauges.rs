@@ -168,6 +168,7 @@ pub(super) fn in_full(verdict: &Verdict) -> (&'static str, Role) {
 pub(super) fn word(verdict: &Verdict) -> (&'static str, Role) {
     match verdict {
         Verdict::Open => ("…", Role::Dim),
+        Verdict::Unknown => ("unknown", Role::Warn),
         Verdict::Exact(Growth::Level | Growth::Root) => ("exact", Role::Good),
         Verdict::Exact(Growth::Faster) => ("exact", Role::Warn),
         Verdict::Bounded => ("bounded", Role::Good),
@@ -198,6 +199,9 @@ pub(super) fn departed(snapshot: &Snapshot, glyphs: Glyphs) -> Option<(Role, Str
 fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
     match verdict {
         Verdict::Open => "the motion is too short for a verdict".to_owned(),
+        Verdict::Unknown => {
+            "its terms are too small for numbers with all their digits (underflow)".to_owned()
+        }
         Verdict::Exact(Growth::Level) => "at the rounding floor, and it stays there".to_owned(),
         Verdict::Exact(Growth::Root) => {
             "at the rounding floor, growing like √t: as good as rounding allows".to_owned()
@@ -243,6 +247,7 @@ fn name_and_reason(
     let reason = canvas.text(&number::with_minus_signs(&gauge.reason, canvas.look.glyphs));
     let in_a_word = match (residual, gauge.proved) {
         (true, _) => "residual",
+        _ if gauge.verdict == Verdict::Unknown => "underflow",
         (false, true) => "proved",
         (false, false) => "",
     };

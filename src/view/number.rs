@@ -40,6 +40,9 @@ pub fn drift(value: f64, glyphs: Glyphs) -> String {
 
 /// Formats the size of an error in a column: like [`drift`], with one digit if two do not fit.
 pub fn drift_in(value: f64, width: usize, glyphs: Glyphs) -> String {
+    if value.is_nan() {
+        return "unknown".to_owned();
+    }
     if value == 0.0 || !value.is_finite() {
         return format(value, 2, glyphs, false);
     }

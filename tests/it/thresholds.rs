@@ -330,3 +330,27 @@ fn a_drift_is_reported_beyond_a_millionth_of_what_moves() {
     let [below, above] = passed(0.1, 1e-6, 200, |gauge| gauge.left.is_some());
     assert!(below > 0.9e-6 && above < 1.1e-6, "{below} {above}");
 }
+
+/// The words of an oscillator in the plane of this amplitude that moves along a line: those on its energy and on its angular
+/// momentum, whose terms are 0.
+fn along_a_line(amplitude: f64) -> [&'static str; 2] {
+    let text = format!(
+        "title = \"A line\"\n[coordinates]\nx = {{ initial = {amplitude:e} }}\ny = {{ initial = 0 }}\n[lagrangian]\n\
+         L = \"1/2*(x'^2 + y'^2) - 1/2*(x^2 + y^2)\"\n"
+    );
+    let mut experiment = build(&text, |_| {});
+    run(&mut experiment, 50.0);
+    let snapshot = experiment.snapshot();
+    ["energy", "L_z"].map(|name| gauge(&snapshot, name).verdict.word())
+}
+
+/// The energy is half the square of the amplitude: 5e-307 has all its digits, 5e-309 is less than the least normal number.
+#[test]
+fn a_drift_is_not_known_where_every_term_underflows() {
+    assert_eq!(along_a_line(1.0), ["exact", "exact"]);
+    assert_eq!(along_a_line(1e-153), ["exact", "exact"]);
+    assert_eq!(along_a_line(1e-154), ["unknown", "exact"]);
+    assert_eq!(along_a_line(1e-170), ["unknown", "exact"]);
+    // at rest in the middle nothing moves, and nothing underflows
+    assert_eq!(along_a_line(0.0), ["exact", "exact"]);
+}

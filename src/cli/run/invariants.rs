@@ -47,6 +47,21 @@ impl Departure {
     }
 }
 
+/// A line on the conserved quantities whose drift cannot be known; empty if there are none.
+pub(super) fn unknown(gauges: &[Gauge]) -> String {
+    let unknown = gauges.iter().filter(|gauge| gauge.verdict == Verdict::Unknown);
+    let names: Vec<String> = unknown.map(|gauge| format!("`{}`", gauge.name)).collect();
+    if names.is_empty() {
+        return String::new();
+    }
+    format!(
+        "it is not known whether {} is conserved: its terms underflow (below {:.1e} numbers lose their digits); other units \
+         make them larger",
+        names.join(", "),
+        f64::MIN_POSITIVE
+    )
+}
+
 /// A description of the drift.
 fn description(gauge: &Gauge, about: &str) -> String {
     let (name, drift) = (&gauge.name, size(gauge.max_drift));

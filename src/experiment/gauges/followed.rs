@@ -41,15 +41,23 @@ impl Followed {
         Followed { pool: Some(Box::new(pool)), monitors, ..Followed::default() }
     }
 
-    /// Each value with its rounding error in units of ε.
-    fn values(&self, time: f64, values: &[f64], places: &[(Symbol, usize)]) -> Vec<(f64, f64)> {
+    /// Each value, with its rounding error in units of ε and whether it underflows.
+    fn values(
+        &self,
+        time: f64,
+        values: &[f64],
+        places: &[(Symbol, usize)],
+    ) -> Vec<(f64, (f64, bool))> {
         let Some(pool) = &self.pool else { return Vec::new() };
         let at = |symbol: Symbol| match places.iter().find(|(s, _)| *s == symbol) {
             Some(&(_, channel)) => values[channel],
             None if pool.symbol_info(symbol).name == "t" => time,
             None => self.constants.at(symbol),
         };
-        let of = |e: Expr| pool.evaluate_with_error(e, &at);
+        let of = |e: Expr| {
+            let (value, error) = pool.evaluate_with_error(e, &at);
+            (value, (error, error < f64::MIN_POSITIVE && pool.underflows(e, &at)))
+        };
         self.monitors.iter().map(|monitor| of(monitor.expression)).collect()
     }
 
@@ -67,13 +75,18 @@ impl Followed {
         self.constants = constants.clone();
         self.since = time;
         let (values, errors) = self.split(time, values, places);
-        for (monitor, error) in self.monitors.iter_mut().zip(errors) {
+        for (monitor, (error, underflows)) in self.monitors.iter_mut().zip(errors) {
             monitor.refer(time, &values, terms);
-            monitor.measure(error);
+            monitor.measure(error, underflows);
         }
     }
 
-    fn split(&self, time: f64, values: &[f64], places: &[(Symbol, usize)]) -> (Vec<f64>, Vec<f64>) {
+    fn split(
+        &self,
+        time: f64,
+        values: &[f64],
+        places: &[(Symbol, usize)],
+    ) -> (Vec<f64>, Vec<(f64, bool)>) {
         self.values(time, values, places).into_iter().unzip()
     }
 
@@ -94,8 +107,8 @@ impl Followed {
         is_sample: bool,
     ) {
         let (values, errors) = self.split(time, values, places);
-        for (monitor, error) in self.monitors.iter_mut().zip(errors) {
-            monitor.measure(error);
+        for (monitor, (error, underflows)) in self.monitors.iter_mut().zip(errors) {
+            monitor.measure(error, underflows);
             if is_sample {
                 monitor.sample(time, &values, terms, floor);
             } else {

@@ -2,6 +2,8 @@
 //!
 //! In: values, and the size of the moving terms. Out: a [`Gauge`]. Never here: where the values come from.
 
+use std::sync::Arc;
+
 use crate::analysis::{Errors, History, LEFT, LOST, Stretch, Verdict};
 use crate::experiment::{Gauge, Reference};
 use crate::expr::Expr;
@@ -9,6 +11,9 @@ use crate::system::{BatchTerms, TermSums, TermWatch};
 
 /// The name of the gauge that is constant by the law of the energy's change.
 pub(super) const ENERGY_BALANCE: &str = "energy balance";
+
+/// What is said beside the reason of a gauge whose drift cannot be known.
+const UNDERFLOW: &str = "its terms underflow";
 
 /// Constant terms are large from this multiple of the others on: the value, in `f64`, has three digits fewer then than
 /// the sum of the others has.
@@ -45,6 +50,8 @@ pub(super) struct InvariantMonitor {
     at_rest: Vec<f64>,
     /// The greatest error of its value since then, in units of ε.
     rounding: f64,
+    /// Whether terms that are not 0 were seen where their error is less than a normal number.
+    underflows: bool,
     /// The mean size of its moving part.
     moving: Mean,
     /// The greatest distance from the reference since then.
@@ -103,6 +110,7 @@ impl InvariantMonitor {
             last: 0.0,
             at_rest: Vec::new(),
             rounding: 0.0,
+            underflows: false,
             moving: Mean::default(),
             farthest: 0.0,
             worst: 0.0,
@@ -124,6 +132,7 @@ impl InvariantMonitor {
             self.summed(terms).map_or(f64::NAN, |sums| self.rough(sums.value, terms.work()));
         self.at_rest = self.quantity.map_or_else(Vec::new, |quantity| terms.at_rest(quantity));
         self.rounding = 0.0;
+        self.underflows = false;
         self.moving = Mean { time, ..Mean::default() };
         self.farthest = 0.0;
         self.worst = 0.0;
@@ -163,8 +172,9 @@ impl InvariantMonitor {
         }
     }
 
-    /// Records the rounding error of its value, in units of ε.
-    pub(super) fn measure(&mut self, error: f64) {
+    /// Records the rounding error of its value, in units of ε, and whether it is that small by underflow.
+    pub(super) fn measure(&mut self, error: f64, underflows: bool) {
+        self.underflows |= underflows;
         if !self.offset {
             self.widen(error);
         }
@@ -270,6 +280,12 @@ impl InvariantMonitor {
         }
     }
 
+    /// Whether all its terms have always been below the numbers that have all their digits, and not because they are 0: a
+    /// drift would not be seen.
+    fn is_unknown(&self) -> bool {
+        self.underflows && self.rounding < f64::MIN_POSITIVE
+    }
+
     fn drift_of(&self, distance: f64, moving: f64) -> f64 {
         let moving = moving.max(self.moving.value());
         if moving > 0.0 { distance / moving } else { distance / self.rounding }
@@ -311,8 +327,10 @@ impl InvariantMonitor {
         let left = beyond && max_drift > LEFT;
         // what is only supposed to be conserved may change with the motion
         let errors = if self.proved { errors } else { Errors::Accumulated };
+        let is_unknown = self.is_unknown();
         let verdict = match &self.broken {
             Some(law) => Verdict::Broken(law.clone()),
+            None if is_unknown => Verdict::Unknown,
             None if beyond && max_drift > LOST => Verdict::Lost,
             None => match Verdict::of(&self.distances, self.farthest, rounding, errors) {
                 Verdict::Secular(slope) => Verdict::Secular(slope / scale),
@@ -323,7 +341,11 @@ impl InvariantMonitor {
         Gauge {
             name: self.name.clone(),
             shown: self.shown.clone(),
-            reason: self.reason.clone(),
+            reason: if is_unknown {
+                format!("{}; {UNDERFLOW}", self.reason)
+            } else {
+                self.reason.clone()
+            },
             proved: self.proved && self.broken.is_none(),
             value,
             initial: self.initial,
@@ -331,10 +353,15 @@ impl InvariantMonitor {
             farthest: self.farthest,
             reference: self.reference,
             reference_time: since,
-            drift: drift_now,
-            max_drift,
-            left: (left && self.broken.is_none()).then(|| since_when.unwrap_or(since)),
-            history: history.map(|peak| drift(peak) as f32).collect(),
+            drift: if is_unknown { f64::NAN } else { drift_now },
+            max_drift: if is_unknown { f64::NAN } else { max_drift },
+            left: (left && !is_unknown && self.broken.is_none())
+                .then(|| since_when.unwrap_or(since)),
+            history: if is_unknown {
+                Arc::default()
+            } else {
+                history.map(|peak| drift(peak) as f32).collect()
+            },
             verdict,
         }
     }

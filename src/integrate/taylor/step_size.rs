@@ -289,7 +289,6 @@ fn largest(logs: &[f64], own: f64, reciprocals: &[f64], shares: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::integrate::taylor::last_orders::FAINT;
 
     /// A series whose terms grow by a factor from one to the next.
     fn geometric(ratio: f64) -> Vec<f64> {
@@ -383,9 +382,16 @@ mod tests {
         assert!((0.147..0.153).contains(&step), "{step}");
     }
 
+    /// The step of 1 + c t²⁸ is (ε/c)^(1/28), some 6e9, unless c is an underflow.
     #[test]
     fn what_underflow_has_left_shortens_no_step() {
-        // FAINT is far below the last digit of the largest coefficient, and above what underflows
-        const { assert!(FAINT < 1e-250 && FAINT > f64::MIN_POSITIVE) }
+        let step = |last: f64| {
+            let mut series = [0.0; 29];
+            (series[0], series[28]) = (1.0, last);
+            step_of(&series, 1e-17)
+        };
+        let shortened = step(1.1e-290);
+        assert!((1e9..1e10).contains(&shortened), "{shortened}");
+        assert_eq!(step(0.9e-290), f64::INFINITY);
     }
 }

@@ -262,7 +262,7 @@ pub const CLAIMS: [(&str, &str); 10] = [
     ("time NAME = EXPR within EPS", "when it last happened"),
     (
         "verdict NAME WORD",
-        "the verdict on a gauge: `exact`, `bounded`, `secular`, `lost`, `broken`, `open`",
+        "the verdict on a gauge: `exact`, `bounded`, `secular`, `lost`, `broken`, `open`, `unknown`",
     ),
     ("status WORD", "`running`, `paused`, `ended` or `stopped`"),
     ("screen \"TEXT\"", "the text stands on the screen"),
@@ -281,7 +281,7 @@ const MEASURES: [(&str, AssertedNumber); 5] = [
 const STATUS: [Word; 4] = ["running", "paused", "ended", "stopped"];
 
 /// The first words of verdicts.
-const VERDICTS: [Word; 6] = ["exact", "bounded", "secular", "lost", "broken", "open"];
+const VERDICTS: [Word; 7] = ["exact", "bounded", "secular", "lost", "broken", "open", "unknown"];
 
 fn assert(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     Ok(Said::Step(ScriptStep::Assert(claim(line)?)))

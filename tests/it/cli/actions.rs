@@ -44,6 +44,8 @@ fn actions_of_closed_form() {
         near(&rows[0]["period"], period, 2e-14);
         near(&rows[0]["frequency"], 1.0 / period, 2e-15);
         assert_eq!(object["separatrices"], serde_json::json!([]), "{potential}");
+        assert_eq!(object["status"], "completed");
+        assert_eq!(object["message"], serde_json::Value::Null);
     }
 }
 

@@ -199,11 +199,15 @@ fn a_claim_has_a_budget() {
     let stiff = "[lagrangian]\nL = \"1/2*x'^2 - 1e12*x^2\"\n[run]\nuntil = 1e6\n\
                  [[observables]]\nname = \"G\"\nexpression = \"x\"\nconserved = true";
     let file = one("x = { initial = 1 }", stiff);
-    with_file(&file, &["check", "system.toml"]).fails(
-        65,
-        // a third of four million: its law has three parts, 1, x and the force
-        &["`G` cannot be checked: the 1333333 steps that a check may take led only to t = "],
-    );
+    let done = with_file(&file, &["check", "system.toml"]);
+    assert_eq!(done.code, 65);
+    // a third of four million: its law has three parts, 1, x and the force
+    let said = "`G` cannot be checked: the 1333333 steps that a check may take led only to t = ";
+    let (_, rest) = done.stderr.split_once(said).expect("the number of steps");
+    // a step is of the order of 1/w, and the next sample, at t = 5025, is far away
+    let reached: f64 = rest.lines().next().and_then(|time| time.parse().ok()).expect("a time");
+    let step = reached / 1_333_333.0 * 2e12_f64.sqrt();
+    assert!((0.1..100.0).contains(&step), "{reached}");
     let events = "[lagrangian]\nL = \"1/2*x'^2\"\n[run]\nuntil = 1e6\n\
                   [[events]]\nname = \"tick\"\nwhen = \"sin(100*t)\"\n\
                   [expect]\ncount = [{ name = \"tick\", until = 1e6, is = 1 }]";
@@ -271,4 +275,18 @@ fn a_shipped_system_is_checked_by_its_name() {
         &["there is no preset `harmonic-oscilator`; did you mean `harmonic-oscillator`?"],
     );
     phaselab(&["check", "./harmonic-oscillator"]).fails(2, &["cannot read ./harmonic-oscillator"]);
+}
+
+/// A square of 1e-170 is 0 in `f64`, and x² seems to be constant.
+#[test]
+fn what_underflows_is_not_claimed_to_be_conserved() {
+    let square = |start: &str| {
+        let law = "[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n[[observables]]\nname = \"square\"\n\
+                   expression = \"x^2\"\nconserved = true";
+        with_file(&one(&format!("x = {{ initial = {start} }}"), law), &["check", "system.toml"])
+    };
+    square("1e-170").fails(65, &["`square` cannot be checked: its terms underflow"]);
+    square("1e-100").fails(65, &["`square` is claimed to be conserved, but it is not"]);
+    // 0 is constant
+    assert_eq!(square("0").code, 0);
 }

@@ -133,6 +133,19 @@ fn scripts_are_checked() {
     check("Open pendulm\nWait 1s", 2, "did you mean `pendulum`?");
 }
 
+/// The lab has the word and the reason in the gauge, and a script may claim them.
+#[test]
+fn a_script_may_claim_that_a_verdict_is_unknown() {
+    let home = tempfile::tempdir().expect("a folder");
+    let tiny = "title = \"Tiny\"\n[coordinates]\nx = { initial = 1e-170 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n";
+    fs::write(home.path().join("tiny.toml"), tiny).expect("a file");
+    let script = "Open \"tiny.toml\"\nSize 120x40\nWait 30s\nAssert verdict energy unknown\n\
+                  Assert screen \"underflow\"\nAssert screen \"unknown\"\n";
+    fs::write(home.path().join("my.demo"), script).expect("a file");
+    let done = done(program(home.path()).args(["script", "check", "my.demo"]));
+    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+}
+
 #[test]
 fn a_demo_of_its_own_or_a_sentence() {
     let missing = phaselab(&["record", "duffing"]);

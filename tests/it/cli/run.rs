@@ -574,3 +574,47 @@ fn an_accuracy_may_be_asked_for_by_name() {
     assert_eq!(refused.code, 2);
     assert!(refused.stderr.contains("`fast` and `exact`"), "{}", refused.stderr);
 }
+
+/// The energy is 5e-341, which is 0 in `f64`: a drift of it would not be seen.
+#[test]
+fn of_an_energy_that_underflows_no_drift_is_known() {
+    let file = "title = \"Tiny\"\n[coordinates]\nx = { initial = 1e-170 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n";
+    let arguments = ["run", "system.toml", "--until", "20", "--every", "1", "--format", "json"];
+    let Done { code, stdout, stderr } = with_file(file, &arguments);
+    assert_eq!(code, 0, "{stderr}");
+    assert!(
+        stderr.contains("it is not known whether `energy` is conserved: its terms underflow"),
+        "{stderr}"
+    );
+    let object: Value = serde_json::from_str(&stdout).expect("JSON");
+    let energy = &object["invariants"][0];
+    assert_eq!(energy["verdict"], "unknown");
+    assert_eq!(energy["max_drift"], Value::Null);
+    assert_eq!(energy["reason"], "∂L/∂t = 0; its terms underflow");
+}
+
+/// Across a kink a force has no slope: what starts on it is judged by the side it moves to.
+#[test]
+fn stability_is_judged_beside_a_kink() {
+    let unstable = |method: &str, velocity: &str, law: &str| {
+        let file = format!(
+            "title = \"K\"\n[coordinates]\nx = {{ initial = 0, velocity = {velocity} }}\n[lagrangian]\n\
+             L = \"1/2*x'^2 - {law}\"\n"
+        );
+        let arguments =
+            ["run", "system.toml", "--until", "0.1", "--step", "0.1", "--method", method];
+        let done = with_file(&file, &arguments);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        done.stderr.contains("is not stable with the step 0.1")
+    };
+    for method in ["rk4", "leapfrog", "symplectic-euler"] {
+        // constant forces on both sides
+        for velocity in ["1", "-1", "1e-9"] {
+            assert!(!unstable(method, velocity, "abs(x)"), "{method} {velocity}");
+        }
+        // a wall of frequency 100 on the left, nothing on the right
+        let wall = "5000*max(0, -x)^2";
+        assert!(unstable(method, "-1", wall), "{method} into the wall");
+        assert!(!unstable(method, "1", wall), "{method} away from the wall");
+    }
+}

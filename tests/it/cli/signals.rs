@@ -206,14 +206,16 @@ fn a_run_that_is_ended_has_written_its_rows_and_its_end() {
     }
 }
 
-/// A section that is ended has the crossings so far, in an object that is complete.
-#[test]
-fn a_section_that_is_ended_has_what_it_has() {
-    let home = tempfile::tempdir().unwrap();
-    fs::write(home.path().join("system.toml"), PENDULUM).unwrap();
-    let stopped = (0..TRIES).any(|_| {
-        let arguments = ["section", "system.toml", "--on=theta", "--until=1e9", "--format=json"];
-        let mut child = command(home.path(), &arguments).stdout(Stdio::piped()).spawn().unwrap();
+/// Starts a command, ends it by a signal and returns what it has written, once that is `enough`: it is given longer each time.
+fn ended(
+    home: &Path,
+    arguments: &[&str],
+    (by, code): (Signal, i32),
+    enough: impl Fn(&str) -> bool,
+) -> String {
+    let mut time = Duration::from_millis(50);
+    while time < PATIENCE {
+        let mut child = command(home, arguments).stdout(Stdio::piped()).spawn().unwrap();
         let mut out = child.stdout.take().unwrap();
         let reader = thread::spawn(move || {
             let mut text = String::new();
@@ -221,24 +223,36 @@ fn a_section_that_is_ended_has_what_it_has() {
             text
         });
         watching(&mut child);
-        thread::sleep(Duration::from_millis(500));
-        signal(&child, Signal::INT);
-        assert_eq!(end(&mut child), Some(130));
+        thread::sleep(time);
+        signal(&child, by);
+        assert_eq!(end(&mut child), Some(code), "{arguments:?}");
         let text = reader.join().unwrap();
-        let Ok(read) = serde_json::from_str::<serde_json::Value>(&text) else { return false };
-        let orbit = &read["orbits"][0];
-        let crossed = orbit["crossings"].as_u64().is_some_and(|crossings| crossings > 0);
-        if crossed {
-            assert_eq!(orbit["status"], "stopped");
-            assert_eq!(orbit["message"], "stopped by a signal");
-            assert_eq!(read["rows"].as_array().unwrap().len() as u64, orbit["crossings"]);
+        if enough(&text) {
+            return text;
         }
-        crossed
-    });
-    assert!(stopped, "no crossings in {TRIES} tries");
+        time *= 2;
+    }
+    panic!("never enough: {arguments:?}");
 }
 
-/// Actions at so many energies that they take long: those so far are written, in every format.
+/// A section that is ended has the crossings so far, in an object that is complete.
+#[test]
+fn a_section_that_is_ended_has_what_it_has() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("system.toml"), PENDULUM).unwrap();
+    let arguments = ["section", "system.toml", "--on=theta", "--until=1e9", "--format=json"];
+    let read = |text: &str| serde_json::from_str::<serde_json::Value>(text).ok();
+    let crossings = |text: &str| read(text)?["orbits"][0]["crossings"].as_u64();
+    let crossed = |text: &str| crossings(text).is_some_and(|crossings| crossings > 0);
+    let text = ended(home.path(), &arguments, (Signal::INT, 130), crossed);
+    let read = read(&text).unwrap();
+    let orbit = &read["orbits"][0];
+    assert_eq!(orbit["status"], "stopped");
+    assert_eq!(orbit["message"], "stopped by a signal");
+    assert_eq!(read["rows"].as_array().unwrap().len() as u64, orbit["crossings"]);
+}
+
+/// Actions at so many energies that they take long: those so far are written, in every format, with the reason.
 #[test]
 fn actions_that_are_ended_have_the_rows_so_far() {
     let home = tempfile::tempdir().unwrap();
@@ -247,27 +261,18 @@ fn actions_that_are_ended_have_the_rows_so_far() {
     fs::write(home.path().join("system.toml"), text).unwrap();
     let energies: Vec<String> = (1..=10_000).map(|energy| energy.to_string()).collect();
     let energies = format!("--energy={}", energies.join(","));
-    for (format, by, code) in [("csv", Signal::INT, 130), ("json", Signal::TERM, 143)] {
+    let some = |text: &str| !text.is_empty();
+    for (format, by) in [("csv", (Signal::INT, 130)), ("json", (Signal::TERM, 143))] {
         let format = format!("--format={format}");
-        let mut child = command(home.path(), &["actions", "system.toml", &energies, &format])
-            .stdout(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut out = child.stdout.take().unwrap();
-        let reader = thread::spawn(move || {
-            let mut text = String::new();
-            out.read_to_string(&mut text).unwrap();
-            text
-        });
-        watching(&mut child);
-        thread::sleep(Duration::from_secs(1));
-        signal(&child, by);
-        assert_eq!(end(&mut child), Some(code));
-        let text = reader.join().unwrap();
+        let arguments = ["actions", "system.toml", &energies, &format];
+        let text = ended(home.path(), &arguments, by, some);
         let rows = if format == "--format=csv" {
+            assert!(text.ends_with("# stopped: stopped by a signal\n"), "{text}");
             text.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_digit())).count()
         } else {
             let read: serde_json::Value = serde_json::from_str(&text).unwrap();
+            let end = (&read["status"], &read["message"]);
+            assert_eq!(end, (&"stopped".into(), &"stopped by a signal".into()));
             read["rows"].as_array().unwrap().len()
         };
         assert!((1..10_000).contains(&rows), "{rows} rows: {}", &text[..text.len().min(300)]);
