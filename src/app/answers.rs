@@ -29,6 +29,8 @@ pub(super) struct PlotJob {
     pub(super) over: Vec<Variation>,
     pub(super) answer: Option<Answer>,
     pub(super) under_way: Option<UnderWay>,
+    /// Whether the last frame drew its plot: what nobody sees is not carried on.
+    pub(super) is_drawn: bool,
 }
 
 impl PlotJob {
@@ -99,10 +101,14 @@ impl Answers {
         }
     }
 
-    /// Up to when everything that is carried along beside the motion is known; infinite if there is no such thing.
+    /// Up to when everything that is drawn and carried along beside the motion is known; infinite if there is no such thing.
     pub(super) fn known_until(&self) -> f64 {
         let known = |entry: &PlotJob| entry.kind.known_until(entry.answer.as_ref()?);
-        self.entries.iter().filter_map(known).fold(f64::INFINITY, f64::min)
+        self.entries
+            .iter()
+            .filter(|entry| entry.is_drawn)
+            .filter_map(known)
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// Takes in an outcome. Returns whether it was wanted.

@@ -40,18 +40,19 @@ impl Lab {
         let mut wanted: Vec<Computation> = Vec::new();
         for (place, plot) in self.plots.iter().enumerate() {
             let Some(present) = self.present() else { return Vec::new() };
+            let is_drawn = self.drawn.plots.has(place);
             let entry = self.answers.of(plot);
             if entries.iter().any(|entry: &PlotJob| entry.is_of(plot)) {
                 continue;
             }
             if let Some(entry) = entry.filter(|entry| entry.under_way.is_some()) {
-                entries.push(entry.clone());
+                entries.push(PlotJob { is_drawn, ..entry.clone() });
                 continue;
             }
             let answer = entry.and_then(|entry| entry.answer.clone());
             let under_way = match plot.kind.job(plot, &present, answer.as_ref()) {
                 Need::Nothing => continue,
-                Need::Addition(_) if !aside || !self.drawn.plots.has(place) => None,
+                Need::Addition(_) if !aside || !is_drawn => None,
                 Need::Held => None,
                 Need::Job(job) | Need::Addition(job) => {
                     *tickets += 1;
@@ -64,7 +65,7 @@ impl Lab {
             };
             let &Plot { kind, view, .. } = plot;
             let (columns, over) = (plot.columns.clone(), plot.over.clone());
-            entries.push(PlotJob { kind, columns, view, over, answer, under_way });
+            entries.push(PlotJob { kind, columns, view, over, answer, under_way, is_drawn });
         }
         self.answers.entries = entries;
         wanted

@@ -224,6 +224,7 @@ fn object(study: &Study, orbit: &Orbit) -> Map<String, Value> {
     insert("energy", json!(orbit.energy));
     insert("action", json!(orbit.action));
     insert("closure", json!(orbit.closure));
+    insert("closes_to_rounding", json!(orbit.closes_to_rounding));
     insert("multipliers", json!(multipliers(orbit)));
     let exponents = orbit.multipliers.iter().map(|z| orbit.exponent(*z));
     insert("exponents", exponents.chain(std::iter::repeat_n(0.0, orbit.trivial.count())).collect());
@@ -246,7 +247,7 @@ fn text(study: &Study, orbit: &Orbit) -> String {
         text.push_str(&format!("∮ p dq   {action:?}\n"));
     }
     text.push_str(&format!("start    {}\n", start.join(", ")));
-    let only = if orbit.closes_exactly { "" } else { ", more than rounding: only to this digit" };
+    let only = if orbit.closes_to_rounding { "" } else { " (larger than rounding explains)" };
     text.push_str(&format!("closure  {:.1e}{only}\n", orbit.closure));
     text.push_str("\nmultipliers\n");
     let rows = multiplier_rows(orbit);

@@ -93,10 +93,15 @@ pub fn driven_family(
     values: &[f64],
 ) -> Result<Family, DynamicsError> {
     let fixed = Fixed::Period(orbit.period);
-    let multiple = drive(space.parameters()).map(|period| (orbit.period / period).round());
-    // of another period than those of the law there is no multiple to keep
-    let drive = multiple.filter(|multiple| *multiple >= 1.0).map(|multiple| (multiple, drive));
+    let ratio = drive(space.parameters()).map(|period| orbit.period / period);
+    // a period that is not a multiple of the drive's is kept
+    let drive = ratio.filter(is_whole).map(|ratio| (ratio.round(), drive));
     followed(&Continuation { space, method, along, fixed, values, drive }, orbit)
+}
+
+/// Whether a number is a whole one above zero but for rounding.
+fn is_whole(x: &f64) -> bool {
+    x.round() >= 1.0 && (x - x.round()).abs() <= 1e-9 * x
 }
 
 fn followed(continuation: &Continuation<'_>, orbit: &Orbit) -> Result<Family, DynamicsError> {

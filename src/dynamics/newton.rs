@@ -110,7 +110,10 @@ impl Newton<'_> {
         let rates = rates.map(|rate| self.units.rates(&rate));
         let basis = self.basis(state)?;
         let size = self.size(state).max(rates[0].amax() * (period / self.units.time()).min(1.0));
-        let growth = self.units.map(&map.matrix).singular_values().max();
+        let growth = linear::singular_values(&self.units.map(&map.matrix)).ok_or_else(|| {
+            DynamicsError::Unsuited("the map of a period has no finite entries".to_owned())
+        })?;
+        let growth = growth.sizes.max();
         Ok(Circuit {
             miss,
             growth,

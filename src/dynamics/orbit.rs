@@ -50,7 +50,7 @@ pub struct Orbit {
     /// The distance by which it does not close, relative to its size.
     pub closure: f64,
     /// Whether that is no more than rounding, or the tolerance, grown over a period.
-    pub closes_exactly: bool,
+    pub closes_to_rounding: bool,
     /// ∮ p dq, for canonical variables.
     pub action: Option<f64>,
     /// The monodromy matrix.
@@ -91,7 +91,7 @@ impl Orbit {
             period: closed.period,
             energy: space.system().energy(&closed.state, space.parameters())?,
             closure: closed.residual / size.max(f64::MIN_POSITIVE),
-            closes_exactly: closed.is_rounding(),
+            closes_to_rounding: closed.is_rounding(),
             action: loop_action(space, newton.method, &closed.state, closed.period)?,
             state: closed.state.clone(),
             monodromy: circuit.monodromy.clone(),

@@ -2,8 +2,8 @@
 //! to it.
 //!
 //! In: the coordinates at equal intervals of time. Out: frequencies with their errors, in a basis in which all strong lines are
-//! whole combinations; a change of basis leaves it as it is whether they are commensurate, and the common period. Never here:
-//! motions.
+//! whole combinations. Whether they are commensurate, and the common period, do not depend on the basis; the nearest resonance
+//! of small numbers does. Never here: motions.
 
 use std::f64::consts::TAU;
 
@@ -23,9 +23,12 @@ const FITS: f64 = 1e-4;
 /// The error of a frequency, as if what is left were noise, is taken this many times.
 const SIGMAS: f64 = 10.0;
 
-/// The largest denominator that is tried, and the least below which there must be none for a ratio to be called irrational.
+/// The largest denominator that is tried, and the least below which there must be none for a torus not to be called resonant.
 const DENOMINATORS: u32 = 1_000_000;
-const IRRATIONAL: u32 = 200;
+const NO_RESONANCE: u32 = 200;
+
+/// The largest chance at which a ratio that is not known better may be a fraction by accident.
+const CHANCE: f64 = 1e-3;
 
 /// The whole numbers of a resonance that is named.
 const WHOLE: u32 = 12;
@@ -174,7 +177,9 @@ impl Torus {
         let over = if ratios.len() > 1 { "ratios to the first" } else { "ratio to the first" };
         let values = format!("{over} {}", values.join(" and "));
         let denominator = self.least_denominator();
-        if let Some(first) = denominator.filter(|first| *first <= WHOLE) {
+        let doubt = ratios.iter().fold(0.0, |most: f64, (_, doubt)| most.max(*doubt));
+        let is_certain = |first: &u32| doubt * f64::from(first * first) <= CHANCE;
+        if let Some(first) = denominator.filter(|first| *first <= WHOLE && is_certain(first)) {
             let found = self.resonance(first);
             return format!(
                 "lies on a resonant torus: {all} are in the ratio {}, and it closes after {}",
@@ -182,10 +187,10 @@ impl Torus {
                 digits(self.period(&found))
             );
         }
-        let irrational = denominator.is_none_or(|first| first >= IRRATIONAL);
-        let what = if irrational { "an irrational torus" } else { "a torus" };
+        let is_free = denominator.is_none_or(|first| first >= NO_RESONANCE);
+        let what = if is_free { "a torus that is not resonant" } else { "a torus" };
         let mut text = format!("lies on {what}: {all}, {values}");
-        if irrational {
+        if is_free {
             let below = denominator.unwrap_or(DENOMINATORS);
             text.push_str(&format!(
                 ", within which there is no fraction with a denominator below {below}"
@@ -193,7 +198,7 @@ impl Torus {
         }
         if let Some(found) = self.nearest() {
             text.push_str(&format!(
-                ". The nearest resonance of whole numbers up to {WHOLE} is {}, {} away in the ratio, whose orbits close after about {}",
+                ". The nearest resonance of these frequencies of whole numbers up to {WHOLE} is {}, {} away in the ratio, whose orbits close after about {}",
                 found.numbers(),
                 format_args!("{:.1e}", found.off),
                 short(self.period(&found))
@@ -216,4 +221,29 @@ impl Resonance {
 
 fn digits(x: f64) -> String {
     significant(x, 10, 1e-4..1e6)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sentence(ratio: f64, doubt: f64) -> String {
+        let frequencies = vec![(1.0, 0.0), (ratio, doubt / SIGMAS)];
+        Torus { frequencies, is_driven: false }.sentence()
+    }
+
+    /// Within 0.01 every ratio is near a fraction of denominator twelve or less.
+    #[test]
+    fn a_ratio_that_is_hardly_known_is_no_resonance() {
+        assert!(sentence(1.5, 1e-9).starts_with("lies on a resonant torus"));
+        assert!(sentence(1.5, 2.4e-4).starts_with("lies on a resonant torus"));
+        for doubt in [2.6e-4, 1e-2, 0.04, 0.6] {
+            let text = sentence(1.5, doubt);
+            assert!(text.starts_with("lies on a torus: "), "{doubt}: {text}");
+        }
+        let golden = sentence((1.0 + 5.0_f64.sqrt()) / 2.0, 1e-9);
+        assert!(golden.starts_with("lies on a torus that is not resonant"), "{golden}");
+        let golden = sentence((1.0 + 5.0_f64.sqrt()) / 2.0, 0.01);
+        assert!(golden.starts_with("lies on a torus: "), "{golden}");
+    }
 }

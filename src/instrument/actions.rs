@@ -368,7 +368,7 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
     if let Some(last) = computed.replaced.last()
         && let Some(changes) = computed.changes_since(last)
     {
-        lines.push(format!("of these since t = {}, the last ramp:", short(last.time)));
+        lines.push(format!("since the last ramp, at t = {}:", short(last.time)));
         lines.push(changes_in_words(changes));
     }
     lines

@@ -286,7 +286,7 @@ fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
         1.0 => "that of the drive".to_owned(),
         count => format!("{count} × that of the drive"),
     }));
-    if !orbit.closes_exactly {
+    if !orbit.closes_to_rounding {
         lines.push(format!("closes only to {:.0e} of its size", orbit.closure).replace('-', "−"));
     }
     lines.extend(orbit.action.map(|action| format!("action = {}", short(action))));

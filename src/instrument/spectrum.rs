@@ -251,9 +251,10 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     let short = |x: f64| significant(x, 9, 1e-4..1e6).replace('-', "−");
     // no digit beyond the error
     let known = |x: f64, error: f64| {
-        let digits = math::ln(x.abs() / error.abs()) / std::f64::consts::LN_10;
-        let digits = if digits.is_finite() { digits.ceil().clamp(1.0, 9.0) + 1.0 } else { 9.0 };
-        significant(x, (digits as usize).min(9), 1e-4..1e6).replace('-', "−")
+        let place = |x: f64| (math::ln(x.abs()) / std::f64::consts::LN_10).floor();
+        let digits = place(x) - place(error) + 1.0;
+        let digits = if digits.is_finite() { digits.clamp(1.0, 9.0) } else { 9.0 };
+        significant(x, digits as usize, 1e-4..1e6).replace('-', "−")
     };
     let brief = |x: f64| significant(x, 3, 1e-3..1e5).replace('-', "−");
     let unit = match physics.model.time_unit() {

@@ -91,7 +91,7 @@ impl RampForm {
 }
 
 impl Ramped {
-    /// Lets a parameter go its way, one part after the other, from its own value, which stays what it is before the first.
+    /// Makes a parameter follow its schedule, one part after the other, from its own value, which stays what it is before the first.
     pub fn lead(&mut self, pool: &mut Pool, time: Symbol, parameter: Symbol, parts: &[RampPart]) {
         let own = pool.variable(parameter);
         let time = pool.variable(time);
@@ -152,8 +152,11 @@ impl Ramped {
             unit: String::new(),
             about: String::new(),
         };
-        let added = vec![any(rate, 0.618_034), any(second, -0.414_214), any(instant, 0.302_776)];
-        self.instant = Some(instant);
+        let mut added = vec![any(rate, 0.618_034), any(second, -0.414_214)];
+        // the instant is the same for all
+        if self.instant.replace(instant).is_none() {
+            added.push(any(instant, 0.302_776));
+        }
         self.named.push(NamedRamp::of(pool, parameter, parts));
         let [own, rate, second, instant, time] =
             [parameter.symbol, rate, second, instant, time].map(|symbol| pool.variable(symbol));
