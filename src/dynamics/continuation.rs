@@ -95,12 +95,12 @@ pub fn driven_family(
     let fixed = Fixed::Period(orbit.period);
     let ratio = drive(space.parameters()).map(|period| orbit.period / period);
     // a period that is not a multiple of the drive's is kept
-    let drive = ratio.filter(is_whole).map(|ratio| (ratio.round(), drive));
+    let drive = ratio.filter(|ratio| is_whole(*ratio)).map(|ratio| (ratio.round(), drive));
     followed(&Continuation { space, method, along, fixed, values, drive }, orbit)
 }
 
 /// Whether a number is a whole one above zero but for rounding.
-fn is_whole(x: &f64) -> bool {
+fn is_whole(x: f64) -> bool {
     x.round() >= 1.0 && (x - x.round()).abs() <= 1e-9 * x
 }
 

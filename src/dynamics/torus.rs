@@ -241,9 +241,10 @@ mod tests {
             let text = sentence(1.5, doubt);
             assert!(text.starts_with("lies on a torus: "), "{doubt}: {text}");
         }
-        let golden = sentence((1.0 + 5.0_f64.sqrt()) / 2.0, 1e-9);
+        let mean = f64::midpoint(1.0, 5.0_f64.sqrt());
+        let golden = sentence(mean, 1e-9);
         assert!(golden.starts_with("lies on a torus that is not resonant"), "{golden}");
-        let golden = sentence((1.0 + 5.0_f64.sqrt()) / 2.0, 0.01);
+        let golden = sentence(mean, 0.01);
         assert!(golden.starts_with("lies on a torus: "), "{golden}");
     }
 }
