@@ -28,7 +28,8 @@ const COLUMN: &str = "quantity";
 /// The lines of a quantity, the strongest first: found one after the other under a window, polished together,
 /// and named as combinations k·ω of as few fundamental frequencies as the system has. The quantity is taken at
 /// equal intervals from the start; from an angle that advances, its mean advance is subtracted, and its mean rate
-/// (over 2π, the rotation number per unit of time) is given by a weighted average that converges fast. The drift of the strongest frequency, between the halves of the time, measures chaos.
+/// (over 2π, the rotation number per unit of time) is given by a weighted average that converges fast. The drift of the
+/// strongest frequency, between the halves of the time, measures chaos.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

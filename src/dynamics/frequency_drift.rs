@@ -4,7 +4,8 @@
 //! digits of the analysis; in chaos the motion diffuses among tori, and its frequency with it (J. Laskar, Physica D 67 (1993)
 //! 257).
 //!
-//! In: numbers at equal intervals of time, the frequency of their strongest line. Out: that line in both halves. Never here: motions.
+//! In: numbers at equal intervals of time, the frequency of their strongest line. Out: that line in both halves.
+//! Never here: motions.
 
 use super::spectrum::spectrum;
 
@@ -21,8 +22,8 @@ pub struct FrequencyDrift {
     pub first: f64,
     /// In the second.
     pub second: f64,
-    /// What is not known of their difference, as if what the lines of a half leave were noise: much where lines are closer than a half can
-    /// tell apart, and in chaos.
+    /// What is not known of their difference, as if what the lines of a half leave were noise: much where lines are
+    /// closer than a half can tell apart, and in chaos.
     pub error: f64,
 }
 

@@ -103,8 +103,9 @@ impl Orbit {
         })
     }
 
-    /// Greene's residue (2 − tr M)/4, where two multipliers are left and areas across the orbit are preserved: between 0 and 1 the orbit is elliptic, below 0
-    /// hyperbolic, above 1 hyperbolic with reflection (J. M. Greene, J. Math. Phys. 20 (1979) 1183).
+    /// Greene's residue (2 − tr M)/4, where two multipliers are left and areas across the orbit are preserved: between 0
+    /// and 1 the orbit is elliptic, below 0 hyperbolic, above 1 hyperbolic with reflection (J. M. Greene, J. Math. Phys.
+    /// 20 (1979) 1183).
     pub fn residue(&self) -> Option<f64> {
         let across = &self.transverse;
         let preserves = across.nrows() == 2 && (across.determinant() - 1.0).abs() <= ON_CIRCLE;

@@ -47,8 +47,8 @@ pub(super) struct Torus {
     is_driven: bool,
 }
 
-/// The strong lines of a coordinate, each with its part of the size of the coordinate, and the mean rate of an angle; `None` if it is
-/// no sum of lines.
+/// The strong lines of a coordinate, each with its part of the size of the coordinate, and the mean rate of an angle;
+/// `None` if the coordinate is not a sum of lines.
 fn strong_lines(
     signal: &Signal,
     spacing: f64,
