@@ -218,9 +218,11 @@ impl SectionOrbit<'_> {
                 return (OrbitStatus::Completed, None);
             }
             let reached = self.motion.reach(target, limit, &mut STEPS_PER_LOOK.clone());
-            if is_first && self.motion.steps() > begun {
+            let step = self.motion.step_size();
+            // an impulse begins the motion anew, without a step
+            if is_first && self.motion.steps() > begun && step != 0.0 {
                 is_first = false;
-                let (time, step) = (self.motion.computed().time, self.motion.step_size());
+                let time = self.motion.computed().time;
                 if let Some(why) = too_coarse(time, step) {
                     return (OrbitStatus::Faulted, Some(why));
                 }
