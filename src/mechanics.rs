@@ -80,7 +80,7 @@ pub use legendre::{hamiltonian_to_lagrangian, lagrangian_to_hamiltonian};
 pub use poisson_structure::structure_errors;
 pub use report::{
     BodyNumbers, BodyReport, ConservedKind, ConservedReport, ConstraintReport, ImpulseReport,
-    LeftSide, Line, Reaction, Report,
+    LeftSide, Reaction, Report, ReportedEquation,
 };
 pub use rigid_body::{
     COMPONENTS, RigidBody, Tensor, body_constants, body_values, matrix, principal,

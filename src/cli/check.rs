@@ -33,11 +33,11 @@ pub(super) struct Arguments {
     files: Vec<PathBuf>,
     /// How they are reported.
     #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    format: CheckFormat,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
-enum Format {
+enum CheckFormat {
     /// For reading, on standard error.
     #[default]
     Text,
@@ -56,7 +56,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
         let (diagnostics, found) = findings(&document);
         errors += diagnostics.iter().filter(|m| m.severity == Severity::Error).count();
         match arguments.format {
-            Format::Text => {
+            CheckFormat::Text => {
                 stderr::show(&document.report(&diagnostics, stderr::has_colour()));
                 let found = found.filter(|_| diagnostics.is_empty() && stdout().is_terminal());
                 if let Some(found) = found {
@@ -64,10 +64,10 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
                     Output::print(OutputForm::Text, &format!("{name}: no errors; {found}\n"))?;
                 }
             }
-            Format::Json => files.push(object(&document, &diagnostics)),
+            CheckFormat::Json => files.push(object(&document, &diagnostics)),
         }
     }
-    if arguments.format == Format::Json {
+    if arguments.format == CheckFormat::Json {
         Output::print(OutputForm::Json, &format!("{:#}\n", json!({ "files": files })))?;
     }
     match (errors, arguments.files.as_slice()) {

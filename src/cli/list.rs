@@ -22,11 +22,11 @@ Examples:
 pub(super) struct Arguments {
     /// How the list is written.
     #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    format: ListFormat,
 }
 
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
-enum Format {
+enum ListFormat {
     /// For reading.
     #[default]
     Text,
@@ -36,12 +36,12 @@ enum Format {
     Names,
 }
 
-impl Format {
+impl ListFormat {
     /// The form of its output.
     fn form(self) -> OutputForm {
         match self {
-            Format::Text | Format::Names => OutputForm::Text,
-            Format::Json => OutputForm::Json,
+            ListFormat::Text | ListFormat::Names => OutputForm::Text,
+            ListFormat::Json => OutputForm::Json,
         }
     }
 }
@@ -54,13 +54,13 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
         stderr::tell(&format!("{folder} holds too many files; not all of them are listed"));
     }
     let text = match arguments.format {
-        Format::Text => text(catalog.entries()),
-        Format::Names => {
+        ListFormat::Text => text(catalog.entries()),
+        ListFormat::Names => {
             let names: Vec<&str> = catalog.entries().iter().map(|e| e.name.as_str()).collect();
             let names: Vec<_> = names.into_iter().map(printable::line).collect();
             names.join("\n") + "\n"
         }
-        Format::Json => {
+        ListFormat::Json => {
             let presets: Vec<Value> = catalog.entries().iter().map(object).collect();
             format!("{:#}\n", json!({ "presets": presets }))
         }

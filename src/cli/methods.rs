@@ -19,11 +19,11 @@ Examples:
 pub(super) struct Arguments {
     /// How the list is written.
     #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    format: MethodsFormat,
 }
 
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
-enum Format {
+enum MethodsFormat {
     /// For reading.
     #[default]
     Text,
@@ -31,20 +31,20 @@ enum Format {
     Json,
 }
 
-impl Format {
+impl MethodsFormat {
     /// The form of its output.
     fn form(self) -> OutputForm {
         match self {
-            Format::Text => OutputForm::Text,
-            Format::Json => OutputForm::Json,
+            MethodsFormat::Text => OutputForm::Text,
+            MethodsFormat::Json => OutputForm::Json,
         }
     }
 }
 
 pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let text = match arguments.format {
-        Format::Text => METHODS.iter().map(text).collect::<Vec<_>>().join("\n"),
-        Format::Json => {
+        MethodsFormat::Text => METHODS.iter().map(text).collect::<Vec<_>>().join("\n"),
+        MethodsFormat::Json => {
             let methods: Vec<Value> = METHODS.iter().map(object).collect();
             format!("{:#}\n", json!({ "methods": methods }))
         }

@@ -41,7 +41,7 @@ pub(super) struct Arguments {
     size: Option<(u16, u16)>,
     /// What is written.
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t, alias = "cast-version")]
-    format: Format,
+    format: CastFormat,
     /// Takes a still as well: a drawing (.svg), text (.txt), or text with colours (.ans).
     #[arg(long, value_name = "FILE")]
     still: Option<PathBuf>,
@@ -54,7 +54,7 @@ pub(super) struct Arguments {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum CastFormat {
     /// An asciicast of version 3, of asciinema 3.
     #[default]
     #[value(alias = "3")]
@@ -75,7 +75,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let script = Script::read(&source).map_err(|diagnostics| located(&source, &diagnostics))?;
     let name = printable::os(&arguments.name);
     let recording = recorded(&script, &source, &system, &name, arguments.size)?;
-    if arguments.format != Format::Account {
+    if arguments.format != CastFormat::Account {
         hold(&source, &recording)?;
     }
     if let Some(path) = &arguments.still {
@@ -86,14 +86,14 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
         }
     }
     let form = match arguments.format {
-        Format::V3 | Format::V2 => OutputForm::Json,
-        Format::Account => OutputForm::Text,
+        CastFormat::V3 | CastFormat::V2 => OutputForm::Json,
+        CastFormat::Account => OutputForm::Text,
     };
     let mut out = Output::open(arguments.output.as_deref(), form)?;
     let written = match arguments.format {
-        Format::V3 => cast_writer::write(&recording, Version::Three, &mut out).map(|_| ()),
-        Format::V2 => cast_writer::write(&recording, Version::Two, &mut out).map(|_| ()),
-        Format::Account => out.write_all(transcript::write(&recording).as_bytes()),
+        CastFormat::V3 => cast_writer::write(&recording, Version::Three, &mut out).map(|_| ()),
+        CastFormat::V2 => cast_writer::write(&recording, Version::Two, &mut out).map(|_| ()),
+        CastFormat::Account => out.write_all(transcript::write(&recording).as_bytes()),
     };
     written.map_err(|error| out.failed(&error))?;
     out.finish()?;

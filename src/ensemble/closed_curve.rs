@@ -145,7 +145,7 @@ impl ClosedCurve {
     fn wanting(&self) -> (Vec<f64>, bool) {
         let last = self.nodes.first().and_then(|node| node.seen.len().checked_sub(1));
         let parts = last.and_then(|last| {
-            (0..self.panels()).map(|k| self.part(k, last)).collect::<Option<Vec<Part>>>()
+            (0..self.panels()).map(|k| self.part(k, last)).collect::<Option<Vec<PanelIntegral>>>()
         });
         // where a start was lost there is no integral, however many others there are
         let (Some(last), Some(parts)) = (last, parts) else { return (Vec::new(), false) };
@@ -162,8 +162,10 @@ impl ClosedCurve {
         };
         let room = self.panels() as f64 / MOST as f64;
         let tolerance = TOLERANCE * math::powf(UNKNOWN / TOLERANCE, math::powi(room, 4));
-        let want = |(k, part): (usize, &Part)| (part.error / (tolerance * size)).max(length(k));
-        let known = |(k, part): (usize, &Part)| part.error <= UNKNOWN * size && length(k) <= 1.0;
+        let want =
+            |(k, part): (usize, &PanelIntegral)| (part.error / (tolerance * size)).max(length(k));
+        let known =
+            |(k, part): (usize, &PanelIntegral)| part.error <= UNKNOWN * size && length(k) <= 1.0;
         (parts.iter().enumerate().map(want).collect(), parts.iter().enumerate().all(known))
     }
 
@@ -196,7 +198,7 @@ impl ClosedCurve {
     }
 
     /// The part of the integral along a panel; `None` where a node was lost.
-    fn part(&self, panel: usize, time: usize) -> Option<Part> {
+    fn part(&self, panel: usize, time: usize) -> Option<PanelIntegral> {
         let nodes = self.panel(panel);
         let degrees = (self.channels.len() - 2) / 2;
         // around a closed curve it makes no difference what is taken from p, and less is rounded
@@ -213,7 +215,7 @@ impl ClosedCurve {
         let (once, before) = ((4.0 * fine - middle) / 3.0, (4.0 * middle - coarse) / 3.0);
         let value = (16.0 * once - before) / 15.0;
         let size = (0..INTERVALS).map(|i| strip(level, rows[i], rows[i + 1]).abs()).sum();
-        Some(Part { value, error: (value - once).abs(), size })
+        Some(PanelIntegral { value, error: (value - once).abs(), size })
     }
 
     /// The integral around the curve at one of the last times; `None` where a start was lost on the way, or the curve is
@@ -222,7 +224,7 @@ impl ClosedCurve {
         if !self.resolved {
             return None;
         }
-        let parts: Vec<Part> =
+        let parts: Vec<PanelIntegral> =
             (0..self.panels()).map(|panel| self.part(panel, time)).collect::<Option<_>>()?;
         let size: f64 = parts.iter().map(|part| part.size).sum();
         let rounding = f64::EPSILON * size;
@@ -273,7 +275,7 @@ impl ClosedCurve {
 
 /// The part of an integral along a panel, and how far it may be off; the size is that without cancellation.
 #[derive(Clone, Copy)]
-struct Part {
+struct PanelIntegral {
     value: f64,
     error: f64,
     size: f64,

@@ -118,7 +118,7 @@ impl SystemFlow {
                     from,
                     parameters: &self.parameters,
                     times,
-                    sight: Sight::new(&self.system, &self.parameters, channels),
+                    sight: FlowObserver::new(&self.system, &self.parameters, channels),
                     here: State::new(0.0, self.system.form(), Vec::new()),
                     carried: vec![Some(Carried::default()); from.len()],
                     effort: self.effort,
@@ -146,7 +146,7 @@ impl SystemFlow {
             return Ok(None);
         };
         motion.restore(from, &self.parameters, self.start, &[])?;
-        let mut sight = Sight::new(motion.system(), &self.parameters, channels);
+        let mut sight = FlowObserver::new(motion.system(), &self.parameters, channels);
         let last = times.last().copied().unwrap_or(from.time);
         for &time in times {
             loop {
@@ -168,7 +168,7 @@ impl SystemFlow {
 }
 
 /// What is seen of a state.
-struct Sight<'a> {
+struct FlowObserver<'a> {
     observer: Observer,
     channels: &'a [usize],
     /// Whether all channels are columns: those after them are computed only where one is read.
@@ -176,13 +176,13 @@ struct Sight<'a> {
     values: Vec<f64>,
 }
 
-impl Sight<'_> {
-    fn new<'a>(system: &System, parameters: &[f64], channels: &'a [usize]) -> Sight<'a> {
+impl FlowObserver<'_> {
+    fn new<'a>(system: &System, parameters: &[f64], channels: &'a [usize]) -> FlowObserver<'a> {
         let columns = system.columns();
         let leading = channels.iter().all(|&channel| channel < columns);
         let count = if leading { columns } else { system.channels().len() };
         let (observer, values) = (system.observer(parameters), vec![0.0; count]);
-        Sight { observer, channels, leading, values }
+        FlowObserver { observer, channels, leading, values }
     }
 
     fn of(&mut self, state: &State) -> Result<Vec<f64>, MotionError> {
@@ -200,7 +200,7 @@ struct CarriedTogether<'a> {
     from: &'a [Option<&'a State>],
     parameters: &'a [f64],
     times: &'a [f64],
-    sight: Sight<'a>,
+    sight: FlowObserver<'a>,
     here: State,
     /// What becomes of each state; `None` for what has to be carried alone.
     carried: Vec<Option<Carried>>,

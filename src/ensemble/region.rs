@@ -46,15 +46,16 @@ struct RegionScan<'a> {
 }
 
 /// What the energy allows at the nodes of a grid.
-struct Grid {
+struct EnergyGrid {
     window: [[f64; 2]; 2],
     cells: usize,
     allowed: Vec<bool>,
 }
 
-impl Grid {
-    fn of(look: &mut RegionScan<'_>, window: [[f64; 2]; 2], cells: usize) -> Grid {
-        let mut grid = Grid { window, cells, allowed: vec![false; (cells + 1) * (cells + 1)] };
+impl EnergyGrid {
+    fn of(look: &mut RegionScan<'_>, window: [[f64; 2]; 2], cells: usize) -> EnergyGrid {
+        let mut grid =
+            EnergyGrid { window, cells, allowed: vec![false; (cells + 1) * (cells + 1)] };
         for i in 0..=cells {
             for j in 0..=cells {
                 if look.cancel.is_cancelled() {
@@ -137,7 +138,7 @@ impl RegionScan<'_> {
     ) -> Option<[[f64; 2]; 2]> {
         let mut window = window;
         for _ in 0..GROWTHS {
-            let grid = Grid::of(self, window, COARSE);
+            let grid = EnergyGrid::of(self, window, COARSE);
             let extent = grid.extent(&grid.component(near))?;
             let mut whole = true;
             for axis in [0, 1].into_iter().filter(|axis| given[*axis].is_none()) {
@@ -191,7 +192,7 @@ impl Region {
         }
         let open = [0, 1].map(|axis| given[axis].unwrap_or_else(|| wide(around[axis], OPEN)));
         let window = look.grown(window, given, near).unwrap_or(open);
-        let grid = Grid::of(&mut look, window, CELLS);
+        let grid = EnergyGrid::of(&mut look, window, CELLS);
         let nodes = grid.component(near);
         let boundary = boundary(&mut look, &grid);
         Region { window, boundary, nodes }
@@ -221,7 +222,7 @@ fn wide([lo, hi]: [f64; 2], factor: f64) -> [f64; 2] {
 }
 
 /// The boundary of what is allowed: the lines that part the nodes of a grid, exact on its edges.
-fn boundary(look: &mut RegionScan<'_>, grid: &Grid) -> Vec<[[f64; 2]; 2]> {
+fn boundary(look: &mut RegionScan<'_>, grid: &EnergyGrid) -> Vec<[[f64; 2]; 2]> {
     let at = |node: [usize; 2]| grid.allowed[grid.place(node)];
     let mut known: HashMap<[[usize; 2]; 2], [f64; 2]> = HashMap::new();
     let mut segments = Vec::new();

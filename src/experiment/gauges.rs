@@ -21,7 +21,7 @@ use crate::model::{Mechanics, Model};
 use crate::num::BATCH;
 use crate::system::{BatchTerms, ChannelKind, System, TermWatch};
 use followed::Followed;
-use invariant_monitor::{ENERGY_BALANCE, InvariantMonitor, StepEnd, Subject};
+use invariant_monitor::{ENERGY_BALANCE, InvariantMonitor, MonitoredStep, Subject};
 
 /// Rounding errors are measured once per this many samples.
 const MEASURED: u64 = 16;
@@ -257,10 +257,10 @@ impl Gauges {
         ends: impl Iterator<Item = (f64, bool)>,
         terms: &BatchTerms,
     ) {
-        let mut known = [StepEnd { time: 0.0, floor: 0.0, dense: false }; BATCH];
+        let mut known = [MonitoredStep { time: 0.0, floor: 0.0, dense: false }; BATCH];
         let mut count = 0;
         for ((end, (time, dense)), steps) in known.iter_mut().zip(ends).zip(steps..) {
-            *end = StepEnd { time, floor: self.floor(steps), dense };
+            *end = MonitoredStep { time, floor: self.floor(steps), dense };
             count += 1;
         }
         self.monitors.iter_mut().for_each(|monitor| monitor.steps(terms, &known[..count]));

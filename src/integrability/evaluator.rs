@@ -19,7 +19,7 @@ use crate::num::{Number, PrimeField, Residue};
 
 /// One node in terms of those before it.
 #[derive(Clone, Debug)]
-enum Instruction {
+enum NodeOperation {
     Number(Number),
     /// The same residue at every point of a seed: π, and a logarithm or arctangent of a constant.
     Constant,
@@ -60,7 +60,7 @@ struct Angle {
 /// Compiled expressions.
 #[derive(Clone, Debug)]
 pub(super) struct ResidueEvaluator {
-    steps: Vec<Instruction>,
+    steps: Vec<NodeOperation>,
     index: FxHashMap<Expr, usize>,
     /// For each circle, and each unit, whether it is the same at all points.
     circles: Vec<bool>,
@@ -148,11 +148,11 @@ impl ResidueEvaluator {
                 Ok(Angle { parts, quarters })
             };
             let step = match &pool.node(e).clone() {
-                Node::Number(n) => Instruction::Number(*n),
-                Node::Pi => Instruction::Constant,
-                Node::Symbol(s) => Instruction::Symbol(*s),
+                Node::Number(n) => NodeOperation::Number(*n),
+                Node::Pi => NodeOperation::Constant,
+                Node::Symbol(s) => NodeOperation::Symbol(*s),
                 Node::Sum(c, terms) => {
-                    Instruction::Sum(*c, terms.iter().map(|&(c, t)| (c, at(t))).collect())
+                    NodeOperation::Sum(*c, terms.iter().map(|&(c, t)| (c, at(t))).collect())
                 }
                 Node::Product(c, factors) => {
                     let factor = |&(base, n): &(Expr, Number)| {
@@ -160,7 +160,7 @@ impl ResidueEvaluator {
                         let Number::Rational(n, own) = n else { return None };
                         Some((at(base), d, n * (d as i64 / own)))
                     };
-                    Instruction::Product(*c, factors.iter().filter_map(factor).collect())
+                    NodeOperation::Product(*c, factors.iter().filter_map(factor).collect())
                 }
                 Node::Power(..) => {
                     let why =
@@ -168,16 +168,16 @@ impl ResidueEvaluator {
                     return Err(Unsupported(why));
                 }
                 Node::Call(function, u) => match function {
-                    FunctionId::Sin => Instruction::Sine(angle(u[0], pool)?, at(u[0])),
-                    FunctionId::Cos => Instruction::Cosine(angle(u[0], pool)?, at(u[0])),
-                    FunctionId::Exp => Instruction::Exp(units.parts(pool, u[0]), at(u[0])),
-                    FunctionId::Sinh => Instruction::Sinh(units.parts(pool, u[0]), at(u[0])),
-                    FunctionId::Cosh => Instruction::Cosh(units.parts(pool, u[0]), at(u[0])),
+                    FunctionId::Sin => NodeOperation::Sine(angle(u[0], pool)?, at(u[0])),
+                    FunctionId::Cos => NodeOperation::Cosine(angle(u[0], pool)?, at(u[0])),
+                    FunctionId::Exp => NodeOperation::Exp(units.parts(pool, u[0]), at(u[0])),
+                    FunctionId::Sinh => NodeOperation::Sinh(units.parts(pool, u[0]), at(u[0])),
+                    FunctionId::Cosh => NodeOperation::Cosh(units.parts(pool, u[0]), at(u[0])),
                     FunctionId::Ln | FunctionId::Atan if !pool.depends_on_any(e, moving) => {
-                        Instruction::Constant
+                        NodeOperation::Constant
                     }
-                    FunctionId::Ln => Instruction::Ln(at(u[0])),
-                    FunctionId::Atan => Instruction::Atan(at(u[0])),
+                    FunctionId::Ln => NodeOperation::Ln(at(u[0])),
+                    FunctionId::Atan => NodeOperation::Atan(at(u[0])),
                     other => {
                         let name = other.row().name;
                         return Err(Unsupported(format!("no search is made through `{name}`")));
@@ -246,11 +246,11 @@ impl ResidueEvaluator {
         };
         for (i, step) in self.steps.iter().enumerate() {
             values[i] = match step {
-                Instruction::Number(n) => field.number(*n)?,
-                Instruction::Constant => same.residue(&field),
-                Instruction::Ln(_) | Instruction::Atan(_) => random.residue(&field),
-                Instruction::Symbol(s) => at(*s)?,
-                Instruction::Sum(c, terms) => {
+                NodeOperation::Number(n) => field.number(*n)?,
+                NodeOperation::Constant => same.residue(&field),
+                NodeOperation::Ln(_) | NodeOperation::Atan(_) => random.residue(&field),
+                NodeOperation::Symbol(s) => at(*s)?,
+                NodeOperation::Sum(c, terms) => {
                     let mut sum = field.number(*c)?;
                     for &(c, term) in terms {
                         let term = values[term];
@@ -262,7 +262,7 @@ impl ResidueEvaluator {
                     }
                     sum
                 }
-                Instruction::Product(c, factors) => {
+                NodeOperation::Product(c, factors) => {
                     let mut product = field.number(*c)?;
                     for &(base, d, n) in factors {
                         let root = match roots.get(&(base, d)) {
@@ -281,23 +281,23 @@ impl ResidueEvaluator {
                     }
                     product
                 }
-                Instruction::Sine(angle, _) | Instruction::Cosine(angle, _) => {
+                NodeOperation::Sine(angle, _) | NodeOperation::Cosine(angle, _) => {
                     let (sine, cosine) = angle.open(&field, &circles);
                     let (value, companion) = match step {
-                        Instruction::Sine(..) => (sine, cosine),
+                        NodeOperation::Sine(..) => (sine, cosine),
                         _ => (cosine, sine),
                     };
                     companions[i] = companion;
                     value
                 }
-                Instruction::Exp(parts, _) => unit_power(parts)?,
-                Instruction::Sinh(parts, _) | Instruction::Cosh(parts, _) => {
+                NodeOperation::Exp(parts, _) => unit_power(parts)?,
+                NodeOperation::Sinh(parts, _) | NodeOperation::Cosh(parts, _) => {
                     let up = unit_power(parts)?;
                     let down = field.inverse(up)?;
                     let half = field.number(Number::HALF)?;
                     let sinh = field.mul(half, field.sub(up, down));
                     let cosh = field.mul(half, field.add(up, down));
-                    let odd = matches!(step, Instruction::Sinh(..));
+                    let odd = matches!(step, NodeOperation::Sinh(..));
                     companions[i] = if odd { cosh } else { sinh };
                     if odd { sinh } else { cosh }
                 }
@@ -313,7 +313,7 @@ impl ResidueEvaluator {
 
     /// The value of a symbol, zero if it occurs nowhere.
     pub(super) fn symbol_value(&self, point: &SamplePoint, symbol: Symbol) -> Residue {
-        let is = |step: &Instruction| matches!(step, Instruction::Symbol(s) if *s == symbol);
+        let is = |step: &NodeOperation| matches!(step, NodeOperation::Symbol(s) if *s == symbol);
         self.steps.iter().position(is).map_or(Residue::ZERO, |i| point.values[i])
     }
 
@@ -328,16 +328,16 @@ impl ResidueEvaluator {
         for (i, step) in self.steps.iter().enumerate() {
             let (value, companion) = (point.values[i], point.companions[i]);
             rates[i] = match step {
-                Instruction::Number(_) | Instruction::Constant => Residue::ZERO,
-                Instruction::Symbol(s) => seed(*s),
-                Instruction::Sum(_, terms) => {
+                NodeOperation::Number(_) | NodeOperation::Constant => Residue::ZERO,
+                NodeOperation::Symbol(s) => seed(*s),
+                NodeOperation::Sum(_, terms) => {
                     let mut sum = Residue::ZERO;
                     for &(c, term) in terms.iter().filter(|(_, t)| !rates[*t].is_zero()) {
                         sum = field.add(sum, field.mul(field.number(c)?, rates[term]));
                     }
                     sum
                 }
-                Instruction::Product(_, factors) => {
+                NodeOperation::Product(_, factors) => {
                     if factors.iter().all(|&(base, ..)| rates[base].is_zero()) {
                         Residue::ZERO
                     } else {
@@ -352,15 +352,15 @@ impl ResidueEvaluator {
                         field.mul(value, sum)
                     }
                 }
-                Instruction::Sine(_, u) => field.mul(companion, rates[*u]),
-                Instruction::Cosine(_, u) => field.neg(field.mul(companion, rates[*u])),
-                Instruction::Exp(_, u) => field.mul(value, rates[*u]),
-                Instruction::Sinh(_, u) | Instruction::Cosh(_, u) => {
+                NodeOperation::Sine(_, u) => field.mul(companion, rates[*u]),
+                NodeOperation::Cosine(_, u) => field.neg(field.mul(companion, rates[*u])),
+                NodeOperation::Exp(_, u) => field.mul(value, rates[*u]),
+                NodeOperation::Sinh(_, u) | NodeOperation::Cosh(_, u) => {
                     field.mul(companion, rates[*u])
                 }
-                Instruction::Ln(u) if rates[*u].is_zero() => Residue::ZERO,
-                Instruction::Ln(u) => field.mul(rates[*u], field.inverse(point.values[*u])?),
-                Instruction::Atan(u) => {
+                NodeOperation::Ln(u) if rates[*u].is_zero() => Residue::ZERO,
+                NodeOperation::Ln(u) => field.mul(rates[*u], field.inverse(point.values[*u])?),
+                NodeOperation::Atan(u) => {
                     let u2 = field.mul(point.values[*u], point.values[*u]);
                     field.mul(rates[*u], field.inverse(field.add(field.one(), u2))?)
                 }

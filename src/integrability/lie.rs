@@ -108,7 +108,7 @@ pub fn point_symmetries(
         .filter(|s| s.proved)
         .map(|s| (s.time, s.coordinates.clone()))
         .collect();
-    let mut problem = Problem {
+    let mut problem = LieProblem {
         motion: ExplicitMotion::of(pool, time, positions, velocities, here.clone()),
         monomials,
         field: PrimeField::nth(0),
@@ -174,14 +174,14 @@ pub fn point_symmetries(
 }
 
 /// The condition on the coefficients of ξ and η.
-struct Problem {
+struct LieProblem {
     motion: ExplicitMotion,
     monomials: Vec<Expr>,
     field: PrimeField,
     overgeneral: bool,
 }
 
-impl Problem {
+impl LieProblem {
     /// The solutions modulo a prime that are not combinations of the `first` ones, as sparse as they come.
     fn solve(
         &mut self,

@@ -101,7 +101,7 @@ pub fn symmetries(
     let time = equations.symbols.time;
     let (positions, velocities): (Vec<Symbol>, Vec<Symbol>) =
         equations.coordinates.iter().map(|c| (c.position, c.velocity)).unzip();
-    let mut problem = Problem::of(pool, lagrangian, time, positions, velocities);
+    let mut problem = NoetherProblem::of(pool, lagrangian, time, positions, velocities);
     let vectors = problem.solve(pool, is_over)?;
     let mut found: Vec<Symmetry> = Vec::new();
     let generic = law::has_stand_ins(model, equations);
@@ -141,7 +141,7 @@ pub fn symmetries(
 }
 
 /// The condition on the coefficients of ξ, η and f.
-struct Problem {
+struct NoetherProblem {
     time: Symbol,
     positions: Vec<Symbol>,
     velocities: Vec<Symbol>,
@@ -156,14 +156,14 @@ struct Problem {
     overgeneral: bool,
 }
 
-impl Problem {
+impl NoetherProblem {
     fn of(
         pool: &mut Pool,
         lagrangian: Expr,
         time: Symbol,
         positions: Vec<Symbol>,
         velocities: Vec<Symbol>,
-    ) -> Problem {
+    ) -> NoetherProblem {
         let slopes = slopes_of(pool, lagrangian, time, &positions, &velocities);
         let generators = generators_of(pool, lagrangian, time, &positions, &velocities);
         let mut degree = DEGREE;
@@ -172,7 +172,7 @@ impl Problem {
             degree -= 1;
             monomials = products(pool, &generators, degree);
         }
-        Problem {
+        NoetherProblem {
             time,
             positions,
             velocities,
@@ -186,9 +186,9 @@ impl Problem {
     }
 
     /// The same problem with another Lagrangian.
-    fn with(&self, pool: &mut Pool, lagrangian: Expr) -> Problem {
+    fn with(&self, pool: &mut Pool, lagrangian: Expr) -> NoetherProblem {
         let slopes = slopes_of(pool, lagrangian, self.time, &self.positions, &self.velocities);
-        Problem {
+        NoetherProblem {
             lagrangian,
             slopes,
             positions: self.positions.clone(),

@@ -28,12 +28,12 @@ pub(super) struct SignCourse {
     /// The sign at the beginning of the piece; zero for a function that vanishes identically.
     pub(super) side: f64,
     /// The sign changes, in order.
-    pub(super) changes: Vec<SignChange>,
+    pub(super) changes: Vec<PieceSignChange>,
 }
 
 /// A change of sign.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct SignChange {
+pub(super) struct PieceSignChange {
     /// The time after the beginning of the piece.
     pub(super) x: f64,
     /// The sign after it.
@@ -79,12 +79,12 @@ impl StepPolynomial {
         let first = [soon].into_iter().chain(rest.iter().copied()).find(|x| *x != 0.0);
         let side = first.map_or(0.0, f64::signum);
         let found = sign_changes(rest, self.length).filter(|change| change.x > from);
-        let mut changes: Vec<SignChange> = Vec::new();
+        let mut changes: Vec<PieceSignChange> = Vec::new();
         for change in found {
             let side = if change.rises { 1.0 } else { -1.0 };
             match changes.last() {
                 Some(last) if self.only_touches(last.x, change.x) => drop(changes.pop()),
-                _ => changes.push(SignChange { x: change.x, side }),
+                _ => changes.push(PieceSignChange { x: change.x, side }),
             }
         }
         SignCourse { side, changes }

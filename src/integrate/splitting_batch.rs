@@ -17,7 +17,7 @@ const MOST: u64 = 256;
 
 /// One orbit.
 #[derive(Clone)]
-struct Lane {
+struct SplittingLane {
     status: LaneStatus,
     state: State,
     before: State,
@@ -34,7 +34,7 @@ pub(super) struct SplittingBatch {
     /// The lane whose parameters that has.
     aside_of: Option<usize>,
     asked: Option<f64>,
-    lanes: [Lane; BATCH],
+    lanes: [SplittingLane; BATCH],
 }
 
 impl SplittingBatch {
@@ -51,7 +51,7 @@ impl SplittingBatch {
         let weights = (method.leapfrogs)();
         let many = system.batch_split_step(&weights).filter(|_| !weights.is_empty())?;
         let blank = State::new(0.0, Form::Momentum, vec![0.0; system.state_len()]);
-        let lane = Lane {
+        let lane = SplittingLane {
             status: LaneStatus::Empty,
             state: blank.clone(),
             before: blank,

@@ -114,7 +114,7 @@ impl StageLanes {
     /// Begins a step: the stages from the slopes of the step before if this one is `contiguous`, or else from the slope
     /// at its beginning.
     pub(super) fn begin(&mut self, step: f64, state: &State, contiguous: bool) {
-        vectorized(Begin { lanes: self, step, state, contiguous });
+        vectorized(BeginStep { lanes: self, step, state, contiguous });
     }
 
     /// Performs passes from the `first` one on, of which at most [`PATIENCE`]. Returns whether all numbers have converged.
@@ -125,7 +125,7 @@ impl StageLanes {
     /// Ends a step with all digits of the coefficients. Returns false, with the state unchanged, where a number is not
     /// finite.
     pub(super) fn end(&mut self, step: f64, state: &mut State) -> bool {
-        vectorized(End { lanes: self, step, state })
+        vectorized(EndStep { lanes: self, step, state })
     }
 
     /// Whether all stages and their slopes are finite.
@@ -148,40 +148,36 @@ fn stages_of(sum: Stages, step: f64, state: &State, i: usize) -> Stages {
     (sum * step + state.carry[i]) + state.values[i]
 }
 
-/// Σ w f, over the stages: the columns times the slope of each stage.
+/// Σ w f, over the stages: each column times the slope of its stage.
 #[inline(always)]
-fn combine(columns: &[Stages], slopes: Stages) -> Stages {
-    let mut sum = columns[0] * slopes.0[0];
+fn combine<T>(columns: &[T], weights: impl Fn(&T) -> Stages, slopes: Stages) -> Stages {
+    let mut sum = weights(&columns[0]) * slopes.0[0];
     for j in 1..columns.len() {
-        sum = sum + columns[j] * slopes.0[j];
+        sum = sum + weights(&columns[j]) * slopes.0[j];
     }
     sum
 }
 
-/// The same with the leading parts of the columns.
+/// The leading part of a column.
 #[inline(always)]
-fn combine_leading(columns: &[BatchDouble<STAGES>], slopes: Stages) -> Stages {
-    let mut sum = columns[0].high * slopes.0[0];
-    for j in 1..columns.len() {
-        sum = sum + columns[j].high * slopes.0[j];
-    }
-    sum
+fn leading(column: &BatchDouble<STAGES>) -> Stages {
+    column.high
 }
 
 /// Begins a step.
-struct Begin<'a> {
+struct BeginStep<'a> {
     lanes: &'a mut StageLanes,
     step: f64,
     state: &'a State,
     contiguous: bool,
 }
 
-impl Kernel for Begin<'_> {
+impl Kernel for BeginStep<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
-        let Begin { lanes, step, state, contiguous } = self;
+        let BeginStep { lanes, step, state, contiguous } = self;
         let StageLanes { rates, places, others, matrix, onward, held, before, .. } = lanes;
         if !contiguous {
             rates.set_times(Stages::splat(state.time));
@@ -199,8 +195,12 @@ impl Kernel for Begin<'_> {
             numbers[k] = if held[k] {
                 Stages::splat(state.values[i])
             } else {
-                let slope = if contiguous { combine(onward, before[k]) } else { slopes[k] };
-                stages_of(combine_leading(matrix, slope), step, state, i)
+                let slope = if contiguous {
+                    combine(onward, |column| *column, before[k])
+                } else {
+                    slopes[k]
+                };
+                stages_of(combine(matrix, leading, slope), step, state, i)
             };
         }
         lanes.iteration.fill(AT_FIRST);
@@ -233,7 +233,7 @@ impl Kernel for Passes<'_> {
                 let (i, number) = (places[k], &mut numbers[k]);
                 let old = *number;
                 if !held[k] {
-                    *number = stages_of(combine_leading(matrix, slopes[k]), step, state, i);
+                    *number = stages_of(combine(matrix, leading, slopes[k]), step, state, i);
                 }
                 let moved = (*number - old).abs();
                 let size = number.abs().larger((slopes[k] * step).abs());
@@ -269,19 +269,19 @@ impl Kernel for Passes<'_> {
 }
 
 /// Ends a step.
-struct End<'a> {
+struct EndStep<'a> {
     lanes: &'a mut StageLanes,
     step: f64,
     state: &'a mut State,
 }
 
-impl Kernel for End<'_> {
+impl Kernel for EndStep<'_> {
     /// Whether all numbers are finite.
     type Output = bool;
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> bool {
-        let End { lanes, step, state } = self;
+        let EndStep { lanes, step, state } = self;
         let StageLanes { rates, places, matrix, weights, held, .. } = lanes;
         rates.evaluate();
         let (numbers, slopes) = rates.moving();

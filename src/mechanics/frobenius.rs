@@ -12,7 +12,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::equations::{ConstraintRow, Equations};
-use super::modulo::Fixed;
+use super::modulo::Determined;
 use super::potential::potential;
 use super::structure::Holonomy;
 use crate::expr::{Expr, Pool, Symbol, Zero};
@@ -79,8 +79,8 @@ impl Equations {
         let on: Vec<(Symbol, Expr)> = places
             .iter()
             .filter_map(|place| match place {
-                Fixed::Value(q, value) => Some((*q, *value)),
-                Fixed::Square(..) => None,
+                Determined::Value(q, value) => Some((*q, *value)),
+                Determined::Square(..) => None,
             })
             .collect();
         // with other relations between the coordinates a value elsewhere refutes nothing

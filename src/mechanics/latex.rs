@@ -4,7 +4,7 @@
 
 use super::Holonomy;
 use super::further::Further;
-use super::report::{LeftSide, Line, Report};
+use super::report::{LeftSide, Report, ReportedEquation};
 use crate::expr::Symbol;
 
 /// Writes the report as a fragment for LaTeX.
@@ -98,7 +98,7 @@ impl<'a> LatexReport<'a> {
         self.lines.push(format!("{left} &= {right}"));
     }
 
-    fn lines(&mut self, lines: impl IntoIterator<Item = &'a Line>) {
+    fn lines(&mut self, lines: impl IntoIterator<Item = &'a ReportedEquation>) {
         for line in lines {
             self.add(&self.left(line.left), &self.report.equations.pool.latex(line.right));
         }

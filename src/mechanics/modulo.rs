@@ -16,7 +16,7 @@ const WEIGHT_LIMIT: u64 = 4_000;
 const ROUNDS: usize = 4;
 
 /// A coordinate that a holonomic constraint determines.
-pub(super) enum Fixed {
+pub(super) enum Determined {
     /// q equals this expression.
     Value(Symbol, Expr),
     /// q² equals this expression.
@@ -39,13 +39,13 @@ impl Equations {
         let positions = self.fixed_positions();
         for _ in 0..ROUNDS {
             for fixed in &positions {
-                if let Fixed::Value(q, value) = fixed {
+                if let Determined::Value(q, value) = fixed {
                     rest = self.pool.substitute(rest, &HashMap::from([(*q, *value)]));
                 }
             }
             rest = self.pool.numerator(rest);
             for fixed in &positions {
-                if let Fixed::Square(q, value) = fixed {
+                if let Determined::Square(q, value) = fixed {
                     rest = self.pool.with_square(rest, *q, *value);
                 }
             }
@@ -93,14 +93,14 @@ impl Equations {
 
     /// A coordinate for each holonomic constraint that is linear in it, or contains only its
     /// square.
-    pub(super) fn fixed_positions(&mut self) -> Vec<Fixed> {
+    pub(super) fn fixed_positions(&mut self) -> Vec<Determined> {
         let symbols: Vec<Symbol> = self.coordinates.iter().map(|c| c.position).collect();
         let holonomic: Vec<Expr> = self.constraints.iter().filter_map(|c| c.position).collect();
-        let mut fixed: Vec<Fixed> = Vec::new();
+        let mut fixed: Vec<Determined> = Vec::new();
         let mut used: Vec<Symbol> = Vec::new();
         for mut f in holonomic {
             for one in &fixed {
-                if let Fixed::Value(q, value) = one {
+                if let Determined::Value(q, value) = one {
                     f = self.pool.substitute(f, &HashMap::from([(*q, *value)]));
                 }
             }
@@ -113,7 +113,7 @@ impl Equations {
                 if pool.is_zero(curvature) == Zero::Proved && pool.is_zero(slope) == Zero::No {
                     let slope = pool.substitute(slope, &at_zero);
                     let value = pool.div(rest, slope);
-                    return Some(Fixed::Value(q, pool.neg(value)));
+                    return Some(Determined::Value(q, pool.neg(value)));
                 }
                 let curvature = pool.simplify(curvature);
                 let middle = pool.substitute(slope, &at_zero);
@@ -125,10 +125,10 @@ impl Equations {
                 }
                 let value = pool.div(rest, curvature);
                 let minus_two = pool.integer(-2);
-                Some(Fixed::Square(q, pool.mul(minus_two, value)))
+                Some(Determined::Square(q, pool.mul(minus_two, value)))
             });
             if let Some(one) = found {
-                let (Fixed::Value(q, _) | Fixed::Square(q, _)) = one;
+                let (Determined::Value(q, _) | Determined::Square(q, _)) = one;
                 used.push(q);
                 fixed.push(one);
             }

@@ -32,20 +32,20 @@ pub enum LeftSide {
 
 /// A reported equation.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Line {
+pub struct ReportedEquation {
     /// The left-hand side.
     pub left: LeftSide,
     /// The right-hand side.
     pub right: Expr,
 }
 
-impl Line {
-    fn of((left, right): (LeftSide, Expr)) -> Line {
-        Line { left, right }
+impl ReportedEquation {
+    fn of((left, right): (LeftSide, Expr)) -> ReportedEquation {
+        ReportedEquation { left, right }
     }
 
-    fn named(symbol: Symbol, right: Expr) -> Line {
-        Line { left: LeftSide::Symbol(symbol), right }
+    fn named(symbol: Symbol, right: Expr) -> ReportedEquation {
+        ReportedEquation { left: LeftSide::Symbol(symbol), right }
     }
 }
 
@@ -79,7 +79,7 @@ pub struct ImpulseReport<'a> {
     /// The impulse as the file gives it.
     pub impulse: &'a Impulse,
     /// The jumps it causes.
-    pub changes: Vec<Line>,
+    pub changes: Vec<ReportedEquation>,
 }
 
 /// The kind of a conserved quantity.
@@ -125,7 +125,7 @@ pub struct BodyNumbers {
 #[derive(Clone, Debug)]
 pub struct BodyReport {
     /// Mass, centre of mass, inertia.
-    pub lines: Vec<Line>,
+    pub lines: Vec<ReportedEquation>,
     /// The symbols of the principal moments.
     pub moments: [Symbol; 3],
     names: BodyNames,
@@ -141,35 +141,35 @@ pub struct Report<'a> {
     /// The body, if there is one.
     pub body: Option<BodyReport>,
     /// The law: L or H.
-    pub law: Line,
+    pub law: ReportedEquation,
     /// Expressions that must not be negative for the law to hold, although no root of them remains.
     pub domain: Vec<Expr>,
     /// Rayleigh's function, if there is one.
-    pub dissipation: Option<Line>,
+    pub dissipation: Option<ReportedEquation>,
     /// The forces that act in addition to the law.
-    pub forces: Vec<Line>,
+    pub forces: Vec<ReportedEquation>,
     /// The brackets that do not vanish.
-    pub brackets: Vec<Line>,
+    pub brackets: Vec<ReportedEquation>,
     /// The Casimirs, by name.
     pub casimirs: Vec<(&'a str, Expr)>,
     /// The constraints.
     pub constraints: Vec<ConstraintReport<'a>>,
     /// Their multipliers, or why these have no closed form.
-    pub multipliers: Result<Vec<Line>, &'a NoClosedForm>,
+    pub multipliers: Result<Vec<ReportedEquation>, &'a NoClosedForm>,
     /// The forces of the constraints on the coordinates.
     pub reactions: Vec<Reaction>,
     /// The impulses.
     pub impulses: Vec<ImpulseReport<'a>>,
     /// The momenta.
-    pub momenta: Vec<Line>,
+    pub momenta: Vec<ReportedEquation>,
     /// The quantities for which the equations of motion are solved.
     pub rates: Vec<LeftSide>,
     /// The solved equations of motion, or why they have no closed form.
-    pub motion: Result<Vec<Line>, &'a NoClosedForm>,
+    pub motion: Result<Vec<ReportedEquation>, &'a NoClosedForm>,
     /// H, or why it has no closed form.
-    pub hamiltonian: Result<Line, &'a NoClosedForm>,
+    pub hamiltonian: Result<ReportedEquation, &'a NoClosedForm>,
     /// The energy.
-    pub energy: Line,
+    pub energy: ReportedEquation,
     /// The rate of change of the energy.
     pub energy_rate: Expr,
     /// The cyclic coordinates.
@@ -214,15 +214,17 @@ impl<'a> Report<'a> {
             model,
             equations,
             body: BodyReport::of(model, equations),
-            law: Line { left: LeftSide::Letter(name), right: law },
+            law: ReportedEquation { left: LeftSide::Letter(name), right: law },
             domain: widened(model, equations),
             dissipation: (dissipation != Expr::ZERO)
-                .then_some(Line { left: LeftSide::Letter("F"), right: dissipation }),
+                .then_some(ReportedEquation { left: LeftSide::Letter("F"), right: dissipation }),
             forces: forces
-                .map(|(c, &e)| Line::of((LeftSide::Added(letter, c.position), e)))
+                .map(|(c, &e)| ReportedEquation::of((LeftSide::Added(letter, c.position), e)))
                 .collect(),
             brackets: brackets
-                .map(|(i, j, e)| Line::of((LeftSide::Bracket(position(i), position(j)), e)))
+                .map(|(i, j, e)| {
+                    ReportedEquation::of((LeftSide::Bracket(position(i), position(j)), e))
+                })
                 .collect(),
             casimirs: casimirs.iter().map(|(name, e, _)| (name.as_str(), *e)).collect(),
             constraints: constraints
@@ -232,7 +234,10 @@ impl<'a> Report<'a> {
                 })
                 .collect(),
             multipliers: solved.map(|solved| {
-                rows.clone().zip(solved).map(|(row, &e)| Line::named(row.multiplier, e)).collect()
+                rows.clone()
+                    .zip(solved)
+                    .map(|(row, &e)| ReportedEquation::named(row.multiplier, e))
+                    .collect()
             }),
             reactions: rows.flat_map(|row| reactions(equations, row)).collect(),
             impulses: model
@@ -240,16 +245,18 @@ impl<'a> Report<'a> {
                 .iter()
                 .map(|impulse| ImpulseReport::of(model, impulse))
                 .collect(),
-            momenta: momenta.map(|(c, &p)| Line::named(c.momentum, p)).collect(),
+            momenta: momenta.map(|(c, &p)| ReportedEquation::named(c.momentum, p)).collect(),
             motion: motion
-                .map(|solved| rates.iter().copied().zip(solved.iter().copied()).map(Line::of))
+                .map(|solved| {
+                    rates.iter().copied().zip(solved.iter().copied()).map(ReportedEquation::of)
+                })
                 .map(Iterator::collect),
             rates,
             hamiltonian: equations
                 .hamiltonian
                 .as_ref()
-                .map(|&h| Line { left: LeftSide::Letter("H"), right: h }),
-            energy: Line { left: LeftSide::Letter("E"), right: equations.energy },
+                .map(|&h| ReportedEquation { left: LeftSide::Letter("H"), right: h }),
+            energy: ReportedEquation { left: LeftSide::Letter("E"), right: equations.energy },
             energy_rate: equations.energy_rate,
             cyclic: equations.cyclic.iter().map(|&i| position(i)).collect(),
             conserved: conserved(model, equations),
@@ -305,7 +312,7 @@ impl<'a> ImpulseReport<'a> {
         let changes = model.coordinates.iter().zip(&impulse.change);
         let changes = changes.filter(|(_, e)| **e != Expr::ZERO).map(|(c, &e)| {
             let moved = if model.is_poisson() { c.position } else { c.momentum };
-            Line { left: LeftSide::Jump(moved), right: e }
+            ReportedEquation { left: LeftSide::Jump(moved), right: e }
         });
         ImpulseReport { impulse, changes: changes.collect() }
     }
@@ -318,7 +325,7 @@ impl BodyReport {
         let named = [(names.mass, whole.mass)].into_iter();
         let named = named.chain(names.centre.into_iter().zip(whole.centre));
         let named = named.chain(names.inertia.into_iter().zip(whole.inertia));
-        let lines = named.map(|(symbol, e)| Line::named(symbol, e)).collect();
+        let lines = named.map(|(symbol, e)| ReportedEquation::named(symbol, e)).collect();
         Some(BodyReport { lines, moments: names.principal, names })
     }
 

@@ -7,13 +7,13 @@
 use std::collections::HashMap;
 
 use super::equations::Equations;
-use super::modulo::Fixed;
+use super::modulo::Determined;
 use crate::expr::{Expr, FunctionId, Node, Symbol, Zero};
 
 /// What the constraints determine.
 pub(super) struct Restriction {
     velocities: Vec<(Symbol, Expr)>,
-    positions: Vec<Fixed>,
+    positions: Vec<Determined>,
     /// Whether each holonomic constraint determines a coordinate, or its square.
     complete: bool,
 }
@@ -104,14 +104,14 @@ impl Equations {
             rest = self.pool.substitute(rest, &HashMap::from([(*v, *value)]));
         }
         for fixed in &restriction.positions {
-            if let Fixed::Value(q, value) = fixed {
+            if let Determined::Value(q, value) = fixed {
                 rest = self.pool.substitute(rest, &HashMap::from([(*q, *value)]));
             }
         }
         rest = self.pool.numerator(rest);
         let mut curved = Vec::new();
         for fixed in &restriction.positions {
-            if let Fixed::Square(q, value) = fixed {
+            if let Determined::Square(q, value) = fixed {
                 rest = self.pool.with_square(rest, *q, *value);
                 curved.push(*q);
                 curved.extend(self.pool.symbols_of(*value));

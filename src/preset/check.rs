@@ -24,7 +24,7 @@ mod transformation;
 
 use std::collections::BTreeSet;
 
-use super::draft::{Draft, Formula, Law};
+use super::draft::{Draft, Formula, LawTable};
 use crate::cancel::Cancel;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::expr::Expr;
@@ -198,7 +198,7 @@ impl Check<'_> {
         let brackets = brackets.map(|b| b.place.clone()).collect();
         let casimirs = draft.mechanics.iter().flat_map(|m| &m.casimirs);
         let casimirs = casimirs.map(|(name, _)| name.span()).collect();
-        let poisson = draft.law() == Some(Law::Poisson);
+        let poisson = draft.law() == Some(LawTable::Poisson);
         let errors = [
             named(coordinates, 64, if poisson { "variables" } else { "coordinates" }),
             named(parameters, 256, "parameters"),

@@ -34,7 +34,7 @@ pub(super) use claims::{
 };
 pub(super) use constraint::DraftConstraint;
 pub(super) use frame::DraftFrame;
-pub(super) use law::{DraftBracket, DraftMechanics, Law};
+pub(super) use law::{DraftBracket, DraftMechanics, LawTable};
 pub(super) use occurrence::{DraftEvent, DraftImpulse};
 pub(super) use picture::{
     DraftCamera, DraftFollow, DraftSection, DraftShape, DraftShapeKind, DraftView,
@@ -100,7 +100,7 @@ pub(super) struct Draft {
 
 impl Draft {
     /// The law of motion, if one is given.
-    pub(super) fn law(&self) -> Option<Law> {
+    pub(super) fn law(&self) -> Option<LawTable> {
         self.mechanics.first().map(|given| given.law)
     }
 }

@@ -22,8 +22,8 @@ use crate::view::theme::Theme;
 use super::clock::{Micros, SECOND};
 
 pub use command::{CLAIMS, COMMANDS, CommandRow, read_size};
-use line::Line;
 pub use line::LineText;
+use line::ScriptLine;
 
 /// The longest demo in seconds; a script that waits for a day would fill the memory.
 pub const LONGEST: u64 = 3600;
@@ -348,7 +348,7 @@ impl ScriptReading {
 
     /// Reads one line of the text, which begins at this byte.
     fn line(&mut self, text: &str, start: usize) {
-        let mut line = Line::new(text, start);
+        let mut line = ScriptLine::new(text, start);
         let Some(word) = line.word() else { return };
         if let Err(diagnostic) = self.command(&word, &mut line)
             && self.diagnostics.len() < MOST_ERRORS
@@ -357,7 +357,7 @@ impl ScriptReading {
         }
     }
 
-    fn command(&mut self, word: &LineText, line: &mut Line<'_>) -> Result<(), Diagnostic> {
+    fn command(&mut self, word: &LineText, line: &mut ScriptLine<'_>) -> Result<(), Diagnostic> {
         let command = COMMANDS.iter().find(|command| command.name == word.text);
         let command = command.ok_or_else(|| unknown(word))?;
         let parsed = (command.read)(line)?;

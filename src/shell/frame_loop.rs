@@ -129,7 +129,7 @@ pub fn perform(page: &mut impl Screen, pace: FramePace) -> Result<Ending, LabErr
     let terminal = Arc::new(Terminal::open()?);
     panic::guard(&terminal);
     let signals = Signals::watch(Arc::clone(&terminal))?;
-    let guard = Guard(terminal);
+    let guard = RestoreOnDrop(terminal);
     let mut frame_loop = FrameLoop {
         terminal: &guard.0,
         signals,
@@ -155,9 +155,9 @@ pub fn perform(page: &mut impl Screen, pace: FramePace) -> Result<Ending, LabErr
 }
 
 /// Restores the terminal when dropped.
-struct Guard(Arc<Terminal>);
+struct RestoreOnDrop(Arc<Terminal>);
 
-impl Drop for Guard {
+impl Drop for RestoreOnDrop {
     fn drop(&mut self) {
         self.0.leave();
     }

@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use super::compiled::System;
-use super::growth::{Clock, Halt, SeriesBuilder};
+use super::growth::{Halt, SeriesBuilder, SeriesClock};
 use super::jet::Jet;
 use super::program::Op;
 use super::series::unit_below;
@@ -124,7 +124,7 @@ impl BatchSeries {
     /// Builds all series. Returns false if the computation was cancelled.
     #[must_use]
     pub fn build(&mut self) -> bool {
-        let clock = Clock { time: self.start(), scale: self.scale };
+        let clock = SeriesClock { time: self.start(), scale: self.scale };
         match self.builder.grow_plainly(0, clock, self.system.cancel()) {
             Ok(()) | Err(Halt::Singular(_) | Halt::Sticks) => true,
             Err(Halt::Cancelled) => false,

@@ -11,14 +11,14 @@ use crate::num::{Analytic, DoubleDouble, ExtendedRange, Kernel, Real, vectorized
 
 /// The time of the origin, and the unit of time.
 #[derive(Clone, Copy)]
-pub(super) struct Clock<R: Coefficient> {
+pub(super) struct SeriesClock<R: Coefficient> {
     pub(super) time: R,
     pub(super) scale: R::Unit,
 }
 
-impl<R: Real> Clock<R> {
-    pub(super) fn new(time: DoubleDouble, scale: f64) -> Clock<R> {
-        Clock { time: R::of(time), scale }
+impl<R: Real> SeriesClock<R> {
+    pub(super) fn new(time: DoubleDouble, scale: f64) -> SeriesClock<R> {
+        SeriesClock { time: R::of(time), scale }
     }
 }
 
@@ -96,13 +96,13 @@ impl<R: Coefficient> SeriesBuilder<R> {
     pub(super) fn grow_plainly(
         &mut self,
         first: usize,
-        clock: Clock<R>,
+        clock: SeriesClock<R>,
         cancel: &Cancel,
     ) -> Result<(), Halt> {
         vectorized(Grow { builder: self, first, clock, cancel })
     }
 
-    fn extend(&mut self, k: usize, clock: Clock<R>) -> Result<(), Singular> {
+    fn extend(&mut self, k: usize, clock: SeriesClock<R>) -> Result<(), Singular> {
         vectorized(Extend { builder: self, k, clock })
     }
 
@@ -110,7 +110,7 @@ impl<R: Coefficient> SeriesBuilder<R> {
     fn extend_with<const FUSED: bool>(
         &mut self,
         k: usize,
-        clock: Clock<R>,
+        clock: SeriesClock<R>,
     ) -> Result<(), Singular> {
         self.jet.take_in(&self.state, self.inputs, k);
         self.continue_with::<FUSED>(k, clock)
@@ -121,7 +121,7 @@ impl<R: Coefficient> SeriesBuilder<R> {
     fn continue_with<const FUSED: bool>(
         &mut self,
         k: usize,
-        clock: Clock<R>,
+        clock: SeriesClock<R>,
     ) -> Result<(), Singular> {
         self.jet.advance_with::<FUSED>(k, clock.time, clock.scale)?;
         let made = |x: R| x.scaled(clock.scale).over(k + 1);
@@ -130,7 +130,7 @@ impl<R: Coefficient> SeriesBuilder<R> {
     }
 
     /// Computes the highest order of everything but the state.
-    pub(super) fn watch(&mut self, clock: Clock<R>) -> Result<(), Singular> {
+    pub(super) fn watch(&mut self, clock: SeriesClock<R>) -> Result<(), Singular> {
         let k = self.order;
         for i in 0..self.inputs {
             self.jet.set_input(i, k, self.state[i * (k + 1) + k]);
@@ -185,7 +185,7 @@ impl<R: Real> SeriesBuilder<R> {
     pub(super) fn grow(
         &mut self,
         first: usize,
-        clock: Clock<R>,
+        clock: SeriesClock<R>,
         cancel: &Cancel,
     ) -> Result<(), Halt> {
         if self.kept.is_empty() {
@@ -207,7 +207,7 @@ impl<R: Real> SeriesBuilder<R> {
     /// kept switches vanish. The latter depend linearly on the former. Returns for each number how much
     /// the weights balance in its coefficient of order `k + 1`, or nothing where that order is the
     /// last and its weights are not known.
-    fn solve_weights(&mut self, k: usize, clock: Clock<R>) -> Result<Option<Vec<f64>>, Halt> {
+    fn solve_weights(&mut self, k: usize, clock: SeriesClock<R>) -> Result<Option<Vec<f64>>, Halt> {
         let kept = self.kept.clone();
         let n = kept.len();
         if k == 0 {
@@ -286,7 +286,7 @@ impl<R: Real> SeriesBuilder<R> {
     fn probe(
         &mut self,
         k: usize,
-        clock: Clock<R>,
+        clock: SeriesClock<R>,
         kept: &[usize],
         one: Option<usize>,
     ) -> Result<Vec<R>, Singular> {
@@ -313,7 +313,7 @@ impl<R: Real> SeriesBuilder<R> {
 struct Extend<'a, R: Coefficient> {
     builder: &'a mut SeriesBuilder<R>,
     k: usize,
-    clock: Clock<R>,
+    clock: SeriesClock<R>,
 }
 
 impl<R: Coefficient> Kernel for Extend<'_, R> {
@@ -330,7 +330,7 @@ impl<R: Coefficient> Kernel for Extend<'_, R> {
 struct Grow<'a, R: Coefficient> {
     builder: &'a mut SeriesBuilder<R>,
     first: usize,
-    clock: Clock<R>,
+    clock: SeriesClock<R>,
     cancel: &'a Cancel,
 }
 

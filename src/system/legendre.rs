@@ -85,14 +85,14 @@ pub(super) struct Legendre {
     degrees: usize,
     /// (q, native rates).
     state: Vec<DoubleDouble>,
-    newton: Newton,
+    newton: NewtonWorkspace,
     /// Whether solutions are searched for near the guess only.
     pub(super) near_only: bool,
 }
 
 /// What an iteration needs, kept for the next: a landscape takes thousands.
 #[derive(Clone, Debug)]
-struct Newton {
+struct NewtonWorkspace {
     factored: Factored<DoubleDouble>,
     /// The sizes of the terms, at the beginning and at the end of a step, never at a distant trial point.
     scales: [Vec<f64>; 2],
@@ -102,10 +102,10 @@ struct Newton {
     before: Vec<DoubleDouble>,
 }
 
-impl Newton {
-    fn new(unknown: usize) -> Newton {
+impl NewtonWorkspace {
+    fn new(unknown: usize) -> NewtonWorkspace {
         let zeros = vec![DoubleDouble::ZERO; unknown];
-        Newton {
+        NewtonWorkspace {
             factored: Factored::new(unknown),
             scales: [vec![0.0; unknown], vec![0.0; unknown]],
             step: zeros.clone(),
@@ -121,7 +121,14 @@ impl Legendre {
         let degrees = program.inputs() / 2;
         let state = vec![DoubleDouble::ZERO; 2 * degrees];
         let values = Evaluator::new(program);
-        Legendre { native, values, degrees, state, newton: Newton::new(degrees), near_only: false }
+        Legendre {
+            native,
+            values,
+            degrees,
+            state,
+            newton: NewtonWorkspace::new(degrees),
+            near_only: false,
+        }
     }
 
     pub(super) fn set_parameters(&mut self, parameters: &[DoubleDouble]) {
@@ -155,9 +162,9 @@ impl Legendre {
         targets: &[Option<DoubleDouble>],
         unknown: &[usize],
     ) -> Result<f64, LegendreError> {
-        let mut newton = std::mem::replace(&mut self.newton, Newton::new(0));
+        let mut newton = std::mem::replace(&mut self.newton, NewtonWorkspace::new(0));
         if newton.step.len() != unknown.len() {
-            newton = Newton::new(unknown.len());
+            newton = NewtonWorkspace::new(unknown.len());
         }
         let outcome = self.iterate_with(&mut newton, time, targets, unknown);
         self.newton = newton;
@@ -166,14 +173,20 @@ impl Legendre {
 
     fn iterate_with(
         &mut self,
-        newton: &mut Newton,
+        newton: &mut NewtonWorkspace,
         time: DoubleDouble,
         targets: &[Option<DoubleDouble>],
         unknown: &[usize],
     ) -> Result<f64, LegendreError> {
         let n = self.degrees;
-        let Newton { factored, scales: [scales, scales_there], step, missed, next, before } =
-            newton;
+        let NewtonWorkspace {
+            factored,
+            scales: [scales, scales_there],
+            step,
+            missed,
+            next,
+            before,
+        } = newton;
         let halvings = if self.near_only { FEW_HALVINGS } else { HALVINGS };
         self.missing(time, targets, unknown, scales, step)?;
         let mut left = None;

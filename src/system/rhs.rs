@@ -27,7 +27,7 @@ impl Quadratures {
 
 /// H = T(p) + V(q, t), with the motion that each part alone generates.
 #[derive(Clone, Debug)]
-pub(super) struct Split {
+pub(super) struct SplitHamiltonian {
     /// q̇, then the rates of the quadratures, under T alone, as functions of (q, p).
     pub(super) drift: Arc<Program>,
     /// ṗ, then the rates of the quadratures, under V alone, as functions of (q, p).
@@ -42,7 +42,7 @@ pub(super) struct MotionPrograms {
     /// The rates as functions of (q, p) or, if the flag is false, of (q, q̇).
     pub(super) canonical: (Arc<Program>, bool),
     /// The two parts of a separable system, or the reason why it is not separable.
-    pub(super) split: Result<Split, NotSeparable>,
+    pub(super) split: Result<SplitHamiltonian, NotSeparable>,
 }
 
 /// The programs of a system with tangent vectors.
@@ -225,7 +225,7 @@ impl ProgramBuilder<'_> {
     }
 
     /// The two parts of a separable system. The action splits with H: Σ p ∂T/∂p − T and −V.
-    pub(super) fn split(&mut self) -> Option<Result<Split, Symbol>> {
+    pub(super) fn split(&mut self) -> Option<Result<SplitHamiltonian, Symbol>> {
         let equations = self.equations;
         let (separable, hamiltonian) =
             (equations.separable.as_ref().ok()?, *equations.hamiltonian.as_ref().ok()?);
@@ -242,7 +242,7 @@ impl ProgramBuilder<'_> {
         let kick_action = self.pool.neg(potential);
         let drift = self.half(&separable.velocities, drift_action, Expr::ZERO);
         let kick = self.half(&separable.momentum_rates, kick_action, equations.energy_rate);
-        Some(drift.and_then(|drift| Ok(Split { drift, kick: kick? })))
+        Some(drift.and_then(|drift| Ok(SplitHamiltonian { drift, kick: kick? })))
     }
 
     fn half(&mut self, rates: &[Expr], action: Expr, work: Expr) -> Result<Arc<Program>, Symbol> {

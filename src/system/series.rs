@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::compiled::System;
 use super::error::{MotionError, MotionErrorKind};
-use super::growth::{Clock, Halt, SeriesBuilder};
+use super::growth::{Halt, SeriesBuilder, SeriesClock};
 use super::jet::{Jet, Side};
 use super::program::{Program, Register};
 use super::state::State;
@@ -177,7 +177,7 @@ impl Series {
     }
 
     fn grow_extended(&mut self) -> Result<(), Halt> {
-        let clock = Clock::new(self.time, self.scale);
+        let clock = SeriesClock::new(self.time, self.scale);
         let (inputs, len, order) = (self.high.inputs, self.len(), self.high.order);
         let wide = self.wide.get_or_insert_with(|| {
             let jet = Jet::like(&self.high.jet, order);
@@ -207,11 +207,11 @@ impl Series {
     fn grow_in_range(&mut self) -> Result<(), Halt> {
         let mut first = 0;
         let (time, scale) = (self.time, self.scale);
-        let clock = Clock::new(time, scale);
+        let clock = SeriesClock::new(time, scale);
         let cancel = self.system.cancel();
         if let Some(low) = &mut self.low {
             low.begin(&self.origin, &self.sides);
-            low.grow(0, Clock::new(time, scale), cancel)?;
+            low.grow(0, SeriesClock::new(time, scale), cancel)?;
             first = if low.kept.is_empty() { low.order } else { low.order + 1 - low.depth };
             self.high.take_over(low)?;
         } else {
@@ -305,7 +305,7 @@ impl Series {
     /// Writes the state at a time `after` the origin into `out`, by the polynomials.
     pub fn state_after(&self, after: DoubleDouble, out: &mut State) {
         let x = after * self.scale.recip();
-        vectorized(Sum { series: self, x, out: &mut *out });
+        vectorized(StateSum { series: self, x, out: &mut *out });
         let time = self.time + after;
         (out.time, out.time_carry) = (time.high, time.low);
     }
@@ -380,18 +380,18 @@ impl Kernel for Finite<'_> {
 const TOGETHER: usize = 4;
 
 /// The polynomials of a state, at a time in the unit of the series.
-struct Sum<'a> {
+struct StateSum<'a> {
     series: &'a Series,
     x: DoubleDouble,
     out: &'a mut State,
 }
 
-impl Kernel for Sum<'_> {
+impl Kernel for StateSum<'_> {
     type Output = ();
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
-        let Sum { series, x, out } = self;
+        let StateSum { series, x, out } = self;
         let (count, units) = (series.origin.len(), &series.units);
         let low = |i: usize| match &series.low {
             Some(low) => low.known_series(i),

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use super::compiled::System;
 use super::program::Program;
-use super::rhs::{MotionPrograms, Split, Tangents};
+use super::rhs::{MotionPrograms, SplitHamiltonian, Tangents};
 use super::separability::NotSeparable;
 use super::solve::Factored;
 use super::tangent::Layout;
@@ -34,9 +34,8 @@ impl System {
         };
         let motion = plain.motion();
         let degrees = self.degrees();
-        let split = motion.split.as_ref().map_err(NotSeparable::clone).map(|split| Split {
-            drift: of(&split.drift, degrees),
-            kick: of(&split.kick, degrees),
+        let split = motion.split.as_ref().map_err(NotSeparable::clone).map(|split| {
+            SplitHamiltonian { drift: of(&split.drift, degrees), kick: of(&split.kick, degrees) }
         });
         let (canonical, direct) = &motion.canonical;
         let legendre = plain.legendre_program();

@@ -9,7 +9,9 @@ use super::text_page::TextPage;
 use super::theme::Role;
 use crate::app::Lab;
 use crate::expr::{Expr, Symbol};
-use crate::mechanics::{ConservedKind, Flow, Holonomy, LeftSide, Line, NoClosedForm, Report};
+use crate::mechanics::{
+    ConservedKind, Flow, Holonomy, LeftSide, NoClosedForm, Report, ReportedEquation,
+};
 use crate::num::significant;
 
 /// Expressions with more nodes than this are not written out.
@@ -94,11 +96,11 @@ impl EquationRows<'_> {
         self.page.formula(label, written, remark);
     }
 
-    fn line(&mut self, line: &Line, remark: &str) {
+    fn line(&mut self, line: &ReportedEquation, remark: &str) {
         self.put(&self.left(line.left), line.right, remark);
     }
 
-    fn lines<'l>(&mut self, lines: impl IntoIterator<Item = &'l Line>) {
+    fn lines<'l>(&mut self, lines: impl IntoIterator<Item = &'l ReportedEquation>) {
         lines.into_iter().for_each(|line| self.line(line, ""));
     }
 

@@ -6,7 +6,8 @@ use serde_json::{Map, Value, json};
 use super::against::LagrangianComparison;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{
-    Further, GeneratingFunction, HamiltonJacobi, Holonomy, LeftSide, Line, Report, Separation,
+    Further, GeneratingFunction, HamiltonJacobi, Holonomy, LeftSide, Report, ReportedEquation,
+    Separation,
 };
 use crate::model::{Direction, Event, EventAction, Model};
 
@@ -134,7 +135,7 @@ impl JsonReport<'_> {
         all.iter().map(|&e| self.text(e)).collect()
     }
 
-    fn map(&self, lines: &[Line]) -> Map<String, Value> {
+    fn map(&self, lines: &[ReportedEquation]) -> Map<String, Value> {
         lines.iter().map(|line| (self.left(line.left), self.text(line.right))).collect()
     }
 

@@ -9,7 +9,7 @@ use unicode_width::UnicodeWidthStr;
 use super::super::script::MathScript;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{
-    ConservedKind, Further, Holonomy, LeftSide, Line, NoClosedForm, Report, Separation,
+    ConservedKind, Further, Holonomy, LeftSide, NoClosedForm, Report, ReportedEquation, Separation,
 };
 use crate::model::Model;
 
@@ -82,7 +82,7 @@ impl TextReport<'_> {
         let report = self.report;
         let title = if report.model.is_lagrangian() { "Lagrangian" } else { "Hamiltonian" };
         let beside = report.dissipation.iter().chain(&report.forces);
-        let law: Vec<Line> = [report.law].iter().chain(beside).copied().collect();
+        let law: Vec<ReportedEquation> = [report.law].iter().chain(beside).copied().collect();
         self.lines(title, &law);
         self.ramps();
         if report.model.is_poisson() {
@@ -349,13 +349,13 @@ impl TextReport<'_> {
         self.line(&format!("  {why}"));
     }
 
-    fn lines(&mut self, title: &str, lines: &[Line]) {
+    fn lines(&mut self, title: &str, lines: &[ReportedEquation]) {
         let rows = lines.iter().map(|line| (self.left(line.left), self.math(line.right)));
         let rows: Vec<_> = rows.collect();
         self.section(title, &rows);
     }
 
-    fn lines_or_why(&mut self, title: &str, lines: &Result<Vec<Line>, &NoClosedForm>) {
+    fn lines_or_why(&mut self, title: &str, lines: &Result<Vec<ReportedEquation>, &NoClosedForm>) {
         match lines {
             Ok(lines) => self.lines(title, lines),
             Err(why) => self.why_not(title, why),

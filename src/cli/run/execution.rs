@@ -41,7 +41,7 @@ pub(super) struct Run<'i> {
 }
 
 /// Why a run ended early.
-enum End {
+enum EarlyEnd {
     Fault(experiment::Failure),
     Event,
     Signal(i32),
@@ -50,9 +50,9 @@ enum End {
 
 /// The rows so far, which are taken by whatever ends the run.
 #[derive(Clone)]
-struct Table(Arc<Mutex<Option<Rows<Output>>>>);
+struct PendingRows(Arc<Mutex<Option<Rows<Output>>>>);
 
-impl Table {
+impl PendingRows {
     fn rows(&self) -> MutexGuard<'_, Option<Rows<Output>>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -88,12 +88,12 @@ impl Run<'_> {
     ) -> Result<(), CommandError> {
         let name = out.name().to_owned();
         let failed = |error: &std::io::Error| CommandError::writing(&name, error);
-        let table = Table(Arc::default());
+        let table = PendingRows(Arc::default());
         let (stuck, interrupt) = (table.clone(), self.interrupt.clone());
         self.interrupt.ends_by_itself(move || stuck.end_within_a_step(&interrupt));
         *table.rows() = Some(Rows::begin(format, out, header).map_err(|error| failed(&error))?);
         let end = self.rows(&table).err();
-        if let Some(End::Write(error)) = &end {
+        if let Some(EarlyEnd::Write(error)) = &end {
             return Err(failed(error));
         }
         let closing = self.closing(end.as_ref());
@@ -118,14 +118,14 @@ impl Run<'_> {
         let departure = Departure::of(&snapshot.gauges, &snapshot.method);
         let refused = self.strict && departure.as_ref().is_some_and(|departure| departure.proved);
         let line = departure.map(|departure| departure.line).unwrap_or_default();
-        let cut_short = matches!(end, Some(End::Fault(_) | End::Signal(_)));
+        let cut_short = matches!(end, Some(EarlyEnd::Fault(_) | EarlyEnd::Signal(_)));
         if refused && !cut_short {
             return Err(CommandError::CouldNot(line));
         }
         stderr::tell(&line);
         match end {
-            Some(End::Fault(fault)) => Err(CommandError::CouldNot(fault.message)),
-            Some(End::Signal(signal)) => Err(CommandError::Signal(signal)),
+            Some(EarlyEnd::Fault(fault)) => Err(CommandError::CouldNot(fault.message)),
+            Some(EarlyEnd::Signal(signal)) => Err(CommandError::Signal(signal)),
             _ => Ok(()),
         }
     }
@@ -135,7 +135,7 @@ impl Run<'_> {
         self.interrupt.signal().map_or(Ok(()), |signal| Err(CommandError::Signal(signal)))
     }
 
-    fn rows(&mut self, table: &Table) -> Result<(), End> {
+    fn rows(&mut self, table: &PendingRows) -> Result<(), EarlyEnd> {
         let mut bar = Bar::new(self.times.start(), self.times.end());
         let mut row = vec![0.0; self.columns + 1];
         for time in self.times.rows() {
@@ -143,7 +143,7 @@ impl Run<'_> {
             row[0] = time;
             row[1..].copy_from_slice(&self.experiment.values()[..self.columns]);
             match &mut *table.rows() {
-                Some(rows) => rows.row(&row).map_err(End::Write)?,
+                Some(rows) => rows.row(&row).map_err(EarlyEnd::Write)?,
                 None => return self.interrupted(),
             }
         }
@@ -151,11 +151,11 @@ impl Run<'_> {
         self.reach(end, &mut bar)
     }
 
-    fn interrupted(&self) -> Result<(), End> {
-        self.interrupt.signal().map_or(Ok(()), |signal| Err(End::Signal(signal)))
+    fn interrupted(&self) -> Result<(), EarlyEnd> {
+        self.interrupt.signal().map_or(Ok(()), |signal| Err(EarlyEnd::Signal(signal)))
     }
 
-    fn reach(&mut self, time: f64, bar: &mut Bar) -> Result<(), End> {
+    fn reach(&mut self, time: f64, bar: &mut Bar) -> Result<(), EarlyEnd> {
         loop {
             let begun = Instant::now();
             let progress = self.experiment.advance(time, self.steps);
@@ -168,11 +168,11 @@ impl Run<'_> {
             // a step that a signal has cancelled is not a fault of the motion
             self.interrupted()?;
             if let experiment::Status::Failed(fault) = self.experiment.status() {
-                return Err(End::Fault(fault));
+                return Err(EarlyEnd::Fault(fault));
             }
             // the final instant still has its row
             if progress == AdvanceOutcome::Ended && self.experiment.time() != time {
-                return Err(End::Event);
+                return Err(EarlyEnd::Event);
             }
             if matches!(progress, AdvanceOutcome::Arrived | AdvanceOutcome::Ended) {
                 return Ok(());
@@ -180,13 +180,13 @@ impl Run<'_> {
         }
     }
 
-    fn closing(&self, end: Option<&End>) -> Closing {
+    fn closing(&self, end: Option<&EarlyEnd>) -> Closing {
         let (status, message) = match end {
-            Some(End::Fault(fault)) => (RunStatus::Failed, Some(fault.message.clone())),
-            Some(End::Signal(_) | End::Write(_)) => {
+            Some(EarlyEnd::Fault(fault)) => (RunStatus::Failed, Some(fault.message.clone())),
+            Some(EarlyEnd::Signal(_) | EarlyEnd::Write(_)) => {
                 (RunStatus::Stopped, Some("stopped by a signal".to_owned()))
             }
-            Some(End::Event) | None => match self.experiment.status() {
+            Some(EarlyEnd::Event) | None => match self.experiment.status() {
                 experiment::Status::Ended(name) => {
                     let time = self.experiment.time();
                     let time = printable::number(time);
@@ -228,7 +228,7 @@ mod tests {
         };
         let mut rows = Rows::begin(format, out, &header).expect("written");
         rows.row(&[0.0, 1.0]).expect("written");
-        let table = Table(Arc::new(Mutex::new(Some(rows))));
+        let table = PendingRows(Arc::new(Mutex::new(Some(rows))));
         table.clone().end_within_a_step(&Interrupt::default());
         assert!(table.rows().is_none(), "nobody writes behind the end");
         std::fs::read_to_string(path).expect("it is there")
@@ -248,7 +248,7 @@ mod tests {
 
     #[test]
     fn whoever_is_writing_is_not_disturbed() {
-        let table = Table(Arc::default());
+        let table = PendingRows(Arc::default());
         let rows = table.rows();
         table.end_within_a_step(&Interrupt::default());
         drop(rows);

@@ -12,7 +12,7 @@ use crate::file;
 use crate::printable;
 
 /// A shard that was read.
-struct Part {
+struct ReadShard {
     path: PathBuf,
     identity: Identity,
     shard: Shard,
@@ -22,7 +22,7 @@ struct Part {
 }
 
 pub(super) fn perform(paths: &[PathBuf], output: Option<&Path>) -> Result<(), CommandError> {
-    let mut parts = paths.iter().map(|path| read(path)).collect::<Result<Vec<Part>, _>>()?;
+    let mut parts = paths.iter().map(|path| read(path)).collect::<Result<Vec<ReadShard>, _>>()?;
     parts.sort_by_key(|part| part.shard.index);
     let Some(first) = parts.first() else { return Ok(()) };
     let wrong = |message: String| Err(CommandError::WrongUse(message));
@@ -65,7 +65,7 @@ pub(super) fn perform(paths: &[PathBuf], output: Option<&Path>) -> Result<(), Co
     out.finish()
 }
 
-fn read(path: &Path) -> Result<Part, CommandError> {
+fn read(path: &Path) -> Result<ReadShard, CommandError> {
     let failed = |error: io::Error| CommandError::reading(path, &error);
     let (bytes, _) = file::read(path, u64::MAX).map_err(failed)?;
     let text = String::from_utf8(bytes)
@@ -91,5 +91,5 @@ fn read(path: &Path) -> Result<Part, CommandError> {
         return Err(no_shard());
     }
     let rows = lines.filter(|line| !line.starts_with('#')).map(str::to_owned).collect();
-    Ok(Part { path: path.to_owned(), identity, shard, head, rows })
+    Ok(ReadShard { path: path.to_owned(), identity, shard, head, rows })
 }

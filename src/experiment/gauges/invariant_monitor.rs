@@ -69,7 +69,7 @@ pub(super) struct InvariantMonitor {
 
 /// The end of a step, as a monitor sees it.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::experiment) struct StepEnd {
+pub(in crate::experiment) struct MonitoredStep {
     pub(in crate::experiment) time: f64,
     /// The rounding error that a value of size 1 may have gathered.
     pub(in crate::experiment) floor: f64,
@@ -227,7 +227,7 @@ impl InvariantMonitor {
     }
 
     /// Records the values at the ends of several steps.
-    pub(super) fn steps(&mut self, terms: &BatchTerms, ends: &[StepEnd]) {
+    pub(super) fn steps(&mut self, terms: &BatchTerms, ends: &[MonitoredStep]) {
         let Some(quantity) = self.quantity.filter(|&quantity| terms.has(quantity)) else { return };
         let sums = terms.sums(quantity, &self.at_rest);
         for (lane, (end, sums)) in ends.iter().zip(sums).enumerate() {

@@ -16,7 +16,7 @@ use crate::system::{BatchSeries, State, System};
 
 /// One orbit.
 #[derive(Clone, Debug)]
-struct Lane {
+struct TaylorLane {
     status: LaneStatus,
     state: State,
     /// The size of the last step, from which the next series takes its unit of time.
@@ -34,7 +34,7 @@ pub(in crate::integrate) struct TaylorBatch {
     system: System,
     series: BatchSeries,
     rule: BatchStepSize,
-    lanes: [Lane; BATCH],
+    lanes: [TaylorLane; BATCH],
 }
 
 impl TaylorBatch {
@@ -50,7 +50,7 @@ impl TaylorBatch {
         }
         let order = step_size::order_for(tolerance, system.degrees());
         let series = system.batch_series(order)?;
-        let lane = Lane {
+        let lane = TaylorLane {
             status: LaneStatus::Empty,
             state: State::new(0.0, system.form(), vec![0.0; system.state_len()]),
             taken: None,
@@ -105,7 +105,7 @@ impl TaylorBatch {
     pub(in crate::integrate) fn step(&mut self, limits: &[f64; BATCH]) -> bool {
         let mut left = [DoubleDouble::ZERO; BATCH];
         let going: [bool; BATCH] = std::array::from_fn(|i| {
-            let Lane { status, state, .. } = &self.lanes[i];
+            let TaylorLane { status, state, .. } = &self.lanes[i];
             *status == LaneStatus::Underway && state.time != limits[i]
         });
         for (i, lane) in self.lanes.iter_mut().enumerate() {
@@ -185,7 +185,7 @@ impl TaylorBatch {
     }
 }
 
-impl Lane {
+impl TaylorLane {
     /// The time to go.
     fn left(&mut self, limit: f64) -> DoubleDouble {
         if self.limit.0 != limit {

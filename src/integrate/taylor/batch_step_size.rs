@@ -6,7 +6,7 @@
 use super::argument_step::{FARTHEST_ARGUMENT, of_argument};
 use super::last_orders::{FAINT, FIRST, ROOM, last_orders};
 use super::rough_logarithms::rough_logarithms;
-use super::step_screen::Screen;
+use super::step_screen::StepScreen;
 use super::step_size::{Shares, reciprocals};
 use crate::num::{Analytic, BATCH, Batch, Kernel, math, vectorized};
 use crate::system::BatchSeries;
@@ -40,7 +40,7 @@ impl BatchStepSize {
     /// The longest step of each lane, in its unit; infinite for a polynomial, NaN where a coefficient
     /// is not finite.
     pub(super) fn longest(&mut self, series: &BatchSeries) -> Batch {
-        let mut shortest = vectorized(ByCoefficients { rule: self, series });
+        let mut shortest = vectorized(BatchByCoefficients { rule: self, series });
         for (function, u) in series.arguments() {
             for lane in 0..BATCH {
                 let h = shortest.0[lane];
@@ -59,7 +59,7 @@ impl BatchStepSize {
 
     #[inline(always)]
     fn by_coefficients(&mut self, series: &BatchSeries) -> Batch {
-        let mut shortest = Shortest::new();
+        let mut shortest = BatchShortest::new();
         let BatchStepSize { motion, integrals, least, gathered, logs, powers } = self;
         let count = series.inputs();
         if count > 0 {
@@ -92,7 +92,7 @@ impl BatchStepSize {
 }
 
 /// The shortest steps that some series allow.
-struct Shortest {
+struct BatchShortest {
     log: Batch,
     step: Batch,
     is_known: bool,
@@ -100,10 +100,10 @@ struct Shortest {
     finite: Batch,
 }
 
-impl Shortest {
-    fn new() -> Shortest {
+impl BatchShortest {
+    fn new() -> BatchShortest {
         let step = Batch::splat(f64::INFINITY);
-        Shortest { log: step, step, is_known: false, finite: Batch::ZERO }
+        BatchShortest { log: step, step, is_known: false, finite: Batch::ZERO }
     }
 
     /// Takes another series into account, which is not `known` already in some lanes (1, else 0).
@@ -146,7 +146,7 @@ impl Shortest {
 /// those of the step. May be false where it does.
 #[inline(always)]
 fn passes(
-    screen: &Screen,
+    screen: &StepScreen,
     (coefficients, known): (&[Batch], Batch),
     powers: &[Batch; ROOM],
 ) -> bool {
@@ -172,12 +172,12 @@ fn passes(
 }
 
 /// The kernel of the rule.
-struct ByCoefficients<'a> {
+struct BatchByCoefficients<'a> {
     rule: &'a mut BatchStepSize,
     series: &'a BatchSeries,
 }
 
-impl Kernel for ByCoefficients<'_> {
+impl Kernel for BatchByCoefficients<'_> {
     type Output = Batch;
     const OF_SEVERAL: bool = true;
 

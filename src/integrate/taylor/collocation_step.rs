@@ -50,18 +50,18 @@ const POWERS: [i32; 5] = [1, 2, 3, 4, 6];
 const LONG: f64 = 1e-6;
 
 /// The three stages: their nodes, weights and coefficients.
-struct Scheme {
+struct CollocationScheme {
     at: [DoubleDouble; 3],
     weight: [DoubleDouble; 3],
     from: [[DoubleDouble; 3]; 3],
 }
 
-impl Scheme {
-    fn new() -> Scheme {
+impl CollocationScheme {
+    fn new() -> CollocationScheme {
         let part = |n: f64, d: f64| DoubleDouble::from(n) / d;
         let root = Analytic::sqrt(DoubleDouble::from(15.0));
         let half = part(1.0, 2.0);
-        Scheme {
+        CollocationScheme {
             at: [half - root / 10.0, half, half + root / 10.0],
             weight: [part(5.0, 18.0), part(4.0, 9.0), part(5.0, 18.0)],
             from: [
@@ -82,7 +82,7 @@ struct SubStep {
 
 /// Takes such steps and evaluates states inside them.
 pub(super) struct CollocationStep {
-    scheme: Scheme,
+    scheme: CollocationScheme,
     /// The number of dynamical variables of a state; the rest is integrated along with them.
     moving: usize,
     /// The power k of the time variable of the last step.
@@ -105,7 +105,7 @@ impl CollocationStep {
     pub(super) fn new(len: usize, moving: usize) -> CollocationStep {
         let blank = || vec![DoubleDouble::ZERO; len];
         CollocationStep {
-            scheme: Scheme::new(),
+            scheme: CollocationScheme::new(),
             moving,
             power: 1,
             stages: [blank(), blank(), blank()],

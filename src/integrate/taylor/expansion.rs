@@ -22,7 +22,7 @@ impl Taylor {
     /// returns the size of that step, which may be longer than `left`.
     pub(super) fn expand(&mut self, left: f64) -> Result<f64, MotionError> {
         let (size, direction) = (left.abs(), left.signum());
-        let mut units = Units::default();
+        let mut units = UnitTrials::default();
         let mut known = Vec::new();
         loop {
             self.series.build(&self.state)?;
@@ -97,7 +97,7 @@ impl Taylor {
 
 /// The units of time tried for one series. Each trial narrows the interval between those found too
 /// short and those found too long, so the search ends.
-struct Units {
+struct UnitTrials {
     short: f64,
     long: f64,
     tried: u32,
@@ -106,13 +106,13 @@ struct Units {
 /// The number of units taken as the series suggests; after that the interval is bisected.
 const ASKED_FOR: u32 = 12;
 
-impl Default for Units {
-    fn default() -> Units {
-        Units { short: 0.0, long: f64::INFINITY, tried: 0 }
+impl Default for UnitTrials {
+    fn default() -> UnitTrials {
+        UnitTrials { short: 0.0, long: f64::INFINITY, tried: 0 }
     }
 }
 
-impl Units {
+impl UnitTrials {
     /// The next unit to try after the one that the series suggests.
     fn next(&mut self, wanted: f64) -> f64 {
         self.tried += 1;

@@ -15,7 +15,7 @@ const WIDTH: usize = (LAST + BEFORE).next_multiple_of(LANES);
 /// With the terms a_j = |c_j| h^j at a step h, the bound of the j-th order on the k-th is no shorter
 /// than h where a_j times a constant is no less than a_k. The lowest orders mostly suffice.
 #[derive(Clone, Debug)]
-pub(super) struct Screen {
+pub(super) struct StepScreen {
     /// The first of the last orders, which lie side by side.
     pub(super) first: usize,
     /// The constants of the tolerance, for the j-th order.
@@ -27,14 +27,14 @@ pub(super) struct Screen {
 /// The ratio by which terms must differ to do so beyond the errors of rough logarithms.
 const CLEARLY: f64 = 1.001;
 
-impl Screen {
+impl StepScreen {
     pub(super) fn new(
         order: usize,
         table: &[f64; ROOM],
         log_part: f64,
         log_indulgence: f64,
-    ) -> Screen {
-        let mut screen = Screen {
+    ) -> StepScreen {
+        let mut screen = StepScreen {
             first: *last_orders(order).start(),
             by_tolerance: [[0.0; WIDTH]; FIRST],
             by_radius: [[0.0; WIDTH]; FIRST],

@@ -9,7 +9,7 @@
 use super::argument_step::{FARTHEST_ARGUMENT, of_argument};
 use super::last_orders::{FIRST, INDULGENCE, LANES, ROOM, indulgence_of, larger, last_orders};
 use super::rough_logarithms::Logarithms;
-use super::step_screen::Screen;
+use super::step_screen::StepScreen;
 use crate::num::{Kernel, all_finite, math, vectorized};
 use crate::system::Series;
 
@@ -114,12 +114,12 @@ struct Shortest<'a> {
     log: f64,
     step: f64,
     powers: [f64; ROOM],
-    screen: &'a Screen,
+    screen: &'a StepScreen,
 }
 
 impl Shortest<'_> {
     #[inline(always)]
-    fn new(screen: &Screen) -> Shortest<'_> {
+    fn new(screen: &StepScreen) -> Shortest<'_> {
         Shortest { log: f64::INFINITY, step: f64::INFINITY, powers: [f64::NAN; ROOM], screen }
     }
 
@@ -183,7 +183,7 @@ pub(super) struct Shares {
     pub(super) table: [f64; ROOM],
     pub(super) log_part: f64,
     log_indulgence: f64,
-    pub(super) screen: Screen,
+    pub(super) screen: StepScreen,
 }
 
 impl Shares {
@@ -210,7 +210,7 @@ impl Shares {
             *share = log * reciprocal;
         }
         let (log_part, log_indulgence) = (math::ln(PART_OF_RADIUS), math::ln(INDULGENCE));
-        let screen = Screen::new(order, &table, log_part, log_indulgence);
+        let screen = StepScreen::new(order, &table, log_part, log_indulgence);
         Shares { table, log_part, log_indulgence, screen }
     }
 }

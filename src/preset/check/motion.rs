@@ -6,14 +6,14 @@ use crate::diagnostic::Diagnostic;
 use crate::diagnostic::nearest;
 use crate::expr::Expr;
 use crate::model::{Allowed, Coordinate, Mechanics, Scope};
-use crate::preset::draft::{Draft, DraftCoordinate, DraftMechanics, Formula, Law};
+use crate::preset::draft::{Draft, DraftCoordinate, DraftMechanics, Formula, LawTable};
 
 impl Check<'_> {
     /// Declares the coordinates or variables and the kind of the law, which determine what
     /// expressions may name.
     pub(super) fn moving(&mut self, draft: &Draft) {
         let law = draft.law();
-        let poisson = law == Some(Law::Poisson);
+        let poisson = law == Some(LawTable::Poisson);
         let introduce = if poisson { Coordinate::variable } else { Coordinate::new };
         for written in &draft.moving.all {
             let (name, pool) = (written.name.get_ref(), &mut self.model.pool);
@@ -21,13 +21,13 @@ impl Check<'_> {
             coordinate.place = written.name.span();
             self.model.coordinates.push(coordinate);
         }
-        self.model.mechanics = law.unwrap_or(Law::Lagrangian).unread();
+        self.model.mechanics = law.unwrap_or(LawTable::Lagrangian).unread();
         let wrong = match (law, &draft.moving.coordinates, &draft.moving.variables) {
-            (Some(Law::Poisson), Some(place), _) => {
+            (Some(LawTable::Poisson), Some(place), _) => {
                 let help = "head them with [variables]; each starts from its `initial` alone";
                 Some((place, "[poisson] moves [variables], not [coordinates]", help))
             }
-            (Some(Law::Lagrangian | Law::Hamiltonian), _, Some(place)) => {
+            (Some(LawTable::Lagrangian | LawTable::Hamiltonian), _, Some(place)) => {
                 let help = "head them with [coordinates], or give the law in [poisson]";
                 Some((place, "[variables] are moved by [poisson] only", help))
             }
@@ -39,7 +39,7 @@ impl Check<'_> {
     }
 
     /// Reads the law of motion into the model. Returns `None` unless the file gives exactly one.
-    pub(super) fn law(&mut self, given: &[DraftMechanics], names: &mut Names) -> Option<Law> {
+    pub(super) fn law(&mut self, given: &[DraftMechanics], names: &mut Names) -> Option<LawTable> {
         let (first, others) = given.split_first()?;
         for other in others {
             let message = "the file gives more than one law of motion";
@@ -61,9 +61,9 @@ impl Check<'_> {
 
     fn mechanics(&mut self, written: &DraftMechanics, names: &mut Names) -> Mechanics {
         let (allowed, called) = match written.law {
-            Law::Lagrangian => (Allowed::Lagrangian, "the Lagrangian"),
-            Law::Hamiltonian => (Allowed::Hamiltonian, "the Hamiltonian"),
-            Law::Poisson => (Allowed::Poisson, "the Hamiltonian"),
+            LawTable::Lagrangian => (Allowed::Lagrangian, "the Lagrangian"),
+            LawTable::Hamiltonian => (Allowed::Hamiltonian, "the Hamiltonian"),
+            LawTable::Poisson => (Allowed::Poisson, "the Hamiltonian"),
         };
         let mut scope = Scope::new(&self.model, allowed, called);
         let mut read = |check: &mut Self, called: &str, formula: &Option<Formula>| {
@@ -81,9 +81,11 @@ impl Check<'_> {
             }
         }
         match written.law {
-            Law::Lagrangian => Mechanics::Lagrangian { lagrangian: function, dissipation, forces },
-            Law::Hamiltonian => Mechanics::Hamiltonian { hamiltonian: function, forces },
-            Law::Poisson => Mechanics::Poisson {
+            LawTable::Lagrangian => {
+                Mechanics::Lagrangian { lagrangian: function, dissipation, forces }
+            }
+            LawTable::Hamiltonian => Mechanics::Hamiltonian { hamiltonian: function, forces },
+            LawTable::Poisson => Mechanics::Poisson {
                 hamiltonian: function,
                 brackets: self.brackets(&written.brackets),
                 casimirs: self.casimirs(&written.casimirs, names),
@@ -106,7 +108,7 @@ impl Check<'_> {
     }
 
     /// Reads the initial values, which are expressions in parameters.
-    pub(super) fn initial_values(&mut self, draft: &Draft, law: Option<Law>) {
+    pub(super) fn initial_values(&mut self, draft: &Draft, law: Option<LawTable>) {
         let mut scope = Scope::new(&self.model, Allowed::Parameters, "an initial value");
         for (index, written) in draft.moving.all.iter().enumerate() {
             let name = written.name.get_ref();
@@ -138,11 +140,11 @@ impl Check<'_> {
     }
 
     /// A Lagrangian needs initial velocities, a Hamiltonian initial momenta.
-    fn right_rate(&mut self, law: Law, written: &DraftCoordinate) {
+    fn right_rate(&mut self, law: LawTable, written: &DraftCoordinate) {
         let (wrong, given, wanted, of) = match law {
-            Law::Lagrangian => (&written.momentum, "momentum", "velocity", "a Lagrangian"),
-            Law::Hamiltonian => (&written.velocity, "velocity", "momentum", "a Hamiltonian"),
-            Law::Poisson => return,
+            LawTable::Lagrangian => (&written.momentum, "momentum", "velocity", "a Lagrangian"),
+            LawTable::Hamiltonian => (&written.velocity, "velocity", "momentum", "a Hamiltonian"),
+            LawTable::Poisson => return,
         };
         if let Some((place, _)) = wrong {
             let message = format!("a `{given}` is given, but {of} starts from a `{wanted}`");
@@ -181,16 +183,16 @@ impl Check<'_> {
     }
 }
 
-impl Law {
+impl LawTable {
     /// A law of this kind in which everything is zero.
     fn unread(self) -> Mechanics {
         let (zero, forces) = (Expr::ZERO, Vec::new());
         match self {
-            Law::Lagrangian => {
+            LawTable::Lagrangian => {
                 Mechanics::Lagrangian { lagrangian: zero, dissipation: zero, forces }
             }
-            Law::Hamiltonian => Mechanics::Hamiltonian { hamiltonian: zero, forces },
-            Law::Poisson => Mechanics::Poisson {
+            LawTable::Hamiltonian => Mechanics::Hamiltonian { hamiltonian: zero, forces },
+            LawTable::Poisson => Mechanics::Poisson {
                 hamiltonian: zero,
                 brackets: Vec::new(),
                 casimirs: Vec::new(),

@@ -9,7 +9,7 @@ use crate::diagnostic::Diagnostics;
 use crate::diagnostic::SourceRange;
 use crate::expr::{FUNCTIONS, latex_of_unicode};
 use crate::model::{Attitude, BodyNames, multiplier_name};
-use crate::preset::draft::{Draft, Law};
+use crate::preset::draft::{Draft, LawTable};
 
 /// The names given so far, with what they name and their ranges.
 pub(super) struct Names {
@@ -29,7 +29,7 @@ impl Names {
         let multipliers = constraints
             .map(|name| (name.get_ref().clone(), multiplier_name(name.get_ref())))
             .collect();
-        let poisson = draft.law() == Some(Law::Poisson);
+        let poisson = draft.law() == Some(LawTable::Poisson);
         let mut names = Names { taken: BTreeMap::new(), coordinates, poisson, multipliers };
         names.given(draft);
         let kind = if poisson { "a variable" } else { "a coordinate" };

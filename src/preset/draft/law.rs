@@ -12,7 +12,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 /// A law of motion as written.
 pub(in crate::preset) struct DraftMechanics {
     /// The table.
-    pub(in crate::preset) law: Law,
+    pub(in crate::preset) law: LawTable,
     /// The range of the table's name.
     pub(in crate::preset) place: SourceRange,
     /// L or H.
@@ -41,25 +41,25 @@ pub(in crate::preset) struct DraftBracket {
 
 /// The tables that give a law of motion.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(in crate::preset) enum Law {
+pub(in crate::preset) enum LawTable {
     Lagrangian,
     Hamiltonian,
     Poisson,
 }
 
-impl Law {
+impl LawTable {
     /// The name of its table.
     pub(in crate::preset) fn table(self) -> &'static str {
         match self {
-            Law::Lagrangian => "lagrangian",
-            Law::Hamiltonian => "hamiltonian",
-            Law::Poisson => "poisson",
+            LawTable::Lagrangian => "lagrangian",
+            LawTable::Hamiltonian => "hamiltonian",
+            LawTable::Poisson => "poisson",
         }
     }
 }
 
 pub(super) fn mechanics(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Vec<DraftMechanics> {
-    let laws = [Law::Lagrangian, Law::Hamiltonian, Law::Poisson];
+    let laws = [LawTable::Lagrangian, LawTable::Hamiltonian, LawTable::Poisson];
     let given = laws.map(|one| law(one, top, diagnostics));
     if !laws.into_iter().any(|law| top.has(law.table())) {
         let missing = Diagnostic::error(0..0, "the file has no law of motion");
@@ -73,15 +73,19 @@ pub(super) fn mechanics(top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> V
     given.into_iter().flatten().collect()
 }
 
-fn law(law: Law, top: &mut Table<'_>, diagnostics: &mut Diagnostics) -> Option<DraftMechanics> {
+fn law(
+    law: LawTable,
+    top: &mut Table<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Option<DraftMechanics> {
     let mut table = top.table(law.table(), diagnostics)?;
-    let function = table.formula(if law == Law::Lagrangian { "L" } else { "H" }, diagnostics);
+    let function = table.formula(if law == LawTable::Lagrangian { "L" } else { "H" }, diagnostics);
     let mut dissipation = None;
-    if law == Law::Lagrangian {
+    if law == LawTable::Lagrangian {
         dissipation = table.formula("dissipation", diagnostics);
     }
     let (mut brackets, mut brackets_place, mut casimirs) = (Vec::new(), 0..0, Vec::new());
-    if law == Law::Poisson {
+    if law == LawTable::Poisson {
         if let Some((_, found)) = table.take("brackets") {
             brackets_place = found.span();
             let items = value::list(found, "`brackets`", diagnostics);

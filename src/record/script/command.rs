@@ -4,7 +4,7 @@
 
 use crossterm::event::KeyEvent;
 
-use super::line::Line;
+use super::line::ScriptLine;
 use super::{
     Asked, AskedAxis, Assert, AssertedNumber, Comparator, LessonStep, LineText, Said, ScriptStep,
     SweepPath, Word,
@@ -23,14 +23,14 @@ pub struct CommandRow {
     pub form: &'static str,
     /// A description in one sentence.
     pub about: &'static str,
-    pub(super) read: fn(&mut Line<'_>) -> Result<Said, Diagnostic>,
+    pub(super) read: fn(&mut ScriptLine<'_>) -> Result<Said, Diagnostic>,
 }
 
 const fn row(
     name: &'static str,
     form: &'static str,
     about: &'static str,
-    read: fn(&mut Line<'_>) -> Result<Said, Diagnostic>,
+    read: fn(&mut ScriptLine<'_>) -> Result<Said, Diagnostic>,
 ) -> CommandRow {
     CommandRow { name, form, about, read }
 }
@@ -71,12 +71,12 @@ fn head(say: impl FnOnce(&mut super::ScriptHeader) + 'static) -> Said {
     Said::Head(Box::new(say))
 }
 
-fn open(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn open(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     let name = line.name("the name of a preset or file")?;
     Ok(head(|head| head.open = Some(name)))
 }
 
-fn title(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn title(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     let title = line.quoted("a title")?.text;
     Ok(head(|head| head.title = Some(title)))
 }
@@ -97,13 +97,13 @@ pub fn read_size(text: &str) -> Result<(u16, u16), String> {
     Err(format!("a screen has from {a}x{b} to {c}x{d} characters"))
 }
 
-fn size(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn size(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     let word = line.need("a size")?;
     let size = read_size(&word.text).map_err(|why| Diagnostic::error(word.place, why))?;
     Ok(head(move |head| head.size = Some(size)))
 }
 
-fn fps(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn fps(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     let word = line.need("a number of frames")?;
     let fps = word.text.parse().ok().filter(|n| (1..=60).contains(n)).ok_or_else(|| {
         Diagnostic::error(
@@ -114,18 +114,18 @@ fn fps(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     Ok(head(move |head| head.fps = fps))
 }
 
-fn theme(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn theme(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     let names: Vec<Word> = PALETTES.iter().map(|palette| palette.name).collect();
     let name = line.one_of("a theme", &names)?;
     Ok(head(move |head| head.theme = name))
 }
 
-fn colour(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn colour(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     let name = line.one_of("a depth of colour", &["true", "256", "16", "never"])?;
     Ok(head(move |head| head.colour = ColourDepth::named(name).unwrap_or(ColourDepth::True)))
 }
 
-fn glyphs(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn glyphs(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     let word = line.need("a set of glyphs")?;
     let glyphs = Glyphs::named(&word.text).ok_or_else(|| {
         let message = format!("`{}` is no set of glyphs", word.text);
@@ -134,24 +134,24 @@ fn glyphs(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     Ok(head(move |head| head.glyphs = glyphs))
 }
 
-fn hide(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn hide(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     line.one_of("what is hidden", &["footer"])?;
     Ok(head(|head| head.footer = false))
 }
 
-fn pace(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn pace(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     Ok(Said::Step(ScriptStep::Pace(line.time()?)))
 }
 
 /// The most times that a key may be pressed in a row.
 const MOST_PRESSES: usize = 1000;
 
-fn press(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn press(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     Ok(Said::Step(ScriptStep::Press(keys(line)?)))
 }
 
 /// The names of keys to the end of the line.
-fn keys(line: &mut Line<'_>) -> Result<Vec<KeyEvent>, Diagnostic> {
+fn keys(line: &mut ScriptLine<'_>) -> Result<Vec<KeyEvent>, Diagnostic> {
     let mut keys = Vec::new();
     while let Some(word) = line.word() {
         let count = word.text.strip_prefix('x').and_then(|count| count.parse().ok());
@@ -180,22 +180,22 @@ fn keys(line: &mut Line<'_>) -> Result<Vec<KeyEvent>, Diagnostic> {
     if keys.is_empty() { Err(line.missing("a key")) } else { Ok(keys) }
 }
 
-fn typed(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn typed(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     Ok(Said::Step(ScriptStep::Type(line.quoted("a text")?.text)))
 }
 
-fn wait(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn wait(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     Ok(Said::Step(ScriptStep::Wait(line.time()?)))
 }
 
-fn set(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn set(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     let name = line.until(&["="], "the name of a parameter or an initial value")?;
     expect(line, "=")?;
     let value = line.until(&[], "a value")?;
     Ok(Said::Step(ScriptStep::Set(name, value)))
 }
 
-fn sweep(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn sweep(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     let mut ways: Vec<SweepPath> = Vec::new();
     loop {
         let name = line.name("the name of a parameter or an initial value")?;
@@ -218,7 +218,7 @@ fn sweep(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
     Ok(Said::Step(ScriptStep::Sweep { ways, time: line.time()? }))
 }
 
-fn expect(line: &mut Line<'_>, word: &str) -> Result<(), Diagnostic> {
+fn expect(line: &mut ScriptLine<'_>, word: &str) -> Result<(), Diagnostic> {
     if line.take(word) {
         return Ok(());
     }
@@ -226,21 +226,21 @@ fn expect(line: &mut Line<'_>, word: &str) -> Result<(), Diagnostic> {
     Err(Diagnostic::error(here, format!("here `{word}` is missing")))
 }
 
-fn speed(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn speed(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     Ok(Said::Step(ScriptStep::Speed(line.until(&[], "a speed")?)))
 }
 
-fn look(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn look(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     expect(line, "at")?;
     Ok(Said::Step(ScriptStep::Look(line.until(&[], "a time")?)))
 }
 
-fn caption(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn caption(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     let text = if line.is_over() { String::new() } else { line.quoted("a text")?.text };
     Ok(Said::Step(ScriptStep::Caption(text)))
 }
 
-fn marker(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn marker(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     let name = line.quoted("a name")?;
     if name.text.trim().is_empty() {
         return Err(Diagnostic::error(name.place, "a chapter has a name"));
@@ -283,12 +283,12 @@ const STATUS: [Word; 4] = ["running", "paused", "ended", "stopped"];
 /// The first words of verdicts.
 const VERDICTS: [Word; 7] = ["exact", "bounded", "secular", "lost", "broken", "open", "unknown"];
 
-fn assert(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn assert(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     Ok(Said::Step(ScriptStep::Assert(claim(line)?)))
 }
 
 /// A claim, to the end of the line.
-fn claim(line: &mut Line<'_>) -> Result<Assert, Diagnostic> {
+fn claim(line: &mut ScriptLine<'_>) -> Result<Assert, Diagnostic> {
     if line.take("status") {
         let word = line.one_of("how an experiment stands", &STATUS)?;
         return Ok(Assert::Status(word));
@@ -323,7 +323,7 @@ fn claim(line: &mut Line<'_>) -> Result<Assert, Diagnostic> {
 
 /// `=` needs a tolerance, except between counts; `<` and `>` must not have one.
 fn exactness(
-    line: &Line<'_>,
+    line: &ScriptLine<'_>,
     measure: AssertedNumber,
     relation: Comparator,
     within: Option<&LineText>,
@@ -345,28 +345,28 @@ fn lesson(step: LessonStep) -> Said {
     Said::Step(ScriptStep::Lesson(step))
 }
 
-fn say(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn say(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     Ok(lesson(LessonStep::Say(line.quoted("a text")?.text)))
 }
 
-fn ask(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn ask(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     Ok(lesson(LessonStep::Ask(line.quoted("a question")?.text)))
 }
 
 /// A quoted text after a word, if the word comes next.
-fn aside(line: &mut Line<'_>, word: &str) -> Result<Option<String>, Diagnostic> {
+fn aside(line: &mut ScriptLine<'_>, word: &str) -> Result<Option<String>, Diagnostic> {
     let text = line.take(word).then(|| line.quoted("a text")).transpose()?;
     Ok(text.map(|text| text.text))
 }
 
-fn option(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn option(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     let text = line.quoted("an option")?.text;
     let why = aside(line, "why")?;
     expect(line, "if")?;
     Ok(lesson(LessonStep::Option { text, why, claim: claim(line)? }))
 }
 
-fn predict(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn predict(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     let text = line.quoted("a question")?.text;
     let is_curve = line.take("curve");
     if is_curve || line.take("point") {
@@ -380,8 +380,8 @@ fn predict(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
 }
 
 /// The axes of a plot: `X [from A to B] and Y [from A to B] within EPS [and EPS]`.
-fn axes(line: &mut Line<'_>) -> Result<[AskedAxis; 2], Diagnostic> {
-    let axis = |line: &mut Line<'_>, end: &str| {
+fn axes(line: &mut ScriptLine<'_>) -> Result<[AskedAxis; 2], Diagnostic> {
+    let axis = |line: &mut ScriptLine<'_>, end: &str| {
         let of = line.until(&["from", end], "the quantity on an axis")?;
         if !line.take("from") {
             return Ok((of, None));
@@ -404,21 +404,21 @@ fn axes(line: &mut Line<'_>) -> Result<[AskedAxis; 2], Diagnostic> {
 }
 
 #[expect(clippy::unnecessary_wraps, reason = "a reader of the table")]
-fn outcome(_: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn outcome(_: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     Ok(lesson(LessonStep::Outcome))
 }
 
-fn task(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn task(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     let text = line.quoted("a text")?.text;
     let hint = aside(line, "hint")?;
     expect(line, "until")?;
     Ok(lesson(LessonStep::Task { text, hint, claim: claim(line)? }))
 }
 
-fn solution(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn solution(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     Ok(lesson(LessonStep::Solution(keys(line)?)))
 }
 
-fn free(line: &mut Line<'_>) -> Result<Said, Diagnostic> {
+fn free(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     Ok(lesson(LessonStep::Free(line.quoted("a text")?.text)))
 }

@@ -16,7 +16,7 @@ pub struct LineText {
 }
 
 /// A line that is read from left to right.
-pub(in crate::record) struct Line<'a> {
+pub(in crate::record) struct ScriptLine<'a> {
     /// The line without its comment and trailing blanks.
     text: &'a str,
     /// The offset of the line in the script.
@@ -24,10 +24,10 @@ pub(in crate::record) struct Line<'a> {
     at: usize,
 }
 
-impl<'a> Line<'a> {
-    pub(super) fn new(text: &'a str, start: usize) -> Line<'a> {
+impl<'a> ScriptLine<'a> {
+    pub(super) fn new(text: &'a str, start: usize) -> ScriptLine<'a> {
         let text = &text[..comment(text)];
-        Line { text: text.trim_end(), start, at: 0 }
+        ScriptLine { text: text.trim_end(), start, at: 0 }
     }
 
     /// The current position, as a byte offset in the script.
