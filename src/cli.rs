@@ -5,6 +5,7 @@
 //! command ends quietly and successfully. Never here: mechanics, the integration of a motion.
 
 mod actions;
+mod advice;
 mod assignment;
 mod bracket;
 mod cells;

@@ -8,4 +8,4 @@ mod measure;
 mod outcome;
 
 pub use measure::{MEASURES, MeasuredOrbit, OrbitMeasure, Zeros, measure_named};
-pub use outcome::{RunOutcome, RunPlan};
+pub use outcome::{Departed, RunOutcome, RunPlan};

@@ -13,7 +13,7 @@
 //!        ▼
 //!   Program (program)  one flat list; what depends on parameters alone stands in front of it
 //!        │   tangent: its derivative, a program again     split_step: both halves of a splitting step in one list
-//!        │                                                rates_list, stage_rates: rates in one list, for stages side by side
+//!        │                                                rates_list, lane_rates: rates in one list, for several states at once
 //!        │
 //!        ├──────────────── values ────────────────┐  ┌───────── Taylor coefficients ─────────┐
 //!        ▼                                        │  │                                       ▼
@@ -36,6 +36,7 @@ mod attitude;
 mod batch_event_signs;
 mod batch_series;
 mod batch_split_step;
+mod batch_steps;
 mod batch_terms;
 mod branch;
 mod channel;
@@ -61,6 +62,7 @@ mod instruction;
 mod jet;
 mod kink_sides;
 mod kkt;
+mod lane_rates;
 mod lane_series;
 mod legendre;
 mod lower;
@@ -86,7 +88,6 @@ mod solve;
 mod split_step;
 mod stage_list;
 mod stage_machine;
-mod stage_rates;
 mod state;
 mod step_series;
 mod surface;
@@ -102,6 +103,7 @@ pub use allowed_displacements::AllowedDisplacements;
 pub use batch_event_signs::BatchEventSigns;
 pub use batch_series::BatchSeries;
 pub use batch_split_step::BatchSplitStep;
+pub use batch_steps::BatchSteps;
 pub use batch_terms::BatchTerms;
 pub use branch::Branch;
 pub use channel::{Channel, ChannelKind};
@@ -113,6 +115,7 @@ pub use exact::ExactRates;
 pub use impulse::{ImpulseOutcome, ImpulseTimes};
 pub use jet::{Jet, Side};
 pub use kink_sides::KinkSides;
+pub use lane_rates::{LaneRates, OrbitRates, STAGES, StageRates, Stages};
 pub use lane_series::LaneSeries;
 pub use observe::Observer;
 pub use program::{Program, Singular};
@@ -121,7 +124,8 @@ pub use rates::Rates;
 pub use saltation::Saltation;
 pub use series::Series;
 pub use split_step::SplitStep;
-pub use stage_rates::{STAGES, StageRates, Stages};
+pub use stage_list::Composition;
+
 pub use state::{Form, InitialOverride, State};
 pub use step_series::StepSeries;
 pub use surface::SurfaceRow;

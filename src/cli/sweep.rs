@@ -12,6 +12,7 @@ use std::str::FromStr;
 
 use serde_json::{Value, json};
 
+use super::advice::size;
 use super::assignment::number;
 use super::cells::{self, TableCell, TableFormat};
 use super::crowd::{self, Crowd, Tally};
@@ -22,6 +23,7 @@ use super::output::{Output, OutputForm};
 use super::starts::{GridAxis, Starts};
 use super::stderr;
 use crate::ensemble::in_order;
+use crate::orbits::Departed;
 use crate::printable;
 
 use identity::{Identity, Shard};
@@ -144,27 +146,51 @@ struct Sweep<'a> {
     interrupt: &'a Interrupt,
 }
 
-/// How many rows were not completed, and the first of them.
+/// What is to be said of the rows: how many were not completed, and in how many a conserved quantity has left its value.
 #[derive(Default)]
-struct Failures {
-    count: usize,
+struct Remarks {
+    failed: u64,
+    /// The first that failed.
     first: Option<String>,
+    departed: u64,
+    /// The row of the greatest drift.
+    worst: Option<(usize, Departed)>,
 }
 
-impl Failures {
+impl Remarks {
     fn note(&mut self, index: usize, row: &SweepRow) {
         if let Some(message) = &row.message {
-            self.count += 1;
+            self.failed += 1;
             self.first.get_or_insert_with(|| format!("row {}, {message}", index + 1));
+        }
+        if let Some(departed) = &row.departed {
+            self.departed += 1;
+            let worse = self.worst.as_ref().is_none_or(|(_, worst)| departed.drift > worst.drift);
+            if worse {
+                self.worst = Some((index, departed.clone()));
+            }
         }
     }
 
-    fn tell(&self) {
+    fn tell(&self, advice: &str) {
+        let rows = |count| if count == 1 { "row" } else { "rows" };
         if let Some(first) = &self.first {
-            let count = self.count;
-            let rows = if count == 1 { "row was" } else { "rows were" };
+            let (count, were) = (self.failed, if self.failed == 1 { "was" } else { "were" });
             let first = first.split_whitespace().collect::<Vec<_>>().join(" ");
-            stderr::tell(&format!("{count} {rows} not completed; the first: {first}"));
+            let rows = rows(count);
+            stderr::tell(&format!("{count} {rows} {were} not completed; the first: {first}"));
+        }
+        if let Some((index, worst)) = &self.worst {
+            let (count, rows) = (self.departed, rows(self.departed));
+            let (name, drift) = (printable::line(&worst.name), size(worst.drift));
+            let row = index + 1;
+            let of_them = match count {
+                1 => format!("in row {row} a conserved quantity leaves its value"),
+                _ => format!(
+                    "in {count} {rows} a conserved quantity leaves its value, most in row {row}"
+                ),
+            };
+            stderr::tell(&format!("{of_them}: `{name}` is off by {drift} of what moves; {advice}"));
         }
     }
 }
@@ -216,14 +242,14 @@ impl Sweep<'_> {
     /// Writes each row as soon as all before it are written.
     fn into_stream(self, path: Option<&Path>) -> Result<(), CommandError> {
         let mut out = Output::open(path, OutputForm::Text)?;
-        let (mut failures, mut failed) = (Failures::default(), None);
+        let (mut remarks, mut failed) = (Remarks::default(), None);
         let mut tally = Tally::new(0, self.places.len());
         let head = out.write_all(self.head().as_bytes());
         head.map_err(|error| out.failed(&error))?;
         let mut written = 0;
         let take = |place, row: Option<SweepRow>| {
             let Some(row) = row else { return ControlFlow::Break(()) };
-            failures.note(self.index(place), &row);
+            remarks.note(self.index(place), &row);
             let line = cells::record(row.plain());
             if let Err(error) = out.write_all(line.as_bytes()).and_then(|()| out.flush()) {
                 failed = Some(out.failed(&error));
@@ -244,7 +270,7 @@ impl Sweep<'_> {
             out.write_all(line.as_bytes()).map_err(|error| out.failed(&error))?;
         }
         out.finish()?;
-        failures.tell();
+        remarks.tell(&self.table.advice());
         self.ended()
     }
 
@@ -259,7 +285,7 @@ impl Sweep<'_> {
         let (journal, mut lines) = Journal::open(path, &self.identity, self.places.len(), resume)?;
         let missing: Vec<usize> = self.places.clone().filter(|&p| lines[p].is_none()).collect();
         let mut tally = Tally::new(lines.len() - missing.len(), lines.len());
-        let (mut failures, mut failed) = (Failures::default(), None);
+        let (mut remarks, mut failed) = (Remarks::default(), None);
         // a row is in the journal before anything waits for those before it
         let note = |place: usize, row: SweepRow| {
             let line = cells::record(row.plain());
@@ -272,7 +298,7 @@ impl Sweep<'_> {
                 failed = Some(CommandError::writing(&journal.name(), &error));
                 return ControlFlow::Break(());
             }
-            failures.note(self.index(missing[i]), &row);
+            remarks.note(self.index(missing[i]), &row);
             lines[missing[i]] = Some(line);
             tally.add();
             ControlFlow::Continue(())
@@ -290,7 +316,7 @@ impl Sweep<'_> {
         let rows: String = lines.into_iter().flatten().collect();
         crowd::write(out, &(self.head() + &rows), self.interrupt)?;
         journal.remove();
-        failures.tell();
+        remarks.tell(&self.table.advice());
         Ok(())
     }
 
@@ -307,8 +333,8 @@ impl Sweep<'_> {
         };
         self.compute(&places, |_, row| row, take)?;
         drop(tally);
-        let mut failures = Failures::default();
-        rows.iter().enumerate().for_each(|(i, row)| failures.note(i, row));
+        let mut remarks = Remarks::default();
+        rows.iter().enumerate().for_each(|(i, row)| remarks.note(i, row));
         let cells: Vec<Vec<TableCell>> = rows.iter().map(|row| row.cells.clone()).collect();
         let columns = self.table.columns();
         let text = match self.arguments.format {
@@ -332,7 +358,7 @@ impl Sweep<'_> {
             _ => cells::text(&columns, &cells),
         };
         crowd::write(out, &text, self.interrupt)?;
-        failures.tell();
+        remarks.tell(&self.table.advice());
         self.ended()
     }
 }

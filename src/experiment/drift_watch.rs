@@ -1,11 +1,12 @@
 //! The drift of the energy of a motion that nobody else looks at: one of many.
 //!
 //! In: the state where it begins, those at the ends of its steps, and where it ends. Out: the values of all columns there,
-//! and the greatest drift. Never here: rows, histories, the steps themselves.
+//! and the gauges. Never here: rows, histories, the steps themselves.
 
 use std::sync::Arc;
 
 use super::gauges::{GaugeInputs, Gauges};
+use super::snapshot::Gauge;
 use crate::analysis::Errors;
 use crate::mechanics::{Equations, Valuation};
 use crate::model::Model;
@@ -72,15 +73,14 @@ impl DriftWatch {
         self.gauges.step(time, self.steps, &self.terms, true);
     }
 
-    /// Ends at a state, and returns the value of every channel there and the greatest drift of the energy, or of the energy
-    /// less the work done; NaN if neither is monitored.
+    /// Ends at a state, and returns the value of every channel and the gauges there.
     ///
     /// # Errors
     /// Returns an error if the state cannot be observed.
-    pub fn end(&mut self, state: &State) -> Result<(&[f64], f64), MotionError> {
+    pub fn end(&mut self, state: &State) -> Result<(&[f64], Arc<[Gauge]>), MotionError> {
         self.look(state)?;
         let gauges = self.gauges.show(&self.present(state));
-        Ok((&self.values, super::snapshot::energy_drift(&gauges)))
+        Ok((&self.values, gauges))
     }
 
     fn look(&mut self, state: &State) -> Result<(), MotionError> {

@@ -6,12 +6,16 @@
 //! Never here: which orbits, what is seen of them.
 
 use super::batch_events::{BatchEvents, LaneEvent};
+use super::equal_steps_batch::EqualStepsBatch;
 use super::lane_status::LaneStatus;
 use super::method::{Method, Settings};
-use super::splitting_batch::SplittingBatch;
+use super::rk4::RungeKutta;
+use super::rk4_batch::RungeKuttaBatch;
+use super::splitting::Splitting;
 use super::taylor::TaylorBatch;
+use super::{rk4, symplectic_euler};
 use crate::num::BATCH;
-use crate::system::{Form, MotionError, State, System};
+use crate::system::{BatchSplitStep, Composition, Form, MotionError, State, System};
 
 /// Orbits side by side.
 pub struct BatchPropagator {
@@ -24,17 +28,42 @@ pub struct BatchPropagator {
 /// The orbits, by a method.
 enum BatchStepper {
     Taylor(Box<TaylorBatch>),
-    Splitting(Box<SplittingBatch>),
+    Splitting(Box<EqualStepsBatch<BatchSplitStep, Splitting>>),
+    RungeKutta(Box<EqualStepsBatch<RungeKuttaBatch, RungeKutta>>),
 }
 
-/// Calls the same function of either.
+/// Calls the same function of each.
 macro_rules! of_stepper {
     ($own:expr, $stepper:ident => $call:expr) => {
         match $own {
             BatchStepper::Taylor($stepper) => $call,
             BatchStepper::Splitting($stepper) => $call,
+            BatchStepper::RungeKutta($stepper) => $call,
         }
     };
+}
+
+impl BatchStepper {
+    fn new(system: &System, method: &Method, settings: &Settings) -> Option<BatchStepper> {
+        if method.name == rk4::METHOD.name {
+            let steps = (RungeKuttaBatch::new(system)?, RungeKutta::new(system));
+            let orbits = EqualStepsBatch::new(system, settings, steps)?;
+            return Some(BatchStepper::RungeKutta(Box::new(orbits)));
+        }
+        let leapfrogs = (method.leapfrogs)();
+        let composition = if method.name == symplectic_euler::METHOD.name {
+            Composition::KickDrift
+        } else if leapfrogs.is_empty() {
+            let series = TaylorBatch::new(system, method, settings)?;
+            return Some(BatchStepper::Taylor(Box::new(series)));
+        } else {
+            Composition::Leapfrogs(leapfrogs)
+        };
+        let many = system.batch_split_step(&composition)?;
+        let steps = (many, Splitting::new(system, &composition)?);
+        let orbits = EqualStepsBatch::new(system, settings, steps)?;
+        Some(BatchStepper::Splitting(Box::new(orbits)))
+    }
 }
 
 impl BatchPropagator {
@@ -44,14 +73,7 @@ impl BatchPropagator {
         method: &'static Method,
         settings: Settings,
     ) -> Option<BatchPropagator> {
-        let series = TaylorBatch::new(system, method, &settings);
-        let stepper = match series {
-            Some(series) => BatchStepper::Taylor(Box::new(series)),
-            None => {
-                let splitting = SplittingBatch::new(system, method, &settings)?;
-                BatchStepper::Splitting(Box::new(splitting))
-            }
-        };
+        let stepper = BatchStepper::new(system, method, &settings)?;
         Some(BatchPropagator { system: system.clone(), stepper, events: None })
     }
 
@@ -90,9 +112,10 @@ impl BatchPropagator {
 
     /// The form of the states.
     pub fn form(&self) -> Form {
-        match self.stepper {
+        match &self.stepper {
             BatchStepper::Taylor(_) => self.system.form(),
-            BatchStepper::Splitting(_) => Form::Momentum,
+            BatchStepper::Splitting(steps) => steps.form(),
+            BatchStepper::RungeKutta(steps) => steps.form(),
         }
     }
 
@@ -124,7 +147,8 @@ impl BatchPropagator {
                 events.pass(series);
                 stepped
             }
-            (BatchStepper::Splitting(splitting), _) => splitting.step(limits, looks),
+            (BatchStepper::Splitting(steps), _) => steps.step(limits, looks),
+            (BatchStepper::RungeKutta(steps), _) => steps.step(limits, looks),
         }
     }
 

@@ -32,10 +32,11 @@ pub(super) const METHOD: Method = Method {
 
 /// For each stage: its time as a part of the step, reached by the rates of the stage before, and
 /// its weight in sixths.
-const STAGES: [(f64, f64); 4] = [(0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0)];
+pub(super) const STAGES: [(f64, f64); 4] = [(0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0)];
 
+/// The steps of one orbit.
 #[derive(Clone)]
-struct RungeKutta {
+pub(super) struct RungeKutta {
     rates: Rates,
     numbers: Vec<f64>,
     slope: Vec<f64>,
@@ -44,7 +45,7 @@ struct RungeKutta {
 }
 
 impl RungeKutta {
-    fn new(system: &System) -> RungeKutta {
+    pub(super) fn new(system: &System) -> RungeKutta {
         let zeros = vec![0.0; system.state_len()];
         let rates = system.native_rates();
         RungeKutta { rates, numbers: zeros.clone(), slope: zeros.clone(), sum: zeros }

@@ -1,14 +1,15 @@
 //! Splitting: H = T(p) + V(q, t) is integrated by V alone and by T alone in turn, each exactly.
 //!
 //! A step of Störmer and Verlet is half a kick, a drift, half a kick. A symmetric composition of
-//! steps w₁ h, w₂ h, … with sum h has a higher order for suitable w.
+//! steps w₁ h, w₂ h, … with sum h has a higher order for suitable w. A whole kick and then a whole drift are a
+//! [step of symplectic Euler](super::symplectic_euler).
 //!
 //! Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, I.1.4, II.4, II.5.
 
 use super::fixed::{FixedStep, ManySteps, Scheme, add};
 use super::method::{Method, MethodError, Settings, StepperResult};
 use super::stability::{self, Modes};
-use crate::system::{Form, KinkSides, MotionError, Rates, SplitStep, State, System};
+use crate::system::{Composition, Form, KinkSides, MotionError, Rates, SplitStep, State, System};
 
 /// What it requires of a system.
 pub(super) const NEEDS: &str = "H = T(p) + V(q, t)";
@@ -21,13 +22,13 @@ pub(super) fn fits(method: &Method, system: &System) -> Result<(), MethodError> 
 /// Creates a stepper from the leapfrogs of a method.
 pub(super) fn make(method: &Method, system: &System, settings: &Settings) -> StepperResult {
     fits(method, system)?;
-    let Some(scheme) = Splitting::new(system, (method.leapfrogs)()) else {
+    let Some(scheme) = Splitting::new(system, &Composition::Leapfrogs((method.leapfrogs)())) else {
         return Err(MethodError { method: method.name, reason: format!("{NEEDS} does not hold") });
     };
     Ok(Box::new(FixedStep::new(method.name, system, settings, scheme)?))
 }
 
-/// A composition of leapfrogs.
+/// Kicks and drifts in turn.
 #[derive(Clone)]
 pub(super) struct Splitting {
     drift: Rates,
@@ -35,6 +36,7 @@ pub(super) struct Splitting {
     /// Many steps at once, where they can be a list of instructions.
     many: Option<SplitStep>,
     before: State,
+    /// The parts of the step that the leapfrogs take; none where a step is a kick and a drift.
     weights: Vec<f64>,
     /// No mode with |z| up to this is amplified.
     harmless: f64,
@@ -46,16 +48,18 @@ pub(super) struct Splitting {
 }
 
 impl Splitting {
-    /// The composition from `weights`, the parts of the step in order; `None` where H does not
-    /// separate.
-    pub(super) fn new(system: &System, weights: Vec<f64>) -> Option<Splitting> {
+    /// The steps of a composition; `None` where H does not separate.
+    pub(super) fn new(system: &System, composition: &Composition) -> Option<Splitting> {
         let (drift, kick) = system.split_rates()?;
         let (velocity, force) = (vec![0.0; system.state_len()], vec![0.0; system.state_len()]);
-        let many = SplitStep::new(&drift, &kick, &weights);
+        let many = SplitStep::new(&drift, &kick, composition);
+        let weights = match composition {
+            Composition::Leapfrogs(weights) => weights.clone(),
+            Composition::KickDrift => Vec::new(),
+        };
         let before = State::new(0.0, Form::Momentum, Vec::new());
-        let harmless = stability::harmless(growth, &weights);
         Some(Splitting {
-            harmless,
+            harmless: stability::harmless(growth, modes_of(&weights)),
             drift,
             kick,
             many,
@@ -106,6 +110,13 @@ impl Scheme for Splitting {
         if !self.known {
             self.kick.evaluate(state.time, &state.values, &mut self.force)?;
         }
+        if self.weights.is_empty() {
+            add(state, step, &self.force);
+            self.drift.evaluate(state.time, &state.values, &mut self.velocity)?;
+            add(state, step, &self.velocity);
+            self.known = false;
+            return Ok(());
+        }
         self.known = false;
         let (mut before, mut gone) = (0.0, 0.0);
         for &w in &self.weights {
@@ -122,7 +133,8 @@ impl Scheme for Splitting {
     }
 
     fn modes(&self) -> Option<Modes<'_>> {
-        Some(Modes { growth, weights: &self.weights, harmless: self.harmless })
+        let weights = modes_of(&self.weights);
+        Some(Modes { growth, weights, harmless: self.harmless })
     }
 
     fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError> {
@@ -133,6 +145,11 @@ impl Scheme for Splitting {
     fn sides(&mut self) -> Vec<KinkSides> {
         vec![self.drift.sides(), self.kick.sides()]
     }
+}
+
+/// The leapfrogs that amplify modes as steps with these weights do. A kick and a drift are conjugate to one.
+fn modes_of(weights: &[f64]) -> &[f64] {
+    if weights.is_empty() { &[1.0] } else { weights }
 }
 
 /// The growth of an oscillation q' = p, p' = −θ² q in one step of size 1, with iθ = z; modes that

@@ -11,19 +11,15 @@
 //!
 //! Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, VI.3.1, VI.5.3.
 
-use super::fixed::{FixedStep, Scheme, add};
+use super::fixed::FixedStep;
 use super::implicit::{self, Implicit};
 use super::method::{Method, MethodError, Preserves, Stepping};
-use super::splitting;
-use super::stability::Modes;
+use super::splitting::Splitting;
 use super::tableau;
-use crate::system::{Form, KinkSides, MotionError, Rates, State, System};
+use crate::system::{Composition, Form, System};
 
 /// What it requires of a system.
 const NEEDS: &str = "momenta";
-
-/// It is conjugate to the leapfrog, and amplifies modes as that does.
-const WEIGHTS: [f64; 1] = [1.0];
 
 pub(super) const METHOD: Method = Method {
     name: "symplectic-euler",
@@ -41,11 +37,8 @@ pub(super) const METHOD: Method = Method {
     leapfrogs: Vec::new,
     make: |system, settings| {
         fits(system)?;
-        Ok(match system.split_rates() {
-            Some((drift, kick)) => {
-                let scheme = KickDrift { drift, kick, rates: vec![0.0; system.state_len()] };
-                Box::new(FixedStep::new(METHOD.name, system, settings, scheme)?)
-            }
+        Ok(match Splitting::new(system, &Composition::KickDrift) {
+            Some(scheme) => Box::new(FixedStep::new(METHOD.name, system, settings, scheme)?),
             None => {
                 let scheme = Implicit::partitioned(system, tableau::of_the_end());
                 Box::new(FixedStep::new(METHOD.name, system, settings, scheme)?)
@@ -60,45 +53,4 @@ fn fits(system: &System) -> Result<(), MethodError> {
         return Err(MethodError { method: METHOD.name, reason: reason.to_owned() });
     }
     implicit::fits(&METHOD, system)
-}
-
-/// A step where H separates: a whole kick, then a whole drift.
-#[derive(Clone)]
-struct KickDrift {
-    drift: Rates,
-    kick: Rates,
-    rates: Vec<f64>,
-}
-
-impl Scheme for KickDrift {
-    fn form(&self) -> Form {
-        Form::Momentum
-    }
-
-    fn begin(&mut self, parameters: &[f64]) {
-        self.drift.set_parameters(parameters);
-        self.kick.set_parameters(parameters);
-    }
-
-    fn advance(&mut self, step: f64, state: &mut State) -> Result<(), MotionError> {
-        for half in [&mut self.kick, &mut self.drift] {
-            self.rates.fill(0.0);
-            half.evaluate(state.time, &state.values, &mut self.rates)?;
-            add(state, step, &self.rates);
-        }
-        Ok(())
-    }
-
-    fn modes(&self) -> Option<Modes<'_>> {
-        Some(Modes { growth: splitting::growth, weights: &WEIGHTS, harmless: 0.0 })
-    }
-
-    fn rates(&mut self, time: f64, numbers: &[f64], out: &mut [f64]) -> Result<(), MotionError> {
-        self.drift.evaluate(time, numbers, out)?;
-        self.kick.evaluate(time, numbers, out)
-    }
-
-    fn sides(&mut self) -> Vec<KinkSides> {
-        vec![self.drift.sides(), self.kick.sides()]
-    }
 }

@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use crate::ensemble::{Follower, OrbitCourse, OrbitStatus, Start, side_by_side};
-use crate::experiment::{DriftWatch, Experiment, Setup, Status, energy_drift};
+use crate::experiment::{DriftWatch, Experiment, Gauge, Setup, Status, energy_drift};
 use crate::integrate::{BatchPropagator, LaneStatus, Settings, method_named};
 use crate::mechanics::Equations;
 use crate::model::Model;
@@ -43,6 +43,18 @@ pub struct RunOutcome {
     /// The greatest drift of the energy, or of the energy less the work done, over the ends of all steps at least, relative
     /// to what moves; NaN if neither is monitored.
     pub energy_drift: f64,
+    /// The quantity that is conserved by the law of motion and has left its value, if there is any; the one with the greatest
+    /// drift.
+    pub departed: Option<Departed>,
+}
+
+/// A conserved quantity that has left its value.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Departed {
+    /// Its name.
+    pub name: String,
+    /// Its greatest drift, relative to what moves.
+    pub drift: f64,
 }
 
 /// The steps between two looks at the token.
@@ -60,6 +72,25 @@ impl RunOutcome {
             time: f64::NAN,
             values: vec![f64::NAN; columns],
             energy_drift: f64::NAN,
+            departed: None,
+        }
+    }
+
+    /// A run that ended at a time with these values.
+    fn ended(
+        (status, message): (OrbitStatus, Option<String>),
+        time: f64,
+        values: &[f64],
+        gauges: &[Gauge],
+    ) -> RunOutcome {
+        let departed = Gauge::departed(gauges);
+        RunOutcome {
+            status,
+            message,
+            time,
+            values: values.to_vec(),
+            energy_drift: energy_drift(gauges),
+            departed: departed.map(|g| Departed { name: g.name.clone(), drift: g.max_drift }),
         }
     }
 }
@@ -114,13 +145,8 @@ impl RunPlan {
             }
         };
         let gauges = experiment.snapshot().gauges;
-        Some(RunOutcome {
-            status,
-            message,
-            time: experiment.time(),
-            values: experiment.values()[..columns].to_vec(),
-            energy_drift: energy_drift(&gauges),
-        })
+        let values = &experiment.values()[..columns];
+        Some(RunOutcome::ended((status, message), experiment.time(), values, &gauges))
     }
 }
 
@@ -219,15 +245,10 @@ impl<D: FnMut(usize, RunOutcome)> Follower for RunTogether<'_, D> {
         // a method of fixed step may have passed the end
         batch.at(lane, end, &mut self.last);
         match watch.end(&self.last) {
-            Ok((values, energy_drift)) => {
-                let outcome = RunOutcome {
-                    status: OrbitStatus::Completed,
-                    message: None,
-                    time: end,
-                    values: values[..self.plan.system.columns()].to_vec(),
-                    energy_drift,
-                };
-                (self.done)(orbit, outcome);
+            Ok((values, gauges)) => {
+                let values = &values[..self.plan.system.columns()];
+                let how = (OrbitStatus::Completed, None);
+                (self.done)(orbit, RunOutcome::ended(how, end, values, &gauges));
             }
             Err(_) => self.leave(orbit),
         }

@@ -5,11 +5,12 @@
 //! [`SplitStep`](super::SplitStep) of that orbit alone gives, to the last bit; numbers that are not
 //! finite where it gives none. Never here: systems whose orbits part from each other, time.
 
+use super::batch_steps::BatchSteps;
 use super::compiled::System;
 use super::program::Op;
 use super::rates::Rates;
 use super::registers::Registers;
-use super::stage_list::StageList;
+use super::stage_list::{Composition, StageList};
 use super::stage_machine::Steps;
 use super::state::State;
 use crate::num::{Analytic, BATCH, Batch, vectorized};
@@ -25,10 +26,9 @@ pub struct BatchSplitStep {
 }
 
 impl System {
-    /// The steps of a composition with these weights, of several orbits. There are none where steps of
-    /// one orbit cannot be written as a list, and where an orbit may take another course than its
-    /// neighbours.
-    pub fn batch_split_step(&self, weights: &[f64]) -> Option<BatchSplitStep> {
+    /// The steps of a composition, of several orbits. There are none where steps of one orbit cannot be written as a
+    /// list, and where an orbit may take another course than its neighbours.
+    pub fn batch_split_step(&self, composition: &Composition) -> Option<BatchSplitStep> {
         let (drift, kick) = self.split_rates()?;
         let parts = |rates: &Rates| {
             let part = |op: &Op| matches!(op, Op::Select { .. } | Op::ParametricPower(..));
@@ -37,7 +37,7 @@ impl System {
         if parts(&drift) || parts(&kick) || !self.is_undisturbed() || self.has_branches() {
             return None;
         }
-        let stages = StageList::new(&drift, &kick, weights)?;
+        let stages = StageList::new(&drift, &kick, composition)?;
         Some(BatchSplitStep {
             registers: Registers::of(&stages.map),
             stages,
@@ -47,11 +47,8 @@ impl System {
     }
 }
 
-impl BatchSplitStep {
-    /// Sets the parameters of a lane. Returns false if its numbers may leave the range of `f64`, so
-    /// that the orbit must be followed by itself.
-    #[must_use]
-    pub fn set_parameters(&mut self, lane: usize, parameters: &[f64]) -> bool {
+impl BatchSteps for BatchSplitStep {
+    fn set_parameters(&mut self, lane: usize, parameters: &[f64]) -> bool {
         for half in &mut self.halves {
             half.set_parameters(parameters);
         }
@@ -62,15 +59,13 @@ impl BatchSplitStep {
         self.halves.iter().all(|half| half.values.is_ordinary())
     }
 
-    /// Sets the step of a lane.
-    pub fn set_step(&mut self, lane: usize, step: f64) {
+    fn set_step(&mut self, lane: usize, step: f64) {
         for (factor, x) in self.registers.factors.iter_mut().zip(self.stages.factors(step)) {
             factor.0[lane] = x;
         }
     }
 
-    /// Sets the numbers of a lane.
-    pub fn set_state(&mut self, lane: usize, state: &State) {
+    fn set_state(&mut self, lane: usize, state: &State) {
         let numbers = state.values.iter().zip(&state.carry);
         for (&place, (&value, &carry)) in self.stages.map.numbers.iter().zip(numbers) {
             self.registers.values[usize::from(place)].0[lane] = value;
@@ -78,8 +73,8 @@ impl BatchSplitStep {
         }
     }
 
-    /// Takes `count` steps, at least one, in all lanes.
-    pub fn advance(&mut self, count: u64) {
+    /// None of the rates depends on time.
+    fn advance(&mut self, count: u64, _times: impl Fn(u64) -> Batch) {
         let BatchSplitStep { stages, registers, before, .. } = self;
         let mut keep = |registers: &Registers<Batch>| {
             for (before, &place) in before.iter_mut().zip(&stages.map.numbers) {
@@ -98,8 +93,7 @@ impl BatchSplitStep {
         vectorized(Steps { registers, stages, count, from: count - 1, seen });
     }
 
-    /// Whether the numbers of each lane are finite.
-    pub fn are_finite(&self) -> [bool; BATCH] {
+    fn are_finite(&self) -> [bool; BATCH] {
         let mut sum = Batch::ZERO;
         for &place in &self.stages.map.numbers {
             let place = usize::from(place);
@@ -109,8 +103,7 @@ impl BatchSplitStep {
         sum.0.map(|sum| sum == 0.0)
     }
 
-    /// Writes the numbers of a lane into `out`, and those before the last step into `before`.
-    pub fn write(&self, lane: usize, out: &mut State, before: &mut State) {
+    fn write(&self, lane: usize, out: &mut State, before: &mut State) {
         let lane = lane % BATCH;
         let numbers = out.values.iter_mut().zip(&mut out.carry);
         for (&place, (value, carry)) in self.stages.map.numbers.iter().zip(numbers) {

@@ -25,6 +25,9 @@ pub struct BatchTerms {
     single: Evaluator<f64>,
     /// The number of a state that each input of the program is, if any.
     numbers: Vec<Option<usize>>,
+    /// The number of a state that is the work done, if states carry it, and its values.
+    work_place: Option<usize>,
+    work: Batch,
     /// Whether no number of a lane leaves the range of `f64` unseen.
     ordinary: [bool; BATCH],
 }
@@ -43,20 +46,24 @@ impl System {
         if program.body.iter().any(alone) || self.has_branches() {
             return None;
         }
-        let mut quadratures = self.driven_len()..;
-        let carried = self.carries().map(|carried| quadratures.next().filter(|_| carried));
-        let [action, work] = match carried {
-            // the work follows the action only where there is one
-            [None, Some(place)] => [None, Some(place - 1)],
-            carried => carried,
-        };
-        let numbers = (0..self.motion_len()).map(Some).chain([action, work]).collect();
+        let [carries_action, _] = self.carries();
+        let action = carries_action.then_some(self.driven_len());
+        let numbers = (0..self.motion_len()).map(Some).chain([action]).collect();
         let registers = vec![Batch::ZERO; program.ops.len()];
         let single = Evaluator::new(Arc::clone(program));
         let program = Arc::clone(program);
         let places = Arc::clone(&terms.places);
-        let (system, ordinary) = (self.clone(), [false; BATCH]);
-        Some(BatchTerms { system, program, places, registers, single, numbers, ordinary })
+        Some(BatchTerms {
+            system: self.clone(),
+            program,
+            places,
+            registers,
+            single,
+            numbers,
+            work_place: self.work_place(),
+            work: Batch::ZERO,
+            ordinary: [false; BATCH],
+        })
     }
 }
 
@@ -79,6 +86,7 @@ impl BatchTerms {
             for (&r, place) in self.program.inputs.iter().zip(&self.numbers) {
                 self.registers[r as usize].0[lane] = place.map_or(0.0, |place| state.values[place]);
             }
+            self.work.0[lane] = self.work_place.map_or(0.0, |place| state.values[place]);
         }
         vectorized(Look { terms: self, time });
     }
@@ -88,6 +96,7 @@ impl BatchTerms {
         for (&r, place) in self.program.inputs.iter().zip(&self.numbers) {
             self.registers[r as usize] = place.map_or(Batch::ZERO, |place| numbers[place]);
         }
+        self.work = self.work_place.map_or(Batch::ZERO, |place| numbers[place]);
         vectorized(Look { terms: self, time: times });
     }
 
@@ -148,10 +157,9 @@ impl BatchTerms {
         regular.then(|| outputs.iter().map(term))
     }
 
-    /// The work done on the motion of a lane, if states carry it.
+    /// The work done on the motion of a lane; zero if states do not carry it.
     pub fn work(&self, lane: usize) -> f64 {
-        let last = self.program.inputs.last();
-        last.map_or(0.0, |&r| self.registers[r as usize].0[lane])
+        self.work.0[lane]
     }
 }
 

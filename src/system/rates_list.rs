@@ -53,6 +53,14 @@ impl<R: StageNumber> RatesList<R> {
         }
     }
 
+    /// The same in one lane. Returns whether numbers that are finite are right there.
+    pub(super) fn set_parameters_of(&mut self, lane: usize, values: &Evaluator<f64>) -> bool {
+        for &(_, operation, to) in &self.map.fixed {
+            self.registers.values[usize::from(to)].lanes()[lane] = values.register(operation);
+        }
+        values.is_ordinary()
+    }
+
     /// Whether its rates are those of the program, where they are finite.
     pub(super) fn suits(&self) -> bool {
         self.suits

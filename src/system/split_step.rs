@@ -8,7 +8,7 @@
 use super::State;
 use super::rates::Rates;
 use super::registers::Registers;
-use super::stage_list::StageList;
+use super::stage_list::{Composition, StageList};
 use super::stage_machine::Steps;
 use crate::num::{BATCH, Batch, vectorized};
 
@@ -23,10 +23,9 @@ pub struct SplitStep {
 }
 
 impl SplitStep {
-    /// The steps of the rates under T alone and under V alone, with these weights. Returns `None`
-    /// where they cannot be written as a list.
-    pub fn new(drift: &Rates, kick: &Rates, weights: &[f64]) -> Option<SplitStep> {
-        let stages = StageList::new(drift, kick, weights)?;
+    /// The steps of the rates under T alone and under V alone. Returns `None` where they cannot be written as a list.
+    pub fn new(drift: &Rates, kick: &Rates, composition: &Composition) -> Option<SplitStep> {
+        let stages = StageList::new(drift, kick, composition)?;
         let registers = Registers::of(&stages.map);
         let halves = [drift.clone(), kick.clone()];
         Some(SplitStep { halves, stages, registers, suits: false })

@@ -100,12 +100,17 @@ fn every_orbit_has_the_bits_that_it_has_alone() {
 }
 
 #[test]
-fn every_orbit_by_a_composition_of_leapfrogs_too() {
+fn every_orbit_by_equal_steps_too() {
     let mut seen = Vec::new();
     for entry in catalog().entries() {
         let ready = Prepared::of(&entry.document().unwrap()).unwrap();
         let unit = Some(ready.model.run.speed).filter(|s| s.is_finite()).unwrap_or(1.0);
-        for (name, step) in [("leapfrog", None), ("yoshida6", Some(0.05 * unit))] {
+        for (name, step) in [
+            ("leapfrog", None),
+            ("yoshida6", Some(0.05 * unit)),
+            ("symplectic-euler", Some(0.01 * unit)),
+            ("rk4", Some(0.05 * unit)),
+        ] {
             let method = method_named(name).unwrap();
             // the default step of many bodies takes long to find
             if step.is_none() && ready.system.degrees() > 2 {
@@ -131,7 +136,17 @@ fn every_orbit_by_a_composition_of_leapfrogs_too() {
             seen.push(format!("{} {name}", entry.name));
         }
     }
-    for name in ["henon-heiles leapfrog", "pendulum yoshida6", "solar-system yoshida6"] {
+    // with the time in the rates, with equations to be solved, with rates of velocities
+    let some = [
+        "henon-heiles leapfrog",
+        "pendulum yoshida6",
+        "solar-system yoshida6",
+        "henon-heiles symplectic-euler",
+        "driven-damped-pendulum rk4",
+        "double-pendulum rk4",
+        "heavy-top rk4",
+    ];
+    for name in some {
         assert!(seen.iter().any(|s| s == name), "{name} not among {seen:?}");
     }
 }

@@ -1,9 +1,9 @@
 //! The report of the gauges at the end of a run.
 
 use crate::analysis::Verdict;
+use crate::cli::advice::{advice, size};
 use crate::cli::report::Invariant;
 use crate::experiment::{Gauge, MethodFact};
-use crate::integrate::{METHODS, Stepping};
 use crate::num::short;
 
 /// Converts each gauge to an invariant.
@@ -37,7 +37,11 @@ impl Departure {
                 1 => ", and so does another invariant".to_owned(),
                 n => format!(", and so do {n} others"),
             };
-            let line = format!("{}{others}; {}", description(worst, ""), advice(method));
+            let line = format!(
+                "{}{others}; {}",
+                description(worst, ""),
+                advice(method.name, Some(method.step), method.tolerance)
+            );
             return Some(Departure { line, proved: true });
         }
         let contradicted = gauges.iter().filter(|g| g.left.is_some());
@@ -74,31 +78,5 @@ fn description(gauge: &Gauge, about: &str) -> String {
         }
         Verdict::Secular(_) => format!("{name} drifts away: off by {drift} of what moves{since}"),
         _ => format!("{name} leaves its value by {drift} of what moves{since}"),
-    }
-}
-
-/// Advice for a smaller drift.
-fn advice(method: &MethodFact) -> String {
-    let row = METHODS.iter().find(|row| row.name == method.name);
-    match (row.map(|row| row.stepping), method.tolerance) {
-        (Some(Stepping::Fixed), _) => {
-            format!("try a --step below {}, or the default method", short(method.step))
-        }
-        (_, Some(tolerance)) => {
-            format!("try a --tolerance below {}, or leave it out", short(tolerance))
-        }
-        (_, None) => {
-            let other = if method.name == "dop853" { "taylor" } else { "dop853" };
-            format!("the motion may have passed a singular point: compare with --method {other}")
-        }
-    }
-}
-
-/// A relative size with two digits.
-fn size(x: f64) -> String {
-    match x {
-        0.01..1000.0 => format!("{x:.2}"),
-        _ if x.is_finite() => format!("{x:.1e}"),
-        _ => "more than can be reported".to_owned(),
     }
 }

@@ -4,6 +4,7 @@
 
 use std::str::FromStr;
 
+use super::super::advice::advice;
 use super::super::assignment;
 use super::super::cells::TableCell;
 use super::super::failure::CommandError;
@@ -17,7 +18,7 @@ use crate::dynamics::PhaseSpace;
 use crate::ensemble::{OrbitStatus, Start, add_section};
 use crate::model::Direction;
 use crate::orbits::{
-    MEASURES, MeasuredOrbit, OrbitMeasure, RunOutcome, RunPlan, Zeros, measure_named,
+    Departed, MEASURES, MeasuredOrbit, OrbitMeasure, RunOutcome, RunPlan, Zeros, measure_named,
 };
 use crate::printable;
 use crate::system::{InitialOverride, System};
@@ -106,6 +107,8 @@ pub(super) struct SweepRow {
     pub(super) cells: Vec<TableCell>,
     /// Why the run was not completed.
     pub(super) message: Option<String>,
+    /// What is conserved by the law of motion, and has left its value.
+    pub(super) departed: Option<Departed>,
 }
 
 impl SweepRow {
@@ -165,6 +168,12 @@ impl SweepTable {
     /// The report before the rows.
     pub(super) fn header(&self) -> Header {
         self.laid.header()
+    }
+
+    /// What to try where a conserved quantity has left its value.
+    pub(super) fn advice(&self) -> String {
+        let (settings, method) = (self.laid.settings, self.laid.method);
+        advice(method.name, settings.step, settings.tolerance)
     }
 
     /// The names of the columns.
@@ -237,7 +246,8 @@ impl SweepTable {
             cells.push(TableCell::Number(measured));
         }
         let failed = matches!(outcome.status, OrbitStatus::Faulted | OrbitStatus::Refused);
-        Some(SweepRow { cells, message: outcome.message.filter(|_| failed) })
+        let message = outcome.message.filter(|_| failed);
+        Some(SweepRow { cells, message, departed: outcome.departed })
     }
 }
 

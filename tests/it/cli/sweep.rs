@@ -377,3 +377,37 @@ fn shards_and_journals_that_have_no_end_are_refused() {
     let grid = ["pendulum", "--grid=theta=0:1:2", "--until=1", "-o", "out.csv"];
     in_folder(home.path(), &grid).fails(74, &["out.csv.journal", "it is a pipe"]);
 }
+
+/// Steps of 1.5 are too long for rk4 on a spring, whose energy it loses. The default method is not spoken of, nor is the energy
+/// that friction takes; orbits side by side have its balance too.
+#[test]
+fn a_conserved_quantity_that_leaves_its_value_is_told_in_one_line() {
+    let swept = |name: &str, more: &[&str]| {
+        let all = [&["sweep", name, "--grid=x=0.5:1.5:3", "--until=40"], more].concat();
+        let Done { code, stderr, .. } = phaselab(&all);
+        assert_eq!(code, 0, "{stderr}");
+        stderr
+    };
+    let coarse = ["--method=rk4", "--step=1.5"];
+    for (name, quantity) in [("harmonic-oscillator", "J"), ("damped-oscillator", "energy balance")]
+    {
+        let told = swept(name, &coarse);
+        let expected = "in 3 rows a conserved quantity leaves its value, most in row ";
+        assert!(
+            told.contains(expected) && told.contains(&format!("`{quantity}` is off by ")),
+            "{told}"
+        );
+        assert!(told.contains("try a --step below 1.5, or the default method"), "{told}");
+        assert_eq!(told.lines().count(), 1, "{told}");
+        assert_eq!(swept(name, &[]), "");
+        assert_eq!(swept(name, &["--tolerance=fast"]), "");
+    }
+    // in a file and as JSON too
+    let home = tempfile::tempdir().unwrap();
+    let rows = home.path().join("rows.csv");
+    let rows = format!("--output={}", rows.display());
+    for more in [rows.as_str(), "--format=json"] {
+        let told = swept("harmonic-oscillator", &[&coarse[..], &[more]].concat());
+        assert!(told.contains("a conserved quantity leaves its value"), "{told}");
+    }
+}

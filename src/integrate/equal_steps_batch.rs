@@ -1,4 +1,4 @@
-//! Splitting methods of several orbits at once.
+//! Methods of fixed step for several orbits at once.
 //!
 //! In: a state, parameters and a limit for each lane. Out: the equal steps that an orbit alone takes.
 //! An orbit whose numbers leave what is ordinary is given back as [`LaneStatus::Irregular`]. Never here:
@@ -7,17 +7,16 @@
 use super::equal_steps::EqualSteps;
 use super::fixed::Scheme;
 use super::lane_status::LaneStatus;
-use super::method::{Method, Settings};
-use super::splitting::Splitting;
-use crate::num::{BATCH, DoubleDouble};
-use crate::system::{BatchSplitStep, Form, State, System};
+use super::method::Settings;
+use crate::num::{BATCH, Batch, DoubleDouble};
+use crate::system::{BatchSteps, Form, State, System};
 
 /// The most steps between two looks at the token.
 const MOST: u64 = 256;
 
 /// One orbit.
 #[derive(Clone)]
-struct SplittingLane {
+struct EqualStepsLane {
     status: LaneStatus,
     state: State,
     before: State,
@@ -25,47 +24,50 @@ struct SplittingLane {
     parameters: Vec<f64>,
 }
 
-/// Orbits by a splitting method, side by side.
-pub(super) struct SplittingBatch {
+/// Orbits side by side, by steps of which a scheme takes those of one orbit.
+pub(super) struct EqualStepsBatch<B, S> {
     system: System,
-    many: BatchSplitStep,
+    many: B,
     /// Takes the shorter steps of dense output.
-    aside: Splitting,
+    aside: S,
     /// The lane whose parameters that has.
     aside_of: Option<usize>,
     asked: Option<f64>,
-    lanes: [SplittingLane; BATCH],
+    lanes: [EqualStepsLane; BATCH],
 }
 
-impl SplittingBatch {
-    /// Room for orbits of a system; `None` where they have to be followed one by one.
+impl<B: BatchSteps, S: Scheme> EqualStepsBatch<B, S> {
+    /// Room for orbits of a system. Returns `None` where the step asked for is none.
     pub(super) fn new(
         system: &System,
-        method: &Method,
         settings: &Settings,
-    ) -> Option<SplittingBatch> {
+        (many, aside): (B, S),
+    ) -> Option<EqualStepsBatch<B, S>> {
         let asked = settings.step;
         if asked.is_some_and(|h| !(h > 0.0 && h.is_finite())) {
             return None;
         }
-        let weights = (method.leapfrogs)();
-        let many = system.batch_split_step(&weights).filter(|_| !weights.is_empty())?;
-        let blank = State::new(0.0, Form::Momentum, vec![0.0; system.state_len()]);
-        let lane = SplittingLane {
+        let blank = State::new(0.0, aside.form(), vec![0.0; system.state_len()]);
+        let lane = EqualStepsLane {
             status: LaneStatus::Empty,
             state: blank.clone(),
             before: blank,
             steps: EqualSteps::new(DoubleDouble::ZERO, DoubleDouble::ZERO),
             parameters: Vec::new(),
         };
-        Some(SplittingBatch {
+        Some(EqualStepsBatch {
             system: system.clone(),
             many,
-            aside: Splitting::new(system, weights)?,
+            aside,
             aside_of: None,
             asked,
             lanes: std::array::from_fn(|_| lane.clone()),
         })
+    }
+
+    /// The form of the states.
+    pub(super) fn form(&self) -> Form {
+        self.aside.form()
     }
 
     /// Puts an orbit into a lane.
@@ -76,8 +78,8 @@ impl SplittingBatch {
         if self.aside_of == Some(lane) {
             self.aside_of = None;
         }
-        if let (true, Ok(begun)) = (regular, self.system.convert(state, Form::Momentum, parameters))
-        {
+        let form = self.aside.form();
+        if let (true, Ok(begun)) = (regular, self.system.convert(state, form, parameters)) {
             let step = EqualSteps::step_of(self.asked, &self.system, state, parameters);
             own.steps = EqualSteps::new(begun.exact_time(), step);
             own.before.copy_from(&begun);
@@ -125,7 +127,9 @@ impl SplittingBatch {
                 self.many.set_state(i, &lane.state);
             }
         }
-        self.many.advance(count);
+        let EqualStepsBatch { many, lanes, .. } = self;
+        let time = |lane: &EqualStepsLane, step| lane.steps.time_after(step).high;
+        many.advance(count, |step| Batch(lanes.each_ref().map(|lane| time(lane, step))));
         let finite = self.many.are_finite();
         for (i, lane) in self.lanes.iter_mut().enumerate().filter(|(i, _)| going[*i]) {
             let counted = lane.steps.are_distinct(count, lane.state.time)
