@@ -66,6 +66,7 @@ mod lane_rates;
 mod lane_series;
 mod legendre;
 mod lower;
+mod native_states;
 mod node;
 mod observables;
 mod observe;

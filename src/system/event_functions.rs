@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use super::discontinuities::CompiledEvent;
 use super::expansion::Expansion;
+use super::native_states::NativeStates;
 use super::resolution::Resolution;
 use super::step_series::StepSeries;
 use super::value::Evaluator;
@@ -18,7 +19,7 @@ use crate::num::DoubleDouble;
 #[derive(Clone, Debug)]
 pub struct EventFunctions {
     system: System,
-    parameters: Vec<f64>,
+    native: NativeStates,
     quick: Evaluator<f64>,
     exact: Evaluator<DoubleDouble>,
     resolution: Resolution,
@@ -26,16 +27,13 @@ pub struct EventFunctions {
     expansion: Option<Expansion>,
     rounded: Vec<f64>,
     inputs: Vec<DoubleDouble>,
-    /// The last state evaluated, in the native form, if momenta alone do not determine it.
-    near: Option<State>,
 }
 
 impl EventFunctions {
     /// Sets the parameters.
     pub fn set_parameters(&mut self, parameters: &[f64]) {
-        self.parameters.clear();
-        self.parameters.extend_from_slice(parameters);
         let inputs = self.system.inputs(parameters);
+        self.native.set_parameters(parameters, &inputs);
         self.quick.set_parameters(&inputs);
         self.exact.set_parameters(&inputs);
         self.resolution.set_parameters(&inputs);
@@ -74,7 +72,7 @@ impl EventFunctions {
 
     /// The expansion up to an order.
     fn expansion(&mut self, order: usize) -> &mut Expansion {
-        let (system, parameters) = (&self.system, &self.parameters);
+        let (system, parameters) = (&self.system, self.native.parameters());
         let expansion = self.expansion.take().filter(|known| known.order() == order);
         self.expansion.insert(expansion.unwrap_or_else(|| {
             let discontinuities = system.discontinuities();
@@ -101,33 +99,13 @@ impl EventFunctions {
     /// infinite for polynomials, and `None` if it cannot be estimated. `near` is a time comparable
     /// to the time scale of the motion.
     pub fn resolved(&mut self, state: &State, near: f64) -> Option<f64> {
-        let form = self.system.form();
-        if state.form == form {
-            return self.resolution.after(state, near);
-        }
-        let own = self.system.convert(state, form, &self.parameters).ok()?;
-        self.resolution.after(&own, near)
-    }
-
-    /// Sets the inputs from a state, which may have either form.
-    fn take_in(&mut self, state: &State) -> Result<(), MotionError> {
-        let form = self.system.form();
-        if state.form == form {
-            self.system.inputs_of(state, &mut self.inputs);
-        } else {
-            let own = match &self.near {
-                Some(near) => self.system.convert_near(state, near, &self.parameters)?,
-                None => self.system.convert(state, form, &self.parameters)?,
-            };
-            self.system.inputs_of(&own, &mut self.inputs);
-            self.near = Some(own).filter(|_| self.system.has_branches());
-        }
-        Ok(())
+        let native = self.native.of(state).ok()?;
+        self.resolution.after(&native, near)
     }
 
     /// Evaluates every event's function at a state.
     pub fn look(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
-        self.take_in(state)?;
+        self.native.write(state, &mut self.inputs)?;
         for (rounded, x) in self.rounded.iter_mut().zip(&self.inputs) {
             *rounded = x.high;
         }
@@ -144,7 +122,7 @@ impl EventFunctions {
 
     /// The value of one event's function, in double-double.
     pub fn exactly(&mut self, event: usize, state: &State) -> Result<DoubleDouble, MotionError> {
-        self.take_in(state)?;
+        self.native.write(state, &mut self.inputs)?;
         let found = self.exact.evaluate(state.exact_time(), &self.inputs);
         found.map_err(|why| {
             let program = &self.system.discontinuities().when;
@@ -181,7 +159,7 @@ impl System {
         let inputs = self.motion_len() + 2;
         let mut event_functions = EventFunctions {
             system: self.clone(),
-            parameters: parameters.to_vec(),
+            native: NativeStates::new(self),
             quick: Evaluator::new(Arc::clone(program)),
             exact: Evaluator::new(Arc::clone(program)),
             resolution: Resolution::new(
@@ -192,7 +170,6 @@ impl System {
             expansion: None,
             rounded: vec![0.0; inputs],
             inputs: vec![DoubleDouble::ZERO; inputs],
-            near: None,
         };
         event_functions.set_parameters(parameters);
         Some(event_functions)

@@ -1,7 +1,7 @@
 //! Evaluates the value of every channel at a state.
 
 use super::image::Image;
-use super::legendre::Legendre;
+use super::native_states::NativeStates;
 use super::value::Evaluator;
 use super::{Form, MotionError, State, System};
 use crate::num::{DoubleDouble, Real};
@@ -18,10 +18,7 @@ pub struct Observer {
     precise: Evaluator<DoubleDouble>,
     drawn: Evaluator<f64>,
     energy: Evaluator<f64>,
-    legendre: Legendre,
-    /// The last state observed, in the native form, kept if momenta alone do not determine it.
-    near: Option<State>,
-    parameters: Vec<f64>,
+    native: NativeStates,
     inputs: Vec<DoubleDouble>,
     rounded: Vec<f64>,
     images: Vec<Image>,
@@ -36,9 +33,7 @@ impl Observer {
             precise: Evaluator::new(Arc::clone(&watch.precise)),
             drawn: Evaluator::new(Arc::clone(&watch.drawn)),
             energy: Evaluator::new(system.energy_program()),
-            legendre: system.legendre(&system.inputs(parameters)),
-            near: None,
-            parameters: Vec::new(),
+            native: NativeStates::new(&system),
             inputs: vec![DoubleDouble::ZERO; inputs],
             rounded: vec![0.0; inputs],
             images,
@@ -50,21 +45,19 @@ impl Observer {
 
     /// Sets the parameters.
     pub fn set_parameters(&mut self, parameters: &[f64]) {
-        self.parameters.clear();
-        self.parameters.extend_from_slice(parameters);
-        let parameters = self.system.inputs(parameters);
-        self.precise.set_parameters(&parameters);
-        self.drawn.set_parameters(&parameters);
-        self.energy.set_parameters(&parameters);
-        self.legendre.set_parameters(&parameters);
+        let inputs = self.system.inputs(parameters);
+        self.precise.set_parameters(&inputs);
+        self.drawn.set_parameters(&inputs);
+        self.energy.set_parameters(&inputs);
+        self.native.set_parameters(parameters, &inputs);
         for image in &mut self.images {
-            image.set_parameters(&parameters);
+            image.set_parameters(&inputs);
         }
     }
 
     /// The parameters in use.
     pub fn parameters(&self) -> &[f64] {
-        &self.parameters
+        self.native.parameters()
     }
 
     /// Writes the value of every channel, in order, into `out`, which must be as long as the
@@ -95,7 +88,7 @@ impl Observer {
 
     fn observe_leading(&mut self, state: &State, out: &mut [f64]) -> Result<(), MotionError> {
         let n = self.system.degrees();
-        self.take_in(state)?;
+        self.native.write(state, &mut self.inputs)?;
         let (own, mut images) = self.inputs.split_at_mut(self.system.motion_len() + 2);
         for image in &mut self.images {
             let (first, others) = images.split_at_mut(image.len());
@@ -117,30 +110,6 @@ impl Observer {
         Ok(())
     }
 
-    /// Sets the inputs of the programs: the state in the native form, then action and work.
-    fn take_in(&mut self, state: &State) -> Result<(), MotionError> {
-        let form = self.system.form();
-        if state.form == form {
-            self.system.inputs_of(state, &mut self.inputs);
-            if self.system.has_branches() {
-                self.near = Some(state.clone());
-            }
-        } else if self.system.has_branches() {
-            let native = match &self.near {
-                Some(near) => {
-                    self.system.convert_by(&mut self.legendre, state, form, Some(near))?
-                }
-                None => self.system.convert(state, form, &self.parameters)?,
-            };
-            self.system.inputs_of(&native, &mut self.inputs);
-            self.near = Some(native);
-        } else {
-            let native = self.system.convert_by(&mut self.legendre, state, form, None)?;
-            self.system.inputs_of(&native, &mut self.inputs);
-        }
-        Ok(())
-    }
-
     /// For one degree of freedom: the energy on a grid over (q, q̇) or (q, p) at one time, for
     /// level curves. The values are in row-major order: `out[j * positions.len() + i]` belongs to
     /// `positions[i]` and `rates[j]`; it is NaN where there is no energy.
@@ -157,11 +126,11 @@ impl Observer {
             for (x, &position) in row.iter_mut().zip(positions) {
                 let energy = self.energy_at(time, form, position, rate);
                 empty += usize::from(energy.is_none());
-                self.legendre.near_only = empty >= MOST_EMPTY;
+                self.native.legendre.near_only = empty >= MOST_EMPTY;
                 *x = energy.unwrap_or(f64::NAN);
             }
         }
-        self.legendre.near_only = false;
+        self.native.legendre.near_only = false;
     }
 
     fn energy_at(&mut self, time: f64, form: Form, position: f64, rate: f64) -> Option<f64> {
@@ -169,7 +138,7 @@ impl Observer {
         if form != self.system.form() {
             let target = [Some(state[1])];
             state[1] = DoubleDouble::ZERO;
-            self.legendre.solve(DoubleDouble::from(time), &mut state, &target).ok()?;
+            self.native.legendre.solve(DoubleDouble::from(time), &mut state, &target).ok()?;
         }
         self.energy.evaluate(time, &[position, state[1].high]).ok()?;
         Some(self.energy.output(0))

@@ -8,7 +8,7 @@
 
 use std::sync::Arc;
 
-use super::legendre::Legendre;
+use super::native_states::NativeStates;
 use super::terms::{AtRest, OutputPlace, Terms};
 use super::value::Evaluator;
 use super::{State, System};
@@ -21,14 +21,11 @@ pub struct TermWatch {
     places: Arc<[Option<OutputPlace>]>,
     native: Evaluator<f64>,
     canonical: Option<Evaluator<f64>>,
-    legendre: Legendre,
+    native_states: NativeStates,
     inputs: Vec<f64>,
     exact: Vec<DoubleDouble>,
     /// The terms at the last state, some followed by their values at rest.
     outputs: Vec<f64>,
-    /// If several velocities belong to a momentum: the last state evaluated, in the system's native
-    /// form.
-    near: Option<State>,
     work: f64,
 }
 
@@ -39,11 +36,10 @@ impl TermWatch {
             places: Arc::clone(&terms.places),
             native: Evaluator::new(Arc::clone(&terms.native)),
             canonical: terms.canonical.clone().map(Evaluator::new),
-            legendre: system.legendre(&system.inputs(parameters)),
+            native_states: NativeStates::new(&system),
             inputs: vec![0.0; inputs],
             exact: vec![DoubleDouble::ZERO; inputs],
             outputs: Vec::new(),
-            near: None,
             work: 0.0,
             system,
         };
@@ -53,32 +49,26 @@ impl TermWatch {
 
     /// Sets the parameters.
     pub fn set_parameters(&mut self, parameters: &[f64]) {
-        let parameters = self.system.inputs(parameters);
-        self.native.set_parameters(&parameters);
+        let inputs = self.system.inputs(parameters);
+        self.native.set_parameters(&inputs);
         if let Some(canonical) = &mut self.canonical {
-            canonical.set_parameters(&parameters);
+            canonical.set_parameters(&inputs);
         }
-        self.legendre.set_parameters(&parameters);
+        self.native_states.set_parameters(parameters, &inputs);
     }
 
     /// Evaluates a state. Returns `false` if that is not possible.
     pub fn look(&mut self, state: &State) -> bool {
-        let native = state.form == self.system.form();
-        let at_canonical = !native && self.canonical.is_some();
-        if native || at_canonical {
-            self.take_in(state);
-            self.near = (native && self.system.has_branches()).then(|| state.clone());
-        } else {
-            let form = self.system.form();
-            let near = self.near.as_ref();
-            match self.system.convert_by(&mut self.legendre, state, form, near) {
-                Ok(state) => {
-                    self.take_in(&state);
-                    self.near = self.system.has_branches().then_some(state);
-                }
-                Err(_) => return false,
-            }
+        let at_canonical = state.form != self.system.form() && self.canonical.is_some();
+        if at_canonical {
+            self.system.inputs_of(state, &mut self.exact);
+        } else if self.native_states.write(state, &mut self.exact).is_err() {
+            return false;
         }
+        for (rounded, x) in self.inputs.iter_mut().zip(&self.exact) {
+            *rounded = x.high;
+        }
+        self.work = self.inputs[self.inputs.len() - 1];
         let terms = match &mut self.canonical {
             Some(canonical) if at_canonical => canonical,
             _ => &mut self.native,
@@ -94,14 +84,6 @@ impl TermWatch {
         self.outputs.clear();
         self.outputs.extend(terms);
         self.work = work;
-    }
-
-    fn take_in(&mut self, state: &State) {
-        self.system.inputs_of(state, &mut self.exact);
-        for (rounded, x) in self.inputs.iter_mut().zip(&self.exact) {
-            *rounded = x.high;
-        }
-        self.work = self.inputs[self.inputs.len() - 1];
     }
 
     /// The work done on the motion, if the state carries it.
