@@ -10,7 +10,7 @@ use super::canvas::{Canvas, Span, columns, row};
 use super::emphasis::{Styles, marked, spans};
 use super::primes::with_primes;
 use super::theme::Role;
-use super::wrap::{formula_beside, words};
+use super::wrap::{clauses, formula_beside, words};
 use crate::app::Drawn;
 
 /// The indent of the further lines of a formula whose terms would not be whole beside its label.
@@ -245,7 +245,7 @@ impl TextPage {
                         } else {
                             lines.push(spans);
                             if i == last && !remark.is_empty() {
-                                let wrapped = words(&remark_text, width.saturating_sub(margin));
+                                let wrapped = clauses(&remark_text, width.saturating_sub(margin));
                                 let indent = " ".repeat(margin);
                                 lines.extend(wrapped.into_iter().map(|line| {
                                     vec![(format!("{indent}{line}"), canvas.style(Role::Dim))]
