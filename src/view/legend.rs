@@ -7,8 +7,9 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use unicode_width::UnicodeWidthStr;
 
 use super::canvas::Canvas;
+use super::clauses::clauses;
 use super::theme::Role;
-use super::{RenderStyle, number, wrap};
+use super::{RenderStyle, number};
 use crate::instrument::{Layer, Level};
 
 /// An area this wide has room beside its axes, for lines in so many parts of it at most.
@@ -63,7 +64,7 @@ fn rows<'a>(
     look: &'a RenderStyle,
 ) -> impl Iterator<Item = String> + 'a {
     let room = usize::from(area.width).saturating_sub(2).max(1);
-    lines.iter().flat_map(move |line| wrap::clauses(&shown(line, look), room))
+    lines.iter().flat_map(move |line| clauses(&shown(line, look), room))
 }
 
 /// A line in the characters of this terminal, its numbers written as elsewhere.

@@ -7,10 +7,11 @@ use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns, row};
+use super::clauses::clauses;
 use super::emphasis::{Styles, marked, spans};
 use super::primes::with_primes;
 use super::theme::Role;
-use super::wrap::{clauses, formula_beside, words};
+use super::wrap::{formula_beside, words};
 use crate::app::Drawn;
 
 /// The indent of the further lines of a formula whose terms would not be whole beside its label.
