@@ -38,7 +38,7 @@ use crate::system::InitialOverride;
 Examples:
   phaselab section henon-heiles --on x --count 200 --columns y,p_y > section.csv
   phaselab section henon-heiles --on x --orbits starts.csv --energy 1/8 --solve p_x
-  phaselab section duffing --on 'sin(omega*t)' --count 5000 --columns \"x,x'\" -o attractor.csv
+  phaselab section duffing --on 'sin(w*t)' --count 5000 --columns \"x,x'\" -o attractor.csv
   phaselab section kicked-rotor --on 'sin(2*pi*t/T - pi)' --until 1000 --format json
   phaselab section kicked-rotor --on 'sin(2*pi*t/T - pi)' --count 1000 --rotation theta
   phaselab section henon-heiles --on x --count 1000 --rotation y,p_y --format json")]

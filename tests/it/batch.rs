@@ -275,7 +275,7 @@ fn every_crossing_has_the_bits_that_it_has_alone() {
         // a number of the motion itself, polynomials, functions of the time, one that is not often crossed
         ("henon-heiles", "x", Direction::Rising),
         ("henon-heiles", "x*(1 + y) - 0.05", Direction::Either),
-        ("duffing", "sin(omega*t)", Direction::Rising),
+        ("duffing", "sin(w*t)", Direction::Rising),
         ("duffing", "x'", Direction::Falling),
         ("double-pendulum", "theta1", Direction::Rising),
         ("pendulum", "cos(theta) - 0.995", Direction::Either),

@@ -100,8 +100,8 @@ fn a_stroboscope_at_the_kicks_sees_the_momentum_before_them() {
 /// Duffing's oscillator without hill, hardening or drive is a damped oscillator, x = e^{−δt/2}(cos Ωt + δ/2Ω sin Ωt).
 #[test]
 fn a_stroboscopic_section_of_a_damped_oscillator() {
-    let duffing = ["duffing", "--set=a=-1", "--set=b=0", "--set=gamma=0", "--set=omega=0.7"];
-    let on = ["--on=sin(omega*t)", "--count=8", "--columns=x,x'"];
+    let duffing = ["duffing", "--set=a=-1", "--set=b=0", "--set=gamma=0", "--set=w=0.7"];
+    let on = ["--on=sin(w*t)", "--count=8", "--columns=x,x'"];
     let rows = rows(&section(&[&duffing[..], &on].concat()));
     let (delta, w) = (0.25, 0.7);
     let omega = f64::sqrt(1.0 - delta * delta / 4.0);
@@ -119,7 +119,7 @@ fn a_stroboscopic_section_of_a_damped_oscillator() {
 /// With its drive the section has the states of a run at the same times.
 #[test]
 fn a_section_has_the_states_of_the_run() {
-    let section = section(&["duffing", "--on=sin(omega*t)", "--count=5"]);
+    let section = section(&["duffing", "--on=sin(w*t)", "--count=5"]);
     let rows = rows(&section);
     let at: Vec<String> = (1..=5).map(|n| format!("{:?}", 2.0 * PI * f64::from(n))).collect();
     let run = phaselab(&["run", "duffing", "--at", &at.join(","), "--format=json"]).json();
