@@ -10,6 +10,7 @@
 mod canvas;
 pub mod caption;
 pub mod card;
+mod clauses;
 pub mod colour;
 mod companions;
 mod constants;

@@ -4,7 +4,7 @@
 //! Never here: navigation within a list.
 
 use super::{App, Choice, Choosing, Effect, InputField, Item, Lab, Menu, Overlay, Pane, Purpose};
-use crate::instrument::{Axis, Plot, offers};
+use crate::instrument::{Plot, offers};
 use crate::integrate::METHODS;
 
 impl App {
@@ -53,7 +53,8 @@ impl App {
             now = now.or(begins.then_some(Choice::Offer(index)));
             items.push(Item::plain(offer.label, offer.about, Choice::Offer(index)));
         }
-        let menu = Menu::new(Axis::ACROSS.heading, Choosing::Contents { plot }, items);
+        let menu =
+            Menu::new("A picture, or the horizontal axis", Choosing::Contents { plot }, items);
         self.overlay = Some(Overlay::Menu(menu.at(now)));
         Vec::new()
     }

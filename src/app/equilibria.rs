@@ -93,9 +93,9 @@ impl App {
         let periods = lab.equilibria.found.as_ref().map_or(&[][..], |found| &found.periods);
         let title = match classes(present.physics, periods) {
             Some(classes) => {
-                format!("Equilibria and small oscillations, {classes}: Enter starts there")
+                format!("Equilibria, {classes}: Enter starts there")
             }
-            None => "Equilibria and small oscillations: Enter starts there".to_owned(),
+            None => "Equilibria: Enter starts there".to_owned(),
         };
         let menu = Menu::new(title, Choosing::Equilibrium, items);
         self.overlay = Some(Overlay::Menu(menu));

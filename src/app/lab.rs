@@ -246,6 +246,17 @@ impl Lab {
         scene.or(first).map(Pane::Plot)
     }
 
+    /// Whether the motion is seen in a plot: a scene, or a plane of two places drawn at one scale.
+    pub fn shows_motion(&self, plot: &Plot) -> bool {
+        let physics = self.loaded.physics();
+        let channels = physics.system.channels();
+        let is_place = |axis: usize| {
+            plot.column(axis).and_then(|column| channels.get(column)).is_some_and(|c| c.is_place)
+        };
+        let is_portrait = plot.kind.name() == "phase";
+        plot.kind.is_scene() || is_portrait && plot.is_plane(physics) && is_place(0) && is_place(1)
+    }
+
     /// Scrolls the law of motion.
     pub(super) fn roll_law(&mut self, by: isize) {
         let LawInView::Clipped(beyond) = self.drawn.law else { return };

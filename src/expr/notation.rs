@@ -144,6 +144,9 @@ pub(super) fn plain_digit(c: char) -> Option<char> {
     ('0'..='9').find(|&digit| subscript_character(digit) == Some(c))
 }
 
+/// The letter n above the line, the only one that most fonts have there.
+pub(super) const RAISED_N: char = 'ⁿ';
+
 /// The digit or minus of one above the line.
 pub(super) fn raised_digit(c: char) -> Option<char> {
     Some(match c {

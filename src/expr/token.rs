@@ -1,7 +1,9 @@
 //! Tokens of an expression: numbers, names with primes, operators, each with its span. The notation of the screen
 //! (`½ l² θ′²`, `√x`, `a · b − c`) has the same tokens as the plain one.
 
-use super::notation::{dotted_letter, on_the_line, plain_digit, raised_digit, vulgar_fraction};
+use super::notation::{
+    RAISED_N, dotted_letter, on_the_line, plain_digit, raised_digit, vulgar_fraction,
+};
 use super::syntax::{Span, SyntaxError};
 use crate::num::Number;
 
@@ -69,6 +71,11 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(Token, Span)>, SyntaxError> {
                     }
                 }
             }
+            RAISED_N => {
+                at += c.len_utf8();
+                words.push((Token::Mark('^'), Span { start, end: at }));
+                Token::Name("n".to_owned(), 0)
+            }
             c if begins_name(c) => {
                 let (name, primes, end) = name(text, at);
                 at = end;
@@ -83,7 +90,7 @@ pub(super) fn tokens(text: &str) -> Result<Vec<(Token, Span)>, SyntaxError> {
 }
 
 fn begins_name(c: char) -> bool {
-    c == '_' || (c.is_alphabetic() && raised_digit(c).is_none())
+    c == '_' || (c.is_alphabetic() && raised_digit(c).is_none() && c != RAISED_N)
 }
 
 /// The name at a place without its dots and primes, their number, and where it ends. A subscript may stand behind a

@@ -2,7 +2,7 @@
 
 use super::function::FUNCTIONS;
 use super::node::{Expr, FunctionId, Node};
-use super::notation::{FRACTIONS, raised_digit, superscript};
+use super::notation::{FRACTIONS, RAISED_N, raised_digit, superscript};
 use super::pool::Pool;
 use super::print::{BindingStrength, PrintedPiece, Printer, Style};
 use crate::num::Number;
@@ -13,8 +13,8 @@ impl Pool {
         self.in_textbook_form(e, |pool, e| Printer { pool, style: &Unicode }.piece(e).text)
     }
 
-    /// A text from a file with its names as they are shown and a minus sign between them, otherwise as it is:
-    /// `theta1 - theta2` → `θ₁ − θ₂`.
+    /// A text from a file with its names and powers as they are shown and a minus sign between them, otherwise as it is:
+    /// `theta1 - theta2^2` → `θ₁ − θ₂²`.
     pub fn with_shown_names(&self, text: &str) -> String {
         let of_name = |c: char| c.is_alphanumeric() || c == '_';
         let mut shown = String::new();
@@ -29,12 +29,30 @@ impl Pool {
             let exponent = shown.ends_with(['e', 'E']) && last_is_number(&shown);
             match (first, self.find_symbol(word)) {
                 ('-', _) if !exponent => shown.push('−'),
+                ('^', _) => {
+                    let (raised, after) = raised_power(after);
+                    shown.push_str(&raised);
+                    rest = after;
+                    continue;
+                }
                 (_, Some(symbol)) => shown.push_str(&self.symbol_info(symbol).unicode),
                 (_, None) => shown.push_str(word),
             }
             rest = after;
         }
         shown
+    }
+}
+
+/// The power that a text begins with after its sign, above the line where it can be, and the rest.
+fn raised_power(text: &str) -> (String, &str) {
+    let sign = text.len() - text.strip_prefix('-').unwrap_or(text).len();
+    let word = text[sign..].find(|c: char| !(c.is_alphanumeric() || c == '_' || c == '.'));
+    let (power, rest) = text.split_at(word.map_or(text.len(), |end| sign + end));
+    match power.parse() {
+        Ok(n) => (superscript(n), rest),
+        Err(_) if power == "n" => (RAISED_N.to_string(), rest),
+        Err(_) => ("^".to_owned(), text),
     }
 }
 
@@ -99,8 +117,27 @@ impl Style for Unicode {
         PrintedPiece { text, level: BindingStrength::Product }
     }
 
+    /// Factors with a space between them, or a dot before one that begins with a digit: 40·2ⁿ.
     fn join(&self, factors: &[String]) -> String {
-        factors.join(" ")
+        let mut text = String::new();
+        for factor in factors {
+            match factor.starts_with(|c: char| c.is_ascii_digit()) {
+                _ if text.is_empty() => {}
+                true => text.push('·'),
+                false => text.push(' '),
+            }
+            text.push_str(factor);
+        }
+        text
+    }
+
+    fn power(&self, base: &str, exponent: &PrintedPiece) -> PrintedPiece {
+        let text = match exponent.level {
+            BindingStrength::Atom if exponent.text == "n" => format!("{base}{RAISED_N}"),
+            BindingStrength::Atom => format!("{base}^{}", exponent.text),
+            _ => format!("{base}^{}", self.parenthesise(&exponent.text)),
+        };
+        PrintedPiece { text, level: BindingStrength::Power }
     }
 
     fn numeric_power(&self, printer: &Printer<'_>, base: Expr, exponent: Number) -> PrintedPiece {

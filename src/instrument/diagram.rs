@@ -134,7 +134,7 @@ impl Instrument for Diagram {
         let line = vec![[now, low - reach], [now, high + reach]];
         let mut layers = vec![(NOW, Layer::Line(line, Ink::Level.into()))];
         if view(plot, present.physics).is_some() {
-            layers.push((POINTS, Layer::Points(points, Ink::Curve(0))));
+            layers.push((POINTS, Layer::Bands(points, 0)));
         } else {
             let mut curve = points.to_vec();
             curve.sort_by(|a, b| a[0].total_cmp(&b[0]));

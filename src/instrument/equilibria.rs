@@ -203,17 +203,38 @@ pub fn displaced(physics: Physics<'_>, work: &VirtualWork) -> String {
 /// A mode in words: its frequency, and how far each coordinate goes.
 pub fn described_mode(physics: Physics<'_>, one: &Equilibrium, mode: usize) -> String {
     let Some(mode) = one.modes.get(mode) else { return String::new() };
-    let short = |x: f64| significant(x, 3, 1e-3..1e5).replace('-', "−");
     let part = |(i, channel): (usize, usize)| {
-        let (a, b) = (mode.in_phase[i], mode.quadrature[i]);
-        let name = physics.shown(channel);
-        match (a == 0.0, b == 0.0) {
-            (true, true) => None,
-            (_, true) => Some(format!("{name} {}", short(a))),
-            (true, _) => Some(format!("{name} {}i", short(b))),
-            _ => Some(format!("{name} {} + {}i", short(a), short(b))),
-        }
+        let amplitude = amplitude(mode.in_phase[i], mode.quadrature[i])?;
+        Some(format!("{} {amplitude}", physics.shown(channel)))
     };
     let parts: Vec<String> = physics.positions().filter_map(part).collect();
     format!("ω = {}: {}", short(mode.frequency), parts.join(", "))
+}
+
+fn short(x: f64) -> String {
+    significant(x, 3, 1e-3..1e5).replace('-', "−")
+}
+
+/// A complex amplitude in words, `None` for zero.
+fn amplitude(real: f64, imaginary: f64) -> Option<String> {
+    let sign = if imaginary < 0.0 { "−" } else { "+" };
+    match (real == 0.0, imaginary == 0.0) {
+        (true, true) => None,
+        (_, true) => Some(short(real)),
+        (true, _) => Some(format!("{}i", short(imaginary))),
+        _ => Some(format!("{} {sign} {}i", short(real), short(imaginary.abs()))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::amplitude;
+
+    #[test]
+    fn an_amplitude_has_one_sign_before_its_imaginary_part() {
+        let shown = |re: f64, im: f64| amplitude(re, im).unwrap_or_default();
+        assert_eq!(shown(0.423, -0.461), "0.423 − 0.461i");
+        assert_eq!(shown(-0.423, 0.461), "−0.423 + 0.461i");
+        assert_eq!([shown(0.0, -0.5), shown(-1.0, 0.0), shown(0.0, 0.0)], ["−0.5i", "−1", ""]);
+    }
 }

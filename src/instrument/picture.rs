@@ -112,6 +112,8 @@ pub enum Layer {
     Points(Arc<Vec<[f64; 2]>>, Ink),
     /// Many points, shaded by how many there are in each cell.
     Cloud(Arc<Vec<[f64; 2]>>),
+    /// Many points in the colour of a curve, the stronger the more of them fall on a dot.
+    Bands(Arc<Vec<[f64; 2]>>, usize),
     /// A number at each place of a plane, shaded.
     Field(Arc<Field>),
     /// Where the running motion has crossed a surface of section.

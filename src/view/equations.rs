@@ -142,9 +142,9 @@ impl EquationRows<'_> {
             self.put(&format!("{}(t)", self.symbol(ramp.parameter)), ramp.function, "");
             for progress in &ramp.progress {
                 let [start, end] = progress.times.map(|e| self.time(e));
-                let words = format!("0 … 1 from t = {start} to t = {end}");
-                let words = self.look.glyphs.text(&words).into_owned();
-                self.page.formula(&self.symbol(progress.symbol), words, "");
+                let range = self.look.glyphs.text("0 … 1").into_owned();
+                let words = format!("from t = {start} to t = {end}");
+                self.page.formula(&self.symbol(progress.symbol), range, &words);
             }
         }
     }

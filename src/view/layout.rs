@@ -183,8 +183,9 @@ fn meaning(lab: &Lab, width: u16) -> u16 {
 }
 
 /// As many plots as there is room for, in their order; those against time come last and have the wide slots, where
-/// one of them replaces a phase portrait if there is none. The plot in front of the rest, which is focused or was last,
-/// takes the last slot.
+/// one of them replaces a phase portrait if there is none. If the motion is in none of them although there is a view of
+/// it, that view replaces the last phase portrait, or else the last one that is not against time. The plot in front of
+/// the rest, which is focused or was last, takes the last slot.
 fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
     let kind = |index: &usize| lab.plots[*index].kind.name();
     let mut shown: Vec<usize> = (0..lab.plots.len().min(room)).collect();
@@ -195,6 +196,16 @@ fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
         *last = time;
     }
     shown.sort_by_key(|index| kind(index) == "time");
+    let is_motion = |index: &usize| lab.shows_motion(&lab.plots[*index]);
+    if !shown.iter().any(is_motion)
+        && let Some(motion) = view_of_motion(lab)
+    {
+        let last = |is: &dyn Fn(&str) -> bool| shown.iter().rposition(|index| is(kind(index)));
+        let replaced = last(&|kind| kind == "phase").or(last(&|kind| kind != "time"));
+        if let Some(place) = replaced.or(shown.len().checked_sub(1)) {
+            shown[place] = motion;
+        }
+    }
     if let (Some(front), Some(last)) = (lab.front, shown.len().checked_sub(1))
         && front < lab.plots.len()
         && !shown.contains(&front)
@@ -202,6 +213,12 @@ fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
         shown[last] = front;
     }
     shown.into_iter().map(Pane::Plot).collect()
+}
+
+/// The best view of the motion: a scene, or else a plane of places.
+fn view_of_motion(lab: &Lab) -> Option<usize> {
+    let scene = lab.plots.iter().position(|plot| plot.kind.is_scene());
+    scene.or_else(|| lab.plots.iter().position(|plot| lab.shows_motion(plot)))
 }
 
 fn plot_slot(lab: &Lab) -> Slot {

@@ -1,5 +1,5 @@
-//! What an instrument writes into its plot: a few lines, beside the axes where the pane is wide, above them where it is
-//! narrow, so that they cover nothing; in their upper left corner where there is no room for both.
+//! What an instrument writes into its plot: a few lines, beside the axes where they take a third of the pane at most,
+//! above them else, so that they cover nothing; in their upper left corner where there is no room for both.
 //!
 //! In: the lines, the area. Out: cells. Never here: what the lines say.
 
@@ -7,12 +7,14 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use unicode_width::UnicodeWidthStr;
 
 use super::canvas::Canvas;
+use super::clauses::clauses;
 use super::theme::Role;
-use super::{RenderStyle, number, wrap};
+use super::{RenderStyle, number};
 use crate::instrument::{Layer, Level};
 
-/// An area this wide has room beside its axes.
+/// An area this wide has room beside its axes, for lines in so many parts of it at most.
 const WIDE: u16 = 64;
+const PARTS: u16 = 3;
 
 /// Axes have at least this height.
 const LOW: u16 = 6;
@@ -28,9 +30,9 @@ pub(super) fn beside(
         Layer::Legend(lines) => lines.iter().map(width).max(),
         _ => None,
     });
-    match widest.max() {
-        Some(widest) if area.width >= WIDE => {
-            let wanted = u16::try_from(widest + 2).unwrap_or(u16::MAX).min(area.width / 2);
+    let wanted = widest.max().map(|widest| u16::try_from(widest + 2).unwrap_or(u16::MAX));
+    match wanted {
+        Some(wanted) if area.width >= WIDE && wanted <= area.width / PARTS => {
             let parts = [Constraint::Min(0), Constraint::Length(wanted)];
             let [axes, lines] = Layout::horizontal(parts).areas(area);
             (axes, Some(lines))
@@ -62,7 +64,7 @@ fn rows<'a>(
     look: &'a RenderStyle,
 ) -> impl Iterator<Item = String> + 'a {
     let room = usize::from(area.width).saturating_sub(2).max(1);
-    lines.iter().flat_map(move |line| wrap::words(&shown(line, look), room))
+    lines.iter().flat_map(move |line| clauses(&shown(line, look), room))
 }
 
 /// A line in the characters of this terminal, its numbers written as elsewhere.
@@ -83,5 +85,32 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lines: &[String]) {
         }
         let line = format!("{line} ");
         canvas.buffer.set_stringn(area.x + 1, y, line, room, look.theme[Role::Text]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::view::colour::ColourDepth;
+    use crate::view::glyphs::Glyphs;
+    use crate::view::theme::Theme;
+
+    /// Lines beside the axes take a third of a plot at most; longer ones stand above, and the axes have its whole width.
+    #[test]
+    fn words_leave_the_axes_two_thirds() {
+        let look = RenderStyle { theme: Theme::dark(ColourDepth::True), glyphs: Glyphs::Braille };
+        for width in [30, 64, 90, 120] {
+            for long in [10, 20, 29, 39, 60] {
+                let area = Rect::new(5, 3, width, 20);
+                let lines = vec!["a".repeat(long), "b".to_owned()];
+                let (axes, words) = beside(area, &[(0, Layer::Legend(lines))], &look);
+                let words = words.expect("words");
+                assert!(axes.width >= width - width / 3, "{width} {long}: {axes:?}");
+                assert_eq!(axes.intersection(words).area(), 0, "{width} {long}");
+                let is_beside = words.height == area.height;
+                assert_eq!(is_beside, width >= WIDE && long as u16 + 2 <= width / 3);
+                assert!(is_beside || axes.width == width && axes.height >= 15, "{axes:?}");
+            }
+        }
     }
 }

@@ -342,6 +342,9 @@ fn draw_layer(
         Layer::Cloud(points) => {
             raster.cloud(frame, points.iter().copied(), look.theme.density(), level);
         }
+        Layer::Bands(points, curve) => {
+            raster.bands(frame, points.iter().copied(), look.theme.trail(*curve), level);
+        }
         Layer::Field(found) => field::draw(canvas, frame, found),
         Layer::Crossings { section, channels, ink } => {
             raster.points(frame, crossings(q, *section, *channels), &pen(canvas, *ink, level));

@@ -20,7 +20,7 @@ use ratatui::style::Style;
 use super::canvas::Canvas;
 use super::companions;
 use super::kept::{self, Kept, Track, TrailKey};
-use super::plot::{Ages, Camera, DepthBuffer, Marker, Pen, PlotFrame, Raster};
+use super::plot::{Ages, Camera, DepthBuffer, Marker, Pen, PlotFrame, Raster, Visibility};
 use super::quantity::{Quantities, Source};
 use super::theme::Role;
 use crate::expr::Symbol;
@@ -161,9 +161,8 @@ impl<'a> ScenePainter<'a> {
             }
             Shape::Mass { at, .. } if moves(at) => {
                 let at = self.point(at);
-                if !self.depth.hides_point(self.camera.project(at)) {
+                if let Some(pen) = self.seen_at(at, &Pen { layer: SOLID, ..pen }) {
                     let flat = self.flat(at);
-                    let pen = Pen { layer: SOLID, ..pen };
                     self.raster.marker(&self.frame, flat, Marker::Number(number), &pen);
                 }
             }
@@ -201,7 +200,7 @@ impl ScenePainter<'_> {
             Shape::Trace { at } => self.track(at, kept),
             Shape::Caption { at, text } => {
                 let at = self.point(at);
-                if !self.depth.hides_point(self.camera.project(at)) {
+                if self.sight(at) == Visibility::Clear {
                     self.label(at, None, text);
                 }
             }
@@ -211,7 +210,7 @@ impl ScenePainter<'_> {
                 self.arrow(foot, along, &pen);
                 let tip = [0, 1, 2].map(|k| foot[k] + along[k]);
                 let some = !label.is_empty() && along != [0.0; 3];
-                if some && !self.depth.hides_point(self.camera.project(tip)) {
+                if some && self.sight(tip) != Visibility::Hidden {
                     self.label(tip, Some(foot), label);
                 }
             }
@@ -256,8 +255,13 @@ impl ScenePainter<'_> {
 
     /// Writes words beside a point, away from another one.
     fn label(&mut self, at: [f64; 3], foot: Option<[f64; 3]>, text: &str) {
+        let veiled = self.sight(at) == Visibility::Veiled;
         let [tip, foot] = [at, foot.unwrap_or(at)].map(|point| self.flat(point));
-        let role = if foot == tip { Role::Text } else { Role::Accent };
+        let role = match () {
+            () if veiled => Role::Dim,
+            () if foot == tip => Role::Text,
+            () => Role::Accent,
+        };
         let text = self.q.look.glyphs.text(text).into_owned();
         self.labels.push(Label { tip, leftwards: tip[0] < foot[0], text, role });
     }
@@ -281,6 +285,25 @@ impl ScenePainter<'_> {
     fn flat(&self, point: [f64; 3]) -> [f64; 2] {
         let [right, up, _] = self.camera.project(point);
         [right, up]
+    }
+
+    /// How a point is seen among the surfaces.
+    fn sight(&self, point: [f64; 3]) -> Visibility {
+        self.depth.sight_of(self.camera.project(point))
+    }
+
+    /// The pen for something at a point: dim behind a see-through surface, `None` behind another one.
+    fn seen_at(&mut self, point: [f64; 3], pen: &Pen) -> Option<Pen> {
+        match self.sight(point) {
+            Visibility::Clear => Some(*pen),
+            Visibility::Veiled => Some(self.dim(pen)),
+            Visibility::Hidden => None,
+        }
+    }
+
+    /// A pen as it looks at the back of the picture.
+    fn dim(&mut self, pen: &Pen) -> Pen {
+        Pen { style: self.receding(pen.style)[DISTANCES - 1], ..*pen }
     }
 
     /// A radius in cells, if it is large enough to be drawn.
@@ -328,7 +351,7 @@ impl ScenePainter<'_> {
             if self.range.is_none() {
                 self.raster.disc(&self.frame, centre, radius, &pen);
             }
-        } else if !self.depth.hides_point(self.camera.project(at)) {
+        } else if let Some(pen) = self.seen_at(at, &pen) {
             self.raster.marker(&self.frame, centre, Marker::Disc, &pen);
         }
     }
@@ -373,10 +396,11 @@ impl ScenePainter<'_> {
         for line in edges {
             self.curve(&line, &Pen::new(theme[Role::Text], SOLID));
         }
-        for point in points.into_iter().filter(|p| !self.depth.hides_point(self.camera.project(*p)))
-        {
-            let (flat, pen) = (self.flat(point), Pen::new(theme.curve(0), BODY));
-            self.raster.marker(&self.frame, flat, Marker::Disc, &pen);
+        for point in points {
+            if let Some(pen) = self.seen_at(point, &Pen::new(theme.curve(0), BODY)) {
+                let flat = self.flat(point);
+                self.raster.marker(&self.frame, flat, Marker::Disc, &pen);
+            }
         }
     }
 

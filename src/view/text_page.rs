@@ -7,6 +7,7 @@ use ratatui::style::Style;
 use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns, row};
+use super::clauses::clauses;
 use super::emphasis::{Styles, marked, spans};
 use super::primes::with_primes;
 use super::theme::Role;
@@ -245,7 +246,7 @@ impl TextPage {
                         } else {
                             lines.push(spans);
                             if i == last && !remark.is_empty() {
-                                let wrapped = words(&remark_text, width.saturating_sub(margin));
+                                let wrapped = clauses(&remark_text, width.saturating_sub(margin));
                                 let indent = " ".repeat(margin);
                                 lines.extend(wrapped.into_iter().map(|line| {
                                     vec![(format!("{indent}{line}"), canvas.style(Role::Dim))]

@@ -153,7 +153,12 @@ const DEEPEST: usize = 6;
 const NESTED: usize = 2;
 
 /// Cuts a formula into pieces that fit, at a depth of parentheses whose lines begin so much further right.
-fn break_up(text: &str, room: usize, [depth, nested]: [usize; 2], pieces: &mut Vec<Piece>) {
+pub(super) fn break_up(
+    text: &str,
+    room: usize,
+    [depth, nested]: [usize; 2],
+    pieces: &mut Vec<Piece>,
+) {
     let fits = |text: &str| text.width() + nested <= room;
     for term in terms(text, depth) {
         if fits(&term) {
@@ -253,16 +258,16 @@ fn factors(term: &str) -> Vec<String> {
 }
 
 /// A part of a text that stays on one line.
-struct Piece {
-    text: String,
+pub(super) struct Piece {
+    pub(super) text: String,
     /// Whether a space precedes it on the same line.
-    spaced: bool,
+    pub(super) spaced: bool,
     /// How much further right a line that begins with it begins.
-    nested: usize,
+    pub(super) nested: usize,
 }
 
 /// Fills lines with pieces, the first after `first` columns.
-fn fill(
+pub(super) fn fill(
     pieces: impl Iterator<Item = Piece>,
     width: usize,
     first: usize,

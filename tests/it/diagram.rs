@@ -37,7 +37,7 @@ fn diagram(app: &App) -> Plot {
 
 fn points(app: &App) -> Arc<Vec<[f64; 2]>> {
     let found = layers(app, &diagram(app)).into_iter().find_map(|layer| match layer {
-        Layer::Points(points, _) => Some(points),
+        Layer::Bands(points, _) => Some(points),
         _ => None,
     });
     found.expect("points")

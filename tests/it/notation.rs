@@ -296,9 +296,31 @@ fn a_text_of_a_file_is_shown_with_the_names_of_the_screen() {
         ("x1e-3", "x1e−3"),
         ("Vmax - sin(theta)", "Vmax − sin(θ)"),
         ("energy of running", "energy of running"),
+        ("theta^2 - x1^-12", "θ² − x₁⁻¹²"),
+        ("2^n", "2ⁿ"),
+        ("x^(1/2)*2^nu*x^2.5", "x^(1/2)*2^nu*x^2.5"),
         ("ψ'", "ψ'"),
         ("", ""),
     ] {
         assert_eq!(model.pool.with_shown_names(text), shown, "{text}");
+    }
+}
+
+/// A power n stands above the line, and a number before another has a dot between them; both can be typed.
+#[test]
+fn powers_of_numbers_are_written_as_they_are_typed() {
+    let file = FILE.replace("m = 1.0", "m = 1.0\nn = 3.0");
+    let model = read(&file).unwrap().model;
+    for (plain, shown) in [
+        ("40*2^n", "40·2ⁿ"),
+        ("x^n", "xⁿ"),
+        ("m*2^n", "m·2ⁿ"),
+        ("2^(-n)", "2^(−n)"),
+        ("x^(n + 1)", "x^(n + 1)"),
+    ] {
+        let mut pool = model.pool.clone();
+        let e = typed(&model, &mut pool, plain).unwrap();
+        assert_eq!(pool.unicode(e), shown);
+        assert_eq!(typed(&model, &mut pool, shown).unwrap(), e, "{shown}");
     }
 }

@@ -1,7 +1,8 @@
-//! Depth: which dots an opaque surface covers, and how near to the eye it is there.
+//! Depth: which dots a surface covers, and how near to the eye it is there.
 //!
-//! In: faces and balls in the coordinates of the camera: right, up, towards the eye. Out: covered dots, and what of a
-//! line is in front of them. Never here: colours, or the shapes that the surfaces belong to.
+//! In: faces and balls in the coordinates of the camera: right, up, towards the eye; a ball may be a veil, behind which
+//! things are seen dimly. Out: covered dots, and what of a line is in front of them, behind a veil, or hidden. Never here:
+//! colours, or the shapes that the surfaces belong to.
 
 use super::scale::PlotFrame;
 use crate::num::math;
@@ -25,48 +26,74 @@ pub struct Covered {
     pub surface: usize,
     /// How brightly it is lit, 0 to 1.
     pub light: f64,
+    /// Whether a veil is in front of it.
+    pub veiled: bool,
 }
 
-/// The nearest opaque surface at each dot.
+/// How a dot of something is seen among the surfaces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Visibility {
+    /// Nothing is in front of it.
+    Clear,
+    /// Only a veil is in front of it.
+    Veiled,
+    /// A surface is in front of it.
+    Hidden,
+}
+
+/// The nearest opaque surface at each dot, and the nearest veil.
 #[derive(Clone, Debug)]
 pub struct DepthBuffer {
     frame: PlotFrame,
     size: [i32; 2],
-    /// How near the nearest surface is, row by row; −∞ where there is none. Empty as long as there is no surface.
+    opaque: Nearest,
+    veil: Nearest,
+}
+
+/// The nearest surface of a kind at each dot.
+#[derive(Clone, Debug, Default)]
+struct Nearest {
+    /// How near it is, row by row; −∞ where there is none. Empty as long as there is no surface.
     nears: Vec<f64>,
     /// Which surface that is, and how brightly it is lit.
     surfaces: Vec<(u32, f32)>,
 }
 
+impl Nearest {
+    fn near(&self, place: usize) -> f64 {
+        self.nears.get(place).copied().unwrap_or(f64::NEG_INFINITY)
+    }
+
+    fn covered(&self, place: usize, veiled: bool) -> Option<Covered> {
+        let &(surface, light) = self.surfaces.get(place)?;
+        let near = self.near(place);
+        let covered = Covered { near, surface: surface as usize, light: f64::from(light), veiled };
+        (near > f64::NEG_INFINITY).then_some(covered)
+    }
+}
+
 impl DepthBuffer {
     /// Creates a buffer without surfaces over a raster of this many dots.
     pub fn new(frame: &PlotFrame, size: [i32; 2]) -> Self {
-        Self {
-            frame: *frame,
-            size: size.map(|n| n.max(0)),
-            nears: Vec::new(),
-            surfaces: Vec::new(),
-        }
+        let [opaque, veil] = [Nearest::default(), Nearest::default()];
+        Self { frame: *frame, size: size.map(|n| n.max(0)), opaque, veil }
     }
 
     /// Whether there is no surface.
     pub fn is_empty(&self) -> bool {
-        self.nears.is_empty()
+        self.opaque.nears.is_empty() && self.veil.nears.is_empty()
     }
 
-    /// The covered dots.
+    /// The covered dots: the nearest surface of each, or the one behind a veil.
     pub fn dots(&self) -> impl Iterator<Item = ([i32; 2], Covered)> {
         let wide = self.size[0].max(1) as usize;
-        let rows = self.nears.chunks(wide).zip(self.surfaces.chunks(wide)).enumerate();
-        rows.flat_map(|(row, (nears, surfaces))| {
-            let dots = nears.iter().zip(surfaces).enumerate();
-            dots.filter(|(_, (near, _))| **near > f64::NEG_INFINITY).map(
-                move |(column, (&near, &(surface, light)))| {
-                    let covered =
-                        Covered { near, surface: surface as usize, light: f64::from(light) };
-                    ([column as i32, row as i32], covered)
-                },
-            )
+        let slack = self.slack();
+        let count = self.opaque.nears.len().max(self.veil.nears.len());
+        (0..count).filter_map(move |place| {
+            let veiled = self.veil.near(place) > self.opaque.near(place) + slack;
+            let covered = self.opaque.covered(place, veiled);
+            let covered = covered.or_else(|| self.veil.covered(place, false))?;
+            Some(([(place % wide) as i32, (place / wide) as i32], covered))
         })
     }
 
@@ -121,13 +148,27 @@ impl DepthBuffer {
             }
             for column in from as i32..to as i32 {
                 let near = near(middle(column));
-                self.cover([column, row], Covered { near, surface, light });
+                let covered = Covered { near, surface, light, veiled: false };
+                cover(&mut self.opaque, self.size, [column, row], covered);
             }
         }
     }
 
-    /// Adds a ball.
-    pub fn ball(&mut self, [x, y, near]: [f64; 3], radius: f64, surface: usize) {
+    /// Adds an opaque ball.
+    pub fn ball(&mut self, centre: [f64; 3], radius: f64, surface: usize) {
+        let mut opaque = std::mem::take(&mut self.opaque);
+        self.round(centre, radius, surface, &mut opaque);
+        self.opaque = opaque;
+    }
+
+    /// Adds a ball through which things are seen dimly.
+    pub fn veil(&mut self, centre: [f64; 3], radius: f64, surface: usize) {
+        let mut veil = std::mem::take(&mut self.veil);
+        self.round(centre, radius, surface, &mut veil);
+        self.veil = veil;
+    }
+
+    fn round(&self, [x, y, near]: [f64; 3], radius: f64, surface: usize, nearest: &mut Nearest) {
         let low = self.frame.dot([x - radius, y + radius], self.size);
         let high = self.frame.dot([x + radius, y - radius], self.size);
         let Some([columns, rows]) = self.box_of(&[low, high]) else { return };
@@ -140,37 +181,52 @@ impl DepthBuffer {
                 let rest = 1.0 - right * right - up * up;
                 if rest >= 0.0 {
                     let out = rest.sqrt();
-                    let light = lit([right, up, out]);
-                    self.cover(
-                        [column, row],
-                        Covered { near: near + radius * out, surface, light },
-                    );
+                    let (near, light) = (near + radius * out, lit([right, up, out]));
+                    let covered = Covered { near, surface, light, veiled: false };
+                    cover(nearest, self.size, [column, row], covered);
                 }
             }
         }
     }
 
-    /// Whether a surface is in front of a dot of something at this depth.
-    pub fn hides(&self, [x, y]: [i32; 2], near: f64) -> bool {
+    /// How far behind a surface a point still counts as lying on it.
+    fn slack(&self) -> f64 {
+        TOLERANCE * (self.frame.x.hi - self.frame.x.lo).abs()
+    }
+
+    /// How a dot of something at this depth is seen.
+    pub fn sight(&self, [x, y]: [i32; 2], near: f64) -> Visibility {
         let [wide, high] = self.size;
         if self.is_empty() || !(0..wide).contains(&x) || !(0..high).contains(&y) {
-            return false;
+            return Visibility::Clear;
         }
-        let slack = TOLERANCE * (self.frame.x.hi - self.frame.x.lo).abs();
-        self.nears.get((y * wide + x) as usize).is_some_and(|covered| *covered > near + slack)
+        let (place, slack) = ((y * wide + x) as usize, self.slack());
+        if self.opaque.near(place) > near + slack {
+            Visibility::Hidden
+        } else if self.veil.near(place) > near + slack {
+            Visibility::Veiled
+        } else {
+            Visibility::Clear
+        }
     }
 
-    /// Whether a surface is in front of a point.
-    pub fn hides_point(&self, [x, y, near]: [f64; 3]) -> bool {
+    /// How a point is seen.
+    pub fn sight_of(&self, [x, y, near]: [f64; 3]) -> Visibility {
         if self.is_empty() {
-            return false;
+            return Visibility::Clear;
         }
         let dot = self.frame.dot([x, y], self.size);
-        dot.iter().all(|v| v.is_finite()) && self.hides(dot.map(|v| whole_below(v) as i32), near)
+        let finite = dot.iter().all(|v| v.is_finite());
+        if finite {
+            self.sight(dot.map(|v| whole_below(v) as i32), near)
+        } else {
+            Visibility::Clear
+        }
     }
 
-    /// A line through points in short pieces; a point without a position (NaN) stands for what is hidden.
-    pub fn visible(&self, points: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    /// A line through points in short pieces, each end with whether a veil is in front of the piece that leads there; a
+    /// point without a position (NaN) stands for what is hidden.
+    pub fn visible(&self, points: &[[f64; 3]]) -> Vec<([f64; 3], bool)> {
         let mut seen = Vec::new();
         let mut at = None;
         for pair in points.windows(2) {
@@ -183,14 +239,16 @@ impl DepthBuffer {
             for piece in 0..count as u32 {
                 let share = |more: f64| (f64::from(piece) + more) / count;
                 let ends = place(share(1.0));
-                if !self.is_empty() && self.hides_point(place(share(0.5))) {
-                    seen.push([f64::NAN; 3]);
+                let sight = self.sight_of(place(share(0.5)));
+                let veiled = sight == Visibility::Veiled;
+                if sight == Visibility::Hidden {
+                    seen.push(([f64::NAN; 3], false));
                     at = None;
                 } else {
                     if at != Some(begins) {
-                        seen.extend([[f64::NAN; 3], begins]);
+                        seen.extend([([f64::NAN; 3], false), (begins, veiled)]);
                     }
-                    seen.push(ends);
+                    seen.push((ends, veiled));
                     at = Some(ends);
                 }
                 begins = ends;
@@ -211,19 +269,21 @@ impl DepthBuffer {
             })
         })
     }
+}
 
-    fn cover(&mut self, [x, y]: [i32; 2], new: Covered) {
-        if self.nears.is_empty() {
-            let count = (self.size[0] * self.size[1]) as usize;
-            (self.nears, self.surfaces) = (vec![f64::NEG_INFINITY; count], vec![(0, 0.0); count]);
-        }
-        let place = (y * self.size[0] + x) as usize;
-        if let (Some(near), Some(surface)) =
-            (self.nears.get_mut(place), self.surfaces.get_mut(place))
-            && *near < new.near
-        {
-            (*near, *surface) = (new.near, (new.surface as u32, new.light as f32));
-        }
+/// Covers a dot, unless something nearer does.
+fn cover(nearest: &mut Nearest, [wide, high]: [i32; 2], [x, y]: [i32; 2], new: Covered) {
+    if nearest.nears.is_empty() {
+        let count = (wide * high) as usize;
+        nearest.nears = vec![f64::NEG_INFINITY; count];
+        nearest.surfaces = vec![(0, 0.0); count];
+    }
+    let place = (y * wide + x) as usize;
+    if let (Some(near), Some(surface)) =
+        (nearest.nears.get_mut(place), nearest.surfaces.get_mut(place))
+        && *near < new.near
+    {
+        (*near, *surface) = (new.near, (new.surface as u32, new.light as f32));
     }
 }
 
@@ -264,16 +324,20 @@ mod tests {
         DepthBuffer::new(&PlotFrame::new(scale, scale, Rect::new(0, 0, 50, 25)), [100, 100])
     }
 
+    fn hides(buffer: &DepthBuffer, point: [f64; 3]) -> bool {
+        buffer.sight_of(point) == Visibility::Hidden
+    }
+
     #[test]
     fn a_ball_hides_what_is_behind_its_front_and_nothing_else() {
         let mut buffer = buffer();
-        assert!(buffer.is_empty() && !buffer.hides_point([0.0, 0.0, -40.0]));
+        assert!(buffer.is_empty() && !hides(&buffer, [0.0, 0.0, -40.0]));
         buffer.ball([0.0, 0.0, 0.0], 20.0, 3);
         // The front at 12 to the right is √(20² − 12²) = 16 nearer than the centre.
         let seen = [[0.0, 0.0, 21.0], [12.0, 0.0, 16.0], [0.0, 22.0, -90.0], [15.0, 15.0, -9.0]];
         let hidden = [[0.0, 0.0, 15.0], [12.0, 0.0, 11.0], [0.0, 0.0, -20.0], [13.0, 13.0, -9.0]];
-        assert!(seen.iter().all(|point| !buffer.hides_point(*point)));
-        assert!(hidden.iter().all(|point| buffer.hides_point(*point)));
+        assert!(seen.iter().all(|point| !hides(&buffer, *point)));
+        assert!(hidden.iter().all(|point| hides(&buffer, *point)));
         let area = buffer.dots().count() as f64;
         assert!((area - 400.0 * std::f64::consts::PI).abs() < 30.0, "{area}");
         assert!(buffer.dots().all(|(_, covered)| covered.surface == 3));
@@ -291,7 +355,7 @@ mod tests {
             assert!((covered.near - x / 2.0).abs() < 1e-9, "{column} {row} {covered:?}");
         }
         assert_eq!(buffer.dots().count(), 3600);
-        assert!(buffer.hides_point([20.0, 0.0, 5.0]) && !buffer.hides_point([-20.0, 0.0, 5.0]));
+        assert!(hides(&buffer, [20.0, 0.0, 5.0]) && !hides(&buffer, [-20.0, 0.0, 5.0]));
     }
 
     #[test]
@@ -312,13 +376,34 @@ mod tests {
         let mut buffer = buffer();
         buffer.ball([0.0, 0.0, 0.0], 20.0, 0);
         let line = buffer.visible(&[[-40.0, 0.0, 0.0], [40.0, 0.0, 0.0]]);
-        let seen = line.iter().filter(|point| point[0].is_finite());
-        assert!(seen.clone().all(|point| point[0].abs() > 17.0), "{line:?}");
-        let reach = seen.map(|point| point[0].abs()).fold(f64::INFINITY, f64::min);
+        let seen = line.iter().map(|(point, _)| point[0].abs()).filter(|x| x.is_finite());
+        assert!(seen.clone().all(|x| x > 17.0), "{line:?}");
+        let reach = seen.fold(f64::INFINITY, f64::min);
         assert!(reach < 22.0, "{reach}");
         // In front of the ball nothing is hidden.
         let front = buffer.visible(&[[-40.0, 0.0, 25.0], [40.0, 0.0, 25.0]]);
-        assert!(front[1..].iter().all(|point| point[0].is_finite()));
+        assert!(front[1..].iter().all(|(point, veiled)| point[0].is_finite() && !veiled));
+    }
+
+    /// Behind a veil things are seen dimly, and in front of it as ever; what an opaque surface hides stays hidden.
+    #[test]
+    fn a_veil_dims_what_is_behind_it() {
+        let mut buffer = buffer();
+        buffer.veil([0.0, 0.0, 0.0], 20.0, 0);
+        let sights = |buffer: &DepthBuffer| {
+            [25.0, -10.0, -40.0].map(|near| buffer.sight_of([0.0, 0.0, near]))
+        };
+        assert_eq!(sights(&buffer), [Visibility::Clear, Visibility::Veiled, Visibility::Veiled]);
+        let line = buffer.visible(&[[-40.0, 0.0, 0.0], [40.0, 0.0, 0.0]]);
+        assert!(line[1..].iter().all(|(point, _)| point[0].is_finite()), "it is seen everywhere");
+        let dim = line.iter().filter(|(_, veiled)| *veiled).map(|(point, _)| point[0].abs());
+        assert!(dim.clone().count() > 10 && dim.clone().all(|x| x < 22.0), "{line:?}");
+        buffer.ball([0.0, 0.0, -20.0], 5.0, 1);
+        assert_eq!(sights(&buffer), [Visibility::Clear, Visibility::Veiled, Visibility::Hidden]);
+        // The ball behind the veil is drawn in its place, and told to be veiled.
+        let covered: Vec<_> = buffer.dots().map(|(_, covered)| covered).collect();
+        assert!(covered.iter().all(|dot| dot.veiled == (dot.surface == 1)), "{covered:?}");
+        assert!(covered.iter().filter(|dot| dot.veiled).count() > 50);
     }
 
     #[test]
@@ -329,7 +414,8 @@ mod tests {
             buffer.ball([0.0, 0.0, 0.0], v, 0);
             buffer.face(&[[v, 0.0, 0.0], [1.0, v, 0.0], [0.0, 1.0, v]], 0);
             buffer.visible(&[[v, 0.0, 0.0], [0.0, v, 1.0], [1.0, 1.0, 1.0]]);
-            buffer.hides_point([v; 3]);
+            buffer.veil([v, 0.0, v], v, 0);
+            buffer.sight_of([v; 3]);
         }
         buffer.face(&[], 0);
     }

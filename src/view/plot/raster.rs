@@ -4,6 +4,7 @@
 //! it shows the dots of its highest layer only, in the style of the newest of them; a marker keeps the dots beside it
 //! blank. Never here: axes, or the meaning of the curves.
 
+mod bands;
 mod cloud;
 mod course;
 mod halo;
@@ -23,7 +24,7 @@ use crate::num::math;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::{Dash, Shade};
 pub use kept_trail::{Ages, KeptTrail};
-use letter::letter;
+use letter::{letter, points};
 
 /// The most cells drawn in a row or column; no terminal has more.
 const MOST_CELLS: u16 = 1024;
@@ -191,7 +192,19 @@ impl Raster {
         for point in points {
             let place = frame.dot(point, size);
             if (0..2).all(|i| (0.0..=f64::from(size[i])).contains(&place[i])) {
-                self.dot(std::array::from_fn(|i| (place[i] as i32).min(size[i] - 1)), pen);
+                let dot = std::array::from_fn(|i| (place[i] as i32).min(size[i] - 1));
+                self.dot(dot, pen);
+                self.letter_points(dot, pen);
+            }
+        }
+    }
+
+    /// In ASCII, shows the dots of a cell as points and not as the strokes of a line.
+    fn letter_points(&mut self, dot: [i32; 2], pen: &Pen) {
+        if let (Glyphs::Ascii, Some((index, _))) = (self.glyphs, self.place(dot)) {
+            let cell = &mut self.cells[index];
+            if cell.rank == (pen.layer, false, pen.fresh) {
+                cell.sign = Some(points(cell.upper));
             }
         }
     }

@@ -57,9 +57,8 @@ impl ScenePainter<'_> {
         let back = [(a[0] - b[0]) / 8.0, (a[1] - b[1]) / 8.0];
         let wing = |side: f64| [b[0] + back[0] - side * back[1], b[1] + back[1] + side * back[0]];
         self.curve(&[foot, tip], pen);
-        if self.depth.hides_point(self.camera.project(tip)) {
-            return;
+        if let Some(pen) = self.seen_at(tip, pen) {
+            self.raster.polyline(&self.frame, [wing(0.7), b, wing(-0.7)], &pen);
         }
-        self.raster.polyline(&self.frame, [wing(0.7), b, wing(-0.7)], pen);
     }
 }

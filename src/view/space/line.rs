@@ -1,10 +1,10 @@
-//! Lines in space: what is visible of them, dimmer where it is farther away.
+//! Lines in space: what is visible of them, dimmer where it is farther away or behind a see-through surface.
 //!
 //! In: points, a pen. Out: dots. Never here: the shapes they belong to.
 
 use ratatui::style::Style;
 
-use super::{DISTANCES, ScenePainter, solid};
+use super::{DISTANCES, GROUND, ScenePainter, solid};
 use crate::view::plot::Pen;
 
 impl ScenePainter<'_> {
@@ -28,16 +28,23 @@ impl ScenePainter<'_> {
             fresh: (last - step) as u8,
             ..*pen
         });
-        let line = self.depth.visible(seen).into_iter().map(|[x, y, depth]| {
+        // Scenery behind a see-through surface is left out; what moves is as dim there as at the back.
+        let is_scenery = pen.layer <= GROUND;
+        let line = self.depth.visible(seen).into_iter().map(|([x, y, depth], veiled)| {
             let share = (near - depth) / (near - far) * DISTANCES as f64;
-            ([x, y], if share.is_finite() { share.clamp(0.0, last as f64) as usize } else { 0 })
+            match (veiled, is_scenery) {
+                (true, true) => ([f64::NAN; 2], last),
+                (true, false) => ([x, y], last),
+                _ if share.is_finite() => ([x, y], share.clamp(0.0, last as f64) as usize),
+                _ => ([x, y], 0),
+            }
         });
         let line: Vec<_> = line.collect();
         self.raster.polyline_in(&self.frame, line, &pens);
     }
 
     /// How a style looks at each distance.
-    fn receding(&mut self, style: Style) -> [Style; DISTANCES] {
+    pub(super) fn receding(&mut self, style: Style) -> [Style; DISTANCES] {
         if let Some((_, styles)) = self.receding.iter().find(|(known, _)| *known == style) {
             return *styles;
         }

@@ -5,7 +5,7 @@
 use super::{SOLID, ScenePainter, TRACK};
 use crate::model::{Point, Shape};
 use crate::view::glyphs::Glyphs;
-use crate::view::plot::Pen;
+use crate::view::plot::{Pen, Visibility};
 use crate::view::theme::Role;
 
 impl ScenePainter<'_> {
@@ -35,7 +35,8 @@ impl ScenePainter<'_> {
         for (shape, _) in self.q.lab.shapes(self.eye) {
             let Shape::Mass { at, radius: Some(radius) } = shape else { continue };
             let (at, radius) = (self.point(at), self.q.number(*radius).abs());
-            if self.cells(radius).is_some() && !self.depth.hides_point(self.camera.project(at)) {
+            let clear = self.sight(at) == Visibility::Clear;
+            if self.cells(radius).is_some() && clear {
                 let centre = self.flat(at);
                 self.raster.halo(&self.frame, centre, radius, TRACK);
             }

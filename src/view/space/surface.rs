@@ -61,11 +61,16 @@ impl ScenePainter<'_> {
             }
             _ => return,
         };
+        // What moves on a sphere or inside it is seen through it.
+        let see_through = matches!(shape, Shape::Sphere { .. });
         let (number, projection) = (self.surfaces.len(), self.camera.projection());
         self.surfaces.push(pen);
         for solid in solids {
             match solid.moved(|point| projection.of(point)) {
                 Occluder::Face(corners) => self.depth.face(&corners, number),
+                Occluder::Ball(centre, radius) if see_through => {
+                    self.depth.veil(centre, radius, number);
+                }
                 Occluder::Ball(centre, radius) => self.depth.ball(centre, radius, number),
             }
         }
@@ -73,8 +78,13 @@ impl ScenePainter<'_> {
 
     /// Fills the surfaces, each dot with the nearest one.
     pub(super) fn fill(&mut self) {
+        let pens: Vec<_> = std::mem::take(&mut self.surfaces)
+            .into_iter()
+            .map(|(pen, shares)| ([pen, self.dim(&pen)], shares))
+            .collect();
         for (dot, covered) in self.depth.dots() {
-            let Some((pen, [shade, light])) = self.surfaces.get(covered.surface) else { continue };
+            let Some((pen, [shade, light])) = pens.get(covered.surface) else { continue };
+            let pen = pen[usize::from(covered.veiled)];
             let coverage = shade + (light - shade) * covered.light * covered.light;
             self.raster.shade(dot, &pen.covering(coverage));
         }

@@ -121,7 +121,7 @@ fn scripts_find_equilibria_and_portraits_mark_them() {
     drop(played(
         "henon-heiles",
         "Open henon-heiles\nSize 120x40\nPress F\nWait 0.2s\n\
-         Assert screen \"Equilibria and small oscillations\"\nPress Esc\nWait 0.1s\n\
+         Assert screen \"Equilibria: Enter starts there\"\nPress Esc\nWait 0.1s\n\
          Assert phase.equilibria = 4 within 0\nAssert phase.stable = 1 within 0\n\
          Press 4\nWait 0.1s\nAssert screen \"stable minimum\"\nAssert screen \"ω = 1: \"\n",
     ));

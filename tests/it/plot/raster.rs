@@ -386,3 +386,16 @@ fn a_halo_blanks_what_is_below_and_near() {
     assert_eq!(dots(Glyphs::Braille, 3, true), whole, "a rod goes on to its mass");
     assert_eq!(dots(Glyphs::Ascii, 2, true), dots(Glyphs::Ascii, 2, false));
 }
+
+/// Points of a section are not strokes: in ASCII a cell has the height of one, or that there are several.
+#[test]
+fn points_are_points_in_ascii() {
+    let area = Rect::new(0, 0, 6, 1);
+    // two dots beside each other, or one at the height of each row, or two of them
+    let dots = [[0, 2], [1, 2], [2, 0], [4, 1], [6, 2], [8, 0], [9, 2]];
+    let points = dots.map(|[x, y]| [(f64::from(x) + 0.5) / 12.0, 1.0 - (f64::from(y) + 0.5) / 3.0]);
+    let buffer = drawn(area, Glyphs::Ascii, |raster| {
+        raster.points(&unit(area), points, &PLAIN);
+    });
+    assert_eq!(rows(&buffer), [".'..:"]);
+}

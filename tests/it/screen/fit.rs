@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use phaselab::app::{App, Event};
 use phaselab::experiment::{Growth, Verdict};
+use phaselab::instrument::Sight;
 
 use super::{find, rich, rows, screen};
 use crate::hand::{catalog, gauge, lab, loaded, press, snapshot};
@@ -121,4 +122,47 @@ fn a_pendulum_that_has_not_moved_yet_has_room_to_swing() {
         (1..38).filter(|x| (2..20).any(|y| dots(buffer[(*x, y)].symbol()))).collect();
     let wide = drawn.last().unwrap() - drawn.first().unwrap() + 1;
     assert!((8..=22).contains(&wide), "{wide} columns of 38: {:#?}", rows(&buffer));
+}
+
+/// Wherever a file has a view of the motion, one is on the screen when it opens, and what is brought to the front is shown
+/// all the same.
+#[test]
+fn the_motion_is_seen_wherever_there_is_a_view_of_it() {
+    let mut unseen = Vec::new();
+    for entry in catalog().entries() {
+        let (mut app, _) = App::new(catalog(), Some(&entry.name));
+        app.update(Event::Loaded(Ok(loaded(&entry.name, 1))));
+        let shown = |app: &App, size: (u16, u16)| {
+            let (_, drawn) = super::drawn(app, &rich(), size);
+            drawn.panes.expect("the lab").plots
+        };
+        let motions: Vec<usize> = {
+            let lab = app.lab.as_ref().unwrap();
+            (0..lab.plots.len()).filter(|index| lab.shows_motion(&lab.plots[*index])).collect()
+        };
+        for size in [(80, 24), (120, 40), (200, 60)] {
+            let plots = shown(&app, size);
+            if !motions.is_empty() && !motions.iter().any(|index| plots.has(*index)) {
+                unseen.push(format!("{} at {size:?}", entry.name));
+            }
+        }
+        let last = app.lab.as_ref().unwrap().plots.len() - 1;
+        app.lab.as_mut().unwrap().front = Some(last);
+        assert!(shown(&app, (80, 24)).has(last), "{}", entry.name);
+    }
+    assert!(unseen.is_empty(), "{unseen:#?}");
+}
+
+/// A body on the far side of a sphere is seen through it, from wherever one looks.
+#[test]
+fn a_body_is_seen_through_its_sphere() {
+    let mut app = opened("neumann");
+    for turn in 0..8 {
+        let lab = app.lab.as_mut().unwrap();
+        let Sight::Camera(eye) = &mut lab.plots[0].sight else { panic!("no scene") };
+        eye.yaw = std::f64::consts::TAU * f64::from(turn) / 8.0;
+        let rows = rows(&screen(&app, &rich(), (80, 24)));
+        let motion: String = rows[2..13].iter().flat_map(|row| row.chars().take(39)).collect();
+        assert_eq!(motion.matches('●').count(), 1, "{turn}: {rows:#?}");
+    }
 }

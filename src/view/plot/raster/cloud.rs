@@ -15,7 +15,7 @@ use crate::view::theme::Shade;
 const DENSE: f64 = 0.65;
 
 /// ASCII characters from sparse to dense.
-const DENSITY: [char; 9] = ['.', ':', '-', '=', '+', '*', 'o', '#', '@'];
+pub(super) const DENSITY: [char; 9] = ['.', ':', '-', '=', '+', '*', 'o', '#', '@'];
 
 impl Raster {
     /// Draws points shaded by density: the step of the ramp grows with the logarithm of the count in a cell, and the

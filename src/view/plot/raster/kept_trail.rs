@@ -10,7 +10,7 @@ use super::course::Course;
 use super::letter::faded;
 use super::{Pen, Raster, noise};
 use crate::view::glyphs::Glyphs;
-use crate::view::plot::depth::DepthBuffer;
+use crate::view::plot::depth::{DepthBuffer, Visibility};
 use crate::view::plot::scale::PlotFrame;
 use crate::view::theme::{Dash, Shade};
 
@@ -19,6 +19,9 @@ const DOTS: usize = 8;
 
 /// The stamp of the current state, which is drawn but not kept.
 const NOW: f64 = f64::INFINITY;
+
+/// The age to which a veil dims a trail, as a part of all ages.
+const VEILED: usize = 3;
 
 /// What a stroke leaves on a dot.
 #[derive(Clone, Copy, Debug)]
@@ -60,6 +63,16 @@ impl Ages<'_> {
     /// The age of a stamp, if it is still drawn.
     fn of(&self, stamp: f64) -> Option<usize> {
         self.since.iter().rposition(|since| *since <= stamp)
+    }
+
+    /// The age with which a dot is drawn, if it is drawn: behind a veil it looks old.
+    fn seen(&self, stamp: f64, sight: Visibility) -> Option<usize> {
+        let age = self.of(stamp)?;
+        match sight {
+            Visibility::Clear => Some(age),
+            Visibility::Veiled => Some(age.min(self.ramp.len() / VEILED)),
+            Visibility::Hidden => None,
+        }
     }
 }
 
@@ -114,21 +127,22 @@ impl KeptTrail {
             }
             for (bit, stamp) in stamps.iter().enumerate().filter(|(_, stamp)| **stamp >= oldest) {
                 let near = self.nears[cell][bit];
-                if behind.is_some_and(|(depth, _)| depth.hides(raster.dot_of(cell, bit), near)) {
-                    continue;
-                }
-                if let Some((age, pen)) = ages.of(*stamp).and_then(|a| Some((a, pens.get(a)?))) {
+                let sight = behind.map_or(Visibility::Clear, |(depth, _)| {
+                    depth.sight(raster.dot_of(cell, bit), near)
+                });
+                let age = ages.seen(*stamp, sight);
+                if let Some((age, pen)) = age.and_then(|age| Some((age, pens.get(age)?))) {
                     raster.ink_bit((cell, bit), pen, sign(age));
                 }
             }
         }
         let (dash, grid) = (self.dash, self.grid());
         let mut end = |dot: [i32; 2], inked: super::course::Inked<Stamp>| {
-            if behind.is_some_and(|(depth, _)| depth.hides(inked.centre(dot), inked.ink.near)) {
-                return;
-            }
-            let age = ages.of(inked.ink.time).and_then(|age| Some((age, pens.get(age)?)));
-            let Some((age, pen)) = age else { return };
+            let sight = behind.map_or(Visibility::Clear, |(depth, _)| {
+                depth.sight(inked.centre(dot), inked.ink.near)
+            });
+            let age = ages.seen(inked.ink.time, sight);
+            let Some((age, pen)) = age.and_then(|age| Some((age, pens.get(age)?))) else { return };
             if grid != [1, 1] || dash.covers(dot[inked.along]) {
                 raster.ink(inked.centre(dot), pen, sign(age));
             }
@@ -149,7 +163,7 @@ impl KeptTrail {
 
 impl Raster {
     /// Sets a dot by its cell and the index of its bit.
-    fn ink_bit(&mut self, (cell, bit): (usize, usize), pen: &Pen, sign: Option<char>) {
+    pub(super) fn ink_bit(&mut self, (cell, bit): (usize, usize), pen: &Pen, sign: Option<char>) {
         if pen.coverage < 1.0 && noise(self.thinning(cell, bit)) >= pen.coverage {
             return;
         }

@@ -61,6 +61,15 @@ fn steep(top: u8, middle: u8, bottom: u8) -> char {
     }
 }
 
+/// The character for single points: the height of one, or that there are several.
+pub(super) fn points(dots: u8) -> char {
+    match [0, 2, 4].map(|shift| dots >> shift & 3 != 0) {
+        [true, false, false] => '\'',
+        [false, _, _] => '.',
+        [true, _, _] => ':',
+    }
+}
+
 /// The ASCII character for the age of a trail.
 pub(super) fn faded(age: usize, ages: usize) -> char {
     const AGES: [char; 4] = ['.', ':', '+', 'o'];
