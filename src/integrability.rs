@@ -26,6 +26,7 @@ mod reflection;
 mod scope;
 mod search;
 mod separation;
+mod stand_in;
 mod summary;
 mod symmetry_flow;
 mod transformations;

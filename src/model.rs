@@ -8,6 +8,7 @@ mod claim;
 mod constraint;
 mod coordinate;
 mod description;
+mod literal;
 mod occurrence;
 mod parameter;
 mod picture;

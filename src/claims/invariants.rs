@@ -4,14 +4,20 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::integrability::{Limits, invariants};
-use crate::mechanics::Equations;
+use crate::mechanics::{Equations, derive};
 use crate::model::Model;
 
 /// Returns a diagnostic if the claim is false, or cannot be checked.
 pub(super) fn false_count(model: &Model, equations: &Equations) -> Option<Diagnostic> {
     let claim = model.expect.invariants.as_ref()?;
-    let mut equations = equations.clone();
     let cancel = equations.pool.cancel().clone();
+    let mut named = model.clone();
+    let derived = if named.name_literals() { derive(&named).ok() } else { None };
+    let (model, mut equations) = match derived {
+        Some(derived) => (&named, derived),
+        None => (model, equations.clone()),
+    };
+    equations.pool.set_cancel(cancel.clone());
     let is_over = || cancel.is_cancelled();
     let limits = Limits { degree: Some(claim.degree), is_over: &is_over };
     let found = match invariants(model, &mut equations, &limits) {

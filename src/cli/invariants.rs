@@ -127,6 +127,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
         None => None,
         Some(scan) => Some((scan, parameter(&model, &scan.name)?)),
     };
+    model.name_literals();
     let mut derived = open::derive(&document, model)?;
     let scan = match scanned {
         None => None,

@@ -60,6 +60,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     let mut model = open::read(&document)?;
     let parameters = assignment::parameters(&model, &arguments.set)?;
     model.parameters.iter_mut().zip(&parameters).for_each(|(p, &value)| p.value = value);
+    model.name_literals();
     let Derived { model, mut equations } = open::derive(&document, model)?;
     let most = arguments.budget.unwrap_or(BUDGET);
     let begin = Instant::now();

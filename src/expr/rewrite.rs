@@ -68,6 +68,43 @@ impl Pool {
         }
     }
 
+    /// Replaces the reals of an expression that are no exponents.
+    pub fn replace_reals(&mut self, e: Expr, of: &mut dyn FnMut(&mut Pool, f64) -> Expr) -> Expr {
+        let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
+        for part in self.reachable(&[e]) {
+            if self.is_stopped() {
+                return e;
+            }
+            let parts = |done: &FxHashMap<Expr, Expr>, e: Expr| done.get(&e).copied().unwrap_or(e);
+            let mut scaled = |pool: &mut Pool, n: Number, e: Expr| match n {
+                Number::Real(x) => {
+                    let real = of(pool, x);
+                    pool.mul(real, e)
+                }
+                exact => pool.scale(exact, e),
+            };
+            let replaced = match self.node(part).clone() {
+                Node::Number(n) => scaled(self, n, Expr::ONE),
+                Node::Sum(constant, terms) => {
+                    let mut all = vec![scaled(self, constant, Expr::ONE)];
+                    for (c, term) in terms {
+                        all.push(scaled(self, c, parts(&done, term)));
+                    }
+                    self.sum(&all)
+                }
+                Node::Product(c, factors) => {
+                    let factors: Vec<(Expr, Number)> =
+                        factors.iter().map(|&(b, n)| (parts(&done, b), n)).collect();
+                    let product = self.monomial(Number::ONE, &factors);
+                    scaled(self, c, product)
+                }
+                _ => self.rebuild_from(part, &done),
+            };
+            done.insert(part, replaced);
+        }
+        done.get(&e).copied().unwrap_or(e)
+    }
+
     /// The same node with its parts replaced where the map has something for them.
     pub(super) fn rebuild_from(&mut self, e: Expr, parts: &FxHashMap<Expr, Expr>) -> Expr {
         self.rebuild(e, |_, part| parts.get(&part).copied().unwrap_or(part))

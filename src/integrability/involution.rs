@@ -15,8 +15,9 @@ use rustc_hash::FxHashMap;
 use super::ansatz::orders;
 use super::echelon::{Echelon, reduced};
 use super::evaluator::ResidueEvaluator;
-use super::law::{self, Law};
+use super::law::Law;
 use super::random::Random;
+use super::stand_in;
 use super::vanishing::vanishes;
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::Equations;
@@ -157,7 +158,7 @@ impl Work {
             return None;
         }
         let symbolic = Law::of(model, equations);
-        let constants = law::constants(model, equations);
+        let constants = stand_in::constants(model, equations);
         let pool = &mut equations.pool;
         let values: HashMap<Symbol, Expr> =
             constants.iter().map(|&(s, n)| (s, pool.number(n))).collect();

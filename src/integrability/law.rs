@@ -12,9 +12,9 @@ use super::echelon::{Echelon, solve};
 use super::evaluator::{ResidueEvaluator, ResidueRates, SamplePoint};
 use super::random::Random;
 use crate::expr::{Expr, Pool, Symbol};
-use crate::mechanics::{Equations, Flow, body_values};
+use crate::mechanics::{Equations, Flow};
 use crate::model::Model;
-use crate::num::{Number, PrimeField, Residue};
+use crate::num::{PrimeField, Residue};
 
 /// How the rates of the variables are known.
 #[derive(Clone, Debug)]
@@ -61,60 +61,6 @@ pub(super) struct Law {
     pub(super) time: Symbol,
     /// Whether q̇ = ∂H/∂p, ṗ = −∂H/∂q, or ẋ = {x, H}, and nothing else acts.
     pub(super) hamiltonian: bool,
-}
-
-/// The parameters and what follows from a body, each with an exact number: its value, or where that is not a short fraction
-/// a stand-in, since products of such values are rounded and the relations of a search would no longer hold. Those whose
-/// ratio is a short fraction have stand-ins with that ratio.
-pub(super) fn constants(model: &Model, equations: &Equations) -> Vec<(Symbol, Number)> {
-    let mut classes: Vec<f64> = Vec::new();
-    let stand_in = |(s, value): (Symbol, Number)| {
-        let Number::Real(x) = value else { return (s, value) };
-        let known =
-            classes.iter().enumerate().find_map(|(k, &first)| Some((k, short_ratio(x, first)?)));
-        let (class, ratio) = known.unwrap_or_else(|| {
-            classes.push(x);
-            (classes.len() - 1, Number::ONE)
-        });
-        let sign = if classes[class] < 0.0 { Number::MINUS_ONE } else { Number::ONE };
-        (s, square(class) * ratio * sign)
-    };
-    values(model, equations).into_iter().map(stand_in).collect()
-}
-
-/// Whether some of them are stand-ins: what is found for these is claimed only if it is proved with the names of the
-/// parameters.
-pub(super) fn has_stand_ins(model: &Model, equations: &Equations) -> bool {
-    values(model, equations).iter().any(|(_, value)| matches!(value, Number::Real(_)))
-}
-
-/// The square of a prime, so that roots of quotients are fractions; another one for each number. The primes are small, since
-/// products of many numbers must stay exact.
-fn square(k: usize) -> Number {
-    let is_prime = |n: &i64| (2..=n.isqrt()).all(|d| n % d != 0);
-    let root = (2..).filter(is_prime).nth(k).unwrap_or(2);
-    Number::Rational(root, 1) * Number::Rational(root, 1)
-}
-
-/// The quotient of two numbers as a fraction of numbers this small, if it is one to rounding.
-fn short_ratio(a: f64, b: f64) -> Option<Number> {
-    const LARGEST: f64 = 64.0;
-    (1..=LARGEST as i64).find_map(|d| {
-        let n = a / b * d as f64;
-        let whole = n.round();
-        let close = (n - whole).abs() <= 4.0 * f64::EPSILON * n.abs();
-        let short = (1.0..=LARGEST).contains(&whole.abs());
-        (close && short).then(|| Number::ratio(whole as i128, i128::from(d)))
-    })
-}
-
-/// The parameters and what follows from a body, with their values.
-pub(super) fn values(model: &Model, equations: &Equations) -> Vec<(Symbol, Number)> {
-    let values = model.parameter_values();
-    let body = equations.supplements.body.as_ref();
-    let body = body_values(model, &equations.pool, body, &values);
-    let own = model.parameters.iter().map(|p| p.symbol).zip(values);
-    own.chain(body).map(|(s, x)| (s, Number::Real(x).canonical())).collect()
 }
 
 impl Law {

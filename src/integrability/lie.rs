@@ -16,10 +16,10 @@ use super::echelon::{Echelon, reduced};
 use super::evaluator::ResidueEvaluator;
 use super::explicit_motion::{ExplicitMotion, accelerations};
 use super::formula::{cleared, content};
-use super::law;
 use super::naming::name_of;
 use super::noether::{DEGREE, MOST, SPARE, Symmetries, words};
 use super::random::Random;
+use super::stand_in;
 use super::transformations::{generators_of, products};
 use super::units::Unsupported;
 use crate::expr::{Expr, Pool, Symbol};
@@ -76,12 +76,12 @@ pub fn point_symmetries(
         return Err(Unsupported(why.to_owned()));
     }
     let symbolic = accelerations(equations)?;
-    let values: HashMap<Symbol, Expr> = law::constants(model, equations)
+    let values: HashMap<Symbol, Expr> = stand_in::constants(model, equations)
         .into_iter()
         .map(|(s, n)| (s, equations.pool.number(n)))
         .collect();
     let lagrangian = equations.lagrangian().clone().ok();
-    let (generic, by_names) = (law::has_stand_ins(model, equations), lagrangian);
+    let (generic, by_names) = (stand_in::has_stand_ins(model, equations), lagrangian);
     let pool = &mut equations.pool;
     let here: Vec<Expr> = symbolic.iter().map(|&e| pool.substitute(e, &values)).collect();
     let law = match lagrangian {

@@ -15,9 +15,9 @@ use super::ansatz::orders;
 use super::echelon::{Echelon, reduced};
 use super::evaluator::ResidueEvaluator;
 use super::formula::{cleared, content};
-use super::law;
 use super::naming::name_of;
 use super::random::Random;
+use super::stand_in;
 use super::transformations::{generators_of, products};
 use super::units::Unsupported;
 use crate::expr::{Expr, Node, Pool, Symbol, Zero};
@@ -91,7 +91,7 @@ pub fn symmetries(
             "friction or forces act beside the Lagrangian, whose symmetries then give no constants",
         );
     }
-    let values: HashMap<Symbol, Expr> = law::constants(model, equations)
+    let values: HashMap<Symbol, Expr> = stand_in::constants(model, equations)
         .into_iter()
         .map(|(s, n)| (s, equations.pool.number(n)))
         .collect();
@@ -104,7 +104,7 @@ pub fn symmetries(
     let mut problem = NoetherProblem::of(pool, lagrangian, time, positions, velocities);
     let vectors = problem.solve(pool, is_over)?;
     let mut found: Vec<Symmetry> = Vec::new();
-    let generic = law::has_stand_ins(model, equations);
+    let generic = stand_in::has_stand_ins(model, equations);
     let pool = &mut equations.pool;
     let mut complete = !problem.overgeneral && !generic;
     // the same changes with the parameters' names, where they are symmetries for all their values

@@ -15,11 +15,12 @@ use super::evaluator::ResidueEvaluator;
 use super::formula::{cleared, combination, words};
 use super::invariants::{Constant, EXHAUSTED, Invariants, Limits, Proof, Searched};
 use super::known::{self, KnownConstant, products};
-use super::law::{self, Law};
+use super::law::Law;
 use super::level::{self, Broken, Ground};
 use super::quadratic::with_root;
 use super::random::Random;
 use super::scope::{SearchScope, constants_of};
+use super::stand_in;
 use super::units::Unsupported;
 use super::vanishing::vanishes;
 use crate::expr::{Expr, Pool, Symbol};
@@ -95,8 +96,8 @@ impl<'a> Search<'a> {
         limits: &'a Limits<'a>,
     ) -> Result<Search<'a>, Unsupported> {
         let symbolic = Law::of(model, equations);
-        let constants = law::constants(model, equations);
-        let generic = law::has_stand_ins(model, equations);
+        let constants = stand_in::constants(model, equations);
+        let generic = stand_in::has_stand_ins(model, equations);
         let pool = &mut equations.pool;
         let values: HashMap<Symbol, Expr> =
             constants.iter().map(|&(s, n)| (s, pool.number(n))).collect();

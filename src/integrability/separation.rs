@@ -5,7 +5,8 @@
 
 use std::collections::HashMap;
 
-use super::law::{self, is_hamiltonian};
+use super::law::is_hamiltonian;
+use super::stand_in;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, separation};
 use crate::model::Model;
@@ -16,7 +17,7 @@ pub fn separates(model: &Model, equations: &mut Equations) -> Option<bool> {
     if model.is_poisson() || !is_hamiltonian(model, equations) {
         return None;
     }
-    let values: HashMap<Symbol, Expr> = law::values(model, equations)
+    let values: HashMap<Symbol, Expr> = stand_in::values(model, equations)
         .into_iter()
         .map(|(s, n)| (s, equations.pool.number(n)))
         .collect();

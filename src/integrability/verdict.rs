@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use super::invariants::{Invariants, Proof};
 use super::involution::{self, Commuting, Given};
-use super::law;
+use super::stand_in;
 use super::vanishing::vanishes;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{Equations, bracket};
@@ -46,7 +46,7 @@ pub fn relations(
         .copied()
         .chain(invariants.found.iter().map(|c| c.independent))
         .collect();
-    let values: HashMap<Symbol, Expr> = law::constants(model, equations)
+    let values: HashMap<Symbol, Expr> = stand_in::constants(model, equations)
         .into_iter()
         .map(|(s, n)| (s, equations.pool.number(n)))
         .collect();

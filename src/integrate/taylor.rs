@@ -20,6 +20,7 @@ mod kinks;
 mod last_orders;
 mod onset;
 mod rough_logarithms;
+mod start_slope;
 mod steep;
 mod step_end;
 mod step_screen;
@@ -85,6 +86,8 @@ struct Taylor {
     kinks: Kinks,
     rates: ExactRates,
     bridge: CollocationStep,
+    /// The sizes of the numbers where the motion began.
+    sizes: Vec<f64>,
     /// The longest step since the last kink, relative to which a step counts as short.
     stride: f64,
     /// The last step, and whether it and those before lead away from a point that was passed.
@@ -131,6 +134,7 @@ impl Taylor {
             kinks: Kinks::default(),
             rates,
             bridge,
+            sizes: Vec::new(),
             stride: 0.0,
             last: f64::INFINITY,
             leaving: false,
@@ -141,6 +145,19 @@ impl Taylor {
             limit: (f64::NAN, DoubleDouble::ZERO),
             leaps: (0, f64::NAN),
         })
+    }
+
+    /// The state of the last step at the time of another, if it has one: that before an impulse. Else the other itself.
+    fn before(&mut self, start: &State) -> Result<State, MotionError> {
+        let (begin, end) = (self.begin.min(self.state.time), self.begin.max(self.state.time));
+        let alike = start.form == self.state.form && start.values.len() == self.state.values.len();
+        let mut before = start.clone();
+        if alike && start.exact_time() == self.state.exact_time() {
+            before.copy_from(&self.state);
+        } else if alike && begin < end && (begin..=end).contains(&start.time) {
+            self.write_state(start.exact_time(), &mut before)?;
+        }
+        Ok(before)
     }
 
     /// Writes the state at a time within the last step into `out`.
@@ -183,7 +200,13 @@ fn part_of_step(after: DoubleDouble, step: DoubleDouble) -> DoubleDouble {
 
 impl Stepper for Taylor {
     fn start(&mut self, state: &State, parameters: &[f64]) -> Result<(), MotionError> {
-        self.state = self.system.convert(state, self.system.form(), parameters)?;
+        let mut state = self.system.convert(state, self.system.form(), parameters)?;
+        let before = self.before(&state)?;
+        if self.series.switches() > 0 {
+            start_slope::settle(&mut state, &before);
+        }
+        self.sizes = start_slope::sizes(&state, &before);
+        self.state = state;
         self.begin = self.state.time;
         self.scaled = false;
         self.taken = None;

@@ -101,6 +101,18 @@ impl Number {
         }
     }
 
+    /// The quotient of two reals as a fraction of small numbers, if it is one to rounding.
+    pub fn short_ratio(a: f64, b: f64) -> Option<Number> {
+        const LARGEST: f64 = 64.0;
+        (1..=LARGEST as i64).find_map(|d| {
+            let n = a / b * d as f64;
+            let whole = n.round();
+            let close = (n - whole).abs() <= 4.0 * f64::EPSILON * n.abs();
+            let short = (1.0..=LARGEST).contains(&whole.abs());
+            (close && short).then(|| Number::ratio(whole as i128, i128::from(d)))
+        })
+    }
+
     /// The nearest `f64`.
     pub fn value(self) -> f64 {
         match self {

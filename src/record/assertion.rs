@@ -46,7 +46,7 @@ pub(super) fn find(
             let (lab, snapshot) = seen(app, name)?;
             let gauge = gauge(lab, snapshot, name)?;
             let is = gauge.verdict.word();
-            let holds = is.starts_with(word);
+            let holds = is == *word;
             Ok(AssertionResult { holds, sentence: format!("the verdict on {} is {is}", name.text) })
         }
         Assert::Number { measure, of, relation, with, within } => {

@@ -91,6 +91,8 @@ pub enum MotionErrorKind {
     Cancelled,
     /// The motion reaches a point from which no series continues it.
     Rough,
+    /// The motion is on a kink that no side leads away from, and along which it cannot be followed.
+    NoSide,
     /// The motion sticks on a kink where both sides push back, and cannot be followed.
     Sticks,
 }
@@ -180,7 +182,7 @@ impl fmt::Display for MotionError {
             )?,
             MotionErrorKind::Ended(name) => write!(f, "`{name}` ends the motion at t = {time}")?,
             MotionErrorKind::Sticks => write!(f, "the motion sticks at t = {time}")?,
-            MotionErrorKind::Rough => {
+            MotionErrorKind::Rough | MotionErrorKind::NoSide => {
                 write!(
                     f,
                     "the motion comes to a kink that it cannot be followed through at t = {time}"
@@ -239,6 +241,7 @@ impl fmt::Display for MotionError {
             MotionErrorKind::TooManySteps(..) => ": try a larger step",
             MotionErrorKind::PilesUp(_) => ": give the file an event that stops it before",
             MotionErrorKind::Rough => ": the rates of change have no limit there",
+            MotionErrorKind::NoSide => ": no side of it leads away, and a motion along it cannot be followed",
             MotionErrorKind::Sticks => ": both sides of a kink push towards it",
         })
     }

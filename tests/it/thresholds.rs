@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 
 use phaselab::analysis::{Errors, History, Verdict};
 use phaselab::diagnostic::Document;
-use phaselab::experiment::Gauge;
+use phaselab::experiment::{Checkpoint, Command, Gauge};
 use phaselab::integrate::{METHODS, Settings};
-use phaselab::mechanics::derive;
+use phaselab::mechanics::{Class, class_of, derive};
 use phaselab::system::System;
 
 use crate::cli::with_file;
@@ -211,6 +211,54 @@ fn a_start_is_on_its_constraints_to_1e_9_of_their_terms() {
              [[constraints]]\nname = \"c\"\nexpression = \"x - y\"\n[run]\nuntil = 1\n"
         )
     });
+}
+
+/// What the motion shows of a rate that no point near the start has, since it begins at t = ½. The constant keeps the drift
+/// within its own limit.
+#[test]
+fn a_rate_along_a_motion_vanishes_to_1e_9_of_its_terms() {
+    claimed(["0.9e-9", "1.1e-9"], "claimed to be conserved, but it is not", |off| {
+        oscillator(&format!(
+            "[[observables]]\nname = \"G\"\nconserved = true\n\
+             expression = \"100 + (sqrt(1 - sin(x)^2) - (1 + {off})*cos(x))*max(0, t - 0.5)\""
+        ))
+    });
+}
+
+/// A rate on constraints is classified by its values; each of the numbers in its two terms may be off by 1e-10.
+#[test]
+fn a_rate_on_constraints_vanishes_to_some_1e_10_of_its_terms() {
+    let class = |off: &str| {
+        let text = format!(
+            "title = \"Two\"\n[coordinates]\nx = {{ initial = 0.5, velocity = 0.3 }}\n\
+             y = {{ initial = 0.5, velocity = 0.3 }}\n[lagrangian]\nL = \"1/2*x'^2 + 1/2*y'^2\"\n\
+             [[constraints]]\nname = \"c\"\nexpression = \"x - y\"\n[[observables]]\n\
+             name = \"G\"\nexpression = \"sin(x) - (1 + {off})*sin(y)\"\n"
+        );
+        let model = Document::new("two.toml", text).read().unwrap().model;
+        let mut equations = derive(&model).unwrap();
+        class_of(&model, &mut equations, "G", model.observables[0].expression).class
+    };
+    assert_eq!(class("2e-10"), Class::Numerically);
+    assert_eq!(class("2e-9"), Class::Changing);
+}
+
+/// A state that is off its constraint by more is not restored: the coordinates beside it are taken.
+#[test]
+fn a_state_is_restored_within_some_1e_9_of_the_terms_of_its_constraints() {
+    let text = "title = \"Two\"\n[coordinates]\nx = { initial = 1, velocity = 0 }\n\
+                y = { initial = 1, velocity = 0 }\n[lagrangian]\nL = \"1/2*x'^2 + 1/2*y'^2\"\n\
+                [[constraints]]\nname = \"c\"\nexpression = \"x - y\"\n";
+    for (off, restored) in [(0.5e-9, true), (6e-9, false)] {
+        let mut experiment = build(text, |_| ());
+        run(&mut experiment, 0.5);
+        let seen = experiment.snapshot();
+        let mut moment = Checkpoint::of(experiment.model(), experiment.system(), &seen);
+        moment.present.as_mut().unwrap().state[0] = [1.0 + off, 0.0];
+        experiment.execute(Command::Restore(Box::new(moment)));
+        let x = experiment.snapshot().state.values[0];
+        assert_eq!(x == 1.0 + off, restored, "off by {off:e}: {x}");
+    }
 }
 
 #[test]

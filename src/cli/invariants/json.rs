@@ -46,8 +46,10 @@ pub(super) fn write(answer: &InvariantsReport<'_>) -> String {
         .searched
         .iter()
         .map(|s| json!({ "degree": s.degree, "family": s.family, "monomials": s.size }));
+    // a number of the file that stands for itself is no parameter
+    let written = model.parameters.iter().filter(|p| p.name.parse::<f64>().is_err());
     let parameters: serde_json::Map<String, Value> =
-        model.parameters.iter().map(|p| (p.name.clone(), json!(p.value))).collect();
+        written.map(|p| (p.name.clone(), json!(p.value))).collect();
     let mut object = json!({
         "phaselab": env!("CARGO_PKG_VERSION"),
         "title": model.info.title,

@@ -134,6 +134,7 @@ impl Propagator {
                 | MotionErrorKind::StepUnderflow(_)
                 | MotionErrorKind::ClockStands(_)
                 | MotionErrorKind::Rough
+                | MotionErrorKind::NoSide
                 | MotionErrorKind::Sticks
         );
         if !may_be_passed || self.system.cancel().is_cancelled() {

@@ -3,8 +3,8 @@
 //! In: the state, the choices of the kinks. Out: a series that continues, or a step by collocation, or rest. Never here:
 //! steps along a series.
 
-use super::Taylor;
 use super::sticking::{self, Sticking};
+use super::{Taylor, start_slope};
 use crate::system::{MotionError, MotionErrorKind, Side};
 
 /// This many collocation steps must advance the time by this part of the time that has passed.
@@ -25,7 +25,7 @@ impl Taylor {
         let mut rough = false;
         for sides in choices {
             self.kinks.choose(&mut self.series, sides);
-            match self.expand(left) {
+            match self.expand_on_surface(left) {
                 Ok(step) if self.kinks.leads_on(&self.series, step, self.stride) => {
                     let hopeless = step < HOPELESS * self.stride && !rough;
                     return Ok(if hopeless && self.leap(left, 0.0)? { None } else { Some(step) });
@@ -45,8 +45,26 @@ impl Taylor {
         if !rough && self.kinks.touch() {
             return self.decide(choices, left);
         }
-        let kind = if rough { MotionErrorKind::Rough } else { MotionErrorKind::Sticks };
+        let kind = if rough { MotionErrorKind::Rough } else { MotionErrorKind::NoSide };
         Err(self.system.fault(kind, self.state.time, &self.state.values))
+    }
+
+    /// Builds the series at a state on a surface. Where the motion begins there, what is certain of the switches is found
+    /// out as well.
+    fn expand_on_surface(&mut self, left: f64) -> Result<f64, MotionError> {
+        let step = self.expand(left)?;
+        if self.stride == 0.0 {
+            let here = self.kinks.on_surface(&self.series);
+            let beside = start_slope::beside(&self.state, &self.sizes);
+            let known = match self.series.build(&beside) {
+                Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault),
+                outcome => outcome.is_ok(),
+            };
+            let beside = if known { self.kinks.on_surface(&self.series) } else { Vec::new() };
+            self.series.build(&self.state)?;
+            self.kinks.learn(&here, &beside);
+        }
+        Ok(step)
     }
 
     /// Leaves a point from which no series continues, or continues by no more than `least`. Returns

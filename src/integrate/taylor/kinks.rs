@@ -8,6 +8,7 @@
 //! Discontinuous Righthand Sides, Kluwer 1988, §4; V. I. Utkin's equivalent control).
 
 use super::super::roots::{first_crossing, value_and_slope};
+use super::start_slope;
 use crate::num::{DoubleDouble, math};
 use crate::system::{ExactRates, MotionError, Series, Side, State};
 
@@ -39,6 +40,8 @@ pub(super) struct Kinks {
     stalled: u32,
     /// Whether the surface is only touched.
     touched: bool,
+    /// Where the motion begins on surfaces: their first certain terms.
+    certain: Vec<(usize, usize)>,
 }
 
 /// A surface met within a step.
@@ -108,6 +111,29 @@ impl Kinks {
         }
     }
 
+    /// The series of the switches whose surface the state lies on and that have a side.
+    pub(super) fn on_surface(&self, series: &Series) -> Vec<(usize, Vec<f64>)> {
+        let sided = self.on_surface.iter().filter(|&&i| series.sides()[i] != Side::Between);
+        sided.map(|&i| (i, series.switch(i).to_vec())).collect()
+    }
+
+    /// Takes what is certain of the switches on a surface where the motion begins: their series, and those beside them.
+    pub(super) fn learn(&mut self, here: &[(usize, Vec<f64>)], beside: &[(usize, Vec<f64>)]) {
+        let pairs = here.iter().zip(beside);
+        let first = |((i, here), (_, beside)): (&(usize, Vec<f64>), &(usize, Vec<f64>))| {
+            Some((*i, start_slope::first_certain(here, beside)?))
+        };
+        self.certain = pairs.filter_map(first).collect();
+    }
+
+    /// The first term of a switch that decides on a direction within a time.
+    fn deciding(&self, i: usize, switch: &[f64], reach: f64) -> Option<usize> {
+        match self.certain.iter().find(|(of, _)| *of == i) {
+            Some(&(_, k)) => Some(k),
+            None => first_that_matters(switch, reach, self.significant()),
+        }
+    }
+
     /// From here on the motion counts as touching its surface only, until it moves. Returns whether that is new.
     pub(super) fn touch(&mut self) -> bool {
         !std::mem::replace(&mut self.touched, true)
@@ -121,7 +147,7 @@ impl Kinks {
     /// last steps, if there were any.
     pub(super) fn leads_on(&self, series: &Series, step: f64, stride: f64) -> bool {
         let reach = (step / series.scale().abs()).min(1.0).min(known_ahead(series, stride));
-        self.on_surface.iter().all(|&i| leads_on(series, i, reach, self.significant()))
+        self.on_surface.iter().all(|&i| self.leads_on_at(series, i, reach))
     }
 
     /// The first surface that the series meets before `end`, in its unit of time; `stride` as in
@@ -163,6 +189,7 @@ impl Kinks {
         let moved = state.exact_time() != series.time();
         self.stalled = if moved { 0 } else { self.stalled + 1 };
         self.touched = !moved && (self.touched || self.stalled >= STALLS);
+        self.certain.clear();
         self.on_surface = crossing.map_or(Vec::new(), |crossing| crossing.switches);
         for &i in &self.on_surface {
             // a number of the state that has reached zero is zero, not a rounding error
@@ -171,6 +198,18 @@ impl Kinks {
             }
         }
         self.stalled < PATIENCE
+    }
+
+    /// Whether the motion moves to the chosen side of a surface, that is whether the term of the switch that decides has
+    /// that sign.
+    fn leads_on_at(&self, series: &Series, i: usize, reach: f64) -> bool {
+        let sign = match series.sides()[i] {
+            Side::Between => return series.weight(i)[0].abs() <= 1.0 + 1e-12,
+            Side::Positive => 1.0,
+            Side::Negative => -1.0,
+        };
+        let switch = series.switch(i);
+        self.deciding(i, switch, reach).is_none_or(|k| sign * switch[k] > 0.0)
     }
 
     /// The point where a switch leaves its side. If the step begins on its surface, the switch
@@ -183,11 +222,7 @@ impl Kinks {
         (end, reach): (f64, f64),
     ) -> Option<f64> {
         let sign = if side == Side::Negative { -1.0 } else { 1.0 };
-        let from = if self.on_surface.contains(&i) {
-            first_that_matters(switch, reach, self.significant())?
-        } else {
-            0
-        };
+        let from = if self.on_surface.contains(&i) { self.deciding(i, switch, reach)? } else { 0 };
         let mut signed = [0.0; 64];
         let signed = &mut signed[..switch.len() - from];
         for (c, x) in signed.iter_mut().zip(&switch[from..]) {
@@ -223,18 +258,6 @@ const AHEAD: f64 = 1e6;
 /// How far ahead, in the unit of the series, a direction may be decided; unlimited where there was no step.
 fn known_ahead(series: &Series, stride: f64) -> f64 {
     if stride > 0.0 { AHEAD * stride / series.scale().abs() } else { f64::INFINITY }
-}
-
-/// Whether the motion moves to the chosen side of a surface, that is whether the first significant
-/// term of the switch has that sign.
-fn leads_on(series: &Series, i: usize, reach: f64, significant: f64) -> bool {
-    let sign = match series.sides()[i] {
-        Side::Between => return series.weight(i)[0].abs() <= 1.0 + 1e-12,
-        Side::Positive => 1.0,
-        Side::Negative => -1.0,
-    };
-    let switch = series.switch(i);
-    first_that_matters(switch, reach, significant).is_none_or(|k| sign * switch[k] > 0.0)
 }
 
 /// The first term beyond the constant one that is not negligible relative to the largest at a time.

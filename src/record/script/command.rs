@@ -262,7 +262,7 @@ pub const CLAIMS: [(&str, &str); 10] = [
     ("time NAME = EXPR within EPS", "when it last happened"),
     (
         "verdict NAME WORD",
-        "the verdict on a gauge: `exact`, `bounded`, `secular`, `lost`, `broken`, `open`, `unknown`",
+        "the verdict on a gauge: `exact`, `bounded`, `secular`, `lost`, `not conserved`, `open`, `unknown`",
     ),
     ("status WORD", "`running`, `paused`, `ended` or `stopped`"),
     ("screen \"TEXT\"", "the text stands on the screen"),
@@ -280,8 +280,27 @@ const MEASURES: [(&str, AssertedNumber); 5] = [
 /// The words for the status of an experiment.
 const STATUS: [Word; 4] = ["running", "paused", "ended", "stopped"];
 
-/// The first words of verdicts.
-const VERDICTS: [Word; 7] = ["exact", "bounded", "secular", "lost", "broken", "open", "unknown"];
+/// The verdicts of one word.
+const VERDICTS: [Word; 6] = ["exact", "bounded", "secular", "lost", "open", "unknown"];
+
+/// What some of them are called elsewhere: in old scripts, and where a column of the screen is narrow.
+const OTHER_WORDS: [(Word, Word); 3] =
+    [("broken", "not conserved"), ("varies", "not conserved"), ("drifting", "secular")];
+
+/// A verdict, as gauges and runs have it.
+fn verdict(line: &mut Line<'_>) -> Result<Word, Diagnostic> {
+    let what = "a verdict";
+    if line.take("not") {
+        line.one_of("the rest of `not conserved`", &["conserved"])?;
+        return Ok("not conserved");
+    }
+    if let Some((old, new)) = OTHER_WORDS.iter().find(|(old, _)| line.take(old)) {
+        let message = format!("`{old}` is not {what} of a script");
+        let place = line.here() - old.len()..line.here();
+        return Err(Diagnostic::error(place, message).with_help(format!("write `{new}`")));
+    }
+    line.one_of(what, &VERDICTS)
+}
 
 fn assert(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     Ok(Said::Step(ScriptStep::Assert(claim(line)?)))
@@ -298,8 +317,7 @@ fn claim(line: &mut ScriptLine<'_>) -> Result<Assert, Diagnostic> {
     }
     if line.take("verdict") {
         let name = line.name("the name of a gauge")?;
-        let word = line.one_of("a verdict", &VERDICTS)?;
-        return Ok(Assert::Verdict(name, word));
+        return Ok(Assert::Verdict(name, verdict(line)?));
     }
     let measure = MEASURES.iter().find(|(word, _)| line.take(word)).map(|(_, measure)| *measure);
     let of = match measure {

@@ -233,6 +233,35 @@ fn a_root_that_is_squared_away_is_reported() {
     assert!(!with_file(&kept, &["check", "system.toml"]).text().contains(said));
 }
 
+/// What is zero at most is never below: the squared length of a chord, by the law of cosines, under a function's range. Just
+/// beside each there is one that may be negative.
+#[test]
+fn a_root_of_what_is_never_negative_is_not_reported() {
+    for (never, sometimes) in [
+        ("2 - 2*cos(x - y)", "2 - 2.01*cos(x - y)"),
+        ("1 - cos(x)*sin(y)^2", "1 - 1.01*cos(x)*sin(y)^2"),
+        ("x^2 + y^2 - 2*x*y*cos(y)", "x^2 + y^2 - 2.01*x*y*cos(y)"),
+        ("x^2 + 2*x + 1", "x^2 + 2*x + 0.99"),
+        ("4*k^2*x^2 - 4*k^2*x^2*sin(y)", "4*k^2*x^2 - 4.01*k^2*x^2*sin(y)"),
+        ("cosh(x) - 1", "cosh(x) - 1.01"),
+        ("1 - tanh(x)^2", "0.99 - tanh(x)^2"),
+        ("abs(x)", "abs(x) - 1"),
+        ("max(0, x)", "min(0, x)"),
+        ("acos(cos(x))", "asin(sin(x))"),
+        ("x^2 + y^2 - 2*x*y", "x^2 - 2*x*y"),
+    ] {
+        let warned = |e: &str| {
+            let file = "title = \"r\"\n[coordinates]\nx = { initial = 0.5 }\ny = { initial = 0.3 }\n\
+                        [parameters]\nk = 1.5\n[lagrangian]\n\
+                        L = \"1/2*x'^2 + 1/2*y'^2 - 1/2*k*sqrt(";
+            let file = format!("{file}{e})^2\"\n");
+            with_file(&file, &["derive", "system.toml"]).success().contains("squared away")
+        };
+        assert!(!warned(never), "{never}");
+        assert!(warned(sometimes), "{sometimes}");
+    }
+}
+
 /// A claim is not true because the run ends before it becomes false; nor is its denial false.
 #[test]
 fn a_claim_that_holds_by_a_short_run_only_is_false() {

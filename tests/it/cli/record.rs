@@ -133,6 +133,35 @@ fn scripts_are_checked() {
     check("Open pendulm\nWait 1s", 2, "did you mean `pendulum`?");
 }
 
+/// A script has the words of the gauges, and one that has an older one learns the new one.
+#[test]
+fn a_script_may_claim_each_verdict_with_the_word_of_the_gauge() {
+    let home = tempfile::tempdir().expect("a folder");
+    let driven = "title = \"Driven\"\n[coordinates]\nx = { initial = 1 }\n[lagrangian]\n\
+                  L = \"1/2*x'^2 - 1/2*x^2 + x*sin(3*t)\"\n[[observables]]\nname = \"V\"\n\
+                  expression = \"x^2\"\nconserved = false\n";
+    fs::write(home.path().join("driven.toml"), driven).expect("a file");
+    let check = |claim: &str| {
+        let script = format!("Open \"driven.toml\"\nSize 120x40\nWait 9s\nAssert {claim}\n");
+        fs::write(home.path().join("my.demo"), script).expect("a file");
+        done(program(home.path()).args(["script", "check", "my.demo"]))
+    };
+    let name = "energy";
+    let run = check(&format!("verdict {name} not conserved"));
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""));
+    let run = check(&format!("verdict {name} exact"));
+    assert!(run.code == 65 && run.stderr.contains("is not conserved"), "{}", run.stderr);
+    for (word, new) in
+        [("broken", "not conserved"), ("varies", "not conserved"), ("drifting", "secular")]
+    {
+        let run = check(&format!("verdict {name} {word}"));
+        assert_eq!(run.code, 65, "{word}");
+        assert!(run.stderr.contains(&format!("write `{new}`")), "{}", run.stderr);
+        assert!(run.stderr.contains("my.demo:4:23"), "{}", run.stderr);
+    }
+    check(&format!("verdict {name} not")).fails(65, &["conserved"]);
+}
+
 /// The lab has the word and the reason in the gauge, and a script may claim them.
 #[test]
 fn a_script_may_claim_that_a_verdict_is_unknown() {

@@ -3,7 +3,8 @@
 //! Times are measured; retries separate delays of a loaded machine from those of the program.
 
 use std::fs::{self, File};
-use std::io::Read;
+use std::io::{Read, Write};
+use std::os::unix::fs::OpenOptionsExt;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::thread;
@@ -284,16 +285,18 @@ fn actions_that_are_ended_have_the_rows_so_far() {
 fn a_section_whose_reader_is_stalled_is_ended() {
     let home = tempfile::tempdir().unwrap();
     fs::write(home.path().join("system.toml"), PENDULUM).unwrap();
-    // many columns, so that a pipe is soon too small
-    let columns = vec!["theta"; 200].join(",");
-    let (columns, json) = (format!("--columns={columns}"), "--format=json");
-    let arguments = ["section", "system.toml", "--on=theta", "--until=1e9", &columns, json];
-    let start = || command(home.path(), &arguments).stdout(Stdio::piped()).spawn().unwrap();
-    let ready = |child: &mut Child| {
-        watching(child);
-        thread::sleep(Duration::from_secs(2));
-    };
-    ends(start, ready, Signal::TERM, 143).wait().unwrap();
+    let arguments = ["section", "system.toml", "--on=theta", "--until=1e9", "--format=json"];
+    // a pipe that is full before anything is written
+    pipe(home.path(), "full");
+    let path = home.path().join("full");
+    let flags = rustix::fs::OFlags::NONBLOCK.bits() as i32;
+    let mut filler =
+        File::options().read(true).write(true).custom_flags(flags).open(&path).unwrap();
+    while filler.write(&[b' '; 4096]).is_ok() {}
+    while filler.write(b" ").is_ok() {}
+    let into = || File::options().write(true).open(&path).unwrap();
+    let start = || command(home.path(), &arguments).stdout(into()).spawn().unwrap();
+    ends(start, watching, Signal::TERM, 143).wait().unwrap();
 }
 
 /// Under `nohup` the program must continue when the terminal hangs up.

@@ -1,6 +1,7 @@
 //! Kinks, compared with closed forms composed of pieces.
 
 use phaselab::integrate::{METHODS, Settings};
+use phaselab::num::DoubleDouble;
 
 use super::{Run, near};
 
@@ -314,4 +315,59 @@ fn the_default_step_in_a_wedge_is_a_part_of_its_period() {
         let part = stepper.step_size() / half_a_period;
         assert!((0.05..0.2).contains(&part), "{part} from {x:e}, {v:e} at {a:e}");
     }
+}
+
+/// Where a motion begins on a kink its velocity counts, however small it is beside what forces do until the end of the run.
+#[test]
+fn a_motion_that_begins_on_a_kink_leaves_it_to_the_side_of_its_velocity() {
+    for v in [1e-3, 1e-8, 1e-10, -1e-10, 1e-13, -1e-13, -1e-100] {
+        let speed = f64::abs(v);
+        for far in [1e-3, 1.0, 1e4, 1e10, 1e30] {
+            // down from the ridge of a roof
+            let mut run = one("0.0", &format!("{v:e}"), "1/2*x'^2 + abs(x)", "0", "0");
+            run.stepper.step(far).unwrap();
+            let (x, t) = (run.stepper.state().values[0], run.stepper.time());
+            let expected = v * t + 0.5 * t * t * v.signum();
+            assert!((x / expected - 1.0).abs() < 1e-15, "from {v:e} to {far:e}: {x:e}");
+            // up the side of a wedge, and back at its bottom
+            if 2.0 * speed < far {
+                let mut run = one("0.0", &format!("{v:e}"), "1/2*x'^2 - abs(x)", "0", "0");
+                run.stepper.step(far).unwrap_or_else(|fault| panic!("to {far:e}: {fault}"));
+                let t = run.stepper.time();
+                assert!((t / (2.0 * speed) - 1.0).abs() < 1e-15, "from {v:e} to {far:e}: {t:e}");
+                let back = run.stepper.state().values[1];
+                assert!((back / v + 1.0).abs() < 1e-15, "from {v:e} to {far:e}: {back:e}");
+            }
+        }
+    }
+    // a step that opens to one side only: back at once, then away for ever, and a rest that is left at t = 2
+    let mut run = one("0.0", "1e-10", "1/2*x'^2 - max(x, 0)", "0", "0");
+    near(&run.to(1e4), &[-1e-10 * (1e4 - 2e-10), -1e-10], 1e-21);
+    for far in [1e6, 1e9, 1e12, 1e20] {
+        let mut run = one("0.5", "0.0", "1/2*x'^2", "abs(x')", "t/2");
+        while run.stepper.time() < 5.0 {
+            run.stepper.step(far).unwrap();
+        }
+        let mut state = run.stepper.state().clone();
+        run.stepper.at(5.0, &mut state).unwrap();
+        near(&state.values[..2], &[2.75, 2.25], 4e-16);
+    }
+}
+
+/// After an impulse whose sum with the velocity is not quite zero the rest is no velocity.
+#[test]
+fn what_an_impulse_leaves_by_rounding_does_not_make_it_hop() {
+    let mut run = one("-1.0", "0.0", "1/2*x'^2 - abs(x)", "0", "0");
+    let root = 2.0_f64.sqrt();
+    while run.stepper.state().values[0] != 0.0 {
+        run.stepper.step(10.0).unwrap();
+    }
+    let mut state = run.stepper.state().clone();
+    near(&state.values[1..2], &[root], 3e-16);
+    let rest = DoubleDouble::from(1e-17);
+    state.set(1, rest);
+    let parameters = run.parameters.clone();
+    run.stepper.start(&state, &parameters).unwrap();
+    near(&run.to(10.0), &[0.0, 0.0], 1e-15);
+    assert!(run.steps < 10, "{} steps", run.steps);
 }
