@@ -288,7 +288,7 @@ const OTHER_WORDS: [(Word, Word); 3] =
     [("broken", "not conserved"), ("varies", "not conserved"), ("drifting", "secular")];
 
 /// A verdict, as gauges and runs have it.
-fn verdict(line: &mut Line<'_>) -> Result<Word, Diagnostic> {
+fn verdict(line: &mut ScriptLine<'_>) -> Result<Word, Diagnostic> {
     let what = "a verdict";
     if line.take("not") {
         line.one_of("the rest of `not conserved`", &["conserved"])?;
