@@ -476,7 +476,7 @@ fn an_impulse_without_work_says_that_the_energy_is_unchanged() {
         ("-0.5", "push at t = 1: energy −0.375"),
     ] {
         let text = format!(
-            "{FREE}[[impulses]]\nname = 'push'\nat = [1.0]\nchange = {{ p_x = '{change}' }}\n"
+            "{FREE}[[impulses]]\nname = 'push'\nat = [1.0]\nchange = {{ p_x = \"{change}\" }}\n"
         );
         let mut free = file(&text);
         run(&mut free, 2.0);
