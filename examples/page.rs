@@ -2,7 +2,7 @@
 //!
 //! Run `cargo run --example page`. Space pauses the clock, `f` fills the screen with its digits, `i` opens a line of
 //! text, `M` turns on mouse reporting, `z` suspends, `p` panics, `t` panics on another thread, and `q` quits. The tests
-//! of the shell run it on a pseudo-terminal.
+//! of the shell run it on a pseudo-terminal. With `KEYBOARD` in its environment it asks for the keyboard protocol of kitty.
 
 use std::io::{Write, stderr};
 use std::process::ExitCode;
@@ -11,7 +11,9 @@ use std::time::Duration;
 
 use color_eyre::eyre::Result;
 use crossterm::event::{Event, KeyCode};
-use phaselab::shell::{Ending, FramePace, LabError, Screen, ScreenRequest, perform, report_panics};
+use phaselab::shell::{
+    Ending, FramePace, LabError, Questions, Screen, ScreenRequest, perform, report_panics,
+};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Color, Modifier, Style};
@@ -124,7 +126,7 @@ fn main() -> Result<ExitCode> {
             bytes: None,
             synchronized: true,
             mouse: false,
-            asks_background: false,
+            asks: Questions { background: false, keyboard: std::env::var_os("KEYBOARD").is_some() },
         },
     ) {
         Ok(Ending::Quit) => Ok(ExitCode::SUCCESS),

@@ -34,6 +34,7 @@ mod layout;
 mod legend;
 pub mod lesson;
 mod level_curves;
+mod list_tabs;
 mod look;
 mod marks;
 mod menu;

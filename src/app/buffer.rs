@@ -97,8 +97,10 @@ pub struct BufferDiagnostic {
 /// The state of a buffer's text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BufferState {
-    /// It is the running system's, built in this time if the time is known.
-    Runs(Option<Duration>),
+    /// It is the running system's.
+    Runs,
+    /// It has become the running system's by a change, in this time if there is a clock.
+    Rebuilt(Option<Duration>),
     /// It has changed and has not been checked yet.
     Changed,
     /// It has errors; the last correct version is running.
@@ -135,7 +137,7 @@ impl SourceBuffer {
             text: text.clone(),
             of: text.clone(),
         };
-        let mut buffer = Self { state: BufferState::Runs(None), ..Self::of_unsaved(known) };
+        let mut buffer = Self { state: BufferState::Runs, ..Self::of_unsaved(known) };
         // It opens at the law: L, H or the brackets.
         let law = buffer.editor.caret_at(loaded.model.law_place.start);
         buffer.editor.go(Caret { column: 0, ..law });

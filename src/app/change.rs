@@ -27,14 +27,16 @@ impl App {
             ValueId::Parameter(index) => lab.selection.parameter = index,
             ValueId::Initial(index) => lab.selection.initial = index,
         }
-        let effects = lab.change(target, value);
-        if !effects.is_empty() {
-            return effects;
+        let mut effects = lab.change(target, value);
+        if effects.is_empty() {
+            effects.push(Effect::Tell(match target {
+                ValueId::Parameter(index) => Command::Parameter { index, value },
+                ValueId::Initial(index) => Command::Initial { index, value },
+            }));
         }
-        vec![Effect::Tell(match target {
-            ValueId::Parameter(index) => Command::Parameter { index, value },
-            ValueId::Initial(index) => Command::Initial { index, value },
-        })]
+        let shown = self.notice.clone();
+        self.forget_past_motion(shown.as_ref(), &effects);
+        effects
     }
 
     /// Groups all changes from now until [`App::end_group`] into one.

@@ -76,6 +76,8 @@ impl App {
 
     /// Opens the file of the loaded system.
     pub(super) fn edit_file(&mut self) -> Vec<Effect> {
+        // The row of the editor's state is not taken by what was said of the motion before.
+        self.notice.take_if(|notice| !notice.error);
         if self.ready_buffer().is_some() {
             self.overlay = Some(Overlay::Workbench);
         }
@@ -381,13 +383,14 @@ impl App {
             (Ok(loaded), found) => {
                 if let CheckedRevision::Newest = found {
                     buffer.diagnostics.clear();
-                    buffer.state = BufferState::Runs(Some(took));
+                    buffer.state = BufferState::Rebuilt(took);
                 }
                 let resumes = self.lab.as_ref().is_some_and(|lab| lab.awaited.is_some());
                 if !resumes && !matches!(self.overlay, Some(Overlay::Workbench)) {
-                    let (title, time) = (&loaded.document.path, took.as_secs_f64() * 1e3);
-                    let message =
-                        format!("{title}: rebuilt in {time:.0} ms; the motion continues.");
+                    let title = &loaded.document.path;
+                    let time = took.map(|took| format!(" in {:.0} ms", took.as_secs_f64() * 1e3));
+                    let time = time.unwrap_or_default();
+                    let message = format!("{title}: rebuilt{time}; the motion continues.");
                     self.notice = Some(Notification::info(message));
                 }
                 self.rebuilt(loaded)

@@ -158,8 +158,8 @@ pub struct CheckedText {
     pub ticket: u64,
     /// The system it describes, already running, or its errors.
     pub outcome: Result<Loaded, Vec<Diagnostic>>,
-    /// How long the check took.
-    pub took: Duration,
+    /// How long the check took, where there is a clock.
+    pub took: Option<Duration>,
 }
 
 /// Why a text could not be saved.

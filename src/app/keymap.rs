@@ -288,6 +288,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Lab, &[BACKTAB], Action::PreviousPane, "", "focus the previous pane"),
     row(Place::Lab, &[c('b')], Action::ApplyImpulse, "impulse", "apply an impulse that waits for a key"),
     row(Place::Lab, &[c('f')], Action::NextFrame, "frame", "view the motion in space in the next reference frame of the file, or in the original one again"),
+    row(Place::Lab, &[c('Q')], Action::Active, "", "let a transformation move the point (the active view), or the coordinates again (the passive one); the next principle of an action: Hamilton, Maupertuis, phase space"),
     row(Place::Lab, &[c('z')], Action::Zoom, "zoom", "zoom: let the focused pane fill the page, or put it back"),
 
     row(Place::Space, &[LEFT, c('h')], Action::Move(ArrowDirection::Left), "turn", "turn the picture to the left"),
@@ -313,7 +314,6 @@ pub const KEYS: &[Binding] = &[
     row(Place::Plot, &[c('Y')], Action::Farther(AxisChoice::Upwards), "", "shrink the vertical axis"),
     row(Place::Plot, &[c('g')], Action::Log, "", "make the vertical axis logarithmic, or linear again"),
     row(Place::Plot, &[c('o')], Action::Equal, "", "equal scales on both axes, or fill the pane again"),
-    row(Place::Plot, &[c('Q')], Action::Active, "", "let a transformation move the point (the active view), or the coordinates again (the passive one); the next principle of an action: Hamilton, Maupertuis, phase space"),
     row(Place::Plot, &[c('H')], Action::ByChaos, "", "colour the orbits of a section by whether they are regular or chaotic, or each in its own colour"),
     row(Place::Plot, &[c('c')], Action::Cursor, "cursor", "show or hide a cursor on the plot that reads coordinates"),
     row(Place::Plot, &[LEFT, c('h')], Action::Move(ArrowDirection::Left), "move", "move the window, or the cursor, to the left"),

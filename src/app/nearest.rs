@@ -4,6 +4,7 @@
 
 use super::keymap::Place;
 use super::{Action, App, Effect, Lab, Notification, Page, Pane};
+use crate::instrument::Plot;
 
 impl App {
     /// Returns the pane of the lab for which an action of this place is meant, if there is one.
@@ -37,13 +38,49 @@ impl App {
     }
 }
 
-impl Lab {
-    /// The picture focused last if it is of the kind, or else the first one after the focus.
-    fn nearest_plot(&self, scene: bool) -> Option<Pane> {
-        let fits = |index: &usize| {
-            self.plots.get(*index).is_some_and(|plot| plot.kind.is_scene() == scene)
+/// What a picture has instead of what it shows.
+impl App {
+    /// Lets the nearest transformation move the point, or the coordinates again, or the nearest action show its next
+    /// principle. The focus stays.
+    pub(super) fn other_way(&mut self) -> Vec<Effect> {
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        let Some(index) = lab.with_other_way() else {
+            return self.notify(
+                "Only a transformation moves the coordinates or the point, and only an action has other principles; v chooses one.",
+            );
         };
+        lab.redraw(index, |plot, _| {
+            if !moves_points(plot) {
+                plot.kind = plot.kind.other().unwrap_or(plot.kind);
+            } else if let Some(viewport) = plot.viewport_mut() {
+                viewport.active = !viewport.active;
+            }
+        });
+        Vec::new()
+    }
+}
+
+/// Whether a picture shows a transformation, which moves the coordinates or the point.
+fn moves_points(plot: &Plot) -> bool {
+    plot.kind.written().iter().any(|axis| axis.transformed)
+}
+
+impl Lab {
+    /// The nearest picture of a transformation or of an action.
+    pub(super) fn with_other_way(&self) -> Option<usize> {
+        self.nearest_fitting(|plot| moves_points(plot) || plot.kind.other().is_some())
+    }
+
+    /// The nearest picture of the kind.
+    fn nearest_plot(&self, scene: bool) -> Option<Pane> {
+        self.nearest_fitting(|plot| plot.kind.is_scene() == scene).map(Pane::Plot)
+    }
+
+    /// The focused picture if it fits, or else the one focused last, or else the first.
+    fn nearest_fitting(&self, fits: impl Fn(&Plot) -> bool) -> Option<usize> {
+        let fits = |index: &usize| self.plots.get(*index).is_some_and(&fits);
+        let focused = self.focused_plot().map(|(index, _)| index);
         let first = (0..self.plots.len()).find(fits);
-        self.front.filter(fits).or(first).map(Pane::Plot)
+        focused.filter(fits).or(self.front.filter(fits)).or(first)
     }
 }

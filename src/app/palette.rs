@@ -110,6 +110,9 @@ impl App {
             Action::ClearCompanions if lab.seen().is_some_and(|s| s.companions.is_empty()) => {
                 Some("there are no motions beside the main one")
             }
+            Action::Active if lab.with_other_way().is_none() => {
+                Some("no picture here is of a transformation or of an action")
+            }
             Action::NextFrame if lab.loaded.model.frames.is_empty() => {
                 Some("this system has no frames to look from")
             }

@@ -102,15 +102,8 @@ impl App {
                 lab.speed_wish = Some(speed);
                 vec![Effect::Tell(Command::Speed(speed))]
             }
-            Action::Reset | Action::FullReset => {
-                // Notifications about the previous motion are out of date.
-                self.notice = None;
-                self.notifications.clear();
-                if action == Action::FullReset {
-                    return lab.full_reset();
-                }
-                vec![Effect::Tell(Command::Reset)]
-            }
+            Action::Reset => vec![Effect::Tell(Command::Reset)],
+            Action::FullReset => lab.full_reset(),
             Action::Reference => vec![Effect::Tell(Command::Reference)],
             Action::Undo => match lab.undo() {
                 Some((effects, report)) => self.report(report, effects),
@@ -189,17 +182,7 @@ impl App {
                 }
                 _ => self.notify("Equal scales need a plot of one quantity against another."),
             },
-            Action::Active => match lab.focused_plot() {
-                Some((_, plot)) if plot.kind.written().iter().any(|axis| axis.transformed) => {
-                    self.with_viewport(|viewport| viewport.active = !viewport.active)
-                }
-                Some((_, plot)) if plot.kind.other().is_some() => self.with_plot(|plot, _| {
-                    plot.kind = plot.kind.other().unwrap_or(plot.kind);
-                }),
-                _ => self.notify(
-                    "Only a transformation moves the coordinates or the point, and only an action has other principles; v chooses one.",
-                ),
-            },
+            Action::Active => self.other_way(),
             Action::ByChaos => match lab.focused_plot() {
                 Some((_, plot)) if plot.kind.tells_orbits_apart() => {
                     self.with_viewport(|viewport| viewport.by_chaos = !viewport.by_chaos)

@@ -3,6 +3,7 @@
 //! In: an event. Out: the changed state and the effects. Never here: what the individual actions do.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
 
@@ -23,7 +24,9 @@ const LONG_TEXT: &str =
 impl App {
     /// Handles an event, and returns the effects to perform.
     pub fn update(&mut self, event: Event) -> Vec<Effect> {
+        let shown = self.notice.clone();
         let mut effects = self.handle(event);
+        self.forget_past_motion(shown.as_ref(), &effects);
         self.look_after_jobs(&mut effects);
         if let Some(lab) = &mut self.lab
             && let Pane::Plot(index) = lab.focus
@@ -31,6 +34,23 @@ impl App {
             lab.front = Some(index);
         }
         effects
+    }
+
+    /// Clears the notifications about the previous motion where the effects begin another one. What has only just been said
+    /// is about the new one.
+    pub(super) fn forget_past_motion(&mut self, before: Option<&Notification>, effects: &[Effect]) {
+        let begins = |effect: &Effect| matches!(effect, Effect::Tell(command) if command.begins_another_motion());
+        if effects.iter().any(begins) {
+            self.notice.take_if(|notice| Some(&*notice) == before);
+            self.notifications.clear();
+        }
+    }
+
+    /// Lets notifications expire. Returns whether another one is shown.
+    pub fn tick_notifications(&mut self, elapsed: Duration) -> bool {
+        let shown = self.notice.as_ref().map(|notice| notice.text.clone());
+        self.notifications.tick(&mut self.notice, elapsed);
+        self.notice.as_ref().map(|notice| &notice.text) != shown.as_ref()
     }
 
     pub(super) fn handle(&mut self, event: Event) -> Vec<Effect> {
@@ -51,7 +71,7 @@ impl App {
             Event::Tick(elapsed) => {
                 self.meter.tick(elapsed);
                 self.reading.tick(elapsed);
-                self.notifications.tick(&mut self.notice, elapsed);
+                self.tick_notifications(elapsed);
                 if let Some(lab) = &mut self.lab {
                     lab.tick(elapsed);
                 }
@@ -269,10 +289,14 @@ impl App {
     }
 }
 
-/// Returns the sentences of `now` that came after those of `before`; old ones may have been dropped at the front.
+/// Returns the sentences of `now` that came after those of `before`: old ones may have been dropped at the front, or the
+/// last one replaced by what is newer on the same subject.
 fn notifications<'a>(before: &[String], now: &'a [String]) -> &'a [String] {
     let mut known = (0..=before.len().min(now.len())).rev();
-    &now[known.find(|count| before.ends_with(&now[..*count])).unwrap_or(0)..]
+    let dropped = known.find(|count| before.ends_with(&now[..*count])).unwrap_or(0);
+    let shared = before.iter().zip(now).take_while(|(before, now)| before == now).count();
+    let replaced = if shared + 1 == before.len() { shared } else { 0 };
+    &now[dropped.max(replaced)..]
 }
 
 /// Whether a key starts a search; in the list of systems, any letter without a binding does.

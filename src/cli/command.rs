@@ -4,6 +4,7 @@
 
 use std::ffi::OsString;
 use std::io::{self, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -121,6 +122,13 @@ enum Command {
 /// Executes the arguments, of which the first is the program's name.
 pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let words: Vec<OsString> = arguments.into_iter().collect();
+    let (of_screen, words) = match options_first(&words) {
+        Ok(parts) => parts,
+        Err(message) => {
+            stderr::tell(&message);
+            return CommandError::WrongUse(message).code();
+        }
+    };
     let arguments = match parse(command(), &words) {
         Ok(arguments) => arguments,
         Err(error) => {
@@ -132,7 +140,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             return refused(&words, &error);
         }
     };
-    match perform(arguments, &words) {
+    match perform(arguments, &words, &of_screen) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             stderr::tell(failure.message());
@@ -153,7 +161,49 @@ fn options(defaults: Words, words: &[OsString]) -> Result<Options, CommandError>
     Ok(arguments.lab.options)
 }
 
-fn perform(arguments: Arguments, words: &[OsString]) -> Result<(), CommandError> {
+/// The commands that show something on the screen of the laboratory, and take its options before their name.
+const ON_SCREEN: [&str; 3] = ["tour", "lessons", "play"];
+
+/// The options of the laboratory that none of these takes.
+const OF_LAB_ALONE: [&str; 4] = ["--resume", "--watch", "--log", "--demo"];
+
+/// Takes options of the laboratory before the name of a command apart from the words of the command, or says that they do
+/// not belong there. Words without such a command are left as they are.
+fn options_first(words: &[OsString]) -> Result<(Vec<OsString>, Vec<OsString>), String> {
+    let whole = command();
+    let names: Vec<&str> = whole.get_subcommands().map(clap::Command::get_name).collect();
+    let is_command = |word: &OsString| word.to_str().is_some_and(|word| names.contains(&word));
+    let only_options = |at: &usize| {
+        parse(command(), &words[..*at]).is_ok_and(|a| a.command.is_none() && a.lab.name.is_none())
+    };
+    let found = (2..words.len()).find(|at| is_command(&words[*at]));
+    let Some(at) = found.filter(only_options) else {
+        let program = words.first().into_iter().cloned().collect();
+        return Ok((program, words.to_vec()));
+    };
+    let name = words[at].to_string_lossy();
+    let given = words[1..at].iter().map(|word| word.to_string_lossy());
+    let mut given = given.filter(|word| word.starts_with('-'));
+    let bare = |word: &str| word.split('=').next().unwrap_or_default().to_owned();
+    let of_lab = |word: &str| OF_LAB_ALONE.contains(&&*bare(word)) || !word.starts_with("--");
+    let misplaced = given.find(|word| !ON_SCREEN.contains(&&*name) || of_lab(word));
+    match misplaced {
+        Some(word) => Err(format!(
+            "`{}` is an option of the laboratory, which `{name}` does not take",
+            printable::quoted(&bare(&word))
+        )),
+        None => {
+            let program = &words[..1];
+            Ok((words[..at].to_vec(), [program, &words[at..]].concat()))
+        }
+    }
+}
+
+fn perform(
+    arguments: Arguments,
+    words: &[OsString],
+    of_screen: &[OsString],
+) -> Result<(), CommandError> {
     let Some(command) = arguments.command else {
         return match arguments.lab.system().and_then(unknown) {
             Some(message) => Err(CommandError::WrongUse(message)),
@@ -161,14 +211,23 @@ fn perform(arguments: Arguments, words: &[OsString]) -> Result<(), CommandError>
         };
     };
     let interrupt = Interrupt::watch();
-    execute(command, &interrupt).map_err(|failure| match interrupt.signal() {
+    execute(command, &interrupt, of_screen).map_err(|failure| match interrupt.signal() {
         // whatever failed, the signal stopped it
         Some(signal) => CommandError::Signal(signal),
         None => failure,
     })
 }
 
-fn execute(command: Command, interrupt: &Interrupt) -> Result<(), CommandError> {
+fn execute(
+    command: Command,
+    interrupt: &Interrupt,
+    of_screen: &[OsString],
+) -> Result<(), CommandError> {
+    let lessons = lesson::LessonHost {
+        scripted: demo_source::scripted,
+        request: &|| lab::request(None, of_screen, options),
+        ended: lab::how_it_ended,
+    };
     match command {
         Command::List(arguments) => list::perform(&arguments),
         Command::Derive(arguments) => derive::perform(&arguments),
@@ -191,10 +250,10 @@ fn execute(command: Command, interrupt: &Interrupt) -> Result<(), CommandError> 
         Command::Actions(arguments) => actions::perform(&arguments, interrupt),
         Command::Record(arguments) => record::perform(&arguments),
         Command::Script(arguments) => demo::perform(&arguments),
-        Command::Play(arguments) => play::perform(&arguments, options, interrupt),
-        Command::Tour(arguments) => lesson::tour(&arguments, interrupt, &LESSONS),
-        Command::Lessons(arguments) => lesson::perform(&arguments, interrupt, &LESSONS),
-        Command::Lesson(arguments) => lesson::check(&arguments, &LESSONS),
+        Command::Play(arguments) => play::perform(&arguments, of_screen, options, interrupt),
+        Command::Tour(arguments) => lesson::tour(&arguments, interrupt, &lessons),
+        Command::Lessons(arguments) => lesson::perform(&arguments, interrupt, &lessons),
+        Command::Lesson(arguments) => lesson::check(&arguments, &lessons),
         Command::Methods(arguments) => methods::perform(&arguments),
         Command::Doctor(arguments) => doctor::perform(&arguments),
         Command::Config(arguments) => config::perform(&arguments),
@@ -203,13 +262,6 @@ fn execute(command: Command, interrupt: &Interrupt) -> Result<(), CommandError> 
         Command::Theme(arguments) => theme::perform(&arguments),
     }
 }
-
-/// What lessons need of the commands that perform scripts.
-const LESSONS: lesson::LessonHost = lesson::LessonHost {
-    scripted: demo_source::scripted,
-    request: || lab::request(None, &["phaselab".into()], options),
-    ended: lab::how_it_ended,
-};
 
 /// Shows help, the version, or what is wrong with the words.
 fn refused(words: &[OsString], error: &clap::Error) -> ExitCode {
@@ -283,7 +335,12 @@ fn unknown(word: &str) -> Option<String> {
     }
     let command = Arguments::command();
     let commands: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+    let file = format!("./{word}.toml");
     let help = match nearest(word, commands.iter().copied().chain(presets())) {
+        // `phaselab new x` writes x.toml
+        _ if Path::new(&file).is_file() => {
+            format!("did you mean the file `{}`?", printable::quoted(&file))
+        }
         Some(near) => format!("did you mean `{}`?", printable::line(near)),
         None => {
             format!("the commands are {}; `phaselab list` has the presets", commands.join(", "))

@@ -18,7 +18,7 @@ use crate::shell::{
 pub(super) struct Arguments {
     /// A preset's name, or a file.
     #[arg(value_name = "PRESET|FILE", conflicts_with = "resume")]
-    name: Option<String>,
+    pub(super) name: Option<String>,
     /// Perform a demo, then end: a preset's own, a script, or a tour if none is named.
     #[arg(long, conflicts_with_all = ["resume", "watch", "log"])]
     demo: bool,

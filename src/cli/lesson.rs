@@ -66,7 +66,7 @@ pub(super) struct Tour {
 pub(super) fn tour(
     arguments: &Tour,
     interrupt: &Interrupt,
-    shared: &LessonHost,
+    shared: &LessonHost<'_>,
 ) -> Result<(), CommandError> {
     take("tour", arguments.restart, interrupt, shared)
 }
@@ -97,11 +97,11 @@ enum Command {
 }
 
 /// What lessons share with the commands that perform scripts on the terminal.
-pub(super) struct LessonHost {
+pub(super) struct LessonHost<'a> {
     /// A script with its system and the system's name on the screen.
     pub(super) scripted: fn(&Document) -> Result<(Script, Document, String), CommandError>,
     /// How the terminal is asked for.
-    pub(super) request: fn() -> Result<Request, CommandError>,
+    pub(super) request: &'a dyn Fn() -> Result<Request, CommandError>,
     /// The exit code of how it ended.
     pub(super) ended: fn(Result<Ending, LabError>) -> Result<(), CommandError>,
 }
@@ -122,7 +122,7 @@ fn source(name: &str) -> Result<Document, CommandError> {
     })
 }
 
-pub(super) fn check(arguments: &Check, shared: &LessonHost) -> Result<(), CommandError> {
+pub(super) fn check(arguments: &Check, shared: &LessonHost<'_>) -> Result<(), CommandError> {
     let Command::Check { names } = &arguments.command;
     let shipped = || preset::lessons().into_iter().map(str::to_owned).collect();
     let names: Vec<String> = if names.is_empty() { shipped() } else { names.clone() };
@@ -136,16 +136,19 @@ pub(super) fn check(arguments: &Check, shared: &LessonHost) -> Result<(), Comman
     if wrong.is_empty() { Ok(()) } else { Err(CommandError::WrongFile(wrong.join("\n"))) }
 }
 
-fn check_one(source: &Document, shared: &LessonHost) -> Result<(), CommandError> {
+fn check_one(source: &Document, shared: &LessonHost<'_>) -> Result<(), CommandError> {
     let (script, system, name) = (shared.scripted)(source)?;
     let report = check_lesson(&script, &system, &name);
     let report = report.map_err(|diagnostics| record::located(source, &diagnostics))?;
+    let counted = |count: usize, one: &str, many: &str| {
+        format!("{count} {}", if count == 1 { one } else { many })
+    };
     stderr::tell(&format!(
-        "{}: right answers to {} questions, {} wrong answers, tasks: {}; all as the lesson says",
+        "{}: right answers to {}, {}, {}; all as the lesson says",
         printable::line(&source.path),
-        report.questions,
-        report.wrong,
-        report.tasks
+        counted(report.questions, "question", "questions"),
+        counted(report.wrong, "wrong answer", "wrong answers"),
+        counted(report.tasks, "task", "tasks"),
     ));
     Ok(())
 }
@@ -153,7 +156,7 @@ fn check_one(source: &Document, shared: &LessonHost) -> Result<(), CommandError>
 pub(super) fn perform(
     arguments: &Lessons,
     interrupt: &Interrupt,
-    shared: &LessonHost,
+    shared: &LessonHost<'_>,
 ) -> Result<(), CommandError> {
     match &arguments.lesson {
         Some(name) => take(name, arguments.restart, interrupt, shared),
@@ -203,7 +206,7 @@ fn take(
     name: &str,
     restart: bool,
     interrupt: &Interrupt,
-    shared: &LessonHost,
+    shared: &LessonHost<'_>,
 ) -> Result<(), CommandError> {
     let request = (shared.request)()?;
     let source = source(name)?;

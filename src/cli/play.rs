@@ -1,6 +1,10 @@
 //! `phaselab play`: a cast or a script on the terminal.
 
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
 
 use super::demo_source::scripted;
 use super::failure::CommandError;
@@ -37,11 +41,12 @@ const LIMIT: u64 = 64 << 20;
 
 pub(super) fn perform(
     arguments: &Arguments,
+    of_screen: &[OsString],
     read: ReadOptions,
     interrupt: &Interrupt,
 ) -> Result<(), CommandError> {
     let cast = read_cast(&arguments.file)?;
-    let request = lab::request(None, &["phaselab".into()], read)?;
+    let request = lab::request(None, of_screen, read)?;
     // the terminal must be restored first
     interrupt.stand_aside();
     lab::how_it_ended(shell::show(cast, &request))
@@ -68,7 +73,15 @@ fn read_cast(path: &Path) -> Result<RecordedCast, CommandError> {
 /// Plays a script to make a cast.
 fn recorded(source: &Document) -> Result<RecordedCast, CommandError> {
     let (script, system, name) = scripted(source)?;
-    let recording = record::recorded(&script, source, &system, &name, None)?;
+    // the screen stays as it is until all is computed; a terminal is told why
+    let wait = ProgressBar::new_spinner();
+    let style = ProgressStyle::with_template("{spinner} {msg}");
+    wait.set_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
+    wait.set_message(format!("computing the demo of {}", printable::line(&name)));
+    wait.enable_steady_tick(Duration::from_millis(100));
+    let recording = record::recorded(&script, source, &system, &name, None);
+    wait.finish_and_clear();
+    let recording = recording?;
     record::hold(source, &recording)?;
     Ok(recording.into())
 }

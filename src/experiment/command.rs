@@ -71,3 +71,10 @@ pub enum Command {
     /// Resumes from a checkpoint.
     Restore(Box<Checkpoint>),
 }
+
+impl Command {
+    /// Whether it begins another motion, so that what was said about the previous one no longer holds.
+    pub fn begins_another_motion(&self) -> bool {
+        matches!(self, Self::Initial { .. } | Self::Start(_) | Self::Reset | Self::FullReset)
+    }
+}

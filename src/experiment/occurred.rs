@@ -7,6 +7,9 @@ use crate::integrate::{Occurrence, OccurrenceKind};
 use crate::num::short;
 use crate::system;
 
+/// A change of the energy below this share of it is rounding.
+const ROUNDING: f64 = 1e-12;
+
 impl Experiment {
     /// Records an occurrence: rows of the trail before and after it, and gauges that continue from the state after an
     /// impulse. Returns a sentence about it.
@@ -32,9 +35,16 @@ impl Experiment {
                 self.recorder.insert(clock, &before);
                 let after = self.motion.values();
                 self.gauges.shift(&before, after);
-                let given = self.energy_of(after) - self.energy_of(&before);
-                let sign = if given < 0.0 { '−' } else { '+' };
-                format!("{lead}: energy {sign}{}", short(given.abs()))
+                let energy = self.energy_of(&before);
+                let given = self.energy_of(after) - energy;
+                if !given.is_finite() {
+                    lead
+                } else if given.abs() <= ROUNDING * energy.abs() {
+                    format!("{lead}: energy unchanged")
+                } else {
+                    let sign = if given < 0.0 { '−' } else { '+' };
+                    format!("{lead}: energy {sign}{}", short(given.abs()))
+                }
             }
         };
         self.recorder.insert(clock, self.motion.values());

@@ -5,7 +5,6 @@
 
 use std::mem;
 use std::sync::Arc;
-use std::time::Duration;
 
 use super::clock::{Clock, Micros};
 use crate::app::{App, CheckedText, Effect, Event, LoadError, Loaded, ValueId};
@@ -223,8 +222,7 @@ impl HeadlessLab {
             Ok(ready) => Ok(self.begin(name, ready)),
             Err(unready) => Err(unready.diagnostics),
         };
-        let took = Duration::ZERO;
-        self.happen(Event::Checked(Box::new(CheckedText { ticket, outcome, took })));
+        self.happen(Event::Checked(Box::new(CheckedText { ticket, outcome, took: None })));
         self.look_at_motion();
     }
 }

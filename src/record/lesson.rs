@@ -6,6 +6,8 @@
 //! same as whoever reads fast. Never here: keys (`lesson_keys`), the pane
 //! (`lesson_speech`), a terminal, a file.
 
+use std::time::Duration;
+
 use ratatui::layout::Size;
 
 use super::assertion::AssertionResult;
@@ -207,7 +209,8 @@ impl Lesson {
                 self.look_at_task();
                 Ok(before != self.runner.now() || !self.is_moving())
             }
-            _ => Ok(false),
+            // What is said of a motion that waits expires all the same.
+            _ => Ok(self.runner.lab.app.tick_notifications(Duration::from_micros(elapsed))),
         }
     }
 

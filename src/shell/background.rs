@@ -1,27 +1,8 @@
-//! The terminal's background: the one question that a terminal is asked, so that a light one gets the light theme.
+//! The terminal's background as it answers, so that a light one gets the light theme.
 //!
-//! In: the environment, the terminal's answer. Out: whether to ask, and a colour. Never here: waiting for an answer, or
-//! what is done with it.
-//!
-//! OSC 11 asks for the colour. The request for the device's attributes (DA1), which nearly every terminal answers,
-//! follows it: since a terminal answers in order, whoever answers DA1 first has nothing to say about its background. The
-//! question ends in BEL, because the urxvt that is in use ends its answer as the question ended, and forgets half of ST.
+//! In: the terminal's answer. Out: a colour. Never here: asking (`question`), or what is done with it.
 
 use crate::view::colour::Rgb;
-
-/// OSC 11 and DA1.
-pub(super) const QUESTION: &[u8] = b"\x1b]11;?\x07\x1b[c";
-
-/// Whether the terminal can be asked; `variable` reads the environment.
-///
-/// The console of Linux does not know OSC and shows the rest of it. GNU screen passes the question on and answers DA1
-/// itself, so that its answer would come when none is expected.
-pub(super) fn can_be_asked(variable: &dyn Fn(&str) -> Option<String>) -> bool {
-    let term = variable("TERM").unwrap_or_default();
-    let inside_screen = variable("STY").is_some_and(|name| !name.is_empty());
-    let silent = matches!(term.as_str(), "" | "dumb" | "linux" | "screen" | "vt100" | "vt220");
-    !silent && !term.starts_with("screen.") && !inside_screen
-}
 
 /// Returns the colour of an answer, as `XParseColor` reads it: `rgb:` or `rgba:` with one to four hexadecimal digits for
 /// each channel, or `#` with as many digits for each of the three.
@@ -101,23 +82,5 @@ mod tests {
             check(noise, None);
         }
         assert_eq!(colour(b"rgb:\xff/0/0"), None);
-    }
-
-    #[test]
-    fn a_terminal_that_would_show_the_question_is_not_asked() {
-        let asked = |environment: &[(&str, &str)]| {
-            can_be_asked(&|name| {
-                let found = environment.iter().find(|(other, _)| *other == name);
-                found.map(|(_, value)| (*value).to_owned())
-            })
-        };
-        for term in ["xterm-256color", "tmux-256color", "screen-256color", "foot", "rxvt-unicode"] {
-            assert!(asked(&[("TERM", term)]), "{term}");
-            assert!(!asked(&[("TERM", term), ("STY", "1.pts")]), "{term} in screen");
-        }
-        for term in ["", "dumb", "linux", "screen", "screen.xterm-256color", "vt100"] {
-            assert!(!asked(&[("TERM", term)]), "{term}");
-        }
-        assert!(!asked(&[]));
     }
 }

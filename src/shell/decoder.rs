@@ -19,6 +19,7 @@
 //! | An unsolicited answer (OSC, DCS, `CSI >`) is read as typed text, letter by letter. | #834 | `what_nobody_asked_for_is_no_key` |
 //! | Once the terminal is gone, `poll` spins and never returns. | #793, #1067, #1116 | `a_dead_line_ends_it_soon_and_without_a_loop` |
 
+mod extended_key;
 mod sink;
 
 use std::time::{Duration, Instant};
@@ -30,8 +31,8 @@ use vte::Parser;
 pub use self::sink::PASTE_LIMIT;
 use self::sink::{Prefix, Sink};
 use super::events::EventSource;
+use super::question::{Answer, Questions};
 use super::terminal::{Terminal, TerminalMode};
-use crate::view::colour::Rgb;
 
 const ESC: u8 = 0x1b;
 
@@ -114,20 +115,21 @@ impl EventSource for Decoder {
             TerminalMode::Paste => expects.pastes = expected,
             TerminalMode::Mouse => expects.mouse = expected,
             TerminalMode::Focus => expects.focus = expected,
-            TerminalMode::AlternateScreen | TerminalMode::HiddenCursor => {}
+            TerminalMode::AlternateScreen | TerminalMode::HiddenCursor | TerminalMode::Keyboard => {
+            }
         }
     }
 
-    fn expect_background(&mut self, expected: bool) {
-        self.sink.expects.background = expected;
+    fn expect_answers(&mut self, asked: Questions) {
+        self.sink.expects.answers = asked;
     }
 
-    fn awaits_background(&self) -> bool {
-        self.sink.expects.background
+    fn awaits_answer(&self) -> bool {
+        self.sink.expects.answers.any()
     }
 
-    fn background(&mut self) -> Option<Rgb> {
-        self.sink.background.take()
+    fn answer(&mut self) -> Option<Answer> {
+        self.sink.answers.pop_front()
     }
 }
 
@@ -193,8 +195,8 @@ impl Decoder {
     }
 
     fn reset(&mut self) {
-        let Sink { events, expects, background, .. } = mem::take(&mut self.sink);
-        let sink = Sink { events, expects, background, ..Sink::default() };
+        let Sink { events, expects, answers, .. } = mem::take(&mut self.sink);
+        let sink = Sink { events, expects, answers, ..Sink::default() };
         *self = Self { sink, ..Self::default() };
     }
 }
@@ -316,59 +318,6 @@ mod tests {
             "\x1b[I\x1b[O",
         ] {
             check(&format!("{noise}q"), &keys("q"));
-        }
-    }
-
-    /// What a terminal that was asked for its background is understood to say, the keys typed meanwhile, and whether
-    /// more is awaited.
-    fn answered(bytes: &[u8]) -> (Option<Rgb>, Vec<Event>, bool) {
-        let mut decoder = Decoder::default();
-        decoder.expect_background(true);
-        for byte in bytes {
-            decoder.feed(&[*byte], Instant::now());
-        }
-        if decoder.deadline().is_some() {
-            decoder.expire();
-        }
-        (decoder.background(), taken(&mut decoder), decoder.awaits_background())
-    }
-
-    #[test]
-    fn a_background_is_heard_where_it_was_asked_for() {
-        let white = Some(Rgb(255, 255, 255));
-        let q = vec![Event::Key(key::character('q'))];
-        for end in ["\x07", "\x1b\\"] {
-            let answer = format!("\x1b]11;rgb:ffff/ffff/ffff{end}");
-            let whole = format!("q{answer}\x1b[?62;22c");
-            assert_eq!(answered(whole.as_bytes()), (white, q.clone(), false), "{end:?}");
-            // The attributes may not come, or come first: then there is nothing to say.
-            assert_eq!(answered(answer.as_bytes()), (white, vec![], true), "{end:?}");
-            let late = format!("\x1b[?62;22c{answer}q");
-            assert_eq!(answered(late.as_bytes()), (None, q.clone(), false), "{end:?}");
-        }
-    }
-
-    #[test]
-    fn an_answer_about_something_else_is_no_background() {
-        let q = vec![Event::Key(key::character('q'))];
-        for noise in [
-            "\x1b]10;rgb:ffff/ffff/ffff\x07",
-            "\x1b]11\x07",
-            "\x1b]11;\x07",
-            "\x1b]11;?\x07",
-            "\x1b]11;rgb:ffff/ffff\x07",
-            "\x1b]11;rgb:ffff/ffff/ffff;x\x07",
-            "\x1b]111;rgb:ffff/ffff/ffff\x07",
-            "\x1b]11;\u{fffd}\x1b\\",
-        ] {
-            assert_eq!(
-                answered(format!("{noise}q").as_bytes()),
-                (None, q.clone(), true),
-                "{noise:?}"
-            );
-        }
-        for other in ["\x1b[>1;2c", "\x1b[=1c", "\x1b[c", "\x1b[?1;2n"] {
-            assert!(answered(other.as_bytes()).2, "{other:?} is no answer to DA1");
         }
     }
 

@@ -52,7 +52,7 @@ pub fn diagnosis(variables: Variables<'_>, size: Option<(u16, u16)>) -> Vec<Doct
     let theme_of = |variables: Variables<'_>| {
         let request = Request::default();
         let name = request.look(variables).theme.palette().name;
-        (name, request.pace(variables).asks_background)
+        (name, request.pace(variables).asks.background)
     };
     let theme = match theme_of(variables) {
         (_, true) => "chosen by the terminal's background, once it has answered",

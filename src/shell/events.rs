@@ -10,8 +10,8 @@ use std::time::Instant;
 
 use crossterm::event::Event;
 
+use super::question::{Answer, Questions};
 use super::terminal::{Terminal, TerminalMode};
-use crate::view::colour::Rgb;
 
 /// A reader of a terminal.
 pub(super) trait EventSource {
@@ -27,12 +27,12 @@ pub(super) trait EventSource {
     /// Sets whether the reports of a mode are enabled; if they are not, they are noise.
     fn expect(&mut self, mode: TerminalMode, expected: bool);
 
-    /// Sets whether the terminal has been asked for its background; an answer that is not expected is noise.
-    fn expect_background(&mut self, expected: bool);
+    /// Sets what the terminal has been asked; an answer that is not expected is noise.
+    fn expect_answers(&mut self, asked: Questions);
 
-    /// Whether the answer about the background is still to come.
-    fn awaits_background(&self) -> bool;
+    /// Whether an answer is still to come.
+    fn awaits_answer(&self) -> bool;
 
-    /// Returns the colour of the terminal's background, once, if it has answered.
-    fn background(&mut self) -> Option<Rgb>;
+    /// Returns the next answer of the terminal, once.
+    fn answer(&mut self) -> Option<Answer>;
 }

@@ -14,13 +14,13 @@ use crossterm::event::Event;
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
 
-use super::background;
 use super::clipboard;
 use super::decoder::Decoder;
 use super::events::EventSource;
 use super::governor::Governor;
 use super::lab_error::LabError;
 use super::panic;
+use super::question::{Answer, Questions};
 use super::queue::Queue;
 use super::signals::Signals;
 use super::terminal::{Ready, Terminal, TerminalError, TerminalMode};
@@ -96,8 +96,8 @@ pub struct FramePace {
     pub synchronized: bool,
     /// Whether the mouse is captured from the start.
     pub mouse: bool,
-    /// Whether the terminal is asked for the colour of its background.
-    pub asks_background: bool,
+    /// What the terminal is asked.
+    pub asks: Questions,
 }
 
 /// How a page ended.
@@ -140,11 +140,10 @@ pub fn perform(page: &mut impl Screen, pace: FramePace) -> Result<Ending, LabErr
         governor: Governor::new(pace.frames, pace.bytes, Instant::now()),
         mouse: pace.mouse,
         failures: 0,
+        keyboard: false,
         asked: None,
     };
-    let begun = frame_loop
-        .enter()
-        .and_then(|()| if pace.asks_background { frame_loop.ask() } else { Ok(()) });
+    let begun = frame_loop.enter().and_then(|()| frame_loop.ask(pace.asks));
     let ended = begun.and_then(|()| frame_loop.run(page));
     page.on_exit(!matches!(ended, Ok(Ending::Quit)));
     if let Ok(Ending::Quit) = ended {
@@ -173,8 +172,10 @@ struct FrameLoop<'a, E> {
     governor: Governor,
     /// Whether the mouse is to be captured.
     mouse: bool,
+    /// Whether the terminal knows the keyboard protocol.
+    keyboard: bool,
     failures: u32,
-    /// When the terminal was asked for its background.
+    /// When the terminal was asked.
     asked: Option<Instant>,
 }
 
@@ -217,13 +218,16 @@ impl<E: EventSource> FrameLoop<'_, E> {
                     clipboard::write(&text, &mut self.queue)?;
                 }
             }
-            if let Some(colour) = self.events.background() {
-                page.background(colour);
+            while let Some(answer) = self.events.answer() {
+                match answer {
+                    Answer::Background(colour) => page.background(colour),
+                    Answer::Keyboard => self.keyboard = true,
+                }
                 changed = true;
                 due = due.min(self.governor.soon(Instant::now()));
             }
             if self.asked.is_some_and(|asked| asked.elapsed() > ANSWER) {
-                self.events.expect_background(false);
+                self.events.expect_answers(Questions::default());
             }
             if due <= Instant::now() && !self.queue.is_busy() {
                 let now = Instant::now();
@@ -257,11 +261,11 @@ impl<E: EventSource> FrameLoop<'_, E> {
         Ok(())
     }
 
-    /// Asks the terminal for its background, before the first frame, which does not wait for the answer.
-    fn ask(&mut self) -> io::Result<()> {
-        self.queue.write_all(background::QUESTION)?;
-        self.events.expect_background(true);
-        self.asked = Some(Instant::now());
+    /// Asks the terminal, before the first frame, which does not wait for the answers.
+    fn ask(&mut self, asks: Questions) -> io::Result<()> {
+        self.queue.write_all(&asks.bytes())?;
+        self.events.expect_answers(asks);
+        self.asked = asks.any().then(Instant::now);
         Ok(())
     }
 
@@ -269,7 +273,7 @@ impl<E: EventSource> FrameLoop<'_, E> {
     /// the end.
     fn hear_out(&mut self) -> io::Result<()> {
         let Some(end) = self.asked.map(|asked| asked + LAST_WORD) else { return Ok(()) };
-        while self.events.awaits_background() && self.signals.take().fatal.is_none() {
+        while self.events.awaits_answer() && self.signals.take().fatal.is_none() {
             let left = end.saturating_duration_since(Instant::now());
             let ready = self.terminal.wait(self.signals.wake(), self.queue.is_busy(), left)?;
             if left.is_zero() || ready.gone || ready.input && !self.events.read(self.terminal)? {
@@ -326,6 +330,7 @@ impl<E: EventSource> FrameLoop<'_, E> {
         let size = self.size.unwrap_or_default();
         self.switch(TerminalMode::Paste, page.is_typing())?;
         self.switch(TerminalMode::Mouse, self.mouse)?;
+        self.switch(TerminalMode::Keyboard, self.keyboard)?;
         let draw = |area, buffer: &mut Buffer| page.draw(area, buffer);
         let frame = self.screen.next_with(size, self.governor.most(), draw)?;
         self.queue.write_all(&frame)?;

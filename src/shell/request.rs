@@ -8,11 +8,11 @@ use crate::view::colour::ColourDepth;
 use crate::view::glyphs::Glyphs;
 use crate::view::theme::Theme;
 
-use super::background;
 use super::bandwidth::Bandwidth;
 use super::frame_loop::FramePace;
 use super::log::LogFile;
 use super::options::{MOST_FRAMES, Options};
+use super::question::{self, Questions};
 
 /// The frames per second on a local terminal.
 const NEAR: u16 = 30;
@@ -103,11 +103,11 @@ impl Request {
         let bandwidth = if far { Bandwidth::Bytes(LINE) } else { Bandwidth::Unlimited };
         let bytes = self.bandwidth.unwrap_or(bandwidth).bytes();
         let colour = self.colour.unwrap_or_else(|| ColourDepth::from_environment(variable));
-        let asks_background = self.theme.is_none()
-            && colour != ColourDepth::None
-            && background::can_be_asked(variable);
+        let keyboard = question::can_be_asked(variable);
+        let background = keyboard && self.theme.is_none() && colour != ColourDepth::None;
+        let asks = Questions { background, keyboard };
         let (synchronized, mouse) = (!self.unsynchronized, self.mouse);
-        FramePace { frames, bytes, synchronized, mouse, asks_background }
+        FramePace { frames, bytes, synchronized, mouse, asks }
     }
 }
 
@@ -179,7 +179,7 @@ mod tests {
                 let found = environment.iter().find(|(other, _)| *other == name);
                 found.map(|(_, value)| (*value).to_owned())
             };
-            request.pace(&variable).asks_background
+            request.pace(&variable).asks.background
         };
         let xterm = ("TERM", "xterm-256color");
         assert!(asks(Request::default(), &[xterm]));

@@ -17,6 +17,7 @@ use std::{env, fmt};
 use crossterm::cursor::{Hide, Show};
 use crossterm::event::{
     DisableBracketedPaste, DisableFocusChange, EnableBracketedPaste, EnableFocusChange,
+    KeyboardEnhancementFlags, PopKeyboardEnhancementFlags, PushKeyboardEnhancementFlags,
 };
 use crossterm::style::{Attribute, SetAttribute};
 use crossterm::terminal::{
@@ -78,6 +79,8 @@ pub(super) enum TerminalMode {
     Mouse,
     /// Changes of the window's focus are reported.
     Focus,
+    /// Keys that have the same bytes otherwise are told apart, as kitty does.
+    Keyboard,
 }
 
 impl TerminalMode {
@@ -93,6 +96,11 @@ impl TerminalMode {
             (Self::Mouse, on) => queue!(out, ReportMouse(on)),
             (Self::Focus, true) => queue!(out, EnableFocusChange),
             (Self::Focus, false) => queue!(out, DisableFocusChange),
+            (Self::Keyboard, true) => {
+                let flags = KeyboardEnhancementFlags::DISAMBIGUATE_ESCAPE_CODES;
+                queue!(out, PushKeyboardEnhancementFlags(flags))
+            }
+            (Self::Keyboard, false) => queue!(out, PopKeyboardEnhancementFlags),
         }
     }
 }
@@ -157,6 +165,10 @@ impl Terminal {
         // A shell may have changed the mode since, although crossterm still considers it raw.
         disable_raw_mode()?;
         enable_raw_mode()?;
+        if modes.contains(&TerminalMode::Keyboard) {
+            // It was pushed before, on the same stack.
+            TerminalMode::Keyboard.switch(false, &mut out)?;
+        }
         modes.iter().try_for_each(|mode| mode.switch(true, &mut out))
     }
 

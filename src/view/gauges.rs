@@ -94,6 +94,11 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, selected: Opt
     }
     let (_, area) = split_rows(area, u16::from(headed));
     let shown = usize::from(area.height) / height;
+    // One verdict is told in the same words throughout.
+    let all_in_full =
+        gauges.iter().filter(|gauge| matches!(gauge.verdict, Verdict::Broken(_))).all(|gauge| {
+            fits_in_full(canvas, area.width.saturating_sub(3), gauge) && !is_residual(lab, gauge)
+        });
     let first = window(selected.unwrap_or(0), gauges.len(), shown);
     for (place, gauge) in gauges.iter().skip(first).take(shown).enumerate() {
         let here = selected == Some(first + place);
@@ -109,7 +114,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, selected: Opt
             single.drift = single.drift.filter(|_| !residual);
             in_one_row(canvas, at, single, (gauge, gauges), here);
         } else {
-            name_and_reason(canvas, at, (gauge, gauges, residual), here);
+            name_and_reason(canvas, at, (gauge, gauges, residual), (here, all_in_full));
             let below = row(columns(area, 2, at.width), place * 2 + 1);
             numbers_and_history(canvas, below, (gauge, residual));
         }
@@ -221,19 +226,24 @@ fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
     }
 }
 
+/// Whether a gauge's name leaves room for its verdict in full, in a row of this width.
+fn fits_in_full(canvas: &Canvas<'_>, width: u16, gauge: &Gauge) -> bool {
+    let name = canvas.look.glyphs.pick(&gauge.shown, &gauge.name).width();
+    let sign = if given_by_impulses(gauge).is_some() { 2 } else { 0 };
+    width >= HEADED - 3 && name + 1 + usize::from(IN_FULL + sign) <= width.into()
+}
+
 /// Draws the name, the reason for its conservation and, at the right, the verdict: in a word where the name leaves no room
 /// for more. A residual is called so; it is satisfied rather than conserved, so its verdict is a word.
 fn name_and_reason(
     canvas: &mut Canvas<'_>,
     area: Rect,
     (gauge, all, residual): (&Gauge, &[Gauge], bool),
-    here: bool,
+    (here, all_in_full): (bool, bool),
 ) {
-    let name_width = canvas.look.glyphs.pick(&gauge.shown, &gauge.name).width();
     let changed = given_by_impulses(gauge).is_some();
-    let sign = if changed { 2 } else { 0 };
-    let fits = name_width + 1 + usize::from(IN_FULL + sign) <= area.width.into();
-    let full = area.width >= HEADED - 3 && fits && !residual;
+    let varies = matches!(gauge.verdict, Verdict::Broken(_));
+    let full = fits_in_full(canvas, area.width, gauge) && !residual && (all_in_full || !varies);
     let words = match (full, &gauge.verdict) {
         (false, verdict) => word(verdict),
         (true, Verdict::Exact(_)) if changed => (BETWEEN, word(&gauge.verdict).1),

@@ -3,6 +3,7 @@
 //! In: the application. Out: three rows of cells. Never here: the body between them.
 
 use ratatui::layout::Rect;
+use ratatui::symbols::border;
 use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns, row};
@@ -279,10 +280,17 @@ pub(super) fn notice(canvas: &mut Canvas<'_>, body: Rect, app: &App) {
         // Nothing of the frame below is left, its weight included.
         canvas.blank(columns(at, 0, wide as u16 + 2));
         canvas.left(columns(at, 1, wide as u16), role, &format!("{line}{gap}"));
-        if index + 1 == lines.len() {
+        if index + 1 == lines.len() && is_frame(canvas, row(body, usize::from(body.height) - 1)) {
             erase_rest(canvas, columns(at, wide as u16 + 2, at.width));
         }
     }
+}
+
+/// Whether a row is the lower border of a frame, and not text.
+fn is_frame(canvas: &Canvas<'_>, row: Rect) -> bool {
+    let corner = canvas.buffer.cell((row.x, row.y)).map_or("", |cell| cell.symbol());
+    let own = canvas.look.glyphs.border().bottom_left;
+    row.width > 0 && [own, border::THICK.bottom_left].contains(&corner)
 }
 
 /// Makes blank what a notification has left of the words in a frame, such as `wn` of `+1 down`.

@@ -3,10 +3,10 @@
 //! In: the lab and the layout. Out: cells. Never here: the contents of a single pane.
 
 use ratatui::layout::Rect;
-use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns, row, wide};
 use super::layout::{Slot, is_single, panes};
+use super::list_tabs::{ListTabs, add_targets, name};
 use super::number::brief;
 use super::quantity::Quantities;
 use super::region::ScreenRegion;
@@ -50,25 +50,19 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) ->
                 }
                 list(canvas, place, (lab, pane), &title, field);
             }
-            Slot::Values(pane) => {
-                let both = [Pane::Parameters, Pane::Initial, Pane::Law];
-                let title = list_tabs(canvas, &both, pane);
-                if pane == Pane::Law {
-                    in_view = law(canvas, place, lab, &title);
+            Slot::Values(pane) | Slot::Lists(pane) => {
+                let shared: &[Pane] = if matches!(slot, Slot::Lists(_)) {
+                    &[Pane::Parameters, Pane::Initial, Pane::Gauges, Pane::Law]
                 } else {
-                    list(canvas, place, (lab, pane), &title, field);
-                }
-                tab_targets(canvas, place, &title, &both);
-            }
-            Slot::Lists(pane) => {
-                let all = [Pane::Parameters, Pane::Initial, Pane::Gauges, Pane::Law];
-                let title = list_tabs(canvas, &all, pane);
+                    &[Pane::Parameters, Pane::Initial, Pane::Law]
+                };
+                let tabs = ListTabs::of(canvas, shared, pane, place);
                 if pane == Pane::Law {
-                    in_view = law(canvas, place, lab, &title);
+                    in_view = law(canvas, place, lab, &tabs.title);
                 } else {
-                    list(canvas, place, (lab, pane), &title, field);
+                    list(canvas, place, (lab, pane), &tabs.title, field);
                 }
-                tab_targets(canvas, place, &title, &all);
+                tabs.add_targets(canvas, place);
             }
         }
     }
@@ -99,44 +93,6 @@ fn since(canvas: &Canvas<'_>, lab: &Lab) -> Option<Span> {
     let begun = lab.loaded.model.run.start;
     let text = || format!("  since t = {}", brief(time, 6, canvas.look.glyphs));
     (time != begun).then(|| canvas.span(Role::Dim, text()))
-}
-
-/// The titles of lists that share a frame; the title of the shown one is highlighted.
-fn list_tabs(canvas: &Canvas<'_>, panes: &[Pane], shown: Pane) -> Vec<Span> {
-    let mut spans = Vec::new();
-    for pane in panes {
-        if !spans.is_empty() {
-            spans.push(canvas.span(Role::Border, canvas.look.glyphs.pick(" │ ", " | ")));
-        }
-        let role = if *pane == shown { Role::Title } else { Role::Dim };
-        let name = if *pane == Pane::Law { "Law" } else { name(*pane) };
-        spans.push(canvas.span(role, name));
-    }
-    spans
-}
-
-/// Makes the titles in a frame clickable; a line separates neighbouring titles.
-fn tab_targets(canvas: &mut Canvas<'_>, frame: Rect, title: &[Span], panes: &[Pane]) {
-    let mut from = 3;
-    for (index, (text, _)) in title.iter().enumerate() {
-        let long = text.width() as u16;
-        if let (0, Some(pane)) = (index % 2, panes.get(index / 2)) {
-            let place =
-                columns(row(frame, 0), from, long.min(frame.width.saturating_sub(from + 2)));
-            canvas.target(place, HitTarget::Pane(*pane));
-        }
-        from += long;
-    }
-}
-
-fn name(pane: Pane) -> &'static str {
-    match pane {
-        Pane::Plot(_) => "Plot",
-        Pane::Parameters => "Parameters",
-        Pane::Initial => "Initial values",
-        Pane::Gauges => "Gauges",
-        Pane::Law => "Law of motion",
-    }
 }
 
 fn list(
@@ -227,7 +183,7 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize
     canvas.target(area, HitTarget::Pane(Pane::Plot(index)));
     if sharing.len() > 1 {
         let panes: Vec<Pane> = sharing.iter().copied().map(Pane::Plot).collect();
-        tab_targets(canvas, area, &title, &panes);
+        add_targets(canvas, area, &title, &panes);
     }
     // What the frame has no room for is written above the axes.
     let keys = picture::keys_beyond(canvas, &q, plot, &title);

@@ -2,6 +2,8 @@
 //!
 //! In: the picker's state and the lab of the preview. Out: cells. Never here: loading.
 
+use std::collections::HashMap;
+
 use ratatui::layout::Rect;
 use tui_input::Input;
 use unicode_width::UnicodeWidthStr;
@@ -122,6 +124,7 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
     }
     let rows = usize::from(body.height);
     let first = window(here, lines.len(), rows);
+    let ends = ends_of_titles(canvas, picker, usize::from(body.width.saturating_sub(4)));
     for (index, line) in lines.iter().skip(first).take(rows).enumerate() {
         let area = row(body, index);
         match line {
@@ -154,8 +157,7 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
                 let role = if entry.fault.is_some() { Role::Bad } else { Role::Text };
                 let name = columns(area, 3, area.width.saturating_sub(4));
                 let whole = &entry.info.title;
-                let title = distinct(canvas, picker, whole, name.width.into());
-                let title = found_in(canvas, title.as_ref().unwrap_or(whole), (fit, role));
+                let title = found_in(canvas, ends.get(whole).unwrap_or(whole), (fit, role));
                 canvas.spans(name, &title);
                 if selected {
                     canvas.tint(columns(area, 1, area.width.saturating_sub(2)), Role::Selected);
@@ -165,17 +167,25 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
     }
 }
 
-/// The end of a title, where there is no room for the whole and its beginning is that of another one. The letters of a
-/// search are found in whole titles.
-fn distinct(canvas: &Canvas<'_>, picker: &Picker, title: &str, width: usize) -> Option<String> {
-    if title.width() <= width || picker.sought().is_some() {
-        return None;
+/// The ends of the titles for which there is no room and whose beginnings are the same as those of others, by the whole
+/// titles. The letters of a search are found in whole titles.
+fn ends_of_titles<'a>(
+    canvas: &Canvas<'_>,
+    picker: &'a Picker,
+    width: usize,
+) -> HashMap<&'a String, String> {
+    if picker.sought().is_some() {
+        return HashMap::new();
     }
     let mark = canvas.look.glyphs.pick("…", "~");
-    let own = shortened(title, width, mark);
-    let others = picker.entries.iter().map(|entry| &entry.info.title);
-    let alike = others.filter(|other| shortened(other, width, mark) == own).count();
-    (alike > 1).then(|| ending(title, width, mark))
+    let mut long: HashMap<String, Vec<&String>> = HashMap::new();
+    for title in picker.entries.iter().map(|entry| &entry.info.title) {
+        if title.width() > width {
+            long.entry(shortened(title, width, mark)).or_default().push(title);
+        }
+    }
+    let alike = long.into_values().filter(|titles| titles.len() > 1).flatten();
+    alike.map(|title| (title, ending(title, width, mark))).collect()
 }
 
 /// Says what lessons and demos are, and how many of them there are.

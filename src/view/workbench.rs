@@ -192,8 +192,11 @@ fn foot(
     }
     let count = sheet.error_count();
     let (role, text) = match sheet.state {
-        BufferState::Runs(None) => (Role::Dim, "Running this version.".to_owned()),
-        BufferState::Runs(Some(took)) => {
+        BufferState::Runs => (Role::Dim, "Running this version.".to_owned()),
+        BufferState::Rebuilt(None) => {
+            (Role::Good, "No errors: this version runs; the motion continues.".to_owned())
+        }
+        BufferState::Rebuilt(Some(took)) => {
             let time = took.as_secs_f64() * 1e3;
             let time = if time < 10.0 { format!("{time:.1}") } else { format!("{time:.0}") };
             (Role::Good, format!("No errors: rebuilt in {time} ms; the motion continues."))

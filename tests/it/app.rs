@@ -9,6 +9,7 @@ mod invariants;
 mod keys;
 mod marks;
 mod mend;
+mod notices;
 mod ramp;
 pub(crate) mod real;
 mod saved;

@@ -16,6 +16,7 @@ mod invariants;
 mod list;
 mod manual;
 mod new;
+mod options_first;
 mod path;
 mod ramp;
 mod record;

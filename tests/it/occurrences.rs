@@ -467,6 +467,23 @@ fn what_happens_is_reported_once_and_forgotten_at_a_reset() {
     assert_eq!(ball.snapshot().notices.len(), 1, "and reported again of the new motion");
 }
 
+/// An impulse may change a momentum and leave the energy as it was.
+#[test]
+fn an_impulse_without_work_says_that_the_energy_is_unchanged() {
+    for (change, said) in [
+        ("-2*x'", "push at t = 1: energy unchanged"),
+        ("1", "push at t = 1: energy +1.5"),
+        ("-0.5", "push at t = 1: energy −0.375"),
+    ] {
+        let text = format!(
+            "{FREE}[[impulses]]\nname = 'push'\nat = [1.0]\nchange = {{ p_x = \"{change}\" }}\n"
+        );
+        let mut free = file(&text);
+        run(&mut free, 2.0);
+        assert_eq!(*free.snapshot().notices, [said.to_owned()], "{change}");
+    }
+}
+
 /// A pendulum in x, y with a rod, started at the bottom.
 const ROD: &str = "
 title = 'rod'

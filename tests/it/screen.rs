@@ -11,6 +11,7 @@ mod motion;
 mod panes;
 mod plain;
 mod purity;
+mod tabs;
 mod workbench;
 
 use phaselab::app::{App, Drawn};

@@ -6,6 +6,7 @@ mod endings;
 mod governor;
 mod hostile;
 mod kept;
+mod keyboard;
 mod lab;
 mod page;
 mod session;

@@ -9,7 +9,7 @@ use phaselab::instrument::{Ink, Layer, Picture, Plot, Sign};
 use phaselab::num::math;
 use phaselab::preset;
 
-use crate::hand::{begun, lab, press};
+use crate::hand::{begun, in_lab, lab, press};
 
 /// The plots of this kind in the lab of a preset, on which motion has been seen up to a time.
 fn plots(app: &App) -> Vec<Plot> {
@@ -117,12 +117,16 @@ fn in_the_active_view_the_point_is_moved_and_the_coordinates_stay() {
     assert_eq!(words[1], "canonical, proved");
     let heading = plot.kind.heading(&plot, &present).expect("a heading");
     assert!(heading.given || heading.title == "Transformation, active");
-    // the key takes it back, and says where there is nothing to be moved
+    // the key takes it back, from wherever the focus is, and says where there is nothing to be moved
     press(&mut app, "Q");
     assert_eq!(shown(&app, &plots(&app)[0]).0, before);
     let phase = app.lab.as_ref().expect("a lab").plots.iter();
     let phase = phase.clone().position(|plot| plot.kind.name() == "phase").expect("a phase plane");
     app.lab.as_mut().expect("a lab").focus = Pane::Plot(phase);
+    press(&mut app, "Q");
+    assert_eq!(shown(&app, &plots(&app)[0]).0, arrow);
+    assert_eq!(app.lab.as_ref().expect("a lab").focus, Pane::Plot(phase), "the focus stays");
+    let mut app = in_lab();
     press(&mut app, "Q");
     let told = app.notice.take().map(|notice| notice.text).unwrap_or_default();
     assert!(told.contains("Only a transformation"), "{told}");

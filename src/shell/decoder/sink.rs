@@ -12,8 +12,9 @@ use crossterm::event::{
 use vte::{Params, Perform};
 
 use super::super::background;
+use super::super::question::{Answer, Questions};
+use super::extended_key::ExtendedKey;
 use crate::app::{LONGEST_PASTE, key};
-use crate::view::colour::Rgb;
 
 /// The maximum size of a paste, in bytes: a character more than the application accepts, so that the cut is
 /// reported there.
@@ -39,8 +40,8 @@ pub(super) struct Expected {
     pub(super) mouse: bool,
     /// Focus reports.
     pub(super) focus: bool,
-    /// The colour of the background.
-    pub(super) background: bool,
+    /// Answers to questions.
+    pub(super) answers: Questions,
 }
 
 /// The output of the parser.
@@ -53,8 +54,8 @@ pub(super) struct Sink {
     pub(super) paste: Option<String>,
     /// The reports that are not noise.
     pub(super) expects: Expected,
-    /// The colour of the background, as the terminal has answered.
-    pub(super) background: Option<Rgb>,
+    /// What the terminal has answered.
+    pub(super) answers: VecDeque<Answer>,
     /// The remaining bytes of a mouse report in the old form, which is not supported.
     pub(super) skip: usize,
     /// Whether the parser has completed something since this was last cleared.
@@ -211,15 +212,24 @@ impl Perform for Sink {
                     self.report([button, column, row], action == 'm');
                 }
             }
-            // Terminals answer in order: whoever tells its attributes has told its background before, or never will.
-            'c' if intermediates == b"?" => self.expects.background = false,
+            // Terminals answer in order: whoever tells its attributes has answered all else before, or never will.
+            'c' if intermediates == b"?" => self.expects.answers = Questions::default(),
+            'u' if intermediates == b"?" => {
+                if mem::take(&mut self.expects.answers.keyboard) {
+                    self.answers.push_back(Answer::Keyboard);
+                }
+            }
             // These are answers to queries that this program never sends.
             _ if !intermediates.is_empty() => {}
             // A terminal that supports only the oldest mouse protocol sends three more bytes.
             'M' if self.expects.mouse => self.skip = 3,
             'I' | 'O' if self.expects.focus && first == 0 => self.focus(action == 'I'),
             '[' => self.prefix = Prefix::Console,
-            '~' => self.numbered(first, modifiers),
+            'u' | '~' => match ExtendedKey::of(params, action) {
+                Some(key) => self.press_with(key.code, key.modifiers),
+                None if action == '~' => self.numbered(first, modifiers),
+                None => {}
+            },
             // With another number it is an answer, such as the cursor position.
             letter if first <= 1 => self.lettered(letter, modifiers),
             _ => {}
@@ -229,8 +239,10 @@ impl Perform for Sink {
     fn osc_dispatch(&mut self, params: &[&[u8]], bell_terminated: bool) {
         // Otherwise the last byte of its end is still to come.
         self.settled = bell_terminated;
-        if let ([b"11", answer], true) = (params, self.expects.background) {
-            self.background = background::colour(answer).or(self.background);
+        if let ([b"11", answer], true) = (params, self.expects.answers.background)
+            && let Some(colour) = background::colour(answer)
+        {
+            self.answers.push_back(Answer::Background(colour));
         }
     }
 
@@ -251,9 +263,13 @@ impl Perform for Sink {
 
 #[cfg(test)]
 mod tests {
-    use super::super::decode_with;
+    use std::time::Instant;
+
+    use super::super::{Decoder, decode_with};
     use super::*;
+    use crate::shell::events::EventSource;
     use crate::shell::terminal::TerminalMode;
+    use crate::view::colour::Rgb;
 
     #[test]
     fn the_mouse_is_its_left_button_and_its_wheel() {
@@ -304,5 +320,81 @@ mod tests {
         assert_eq!(decode_with(TerminalMode::Focus, b"\x1b[O\x1b[I"), expected);
         assert_eq!(decode_with(TerminalMode::Mouse, b"\x1b[O\x1b[I"), []);
         assert_eq!(decode_with(TerminalMode::Focus, b"\x1b[5I\x1b[2;2O\x1b[?I"), []);
+    }
+
+    /// What a terminal that was asked for its background is understood to say, the keys typed meanwhile, and whether
+    /// more is awaited.
+    fn answered(bytes: &[u8]) -> (Option<Rgb>, Vec<Event>, bool) {
+        let mut decoder = Decoder::default();
+        decoder.expect_answers(Questions { background: true, keyboard: false });
+        for byte in bytes {
+            decoder.feed(&[*byte], Instant::now());
+        }
+        if decoder.deadline().is_some() {
+            decoder.expire();
+        }
+        let colour = decoder.answer().map(|answer| match answer {
+            Answer::Background(colour) => colour,
+            Answer::Keyboard => panic!("nobody asked"),
+        });
+        let keys = decoder.sink.events.drain(..).collect();
+        (colour, keys, decoder.awaits_answer())
+    }
+
+    #[test]
+    fn a_background_is_heard_where_it_was_asked_for() {
+        let white = Some(Rgb(255, 255, 255));
+        let q = vec![Event::Key(key::character('q'))];
+        for end in ["\x07", "\x1b\\"] {
+            let answer = format!("\x1b]11;rgb:ffff/ffff/ffff{end}");
+            let whole = format!("q{answer}\x1b[?62;22c");
+            assert_eq!(answered(whole.as_bytes()), (white, q.clone(), false), "{end:?}");
+            // The attributes may not come, or come first: then there is nothing to say.
+            assert_eq!(answered(answer.as_bytes()), (white, vec![], true), "{end:?}");
+            let late = format!("\x1b[?62;22c{answer}q");
+            assert_eq!(answered(late.as_bytes()), (None, q.clone(), false), "{end:?}");
+        }
+    }
+
+    #[test]
+    fn an_answer_about_something_else_is_no_background() {
+        let q = vec![Event::Key(key::character('q'))];
+        for noise in [
+            "\x1b]10;rgb:ffff/ffff/ffff\x07",
+            "\x1b]11\x07",
+            "\x1b]11;\x07",
+            "\x1b]11;?\x07",
+            "\x1b]11;rgb:ffff/ffff\x07",
+            "\x1b]11;rgb:ffff/ffff/ffff;x\x07",
+            "\x1b]111;rgb:ffff/ffff/ffff\x07",
+            "\x1b]11;\u{fffd}\x1b\\",
+        ] {
+            assert_eq!(
+                answered(format!("{noise}q").as_bytes()),
+                (None, q.clone(), true),
+                "{noise:?}"
+            );
+        }
+        for other in ["\x1b[>1;2c", "\x1b[=1c", "\x1b[c", "\x1b[?1;2n"] {
+            assert!(answered(other.as_bytes()).2, "{other:?} is no answer to DA1");
+        }
+    }
+
+    #[test]
+    fn the_keyboard_protocol_is_known_where_the_terminal_says_so_when_asked() {
+        let answers = |keyboard: bool, bytes: &[u8]| {
+            let mut decoder = Decoder::default();
+            decoder.expect_answers(Questions { background: false, keyboard });
+            decoder.feed(bytes, Instant::now());
+            let answers: Vec<Answer> = std::iter::from_fn(|| decoder.answer()).collect();
+            (answers, decoder.sink.events.len(), decoder.awaits_answer())
+        };
+        assert_eq!(answers(true, b"\x1b[?0u\x1b[?62c"), (vec![Answer::Keyboard], 0, false));
+        assert_eq!(answers(true, b"\x1b[?1u\x1b[?0u\x1b[?62c"), (vec![Answer::Keyboard], 0, false));
+        // It does not know it, nobody has asked, or it comes too late.
+        for silent in [&b"\x1b[?62c"[..], b"\x1b[?62c\x1b[?0u", b"\x1b[u\x1b[>1u\x1b[?62c"] {
+            assert_eq!(answers(true, silent), (vec![], 0, false), "{silent:?}");
+        }
+        assert_eq!(answers(false, b"\x1b[?0u"), (vec![], 0, false));
     }
 }

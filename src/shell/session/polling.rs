@@ -64,7 +64,7 @@ impl Session {
         let name = self.app.checked_system();
         let Some(name) = name.filter(|_| self.app.awaits(answer.ticket)) else { return false };
         let outcome = answer.outcome.map(|ready| self.begin(name, *ready));
-        let (ticket, took) = (answer.ticket, answer.took);
+        let (ticket, took) = (answer.ticket, Some(answer.took));
         self.update(Event::Checked(Box::new(CheckedText { ticket, outcome, took })));
         true
     }

@@ -33,7 +33,11 @@ fn rest(app: &mut App) {
         loaded.name = app.checked_system().expect("a name");
         loaded
     });
-    app.update(Event::Checked(Box::new(CheckedText { ticket, outcome, took: Duration::ZERO })));
+    app.update(Event::Checked(Box::new(CheckedText {
+        ticket,
+        outcome,
+        took: Some(Duration::ZERO),
+    })));
 }
 
 fn text_of(app: &App) -> String {
@@ -68,7 +72,7 @@ fn a_wrong_file_is_edited_at_its_first_error_and_then_runs() {
     press(&mut app, "Delete Delete Delete Delete c o s");
     rest(&mut app);
     let buffer = app.open_buffer().expect("the editor stays open");
-    assert_eq!(buffer.state, BufferState::Runs(Some(Duration::ZERO)));
+    assert_eq!(buffer.state, BufferState::Rebuilt(Some(Duration::ZERO)));
     assert_eq!(app.lab.as_ref().map(|lab| lab.loaded.name.as_str()), Some(name));
     press(&mut app, "Esc");
     assert_eq!(app.page, Page::Lab);

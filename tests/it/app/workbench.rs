@@ -30,7 +30,7 @@ fn checked(app: &App, effect: &Effect) -> Event {
         }
         Err(unready) => Err(unready.diagnostics),
     };
-    let took = Duration::from_millis(7);
+    let took = Some(Duration::from_millis(7));
     Event::Checked(Box::new(CheckedText { ticket: *ticket, outcome, took }))
 }
 
@@ -69,7 +69,7 @@ fn the_editor_opens_at_the_law() {
 #[test]
 fn a_change_is_checked_when_typing_rests_and_the_motion_goes_on() {
     let mut app = edited();
-    assert_eq!(sheet(&app).state, BufferState::Runs(None));
+    assert_eq!(sheet(&app).state, BufferState::Runs);
     press(&mut app, "Ctrl-End x");
     assert_eq!(sheet(&app).state, BufferState::Changed);
     assert_eq!(app.update(Event::Tick(Duration::from_millis(100))), [], "typing goes on");
@@ -80,7 +80,7 @@ fn a_change_is_checked_when_typing_rests_and_the_motion_goes_on() {
         panic!("{effects:?}")
     };
     assert!(moment.running);
-    assert_eq!(sheet(&app).state, BufferState::Runs(Some(Duration::from_millis(7))));
+    assert_eq!(sheet(&app).state, BufferState::Rebuilt(Some(Duration::from_millis(7))));
     assert_eq!(app.lab.as_ref().unwrap().loaded.epoch, 2);
     assert_eq!(app.update(Event::Tick(Duration::from_secs(1))), [], "it is checked once");
 }
@@ -389,7 +389,7 @@ fn a_text_that_is_not_saved_outlives_the_session() {
     press(&mut again, "E Ctrl-Home");
     assert_eq!(sheet(&again).editor.text(), sheet(&app).editor.text());
     assert!(sheet(&again).is_modified());
-    assert!(matches!(sheet(&again).state, BufferState::Runs(Some(_))));
+    assert!(matches!(sheet(&again).state, BufferState::Rebuilt(Some(_))));
 }
 
 #[test]

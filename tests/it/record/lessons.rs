@@ -13,7 +13,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::on_all_cores;
-use crate::hand::catalog;
+use crate::hand::{catalog, key};
 
 fn system(name: &str) -> Document {
     catalog().find(name).expect("a preset")
@@ -424,4 +424,61 @@ fn a_key_that_did_nothing_is_forgotten_when_the_lesson_waits_again() {
     let now = shown(&mut lesson);
     assert!(now.contains("second") && now.contains("Enter continues"), "{now}");
     assert!(!now.contains("does nothing"), "{now}");
+}
+
+/// The lesson of the tour, answered with its first option, up to the text that contains these words.
+fn tour_until(words: &str) -> Lesson {
+    let source = lesson(TOUR).expect("a lesson");
+    let script = Script::read(&source).expect("a script");
+    let mut tour = Lesson::watched(script, &system("pendulum"), "pendulum").expect("a lesson");
+    for _ in 0..40 {
+        pass(&mut tour, 1.0);
+        if shown(&mut tour).contains(words) {
+            return tour;
+        }
+        // a task is left to its hint, and then skipped
+        let task = tour.is_moving() && shown(&mut tour).contains("Now you.");
+        if task || !tour.is_moving() {
+            tour.press(KeyEvent::from(if task { KeyCode::F(9) } else { KeyCode::Enter }));
+        }
+    }
+    panic!("never {words}: {}", shown(&mut tour));
+}
+
+#[test]
+fn the_tour_shows_what_it_speaks_of() {
+    for size in [(80, 24), (120, 40), (200, 60)] {
+        for (words, title) in [("the plot Phase", "p_theta"), ("The energy gauge", "verdict")] {
+            let mut tour = tour_until(words);
+            let drawn = screen(&mut tour, size, &plain());
+            assert!(drawn.join("\n").contains(title), "{words} at {size:?}: {drawn:#?}");
+        }
+    }
+}
+
+#[test]
+fn what_was_said_of_the_motion_expires_while_the_lesson_waits() {
+    let text = "Wait 1s\nSet m = 2\nSay \"A heavier planet.\"\n";
+    let mut lesson = taken(text);
+    pass(&mut lesson, 2.0);
+    let waits = shown(&mut lesson);
+    assert!(waits.contains("A heavier planet") && waits.contains("energy jumped"), "{waits}");
+    pass(&mut lesson, 6.0);
+    let later = shown(&mut lesson);
+    assert!(later.contains("A heavier planet") && !later.contains("energy jumped"), "{later}");
+    assert!(!lesson.advance(50_000).expect("it waits"), "then nothing changes");
+}
+
+/// Where no clock is meant, no time is told.
+#[test]
+fn a_text_that_a_lesson_rebuilds_tells_no_milliseconds() {
+    let mut tour = tour_until("And now a Lagrangian of your own");
+    for name in ["E", "End", "Left"] {
+        tour.press(key(name));
+    }
+    keys(&mut tour, " - 2*theta^2");
+    pass(&mut tour, 1.0);
+    let rebuilt = shown(&mut tour);
+    assert!(rebuilt.contains("No errors: this version runs"), "{rebuilt}");
+    assert!(!rebuilt.contains(" ms"), "{rebuilt}");
 }

@@ -814,6 +814,41 @@ fn a_notice_leaves_the_keys_in_sight() {
     }
 }
 
+/// What a notification leaves of a word in a frame goes with it; text of a page without a frame stays.
+#[test]
+fn a_notice_blanks_nothing_beside_it_but_what_is_left_of_words_in_a_frame() {
+    for keys in ["2", "3", "4"] {
+        let mut app = in_lab();
+        press(&mut app, keys);
+        for size in [(80, 24), (60, 16), (120, 12)] {
+            let before = rows(&screen(&app, &rich(), size));
+            app.notice = Some(Notification::info("told"));
+            let after = rows(&screen(&app, &rich(), size));
+            app.notice = None;
+            let last = usize::from(size.1) - 3;
+            let beside = |row: &str| row.chars().skip(9).collect::<String>();
+            assert_eq!(beside(&after[last]), beside(&before[last]), "page {keys} at {size:?}");
+        }
+    }
+    let mut app = lab("heavy-top", 1.0);
+    if let Some(lab) = &mut app.lab {
+        (lab.focus, lab.zoomed) = (Pane::Initial, true);
+    }
+    let size = (40, 10);
+    let before = rows(&screen(&app, &rich(), size));
+    assert!(before[7].contains(" ↓"), "{before:#?}");
+    for long in 3..36 {
+        app.notice = Some(Notification::info("m".repeat(long)));
+        let after = rows(&screen(&app, &rich(), size));
+        let rest = after[7].trim_start_matches(['╰', '─', ' ']).trim_start_matches('m');
+        let words: String = rest.chars().filter(|c| !"─╯ ".contains(*c)).collect();
+        assert!(
+            ["", "+4↓", "+3↓", "+2↓", "+1↓"].contains(&&*words),
+            "{long}: {words:?} {after:#?}"
+        );
+    }
+}
+
 #[test]
 fn what_is_found_is_marked_and_topics_are_headings_only_of_the_whole_list() {
     let look = rich();

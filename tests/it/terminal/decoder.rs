@@ -32,6 +32,58 @@ fn keys_of_every_kind() {
     check("\x1bOp\x1bOM", &keys("0 Enter"));
 }
 
+/// The forms of kitty and of xterm's modifyOtherKeys: what a key is with them is what it is without.
+#[test]
+fn keys_that_come_by_their_numbers_are_the_same_keys() {
+    check("\x1b[13;2u", &keys("Shift-Enter"));
+    check("\x1b[27;2;13~", &keys("Shift-Enter"));
+    check("\x1b[13;5u\x1b[27;5;13~\x1b[13;3u", &keys("Ctrl-Enter Ctrl-Enter Alt-Enter"));
+    check("\x1b[27u\x1b[27;1u\x1b[27;2;9~\x1b[9;2u", &keys("Esc Esc Shift-Tab Shift-Tab"));
+    check("\x1b[127u\x1b[127;5u\x1b[13u\x1b[9u", &keys("Backspace Ctrl-Backspace Enter Tab"));
+    check("\x1b[99;5u\x1b[27;5;99~\x1b[122;6u", &keys("Ctrl-c Ctrl-c Ctrl-z"));
+    check("\x1b[97;3u\x1b[97;4u\x1b[27;4;65~\x1b[49:33;4u", &keys("Alt-a Alt-A Alt-A Alt-!"));
+    check("\x1b[113u\x1b[81;2u\x1b[32;2u\x1b[952u", &keys("q Q Space θ"));
+    // What a control byte has always been.
+    check("\x1b[105;5u\x1b[109;5u\x1b[104;5u\x1b[91;5u", &keys("Tab Enter Backspace Esc"));
+    check("\x1b[32;5u\x1b[64;5u", &keys("Ctrl-Space Ctrl-Space"));
+    // The keypad, a locked keyboard, a repetition, and the text that was typed.
+    check("\x1b[57399u\x1b[57408u\x1b[57414u\x1b[57419u", &keys("0 9 Enter Up"));
+    check("\x1b[57409u\x1b[57413u\x1b[57412u", &keys(". + -"));
+    check(
+        "\x1b[13;66u\x1b[13;130u\x1b[13;2:2u\x1b[97;;97u",
+        &keys("Shift-Enter Shift-Enter Shift-Enter a"),
+    );
+    for nothing in [
+        // Released, held with a key of the window manager, or no key of ours.
+        "\x1b[13;2:3u",
+        "\x1b[97;9u",
+        "\x1b[97;33u",
+        "\x1b[27;9;13~",
+        "\x1b[57358u",
+        "\x1b[57376u",
+        "\x1b[57441;2u",
+        "\x1b[u",
+        "\x1b[0u",
+        "\x1b[1u",
+        "\x1b[128u",
+        "\x1b[55296u",
+        "\x1b[65535u",
+        "\x1b[99999999u",
+        "\x1b[27~",
+        "\x1b[27;2~",
+        "\x1b[27;2;0~",
+        "\x1b[27;2;13;4~",
+        "\x1b[>1u",
+        "\x1b[<1u",
+        "\x1b[=1;1u",
+        "\x1b[?1u",
+        "\x1b[?27;2;13~",
+        "\x1b[13;0:3u",
+    ] {
+        check(&format!("{nothing}q"), &keys("q"));
+    }
+}
+
 #[test]
 fn esc_is_a_key_when_nothing_follows() {
     check("\x1b", &keys("Esc"));

@@ -216,6 +216,41 @@ fn tmux_shows_what_was_drawn() {
     assert!(drawn.contains('╭') && drawn.chars().any(|c| ('\u{2801}'..='\u{28ff}').contains(&c)));
 }
 
+/// asciinema, or where it is not installed `script`: the demo has a terminal there that answers nothing, and ends by itself.
+#[test]
+fn a_program_that_records_terminals_records_the_demo() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("demo");
+    let path = file.to_str().expect("a plain path");
+    let demo = format!("{PROGRAM} --demo");
+    let asciinema = ["rec", "--headless", "--window-size", "80x24", "-c", &demo, path];
+    let script = ["-qefc", &demo, path];
+    let (program, arguments) = match output("asciinema", &["--version"]) {
+        Some(_) => ("asciinema", &asciinema[..]),
+        None => ("script", &script[..]),
+    };
+    let mut recorder = Command::new(program)
+        .args(arguments)
+        .env_clear()
+        .env("PATH", std::env::var_os("PATH").unwrap_or_default())
+        .env("TERM", "xterm-256color")
+        .env("LANG", "C.UTF-8")
+        .env("HOME", folder.path())
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("asciinema or script (Debian: util-linux, bsdutils)");
+    // whoever records types nothing; the pipe stays open
+    let keyboard = recorder.stdin.take();
+    let status = recorder.wait().expect("it ends");
+    drop(keyboard);
+    assert!(status.success(), "{program}: {status}");
+    let cast = fs::read_to_string(&file).expect("a recording");
+    assert!(cast.contains("[?1049h") && cast.contains("[?1049l"), "{}", cast.len());
+    assert!(cast.contains("Double pendulum"), "{program} has recorded {} bytes", cast.len());
+}
+
 /// A chain of pendulums with a kinetic energy of the fourth degree, which takes seconds to derive.
 fn heavy() -> String {
     let mut text = "title = \"Chain\"\n[coordinates]\n".to_owned();

@@ -1,0 +1,73 @@
+//! The titles of lists that share a frame: the shown one is always there, and the others are where they are clicked; and the
+//! words in a list, the same for the same.
+
+use std::sync::Arc;
+
+use phaselab::app::{Event, HitTarget, Pane};
+use phaselab::experiment::Verdict;
+use phaselab::view::glyphs::Glyphs;
+use phaselab::view::{RenderStyle, hit_test};
+use ratatui::layout::Rect;
+
+use super::{find, rich, rows, screen};
+use crate::app::real::Real;
+use crate::hand::{gauge, in_lab, pendulum, snapshot};
+
+/// Each list, and a word that its frame begins with.
+const LISTS: [(Pane, &str, &str); 4] = [
+    (Pane::Parameters, "Parameters", "Param"),
+    (Pane::Initial, "Initial", "Initial"),
+    (Pane::Gauges, "Gauges", "Gauges"),
+    (Pane::Law, "Law", "Law"),
+];
+
+#[test]
+fn the_shown_list_is_named_in_its_frame_whatever_its_width() {
+    let mut real = Real::of("pendulum");
+    for style in [rich(), RenderStyle { glyphs: Glyphs::Ascii, ..rich() }] {
+        // A lesson leaves the lab so many rows of a standard screen.
+        for size in [(80, 15), (80, 14), (70, 14), (64, 12), (50, 22), (40, 24)] {
+            for (pane, name, _) in LISTS {
+                if let Some(lab) = &mut real.app.lab {
+                    lab.focus = pane;
+                }
+                let drawn = rows(&screen(&real.app, &style, size));
+                let border = |row: &&String| row.contains('╭') || row.contains("+-");
+                let titles: String = drawn.iter().filter(border).cloned().collect();
+                assert!(titles.contains(name), "{name} at {size:?}: {drawn:#?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn all_titles_fit_beside_a_plot_of_a_standard_screen_and_are_clicked_there() {
+    let mut real = Real::of("pendulum");
+    if let Some(lab) = &mut real.app.lab {
+        lab.focus = Pane::Gauges;
+    }
+    let size = (80, 15);
+    let buffer = screen(&real.app, &rich(), size);
+    for (pane, _, begins) in LISTS {
+        let (x, y) = find(&buffer, begins).unwrap_or_else(|| panic!("{begins}"));
+        let area = Rect::new(0, 0, size.0, size.1);
+        let hit = hit_test(&real.app, &rich(), area, x + 1, y);
+        assert_eq!(hit, Some(HitTarget::Pane(pane)), "{begins} of {:#?}", rows(&buffer));
+    }
+}
+
+/// A verdict is told in one way in a list: what varies is not called `varies` in one row and `not conserved` in the next.
+#[test]
+fn one_verdict_has_the_same_words_throughout_a_list() {
+    let long = "a quantity with a long name";
+    for (names, in_full) in [(["energy", "L"], true), (["energy", long], false)] {
+        let mut app = in_lab();
+        let mut seen = snapshot(&pendulum(), 2.0);
+        let broken = || Verdict::Broken("−2F".to_owned());
+        seen.gauges = names.map(|name| gauge(name, name, 1.0, broken())).into();
+        app.update(Event::Snapshot(Arc::new(seen)));
+        let text = rows(&screen(&app, &rich(), (120, 40))).join("\n");
+        assert_eq!(text.contains("not conserved"), in_full, "{text}");
+        assert_eq!(text.contains("varies"), !in_full, "{text}");
+    }
+}
