@@ -222,6 +222,10 @@ impl App {
         };
         self.notice = Some(Notification::info(message));
         let mut effects = if stopped { vec![Effect::StopCheck] } else { Vec::new() };
+        if stopped {
+            // a motion that waits for this text runs on without it
+            effects.extend(self.restore());
+        }
         if self.lab.is_none() {
             effects.extend(self.leave_alone());
         }

@@ -154,6 +154,7 @@ impl App {
             return vec![Effect::Tell(Command::Play)];
         };
         lab.restore_view(&saved);
+        lab.front = old.front.filter(|_| lab.plots.len() == old.plots.len());
         let (known, now) = (old.loaded.system.channels(), lab.loaded.system.channels());
         lab.answers.inherit(&old.answers, &|column| {
             let name = &known.get(column)?.name;
