@@ -83,6 +83,7 @@ pub use stationary_path::{
 };
 pub use transverse::Removed;
 pub use variation::{
-    VARIATIONS, VariedAction, varied_abbreviated_action, varied_action, varied_phase_action,
+    EndSlope, VARIATIONS, VariedAction, varied_abbreviated_action, varied_action,
+    varied_phase_action,
 };
 pub use virtual_work::VirtualWork;

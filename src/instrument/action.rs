@@ -13,7 +13,7 @@ use super::{
     Physics, Picture, Plot, Present, Sign, Upwards,
 };
 use crate::dynamics::{
-    Hamiltonian, Lagrangian, PhaseSpace, VARIATIONS, VariedAction, conjugate_points,
+    EndSlope, Hamiltonian, Lagrangian, PhaseSpace, VARIATIONS, VariedAction, conjugate_points,
     conjugate_points_at_energy, varied_abbreviated_action, varied_action, varied_phase_action,
 };
 use crate::ensemble::SystemFlow;
@@ -253,6 +253,16 @@ impl Instrument for ActionPlot {
                 value: |_, _, answer| Some(found(answer)?.foci.as_ref()?.len() as f64),
             },
             Measure {
+                word: "by_place",
+                about: "of Hamilton's action: ∂S/∂q at its end, which is p",
+                value: |_, _, answer| Some(varied(answer)?.ends?[1].by_position),
+            },
+            Measure {
+                word: "by_time",
+                about: "of Hamilton's action: ∂S/∂t at its end, which is −H",
+                value: |_, _, answer| Some(varied(answer)?.ends?[1].by_time),
+            },
+            Measure {
                 word: "rise",
                 about: "how much greater the action is at the greatest ε, for k = 1",
                 value: |_, _, answer| Some(varied(answer)?.curves.first()?.last()?[1]),
@@ -394,7 +404,31 @@ fn sentences(answer: Option<&Answer>, (begin, coordinate): (f64, Option<&str>)) 
         principle => format!("{} = ", principle.integral()),
     };
     let action = format!("{letter} = {integral}{value} up to {}", at(&computed.duration));
-    [vec![action], rest].concat()
+    // of a motion that does not make the action stationary these slopes say nothing
+    let ends = found.varied.ends.filter(|_| found.foci.is_some());
+    let ends = ends.map_or_else(Vec::new, |ends| by_its_ends(&ends, coordinate.unwrap_or("q")));
+    [vec![action], rest, ends].concat()
+}
+
+/// The slopes of the action at the start and now agree with p and H if they are apart by less than this part of their size.
+const AGREES: f64 = 1e-6;
+
+/// How the action changes with its ends.
+fn by_its_ends(ends: &[EndSlope; 2], name: &str) -> Vec<String> {
+    let short = |x: f64| significant(x, 4, 1e-3..1e5).replace('-', "−");
+    let written = |(slope, expected): (f64, f64), meaning: &str| {
+        let sign =
+            if (slope - expected).abs() <= AGREES * (1.0 + expected.abs()) { "=" } else { "≠" };
+        format!("{} {sign} {meaning}", short(slope))
+    };
+    let line = |(end, at): (&EndSlope, usize)| {
+        let (sign, word, [momentum, energy]) =
+            [(-1.0, "start", ["−p", "H"]), (1.0, "now", ["p", "−H"])][at];
+        let by_position = written((end.by_position, sign * end.momentum), momentum);
+        let by_time = written((end.by_time, -sign * end.energy), energy);
+        format!("{word}: ∂S/∂{name} = {by_position}, ∂S/∂t = {by_time}")
+    };
+    ends.iter().zip([0, 1]).rev().map(line).collect()
 }
 
 /// By how much the action in phase space is greater on the last curve of each kind, so that they are known without colours.
