@@ -387,7 +387,8 @@ impl App {
                     buffer.diagnostics.clear();
                     buffer.state = BufferState::Runs(Some(took));
                 }
-                let resumes = self.lab.as_ref().is_some_and(|lab| lab.awaited.is_some());
+                let waits = |lab: &Lab| lab.awaited.is_some() || lab.held.is_some();
+                let resumes = self.lab.as_ref().is_some_and(waits);
                 if !resumes && !matches!(self.overlay, Some(Overlay::Workbench)) {
                     let (title, time) = (&loaded.document.path, took.as_secs_f64() * 1e3);
                     let message =

@@ -81,11 +81,12 @@ impl App {
             Err(why) => return self.notify(format!("The text cannot be changed: {why}.")),
         }
         if let Some(lab) = &mut self.lab {
-            lab.await_ramp();
+            lab.hold_for_ramp();
             lab.show_action_variable();
         }
-        let sentence =
-            format!("{name} goes to {to} from t = {start:.3} on, in {duration}; E shows the ramp.");
+        let sentence = format!(
+            "{name} goes to {to} from t = {start:.3} on, in {duration}, once the law is rebuilt; E shows the ramp."
+        );
         self.notice = Some(Notification::info(sentence));
         Vec::new()
     }
@@ -94,11 +95,11 @@ impl App {
 impl Lab {
     /// Lets the motion continue from what is seen, once the law with the ramp is there: the ramp begins at that very time, so
     /// that nothing jumps.
-    fn await_ramp(&mut self) {
+    fn hold_for_ramp(&mut self) {
         let Some(seen) = self.seen() else { return };
         let Loaded { model, system, .. } = &self.loaded;
         let checkpoint = Checkpoint::of(model, system, seen).with_past(system, seen);
-        self.awaited.get_or_insert(checkpoint);
+        self.held.get_or_insert(checkpoint);
     }
 
     /// Adds the pane with the action variable of the only coordinate, if it is not there, and brings it into view. The focus

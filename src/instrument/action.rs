@@ -413,22 +413,26 @@ fn sentences(answer: Option<&Answer>, (begin, coordinate): (f64, Option<&str>)) 
 /// The slopes of the action at the start and now agree with p and H if they are apart by less than this part of their size.
 const AGREES: f64 = 1e-6;
 
-/// How the action changes with its ends.
-fn by_its_ends(ends: &[EndSlope; 2], name: &str) -> Vec<String> {
-    let short = |x: f64| significant(x, 4, 1e-3..1e5).replace('-', "−");
-    let written = |(slope, expected): (f64, f64), meaning: &str| {
-        let sign =
-            if (slope - expected).abs() <= AGREES * (1.0 + expected.abs()) { "=" } else { "≠" };
-        format!("{} {sign} {meaning}", short(slope))
+/// How the action changes with its ends: now with the numbers, at the start whether it is as it should be.
+fn by_its_ends([start, now]: &[EndSlope; 2], name: &str) -> Vec<String> {
+    let short = |x: f64| significant(x, 3, 1e-3..1e5).replace('-', "−");
+    let sign = |slope: f64, expected: f64| {
+        if (slope - expected).abs() <= AGREES * (1.0 + expected.abs()) { "=" } else { "≠" }
     };
-    let line = |(end, at): (&EndSlope, usize)| {
-        let (sign, word, [momentum, energy]) =
-            [(-1.0, "start", ["−p", "H"]), (1.0, "now", ["p", "−H"])][at];
-        let by_position = written((end.by_position, sign * end.momentum), momentum);
-        let by_time = written((end.by_time, -sign * end.energy), energy);
-        format!("{word}: ∂S/∂{name} = {by_position}, ∂S/∂t = {by_time}")
-    };
-    ends.iter().zip([0, 1]).rev().map(line).collect()
+    vec![
+        format!(
+            "∂S/∂{name} = {} {} p, ∂S/∂t = {} {} −H",
+            short(now.by_position),
+            sign(now.by_position, now.momentum),
+            short(now.by_time),
+            sign(now.by_time, -now.energy)
+        ),
+        format!(
+            "at the start {} −p, {} H",
+            sign(start.by_position, -start.momentum),
+            sign(start.by_time, start.energy)
+        ),
+    ]
 }
 
 /// By how much the action in phase space is greater on the last curve of each kind, so that they are known without colours.

@@ -156,7 +156,8 @@ impl Instrument for ActionsPlot {
             return Need::Held;
         }
         let replaced = known.filter(|_| leads).map_or(&[][..], |known| &known.replaced);
-        let before = |instant: &&Moment| instant.time < state.time;
+        // a motion that was held continues at the very moment
+        let before = |instant: &&Moment| instant.time <= state.time;
         let replaced: Vec<Moment> = replaced.iter().filter(before).copied().collect();
         let known = known.map(|known| known.course.clone());
         let model = Arc::clone(present.physics.model);

@@ -106,6 +106,11 @@ fn a_ramp_begins_where_it_was_asked_for() {
         screen.contains(&significant(now, 6, 1e-4..1e6)) && screen.contains("ramped"),
         "{screen}"
     );
+    // a second ramp holds the motion as well, though it was restored for the first
+    ask(&mut real, "3 in 1");
+    let held = real.seen().time;
+    real.run(20);
+    assert_eq!(real.seen().time, held);
 }
 
 /// p in the row of the oscillator before the ramp: q, q̇, p.

@@ -145,7 +145,10 @@ fn picture(text: &str, time: f64) -> (String, impl Fn(&str) -> Option<f64>) {
 fn the_lab_says_when_the_action_is_no_longer_least() {
     let (shown, measure) = picture(OSCILLATOR, 3.1);
     assert!(shown.contains("least of all paths nearby"), "{shown}");
-    assert!(shown.contains("= p,") && shown.contains("= −p,") && !shown.contains('≠'), "{shown}");
+    assert!(
+        shown.contains("= p,") && shown.contains("= −p, = H") && !shown.contains('≠'),
+        "{shown}"
+    );
     // x = cos t up to t = 3
     assert!((measure("by_place").unwrap() + 3.0_f64.sin()).abs() < 1e-9);
     assert!((measure("by_time").unwrap() + 0.5).abs() < 1e-9);
