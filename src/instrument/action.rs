@@ -7,13 +7,16 @@
 //! kinetic focus, and its action is no longer least. Never here: the integrals (`dynamics`).
 //! Source: *The Principles of Dynamics*, §§ 0, 1.4.1, 3.1.3.
 
+mod ends;
+
+use self::ends::by_its_ends;
 use super::conditions::PlotConditions;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
     Physics, Picture, Plot, Present, Sign, Upwards,
 };
 use crate::dynamics::{
-    EndSlope, Hamiltonian, Lagrangian, PhaseSpace, VARIATIONS, VariedAction, conjugate_points,
+    Hamiltonian, Lagrangian, PhaseSpace, VARIATIONS, VariedAction, conjugate_points,
     conjugate_points_at_energy, varied_abbreviated_action, varied_action, varied_phase_action,
 };
 use crate::ensemble::SystemFlow;
@@ -408,31 +411,6 @@ fn sentences(answer: Option<&Answer>, (begin, coordinate): (f64, Option<&str>)) 
     let ends = found.varied.ends.filter(|_| found.foci.is_some());
     let ends = ends.map_or_else(Vec::new, |ends| by_its_ends(&ends, coordinate.unwrap_or("q")));
     [vec![action], rest, ends].concat()
-}
-
-/// The slopes of the action at the start and now agree with p and H if they are apart by less than this part of their size.
-const AGREES: f64 = 1e-6;
-
-/// How the action changes with its ends: now with the numbers, at the start whether it is as it should be.
-fn by_its_ends([start, now]: &[EndSlope; 2], name: &str) -> Vec<String> {
-    let short = |x: f64| significant(x, 3, 1e-3..1e5).replace('-', "−");
-    let sign = |slope: f64, expected: f64| {
-        if (slope - expected).abs() <= AGREES * (1.0 + expected.abs()) { "=" } else { "≠" }
-    };
-    vec![
-        format!(
-            "∂S/∂{name} = {} {} p, ∂S/∂t = {} {} −H",
-            short(now.by_position),
-            sign(now.by_position, now.momentum),
-            short(now.by_time),
-            sign(now.by_time, -now.energy)
-        ),
-        format!(
-            "at the start {} −p, {} H",
-            sign(start.by_position, -start.momentum),
-            sign(start.by_time, start.energy)
-        ),
-    ]
 }
 
 /// By how much the action in phase space is greater on the last curve of each kind, so that they are known without colours.
