@@ -10,11 +10,13 @@ mod effective_potential;
 mod held;
 mod moment;
 mod row;
+mod separatrix;
 
 pub use angle::angle;
 pub use effective_potential::{AllowedInterval, EffectivePotential};
-pub use held::{HeldMotion, HeldSystem, NotHeld, OwnMotion, Separatrix};
+pub use held::{HeldMotion, HeldSystem, NotHeld, OwnMotion};
 pub use moment::AngleMoment;
 pub use row::{
     ActionRow, ActionSystems, NoAction, RegionKind, action_between, action_row, cyclic_row,
 };
+pub use separatrix::Separatrix;

@@ -78,9 +78,12 @@ pub use spectral_line::SpectralLine;
 pub use spectrum::{
     MeanRate, Spectrum, driven_spectrum, independent_frequencies, mean_rate, spectrum, straightened,
 };
-pub use stationary_path::{PathKind, StationaryPath, morse_index, stationary_path};
+pub use stationary_path::{
+    PathKind, StationaryPath, morse_index, nearest_stationary_path, stationary_path,
+};
 pub use transverse::Removed;
 pub use variation::{
-    VARIATIONS, VariedAction, varied_abbreviated_action, varied_action, varied_phase_action,
+    EndSlope, VARIATIONS, VariedAction, varied_abbreviated_action, varied_action,
+    varied_phase_action,
 };
 pub use virtual_work::VirtualWork;

@@ -5,6 +5,7 @@
 
 mod attitude;
 mod bracket;
+mod break_down;
 mod canonical;
 mod chart;
 mod closed_forms;
@@ -51,6 +52,7 @@ mod slope;
 mod structure;
 mod structure_error;
 mod symmetry;
+mod symplectic_inverse;
 mod vakonomic;
 mod valuation;
 

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 
 use super::{
     ActionRow, ActionSystems, AllowedInterval, EffectivePotential, NoAction, RegionKind,
-    action_between, action_row, angle,
+    Separatrix, action_between, action_row, angle,
 };
 use crate::cancel::Cancel;
 use crate::ensemble::{Start, add_section};
@@ -52,17 +52,6 @@ impl From<CompileError> for NotHeld {
     fn from(why: CompileError) -> Self {
         NotHeld::Compile(why.to_string())
     }
-}
-
-/// A separatrix, and ∮ p dq of each of its lobes, from left to right; of a coordinate with a period, of one turn.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Separatrix {
-    /// The energy at the top.
-    pub energy: f64,
-    /// The actions; infinite where a lobe does not close.
-    pub actions: Vec<f64>,
-    /// Of the highest top of a coordinate with a period: the action of one turn, which goes one way only.
-    pub turn: Option<f64>,
 }
 
 /// The coordinate as the motion has it.
@@ -274,10 +263,7 @@ impl HeldMotion<'_> {
                     _ => f64::INFINITY,
                 });
             }
-            let highest = self.potential.tops().iter().all(|other| other[1] <= top[1]);
-            let turns = self.potential.period().is_some() && highest && actions.len() == 1;
-            let turn = actions.first().filter(|_| turns).map(|action| 0.5 * action);
-            all.push(Separatrix { energy: top[1], actions, turn });
+            all.push(Separatrix::of(&self.potential, top, actions));
         }
         Ok(all)
     }

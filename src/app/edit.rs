@@ -224,6 +224,10 @@ impl App {
         };
         self.notice = Some(Notification::info(message));
         let mut effects = if stopped { vec![Effect::StopCheck] } else { Vec::new() };
+        if stopped {
+            // a motion that waits for this text runs on without it
+            effects.extend(self.restore());
+        }
         if self.lab.is_none() {
             effects.extend(self.leave_alone());
         }
@@ -385,7 +389,8 @@ impl App {
                     buffer.diagnostics.clear();
                     buffer.state = BufferState::Rebuilt(took);
                 }
-                let resumes = self.lab.as_ref().is_some_and(|lab| lab.awaited.is_some());
+                let waits = |lab: &Lab| lab.awaited.is_some() || lab.held.is_some();
+                let resumes = self.lab.as_ref().is_some_and(waits);
                 if !resumes && !matches!(self.overlay, Some(Overlay::Workbench)) {
                     let title = &loaded.document.path;
                     let time = took.map(|took| format!(" in {:.0} ms", took.as_secs_f64() * 1e3));

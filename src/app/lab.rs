@@ -64,6 +64,8 @@ pub struct Lab {
     pub marks: Vec<f64>,
     /// The checkpoint that the experiment is to restore, until it has.
     pub(super) awaited: Option<Checkpoint>,
+    /// Where the motion is to continue once the text is rebuilt; until then nothing later is seen.
+    pub(super) held: Option<Checkpoint>,
 }
 
 /// For each shape whether it is a rod, a line of constant length: of the spatial picture, then of each view with
@@ -134,6 +136,7 @@ impl Lab {
             prediction: None,
             marks: Vec::new(),
             awaited: None,
+            held: None,
         }
     }
 
@@ -143,6 +146,9 @@ impl Lab {
             return false;
         }
         let stopped = matches!(snapshot.status, Status::Failed(_));
+        if self.held.is_some() && !stopped {
+            return false;
+        }
         if self.awaited.is_some() && !(snapshot.restored || stopped) {
             return false;
         }

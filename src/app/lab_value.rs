@@ -5,6 +5,7 @@
 
 use super::value::{nice_step, significant, step};
 use super::{Lab, ValueId, ValueInfo};
+use crate::mechanics::Valuation;
 use crate::model::RangeSpacing;
 use crate::system::ChannelKind;
 
@@ -23,7 +24,9 @@ impl Lab {
         match target {
             ValueId::Parameter(index) => {
                 let p = model.parameters.get(index)?;
+                let ramped = model.ramped.functions().any(|(symbol, _)| symbol == p.symbol);
                 Some(ValueInfo {
+                    ramped,
                     name: p.name.clone(),
                     shown: p.shown.clone(),
                     unit: p.unit.clone(),
@@ -56,6 +59,7 @@ impl Lab {
                     _ => c.unit.clone(),
                 };
                 Some(ValueInfo {
+                    ramped: false,
                     name: info.name.clone(),
                     shown: info.unicode.clone(),
                     unit,
@@ -72,6 +76,28 @@ impl Lab {
             return Some(*requested);
         }
         self.fact(target)
+    }
+
+    /// Returns the value as it is now: of a parameter that changes with the time that of its function; what keys change is
+    /// its value before the first ramp.
+    pub fn current_value(&self, target: ValueId) -> Option<f64> {
+        let own = self.value(target)?;
+        let ValueId::Parameter(index) = target else { return Some(own) };
+        let values: Option<Vec<f64>> = (0..self.count(ValueId::Parameter))
+            .map(|i| self.value(ValueId::Parameter(i)))
+            .collect();
+        let time = self.snapshot.as_ref()?.time;
+        self.ramped_value(index, time, &values?).or(Some(own))
+    }
+
+    /// Returns the value of a parameter that changes with the time, if this one does, from the values before the first ramp.
+    pub fn ramped_value(&self, index: usize, time: f64, before: &[f64]) -> Option<f64> {
+        let model = &self.loaded.model;
+        let symbol = model.parameters.get(index)?.symbol;
+        let (_, function) = model.ramped.functions().find(|(ramped, _)| *ramped == symbol)?;
+        let known = model.parameters.iter().map(|p| p.symbol).zip(before.iter().copied());
+        let at = Valuation::default().with(known).with([(model.symbols.time, time)]);
+        Some(at.value(&model.pool, function))
     }
 
     /// Returns the value that the experiment has.

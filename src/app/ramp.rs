@@ -5,7 +5,8 @@
 //! Source: *The Principles of Dynamics*, § 4.3.
 
 use super::field::{InputField, Purpose, number};
-use super::{App, Effect, Lab, Notification, Overlay, Pane, ValueId};
+use super::{App, Effect, Lab, Loaded, Notification, Overlay, ValueId};
+use crate::experiment::Checkpoint;
 use crate::instrument::{Plot, named};
 use crate::model::{Model, RampForm};
 use crate::preset::NewRamp;
@@ -80,17 +81,29 @@ impl App {
             Err(why) => return self.notify(format!("The text cannot be changed: {why}.")),
         }
         if let Some(lab) = &mut self.lab {
+            lab.hold_for_ramp();
             lab.show_action_variable();
         }
-        let sentence =
-            format!("{name} goes to {to} from t = {start:.3} on, in {duration}; E shows the ramp.");
+        let sentence = format!(
+            "{name} goes to {to} from t = {start:.3} on, in {duration}, once the law is rebuilt; E shows the ramp."
+        );
         self.notice = Some(Notification::info(sentence));
         Vec::new()
     }
 }
 
 impl Lab {
-    /// Adds the pane with the action variable of the only coordinate, if it is not there.
+    /// Lets the motion continue from what is seen, once the law with the ramp is there: the ramp begins at that very time, so
+    /// that nothing jumps.
+    fn hold_for_ramp(&mut self) {
+        let Some(seen) = self.seen() else { return };
+        let Loaded { model, system, .. } = &self.loaded;
+        let checkpoint = Checkpoint::of(model, system, seen).with_past(system, seen);
+        self.held.get_or_insert(checkpoint);
+    }
+
+    /// Adds the pane with the action variable of the only coordinate, if it is not there, and brings it into view. The focus
+    /// stays on the parameter, so that the next ramp begins with the same key.
     fn show_action_variable(&mut self) {
         let Some(kind) = named("actions") else { return };
         let known = self.plots.iter().position(|shown| shown.kind == kind);
@@ -103,7 +116,7 @@ impl Lab {
             Some(self.plots.len() - 1)
         });
         if let Some(index) = index {
-            self.focus = Pane::Plot(index);
+            self.front = Some(index);
             self.answers.stale = true;
         }
     }

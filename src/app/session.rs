@@ -17,7 +17,7 @@ impl Saved {
     /// Returns the session of a lab on a page, or `None` before the first snapshot.
     fn of(lab: &Lab, page: Page) -> Option<Self> {
         let Loaded { name, model, system, .. } = &lab.loaded;
-        let checkpoint = match &lab.awaited {
+        let checkpoint = match lab.held.as_ref().or(lab.awaited.as_ref()) {
             Some(checkpoint) => checkpoint.clone(),
             None => Checkpoint::of(model, system, lab.seen()?),
         };
@@ -111,6 +111,12 @@ impl App {
 
     /// Sends the awaited checkpoint to the experiment, if there is one.
     pub(super) fn restore(&mut self) -> Vec<Effect> {
+        // what waited for a text waits no longer
+        if let Some(lab) = &mut self.lab
+            && let Some(held) = lab.held.take()
+        {
+            lab.awaited = Some(held);
+        }
         let awaited = self.lab.as_ref().and_then(|lab| lab.awaited.clone());
         let command = |checkpoint| Effect::Tell(Command::Restore(Box::new(checkpoint)));
         awaited.map(command).into_iter().collect()
@@ -123,7 +129,8 @@ impl App {
             return if alone { self.mended(loaded) } else { self.loaded(loaded) };
         };
         let mut saved = Saved::of(&old, self.page);
-        if let (Some(saved), None, Some(seen)) = (&mut saved, &old.awaited, old.seen()) {
+        let waits = old.held.as_ref().or(old.awaited.as_ref());
+        if let (Some(saved), None, Some(seen)) = (&mut saved, waits, old.seen()) {
             // The recorded trail continues too.
             let checkpoint = std::mem::take(&mut saved.moment);
             saved.moment = checkpoint.with_past(&old.loaded.system, seen);
@@ -154,6 +161,7 @@ impl App {
             return vec![Effect::Tell(Command::Play)];
         };
         lab.restore_view(&saved);
+        lab.front = old.front.filter(|_| lab.plots.len() == old.plots.len());
         let (known, now) = (old.loaded.system.channels(), lab.loaded.system.channels());
         lab.answers.inherit(&old.answers, &|column| {
             let name = &known.get(column)?.name;

@@ -28,6 +28,8 @@ pub struct ValueInfo {
     pub about: String,
     /// The range of its slider, if it has one.
     pub range: Option<(f64, f64, RangeSpacing)>,
+    /// Whether it changes with the time by itself.
+    pub ramped: bool,
 }
 
 /// Moves a value by `sign · times` fine steps. About 200 of them make up the range or, without one, the value's

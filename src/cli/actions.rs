@@ -16,12 +16,13 @@ use super::output::Output;
 use super::section::surface;
 use crate::action_angle::{
     ActionRow, ActionSystems, AllowedInterval, EffectivePotential, NoAction, RegionKind,
-    action_between, action_row, cyclic_row,
+    Separatrix, action_between, action_row, cyclic_row,
 };
 use crate::diagnostic::nearest;
 use crate::ensemble::add_section;
 use crate::expr::Expr;
 use crate::model::{Direction, Model};
+use crate::num::significant;
 use crate::printable;
 use crate::system::ChannelKind;
 
@@ -71,12 +72,6 @@ pub(super) struct Arguments {
     output: Option<PathBuf>,
 }
 
-/// A separatrix with the actions of its lobes.
-struct Separatrix {
-    energy: f64,
-    actions: Vec<f64>,
-}
-
 pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<(), CommandError> {
     let reading = arguments.motion.read()?;
     let index = coordinate(&reading.model, arguments.coordinate.as_deref())?;
@@ -122,7 +117,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
             }
             actions.push(action.map_err(|why| could_not(why.to_string()))?);
         }
-        separatrices.push(Separatrix { energy: top[1], actions });
+        separatrices.push(Separatrix::of(&potential, top, actions));
     }
     if let Some(signal) = interrupt.signal().filter(|_| rows.is_empty()) {
         return Err(CommandError::Signal(signal));
@@ -332,6 +327,11 @@ fn containing(
     regions.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).copied().into_iter().collect()
 }
 
+/// A number of the table for reading.
+fn legibly(x: f64) -> String {
+    significant(x, 10, 1e-4..1e6)
+}
+
 /// Why there are only some of the rows.
 const STOPPED: &str = "stopped by a signal";
 
@@ -366,8 +366,9 @@ fn written(
             })
         });
         members.insert("rows".to_owned(), rows.collect::<Value>());
-        let separatrices =
-            separatrices.iter().map(|s| json!({ "energy": s.energy, "actions": s.actions }));
+        let separatrices = separatrices
+            .iter()
+            .map(|s| json!({ "energy": s.energy, "actions": s.actions, "turn": s.turn }));
         members.insert("separatrices".to_owned(), separatrices.collect::<Value>());
         members.insert("status".to_owned(), if stopped { "stopped" } else { "completed" }.into());
         members.insert("message".to_owned(), json!(stopped.then_some(STOPPED)));
@@ -376,32 +377,39 @@ fn written(
     let names =
         ["energy", "kind", "left", "right", "action", "period", "frequency", "angular_frequency"]
             .map(str::to_owned);
+    let csv = format == TableFormat::Csv;
+    // an energy near a separatrix is told from it, and an action from that of the separatrix
+    let number = |x: f64| {
+        let legible = !csv && x.is_finite();
+        if legible { TableCell::Word(legibly(x)) } else { TableCell::Number(x) }
+    };
     let cell = |row: &ActionRow| {
         let point = |i: usize| row.turning_points.get(i).copied().unwrap_or(f64::NAN);
         vec![
-            TableCell::Number(row.energy),
+            number(row.energy),
             TableCell::Word(row.kind.word().to_owned()),
-            TableCell::Number(point(0)),
-            TableCell::Number(point(1)),
-            TableCell::Number(action(row)),
-            TableCell::Number(period(row)),
-            TableCell::Number(frequency(row)),
-            TableCell::Number(row.angular_frequency()),
+            number(point(0)),
+            number(point(1)),
+            number(action(row)),
+            number(period(row)),
+            number(frequency(row)),
+            number(row.angular_frequency()),
         ]
     };
     let table: Vec<Vec<TableCell>> = rows.iter().map(cell).collect();
-    let lead = if format == TableFormat::Csv { "# " } else { "" };
-    let shown = |x: f64| {
-        if format == TableFormat::Csv { printable::number(x) } else { crate::num::short(x) }
-    };
+    let lead = if csv { "# " } else { "" };
+    let shown = |x: f64| if csv { printable::number(x) } else { legibly(x) };
     let line = |s: &Separatrix| {
         let actions: Vec<String> = s.actions.iter().map(|&x| shown(x)).collect();
         let (energy, actions) = (shown(s.energy), actions.join(", "));
-        format!("{lead}separatrix at energy {energy}: actions {actions}\n")
+        let turn = s.turn.map_or_else(String::new, |turn| {
+            format!(" of libration, {} a turn of rotation", shown(turn))
+        });
+        format!("{lead}separatrix at energy {energy}: actions {actions}{turn}\n")
     };
     let separatrices = separatrices.iter().map(line).collect::<Vec<_>>().concat();
     let end = if stopped { format!("{lead}stopped: {STOPPED}\n") } else { String::new() };
-    if format == TableFormat::Csv {
+    if csv {
         crowd::lead(&laid.header())
             + &separatrices
             + &cells::record(names)

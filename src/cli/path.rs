@@ -16,7 +16,7 @@ use super::path_function::{PathFunctions, is_momentum, of_coordinates};
 use super::{stderr, study};
 use crate::dynamics::{
     DynamicsError, Hamiltonian, Lagrangian, PathKind, PhaseSpace, abbreviated_action,
-    action_at_energy, conjugate_points, morse_index, stationary_path,
+    action_at_energy, conjugate_points, morse_index, nearest_stationary_path, stationary_path,
 };
 use crate::expr::Expr;
 use crate::mechanics::{Equations, Valuation, body_constants};
@@ -178,8 +178,11 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
                     _ => straight.collect(),
                 }
             };
-            let path = stationary_path(&mut lagrangian, &guess, duration).map_err(study::failed)?;
-            solved = Some(path);
+            let path = match &near {
+                Some(_) => nearest_stationary_path(&mut lagrangian, &guess, duration),
+                None => stationary_path(&mut lagrangian, &guess, duration),
+            };
+            solved = Some(path.map_err(study::failed)?);
             true
         }
     };

@@ -117,6 +117,63 @@ pub fn stationary_path(
     Err(no_path("the path is not resolved by polynomials of degree 112: take a shorter time"))
 }
 
+/// The multiples of a guess that the search for the nearest path begins with: Newton's method may come to another one from a
+/// guess that lies between two.
+const MULTIPLES: [f64; 7] = [1.0, 1.2, 0.8, 1.5, 0.6, 2.0, 0.4];
+
+/// The points at which paths are compared.
+const COMPARED: u32 = 64;
+
+/// Finds, of the stationary paths to which Newton's method comes from a guess and from multiples of its distance to the
+/// straight line, the one that is nearest to the guess.
+///
+/// # Errors
+/// Returns the error from the guess itself, if it comes to none from the others either.
+pub fn nearest_stationary_path(
+    lagrangian: &mut Lagrangian,
+    guess: &dyn Fn(f64) -> Vec<f64>,
+    duration: f64,
+) -> Result<StationaryPath, DynamicsError> {
+    let ends = [guess(0.0), guess(duration)];
+    let straight = |time: f64| -> Vec<f64> {
+        let part = time / duration;
+        ends[0].iter().zip(&ends[1]).map(|(a, b)| a + part * (b - a)).collect()
+    };
+    let distance = |path: &StationaryPath| {
+        let at = |k: u32| {
+            let time = duration * f64::from(k) / f64::from(COMPARED);
+            let apart = guess(time).into_iter().zip(path.at(time)).map(|(a, b)| (a - b) * (a - b));
+            apart.sum::<f64>()
+        };
+        (1..COMPARED).map(at).sum::<f64>()
+    };
+    let mut nearest: Option<(f64, StationaryPath)> = None;
+    let mut failed = None;
+    for multiple in MULTIPLES {
+        let begin = |time: f64| -> Vec<f64> {
+            if time <= 0.0 || time >= duration {
+                return guess(time);
+            }
+            let line = straight(time);
+            guess(time).iter().zip(line).map(|(x, line)| line + multiple * (x - line)).collect()
+        };
+        match stationary_path(lagrangian, &begin, duration) {
+            Ok(path) => {
+                let away = distance(&path);
+                if nearest.as_ref().is_none_or(|(least, _)| away < *least) {
+                    nearest = Some((away, path));
+                }
+            }
+            Err(why) => failed = failed.or(Some(why)),
+        }
+    }
+    match (nearest, failed) {
+        (Some((_, path)), _) => Ok(path),
+        (None, Some(why)) => Err(why),
+        (None, None) => Err(no_path("there is no path")),
+    }
+}
+
 /// The stationary point near a path on nodes.
 fn newton(
     lagrangian: &mut Lagrangian,

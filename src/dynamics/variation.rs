@@ -28,6 +28,10 @@ const PARTS: [usize; 8] = [4, 8, 16, 32, 64, 128, 256, 512];
 const SETTLED: f64 = 1e-13;
 const SIZE_SETTLED: f64 = 1e-3;
 
+/// The step of the differences by which the action changes with its ends, as a part of the range and of the duration; they are
+/// right to its fourth power.
+const END_STEP: f64 = 1e-3;
+
 /// The least number of parts where the paths beside the motion have corners: roots of what may vanish.
 const WITH_CORNERS: usize = 16;
 
@@ -38,6 +42,22 @@ pub struct VariedAction {
     pub action: f64,
     /// For each variation the points (ε, A(ε) − A(0)), in the units of the coordinate and of the action.
     pub curves: Vec<Vec<[f64; 2]>>,
+    /// Of Hamilton's action, how it changes with its ends: the start, and now.
+    pub ends: Option<[EndSlope; 2]>,
+}
+
+/// How Hamilton's action changes with an end of the motion, by the actions of paths whose end is elsewhere, and what the
+/// motion has there. To first order a path need not be a motion for that.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct EndSlope {
+    /// ∂S/∂q of the coordinate.
+    pub by_position: f64,
+    /// ∂S/∂t.
+    pub by_time: f64,
+    /// p of the coordinate.
+    pub momentum: f64,
+    /// H.
+    pub energy: f64,
 }
 
 /// What gives q and then q̇ of a motion at ascending times from its beginning, or `None` where it cannot be followed.
@@ -59,7 +79,16 @@ pub fn varied_action(
     let followed = SampledMotion::of(motion, duration, 0, &mut value)?;
     let variation = |k| SineVariation { coordinate, k };
     let curve = |k| followed.curve(variation(k), &mut value);
-    Ok(VariedAction { action: followed.integral, curves: (1..=VARIATIONS).map(curve).collect() })
+    let curves = (1..=VARIATIONS).map(curve).collect();
+    let slopes = followed.end_slopes(coordinate, &mut value);
+    let ends = motion(&[0.0, duration]).filter(|ends| ends.len() == 2).map(|ends| {
+        [0, 1].map(|end| {
+            let (time, [by_position, by_time]) = ([0.0, duration][end], slopes[end]);
+            let momentum = lagrangian.momenta(time, &ends[end])[coordinate];
+            EndSlope { by_position, by_time, momentum, energy: lagrangian.energy(time, &ends[end]) }
+        })
+    });
+    Ok(VariedAction { action: followed.integral, curves, ends })
 }
 
 /// The abbreviated action ∫ Σ p dq of a motion, and of the same ways as of [`varied_action`], each gone with the energy of the
@@ -95,7 +124,7 @@ pub fn varied_abbreviated_action(
     let curve = |k| followed.curve(SineVariation { coordinate, k }, &mut value);
     let curves = (1..=VARIATIONS).map(curve).collect();
     if law {
-        Ok(VariedAction { action: followed.integral, curves })
+        Ok(VariedAction { action: followed.integral, curves, ends: None })
     } else {
         Err(NotOnEnergy::Law.into())
     }
@@ -150,7 +179,7 @@ pub fn varied_phase_action(
         };
         curves.push(followed.points(coordinate, &mut rise));
     }
-    Ok(VariedAction { action: followed.integral, curves })
+    Ok(VariedAction { action: followed.integral, curves, ends: None })
 }
 
 /// What becomes of the momenta.
@@ -255,6 +284,46 @@ impl SampledMotion {
             terms.sum::<f64>()
         };
         self.points(variation.coordinate, &mut rise)
+    }
+
+    /// ∂A/∂q of a coordinate and ∂A/∂t at both ends: by differences of the actions of paths that are moved by ever less towards
+    /// the other end.
+    fn end_slopes(
+        &self,
+        coordinate: usize,
+        integrand: &mut dyn FnMut(f64, &[f64]) -> f64,
+    ) -> [[f64; 2]; 2] {
+        let duration = self.duration;
+        let reach = half_range(&self.path, coordinate);
+        let velocity = self.path.first().map_or(0, |state| state.len() / 2) + coordinate;
+        // 1 at the end that is moved, 0 at the other
+        let share = |end: usize, time: f64| {
+            let part = time / duration;
+            if end == 0 { (1.0 - part, -1.0 / duration) } else { (part, 1.0 / duration) }
+        };
+        [0, 1].map(|end| {
+            let mut moved = |by_time: bool, amount: f64| -> f64 {
+                let terms = self.nodes.iter().zip(&self.path).map(|(&(time, weight), state)| {
+                    let (share, slope) = share(end, time);
+                    let mut varied = state.clone();
+                    let (mut then, mut stretch) = (time, 1.0);
+                    if by_time {
+                        (then, stretch) = (time + amount * share, 1.0 + amount * slope);
+                        varied[velocity - coordinate..].iter_mut().for_each(|v| *v /= stretch);
+                    } else {
+                        varied[coordinate] += amount * share;
+                        varied[velocity] += amount * slope;
+                    }
+                    weight * (stretch * integrand(then, &varied) - integrand(time, state))
+                });
+                terms.sum()
+            };
+            [(false, reach), (true, duration)].map(|(by_time, size)| {
+                let h = END_STEP * size;
+                let mut difference = |k: f64| moved(by_time, k * h) - moved(by_time, -k * h);
+                (8.0 * difference(1.0) - difference(2.0)) / (12.0 * h)
+            })
+        })
     }
 
     /// The points (ε, rise) up to half of the range of a coordinate, where the rise is finite.

@@ -7,6 +7,9 @@
 //! kinetic focus, and its action is no longer least. Never here: the integrals (`dynamics`).
 //! Source: *The Principles of Dynamics*, §§ 0, 1.4.1, 3.1.3.
 
+mod ends;
+
+use self::ends::by_its_ends;
 use super::conditions::PlotConditions;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
@@ -253,6 +256,16 @@ impl Instrument for ActionPlot {
                 value: |_, _, answer| Some(found(answer)?.foci.as_ref()?.len() as f64),
             },
             Measure {
+                word: "by_place",
+                about: "of Hamilton's action: ∂S/∂q at its end, which is p",
+                value: |_, _, answer| Some(varied(answer)?.ends?[1].by_position),
+            },
+            Measure {
+                word: "by_time",
+                about: "of Hamilton's action: ∂S/∂t at its end, which is −H",
+                value: |_, _, answer| Some(varied(answer)?.ends?[1].by_time),
+            },
+            Measure {
                 word: "rise",
                 about: "how much greater the action is at the greatest ε, for k = 1",
                 value: |_, _, answer| Some(varied(answer)?.curves.first()?.last()?[1]),
@@ -394,7 +407,10 @@ fn sentences(answer: Option<&Answer>, (begin, coordinate): (f64, Option<&str>)) 
         principle => format!("{} = ", principle.integral()),
     };
     let action = format!("{letter} = {integral}{value} up to {}", at(&computed.duration));
-    [vec![action], rest].concat()
+    // of a motion that does not make the action stationary these slopes say nothing
+    let ends = found.varied.ends.filter(|_| found.foci.is_some());
+    let ends = ends.map_or_else(Vec::new, |ends| by_its_ends(&ends, coordinate.unwrap_or("q")));
+    [vec![action], rest, ends].concat()
 }
 
 /// By how much the action in phase space is greater on the last curve of each kind, so that they are known without colours.

@@ -156,7 +156,8 @@ impl Instrument for ActionsPlot {
             return Need::Held;
         }
         let replaced = known.filter(|_| leads).map_or(&[][..], |known| &known.replaced);
-        let before = |instant: &&Moment| instant.time < state.time;
+        // a motion that was held continues at the very moment
+        let before = |instant: &&Moment| instant.time <= state.time;
         let replaced: Vec<Moment> = replaced.iter().filter(before).copied().collect();
         let known = known.map(|known| known.course.clone());
         let model = Arc::clone(present.physics.model);
@@ -224,6 +225,14 @@ impl Instrument for ActionsPlot {
     }
 }
 
+impl Moment {
+    /// By which part action and height have changed since another moment; `None` where there was nothing to have parts.
+    fn changes_since(&self, first: &Moment) -> Option<[f64; 2]> {
+        let part = |from: f64, to: f64| (from > 0.0).then(|| (to - from) / from);
+        Some([part(first.action, self.action)?, part(first.height, self.height)?])
+    }
+}
+
 impl Computed {
     /// Whether it is still what is to be seen at a time.
     fn holds_at(&self, time: f64) -> bool {
@@ -246,11 +255,9 @@ impl Computed {
         self.changes_since(self.course.past.first()?)
     }
 
-    /// By which part they have changed since an instant.
+    /// By which part they have changed since an instant; of nothing there is no part.
     fn changes_since(&self, first: &Moment) -> Option<[f64; 2]> {
-        let last = self.course.past.last()?;
-        let part = |from: f64, to: f64| (to - from) / from;
-        Some([part(first.action, last.action), part(first.height, last.height)])
+        self.course.past.last()?.changes_since(first)
     }
 }
 
@@ -381,4 +388,18 @@ fn changes_in_words([action, height]: [f64; 2]) -> String {
         if x < 0.0 { format!("−{size}") } else { format!("+{size}") }
     };
     format!("ΔJ/J = {}, ΔE/(E − V₀) = {}", signed(action), signed(height))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Moment;
+
+    /// A motion that began at rest has no action of which a part could be changed.
+    #[test]
+    fn of_no_action_there_is_no_part() {
+        let moment = |action, height| Moment { time: 0.0, energy: 0.0, height, action };
+        let (rest, later) = (moment(0.0, 0.0), moment(2.0, 1.0));
+        assert_eq!(later.changes_since(&rest), None);
+        assert_eq!(moment(3.0, 3.0).changes_since(&later), Some([0.5, 2.0]));
+    }
 }

@@ -79,8 +79,9 @@ impl Instrument for Ensemble {
     }
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
-        let of = |k| Some(Entry::Channel(plot.column(k)?));
-        Some(plot.heading(present.physics, "Ensemble", vec![of(0)?, of(1)?]))
+        // names alone: a cloud may be behind the motion, whose values are of another moment
+        let words = plot.against(present.physics);
+        Some(plot.heading(present.physics, "Ensemble", vec![Entry::Words(words)]))
     }
 
     fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
@@ -287,20 +288,19 @@ fn sentence(present: &Present<'_>, answer: Option<&Answer>) -> String {
     }
     let short = |x: f64| significant(x, 4, 1e-3..1e5).replace('-', "−");
     let Some(frame) = shown(present, answer) else { return String::new() };
+    let late = is_late(present, answer);
+    let at = if late { format!(" at t = {}", short(frame.time)) } else { String::new() };
     if let Some(energy) = cloud.origin.energy() {
-        return format!("energy {}", short(energy));
+        return format!("energy {}{at}", short(energy));
     }
     let Some(action) = frame.action else {
-        return match &cloud.curve {
-            None => String::new(),
-            Some(curve) if curve.is_whole() => "action: stretched too far to be known".to_owned(),
-            Some(_) => "action: a part of the curve is lost".to_owned(),
+        let known = match &cloud.curve {
+            None if late => "the cloud",
+            None => return String::new(),
+            Some(curve) if curve.is_whole() => "action: stretched too far to be known",
+            Some(_) => "action: a part of the curve is lost",
         };
-    };
-    let at = if is_late(present, answer) {
-        format!(" at t = {}", short(frame.time))
-    } else {
-        String::new()
+        return format!("{known}{at}");
     };
     let value = format!("action {}{at}", short(action.value.abs()));
     match (cloud.rate, off(present, answer)) {

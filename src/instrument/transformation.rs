@@ -146,15 +146,14 @@ impl Instrument for Transformation {
             grid.map(|line| (GRID, Layer::Line(line.clone(), stroke))).collect();
         let branches = mapped.and_then(|mapped| mapped.branches.as_deref());
         let at = branches.map(|_| with_image(plot, present));
-        let mut rings = 0;
+        let mut rings = [0, 0];
         if let (Some(branches), Some(at)) = (branches, &at) {
             let dim = Stroke { ink: Ink::Level, covering: Some(DIM) };
             layers.extend(branches.lines.iter().map(|line| (GRID, Layer::Line(line.clone(), dim))));
             let images = branches.images(at);
-            rings = images.len();
-            layers.extend(
-                images.into_iter().map(|image| (NOW, Layer::Point(image, Sign::Ring, Ink::Level))),
-            );
+            rings = [images.on_grids.len(), images.beside.len()];
+            let ring = |&image| (NOW, Layer::Point(image, Sign::Ring, Ink::Level));
+            layers.extend(images.on_grids.iter().chain(&images.beside).map(ring));
         }
         layers.extend([
             (TRAIL, Layer::Companions([x, y])),
@@ -168,7 +167,7 @@ impl Instrument for Transformation {
             _ => judged(answer).map_or_else(Vec::new, |judged| judged.lines.clone()),
         };
         lines.extend(of_image(plot, present).map(str::to_owned));
-        lines.extend(of_branches(branches.map_or(0, Branches::others), rings));
+        lines.extend(of_branches(branches.map_or(0, Branches::others), rings[0], rings[1]));
         layers.push((NOW, Layer::Legend(lines)));
         let upwards = Upwards::Channel(y, range(plot, present, answer, 1));
         Some(Picture::Axes { upwards, layers, occurrences: None })
@@ -224,7 +223,7 @@ impl Instrument for Transformation {
                 let values = model.parameters.iter_mut().zip(&parameters);
                 values.for_each(|(parameter, &value)| parameter.value = value);
                 let report = TransformationReport::named(&model, &mut equations, &name);
-                let judged = Judged::of(&equations.pool, report.as_ref());
+                let judged = Judged::of(&model, &equations, report.as_ref());
                 let system = system.with_cancel(progress.token().clone());
                 let verdict = judged.beside_its_step((&model, &mut equations, &system), &name);
                 let verdict = Some(verdict);

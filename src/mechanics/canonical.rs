@@ -47,7 +47,7 @@ pub struct PhaseMap {
     /// The pairs whose generating function has an old and a new variable of different kinds, F2 or F3: they may be near the
     /// identity.
     near_identity: Vec<bool>,
-    by_old: Vec<Vec<Expr>>,
+    pub(super) by_old: Vec<Vec<Expr>>,
 }
 
 /// Whether a map is canonical.
@@ -249,6 +249,10 @@ impl PhaseMap {
             right > 0 && if strict { right == images.len() } else { 2 * right >= images.len() }
         };
         let pool = &mut equations.pool;
+        if let Some(found) = self.inverse_of_linear(pool).filter(|found| accept(pool, found, true))
+        {
+            return Some(found);
+        }
         let open = |pool: &mut Pool, e: Expr| {
             let e = pool.open_tangents(e);
             pool.simplify(e)

@@ -161,10 +161,8 @@ fn at_points(model: &Model, equations: &mut Equations, observable: Expr) -> (Cla
         return (Class::Unknown, why);
     }
     // dg/dt in the symbols of q̈
-    let mut seeds = vec![
-        (equations.symbols.time, Expr::ONE),
-        (equations.symbols.action, equations.action_rate),
-    ];
+    let mut seeds = equations.by_time();
+    seeds.push((equations.symbols.action, equations.action_rate));
     for c in equations.coordinates.clone() {
         seeds.push((c.position, equations.pool.variable(c.velocity)));
         seeds.push((c.velocity, equations.pool.variable(c.acceleration)));

@@ -121,6 +121,8 @@ pub struct Supplements {
     pub separation: Option<Separation>,
     /// The law and what follows from it with ramped parameters by their names, if there are any.
     pub named_ramps: Option<Arc<NamedRamps>>,
+    /// Where parameters keep their names: of each, and of its rates, the rate.
+    pub ramp_rates: Vec<(Symbol, Expr)>,
     /// The file's values of the parameters and of what follows from a body, as exact numbers.
     pub constants: Vec<(Symbol, Number)>,
 }

@@ -207,13 +207,14 @@ impl PhaseMap {
             }
         }
         let value = pool.linear(Number::ZERO, &terms);
+        let mut ways = vec![(relations, missing.clone(), value)];
+        ways.splice(0..0, self.from_given(pool, given, types));
         let points: Vec<Valuation> = (0..POINTS)
             .filter_map(|k| {
                 let at = Valuation::near_start(model, equations, k);
                 self.image(&equations.pool, &at)
             })
             .collect();
-        let mut found: Option<(Expr, bool)> = None;
         let relations_of = |pool: &mut Pool, function: Expr| {
             let law = TransformationLaw::Generating { types: types.to_vec(), function };
             PhaseMap::relations(pool, model, &Transformation { law, ..given.clone() })
@@ -221,38 +222,83 @@ impl PhaseMap {
                 .relations
         };
         let map: HashMap<Symbol, Expr> = forwards.iter().copied().collect();
-        let mut accept = |pool: &mut Pool, solution: &Solution| {
-            let put: HashMap<Symbol, Expr> = solution.iter().copied().collect();
-            let function = isolate::tidy(pool, value, &put);
-            let function = pool.simplify(function);
-            if pool.depends_on_any(function, &missing) {
-                return false;
-            }
-            let relations = relations_of(pool, function);
-            let mut right = 0;
-            for at in &points {
-                for &e in &relations {
-                    let (left, size) = pool.evaluate_with_size(e, &|s| at.at(s));
-                    if left.is_finite() && left.abs() > 1e-9 * (1.0 + size) {
-                        return false;
+        for (relations, unknowns, value) in ways {
+            let mut found: Option<(Expr, bool)> = None;
+            let mut accept = |pool: &mut Pool, solution: &Solution| {
+                let put: HashMap<Symbol, Expr> = solution.iter().copied().collect();
+                let function = isolate::tidy(pool, value, &put);
+                let simplified = pool.simplify(function);
+                // what comes together by itself may be shorter than what is multiplied out
+                let plain = pool.substitute(value, &put);
+                let shorter = pool.weight(plain) < pool.weight(simplified);
+                let function = if shorter { plain } else { simplified };
+                if pool.depends_on_any(function, &unknowns) {
+                    return false;
+                }
+                let relations = relations_of(pool, function);
+                let mut right = 0;
+                for at in &points {
+                    for &e in &relations {
+                        let (left, size) = pool.evaluate_with_size(e, &|s| at.at(s));
+                        if left.is_finite() && left.abs() > 1e-9 * (1.0 + size) {
+                            return false;
+                        }
+                        right += usize::from(left.is_finite());
                     }
-                    right += usize::from(left.is_finite());
+                }
+                if right < 2 * relations.len() {
+                    return false;
+                }
+                let proved = relations.iter().all(|&e| {
+                    let e = pool.substitute(e, &map);
+                    pool.is_zero(e) == Zero::Proved
+                });
+                found = Some((function, proved));
+                true
+            };
+            let solved = isolate::solve(&mut equations.pool, &relations, &unknowns, &mut accept);
+            if let (Some(_), Some((function, proved))) = (solved, found) {
+                return (Ok(function), proved);
+            }
+        }
+        no("its variables cannot be solved for the others".to_owned())
+    }
+
+    /// Legendre's transformation of the function that is given: its own relations are solved for the variables that the wanted
+    /// one does not have. No branch of the map is chosen by that, so that what is found holds on all of them.
+    fn from_given(
+        &self,
+        pool: &mut Pool,
+        given: &Transformation,
+        types: &[GeneratingType],
+    ) -> Option<(Vec<Expr>, Vec<Symbol>, Expr)> {
+        let TransformationLaw::Generating { types: own, function } = &given.law else {
+            return None;
+        };
+        let n = types.len();
+        let mut terms = vec![(Number::ONE, *function)];
+        let mut unknowns = Vec::new();
+        for (i, (own, wanted)) in own.iter().zip(types).enumerate() {
+            let halves = [
+                (&self.old, own.has_position(), wanted.has_position(), Number::MINUS_ONE),
+                (
+                    &self.implicit.new,
+                    own.has_new_position(),
+                    wanted.has_new_position(),
+                    Number::ONE,
+                ),
+            ];
+            for (variables, has, is_to_have, sign) in halves {
+                let [position, momentum] =
+                    [variables[i], variables[n + i]].map(|s| pool.variable(s));
+                unknowns.push(variables[if is_to_have { n + i } else { i }]);
+                if has != is_to_have {
+                    let product = pool.mul(position, momentum);
+                    terms.push((if is_to_have { -sign } else { sign }, product));
                 }
             }
-            if right < 2 * relations.len() {
-                return false;
-            }
-            let proved = relations.iter().all(|&e| {
-                let e = pool.substitute(e, &map);
-                pool.is_zero(e) == Zero::Proved
-            });
-            found = Some((function, proved));
-            true
-        };
-        let solved = isolate::solve(&mut equations.pool, &relations, &missing, &mut accept);
-        match (solved, found) {
-            (Some(_), Some((function, proved))) => (Ok(function), proved),
-            _ => no("its variables cannot be solved for the others".to_owned()),
         }
+        let value = pool.linear(Number::ZERO, &terms);
+        Some((self.implicit.relations.clone(), unknowns, value))
     }
 }

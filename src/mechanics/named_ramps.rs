@@ -3,13 +3,14 @@
 //!
 //! The derivation is that of any law. A ramped parameter is l + l̇ (t − s) + ½ l̈ (t − s)² in it, with l, l̇, l̈ and s as symbols; at s = t
 //! its value and its first two derivatives are those of any function, and no law has higher ones. So what is proved of it is
-//! proved for every ramp.
+//! proved for every ramp. What is derived later of what is known at the instant, as the rate of an observable, takes l, l̇ and l̈ as
+//! what they are by then: functions of the time, with l̇, l̈ and l⃛ as their rates.
 //!
 //! In: a model of which the parameters keep their names, what was derived of it. Out: [`NamedRamps`]. Never here: motions, which follow the functions.
 
 use std::collections::HashMap;
 
-use super::equations::{Conserved, Equations, Flow, NamedRamps, NoClosedForm};
+use super::equations::{Conserved, Equations, Flow, NamedRamps, NoClosedForm, Reason};
 use super::further::Further;
 use super::structure::Separation;
 use crate::expr::{Expr, Symbol};
@@ -37,8 +38,14 @@ pub(super) fn model(model: &Model) -> Option<Model> {
 impl NamedRamps {
     /// What was derived of the model, at this instant; conserved is what is so with the functions themselves.
     pub(super) fn of(model: Model, mut equations: Equations, conserved: &[Conserved]) -> Self {
-        let known = |name: &String| conserved.iter().any(|known| known.name == *name);
-        equations.conserved.retain(|conserved| known(&conserved.name));
+        equations.conserved.retain_mut(|own| {
+            let known = conserved.iter().find(|known| known.name == own.name);
+            // by name it may be conserved for another reason; a proof for every ramp is one for this one
+            if let Some(known) = known.filter(|known| known.reason != Reason::Numerically) {
+                own.reason.clone_from(&known.reason);
+            }
+            known.is_some()
+        });
         let why = "H depends on the time".to_owned();
         equations.supplements.separation = Some(Separation::Unknown(why));
         let mut named = NamedRamps { model, equations };
@@ -58,12 +65,7 @@ impl NamedRamps {
     /// What takes longer to find. Of the observables only `further`, which knows the ramps, says whether they are conserved.
     fn further(&mut self, further: &Further) -> Further {
         let mut own = Further::of(&self.model, &mut self.equations);
-        let now = self.now();
         for classed in &mut own.classes {
-            if let Ok(rate) = &mut classed.rate {
-                *rate = self.equations.pool.substitute(*rate, &now);
-                *rate = self.equations.pool.simplify(*rate);
-            }
             if let Some(known) = further.classes.iter().find(|known| known.name == classed.name) {
                 classed.class = known.class;
             }
@@ -71,15 +73,26 @@ impl NamedRamps {
         own
     }
 
-    /// Lets s be t in whatever is not differentiated with respect to the time any more.
+    /// Lets s be t; from then on parameters and their rates are functions of the time.
     fn look_at_the_instant(&mut self) {
         let now = self.now();
         let NamedRamps { model, equations } = self;
+        equations.supplements.ramp_rates = model
+            .ramped
+            .named()
+            .iter()
+            .flat_map(|ramp| {
+                let [first, second, third] = ramp.derivatives;
+                [(ramp.parameter, first), (first, second), (second, third)]
+            })
+            .map(|(symbol, rate)| (symbol, equations.pool.variable(rate)))
+            .collect();
         let Equations { pool, .. } = equations;
         let mut all: Vec<&mut Expr> = model.mechanics.expressions_mut();
         all.extend(model.constraints.iter_mut().map(|constraint| &mut constraint.expression));
         all.extend(model.impulses.iter_mut().flat_map(|impulse| &mut impulse.change));
         all.extend(model.events.iter_mut().map(|event| &mut event.when));
+        all.extend(model.observables.iter_mut().map(|observable| &mut observable.expression));
         all.extend(model.definitions.iter_mut().map(|definition| &mut definition.1));
         all.extend(&mut equations.momenta);
         match &mut equations.flow {

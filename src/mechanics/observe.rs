@@ -10,7 +10,7 @@ impl Equations {
     /// The rates of change of time, coordinates and momenta (or variables), for a flow of first
     /// order in time.
     pub fn along_the_flow(&self) -> Vec<(Symbol, Expr)> {
-        let mut seeds = vec![(self.symbols.time, Expr::ONE)];
+        let mut seeds = self.by_time();
         match &self.flow {
             Flow::Lagrange { .. } => {}
             Flow::Hamilton { velocities, momentum_rates } => {
@@ -23,6 +23,13 @@ impl Equations {
                 seeds.extend(self.coordinates.iter().zip(rates).map(|(c, &x)| (c.position, x)));
             }
         }
+        seeds
+    }
+
+    /// The rates of change of the time, and of parameters that change with it under their own names.
+    pub(super) fn by_time(&self) -> Vec<(Symbol, Expr)> {
+        let mut seeds = vec![(self.symbols.time, Expr::ONE)];
+        seeds.extend(&self.supplements.ramp_rates);
         seeds
     }
 

@@ -178,6 +178,7 @@ impl Equations {
     /// The time, coordinates, velocities and momenta.
     pub(super) fn moving(&self) -> Vec<Symbol> {
         let mut moving = vec![self.symbols.time];
+        moving.extend(self.supplements.ramp_rates.iter().map(|(symbol, _)| *symbol));
         moving.extend(self.coordinates.iter().flat_map(|c| [c.position, c.velocity, c.momentum]));
         moving
     }
@@ -220,8 +221,8 @@ impl Equations {
         if self.pool.depends_on_any(g, &others) {
             return None;
         }
-        let mut seeds =
-            vec![(self.symbols.time, Expr::ONE), (self.symbols.energy, self.energy_rate)];
+        let mut seeds = self.by_time();
+        seeds.push((self.symbols.energy, self.energy_rate));
         for (c, &rate) in self.coordinates.clone().iter().zip(&momentum_rates) {
             seeds.push((c.position, self.pool.variable(c.velocity)));
             seeds.push((c.momentum, rate));

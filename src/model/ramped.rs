@@ -54,6 +54,8 @@ pub struct Ramped {
 pub struct NamedRamp {
     /// The parameter.
     pub parameter: Symbol,
+    /// Its first three derivatives by the time.
+    pub derivatives: [Symbol; 3],
     /// Its value as a function of the progress of each part, and of the symbol of its value before the first.
     pub function: Expr,
     /// The progress of each part: it goes evenly from 0 to 1 between two times.
@@ -112,13 +114,15 @@ impl Ramped {
     }
 
     /// Lets a parameter keep its name: it is l + l̇ (t − s) + ½ l̈ (t − s)², of which at the instant s = t the value and the first two
-    /// derivatives are those of any function of the time. No law has higher ones. Returns l̇, l̈ and s as parameters of any value.
+    /// derivatives are those of any function of the time. No law has higher ones; the rate of what follows from it, as of a
+    /// multiplier, may have the third. Returns the derivatives and s as parameters of any value. What the progress of each part
+    /// is called is not `taken`.
     pub fn keep(
         &mut self,
         pool: &mut Pool,
         time: Symbol,
-        parameter: &Parameter,
-        parts: &[RampPart],
+        (parameter, parts): (&Parameter, &[RampPart]),
+        taken: &dyn Fn(&str) -> bool,
     ) -> Vec<Parameter> {
         let (name, shown) = (&parameter.name, &parameter.shown);
         let latex = latex_of_unicode(shown);
@@ -127,19 +131,13 @@ impl Ramped {
             pool.describe(symbol, shown, latex, rank);
             symbol
         };
-        let dots = ["'", "''"].map(|dots| format!("{name}{dots}"));
-        let rate = introduce(
-            &dots[0],
-            &dotted(shown, '\u{307}'),
-            &format!("\\dot{{{latex}}}"),
-            Rank::Rate,
-        );
-        let second = introduce(
-            &dots[1],
-            &dotted(shown, '\u{308}'),
-            &format!("\\ddot{{{latex}}}"),
-            Rank::Rate,
-        );
+        let orders =
+            [("'", '\u{307}', "dot"), ("''", '\u{308}', "ddot"), ("'''", '\u{20db}', "dddot")];
+        let derivatives = orders.map(|(dots, mark, command)| {
+            let written = format!("{name}{dots}");
+            let latex = format!("\\{command}{{{latex}}}");
+            introduce(&written, &dotted(shown, mark), &latex, Rank::Rate)
+        });
         let instant = introduce("the instant", "s", "s", Rank::Variable);
         let any = |symbol, value| Parameter {
             name: String::new(),
@@ -152,15 +150,18 @@ impl Ramped {
             unit: String::new(),
             about: String::new(),
         };
-        let mut added = vec![any(rate, 0.618_034), any(second, -0.414_214)];
+        let [rate, second, third] = derivatives;
+        let mut added = vec![any(rate, 0.618_034), any(second, -0.414_214), any(third, 0.236_068)];
         // the instant is the same for all
         if self.instant.replace(instant).is_none() {
             added.push(any(instant, 0.302_776));
         }
-        self.named.push(NamedRamp::of(pool, parameter, parts));
-        let [own, rate, second, instant, time] =
-            [parameter.symbol, rate, second, instant, time].map(|symbol| pool.variable(symbol));
+        let named = NamedRamp::of(pool, (parameter, derivatives), parts, taken);
+        self.named.push(named);
+        let [own, instant, time] =
+            [parameter.symbol, instant, time].map(|symbol| pool.variable(symbol));
         let since = pool.sub(time, instant);
+        let [rate, second] = [rate, second].map(|symbol| pool.variable(symbol));
         let linear = pool.mul(rate, since);
         let half = pool.ratio(1, 2);
         let square =
@@ -208,9 +209,17 @@ impl Ramped {
 }
 
 impl NamedRamp {
-    fn of(pool: &mut Pool, parameter: &Parameter, parts: &[RampPart]) -> NamedRamp {
+    fn of(
+        pool: &mut Pool,
+        (parameter, derivatives): (&Parameter, [Symbol; 3]),
+        parts: &[RampPart],
+        taken: &dyn Fn(&str) -> bool,
+    ) -> NamedRamp {
         let name = &parameter.name;
-        let initial = unused(pool, [format!("{name}_i"), format!("{name}_before")]);
+        let numbered = |name: String| {
+            std::iter::once(name.clone()).chain((2..).map(move |n| format!("{name}{n}")))
+        };
+        let initial = unused(pool, numbered(format!("{name}_i")), taken);
         pool.describe(
             initial,
             &format!("{}ᵢ", parameter.shown),
@@ -225,8 +234,7 @@ impl NamedRamp {
             let [to, start, duration] =
                 [part.to, part.start, part.duration].map(|e| pool.substitute(e, &own));
             let end = pool.add(start, duration);
-            let symbol =
-                unused(pool, ["u".to_owned()].into_iter().chain((2..).map(|n| format!("u{n}"))));
+            let symbol = unused(pool, numbered("u".to_owned()), taken);
             progress.push(RampProgress { symbol, times: [start, end] });
             let u = pool.variable(symbol);
             let share = part.form.share(pool, u);
@@ -235,16 +243,20 @@ impl NamedRamp {
             function = pool.add(function, change);
             last = to;
         }
-        NamedRamp { parameter: parameter.symbol, function, progress }
+        NamedRamp { parameter: parameter.symbol, derivatives, function, progress }
     }
 }
 
-/// The symbol of the first name that the pool does not have; of the last, if it has them all.
-fn unused(pool: &mut Pool, names: impl IntoIterator<Item = String>) -> Symbol {
+/// The symbol of the first name that neither the pool has nor anything else in the file.
+fn unused(
+    pool: &mut Pool,
+    names: impl IntoIterator<Item = String>,
+    taken: &dyn Fn(&str) -> bool,
+) -> Symbol {
     let mut chosen = String::new();
     for name in names {
         chosen = name;
-        if pool.find_symbol(&chosen).is_none() {
+        if pool.find_symbol(&chosen).is_none() && !taken(&chosen) {
             break;
         }
     }

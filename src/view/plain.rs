@@ -115,10 +115,15 @@ fn value(q: &Quantities<'_>, target: ValueId) -> String {
     let lab: &Lab = q.lab;
     let Some(facts) = lab.value_info(target) else { return String::new() };
     let number = match target {
-        ValueId::Parameter(index) => q.snapshot.parameters.get(index),
-        ValueId::Initial(index) => q.snapshot.initial.get(index),
+        ValueId::Parameter(index) => {
+            let (parameters, time) = (&q.snapshot.parameters, q.snapshot.time);
+            let ramped = lab.ramped_value(index, time, parameters);
+            ramped.or_else(|| parameters.get(index).copied())
+        }
+        ValueId::Initial(index) => q.snapshot.initial.get(index).copied(),
     };
-    let is = number.map_or_else(|| "not known".to_owned(), |v| brief(*v, 6, q.look.glyphs));
+    let is = number.map_or_else(|| "not known".to_owned(), |v| brief(v, 6, q.look.glyphs));
+    let is = if facts.ramped { format!("now {is}, ramped") } else { is };
     let about = if facts.about.is_empty() { String::new() } else { format!(", {}", facts.about) };
     let range = facts.range.map_or_else(String::new, |(min, max, _)| {
         format!(", from {} to {}", brief(min, 4, q.look.glyphs), brief(max, 4, q.look.glyphs))

@@ -15,6 +15,7 @@ use super::theme::Role;
 use super::wrap::{words, words_in};
 use crate::app::{HitTarget, InputField, Lab, Purpose, ValueId, ValueInfo};
 use crate::model;
+use crate::num::significant;
 
 /// Columns of a number.
 const NUMBER: u16 = 10;
@@ -67,8 +68,12 @@ impl ValueList<'_> {
     /// The meaning of the selected value, as far as there are rows left.
     fn about(&self, area: Rect, count: usize) -> Vec<String> {
         let spare = usize::from(area.height).saturating_sub(count);
-        let facts = self.lab.value_info((self.kind)(self.selected));
-        let text = facts.map_or_else(String::new, |facts| facts.about);
+        let target = (self.kind)(self.selected);
+        let facts = self.lab.value_info(target);
+        let text = facts.map_or_else(String::new, |facts| match self.lab.value(target) {
+            Some(before) if facts.ramped => ramped_in_words(&facts.about, before),
+            _ => facts.about,
+        });
         let width = usize::from(area.width.saturating_sub(3));
         let all = words(&text, width).len();
         let mut lines = words_in(&text, width, spare.saturating_sub(usize::from(spare > all)));
@@ -87,14 +92,14 @@ impl ValueList<'_> {
         };
         let name = widest(&|f| glyphs.pick(&f.shown, &f.name).clone(), NAME);
         let number = 3 + name;
-        let unit = widest(&|f| f.unit.clone(), width.saturating_sub(number + NUMBER + 1));
+        let unit = widest(&unit, width.saturating_sub(number + NUMBER + 1));
         ListColumns { number, unit: number + NUMBER + 1, bar: number + NUMBER + unit + 3 }
     }
 
     fn line(&self, canvas: &mut Canvas<'_>, area: Rect, (index, grid): (usize, &ListColumns)) {
         let target = (self.kind)(index);
         let Some(facts) = self.lab.value_info(target) else { return };
-        let value = self.lab.value(target);
+        let value = self.lab.current_value(target);
         let glyphs = canvas.look.glyphs;
         canvas.target(area, HitTarget::Value(target));
         let here = self.selected == index;
@@ -115,12 +120,29 @@ impl ValueList<'_> {
                 canvas.tint(number, Role::Selected);
             }
         }
-        canvas.left(columns(area, grid.unit, grid.bar - grid.unit - 2), Role::Dim, &facts.unit);
+        canvas.left(columns(area, grid.unit, grid.bar - grid.unit - 2), Role::Dim, &unit(&facts));
         if let Some(value) = value {
             let place = columns(area, grid.bar, area.width);
             bar(canvas, place, (target, &facts), value, here && self.focused);
         }
     }
+}
+
+/// The unit of a value, and whether it changes with the time.
+fn unit(facts: &ValueInfo) -> String {
+    let ramped = if facts.ramped { "ramped" } else { "" };
+    [facts.unit.as_str(), ramped]
+        .into_iter()
+        .filter(|part| !part.is_empty())
+        .collect::<Vec<_>>()
+        .join(", ")
+}
+
+/// The meaning of a value that changes with the time, and what it was before.
+fn ramped_in_words(about: &str, before: f64) -> String {
+    let about = if about.is_empty() { String::new() } else { format!("{about}; ") };
+    let before = significant(before, 6, 1e-4..1e6).replace('-', "−");
+    format!("{about}its value now; keys change what it was before the ramp, {before}")
 }
 
 /// Draws the bar of a value within its range, if it has one and there is room.

@@ -292,6 +292,24 @@ impl Course {
     }
 }
 
+/// Q = q cos a + p sin a, P = p cos a − q sin a: F2 and F3 divide by cos a, F1 and F4 by sin a, which is never both zero.
+#[test]
+fn generating_functions_that_break_down_are_named_with_the_determinant() {
+    let text = crate::hand::catalog().find("four-generators").unwrap().text.to_string();
+    for (angle, said) in [
+        ("0.7", None),
+        ("1.57", None),
+        ("1.5707963267948966", Some("F2, F3 break down: ∂P/∂p = ∂Q/∂q = 0")),
+    ] {
+        let text = text.replace("a = { value = 0.7,", &format!("a = {{ value = {angle},"));
+        let mut course = Course::with(&text);
+        course.go(1.0);
+        let (_, words) = shown(&course.app, &plots(&course.app)[0]);
+        let broken = words.iter().find(|line| line.contains("down"));
+        assert_eq!(broken.map(String::as_str), said, "at {angle}: {words:?}");
+    }
+}
+
 /// F2 = q P²/2: p = P²/2 and Q = q P, so that P = ±√(2p): both roots are drawn, and where P alone solves there is but one.
 #[test]
 fn both_square_roots_are_drawn() {

@@ -18,6 +18,9 @@ const MOST: usize = 7;
 /// The steps from a point of a grid to one next to it.
 const WAY: u32 = 8;
 
+/// The points of a grid that are tried, by their rank among the nearest ones.
+const RANKS: [usize; 6] = [0, 1, 2, 4, 8, 16];
+
 /// Images are the same if they differ by less than this part of their size.
 const SAME: f64 = 1e-6;
 
@@ -32,6 +35,15 @@ pub(super) struct Branches {
     others: Vec<Vec<Node>>,
     /// The lines of the other branches.
     pub(super) lines: Vec<Vec<[f64; 2]>>,
+}
+
+/// The images of a point beside its own.
+#[derive(Default)]
+pub(super) struct OtherImages {
+    /// Those on the other branches that are drawn.
+    pub(super) on_grids: Vec<[f64; 2]>,
+    /// Those to which no grid leads, as beyond a caustic or a pole.
+    pub(super) beside: Vec<[f64; 2]>,
 }
 
 impl Branches {
@@ -72,18 +84,39 @@ impl Branches {
     }
 
     /// The images of a point on the other branches.
-    pub(super) fn images(&self, at: &Valuation) -> Vec<[f64; 2]> {
-        self.others.iter().filter_map(|nodes| self.next_to(nodes, at)).collect()
+    pub(super) fn images(&self, at: &Valuation) -> OtherImages {
+        let own = self.new.map(|s| at.at(s));
+        let mut found = OtherImages::default();
+        let known = |found: &OtherImages, image: [f64; 2]| {
+            let mut all = found.on_grids.iter().chain(&found.beside).chain([&own]);
+            all.any(|x| same(*x, image, self.periods))
+        };
+        for nodes in &self.others {
+            let image = self.next_to(nodes, at).filter(|&image| !known(&found, image));
+            found.on_grids.extend(image);
+        }
+        let missing = self.others.len() - found.on_grids.len();
+        if missing > 0 && own.iter().all(|x| x.is_finite()) {
+            for image in self.map.images(&self.equations.pool, at, 2 * MOST + 3) {
+                let image = self.new.map(|s| image.at(s));
+                if found.beside.len() < missing && !known(&found, image) {
+                    found.beside.push(image);
+                }
+            }
+        }
+        found
     }
 
-    /// Whether the image in `at` is not on the branch of the grid, which may have ended there.
+    /// Whether the image in `at` is not on the branch of the grid, which may have ended there, or another image is on none.
     pub(super) fn has_left(&self, at: &Valuation) -> bool {
         let image = self.new.map(|s| at.at(s));
+        let leads = |own| same(own, image, self.periods);
         image.iter().all(|x| x.is_finite())
-            && !self.next_to(&self.main, at).is_some_and(|own| same(own, image, self.periods))
+            && (!self.next_to(&self.main, at).is_some_and(leads)
+                || !self.images(at).beside.is_empty())
     }
 
-    /// The image of a point on the branch of the nodes, from the nearest of them.
+    /// The image of a point on the branch of the nodes, from the nearest of them from which a way leads there.
     fn next_to(&self, nodes: &[Node], at: &Valuation) -> Option<[f64; 2]> {
         let (symbols, window) = self.old;
         let here = symbols.map(|s| at.at(s));
@@ -91,17 +124,21 @@ impl Branches {
             let part = |k: usize| (place[k] - here[k]) / (window[k][1] - window[k][0]);
             part(0) * part(0) + part(1) * part(1)
         };
-        let nearest = nodes.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-        let begin = at.clone().with(self.new.into_iter().zip(nearest.1));
-        let found = (1..=WAY).try_fold(begin, |near, k| {
-            let share = f64::from(k) / f64::from(WAY);
-            let place = |i: usize| {
-                if k == WAY { here[i] } else { nearest.0[i] + (here[i] - nearest.0[i]) * share }
-            };
-            let next = near.with([0, 1].map(|i| (symbols[i], place(i))));
-            self.map.near(&self.equations.pool, next)
-        })?;
-        Some(self.new.map(|s| found.at(s)))
+        let mut nearest: Vec<(f64, &Node)> =
+            nodes.iter().map(|node| (distance(node), node)).collect();
+        nearest.sort_by(|a, b| a.0.total_cmp(&b.0));
+        RANKS.into_iter().filter_map(|rank| nearest.get(rank)).find_map(|(_, node)| {
+            let begin = at.clone().with(self.new.into_iter().zip(node.1));
+            let found = (1..=WAY).try_fold(begin, |near, k| {
+                let share = f64::from(k) / f64::from(WAY);
+                let place = |i: usize| {
+                    if k == WAY { here[i] } else { node.0[i] + (here[i] - node.0[i]) * share }
+                };
+                let next = near.with([0, 1].map(|i| (symbols[i], place(i))));
+                self.map.near(&self.equations.pool, next)
+            })?;
+            Some(self.new.map(|s| found.at(s)))
+        })
     }
 }
 

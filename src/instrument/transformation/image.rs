@@ -1,7 +1,7 @@
 //! What is said of the image of the moving point, and of those on other branches.
 //!
 //! In: how the map is given, whether the image is there, how many branches were found and how many of them lead to the
-//! point. Out: lines of the legend. Never here: how images are found (`branches`).
+//! point, how many images are on none. Out: lines of the legend. Never here: how images are found (`branches`).
 
 use crate::model::{Transformation, TransformationLaw};
 
@@ -29,13 +29,19 @@ impl Image {
     }
 }
 
-/// What is said of the other branches: how many there are, and how many of them lead to the point.
-pub(super) fn of_branches(others: usize, rings: usize) -> Option<String> {
-    match (others, rings) {
-        (0, _) => None,
-        (1, 0) => Some("dim grid: the other branch, which does not lead to here".to_owned()),
-        (1, _) => Some("ring, dim grid: the other branch".to_owned()),
-        (n, k) if n == k => Some(format!("rings, dim grids: {n} other branches")),
-        (n, k) => Some(format!("rings, dim grids: {n} other branches, {k} lead to here")),
+/// What is said of the other branches: how many there are, how many of them lead to the point, and how many images there are
+/// to which none leads.
+pub(super) fn of_branches(others: usize, rings: usize, beside: usize) -> Option<String> {
+    match (others, rings, beside) {
+        (0, _, _) => None,
+        (1, 0, 0) => Some("dim grid: the other branch, which does not lead to here".to_owned()),
+        (1, 0, _) => Some("ring: the other image; no grid leads to it".to_owned()),
+        (1, _, _) => Some("ring, dim grid: the other branch".to_owned()),
+        (n, k, _) if n == k => Some(format!("rings, dim grids: {n} other branches")),
+        (n, k, 0) => Some(format!("rings, dim grids: {n} other branches, {k} lead to here")),
+        (n, k, m) => Some(format!(
+            "rings: {} other images; dim grids: {n} other branches, {k} lead to here",
+            k + m
+        )),
     }
 }

@@ -9,7 +9,7 @@ use crate::dynamics::MethodStep;
 use crate::expr::Pool;
 use crate::integrate::method_named;
 use crate::mechanics::{Equations, TransformationReport, Valuation};
-use crate::model::Model;
+use crate::model::{GeneratingType, Model};
 use crate::num::significant;
 use crate::system::System;
 
@@ -26,9 +26,18 @@ pub(super) struct Judged {
 
 impl Judged {
     /// Nothing is said of what is no map.
-    pub(super) fn of(pool: &Pool, report: Option<&TransformationReport>) -> Self {
+    pub(super) fn of(
+        model: &Model,
+        equations: &Equations,
+        report: Option<&TransformationReport>,
+    ) -> Self {
+        let lines = |report: &TransformationReport| {
+            let mut lines = lines(&equations.pool, report);
+            lines.extend(break_down(&report.map.broken_down(model, equations)));
+            lines
+        };
         Self {
-            lines: report.map_or_else(Vec::new, |report| lines(pool, report)),
+            lines: report.map_or_else(Vec::new, lines),
             canonical: report.is_some_and(|report| report.verdict.canonical),
             residual: report.and_then(|report| report.verdict.residual),
             off_step: None,
@@ -86,6 +95,15 @@ fn step_lines(found: &MethodStep, method: &str, within: f64) -> Vec<String> {
         lines.push(format!("step: M = ({})", written(step)));
     }
     lines
+}
+
+/// What is said of the generating functions that a map has not at these values of the parameters.
+fn break_down(broken: &[(GeneratingType, String)]) -> Option<String> {
+    let types: Vec<&str> = broken.iter().map(|(of, _)| of.name()).collect();
+    let zeros: Vec<&str> = broken.iter().map(|(_, determinant)| determinant.as_str()).collect();
+    let verb = if types.len() == 1 { "breaks" } else { "break" };
+    (!types.is_empty())
+        .then(|| format!("{} {verb} down: {} = 0", types.join(", "), zeros.join(" = ")))
 }
 
 /// What is said of a transformation.

@@ -25,11 +25,20 @@ impl Check<'_> {
             }
         }
         let time = self.model.symbols.time;
+        // names that come later in the file are not in the pool yet
+        let taken = |name: &str| {
+            let definitions = draft.definitions.iter().map(|(name, _)| name);
+            let observables = draft.observables.iter().filter_map(|o| o.name.as_ref());
+            let new = draft.transformations.iter().flat_map(|t| t.new.iter());
+            let generators = draft.generators.iter().filter_map(|g| g.name.as_ref());
+            let mut all = definitions.chain(observables).chain(new).chain(generators);
+            all.any(|other| other.get_ref() == name)
+        };
         let Model { ramped, pool, parameters, .. } = &mut self.model;
         for (symbol, parts) in ways {
             let named = parameters.iter().find(|p| p.symbol == symbol && self.keeps_ramps).cloned();
             match named {
-                Some(named) => parameters.extend(ramped.keep(pool, time, &named, &parts)),
+                Some(named) => parameters.extend(ramped.keep(pool, time, (&named, &parts), &taken)),
                 None => ramped.lead(pool, time, symbol, &parts),
             }
         }

@@ -380,3 +380,20 @@ fn what_has_no_angle_along_its_motion_is_told_so() {
     assert_eq!(rows.next(), Some("t,r,energy,action,frequency,angle,residual"));
     assert_eq!(rows.count(), 5);
 }
+
+/// An energy next to that of the separatrix is told from it, and the action of libration from that of a turn.
+#[test]
+fn a_separatrix_is_told_from_what_is_next_to_it() {
+    let close = ["actions", "pendulum-action", "--energy=0.999999"];
+    let text = phaselab(&close).success();
+    assert!(text.contains("0.999999 ") && text.contains(" 15.9999"), "{text}");
+    let said = "separatrix at energy 1: actions 16 of libration, 8 a turn of rotation";
+    assert!(text.contains(said), "{text}");
+    let object = phaselab(&[&close[..], &["--format=json"]].concat()).json();
+    near(&object["separatrices"][0]["turn"], 8.0, 1e-12);
+    // what has no turns has none of that action either
+    let object = phaselab(&["actions", "double-well", "--format=json"]).json();
+    assert_eq!(object["separatrices"][0]["turn"], Value::Null, "{object}");
+    let text = phaselab(&["actions", "double-well"]).success();
+    assert!(!text.contains("turn of rotation"), "{text}");
+}

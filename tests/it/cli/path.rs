@@ -41,6 +41,13 @@ fn several_true_paths_between_the_same_ends() {
     close(action(&swing), 3.344_291_248_362_989_3, 1e-14);
     assert_eq!((&swing["kind"], &swing["index"]), (&"minimum".into(), &0.into()));
     assert_eq!(swing["stationary"], true);
+    // the swing turns at 1.8: what is nearer to it than to rest leads there, and what is nearer to rest to rest
+    for (guess, nearest) in [("1.0*sin(pi*t/4)", 3.344_291_248_362_989_3), ("0.8*sin(pi*t/4)", 4.0)]
+    {
+        let guess = format!("theta={guess}");
+        let found = path(PENDULUM, &[&ends[..], &["--near", &guess]].concat());
+        close(action(&found), nearest, 1e-14);
+    }
     assert_eq!(swing["conjugate"], serde_json::json!([]));
     // before the conjugate point rest is least
     let short = path(PENDULUM, &["--in", "3", "--from", "theta=0", "--to", "theta=0"]);

@@ -3,7 +3,7 @@
 
 use serde_json::{Value, json};
 
-use super::with_file;
+use super::{phaselab, with_file};
 use crate::build::{names, read, sample};
 
 const FREE: &str = "title = \"T\"\n[coordinates]\nq = { initial = 1.0, momentum = 0.3 }\n\
@@ -189,6 +189,33 @@ fn check_functions(given: &str, old: [&str; 2], expected: [bool; 4]) {
             }
         }
     }
+}
+
+/// F2 = q P + h H(q, P) of a particle with the mass 1 + q²: p is quadratic in P, but Q = q + h P/(1 + q²) is linear, so that F1 has
+/// no root in it and holds on both branches. By hand F1 = ½ h q² − (1 + q²)(Q − q)²/(2h).
+#[test]
+fn legendre_transforms_choose_no_branch() {
+    let found = phaselab(&["derive", "two-roots", "--format", "json"]).json();
+    let function = found["transformations"][0]["generating_functions"]["F1"]["F"].as_str();
+    let function = function.expect("F1");
+    let mut model = names(&["z"], &["q", "Q", "h"]);
+    let [function, by_hand] =
+        [function, "h*q^2/2 - (1 + q^2)*(Q - q)^2/(2*h)"].map(|text| read(&mut model, text));
+    for seed in 0..20 {
+        let sample = sample(seed);
+        let at = |s| sample(s) * if seed % 2 == 0 { 1.0 } else { -1.7 };
+        let values = [function, by_hand].map(|e| model.pool.evaluate(e, &at));
+        assert!((values[0] - values[1]).abs() < 1e-12 * (1.0 + values[1].abs()), "{values:?}");
+    }
+}
+
+/// A turn by a, twice: H = (p² + q²)/2 keeps its form, and nothing is divided by cos 2a.
+#[test]
+fn k_of_a_linear_map_is_short() {
+    let found = phaselab(&["derive", "four-generators", "--format", "json"]).json();
+    let all = found["transformations"].as_array().expect("a list");
+    let twice = all.iter().find(|one| one["name"] == "twice").expect("a composition");
+    assert_eq!(twice["K"], "1/2*P5^2 + 1/2*Q5^2");
 }
 
 #[test]

@@ -76,6 +76,38 @@ fn the_curves_of_a_pendulum_are_the_actions_of_the_varied_paths() {
     assert!(slope.abs() > 0.01, "{slope}");
 }
 
+/// ∂S/∂q = p and ∂S/∂t = −H at the end, with the other sign at the start, of motions known in closed form: an oscillator, and a
+/// particle under a force that grows with the time, whose energy is not conserved.
+#[test]
+fn slopes_by_the_ends_are_momenta_and_energies() {
+    let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-9 * (1.0 + b.abs()), "{a} is not {b}");
+    let check = |law: &str,
+                 path: &dyn Fn(f64) -> [f64; 2],
+                 momentum: &dyn Fn(f64) -> f64,
+                 energy: &dyn Fn(f64) -> f64| {
+        for duration in [0.7, 2.0, 5.0] {
+            let found = beside(law, path, duration).1.unwrap();
+            let [first, last] = found.ends.expect("the slopes at both ends");
+            near(last.by_position, momentum(duration));
+            near(first.by_position, -momentum(0.0));
+            near(last.by_time, -energy(duration));
+            near(first.by_time, energy(0.0));
+            near(last.momentum, momentum(duration));
+            near(first.energy, energy(0.0));
+        }
+    };
+    let swing = |t: f64| [t.cos() + 0.3 * t.sin(), -t.sin() + 0.3 * t.cos()];
+    check("1/2*x'^2 - 1/2*x^2", &swing, &|t| swing(t)[1], &|_| 0.5 * (1.0 + 0.09));
+    // x″ = t: the energy ½ v² − t x is not conserved
+    let driven = |t: f64| [t.powi(3) / 6.0 + 0.4 * t, 0.5 * t * t + 0.4];
+    let energy = |t: f64| 0.5 * driven(t)[1].powi(2) - t * driven(t)[0];
+    check("1/2*x'^2 + t*x", &driven, &|t| driven(t)[1], &energy);
+    // what is no motion has other slopes
+    let wrong = beside("1/2*x'^2 - 1/2*x^2", |t| [1.0 + t, 1.0], 2.0).1.unwrap();
+    let [_, last] = wrong.ends.expect("the slopes at both ends");
+    assert!((last.by_position - last.momentum).abs() > 0.1);
+}
+
 #[test]
 fn what_has_no_action_is_told() {
     let (_, found) = beside("1/2*x'^2 - 1/x", |t| [t - 1.0, 1.0], 2.0);
@@ -113,6 +145,13 @@ fn picture(text: &str, time: f64) -> (String, impl Fn(&str) -> Option<f64>) {
 fn the_lab_says_when_the_action_is_no_longer_least() {
     let (shown, measure) = picture(OSCILLATOR, 3.1);
     assert!(shown.contains("least of all paths nearby"), "{shown}");
+    assert!(
+        shown.contains("= p,") && shown.contains("= −p, = H") && !shown.contains('≠'),
+        "{shown}"
+    );
+    // x = cos t up to t = 3
+    assert!((measure("by_place").unwrap() + 3.0_f64.sin()).abs() < 1e-9);
+    assert!((measure("by_time").unwrap() + 0.5).abs() < 1e-9);
     assert_eq!(measure("foci"), Some(0.0));
     assert!((measure("value").unwrap() + (2.0 * 3.0_f64).sin() / 4.0).abs() < 1e-12);
     assert!(measure("rise").unwrap() > 0.0);

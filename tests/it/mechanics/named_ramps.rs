@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use phaselab::diagnostic::Document;
 use phaselab::expr::{Expr, Pool};
-use phaselab::mechanics::{self, Equations, NamedRamps};
+use phaselab::mechanics::{self, Equations, Further, NamedRamps};
 use phaselab::model::Model;
 
 const RAMP: &str =
@@ -45,6 +45,7 @@ fn states() -> Vec<[HashMap<&'static str, f64>; 2]> {
         let mut named = own.clone();
         named.insert("l", 2.0 + 3.0 * u * u - 2.0 * u.powi(3));
         named.insert("l'", 6.0 * (u - u * u) / 4.0);
+        named.insert("l'''", if u > 0.0 && u < 1.0 { -12.0 / 64.0 } else { 0.0 });
         named.insert("l''", if u > 0.0 && u < 1.0 { 6.0 * (1.0 - 2.0 * u) / 16.0 } else { 0.0 });
         [own, named]
     };
@@ -122,6 +123,58 @@ fn a_constraint_has_the_second_rate_of_its_parameter() {
     let pool = &named.equations.pool;
     let multiplier = named.equations.multipliers.as_ref().unwrap()[0];
     assert!(pool.symbols_of(multiplier).iter().any(|&s| pool.symbol_info(s).name == "l''"));
+}
+
+/// λ has l̈ in it, and its rate the third derivative.
+#[test]
+fn the_rate_of_a_multiplier_has_the_third_rate_of_its_parameter() {
+    let tension = "[[observables]]\nname = \"tension\"\nexpression = \"lambda_string\"\n";
+    let (model, mut equations) = derived(&format!("{STRING}{RAMP}{tension}"));
+    let further = Further::of(&model, &mut equations);
+    let (named, own) = NamedRamps::readable(&equations, &further).expect("a law by name");
+    let rate = |further: &Further| {
+        let classed = further.classes.iter().find(|classed| classed.name == "tension");
+        *classed.expect("an observable").rate.as_ref().expect("a rate")
+    };
+    let (written_out, by_name) = (rate(&further), rate(&own));
+    let pool = &named.equations.pool;
+    let multiplier = named.equations.multipliers.as_ref().unwrap()[0];
+    for [mut own, mut at] in states() {
+        // on the constraint, with the λ that keeps it
+        let ([l, rate, turning], (sin, cos)) = ([at["l"], at["l'"], 0.7], at["x"].sin_cos());
+        let moved = [
+            ("x", l * sin),
+            ("y", l * cos),
+            ("x'", rate * sin + turning * l * cos),
+            ("y'", rate * cos - turning * l * sin),
+        ];
+        at.extend(moved);
+        let tension = value(pool, multiplier, &at);
+        at.insert("lambda_string", tension);
+        own.extend(moved);
+        own.insert("lambda_string", tension);
+        let (expected, found) =
+            (value(&equations.pool, written_out, &own), value(pool, by_name, &at));
+        assert!((found - expected).abs() <= 1e-10 * (1.0 + expected.abs()), "{found}, {expected}");
+    }
+    assert!(pool.symbols_of(by_name).iter().any(|&s| pool.symbol_info(s).name == "l'''"));
+}
+
+/// What the progress of a ramp is called, and the value before it, means nothing else in the file.
+#[test]
+fn the_names_of_a_ramp_are_free() {
+    let file = PENDULUM.replace(
+        "[lagrangian]\nL = \"",
+        "[definitions]\nu = \"m*l\"\nl_i = \"l^2\"\n[lagrangian]\nL = \"0*u*l_i + ",
+    ) + "[[observables]]\nname = \"u2\"\nexpression = \"l\"\n";
+    let (_, equations) = derived(&format!("{file}{RAMP}"));
+    let named = equations.supplements.named_ramps.as_deref().expect("a law by name");
+    let [ramp] = named.model.ramped.named() else { panic!("one ramp") };
+    let pool = &named.model.pool;
+    let mut names: Vec<&str> =
+        pool.symbols_of(ramp.function).iter().map(|&s| pool.symbol_info(s).name.as_str()).collect();
+    names.sort_unstable();
+    assert_eq!(names, ["l_i2", "u3"]);
 }
 
 #[test]

@@ -8,8 +8,8 @@ use crate::hand::{lab, press};
 
 /// P of p = P − h q P²/(1 + q²)² + h q has two roots; the second passes through infinity at q = 0, where its branch ends.
 #[test]
-fn a_branch_that_does_not_lead_to_the_point_has_no_ring() {
-    let [right, left] = [2.0, 5.0].map(|time| {
+fn an_image_to_which_no_grid_leads_is_found() {
+    let [right, left] = [2.0, 1.2].map(|time| {
         let mut app = lab("two-roots", time);
         press(&mut app, "Wait");
         app
@@ -32,20 +32,59 @@ fn a_branch_that_does_not_lead_to_the_point_has_no_ring() {
         }
         (rings, points, words)
     };
-    let (rings, points, words) = drawn(&right);
-    assert_eq!((rings.len(), points.len()), (1, 1), "{words:?}");
     // Q = q + h P/(1 + q²) of both, and the sum of the roots of the quadratic, (1 + q²)²/(h q)
     let h = 1.5;
-    let ([ring, other], [point, own]) = (rings[0], points[0]);
-    let square = h * (other - own) / (ring - point);
-    let q = (square - 1.0).sqrt();
-    assert!((point - h * own / square - q).abs() < 1e-8, "{rings:?}, {points:?}");
-    assert!((own + other - square * square / (h * q)).abs() < 1e-8, "{rings:?}, {points:?}");
+    let check = |rings: &[[f64; 2]], points: &[[f64; 2]], sign: f64| {
+        let ([ring, other], [point, own]) = (rings[0], points[0]);
+        let square = h * (other - own) / (ring - point);
+        let q = sign * (square - 1.0).sqrt();
+        assert!((point - h * own / square - q).abs() < 1e-8, "{rings:?}, {points:?}");
+        assert!((own + other - square * square / (h * q)).abs() < 1e-8, "{rings:?}, {points:?}");
+    };
+    let (rings, points, words) = drawn(&right);
+    assert_eq!((rings.len(), points.len()), (1, 1), "{words:?}");
+    check(&rings, &points, 1.0);
     assert!(words.contains(&"ring, dim grid: the other branch".to_owned()), "{words:?}");
-    let (rings, _, words) = drawn(&left);
-    assert!(rings.is_empty());
-    let said = "dim grid: the other branch, which does not lead to here".to_owned();
+    // the second image is there also where the grids that are known do not lead
+    let (rings, points, words) = drawn(&left);
+    assert_eq!((rings.len(), points.len()), (1, 1), "{words:?}");
+    check(&rings, &points, -1.0);
+    let said = "ring: the other image; no grid leads to it".to_owned();
     assert!(words.contains(&said), "{words:?}");
+}
+
+/// Wherever the motion has an image it has two, but where q vanishes: as many as the quadratic has roots, of which each is
+/// found, before and after the caustics.
+#[test]
+fn no_image_that_exists_is_denied() {
+    let mut course = Course::with(&crate::hand::catalog().find("two-roots").unwrap().text);
+    let h = 1.5;
+    for step in 1..=40 {
+        course.go(0.25 * f64::from(step));
+        let plot = plots(&course.app)[0].clone();
+        let lab = course.app.lab.as_ref().expect("a lab");
+        let present = lab.present().expect("a motion");
+        let at = |name: &str| {
+            let channels = present.physics.system.channels();
+            present.value(channels.iter().position(|c| c.name == name).expect("a channel"))
+        };
+        let (q, p) = (at("q"), at("p_q"));
+        let under = 1.0 - 4.0 * h * q * (p - h * q) / (1.0 + q * q).powi(2);
+        let picture = plot.kind.picture(&plot, &present, [0.0, 1.0], lab.answer(&plot));
+        let Some(Picture::Axes { layers, .. }) = picture else { panic!("it has axes") };
+        let rings: Vec<[f64; 2]> = layers
+            .iter()
+            .filter_map(|(_, layer)| match layer {
+                Layer::Point(at, Sign::Ring, _) => Some(*at),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(rings.len(), usize::from(under > 0.0), "at {}: {under}", present.time);
+        if let [[_, other]] = rings[..] {
+            let far = (1.0 + q * q).powi(2) / (2.0 * h * q) * (1.0 + under.sqrt());
+            assert!((other - far).abs() < 1e-8 * far.abs(), "{other} at {}", present.time);
+        }
+    }
 }
 
 /// Where 1 + 4 h q (h q − p)/(1 + q²)² is negative the quadratic for P has no root: that is told in both views, by every map

@@ -1,0 +1,47 @@
+//! Where generating functions break down: F1(q, Q) exists where det ∂Q/∂p is not zero, F2(q, P) where det ∂P/∂p is not, F3(p, Q)
+//! where det ∂Q/∂q is not, F4(p, P) where det ∂P/∂q is not.
+//!
+//! In: a map at values of the parameters. Out: the types, one for all pairs, that it has at no point near the start. Never
+//! here: the functions themselves (`generating`).
+//! Source: *The Principles of Dynamics*, § 3.2.1.
+
+use super::canonical::PhaseMap;
+use super::equations::Equations;
+use crate::model::{GeneratingType, Model};
+
+/// The points at which a determinant vanishes.
+const POINTS: usize = 8;
+
+/// A determinant vanishes if it is below this part of the product of the sizes of M.
+const VANISHES: f64 = 1e-12;
+
+impl PhaseMap {
+    /// The types of which the determinant vanishes, each with what that is the determinant of.
+    pub fn broken_down(
+        &self,
+        model: &Model,
+        equations: &Equations,
+    ) -> Vec<(GeneratingType, String)> {
+        let n = self.old.len() / 2;
+        let images = self.images(model, equations, POINTS);
+        let matrices: Vec<_> =
+            images.iter().filter_map(|at| self.tangent(&equations.pool, at)).collect();
+        let vanishes = |of: &GeneratingType| {
+            let row = if of.has_new_position() { 0 } else { n };
+            let column = if of.has_position() { n } else { 0 };
+            !matrices.is_empty()
+                && matrices.iter().all(|matrix| {
+                    let block = matrix.view((row, column), (n, n)).into_owned();
+                    let size: f64 = (0..n).map(|_| matrix.amax()).product();
+                    block.determinant().abs() <= VANISHES * size
+                })
+        };
+        let named = |of: GeneratingType| {
+            let new = if of.has_new_position() { 'Q' } else { 'P' };
+            let old = if of.has_position() { 'p' } else { 'q' };
+            let det = if n > 1 { "det " } else { "" };
+            (of, format!("{det}∂{new}/∂{old}"))
+        };
+        GeneratingType::ALL.into_iter().filter(vanishes).map(named).collect()
+    }
+}
