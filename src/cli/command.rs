@@ -34,6 +34,7 @@ use super::new;
 use super::orbit;
 use super::path;
 use super::play;
+use super::plot;
 use super::record;
 use super::reverse;
 use super::run;
@@ -107,6 +108,7 @@ enum Command {
     Record(Box<record::Arguments>),
     Script(demo::Arguments),
     Play(play::Arguments),
+    Plot(plot::Arguments),
     Tour(lesson::Tour),
     Lessons(lesson::Lessons),
     Lesson(lesson::Check),
@@ -191,6 +193,7 @@ fn execute(command: Command, interrupt: &Interrupt) -> Result<(), CommandError> 
         Command::Actions(arguments) => actions::perform(&arguments, interrupt),
         Command::Record(arguments) => record::perform(&arguments),
         Command::Script(arguments) => demo::perform(&arguments),
+        Command::Plot(arguments) => plot::perform(&arguments, interrupt),
         Command::Play(arguments) => play::perform(&arguments, options, interrupt),
         Command::Tour(arguments) => lesson::tour(&arguments, interrupt, &LESSONS),
         Command::Lessons(arguments) => lesson::perform(&arguments, interrupt, &LESSONS),

@@ -17,6 +17,7 @@ mod list;
 mod manual;
 mod new;
 mod path;
+mod plot;
 mod ramp;
 mod record;
 mod reverse;
