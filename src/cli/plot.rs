@@ -19,7 +19,7 @@ Examples:
   phaselab plot henon-heiles-section.csv
   phaselab plot pendulum.csv --x theta --y p_theta
   phaselab plot henon-heiles-map.csv --size 120x40
-  phaselab section henon-heiles | phaselab plot - --x y --y p_y")]
+  phaselab plot - --x y --y p_y")]
 pub(super) struct Arguments {
     /// A file of comma-separated values, or `-` for standard input.
     #[arg(value_name = "TABLE.csv")]

@@ -232,6 +232,7 @@ fn digits(x: f64, error: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::math;
 
     fn sentence(ratio: f64, doubt: f64) -> String {
         let frequencies = vec![(1.0, 0.0), (ratio, doubt / SIGMAS)];
@@ -286,7 +287,8 @@ mod tests {
     fn with_third(amplitude: f64, frequency: f64) -> Option<Torus> {
         let value = |k: u32| {
             let t = 0.1 * f64::from(k);
-            (t).cos() + 0.4 * (3.0_f64.sqrt() * t).cos() + amplitude * (frequency * t).cos()
+            let [one, two] = [math::cos(t), math::cos(3.0_f64.sqrt() * t)];
+            one + 0.4 * two + amplitude * math::cos(frequency * t)
         };
         let signal = Signal { values: (0..4096).map(value).collect(), turn: None };
         Torus::of(&[signal], 0.1, 2, None)

@@ -45,7 +45,7 @@ mod tests {
         check(999_960.0, "1e6");
         check(0.000_099_999, "0.0001");
         check(6.022e23, "6.022e23");
-        check(f64::NAN, 8, "NaN");
+        check(f64::NAN, "NaN");
         assert_eq!(significant(1_234_567.0, 6, 1e-4..1e7), "1234570");
         assert_eq!(significant(1e-30, 4, 0.0..f64::INFINITY), format!("{}", 1e-30));
     }

