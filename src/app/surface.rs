@@ -60,7 +60,7 @@ impl App {
             Direction::Falling => "either",
             Direction::Either => "rising",
         };
-        let surface = NewSurface { on: None, direction: Some(next) };
+        let surface = NewSurface { on: None, axes: None, direction: Some(next) };
         let sentence = format!("Crossings: {next}; E shows it in the text.");
         self.write_surface((plot, &SurfaceView::Known(view)), &surface, sentence)
     }
@@ -74,8 +74,25 @@ impl App {
             (true, Some(view)) => Ok(SurfaceView::Known(view)),
             _ => lab.axes_of_section(shown, &typed).map(SurfaceView::New),
         };
-        match view.and_then(|view| Ok((read(&lab.loaded, &typed)?, view))) {
-            Ok((surface, view)) => {
+        // a coordinate that the surface holds is no axis of its points
+        let axes = match view {
+            Ok(SurfaceView::Known(_)) if lab.holds_an_axis(shown, &typed) => {
+                lab.free_axes(&typed).map(Some)
+            }
+            _ => Ok(None),
+        };
+        let found = view.and_then(|view| Ok((read(&lab.loaded, &typed)?, view, axes?)));
+        match found {
+            Ok((surface, view, axes)) => {
+                let channels = lab.loaded.system.channels();
+                let column = |name: &String| channels.iter().position(|c| c.name == *name);
+                let columns: Vec<usize> = axes.iter().flatten().filter_map(column).collect();
+                let surface = NewSurface { axes, ..surface };
+                if let (Some(lab), [x, y]) = (&mut self.lab, &columns[..])
+                    && let Some(shown) = lab.plots.get_mut(plot)
+                {
+                    shown.columns = vec![vec![*x], vec![*y]];
+                }
                 let sentence = format!("Section at {typed}; E shows it in the text.");
                 self.write_surface((plot, &view), &surface, sentence)
             }
@@ -156,7 +173,7 @@ fn read(loaded: &Loaded, typed: &str) -> Result<NewSurface, String> {
             });
         }
         let on = Some(NewZero::OfEvent(name.to_owned()));
-        return Ok(NewSurface { on, direction });
+        return Ok(NewSurface { on, axes: None, direction });
     }
     let default = "rising";
     let (on, direction) = if let Some(period) = body.strip_prefix("every ") {
@@ -166,7 +183,13 @@ fn read(loaded: &Loaded, typed: &str) -> Result<NewSurface, String> {
             return Err("Write x = 0, rising; or every 2*pi/w; or event NAME.".to_owned());
         };
         let (left, right) = (left.trim(), right.trim());
-        let difference = if right == "0" { left.to_owned() } else { format!("{left} - ({right})") };
+        let difference = match right {
+            "0" => left.to_owned(),
+            _ if right.chars().all(|c| c.is_alphanumeric() || c == '.') => {
+                format!("{left} - {right}")
+            }
+            _ => format!("{left} - ({right})"),
+        };
         match turn(loaded, left) {
             None => (difference, direction.unwrap_or(default)),
             Some(_) if direction.is_some_and(|direction| direction != "either") => {
@@ -183,7 +206,7 @@ fn read(loaded: &Loaded, typed: &str) -> Result<NewSurface, String> {
         let what = scope.diagnostics.first().map(ToString::to_string);
         return Err(format!("{}.", what.unwrap_or_else(|| "it cannot be read".to_owned())));
     }
-    Ok(NewSurface { on: Some(NewZero::Of(on)), direction: Some(direction) })
+    Ok(NewSurface { on: Some(NewZero::Of(on)), axes: None, direction: Some(direction) })
 }
 
 /// What an angle is divided by so that its sine vanishes once in a turn; nothing if this is not a coordinate with a period.
@@ -219,13 +242,30 @@ impl Lab {
         {
             return Ok([x, y]);
         }
+        self.free_axes(typed)
+    }
+
+    /// The coordinate that a surface holds, if it is typed as one.
+    fn held(&self, typed: &str) -> Option<usize> {
+        let (left, _) = typed.split_once('=')?;
         let coordinates = &self.loaded.model.coordinates;
-        let held = |name: &str, shown: &str| {
-            typed.split_once('=').is_some_and(|(left, _)| [name, shown].contains(&left.trim()))
-        };
-        let free = (0..coordinates.len())
-            .find(|&i| !held(&coordinates[i].name, &coordinates[i].shown))
-            .unwrap_or(0);
+        coordinates.iter().position(|c| [&c.name[..], &c.shown[..]].contains(&left.trim()))
+    }
+
+    /// Whether a surface holds the coordinate of an axis.
+    fn holds_an_axis(&self, shown: &Plot, typed: &str) -> bool {
+        let channels = self.loaded.system.channels();
+        let held = self.held(typed).map(ChannelKind::Position);
+        let kind = |axis: usize| Some(channels.get(shown.column(axis)?)?.kind);
+        held.is_some() && (kind(0) == held || kind(1) == held)
+    }
+
+    /// A coordinate that a surface does not hold, and its rate.
+    fn free_axes(&self, typed: &str) -> Result<[String; 2], String> {
+        let channels = self.loaded.system.channels();
+        let coordinates = &self.loaded.model.coordinates;
+        let held = self.held(typed);
+        let free = (0..coordinates.len()).find(|&i| Some(i) != held).unwrap_or(0);
         let of = |kind| channels.iter().find(|c| c.kind == kind).map(|c| c.name.clone());
         let rate = of(ChannelKind::Momentum(free)).or_else(|| of(ChannelKind::Velocity(free)));
         // the variables of a Poisson system have no rates of their own

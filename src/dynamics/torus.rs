@@ -272,7 +272,7 @@ mod tests {
         assert!(of_denominator(12).starts_with("lies on a resonant torus"));
         let beyond = of_denominator(13);
         assert!(beyond.starts_with("lies on a torus: "), "{beyond}");
-        assert!(beyond.contains("whole numbers up to 12 is 12 : "), "{beyond}");
+        assert!(beyond.contains("whole numbers up to 12 is 11 : 12"), "{beyond}");
     }
 
     #[test]

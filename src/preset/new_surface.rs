@@ -12,6 +12,8 @@ use super::rewrite::push;
 pub struct NewSurface {
     /// What vanishes on it; nothing leaves that of the view.
     pub on: Option<NewZero>,
+    /// The quantities of the axes, if others than those of the view.
+    pub axes: Option<[String; 2]>,
     /// Which crossings count: `rising`, `falling` or `either`; nothing leaves those of the event.
     pub direction: Option<&'static str>,
 }
@@ -81,6 +83,9 @@ impl NewSurface {
                 }
                 if let Some(direction) = direction {
                     table.insert("direction", value(direction));
+                }
+                for (key, quantity) in ["x", "y"].into_iter().zip(self.axes.iter().flatten()) {
+                    table.insert(key, value(quantity.as_str()));
                 }
             }
         }

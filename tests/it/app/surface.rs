@@ -74,16 +74,22 @@ fn the_surface_of_a_section_is_typed() {
     write(&mut app, "y = 0.1, falling");
     let text = checked(&mut app);
     assert!(
-        text.contains("on = \"y - (0.1)\"") && text.contains("direction = \"falling\""),
+        text.contains("on = \"y - 0.1\"") && text.contains("direction = \"falling\""),
         "{text}"
     );
     // the file's title and ranges were those of another surface
     assert!(!text.contains("Section x = 0"), "{text}");
-    assert_eq!(shown(&app), ("y - (0.1)".to_owned(), Direction::Falling));
+    assert_eq!(shown(&app), ("y - 0.1".to_owned(), Direction::Falling));
     assert!(app.overlay.is_none());
+    // y, which it holds, was an axis
+    let lab = app.lab.as_ref().unwrap();
+    let (_, plot) = lab.focused_plot().unwrap();
+    let axes = [0, 1].map(|k| lab.loaded.system.channels()[plot.column(k).unwrap()].name.as_str());
+    assert_eq!(axes, ["x", "p_x"]);
+    assert!(text.contains("x = \"x\"") && text.contains("y = \"p_x\""), "{text}");
     // and so it is when it is asked for again
     press(&mut app, "L");
-    assert_eq!(typed(&app), "y - (0.1) = 0, falling");
+    assert_eq!(typed(&app), "y - 0.1 = 0, falling");
 }
 
 #[test]
