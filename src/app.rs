@@ -59,6 +59,7 @@ mod session;
 mod side;
 mod speed;
 mod state;
+mod surface;
 mod symmetries;
 mod timeline;
 mod typed_axis;

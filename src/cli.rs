@@ -43,6 +43,7 @@ mod output;
 mod path;
 mod path_function;
 mod play;
+mod plot;
 mod record;
 mod report;
 mod reverse;

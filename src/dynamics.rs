@@ -16,6 +16,7 @@ mod drive;
 mod driven_orbit;
 mod equilibria;
 mod equilibrium;
+mod equilibrium_names;
 mod equilibrium_units;
 mod error;
 mod family;
@@ -38,6 +39,8 @@ mod principle;
 mod resonance;
 mod return_growth;
 mod rotation;
+mod search_budget;
+mod singular_orbit;
 mod small_oscillation;
 mod spectral_fit;
 mod spectral_line;
@@ -57,9 +60,10 @@ pub use conformal::conformal_rate;
 pub use conjugate::{conjugate_points, conjugate_points_at_energy};
 pub use continuation::{driven_family, family};
 pub use drive::drive_period;
-pub use driven_orbit::driven_orbit;
+pub use driven_orbit::{driven_orbit, nearest_driven_orbit};
 pub use equilibria::{equilibria, equilibria_watched, with_virtual_work};
 pub use equilibrium::{Equilibria, Equilibrium};
+pub use equilibrium_names::name_equilibria;
 pub use error::DynamicsError;
 pub use family::{Along, Bifurcation, Family, Member};
 pub use flow_map::{FlowMap, flow_map};
@@ -68,7 +72,7 @@ pub use gali::{Gali, gali};
 pub use lyapunov::{Chaos, Lyapunov, lyapunov};
 pub use method_step::MethodStep;
 pub use newton::Fixed;
-pub use orbit::{Orbit, periodic_orbit};
+pub use orbit::{Orbit, nearest_orbit, periodic_orbit};
 pub use phase_space::{PhaseSpace, VectorField};
 pub use principle::{Hamiltonian, abbreviated_action, action_at_energy};
 pub use return_growth::{ReturnGrowth, growth_after, return_growth};
@@ -82,6 +86,7 @@ pub use stationary_path::{
     PathKind, StationaryPath, morse_index, nearest_stationary_path, stationary_path,
 };
 pub use transverse::Removed;
+pub use unclosed_motion::explained;
 pub use variation::{
     EndSlope, VARIATIONS, VariedAction, varied_abbreviated_action, varied_action,
     varied_phase_action,

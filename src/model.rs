@@ -27,7 +27,7 @@ pub use claim::{
 };
 pub use constraint::{Constraint, multiplier_name};
 pub use coordinate::Coordinate;
-pub use description::{CommonSymbols, Info, Mechanics, Model, RunSettings};
+pub use description::{CommonSymbols, Info, Mechanics, Model, NamedEquilibrium, RunSettings};
 pub use occurrence::{Direction, Event, EventAction, Impulse};
 pub use parameter::{Parameter, RangeSpacing};
 pub use picture::{Follow, Point, Shape, Variation, View, Viewpoint, WrittenExpr};

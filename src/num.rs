@@ -32,7 +32,7 @@ pub use double_double::DoubleDouble;
 pub use eigenvalues::eigenvalues;
 pub use extended_range::ExtendedRange;
 pub use finite::all_finite;
-pub use format::{short, significant};
+pub use format::{short, significant, to_its_error};
 pub use horner::{Polynomial, polynomial, slope_tails, tails};
 pub use instruction_set::{Kernel, vectorized};
 pub use number::Number;

@@ -8,6 +8,7 @@
 mod catalog;
 mod check;
 mod draft;
+mod new_surface;
 mod read;
 mod rewrite;
 mod schema;
@@ -19,6 +20,7 @@ pub use catalog::{
     Catalog, CatalogEntry, NotFound, PresetOrigin, demo, demos, find, find_beside, is_path, lesson,
     lessons,
 };
+pub use new_surface::{NewSurface, NewZero, SurfaceView};
 pub use read::{Checked, UNTITLED, read, read_with};
 pub use rewrite::{Beginning, NewObservable, NewRamp, Rewrite};
 pub use schema::reference;

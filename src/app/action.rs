@@ -139,6 +139,10 @@ pub enum Action {
     ClearCompanions,
     /// Add orbits to a section: the one through its cursor, or some spread over what is seen.
     AddOrbits,
+    /// Type the surface of a section.
+    TypeSurface,
+    /// Count the crossings of a section in the next direction.
+    TurnDirection,
     /// Fill what is seen of a section with many orbits.
     FillSection,
     /// Remove the orbits that were added to a section, and the past crossings of the motion.

@@ -164,6 +164,7 @@ impl App {
     fn accept_value(&mut self, mut field: InputField) -> Vec<Effect> {
         match field.purpose {
             Purpose::Ramp(index) => return self.accept_ramp(field, index),
+            Purpose::Surface(plot) => return self.accept_surface(field, plot),
             Purpose::TypedFlow => return self.accept_typed_flow(field),
             _ => {}
         }
@@ -197,7 +198,7 @@ impl App {
             }
             Purpose::Flow(index) => self.follow_flow(index, value),
             Purpose::GeneratorFlow(index) => self.follow_generator(index, value),
-            Purpose::TypedFlow | Purpose::Ramp(_) => Vec::new(),
+            Purpose::TypedFlow | Purpose::Ramp(_) | Purpose::Surface(_) => Vec::new(),
             Purpose::SymmetryFlow(index) => self.follow_symmetry(index, value),
             Purpose::Step => lab.step_by(value),
             Purpose::Tolerance => lab.tolerate(value),

@@ -403,7 +403,7 @@ impl App {
             // Errors of a text that has changed since are out of date.
             (Err(_), CheckedRevision::Older) => Vec::new(),
             (Err(diagnostics), CheckedRevision::Newest) => {
-                self.typed_axis = None;
+                (self.typed_axis, self.new_section) = (None, None);
                 let Some(buffer) = self.buffer() else { return Vec::new() };
                 buffer.is_wrong(&diagnostics);
                 if mends {

@@ -35,6 +35,8 @@ pub enum Purpose {
     TypedFlow,
     /// Where the parameter of this index goes, and in which time.
     Ramp(usize),
+    /// The surface of section of the plot of this index.
+    Surface(usize),
 }
 
 /// A field being typed in.
@@ -90,7 +92,8 @@ impl InputField {
             | Purpose::SymmetryFlow(_)
             | Purpose::GeneratorFlow(_)
             | Purpose::TypedFlow
-            | Purpose::Ramp(_) => return Ok(value),
+            | Purpose::Ramp(_)
+            | Purpose::Surface(_) => return Ok(value),
             Purpose::Step => "The step must be more than zero.",
             Purpose::Tolerance => "The tolerance must be more than zero and less than one.",
         };

@@ -53,7 +53,7 @@ impl App {
         let now = match purpose {
             Purpose::Value(target) => lab.value(target),
             Purpose::Flow(_) | Purpose::SymmetryFlow(_) | Purpose::GeneratorFlow(_) => Some(FLOW),
-            Purpose::TypedFlow | Purpose::Ramp(_) => None,
+            Purpose::TypedFlow | Purpose::Ramp(_) | Purpose::Surface(_) => None,
             Purpose::Step => method.map(|m| m.step),
             Purpose::Tolerance => method.and_then(|m| m.tolerance),
         };

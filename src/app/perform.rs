@@ -162,6 +162,8 @@ impl App {
             Action::Pin => vec![Effect::Tell(Command::Pin)],
             Action::ClearCompanions => self.clear_companions(),
             Action::AddOrbits => self.add_orbits(),
+            Action::TypeSurface => self.open_surface(),
+            Action::TurnDirection => self.turn_direction(),
             Action::FillSection => self.fill_section(),
             Action::ClearOrbits => self.clear_orbits(),
             Action::Change { sign, coarse } => {

@@ -169,6 +169,7 @@ impl App {
         });
         lab.awaited = Some(saved.moment);
         self.lab = Some(lab);
+        self.take_new_section();
         let mut effects = self.restore();
         effects.extend(self.take_typed_axis());
         effects

@@ -80,6 +80,8 @@ pub struct App {
     pub(super) mending: Option<String>,
     /// The plot that waits for the text with the quantity of its axis.
     pub(super) typed_axis: Option<TypedAxis>,
+    /// The plot that waits for the text with its section.
+    pub(super) new_section: Option<usize>,
     /// The session as it was when the user left the lab for the list of systems.
     pub(super) left: Option<Saved>,
 }
@@ -150,6 +152,7 @@ impl App {
             resuming: None,
             mending: None,
             typed_axis: None,
+            new_section: None,
             left: None,
         };
         let first = match open {

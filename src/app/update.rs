@@ -227,7 +227,7 @@ impl App {
         let stale = self.workbench.put_off().then_some(Effect::StopCheck);
         self.workbench.clear();
         self.overlay.take_if(|overlay| matches!(overlay, Overlay::Workbench));
-        self.typed_axis = None;
+        (self.typed_axis, self.new_section) = (None, None);
         self.lab = Some(Lab::new(loaded));
         // An error message stays valid when something else is loaded.
         self.notice.take_if(|notice| !notice.error);

@@ -35,6 +35,7 @@ use super::new;
 use super::orbit;
 use super::path;
 use super::play;
+use super::plot;
 use super::record;
 use super::reverse;
 use super::run;
@@ -108,6 +109,7 @@ enum Command {
     Record(Box<record::Arguments>),
     Script(demo::Arguments),
     Play(play::Arguments),
+    Plot(plot::Arguments),
     Tour(lesson::Tour),
     Lessons(lesson::Lessons),
     Lesson(lesson::Check),
@@ -250,6 +252,7 @@ fn execute(
         Command::Actions(arguments) => actions::perform(&arguments, interrupt),
         Command::Record(arguments) => record::perform(&arguments),
         Command::Script(arguments) => demo::perform(&arguments),
+        Command::Plot(arguments) => plot::perform(&arguments, interrupt),
         Command::Play(arguments) => play::perform(&arguments, of_screen, options, interrupt),
         Command::Tour(arguments) => lesson::tour(&arguments, interrupt, &lessons),
         Command::Lessons(arguments) => lesson::perform(&arguments, interrupt, &lessons),

@@ -6,7 +6,9 @@ use super::assignment::Assignment;
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::study::{self, Study, StudyArguments, shown, table};
-use crate::dynamics::{Equilibria, Equilibrium, Kind, VirtualWork, equilibria, with_virtual_work};
+use crate::dynamics::{
+    Equilibria, Equilibrium, Kind, VirtualWork, equilibria, name_equilibria, with_virtual_work,
+};
 use crate::mechanics::ConstraintRow;
 
 /// Find equilibria and the small oscillations about them.
@@ -37,6 +39,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let mut found = equilibria(&study.space, &middle).map_err(study::failed)?;
     let law = (&*study.model, &*study.equations);
     with_virtual_work(law, study.space.parameters(), &mut found.found);
+    name_equilibria(&study.model, study.space.parameters(), &mut found.found);
     let result = (object(&study, &found), text(&study, &found));
     study::write(&arguments.study, result, None, interrupt)
 }
@@ -59,6 +62,7 @@ fn object(study: &Study, found: &Equilibria) -> Map<String, Value> {
         let names = study.space.names();
         let rates = one.rates.iter().map(|&(i, rate)| (format!("{}'", names[i]), rate.into()));
         json!({
+            "name": if one.name.is_empty() { Value::Null } else { one.name.as_str().into() },
             "state": study.named(&one.variables),
             "rates": Value::Object(rates.collect()),
             "energy": one.energy,
@@ -113,7 +117,8 @@ fn text(study: &Study, found: &Equilibria) -> String {
             Some(false) => "unstable",
             None => "neutral in a direction",
         };
-        text.push_str(&format!("{kind}, {stable}, energy {}\n", shown(one.energy)));
+        let name = if one.name.is_empty() { String::new() } else { format!("{}: ", one.name) };
+        text.push_str(&format!("{name}{kind}, {stable}, energy {}\n", shown(one.energy)));
         let places = names.iter().zip(&one.variables);
         let places: Vec<String> =
             places.map(|(name, &x)| format!("{name} = {}", shown(x))).collect();

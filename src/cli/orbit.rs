@@ -179,6 +179,9 @@ fn members(study: &Study, family: &Family) -> Value {
 /// Multipliers up to this far from 1 are shown together: of a double one half of the digits are lost.
 const NEAR_ONE: f64 = 1e-5;
 
+/// An error that rounding leaves of a matrix is mentioned if it may show in the digits of the multipliers.
+const NOTICED: f64 = 1e-8;
+
 /// The family as a table, and why it ends early.
 fn rows(family: &Family, name: &str) -> String {
     let head = [name, "period", "energy", "trace", "", ""];
@@ -227,6 +230,7 @@ fn object(study: &Study, orbit: &Orbit) -> Map<String, Value> {
     insert("closes_to_rounding", json!(orbit.closes_to_rounding));
     insert("multipliers", json!(multipliers(orbit)));
     let exponents = orbit.multipliers.iter().map(|z| orbit.exponent(*z));
+    insert("multipliers_error", json!(orbit.rounding));
     insert("exponents", exponents.chain(std::iter::repeat_n(0.0, orbit.trivial.count())).collect());
     insert("trivial", json!(trivial(orbit.trivial)));
     insert("trace", json!(orbit.transverse.trace()));
@@ -254,6 +258,9 @@ fn text(study: &Study, orbit: &Orbit) -> String {
     let widest = rows.iter().map(|(value, _)| value.chars().count()).max().unwrap_or(0);
     for (value, meaning) in rows {
         text.push_str(&format!("  {value:<widest$}  {meaning}\n"));
+    }
+    if let Some(error) = orbit.rounding.filter(|error| *error > NOTICED) {
+        text.push_str(&format!("rounding    {error:.0e} in the entries of their matrix\n"));
     }
     if let Some(residue) = orbit.residue() {
         text.push_str(&format!("residue     {}\n", shown(residue)));

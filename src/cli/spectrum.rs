@@ -12,7 +12,7 @@ use crate::dynamics::{
     independent_frequencies, mean_rate, straightened,
 };
 use crate::ensemble::SystemFlow;
-use crate::num::significant;
+use crate::num::{significant, to_its_error};
 use crate::system::ChannelKind;
 
 /// The numbers taken where none are asked for, and how long the motion is followed then, in seconds of the lab's clock at
@@ -118,8 +118,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let drive = space.and_then(|space| space.drive()).map(|period| std::f64::consts::TAU / period);
     let spectrum = driven_spectrum(&straight, spacing, most, drive, &mut |_| true)
         .ok_or_else(|| CommandError::CouldNot("the quantity has no finite values".to_owned()))?;
-    let strongest = spectrum.lines.first();
-    let drift = strongest.and_then(|line| frequency_drift(&straight, spacing, line.frequency));
+    let drift = frequency_drift(&straight, spacing, &spectrum.lines);
     let of = arguments.of.clone().unwrap_or_else(|| system.channels()[channel].name.clone());
     let found = FoundSpectrum { of, from: start.time, until, count, spectrum, drive, rate, drift };
     let mut head = study::head(model, system, &start.parameters, (*method, *settings));
@@ -164,7 +163,7 @@ fn text(found: &FoundSpectrum) -> String {
     for line in &spectrum.lines {
         rows.push(vec![
             line.name().filter(|_| !spectrum.is_continuous()).unwrap_or_else(|| "?".to_owned()),
-            significant(line.frequency, 12, 1e-4..1e6),
+            to_its_error(line.frequency, line.error, 12, 1e-4..1e6),
             format!("± {:.0e}", line.error),
             shown(line.amplitude),
             shown(line.phase),
@@ -195,7 +194,8 @@ fn text(found: &FoundSpectrum) -> String {
         text.push_str(&format!("Ω of the drive {}\n", significant(*drive, 12, 1e-4..1e6)));
     }
     if let Some(MeanRate { rate, error }) = rate {
-        text.push_str(&format!("mean rate {} ± {error:.0e}\n", significant(*rate, 12, 1e-4..1e6)));
+        let rate = to_its_error(*rate, *error, 12, 1e-4..1e6);
+        text.push_str(&format!("mean rate {rate} ± {error:.0e}\n"));
     }
     text
 }

@@ -145,9 +145,10 @@ pub(super) fn head(
 pub(super) fn failed(error: DynamicsError) -> CommandError {
     match error {
         DynamicsError::Method(_) => CommandError::WrongUse(error.to_string()),
-        DynamicsError::Motion(_) | DynamicsError::Unsuited(_) => {
-            CommandError::CouldNot(error.to_string())
-        }
+        DynamicsError::Motion(_)
+        | DynamicsError::Unsuited(_)
+        | DynamicsError::Unclosed(_)
+        | DynamicsError::Singular(_) => CommandError::CouldNot(error.to_string()),
     }
 }
 

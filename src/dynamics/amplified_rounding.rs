@@ -1,6 +1,6 @@
 //! The rounding errors of the steps of a flow map, each amplified by the flow after it.
 //!
-//! In: M(t) after each step. Out: what these errors may leave of M𝕁Mᵀ − 𝕁. A step adds ΔM to M, whose entries are computed with
+//! In: M(t) after each step. Out: what these errors may leave of M, and of M𝕁Mᵀ − 𝕁. A step adds ΔM to M, whose entries are computed with
 //! a relative error of ε/2; at the end that error is Φ δ, where Φ = M(T) M(t)⁻¹ is the flow from there on, and may be far
 //! larger than what M(T) is rounded by. Errors of different steps are independent, so their squares are added. Never here:
 //! the motion, errors of the method.
@@ -14,11 +14,26 @@ const MOST: usize = 1024;
 /// What is known of the steps so far.
 pub(super) struct AmplifiedRounding {
     last: DMatrix<f64>,
-    /// M at the end of some steps, with the squares of what these added to it.
-    steps: Vec<(DMatrix<f64>, DMatrix<f64>)>,
+    steps: Vec<Steps>,
     /// How many steps are put together in one, and how many the last one still lacks.
     together: usize,
     open: usize,
+}
+
+/// Some steps: M and the time at their end, and the squares of what they added to M.
+struct Steps {
+    end: DMatrix<f64>,
+    time: f64,
+    squares: DMatrix<f64>,
+}
+
+/// What rounding may leave of each entry of M, and when the steps were taken that leave the most.
+#[derive(Clone, Debug)]
+pub struct MapRounding {
+    /// The error of each entry.
+    pub error: DMatrix<f64>,
+    /// The end of the steps that contribute the most.
+    pub worst: f64,
 }
 
 impl AmplifiedRounding {
@@ -28,32 +43,55 @@ impl AmplifiedRounding {
         Self { last, steps: Vec::new(), together: 1, open: 0 }
     }
 
-    /// Takes in M after a step.
-    pub(super) fn step(&mut self, matrix: &DMatrix<f64>) {
+    /// Takes in M after a step, and the time at its end.
+    pub(super) fn step(&mut self, matrix: &DMatrix<f64>, time: f64) {
         let added = (matrix - &self.last).map(|x| x * x);
         self.last.clone_from(matrix);
         match self.steps.last_mut() {
-            Some((end, squares)) if self.open > 0 => {
-                *squares += added;
-                end.clone_from(matrix);
+            Some(last) if self.open > 0 => {
+                last.squares += added;
+                last.end.clone_from(matrix);
+                last.time = time;
                 self.open -= 1;
             }
             _ => {
-                self.steps.push((matrix.clone(), added));
+                self.steps.push(Steps { end: matrix.clone(), time, squares: added });
                 self.open = self.together - 1;
             }
         }
         if self.steps.len() > MOST && self.open == 0 {
             let pairs = std::mem::take(&mut self.steps);
             let mut pairs = pairs.into_iter();
-            while let Some((first, squares)) = pairs.next() {
-                match pairs.next() {
-                    Some((end, more)) => self.steps.push((end, squares + more)),
-                    None => self.steps.push((first, squares)),
-                }
+            while let Some(first) = pairs.next() {
+                self.steps.push(match pairs.next() {
+                    Some(next) => Steps { squares: first.squares + next.squares, ..next },
+                    None => first,
+                });
             }
             self.together *= 2;
         }
+    }
+
+    /// What the errors of all steps may leave of each entry of M, with M where it is now; `inverse` is M⁻¹ of an M.
+    pub(super) fn of_map(
+        &self,
+        inverse: &dyn Fn(&DMatrix<f64>) -> Option<DMatrix<f64>>,
+    ) -> MapRounding {
+        let mut squares = (&self.last * (0.5 * f64::EPSILON)).map(|x| x * x);
+        let (mut worst, mut most) = (0.0, 0.0);
+        for steps in &self.steps {
+            let Some(inverse) = inverse(&steps.end) else { continue };
+            let flow = (&self.last * inverse).abs();
+            let left = flow * steps.squares.map(f64::sqrt) * (0.5 * f64::EPSILON);
+            if left.iter().any(|x| !x.is_finite()) {
+                continue;
+            }
+            if left.amax() > most {
+                (worst, most) = (steps.time, left.amax());
+            }
+            squares += left.map(|x| x * x);
+        }
+        MapRounding { error: squares.map(f64::sqrt), worst }
     }
 
     /// What the errors of all steps may leave of each entry of |M𝕁Mᵀ − 𝕁|, with M where it is now; `inverse` is M⁻¹ of an M.
@@ -67,10 +105,10 @@ impl AmplifiedRounding {
             DMatrix::from_fn(size, size, |i, j| f64::from(u8::from(j == i + n || i == j + n)));
         let after = unit * self.last.abs().transpose() * (0.5 * f64::EPSILON);
         let mut squares = DMatrix::zeros(size, size);
-        for (matrix, added) in &self.steps {
-            let Some(inverse) = inverse(matrix) else { continue };
+        for steps in &self.steps {
+            let Some(inverse) = inverse(&steps.end) else { continue };
             let flow = (&self.last * inverse).abs();
-            let left = flow * added.map(f64::sqrt) * &after;
+            let left = flow * steps.squares.map(f64::sqrt) * &after;
             let both = &left + left.transpose();
             squares += both.map(|x| x * x);
         }
@@ -89,7 +127,8 @@ mod tests {
         let left = |count: usize| {
             let mut rounding = AmplifiedRounding::new(2);
             for k in 1..=count {
-                rounding.step(&shear(k as f64 / count as f64));
+                let time = k as f64 / count as f64;
+                rounding.step(&shear(time), time);
             }
             assert!(rounding.steps.len() <= MOST + 1);
             rounding.left(&|m| m.clone().try_inverse())[(0, 0)] * (count as f64).sqrt()

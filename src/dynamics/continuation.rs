@@ -255,7 +255,7 @@ impl Continuation<'_> {
     /// The equations of an orbit of the family, in the units of the file.
     fn newton<'s>(&self, space: &'s PhaseSpace) -> Newton<'s> {
         let units = OrbitUnits::of_file(space.dimension());
-        Newton { space, method: self.method, fixed: self.held(), units }
+        Newton { space, method: self.method, fixed: self.held(), units, budget: None }
     }
 
     /// The equations of an orbit at (z, T, μ), with their derivatives by the displacements of z that are allowed, T and μ.

@@ -8,6 +8,7 @@ use super::flow_map::flow_map;
 use super::newton::Fixed;
 use super::orbit::{Orbit, periodic_orbit, searched};
 use super::phase_space::PhaseSpace;
+use super::search_budget::SearchBudget;
 use super::unclosed_motion::explained;
 use crate::integrate::{Method, Settings};
 use crate::system::State;
@@ -33,6 +34,23 @@ pub fn driven_orbit(
     start: &State,
     drive: f64,
 ) -> Result<Orbit, DynamicsError> {
+    let found = nearest_driven_orbit(space, method, start, drive, &|_, _| ());
+    found.map_err(|error| explained(error, space, method, start, &mut |_, _| ()))
+}
+
+/// The same, but an error does not say what the motion is instead. `look` is given the steps taken, and their greatest number.
+///
+/// # Errors
+/// Returns an error if there is none nearby; if the motion cannot be followed; or on cancellation.
+pub fn nearest_driven_orbit(
+    space: &PhaseSpace,
+    method: (&'static Method, Settings),
+    start: &State,
+    drive: f64,
+    look: &dyn Fn(u64, u64),
+) -> Result<Orbit, DynamicsError> {
+    let budget = SearchBudget::of(method.0, look);
+    let mut singular = None;
     let mut misses: Vec<(u32, f64)> = Vec::new();
     let mut state = start.clone();
     for count in 1..=MULTIPLES {
@@ -48,17 +66,22 @@ pub fn driven_orbit(
     misses.sort_by_key(|(count, miss)| (*miss > NEAR * farthest, *count));
     for (count, _) in &misses {
         let period = f64::from(*count) * drive;
-        match searched(space, method, start, Some(period), Fixed::Period(period)) {
-            Ok(Err(_)) | Err(DynamicsError::Unsuited(_)) => {}
+        let wanted = (Some(period), Fixed::Period(period));
+        match searched(space, method, start, wanted, &budget) {
+            Ok(Err(_)) | Err(DynamicsError::Unsuited(_) | DynamicsError::Unclosed(_)) => {}
+            Err(error @ DynamicsError::Singular(_)) => singular = Some(error),
             Ok(Ok(orbit)) => return shortest(space, method, orbit, (*count, drive)),
             Err(fault) => return Err(fault),
         }
     }
-    let none = DynamicsError::Unsuited(format!(
+    if let Some(error) = singular {
+        return Err(error);
+    }
+    let ended = budget.ended().map_or_else(String::new, |ended| format!("; {ended}"));
+    Err(DynamicsError::Unclosed(format!(
         "no periodic orbit was found near the start with the period of the drive, {drive:.6}, or 2 to {MULTIPLES} times it: \
-         begin nearer to one, where the motion has settled, or give the period of the orbit"
-    ));
-    Err(explained(none, space, method, start))
+         begin nearer to one, where the motion has settled, or give the period of the orbit{ended}"
+    )))
 }
 
 /// The same orbit over the fewest periods of the drive after which it closes, a part of those that are known.

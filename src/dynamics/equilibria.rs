@@ -352,6 +352,7 @@ impl<'a> EquilibriumSearch<'a> {
         let variables = self.space.variables(&state).to_vec();
         let (work, multipliers) = (Vec::new(), Vec::new());
         Ok(Some(Equilibrium {
+            name: String::new(),
             variables,
             energy,
             kind,

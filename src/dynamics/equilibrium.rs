@@ -11,6 +11,8 @@ const SAME: f64 = 1e-7;
 /// An equilibrium.
 #[derive(Clone, Debug)]
 pub struct Equilibrium {
+    /// The name that the file gives it, once [`name_equilibria`](super::name_equilibria) has; else nothing.
+    pub name: String,
     /// The variables.
     pub variables: Vec<f64>,
     /// The energy.

@@ -15,6 +15,12 @@ pub enum DynamicsError {
     /// The question does not apply to the system.
     #[error("{0}")]
     Unsuited(String),
+    /// No periodic orbit was found near the start; what the motion is instead can be asked for.
+    #[error("{0}")]
+    Unclosed(String),
+    /// The periodic orbit near the start comes within rounding of a singularity of its law.
+    #[error("{0}")]
+    Singular(String),
 }
 
 impl DynamicsError {

@@ -7,7 +7,6 @@ use nalgebra::{DMatrix, DVector};
 use super::carrier::Carrier;
 use super::error::DynamicsError;
 use super::phase_space::PhaseSpace;
-use super::unclosed_motion::explained;
 use crate::integrate::{Method, Settings, Stepping};
 use crate::num::{DoubleDouble, short};
 use crate::system::State;
@@ -124,7 +123,7 @@ pub(super) fn return_near(
             let rests = extent.iter().all(|extent| *extent == 0.0);
             let why = no_return(space, best, seen[seen.len() - 1].0 - start.time, (rests, stopped));
             let returns = best.is_some() && others == 0;
-            Err(if returns { explained(why, space, (method, settings), start) } else { why })
+            Err(if returns { DynamicsError::Unclosed(why) } else { DynamicsError::Unsuited(why) })
         }
     }
 }
@@ -135,12 +134,10 @@ fn no_return(
     best: Option<(f64, f64)>,
     time: f64,
     (rests, stopped): (bool, Option<String>),
-) -> DynamicsError {
+) -> String {
     let found = match best {
         None if rests => {
-            return DynamicsError::Unsuited(
-                "no periodic orbit to begin with: the start is an equilibrium, from which nothing moves away".to_owned(),
-            );
+            return "no periodic orbit to begin with: the start is an equilibrium, from which nothing moves away".to_owned();
         }
         Some((part, at)) => {
             format!("came back no nearer than {:.0} % of it, after {}", 100.0 * part, short(at))
@@ -148,11 +145,11 @@ fn no_return(
         None => "only moved away from its start".to_owned(),
     };
     let stopped = stopped.map_or(String::new(), |why| format!("; then {why}"));
-    DynamicsError::Unsuited(format!(
+    format!(
         "no periodic orbit to begin with: a return of ({}) to within {:.0} % of the farthest distance from the start was searched for over a time of {}, and the motion {found}{stopped}. Begin nearer to a periodic orbit, or give \
          its period",
         space.names().join(", "),
         100.0 * FAR,
         short(time)
-    ))
+    )
 }

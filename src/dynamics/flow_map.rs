@@ -11,7 +11,7 @@
 
 use nalgebra::DMatrix;
 
-use super::amplified_rounding::AmplifiedRounding;
+use super::amplified_rounding::{AmplifiedRounding, MapRounding};
 use super::carrier::Carrier;
 use super::error::DynamicsError;
 use super::phase_space::PhaseSpace;
@@ -48,6 +48,8 @@ pub struct FlowMap {
     /// What rounding may leave of it: that of M at the end, and that of every step, amplified by the flow after it; under
     /// constraints that of M and P alone.
     pub symplectic_rounding: Option<f64>,
+    /// What rounding may leave of M itself; `None` under constraints.
+    pub rounding: Option<MapRounding>,
     /// The step or tolerance used.
     pub settings: Settings,
     /// Why the motion ended early.
@@ -84,7 +86,7 @@ pub fn flow_map(
     let free = !space.is_constrained();
     let mut field = (free && !space.is_hamiltonian()).then(|| space.vector_field());
     let canonical = free && space.form() == crate::system::Form::Momentum;
-    let mut rounding = canonical.then(|| AmplifiedRounding::new(n));
+    let mut rounding = free.then(|| AmplifiedRounding::new(n));
     let forwards = until >= start.time;
     let (mut logarithm, mut failure, mut time) = (0.0, None, start.time);
     while carrier.is_before(until, forwards) {
@@ -104,7 +106,7 @@ pub fn flow_map(
         }
         time = end;
         if let Some(rounding) = &mut rounding {
-            rounding.step(&carrier.at(time)?.1);
+            rounding.step(&carrier.at(time)?.1, time);
         }
         look(time);
     }
@@ -119,23 +121,21 @@ pub fn flow_map(
             determinant_expected: preserved.map(|_| 1.0),
             symplectic_residual: preserved.map(|((residual, _), _)| residual),
             symplectic_rounding: preserved.map(|((_, rounding), _)| rounding),
+            rounding: None,
             state,
             matrix,
             settings: carrier.settings(),
             failure,
         });
     }
-    let symplectic = rounding.map(|rounding| {
-        let hamiltonian = space.is_hamiltonian();
-        let left = rounding.left(&|m| {
-            if hamiltonian {
-                Some(PhaseSpace::symplectic_inverse(m))
-            } else {
-                m.clone().try_inverse()
-            }
-        });
-        PhaseSpace::symplectic_residual(&matrix, &left)
-    });
+    let hamiltonian = canonical && space.is_hamiltonian();
+    let inverse = |m: &DMatrix<f64>| {
+        if hamiltonian { Some(PhaseSpace::symplectic_inverse(m)) } else { m.clone().try_inverse() }
+    };
+    let symplectic = rounding
+        .as_ref()
+        .filter(|_| canonical)
+        .map(|rounding| PhaseSpace::symplectic_residual(&matrix, &rounding.left(&inverse)));
     Ok(FlowMap {
         time,
         dimension,
@@ -143,6 +143,7 @@ pub fn flow_map(
         determinant_expected: Some(math::exp(logarithm) * carrier.jump_determinant()),
         symplectic_residual: symplectic.map(|(residual, _)| residual),
         symplectic_rounding: symplectic.map(|(_, rounding)| rounding),
+        rounding: rounding.map(|rounding| rounding.of_map(&inverse)),
         state,
         matrix,
         settings: carrier.settings(),

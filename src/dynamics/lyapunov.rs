@@ -19,7 +19,7 @@ use super::phase_space::PhaseSpace;
 use super::tangent_growth::TangentGrowth;
 use super::transverse::{self, Removed};
 use crate::integrate::{Method, Settings};
-use crate::num::math;
+use crate::num::{math, short};
 use crate::system::{Form, State};
 
 /// Vectors are made orthonormal where one has grown or shrunk by this factor, …
@@ -269,6 +269,7 @@ fn judged(
     let grown = growth.at(0, growth.end());
     let least = if carrier.is_fixed() { 10 * STEPS } else { STEPS };
     let (largest, off) = (exponents[0], uncertainty[0]);
+    let time = short(growth.end() - growth.begin());
     if carrier.steps() < least {
         let reason =
             format!("the motion is too short: {} steps, and {least} are needed", carrier.steps());
@@ -276,8 +277,8 @@ fn judged(
     }
     if grown >= GROWTH && megno >= CHAOTIC && largest > 2.0 * off {
         let reason = format!(
-            "neighbouring motions part by e^{grown:.1}, and MEGNO is {megno:.1}, where regular \
-             motion has 2"
+            "neighbouring motions part by e^{grown:.1} in a time of {time}, and MEGNO is {megno:.1}, \
+             where regular motion has 2"
         );
         return (Chaos::Chaotic, reason);
     }
@@ -289,7 +290,7 @@ fn judged(
         return (Chaos::Regular, reason);
     }
     let reason = format!(
-        "neighbouring motions part by e^{grown:.1} and MEGNO is {megno:.1}, between regular (up to \
+        "neighbouring motions part by e^{grown:.1} in a time of {time} and MEGNO is {megno:.1}, between regular (up to \
          {REGULAR}) and chaotic (from {CHAOTIC}): a longer time may tell"
     );
     (Chaos::Undecided, reason)

@@ -11,6 +11,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::amplified_rounding::MapRounding;
 use super::direction::{Direction, basis_of_range};
 use super::error::DynamicsError;
 use super::first_return::difference;
@@ -18,6 +19,7 @@ use super::flow_map::flow_map;
 use super::linear;
 use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
+use super::search_budget::SearchBudget;
 use crate::integrate::{Method, Settings};
 use crate::num::{DoubleDouble, math};
 use crate::system::State;
@@ -51,6 +53,8 @@ pub(super) struct Newton<'a> {
     pub(super) method: (&'static Method, Settings),
     pub(super) fixed: Fixed,
     pub(super) units: OrbitUnits,
+    /// The steps that are left; without one there is no end to them.
+    pub(super) budget: Option<&'a SearchBudget<'a>>,
 }
 
 /// The motion over one period, in the units of the orbit but for the monodromy matrix and the energy.
@@ -65,7 +69,16 @@ pub(super) struct Circuit {
     pub(super) size: f64,
     /// The largest singular value of the monodromy matrix.
     growth: f64,
+    /// What rounding may leave of the monodromy matrix, in the units of the file.
+    pub(super) rounding: Option<MapRounding>,
     pub(super) settings: Settings,
+}
+
+impl Circuit {
+    /// The factor by which neighbouring states part at most in the period.
+    pub(super) fn growth(&self) -> f64 {
+        self.growth.max(1.0)
+    }
 }
 
 /// A singular value up to this part of the largest is that of a symmetry, whose direction matters nowhere.
@@ -91,7 +104,7 @@ impl Reached {
     /// Whether what is missing may be rounding, or within the tolerance, as it is grown over a period.
     pub(super) fn is_rounding(&self) -> bool {
         let tolerance = self.circuit.settings.tolerance.unwrap_or(0.0);
-        let grown = self.circuit.growth.max(1.0);
+        let grown = self.circuit.growth();
         self.residual <= TIMES * ROUNDING.max(tolerance) * grown * self.circuit.size
     }
 }
@@ -99,7 +112,11 @@ impl Reached {
 impl Newton<'_> {
     pub(super) fn circuit(&self, state: &State, period: f64) -> Result<Circuit, DynamicsError> {
         let (space, method) = (self.space, self.method);
-        let map = flow_map(space, method, state, state.time + period, &mut |_| {})?;
+        if let Some(ended) = self.budget.and_then(SearchBudget::ended) {
+            return Err(DynamicsError::Unclosed(ended));
+        }
+        let mut count = |_| self.budget.into_iter().for_each(SearchBudget::step);
+        let map = flow_map(space, method, state, state.time + period, &mut count)?;
         if let Some(fault) = map.failure {
             return Err(fault.into());
         }
@@ -122,6 +139,7 @@ impl Newton<'_> {
             rates,
             energy,
             size,
+            rounding: map.rounding,
             settings: map.settings,
         })
     }
@@ -309,5 +327,40 @@ impl Newton<'_> {
                 (circuit.energy - wanted) / self.units.gradient(&circuit.rates[0]).norm();
         }
         missed
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A motion of size 3 whose neighbours part by this factor, and which misses itself by so much.
+    fn missing(residual: f64, growth: f64, tolerance: Option<f64>) -> Reached {
+        let circuit = Circuit {
+            miss: DVector::zeros(2),
+            monodromy: DMatrix::identity(2, 2),
+            basis: DMatrix::identity(2, 2),
+            rates: [DVector::zeros(2), DVector::zeros(2)],
+            energy: 0.0,
+            size: 3.0,
+            growth,
+            rounding: None,
+            settings: Settings { step: None, tolerance },
+        };
+        let state = State::new(0.0, crate::system::Form::Momentum, vec![0.0; 2]);
+        Reached { state, period: 1.0, circuit, residual }
+    }
+
+    #[test]
+    fn a_hundred_times_rounding_as_it_grows_is_rounding() {
+        for (growth, tolerance, limit) in [
+            (1.0, None, 100.0 * 2e-15 * 3.0),
+            (0.1, None, 100.0 * 2e-15 * 3.0),
+            (50.0, None, 100.0 * 2e-15 * 3.0 * 50.0),
+            (50.0, Some(1e-10), 100.0 * 1e-10 * 3.0 * 50.0),
+        ] {
+            assert!(missing(0.8 * limit, growth, tolerance).is_rounding());
+            assert!(!missing(1.25 * limit, growth, tolerance).is_rounding());
+        }
     }
 }

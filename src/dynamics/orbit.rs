@@ -17,6 +17,7 @@ use super::newton::{CLOSED, Fixed, Newton, Reached};
 use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
 use super::resonance::along_resonance;
+use super::search_budget::SearchBudget;
 use super::transverse::{self, Removed};
 use super::unclosed_motion::explained;
 use crate::integrate::{Method, Settings};
@@ -28,6 +29,9 @@ const RETURNS: usize = 5;
 
 /// What moves less than this part of its size in a period rests.
 const STILL: f64 = 1e-6;
+
+/// What moves less than this part of what the search began with has run into rest, where all is as small as its own rounding.
+const VANISHED: f64 = 1e-12;
 
 /// What closes but for more than rounding is an orbit only if one is this near, in its own units, by the derivatives.
 const BESIDE: f64 = 1e-5;
@@ -61,6 +65,8 @@ pub struct Orbit {
     pub multipliers: Vec<[f64; 2]>,
     /// The trivial directions, whose multipliers are 1.
     pub trivial: Removed,
+    /// What rounding may leave of the entries of `transverse`, at most; `None` under constraints.
+    pub rounding: Option<f64>,
     /// Whether no multiplier lies outside the unit circle.
     pub stable: bool,
     /// The step or tolerance used.
@@ -69,7 +75,13 @@ pub struct Orbit {
 
 impl Orbit {
     /// The orbit at a state from which the motion closes.
+    ///
+    /// # Errors
+    /// Returns an error if the motion comes so near to a singularity of its law that nothing is known of the multipliers.
     pub(super) fn of(newton: &Newton<'_>, closed: &Reached) -> Result<Orbit, DynamicsError> {
+        if let Some(why) = newton.singular(closed)? {
+            return Err(DynamicsError::Singular(why));
+        }
         let (space, circuit) = (newton.space, &closed.circuit);
         let rate = Direction::new(space).at(&closed.state)?;
         let trivial = match (space.is_autonomous(), space.is_hamiltonian()) {
@@ -85,6 +97,10 @@ impl Orbit {
         };
         let transverse = frame.transpose() * newton.units.map(&circuit.monodromy) * &frame;
         let multipliers = linear::eigenvalues(&transverse);
+        let rounding = circuit.rounding.as_ref().map(|rounding| {
+            let frame = frame.abs();
+            (frame.transpose() * newton.units.map(&rounding.error) * frame).amax()
+        });
         let stable = multipliers.iter().all(|z| math::hypot(z[0], z[1]) <= 1.0 + ON_CIRCLE);
         let size = newton.size(&closed.state);
         Ok(Orbit {
@@ -98,6 +114,7 @@ impl Orbit {
             transverse,
             multipliers,
             trivial,
+            rounding,
             stable,
             settings: circuit.settings,
         })
@@ -137,8 +154,24 @@ pub fn periodic_orbit(
     period: Option<f64>,
     fixed: Fixed,
 ) -> Result<Orbit, DynamicsError> {
-    let found = searched(space, method, start, period, fixed)?;
-    found.map_err(|missed| explained(missed.error(), space, method, start))
+    let found = nearest_orbit(space, method, start, (period, fixed), &|_, _| ());
+    found.map_err(|error| explained(error, space, method, start, &mut |_, _| ()))
+}
+
+/// The same, but an error does not say what the motion is instead. `look` is given the steps taken, and their greatest number.
+///
+/// # Errors
+/// Returns an error if there is none nearby; if the motion cannot be followed; or on cancellation.
+pub fn nearest_orbit(
+    space: &PhaseSpace,
+    method: (&'static Method, Settings),
+    start: &State,
+    (period, fixed): (Option<f64>, Fixed),
+    look: &dyn Fn(u64, u64),
+) -> Result<Orbit, DynamicsError> {
+    let budget = SearchBudget::of(method.0, look);
+    let found = searched(space, method, start, (period, fixed), &budget)?;
+    found.map_err(|missed| missed.error(&budget))
 }
 
 /// The orbit, or by how much the best one misses itself.
@@ -146,8 +179,8 @@ pub(super) fn searched(
     space: &PhaseSpace,
     method: (&'static Method, Settings),
     start: &State,
-    period: Option<f64>,
-    fixed: Fixed,
+    (period, fixed): (Option<f64>, Fixed),
+    budget: &SearchBudget<'_>,
 ) -> Result<Result<Orbit, Missed>, DynamicsError> {
     let period = match (period, fixed) {
         (Some(period), _) | (None, Fixed::Period(period)) => Some(period),
@@ -159,12 +192,12 @@ pub(super) fn searched(
         }
         (None, _) => None,
     };
-    let Some(period) = period else { return near_returns(space, method, start, fixed) };
+    let Some(period) = period else { return near_returns(space, method, start, (fixed, budget)) };
     let fixed = if space.is_autonomous() { fixed } else { Fixed::Period(period) };
     if !(period > 0.0 && period.is_finite()) {
         return Err(unsuited("a period is above zero"));
     }
-    closed_near(space, method, (start, period), fixed)
+    closed_near(space, method, (start, period), (fixed, budget))
 }
 
 /// The orbit near the first return from which the search comes to one.
@@ -172,18 +205,19 @@ fn near_returns(
     space: &PhaseSpace,
     method: (&'static Method, Settings),
     start: &State,
-    fixed: Fixed,
+    (fixed, budget): (Fixed, &SearchBudget<'_>),
 ) -> Result<Result<Orbit, Missed>, DynamicsError> {
-    let mut best: Option<Missed> = None;
+    let (mut best, mut singular): (Option<Missed>, Option<DynamicsError>) = (None, None);
     for count in 0..RETURNS {
         let found = match return_near(space, method, start, count) {
-            Ok(period) => closed_near(space, method, (start, period), fixed),
+            Ok(period) => closed_near(space, method, (start, period), (fixed, budget)),
             Err(error) => Err(error),
         };
         match (found, &best) {
             (Ok(Ok(orbit)), _) => return Ok(Ok(orbit)),
             (Err(error), _) if error.is_cancelled() => return Err(error),
-            (Err(error), None) => return Err(error),
+            (Err(error @ DynamicsError::Singular(_)), _) => singular = singular.or(Some(error)),
+            (Err(error), None) => return Err(singular.unwrap_or(error)),
             // of later returns there may be none
             (Err(_), Some(_)) => {}
             (Ok(Err(missed)), before) => {
@@ -193,7 +227,10 @@ fn near_returns(
             }
         }
     }
-    best.map(Err).ok_or_else(|| unsuited("no periodic orbit was searched for"))
+    match singular {
+        Some(error) => Err(error),
+        None => best.map(Err).ok_or_else(|| unsuited("no periodic orbit was searched for")),
+    }
 }
 
 /// None was found: by how much the best one misses itself, as a part of its size, and that in words.
@@ -203,8 +240,9 @@ pub(super) struct Missed {
 }
 
 impl Missed {
-    fn error(self) -> DynamicsError {
-        DynamicsError::Unsuited(self.why)
+    fn error(self, budget: &SearchBudget<'_>) -> DynamicsError {
+        let ended = budget.ended().map_or_else(String::new, |ended| format!("; {ended}"));
+        DynamicsError::Unclosed(self.why + &ended)
     }
 }
 
@@ -213,11 +251,11 @@ fn closed_near(
     space: &PhaseSpace,
     method: (&'static Method, Settings),
     (start, period): (&State, f64),
-    fixed: Fixed,
+    (fixed, budget): (Fixed, &SearchBudget<'_>),
 ) -> Result<Result<Orbit, Missed>, DynamicsError> {
     let apart = |state: &State| difference(space, state, start);
     let units = OrbitUnits::of_motion(space, method, (start, period), apart)?;
-    let newton = Newton { space, method, fixed, units };
+    let newton = Newton { space, method, fixed, units, budget: Some(budget) };
     let period = newton.settled(start, period);
     let mut closed = match solve(&newton, start, period)? {
         Ok(closed) => closed,
@@ -254,14 +292,15 @@ fn solve(
     // what a motion moves by in a period may be much larger than where it is
     let near = newton.size(start).max(newton.size(&found.state)).min(circuit.size);
     let (moved, open) = (circuit.rates[0].norm() * turned, found.residual > CLOSED * near);
-    let still = moved < STILL * circuit.size || open && moved <= STILL * speed;
+    let vanished = moved <= VANISHED * speed;
+    let still = moved < STILL * circuit.size || open && moved <= STILL * speed || vanished;
     if newton.space.is_autonomous() && still {
         return Ok(Err(Missed { part: f64::INFINITY, why: rest(newton, &found.state) }));
     }
     let part = found.residual / near.max(f64::MIN_POSITIVE);
     let why = if open {
         "the best one misses itself by"
-    } else if !found.is_rounding() && newton.step_left(&found).is_none_or(|step| step > BESIDE) {
+    } else if !found.is_rounding() && !is_beside(newton.step_left(&found)) {
         // along a resonance of tori a motion nearly closes everywhere
         "along a resonance of tori motions nearly close everywhere, and the best one still misses itself by"
     } else {
@@ -272,6 +311,11 @@ fn solve(
         short(found.period)
     );
     Ok(Err(Missed { part, why }))
+}
+
+/// Whether an orbit is so near, by the step that Newton's method has left, that what does not close is rounding.
+fn is_beside(step_left: Option<f64>) -> bool {
+    step_left.is_some_and(|step| step <= BESIDE)
 }
 
 /// Where Newton's steps and those along a resonance come to by turns, for as long as they leave less missing.
@@ -314,4 +358,14 @@ fn rest(newton: &Newton<'_>, state: &State) -> String {
          with another period or energy",
         place.join(", ")
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_orbit_is_beside_a_motion_within_a_hundred_thousandth_of_its_size() {
+        assert!(is_beside(Some(0.8e-5)) && !is_beside(Some(1.25e-5)) && !is_beside(None));
+    }
 }

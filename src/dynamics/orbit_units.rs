@@ -52,7 +52,7 @@ impl OrbitUnits {
         }
         // what a conserved quantity moves by is rounding
         for (extent, &variable) in extents.iter_mut().zip(space.variables(start)) {
-            if *extent <= MOVED * variable.abs() {
+            if !moves(*extent, variable) {
                 *extent = 0.0;
             }
         }
@@ -103,6 +103,11 @@ impl OrbitUnits {
     }
 }
 
+/// Whether a variable that goes this far from its start moves by more than rounding.
+fn moves(extent: f64, variable: f64) -> bool {
+    extent > MOVED * variable.abs()
+}
+
 /// Extents with those that are zero, or not finite, as the largest.
 fn filled(extents: &DVector<f64>) -> DVector<f64> {
     let good = |x: f64| x > 0.0 && x.is_finite();
@@ -129,4 +134,15 @@ fn conformal(extents: &DVector<f64>) -> DVector<f64> {
         let root = product.sqrt();
         if k < half { root * ratio.sqrt() } else { root / ratio.sqrt() }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_moves_by_a_trillionth_of_its_size_moves_by_rounding() {
+        assert!(!moves(0.8e-12 * 3.0, -3.0) && moves(1.25e-12 * 3.0, -3.0));
+        assert!(!moves(0.0, 0.0) && moves(1e-300, 0.0));
+    }
 }

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 use super::spectral_line::combination;
 use super::spectrum::{MeanRate, mean_rate, spectrum, straightened};
-use crate::num::{short, significant};
+use crate::num::{short, to_its_error};
 
 /// The lines of a coordinate that are searched for.
 const LINES: usize = 10;
@@ -164,13 +164,18 @@ impl Torus {
         TAU * f64::from(resonance.first) / self.frequencies[0].0
     }
 
+    fn period_error(&self, resonance: &Resonance) -> f64 {
+        let (frequency, error) = self.frequencies[0];
+        self.period(resonance) * SIGMAS * error / frequency
+    }
+
     /// What is to be said of it.
     pub(super) fn sentence(&self) -> String {
         let frequencies: Vec<String> =
-            self.frequencies.iter().map(|(frequency, _)| digits(*frequency)).collect();
+            self.frequencies.iter().map(|&(x, error)| digits(x, SIGMAS * error)).collect();
         let ratios = self.ratios();
         let values: Vec<String> = (ratios.iter())
-            .map(|(ratio, doubt)| format!("{} ± {doubt:.0e}", significant(*ratio, 10, 1e-4..1e6)))
+            .map(|(ratio, doubt)| format!("{} ± {doubt:.0e}", digits(*ratio, *doubt)))
             .collect();
         let whose = if self.is_driven { " (the first is that of the drive)" } else { "" };
         let all = format!("its frequencies {}{whose}", frequencies.join(" and "));
@@ -184,7 +189,7 @@ impl Torus {
             return format!(
                 "lies on a resonant torus: {all} are in the ratio {}, and it closes after {}",
                 found.numbers(),
-                digits(self.period(&found))
+                digits(self.period(&found), self.period_error(&found))
             );
         }
         let is_free = denominator.is_none_or(|first| first >= NO_RESONANCE);
@@ -219,13 +224,15 @@ impl Resonance {
     }
 }
 
-fn digits(x: f64) -> String {
-    significant(x, 10, 1e-4..1e6)
+/// A number with ten digits, or as many as its error leaves.
+fn digits(x: f64, error: f64) -> String {
+    to_its_error(x, error, 10, 1e-4..1e6)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::math;
 
     fn sentence(ratio: f64, doubt: f64) -> String {
         let frequencies = vec![(1.0, 0.0), (ratio, doubt / SIGMAS)];
@@ -246,5 +253,59 @@ mod tests {
         assert!(golden.starts_with("lies on a torus that is not resonant"), "{golden}");
         let golden = sentence(mean, 0.01);
         assert!(golden.starts_with("lies on a torus: "), "{golden}");
+    }
+
+    #[test]
+    fn no_digit_goes_beyond_what_is_known() {
+        let text = sentence(0.920_604_232_837, 3e-5);
+        assert!(text.contains("ratio to the first 0.9206 ± 3e-5"), "{text}");
+        assert!(text.contains("its frequencies 1 and 0.9206,"), "{text}");
+    }
+
+    /// A ratio that is known to nine digits, with this denominator.
+    fn of_denominator(first: u32) -> String {
+        sentence(f64::from(first + 1) / f64::from(first), 1e-9)
+    }
+
+    #[test]
+    fn a_resonance_is_named_up_to_twelve() {
+        assert!(of_denominator(12).starts_with("lies on a resonant torus"));
+        let beyond = of_denominator(13);
+        assert!(beyond.starts_with("lies on a torus: "), "{beyond}");
+        assert!(beyond.contains("whole numbers up to 12 is 11 : 12"), "{beyond}");
+    }
+
+    #[test]
+    fn a_torus_is_called_free_of_resonance_from_a_denominator_of_two_hundred_on() {
+        let below = of_denominator(199);
+        assert!(below.starts_with("lies on a torus: "), "{below}");
+        let beyond = of_denominator(200);
+        assert!(beyond.starts_with("lies on a torus that is not resonant"), "{beyond}");
+    }
+
+    /// A coordinate with lines at 1 and √3, and a third one with this amplitude and frequency.
+    fn with_third(amplitude: f64, frequency: f64) -> Option<Torus> {
+        let value = |k: u32| {
+            let t = 0.1 * f64::from(k);
+            let [one, two] = [math::cos(t), math::cos(3.0_f64.sqrt() * t)];
+            one + 0.4 * two + amplitude * math::cos(frequency * t)
+        };
+        let signal = Signal { values: (0..4096).map(value).collect(), turn: None };
+        Torus::of(&[signal], 0.1, 2, None)
+    }
+
+    /// The root mean square of the two lines is √(0.58).
+    #[test]
+    fn a_line_counts_from_a_thousandth_of_the_size_on() {
+        let size = 0.58_f64.sqrt();
+        assert!(with_third(0.8e-3 * size, 0.377).is_some());
+        assert!(with_third(1.25e-3 * size, 0.377).is_none());
+    }
+
+    #[test]
+    fn a_line_is_a_combination_within_a_ten_thousandth_of_a_turn() {
+        let turn = TAU / 409.6;
+        assert!(with_third(0.1, 2.0 + 0.8e-4 * turn).is_some());
+        assert!(with_third(0.1, 2.0 + 1.25e-4 * turn).is_none());
     }
 }

@@ -17,6 +17,17 @@ const STEPS: u64 = 1500;
 const STEPS_FIXED: u64 = 40_000;
 const PERIODS: u32 = 1024;
 
+/// Under a drive so many times as many steps, and a motion is looked at only over so many periods at least.
+const DRIVEN: u64 = 8;
+const FEWEST: u32 = 128;
+
+/// A number of periods that lacks less than this of a whole one is one.
+const WHOLE: f64 = 1e-6;
+
+/// The work of finding out what a motion is, of which the exponents take this part.
+const WORK: u64 = 100;
+const PART: u64 = 90;
+
 /// The number of samples over them.
 const SAMPLES: u32 = 4096;
 
@@ -26,15 +37,20 @@ const ENDLESS: f64 = 1e150;
 /// The most frequencies that are searched for.
 const FREQUENCIES: usize = 3;
 
-/// An error that says beside what was not found what the motion from the start is, where that can be known.
-pub(super) fn explained(
+/// Is told how much of the work is done, of how much.
+type Look<'a> = &'a mut dyn FnMut(u64, u64);
+
+/// An error that says beside what was not found what the motion from the start is, where that can be known. Other errors are as
+/// they are. `look` is told how much of the work is done, of how much.
+pub fn explained(
     error: DynamicsError,
     space: &PhaseSpace,
     method: (&'static Method, Settings),
     start: &State,
+    look: Look<'_>,
 ) -> DynamicsError {
-    let DynamicsError::Unsuited(why) = error else { return error };
-    match character(space, method, start) {
+    let DynamicsError::Unclosed(why) = error else { return error };
+    match character(space, method, start, look) {
         Err(error) if error.is_cancelled() => error,
         Ok(Some(character)) => {
             DynamicsError::Unsuited(format!("{why}. The motion from there {character}"))
@@ -49,10 +65,13 @@ fn character(
     space: &PhaseSpace,
     method: (&'static Method, Settings),
     start: &State,
+    look: Look<'_>,
 ) -> Result<Option<String>, DynamicsError> {
     let drive = if space.is_autonomous() { None } else { space.drive() };
-    let Some(end) = end(space, method, start, drive)? else { return Ok(None) };
-    let found = lyapunov(space, method, start, end, &mut |_| ())?;
+    let Some((end, count)) = end(space, method, start, drive)? else { return Ok(None) };
+    look(1, WORK);
+    let part = |time: f64| (PART as f64 * (time - start.time) / (end - start.time)) as u64;
+    let found = lyapunov(space, method, start, end, &mut |time| look(1 + part(time), WORK))?;
     if let Some(failure) = found.failure {
         return if failure.is_cancelled() { Err(failure) } else { Ok(None) };
     }
@@ -60,41 +79,50 @@ fn character(
     Ok(Some(match found.verdict {
         Chaos::Chaotic => format!("is chaotic: {reason}"),
         Chaos::Undecided => format!("may be regular or chaotic, which is undecided: {reason}"),
-        Chaos::Regular => match torus(space, method, (start, end), drive)? {
+        Chaos::Regular => match torus(space, method, (start, end, count), drive)? {
             Some(torus) => torus.sentence(),
             None => format!("is regular: {reason}"),
         },
     }))
 }
 
-/// The time until which the motion is followed; nothing if it ends before.
+/// The time until which the motion is followed, and the number of samples until then; nothing if it ends before. Under a drive
+/// it is a number of its periods, as many as there are steps for.
 fn end(
     space: &PhaseSpace,
     (method, settings): (&'static Method, Settings),
     start: &State,
     drive: Option<f64>,
-) -> Result<Option<f64>, DynamicsError> {
-    if let Some(drive) = drive {
-        return Ok(Some(start.time + f64::from(PERIODS) * drive));
-    }
+) -> Result<Option<(f64, u32)>, DynamicsError> {
     let mut carrier = Carrier::new(space, method, settings, 0)?;
     carrier.start(start, &DMatrix::zeros(space.dimension(), 0))?;
     let steps = if method.stepping == Stepping::Fixed { STEPS_FIXED } else { STEPS };
+    let steps = if drive.is_some() { DRIVEN * steps } else { steps };
+    let last = drive.map_or(ENDLESS, |drive| start.time + f64::from(PERIODS) * drive);
     for _ in 0..steps {
-        if let Err(fault) = carrier.step(ENDLESS) {
+        if carrier.time() >= last {
+            break;
+        }
+        if let Err(fault) = carrier.step(last) {
             let fault = DynamicsError::from(fault);
             return if fault.is_cancelled() { Err(fault) } else { Ok(None) };
         }
     }
     let end = carrier.time();
-    Ok((end < ENDLESS).then_some(end))
+    Ok(match drive {
+        Some(drive) => {
+            let count = ((end - start.time) / drive + WHOLE).floor() as u32;
+            (count >= FEWEST).then(|| (start.time + f64::from(count) * drive, count))
+        }
+        None => (end < ENDLESS).then_some((end, SAMPLES)),
+    })
 }
 
 /// The torus on which a regular motion of a conservative system lies, if its frequencies are found.
 fn torus(
     space: &PhaseSpace,
     method: (&'static Method, Settings),
-    (start, end): (&State, f64),
+    (start, end, count): (&State, f64, u32),
     drive: Option<f64>,
 ) -> Result<Option<Torus>, DynamicsError> {
     let (_, dimension) = space.allowed_displacements(start)?;
@@ -103,7 +131,6 @@ fn torus(
     if !conserves || space.form() == Form::Variables || !(1..=FREQUENCIES).contains(&degrees) {
         return Ok(None);
     }
-    let count = if drive.is_some() { PERIODS } else { SAMPLES };
     let spacing = (end - start.time) / f64::from(count);
     let mut signals: Vec<Signal> = (space.periods().iter().take(space.dimension() / 2))
         .map(|turn| Signal { values: Vec::new(), turn: *turn })

@@ -188,7 +188,8 @@ impl Instrument for Diagram {
         // the values were taken ever more closely; crossings stay in their order
         rows.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let over = varied::written(present.physics, *plot.over.first()?).to_owned();
-        Some(PlotTable { columns: vec![over, quantity(plot, present.physics)], rows })
+        let columns = vec![over, quantity(plot, present.physics)];
+        Some(PlotTable { columns, counts: 0, rows })
     }
 
     fn measures(&self) -> &'static [Measure] {

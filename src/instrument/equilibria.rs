@@ -4,11 +4,13 @@
 //! In: a system and its current state. Out: [`FoundEquilibria`], coordinates on plots, initial values. Never here: lists,
 //! keys, how the search works ([`equilibria`](crate::dynamics::equilibria)).
 
-use super::{Physics, Present};
+use super::{Ink, Layer, Level, Physics, Present, Sign};
 use crate::dynamics::{
-    Equilibrium, Kind, PhaseSpace, VirtualWork, equilibria_watched, with_virtual_work,
+    Equilibrium, Kind, PhaseSpace, VirtualWork, equilibria_watched, name_equilibria,
+    with_virtual_work,
 };
 use crate::ensemble::Start;
+use crate::expr::Expr;
 use crate::job::Progress;
 use crate::num::significant;
 use crate::system::{ChannelKind, ConstraintProjector, Form, InitialOverride, State};
@@ -50,6 +52,7 @@ pub fn equilibria_search(
         let (periods, parameters) = (found.periods, start.parameters.clone());
         let mut found = found.found;
         with_virtual_work((&model, &equations), &parameters, &mut found);
+        name_equilibria(&model, &parameters, &mut found);
         Ok(FoundEquilibria { found, periods, parameters })
     }
 }
@@ -182,7 +185,48 @@ pub fn described(physics: Physics<'_>, one: &Equilibrium) -> (String, String) {
     let modes =
         if modes.is_empty() { String::new() } else { format!(", ω = {}", modes.join(", ")) };
     let energy = short(one.energy);
-    (format!("{}: {stable} {kind}", places.join(", ")), format!("E = {energy}{modes}"))
+    let name = if one.name.is_empty() { String::new() } else { format!("{}: ", one.name) };
+    (format!("{name}{}: {stable} {kind}", places.join(", ")), format!("E = {energy}{modes}"))
+}
+
+/// The layers that mark equilibria at their points: a sign by their stability, with the name, or where there are several and this
+/// one has none the number in the list.
+pub(super) fn marks(
+    present: &Present<'_>,
+    level: Level,
+    point: impl Fn(&Equilibrium) -> Option<[f64; 2]>,
+) -> Vec<(Level, Layer)> {
+    let mut layers = Vec::new();
+    for (index, one) in present.equilibria.iter().enumerate() {
+        let Some(at) = point(one) else { continue };
+        let (sign, ink) = match one.stable {
+            Some(false) => (Sign::Cross, Ink::Separatrix),
+            Some(true) => (Sign::Ring, Ink::Curve(2)),
+            None => (Sign::Ring, Ink::Plain),
+        };
+        layers.push((level, Layer::Point(at, sign, ink)));
+        let name = match one.name.as_str() {
+            "" if present.equilibria.len() > 1 => (index + 1).to_string(),
+            name => name.to_owned(),
+        };
+        layers.push((level, Layer::Name(at, name, ink)));
+    }
+    layers
+}
+
+/// The value of an expression of the state, the parameters and the time at an equilibrium.
+pub(super) fn value_of(present: &Present<'_>, one: &Equilibrium, expression: Expr) -> f64 {
+    let physics = present.physics;
+    let mut values = present.values.to_vec();
+    for (channel, value) in values.iter_mut().enumerate() {
+        if let Some(there) = value_at(physics, one, channel) {
+            *value = there;
+        }
+    }
+    let Physics { model, equations, system } = physics;
+    let law = (model.as_ref(), equations.as_ref());
+    let known = system.valuation(law, present.time, present.parameters, &values);
+    known.value(&model.pool, expression)
 }
 
 /// The coordinates in which each stands for others, in words.

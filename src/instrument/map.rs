@@ -212,7 +212,7 @@ impl Instrument for Map {
             .collect();
         rows.sort_by_key(|(place, _)| *place);
         let rows = rows.into_iter().map(|(_, row)| row).collect();
-        Some(PlotTable { columns: columns.collect(), rows })
+        Some(PlotTable { columns: columns.collect(), counts: 0, rows })
     }
 
     fn measures(&self) -> &'static [Measure] {

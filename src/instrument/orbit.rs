@@ -1,8 +1,8 @@
 //! `orbit`: the periodic orbit near the motion, with its period, its action, its multipliers and its stability.
 //!
 //! The job closes the orbit near the state at which the picture was begun, or was asked for again, by Newton's method
-//! ([`periodic_orbit`]), and follows it once around; it begins again where a parameter, the method or the initial values
-//! change.
+//! ([`nearest_orbit`]), and follows it once around; where there is none, another job finds out what the motion is instead. It
+//! begins again where a parameter, the method or the initial values change.
 
 use super::conditions::PlotConditions;
 use super::equilibria::given;
@@ -11,13 +11,14 @@ use super::{
     Offer, Physics, Picture, Plot, Present, Seed, Sign, Upwards,
 };
 use crate::dynamics::{
-    DynamicsError, Fixed, Orbit as Closed, PhaseSpace, Removed, driven_orbit, periodic_orbit,
+    DynamicsError, Fixed, Orbit as Closed, PhaseSpace, Removed, explained, nearest_driven_orbit,
+    nearest_orbit,
 };
 use crate::ensemble::{Start, SystemFlow};
 use crate::integrate::{Method, Settings, method_named};
 use crate::job::{Job, Progress};
 use crate::num::{math, significant};
-use crate::system::{ChannelKind, Form, InitialOverride, System};
+use crate::system::{ChannelKind, Form, InitialOverride, State, System};
 
 /// The levels of the picture.
 const TRAIL: Level = 0;
@@ -30,6 +31,9 @@ const POINTS: usize = 2048;
 /// What is beyond the extent of an orbit is this part of it.
 const MARGIN: f64 = 0.25;
 
+/// An error that rounding leaves of the multipliers' matrix is mentioned if it may show in their digits.
+const NOTICED: f64 = 1e-6;
+
 /// The row.
 pub(super) struct OrbitPlot;
 
@@ -39,6 +43,8 @@ struct ComputedOrbit {
     /// The time of the motion when it was asked for.
     asked: f64,
     outcome: Result<Described, String>,
+    /// The start near which no orbit was found, and the error, if it is still to say what the motion is instead.
+    unexplained: Option<(Start, DynamicsError)>,
 }
 
 /// An orbit, and its points in the plane of the picture.
@@ -132,7 +138,8 @@ impl Instrument for OrbitPlot {
         let conditions = PlotConditions::of(present, &plot.seeds);
         let known = found(answer)
             .filter(|known| known.conditions == conditions && known.asked <= present.time);
-        if known.is_some() {
+        let unexplained = known.map(|known| (known.asked, &known.unexplained));
+        if let Some((_, None)) = unexplained {
             return Need::Held;
         }
         let (Some(x), Some(y), Some(method)) =
@@ -142,7 +149,20 @@ impl Instrument for OrbitPlot {
         };
         let Physics { model, equations, system } = present.physics;
         let (model, equations, system) = (model.clone(), equations.clone(), system.clone());
-        let (asked, settings) = (present.time, present.settings);
+        let settings = present.settings;
+        if let Some((asked, Some((start, error)))) = unexplained {
+            let (start, error) = (start.clone(), error.clone());
+            return Need::Job(Job::new("what the motion is", move |progress: &Progress| {
+                let system = system.with_cancel(progress.token().clone());
+                let physics =
+                    Physics { model: &model, equations: &equations, system: &system.into() };
+                let of = (&start, &conditions);
+                let why = character(physics, (method, settings), of, &error, progress);
+                let (conditions, outcome) = (conditions.clone(), Err(why));
+                Answer::new(ComputedOrbit { conditions, asked, outcome, unexplained: None })
+            }));
+        }
+        let asked = present.time;
         let start = Start {
             time: asked,
             parameters: present.parameters.to_vec(),
@@ -151,9 +171,15 @@ impl Instrument for OrbitPlot {
         Need::Job(Job::new("periodic orbit", move |progress: &Progress| {
             let system = system.with_cancel(progress.token().clone());
             let physics = Physics { model: &model, equations: &equations, system: &system.into() };
-            let outcome = close(physics, (method, settings), (&start, &conditions), [x, y]);
-            let outcome = outcome.map_err(|why| why.to_string());
-            Answer::new(ComputedOrbit { conditions: conditions.clone(), asked, outcome })
+            let of = (&start, &conditions);
+            let outcome = close(physics, (method, settings), of, ([x, y], progress));
+            let unexplained = match &outcome {
+                Err(error @ DynamicsError::Unclosed(_)) => Some((start.clone(), error.clone())),
+                _ => None,
+            };
+            let (conditions, outcome) =
+                (conditions.clone(), outcome.map_err(|why| why.to_string()));
+            Answer::new(ComputedOrbit { conditions, asked, outcome, unexplained })
         }))
     }
 
@@ -201,14 +227,12 @@ impl Instrument for OrbitPlot {
     }
 }
 
-/// Closes the orbit near a start, and follows it once around. Impulses that come at their times count from the initial
+/// The space of an orbit, and the state that it is searched near. Impulses that come at their times count from the initial
 /// values; over them the orbit is closed from there.
-fn close(
+fn beginning(
     physics: Physics<'_>,
-    method: (&'static Method, Settings),
     (start, conditions): (&Start, &PlotConditions),
-    channels: [usize; 2],
-) -> Result<Described, DynamicsError> {
+) -> Result<(PhaseSpace, State), DynamicsError> {
     let (system, parameters) = (physics.system, &start.parameters);
     let (model, equations) = (physics.model, physics.equations);
     let space = PhaseSpace::on_constraints(model, equations, system, parameters)?;
@@ -218,14 +242,46 @@ fn close(
         start.state(system)?
     };
     let state = space.state(&begun)?;
+    Ok((space, state))
+}
+
+/// Why no orbit was found, and what the motion is instead.
+fn character(
+    physics: Physics<'_>,
+    method: (&'static Method, Settings),
+    of: (&Start, &PlotConditions),
+    error: &DynamicsError,
+    progress: &Progress,
+) -> String {
+    let Ok((space, state)) = beginning(physics, of) else { return error.to_string() };
+    let mut look = |done, all| {
+        progress.expect(all);
+        progress.reach(done);
+    };
+    explained(error.clone(), &space, method, &state, &mut look).to_string()
+}
+
+/// Closes the orbit near a start, and follows it once around.
+fn close(
+    physics: Physics<'_>,
+    method: (&'static Method, Settings),
+    (start, conditions): (&Start, &PlotConditions),
+    (channels, progress): ([usize; 2], &Progress),
+) -> Result<Described, DynamicsError> {
+    let (system, parameters) = (physics.system, &start.parameters);
+    let (space, state) = beginning(physics, (start, conditions))?;
+    let look = |done, all| {
+        progress.expect(all);
+        progress.reach(done);
+    };
     let fixed = if space.is_hamiltonian() && space.is_conservative() {
         Fixed::Energy(system.energy(&state, parameters)?)
     } else {
         Fixed::Nothing
     };
     let orbit = match space.drive() {
-        Some(drive) => driven_orbit(&space, method, &state, drive)?,
-        None => periodic_orbit(&space, method, &state, None, fixed)?,
+        Some(drive) => nearest_driven_orbit(&space, method, &state, drive, &look)?,
+        None => nearest_orbit(&space, method, &state, (None, fixed), &look)?,
     };
     let flow = SystemFlow {
         system: System::clone(system),
@@ -272,10 +328,17 @@ fn described(answer: Option<&Answer>) -> Option<&Described> {
 
 /// What is said of the orbit, or why there is none.
 fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
-    let found = match found(answer).map(|found| &found.outcome) {
+    let found = match found(answer) {
         None => return vec!["searching for the periodic orbit near the motion".to_owned()],
-        Some(Err(why)) => return vec![why.clone()],
-        Some(Ok(found)) => found,
+        Some(ComputedOrbit { outcome: Err(why), unexplained, .. }) => {
+            let more = if unexplained.is_some() {
+                "; what the motion is instead is being computed"
+            } else {
+                ""
+            };
+            return vec![format!("{why}{more}")];
+        }
+        Some(ComputedOrbit { outcome: Ok(found), .. }) => found,
     };
     let orbit = &found.orbit;
     let short = |x: f64| significant(x, 8, 1e-4..1e6).replace('-', "−");
@@ -307,6 +370,9 @@ fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     let all = [own.join(", "), trivial.to_owned()];
     let all: Vec<String> = all.into_iter().filter(|part| !part.is_empty()).collect();
     lines.push(format!("multipliers {}", all.join(", ")));
+    if let Some(error) = orbit.rounding.filter(|error| *error > NOTICED) {
+        lines.push(format!("rounding {error:.0e} in their matrix").replace('-', "−"));
+    }
     let how = match (orbit.multipliers.is_empty(), orbit.stable) {
         (true, _) => "neutral: one of a family in E".to_owned(),
         (false, true) => "stable".to_owned(),

@@ -6,6 +6,7 @@
 
 use std::sync::Arc;
 
+use super::equilibria::marks;
 use super::{
     Across, Answer, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need,
     NoStart, Offer, Physics, Picture, Plot, Present, Sign, Upwards, value_at,
@@ -102,14 +103,9 @@ impl Instrument for Phase {
         let landscape = landscape(answer);
         let levels = landscape.map(|l| (LEVELS, Layer::Landscape(Arc::clone(l))));
         let now = Layer::Point([x, y].map(|k| present.value(k)), Sign::Disc, Ink::Accent);
-        let equilibria = present.equilibria.iter().filter_map(|one| {
+        let equilibria = marks(present, MARK, |one| {
             let at = |channel| value_at(present.physics, one, channel);
-            let (sign, ink) = match one.stable {
-                Some(false) => (Sign::Cross, Ink::Separatrix),
-                Some(true) => (Sign::Ring, Ink::Curve(2)),
-                None => (Sign::Ring, Ink::Plain),
-            };
-            Some((MARK, Layer::Point([at(x)?, at(y)?], sign, ink)))
+            Some([at(x)?, at(y)?])
         });
         let layers = levels.into_iter().chain([
             (TRAIL, Layer::Companions([x, y])),

@@ -147,6 +147,8 @@ pub enum Layer {
     },
     /// A marker at a point.
     Point([f64; 2], Sign, Ink),
+    /// A name beside a point, where there is room.
+    Name([f64; 2], String, Ink),
     /// Lines of text in a corner, over everything else.
     Legend(Vec<String>),
 }

@@ -7,6 +7,8 @@
 pub struct PlotTable {
     /// The names of the columns.
     pub columns: Vec<String>,
+    /// How many of the columns, from the first on, hold whole numbers.
+    pub counts: usize,
     /// The rows, each with a number for every column.
     pub rows: Vec<Vec<f64>>,
 }

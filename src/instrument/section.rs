@@ -8,6 +8,7 @@ mod portrait;
 
 use std::sync::Arc;
 
+use super::equilibria::{marks, value_at, value_of};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
     Offer, Physics, Picture, Plot, PlotTable, Present, Seed, Sign, Upwards,
@@ -28,6 +29,9 @@ const BOUNDARY: Level = 0;
 const ORBITS: Level = 1;
 const OWN: Level = 2;
 const NOW: Level = 3;
+
+/// An equilibrium lies on a surface up to this value of what vanishes there.
+const ON_SURFACE: f64 = 1e-9;
 
 /// The newest crossings of the running motion by which its rotation number is measured.
 const COUNT_OWN: usize = 1000;
@@ -138,6 +142,12 @@ impl Instrument for SectionPlot {
         layers.push((OWN, Layer::CompanionCrossings { section, channels }));
         layers.push((OWN, Layer::Crossings { section, channels, ink: Ink::Accent }));
         layers.push((NOW, Layer::LastCrossing { section, channels, sign: Sign::Disc }));
+        layers.extend(marks(present, NOW, |one| {
+            let [x, y] = channels.map(|channel| value_at(present.physics, one, channel));
+            let when = present.physics.model.sections.get(section)?.when;
+            let lies_there = value_of(present, one, when).abs() <= ON_SURFACE;
+            if lies_there { Some([x?, y?]) } else { None }
+        }));
         let (channel, range) = (channels[1], range(plot, present, answer, 1));
         let upwards = match portrait(answer).and_then(newest_rotation) {
             Some(words) => Upwards::Annotated { channel, range, words },

@@ -16,7 +16,7 @@ use crate::dynamics::{
 use crate::ensemble::SystemFlow;
 use crate::integrate::method_named;
 use crate::job::{Job, Progress};
-use crate::num::{math, significant};
+use crate::num::{math, significant, to_its_error};
 use crate::system::ChannelKind;
 
 /// The levels of the picture.
@@ -171,8 +171,7 @@ impl Instrument for SpectrumPlot {
                 let most = (MOST, fundamentals);
                 let lines = driven_spectrum(&straight, spacing, most, drive, &mut look);
                 let lines = lines.ok_or_else(|| "the motion has no finite values".to_owned())?;
-                let strongest = lines.lines.first().map(|line| line.frequency);
-                let drift = strongest.and_then(|at| frequency_drift(&straight, spacing, at));
+                let drift = frequency_drift(&straight, spacing, &lines.lines);
                 Ok(Analysis { lines, rate, drift })
             });
             Answer::new(ComputedSpectrum { conditions: conditions.clone(), drive, outcome })
@@ -249,13 +248,7 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
         Some(Ok(found)) => &found.lines,
     };
     let short = |x: f64| significant(x, 9, 1e-4..1e6).replace('-', "−");
-    // no digit beyond the error
-    let known = |x: f64, error: f64| {
-        let place = |x: f64| (math::ln(x.abs()) / std::f64::consts::LN_10).floor();
-        let digits = place(x) - place(error) + 1.0;
-        let digits = if digits.is_finite() { digits.clamp(1.0, 9.0) } else { 9.0 };
-        significant(x, digits as usize, 1e-4..1e6).replace('-', "−")
-    };
+    let known = |x: f64, error: f64| to_its_error(x, error, 9, 1e-4..1e6).replace('-', "−");
     let brief = |x: f64| significant(x, 3, 1e-3..1e5).replace('-', "−");
     let unit = match physics.model.time_unit() {
         "" => String::new(),
@@ -298,7 +291,7 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     let advances = mean(answer).filter(|rate| rate.rate.abs() > rate.error);
     all.extend(advances.map(|rate| {
         let error = significant(rate.error, 1, 1.0..10.0);
-        format!("mean rate {} ± {error}{unit}", short(rate.rate))
+        format!("mean rate {} ± {error}{unit}", known(rate.rate, rate.error))
     }));
     all
 }

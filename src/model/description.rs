@@ -56,6 +56,8 @@ pub struct Model {
     pub transformations: Vec<Transformation>,
     /// Generators of infinitesimal transformations.
     pub generators: Vec<Generator>,
+    /// The names of equilibria.
+    pub equilibria: Vec<NamedEquilibrium>,
     /// A complete integral of the Hamilton–Jacobi equation.
     pub complete_integral: Option<CompleteIntegral>,
     /// Frames from which a picture may be seen.
@@ -76,6 +78,15 @@ pub struct Model {
     pub viewpoint: Viewpoint,
     /// The default settings of a run.
     pub run: RunSettings,
+}
+
+/// A name of an equilibrium, with coordinates near which it is, by index, in terms of parameters.
+#[derive(Clone, Debug)]
+pub struct NamedEquilibrium {
+    /// As written in the file.
+    pub name: String,
+    /// The coordinates.
+    pub near: Vec<(usize, Expr)>,
 }
 
 /// The descriptive texts of a file.
@@ -270,6 +281,7 @@ impl Model {
             comparison: None,
             transformations: Vec::new(),
             generators: Vec::new(),
+            equilibria: Vec::new(),
             complete_integral: None,
             frames: Vec::new(),
             observables: Vec::new(),

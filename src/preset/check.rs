@@ -8,6 +8,7 @@
 mod body;
 mod comparison;
 mod constraint;
+mod equilibrium;
 mod expect;
 mod frame;
 mod motion;
@@ -92,6 +93,7 @@ fn check_once(
         check.attitude(attitude);
     }
     check.transformations(draft);
+    check.equilibria(&draft.equilibria);
     check.impulses(&draft.impulses);
     check.observables(&draft.observables, &mut names);
     check.events(&draft.events);
@@ -181,6 +183,7 @@ impl Check<'_> {
         let events = draft.events.iter().map(|e| e.place.clone()).collect();
         let transformations = draft.transformations.iter().map(|t| t.place.clone()).collect();
         let generators = draft.generators.iter().map(|g| g.place.clone()).collect();
+        let equilibria = draft.equilibria.iter().map(|e| e.place.clone()).collect();
         let values = draft.expect.values.iter().map(|v| v.place.clone()).collect();
         let conserved = draft.expect.conserves.iter().map(toml::Spanned::span).collect();
         let views = draft.views.iter().map(|v| v.place.clone()).collect();
@@ -210,6 +213,7 @@ impl Check<'_> {
             named(events, 256, "events"),
             named(transformations, 64, "transformations"),
             named(generators, 256, "generators"),
+            named(equilibria, 256, "equilibria"),
             named(brackets, 4096, "brackets"),
             named(casimirs, 64, "casimirs"),
             named(pieces, 1024, "pieces of a body"),

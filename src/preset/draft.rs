@@ -8,6 +8,7 @@
 mod body;
 mod claims;
 mod constraint;
+mod equilibrium;
 mod frame;
 mod law;
 mod occurrence;
@@ -33,6 +34,7 @@ pub(super) use claims::{
     DraftValue,
 };
 pub(super) use constraint::DraftConstraint;
+pub(super) use equilibrium::DraftEquilibrium;
 pub(super) use frame::DraftFrame;
 pub(super) use law::{DraftBracket, DraftMechanics, LawTable};
 pub(super) use occurrence::{DraftEvent, DraftImpulse};
@@ -80,6 +82,8 @@ pub(super) struct Draft {
     pub(super) transformations: Vec<DraftTransformation>,
     /// The generators.
     pub(super) generators: Vec<DraftGenerator>,
+    /// The names of equilibria.
+    pub(super) equilibria: Vec<DraftEquilibrium>,
     /// The complete integral.
     pub(super) integral: Option<DraftIntegral>,
     /// The observables.
@@ -128,6 +132,7 @@ pub(super) fn read(file: &Spanned<DeTable<'_>>, diagnostics: &mut Diagnostics) -
         comparison: body::comparison(&mut top, diagnostics),
         transformations: transformation::transformations(&mut top, diagnostics),
         generators: transformation::generators(&mut top, diagnostics),
+        equilibria: equilibrium::equilibria(&mut top, diagnostics),
         integral: transformation::integral(&mut top, diagnostics),
         observables: claims::observables(&mut top, diagnostics),
         expect: claims::expect(&mut top, diagnostics),

@@ -214,7 +214,7 @@ impl NewObservable {
 }
 
 /// Adds a table to a list of tables, whichever way that is written.
-fn push(file: &mut DocumentMut, key: &str, table: Table) {
+pub(super) fn push(file: &mut DocumentMut, key: &str, table: Table) {
     match file.entry(key).or_insert(Item::ArrayOfTables(ArrayOfTables::new())) {
         Item::Value(Value::Array(list)) => list.push(table.into_inline_table()),
         Item::ArrayOfTables(list) => list.push(table),

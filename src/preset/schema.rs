@@ -17,7 +17,7 @@ pub(super) use law::{COORDINATE, PARAMETER, VARIABLE};
 pub use reference::reference;
 
 use body::{ATTITUDE, BODY};
-use canonical::{GENERATOR, INTEGRAL, TRANSFORMATION};
+use canonical::{EQUILIBRIUM, GENERATOR, INTEGRAL, TRANSFORMATION};
 use claims::{EXPECT, OBSERVABLE};
 use key::ValueKind::{Kinds, Named, Names, Number, Table, Tables, Text, Texts};
 use key::key;
@@ -51,6 +51,7 @@ pub(super) const FILE: SchemaTable = SchemaTable {
         key("comparison", Table(&COMPARISON), "the wrong mechanics beside the right"),
         key("transformations", Tables(&TRANSFORMATION), "transformations (q, p) → (Q, P)"),
         key("generators", Tables(&GENERATOR), "generators of infinitesimal transformations"),
+        key("equilibria", Tables(&EQUILIBRIUM), "the names of equilibria"),
         key("hamilton_jacobi", Table(&INTEGRAL), "a complete integral"),
         key("observables", Tables(&OBSERVABLE), "what is watched"),
         key("expect", Table(&EXPECT), "what the file claims of its motion"),

@@ -33,7 +33,13 @@ pub fn write_table(
     out: &mut impl Write,
 ) -> io::Result<()> {
     head(loaded, snapshot, table.columns.iter().map(String::as_str), out)?;
-    table.rows.iter().try_for_each(|row| line(row, out))
+    table.rows.iter().try_for_each(|row| {
+        let cells = row.iter().enumerate().map(|(column, x)| match column {
+            column if column < table.counts => format!("{x:.0}"),
+            _ => cell(*x),
+        });
+        writeln!(out, "{}", cells.collect::<Vec<_>>().join(","))
+    })
 }
 
 /// The lines before the rows.
@@ -56,7 +62,11 @@ fn head<'a>(
 }
 
 fn line(row: &[f64], out: &mut impl Write) -> io::Result<()> {
-    let cell = |x: &f64| if x.is_finite() { format!("{x:?}") } else { String::new() };
-    let cells: Vec<String> = row.iter().map(cell).collect();
+    let cells: Vec<String> = row.iter().map(|x| cell(*x)).collect();
     writeln!(out, "{}", cells.join(","))
+}
+
+/// A number so that it reads back; nothing where there is none.
+fn cell(x: f64) -> String {
+    if x.is_finite() { format!("{x:?}") } else { String::new() }
 }

@@ -382,13 +382,16 @@ fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &InputField
         (Purpose::Ramp(_), Some(facts)) => {
             format!("ramp {}: value in time", glyphs.pick(&facts.shown, &facts.name))
         }
+        (Purpose::Surface(_), _) => "section at".to_owned(),
         (Purpose::Step, _) => "step".to_owned(),
         (Purpose::Tolerance, _) => "tolerance".to_owned(),
         (_, Some(facts)) => glyphs.pick(&facts.shown, &facts.name).clone(),
         _ => "value".to_owned(),
     };
-    let used = canvas.left(area, Role::Title, &format!("{name} = "));
-    let room = 20.min(area.width / 3);
+    let is_surface = matches!(field.purpose, Purpose::Surface(_));
+    let sign = if is_surface { " " } else { " = " };
+    let used = canvas.left(area, Role::Title, &format!("{name}{sign}"));
+    let room = (if is_surface { 30 } else { 20 }).min(area.width / 3);
     typing(canvas, columns(area, used, room), field);
     let rest = columns(area, used + room + 2, area.width);
     let (role, text) = match (&field.diagnostic, facts) {
@@ -398,6 +401,9 @@ fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &InputField
         }
         (None, _) if matches!(field.purpose, Purpose::Ramp(_)) => {
             (Role::Dim, "2 in 60; then smooth, cubic or linear".to_owned())
+        }
+        (None, _) if is_surface => {
+            (Role::Dim, "x = 0, rising (falling, either); every 2*pi/w; event NAME".to_owned())
         }
         (None, Some(facts)) => (Role::Dim, format!("{} {}", facts.unit, facts.about)),
         (None, None) => (Role::Dim, "Enter accepts, Esc cancels".to_owned()),

@@ -10,6 +10,7 @@ use super::colour::ColourDepth;
 use super::ink::pen;
 use super::kept::{self, Track, TrailKey};
 use super::marks::{self, Marks};
+use super::names;
 use super::number::readable;
 use super::plot::ticks::nice_range;
 use super::plot::{Ages, Axes, DrawnAxis, Marker, Pen, PlotFrame, Raster, Scale};
@@ -219,6 +220,7 @@ pub(super) fn draw(
     prediction::draw(canvas, &mut raster, &frame, (q, plot));
     raster.draw(canvas.buffer);
     prediction::label(canvas, &frame, (q, plot));
+    names::draw(canvas, &frame, &layers);
     for (_, layer) in &layers {
         if let Layer::Legend(lines) = layer {
             legend::draw(canvas, beside.unwrap_or(frame.area), lines);
@@ -364,7 +366,7 @@ fn draw_layer(
             companions::crossings(canvas, raster, (frame, q), (*section, *channels, level));
         }
         // written when the dots are there
-        Layer::Legend(_) => {}
+        Layer::Legend(_) | Layer::Name(..) => {}
         Layer::Point(at, sign, ink) => {
             raster.marker(frame, *at, marker(*sign), &pen(canvas, *ink, level));
         }

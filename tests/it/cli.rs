@@ -18,6 +18,7 @@ mod manual;
 mod new;
 mod options_first;
 mod path;
+mod plot;
 mod ramp;
 mod record;
 mod reverse;

@@ -50,6 +50,14 @@ fn finish(app: &mut App, mut effects: Vec<Effect>) {
 
 /// The lab with a motion at a time, after `t` was pressed.
 fn opened(text: &str, time: f64) -> (App, Experiment) {
+    let (mut app, experiment) = before(text, time);
+    let effects = press(&mut app, "t");
+    finish(&mut app, effects);
+    (app, experiment)
+}
+
+/// The same before it was pressed.
+fn before(text: &str, time: f64) -> (App, Experiment) {
     let ready =
         Prepared::of(&Document::new("test", text)).unwrap_or_else(|error| panic!("{error}"));
     let Prepared { document, model, equations, system, mut experiment } = ready;
@@ -61,8 +69,6 @@ fn opened(text: &str, time: f64) -> (App, Experiment) {
     let effects = app.update(Event::Loaded(Ok(loaded)));
     finish(&mut app, effects);
     see(&mut app, &mut experiment, time);
-    let effects = press(&mut app, "t");
-    finish(&mut app, effects);
     (app, experiment)
 }
 
@@ -255,4 +261,30 @@ fn without_colour_the_orbit_is_told_from_the_trail() {
     assert!(coloured > 200, "the orbit is drawn: {coloured} dots");
     let share = f64::from(plain) / f64::from(coloured);
     assert!((0.4..0.75).contains(&share), "{plain} of {coloured} dots");
+}
+
+/// Where there is no orbit that is said at once, and what the motion is instead by another job; both say how far they are.
+#[test]
+fn a_refusal_comes_in_stages() {
+    let damped = one("1/2*q'^2 - 1/2*q^2", "dissipation = \"0.01*q'^2\"");
+    let (mut app, _) = before(&damped, 1.0);
+    let mut effects = press(&mut app, "t");
+    let mut names = Vec::new();
+    for words in
+        ["; what the motion is instead is being computed", ". The motion from there is regular"]
+    {
+        let job = effects.iter().position(|effect| matches!(effect, Effect::Compute(_)));
+        let Effect::Compute(Computation { ticket, job, .. }) = effects.remove(job.expect("a job"))
+        else {
+            unreachable!("it is one")
+        };
+        let progress = Progress::new();
+        let outcome = job.run(&progress);
+        names.push(job.name.clone());
+        assert!(progress.share().total.is_some() && progress.share().done > 0, "{}", job.name);
+        effects.extend(app.update(Event::Computed { ticket, outcome }));
+        assert!(legend(&app).contains(words), "{}", legend(&app));
+    }
+    assert_eq!(names, ["periodic orbit", "what the motion is"]);
+    assert!(!effects.iter().any(|effect| matches!(effect, Effect::Compute(_))));
 }

@@ -63,7 +63,7 @@ impl Portrait {
         let rows = orbits
             .flat_map(|(index, orbit)| orbit.points.iter().map(move |at| row(index, at)))
             .collect();
-        PlotTable { columns: vec!["orbit".to_owned(), x, y], rows }
+        PlotTable { columns: vec!["orbit".to_owned(), x, y], counts: 1, rows }
     }
 }
 

@@ -1,4 +1,4 @@
-//! The tables of canonical transformations, their generators, and a complete integral.
+//! The tables of canonical transformations, their generators, the names of equilibria, and a complete integral.
 //!
 //! In: nothing. Out: their keys. Never here: whether they are canonical.
 
@@ -30,6 +30,16 @@ pub(super) const GENERATOR: SchemaTable = SchemaTable {
     head: "[[generators]]",
     about: "Of infinitesimal transformations; `run --flow-of NAME` carries the state along its flow.",
     keys: &[NAME, key("G", Formula, "a function of q, p, t").needed("write G = \"...\"")],
+};
+
+pub(super) const EQUILIBRIUM: SchemaTable = SchemaTable {
+    head: "[[equilibria]]",
+    about: "The equilibrium that is nearest has the name, in lists and beside its mark on plots.",
+    keys: &[
+        NAME,
+        key("near", Names, "coordinates near which it is, by the parameters")
+            .needed("write near = { x = \"...\" }"),
+    ],
 };
 
 pub(super) const INTEGRAL: SchemaTable = SchemaTable {

@@ -153,3 +153,46 @@ fn a_mode_under_constraints_begins_on_their_surface() {
     assert!((x * x + y * y - 1.0).abs() < 1e-14 && (angle.abs() - 0.1).abs() < 0.01, "{x} {y}");
     assert!(present.values[2..4].iter().all(|v| v.abs() < 1e-12), "begins at rest");
 }
+
+/// The five points of the restricted problem have their names in the list and on portraits, and those on the axis on the section
+/// y = 0; the names are those that the file gives, at other masses too.
+#[test]
+fn lagranges_points_have_their_names() {
+    for mu in ["0.012277471", "0.2"] {
+        let text = include_str!("../../../presets/gravity/restricted-three-body.toml");
+        let text = text.replace("mu = { value = 0.012277471", &format!("mu = {{ value = {mu}"));
+        let case = crate::hand::lowered(&text);
+        let parameters = case.model.parameter_values();
+        let space = phaselab::dynamics::PhaseSpace::of(
+            &case.model,
+            &case.equations,
+            &case.system,
+            &parameters,
+        );
+        let space = space.unwrap();
+        let start = case.system.initial(0.0, &parameters, &[]).unwrap();
+        let state = space.state(&start).unwrap();
+        let mut found = phaselab::dynamics::equilibria(&space, &state).unwrap().found;
+        phaselab::dynamics::name_equilibria(&case.model, &parameters, &mut found);
+        let mu: f64 = mu.parse().unwrap();
+        let mut named = 0;
+        for one in &found {
+            let [x, y] = [one.variables[0], one.variables[1]];
+            let expected = match (x, y) {
+                (_, y) if y > 0.5 => "L₄",
+                (_, y) if y < -0.5 => "L₅",
+                (x, _) if x > 1.0 - mu => "L₂",
+                (x, _) if x < -mu => "L₃",
+                _ => "L₁",
+            };
+            assert_eq!(one.name, expected, "{x} {y}");
+            named += 1;
+        }
+        assert_eq!(named, 5, "{mu}");
+        // of those that are missing no other gets the name
+        let mut some: Vec<_> = found.iter().filter(|one| one.name != "L₁").cloned().collect();
+        some.iter_mut().for_each(|one| one.name.clear());
+        phaselab::dynamics::name_equilibria(&case.model, &parameters, &mut some);
+        assert!(some.iter().all(|one| one.name != "L₁" && !one.name.is_empty()));
+    }
+}

@@ -153,3 +153,61 @@ fn the_resonance_of_duffings_oscillator_folds_where_another_integrator_says() {
     assert!((upper - 1.779_719_52).abs() < 1e-6, "{upper}");
     assert!((lower - 1.324_236_20).abs() < 1e-6, "{lower}");
 }
+
+/// x = c + a cos(wt/2) solves ẍ + α x + β x² = F cos wt with a² = 2F/β, β c² + α c + F = 0 and w²/4 = α + 2βc, so at every w for
+/// α = √(w⁴/16 + 4βF): an orbit of twice the period of the drive.
+#[test]
+fn an_orbit_of_two_periods_of_the_drive_keeps_their_number() {
+    let (b, f) = (0.4_f64, 0.05_f64);
+    let (size, middle) = ((2.0 * f / b).sqrt(), |w: f64| {
+        let square = w * w / 4.0;
+        (square - (square * square + 4.0 * b * f).sqrt()) / (2.0 * b)
+    });
+    let text = format!(
+        "title = \"t\"\n[coordinates]\nx = {{ initial = 0.3, momentum = 0 }}\n[parameters]\nw = 2.0\n[hamiltonian]\n\
+         H = \"1/2*p_x^2 + 1/2*sqrt(w^4/16 + 4*{b}*{f})*x^2 + {b}/3*x^3 - {f}*x*cos(w*t)\"\n"
+    );
+    let loaded = lowered(&text);
+    let case = super::case(&loaded, &[], &[middle(2.0) + size + 0.01, 0.01]);
+    let found = along_the_drive(&loaded, &case, &[1.7, 2.2, 2.6]);
+    let members = asked(&found);
+    assert_eq!(members.len(), 3, "{:?}", found.ended);
+    for member in members {
+        let w = member.value;
+        let state = case.space.variables(&member.orbit.state);
+        assert!((member.orbit.period - 2.0 * std::f64::consts::TAU / w).abs() < 1e-8, "{w}");
+        assert!((state[0] - middle(w) - size).abs() < 1e-7, "{w}: {state:?}");
+        assert!(state[1].abs() < 1e-7, "{w}: {state:?}");
+    }
+}
+
+/// The motion in x does not feel the drive of y, which stays at rest: its period is no multiple of the drive's, and stays what it
+/// is along the family, while the period of the drive changes. ẍ = −x³ has the period 4√2 K/a with K = ∫ du/√(1 − u⁴) for the
+/// amplitude a, and the energy a⁴/4.
+#[test]
+fn a_period_that_is_no_multiple_of_the_drives_is_kept() {
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 1, momentum = 0 }\ny = { initial = 0, momentum = 0 }\n\
+                [parameters]\nw = 1.3\n[hamiltonian]\n\
+                H = \"1/2*(p_x^2 + p_y^2) + 1/4*x^4 + 1/2*(2 + 0.3*cos(w*t))*y^2\"\n";
+    let loaded = lowered(text);
+    let period = 7.0;
+    let amplitude = 4.0 * 2.0_f64.sqrt() * 1.311_028_777_146_059_9 / period;
+    let case = super::case(&loaded, &[], &[amplitude, 0.0, 0.0, 0.0]);
+    assert!(case.space.drive().is_some());
+    let fixed = Fixed::Period(period);
+    let orbit = periodic_orbit(&case.space, taylor(), &case.start, Some(period), fixed).unwrap();
+    let drive = |parameters: &[f64]| {
+        drive_period(&loaded.model, &loaded.equations, case.space.system(), parameters)
+    };
+    let along = (Along::Parameter(0), &drive as &dyn Fn(&[f64]) -> Option<f64>);
+    let found = driven_family(&case.space, taylor(), &orbit, along, &[1.2, 1.5, 1.9]).unwrap();
+    let members = asked(&found);
+    assert_eq!(members.len(), 3, "{:?}", found.ended);
+    for member in members {
+        let orbit = &member.orbit;
+        assert!((orbit.period - period).abs() < 1e-12, "{}: {}", member.value, orbit.period);
+        let state = case.space.variables(&orbit.state);
+        let energy = 0.5 * state[2] * state[2] + 0.25 * state[0].powi(4);
+        assert!((energy - 0.25 * amplitude.powi(4)).abs() < 1e-9, "{state:?}");
+    }
+}

@@ -116,3 +116,20 @@ fn a_motion_in_atomic_units_is_no_rest() {
     let rest = "title = \"top\"\n[coordinates]\nq = { initial = \"pi\" }\n[lagrangian]\nL = \"1/2*q'^2 + cos(q)\"\n";
     assert_eq!(of(&file(rest, &[]), 20.0).removed, Removed::Nothing);
 }
+
+/// On the invariant plane y = 0 neighbours part as e^{kt} exactly, and MEGNO is kt/2: at kt = 7.7 that is too much for a regular
+/// motion and too little to be called chaotic. Over a third of the time it may pass for regular, over twice the time not.
+#[test]
+fn a_slow_growth_is_undecided_until_it_shows() {
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 1, momentum = 0 }\ny = { initial = 0, momentum = 0 }\n\
+                [hamiltonian]\nH = \"1/2*(p_x^2 + x^2) + 1/2*(p_y^2 - 0.004^2*y^2) + 1/4*y^4\"\n";
+    let case = file(text, &[]);
+    let found = of(&case, 1920.0);
+    assert_eq!(found.verdict, Chaos::Undecided, "{}", found.reason);
+    assert!((found.exponents[0] - 0.004).abs() <= found.uncertainty[0].max(1e-4), "{found:?}");
+    for words in ["in a time of 1920", "between regular (up to 2.8) and chaotic (from 5)"] {
+        assert!(found.reason.contains(words), "{words}: {}", found.reason);
+    }
+    assert_eq!(of(&case, 640.0).verdict, Chaos::Regular);
+    assert_eq!(of(&case, 3840.0).verdict, Chaos::Chaotic);
+}

@@ -206,10 +206,43 @@ fn the_drift_of_a_frequency_is_its_change_between_the_halves() {
         };
         (0..count).map(value).collect()
     };
-    let drift = |later: f64| frequency_drift(&signal(later), 0.1, 1.0).unwrap();
+    let drift = |later: f64| {
+        let signal = signal(later);
+        let lines = spectrum(&signal, 0.1, (6, 0), &mut |_| true).unwrap().lines;
+        frequency_drift(&signal, 0.1, &lines).unwrap()
+    };
     let changed = drift(1.02);
     assert!((changed.first - 1.0).abs() < 1e-7 && (changed.second - 1.02).abs() < 1e-7);
     assert!((changed.relative() - 0.02 / 1.01).abs() < 1e-6, "{}", changed.relative());
     assert!(drift(1.0).relative() < 1e-9);
-    assert_eq!(frequency_drift(&[0.0; 16], 0.1, 1.0), None);
+    assert_eq!(frequency_drift(&[0.0; 16], 0.1, &[]), None);
+}
+
+/// A faint line beside the strongest one comes to be nearer to where that was; it is no drift of it.
+#[test]
+fn the_drift_follows_the_strongest_line_past_a_fainter_one() {
+    let count = 4096;
+    // turns in the time of a half
+    let turn = std::f64::consts::TAU / (0.1 * (count / 2) as f64);
+    let later = 1.0 - 3.5 * turn;
+    let value = |k: usize| {
+        let t = 0.1 * k as f64;
+        let rate = if k < count / 2 { 1.0 } else { later };
+        (rate * t).cos() + 0.3 * ((1.0 + 2.0 * turn) * t).sin()
+    };
+    let signal: Vec<f64> = (0..count).map(value).collect();
+    let lines = spectrum(&signal, 0.1, (6, 0), &mut |_| true).unwrap().lines;
+    let drift = frequency_drift(&signal, 0.1, &lines).unwrap();
+    assert!((drift.first - 1.0).abs() < 0.1 * turn, "{drift:?}");
+    assert!((drift.second - later).abs() < 0.1 * turn, "{drift:?}");
+    // of two lines alike it is not known which one it was
+    let value = |k: usize| {
+        let t = 0.1 * k as f64;
+        let rates = if k < count / 2 { [1.0, 1.3] } else { [1.0 - 2.0 * turn, 1.0 + 2.0 * turn] };
+        (rates[0] * t).cos() + 0.9 * (rates[1] * t).sin()
+    };
+    let signal: Vec<f64> = (0..count).map(value).collect();
+    let lines = spectrum(&signal, 0.1, (6, 0), &mut |_| true).unwrap().lines;
+    let drift = frequency_drift(&signal, 0.1, &lines).unwrap();
+    assert!(drift.error > 3.0 * turn, "{drift:?}");
 }

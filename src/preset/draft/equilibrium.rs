@@ -1,0 +1,36 @@
+//! The names of equilibria, as written.
+
+use toml::Spanned;
+
+use super::NamedFormula;
+use super::system::formulas;
+use super::table::Table;
+use crate::diagnostic::{Diagnostics, SourceRange};
+
+/// A name of an equilibrium as written.
+pub(in crate::preset) struct DraftEquilibrium {
+    pub(in crate::preset) name: Option<Spanned<String>>,
+    /// Coordinates near which it is.
+    pub(in crate::preset) near: Vec<NamedFormula>,
+    /// The range of the entry.
+    pub(in crate::preset) place: SourceRange,
+}
+
+pub(super) fn equilibria(
+    top: &mut Table<'_>,
+    diagnostics: &mut Diagnostics,
+) -> Vec<DraftEquilibrium> {
+    let mut all = Vec::new();
+    for mut table in top.tables("equilibria", "this equilibrium", diagnostics) {
+        let name = table.name(diagnostics);
+        let mut near = Vec::new();
+        if let Some((place, found)) = table.take("near") {
+            let shape = "near = { x = \"...\" }";
+            let inner = Table::of(found, "`near`".to_owned(), place, shape, diagnostics);
+            near = inner.map_or(near, |inner| formulas(&inner, "the coordinate", diagnostics));
+        }
+        all.push(DraftEquilibrium { name, near, place: table.place.clone() });
+        table.finish(diagnostics);
+    }
+    all
+}
