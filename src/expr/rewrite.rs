@@ -81,7 +81,7 @@ impl Pool {
                     let real = of(pool, x);
                     pool.mul(real, e)
                 }
-                exact => pool.scale(exact, e),
+                exact @ Number::Rational(..) => pool.scale(exact, e),
             };
             let replaced = match self.node(part).clone() {
                 Node::Number(n) => scaled(self, n, Expr::ONE),

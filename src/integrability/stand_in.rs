@@ -29,7 +29,7 @@ fn stand_ins(values: Vec<(Symbol, Number)>) -> Vec<(Symbol, Number)> {
         .into_iter()
         .map(|(s, value)| match value {
             Number::Real(x) => (s, Err(class_of(x, &mut classes))),
-            exact => (s, Ok(exact)),
+            exact @ Number::Rational(..) => (s, Ok(exact)),
         })
         .collect();
     // a prime that divides a ratio or an exact value would make relations that the values do not have

@@ -208,7 +208,7 @@ impl PhaseMap {
         }
         let value = pool.linear(Number::ZERO, &terms);
         let mut ways = vec![(relations, missing.clone(), value)];
-        ways.splice(0..0, self.from_given(pool, given, types));
+        ways.splice(0..0, self.of_given(pool, given, types));
         let points: Vec<Valuation> = (0..POINTS)
             .filter_map(|k| {
                 let at = Valuation::near_start(model, equations, k);
@@ -266,7 +266,7 @@ impl PhaseMap {
 
     /// Legendre's transformation of the function that is given: its own relations are solved for the variables that the wanted
     /// one does not have. No branch of the map is chosen by that, so that what is found holds on all of them.
-    fn from_given(
+    fn of_given(
         &self,
         pool: &mut Pool,
         given: &Transformation,

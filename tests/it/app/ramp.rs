@@ -79,7 +79,7 @@ fn a_ramp_begins_where_it_was_asked_for() {
     let Loaded { model, equations, system, .. } = &loaded;
     real.experiment = Experiment::new(model, equations, system, Setup::of(model)).unwrap();
     real.experiment.set_epoch(2);
-    let took = std::time::Duration::from_millis(800);
+    let took = Some(std::time::Duration::from_millis(800));
     let checked = CheckedText { ticket: 1, outcome: Ok(loaded), took };
     let effects = real.app.update(Event::Checked(Box::new(checked)));
     real.execute(effects);

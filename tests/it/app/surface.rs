@@ -36,7 +36,7 @@ fn checked(app: &mut App) -> String {
     let ready = Prepared::of(&Document::new(title.as_str(), text.as_str()));
     let Ok(Prepared { document, model, equations, system, .. }) = ready else { panic!("{text}") };
     let outcome = Ok(Loaded { name, epoch: 2, document, model, equations, system });
-    let took = Duration::from_millis(3);
+    let took = Some(Duration::from_millis(3));
     app.update(Event::Checked(Box::new(CheckedText { ticket, outcome, took })));
     text
 }

@@ -100,8 +100,13 @@ mod tests {
     fn a_line_is_stronger_than_a_band_and_a_dense_band_than_a_thin_one() {
         let theme = Theme::dark(ColourDepth::True);
         let age = |buffer: &Buffer, x: u16| {
-            let fg = (0..5).map(|y| &buffer[(x, y)]).find(|cell| cell.symbol() != " ").unwrap().fg;
-            theme.trail(0).iter().position(|shade| shade.style.fg == Some(fg)).unwrap()
+            let fg =
+                (0..5).map(|y| &buffer[(x, y)]).find(|cell| cell.symbol() != " ").expect("ink").fg;
+            theme
+                .trail(0)
+                .iter()
+                .position(|shade| shade.style.fg == Some(fg))
+                .expect("a shade of the trail")
         };
         let (_, buffer) = drawn(Glyphs::Braille, ColourDepth::True);
         let ages = [4, 14, 24].map(|x| age(&buffer, x));
@@ -124,7 +129,10 @@ mod tests {
         let (_, buffer) = drawn(Glyphs::Ascii, ColourDepth::None);
         let letter = |x: u16| {
             let symbol = (0..5).map(|y| buffer[(x, y)].symbol()).find(|symbol| *symbol != " ");
-            DENSITY.iter().position(|c| symbol == Some(c.to_string().as_str())).unwrap()
+            DENSITY
+                .iter()
+                .position(|c| symbol == Some(c.to_string().as_str()))
+                .expect("a character of density")
         };
         let weights = [4, 14, 24].map(letter);
         assert!(weights[0] < weights[1] && weights[1] < weights[2], "{weights:?}");
