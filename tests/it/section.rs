@@ -72,7 +72,7 @@ fn the_crossings_of_the_motion_lie_where_a_closed_form_has_them() {
 #[test]
 fn a_section_changes_no_bit_of_the_motion() {
     let without = OSCILLATORS.replace("kind = \"section\"\non = \"x\"", "kind = \"phase\"");
-    let [mut with, mut without] = [prepared(OSCILLATORS), prepared(&without)];
+    let (mut with, mut without) = (prepared(OSCILLATORS), prepared(&without));
     for time in [0.7, 31.0, 99.5] {
         for ready in [&mut with, &mut without] {
             ready.experiment.advance(time, u64::MAX);

@@ -295,7 +295,7 @@ impl Course {
 /// Q = q cos a + p sin a, P = p cos a − q sin a: F2 and F3 divide by cos a, F1 and F4 by sin a, which is never both zero.
 #[test]
 fn generating_functions_that_break_down_are_named_with_the_determinant() {
-    let text = crate::hand::catalog().find("four-generators").unwrap().text.to_string();
+    let text = crate::hand::catalog().find("four-generators").unwrap().text.clone();
     for (angle, said) in [
         ("0.7", None),
         ("1.57", None),

@@ -191,7 +191,9 @@ fn lagranges_points_have_their_names() {
         assert_eq!(named, 5, "{mu}");
         // of those that are missing no other gets the name
         let mut some: Vec<_> = found.iter().filter(|one| one.name != "L₁").cloned().collect();
-        some.iter_mut().for_each(|one| one.name.clear());
+        for one in &mut some {
+            one.name.clear();
+        }
         phaselab::dynamics::name_equilibria(&case.model, &parameters, &mut some);
         assert!(some.iter().all(|one| one.name != "L₁" && !one.name.is_empty()));
     }
