@@ -49,11 +49,11 @@ pub(super) fn has_stand_ins(model: &Model, equations: &Equations) -> bool {
 }
 
 /// The square of a prime, so that roots of quotients are fractions; another one for each class, and none that divides one of
-/// some numbers. The primes are small, since products of many numbers must stay exact.
+/// some numbers but zero. The primes are small, since products of many numbers must stay exact.
 fn square(class: usize, taken: &[Number]) -> Number {
     let divides = |p: i64| {
         taken.iter().any(|number| match number {
-            Number::Rational(n, d) => n % p == 0 || d % p == 0,
+            Number::Rational(n, d) => n != 0 && n % p == 0 || d % p == 0,
             Number::Real(_) => false,
         })
     };
@@ -75,6 +75,16 @@ pub(super) fn values(model: &Model, equations: &Equations) -> Vec<(Symbol, Numbe
 mod tests {
     use super::*;
     use crate::expr::Pool;
+
+    /// Every prime divides zero.
+    #[test]
+    fn a_zero_beside_them_takes_no_stand_in_away() {
+        let mut pool = Pool::new();
+        let (a, b) = (pool.symbol("a"), pool.symbol("b"));
+        let given = vec![(a, Number::ZERO), (b, Number::Real(std::f64::consts::PI))];
+        let exact = stand_ins(given);
+        assert_eq!((exact[0].1, exact[1].1), (Number::ZERO, Number::integer(4)));
+    }
 
     /// 9/4 is the ratio of the squares of the first two primes.
     #[test]

@@ -236,7 +236,7 @@ fn point_transformations_rotating_axes_and_mixed_types() {
     }
     assert_eq!(all[4]["canonical"], false);
     // rotating axes: K = H − w L_z
-    for (k, term) in [(1, "w*Q1*P2 + 1/2*P2^2/m + w*Q2*P1"), (2, "w*X*PY + w*Y*PX")] {
+    for (k, term) in [(1, "w*Q1*P2 + 1/2*P2^2/m + w*Q2*P1"), (2, "w*Y*PX - w*X*PY")] {
         let written = all[k]["K"].as_str().unwrap();
         assert!(written.ends_with(term), "{written}");
     }
