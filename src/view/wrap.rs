@@ -124,8 +124,8 @@ pub(super) fn formula(text: &str, width: usize, indent: usize) -> Vec<String> {
     formula_after(text, width, 0, indent)
 }
 
-/// The lines of a formula whose first line begins after `first` columns; the others have the first of two indents, or the
-/// second where that alone leaves all terms whole.
+/// The lines of a formula whose first line begins after `first` columns, with an indent of the others that leaves its terms
+/// whole where one of these does.
 pub(super) fn formula_beside(
     text: &str,
     width: usize,
@@ -133,9 +133,8 @@ pub(super) fn formula_beside(
     indents: [usize; 2],
 ) -> Vec<String> {
     let [wide, narrow] = indents;
-    let whole = |indent: usize| terms(text, 0).iter().all(|term| term.width() + indent <= width);
-    let indent = if !whole(wide) && whole(narrow) { narrow } else { wide };
-    formula_after(text, width, first, indent)
+    let whole = terms(text, 0).iter().all(|term| term.width() + wide <= width);
+    formula_after(text, width, first, if whole { wide } else { narrow })
 }
 
 fn formula_after(text: &str, width: usize, first: usize, indent: usize) -> Vec<String> {
