@@ -53,7 +53,7 @@ pub(super) fn has_stand_ins(model: &Model, equations: &Equations) -> bool {
 fn square(class: usize, taken: &[Number]) -> Number {
     let divides = |p: i64| {
         taken.iter().any(|number| match number {
-            Number::Rational(n, d) => n != 0 && n % p == 0 || d % p == 0,
+            Number::Rational(n, d) => *n != 0 && n % p == 0 || d % p == 0,
             Number::Real(_) => false,
         })
     };
