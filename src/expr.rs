@@ -45,7 +45,7 @@ mod vanishing;
 mod zero_test;
 
 pub use function::{
-    BilinearEquation, Branches, Convolution, Divisor, FUNCTIONS, Function, Operand, Recurrence,
+    BilinearEquation, Convolution, Divisor, FUNCTIONS, Function, KinkBranches, Operand, Recurrence,
     Rule,
 };
 pub use node::{Expr, FunctionId, Node};

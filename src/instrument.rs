@@ -46,7 +46,7 @@ pub use equilibria::{
 };
 pub use kind::{Axis, Columns, Instrument, Measure, NoStart, Offer, Plot};
 pub use picture::{
-    Across, Entry, Field, Heading, Ink, Layer, Level, Picture, Sign, Stroke, Upwards,
+    Across, Entry, Field, Heading, Ink, Layer, Level, MarkerShape, Picture, Stroke, Upwards,
 };
 pub use plot_table::PlotTable;
 pub use potential::PotentialView;

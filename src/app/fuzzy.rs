@@ -28,12 +28,12 @@ const DESCRIBED: u32 = 4;
 
 /// A parsed query.
 pub(super) struct Query {
-    words: Vec<Word>,
+    words: Vec<QueryWord>,
     matcher: Matcher,
 }
 
 /// A word, matched with gaps in names and without gaps in descriptions.
-struct Word {
+struct QueryWord {
     fuzzy: Atom,
     plain: Atom,
     letters: u32,
@@ -61,7 +61,7 @@ pub struct FuzzyMatch {
 
 impl Query {
     pub(super) fn new(text: &str) -> Self {
-        let words = text.split_whitespace().map(Word::new).collect();
+        let words = text.split_whitespace().map(QueryWord::new).collect();
         Self { words, matcher: Matcher::new(Config::DEFAULT) }
     }
 
@@ -79,7 +79,7 @@ impl Query {
     }
 }
 
-impl Word {
+impl QueryWord {
     fn new(word: &str) -> Self {
         let atom = |kind| Atom::new(word, CaseMatching::Ignore, Normalization::Smart, kind, false);
         let letters = word.chars().count() as u32;

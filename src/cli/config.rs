@@ -24,11 +24,11 @@ Examples:
   phaselab config check                check it for errors")]
 pub(super) struct Arguments {
     #[command(subcommand)]
-    command: Command,
+    command: ConfigCommand,
 }
 
 #[derive(Debug, clap::Subcommand)]
-enum Command {
+enum ConfigCommand {
     /// Print a configuration with all defaults and a comment on each key.
     PrintDefault,
     /// Print where the configuration file belongs, whether or not it exists.
@@ -43,13 +43,13 @@ enum Command {
 
 pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
     match &arguments.command {
-        Command::PrintDefault => print(&config::default_text()),
-        Command::Path => print(&format!("{}\n", printable::path(&path()?))),
-        Command::Check { file: Some(path) } => {
+        ConfigCommand::PrintDefault => print(&config::default_text()),
+        ConfigCommand::Path => print(&format!("{}\n", printable::path(&path()?))),
+        ConfigCommand::Check { file: Some(path) } => {
             let document = Document::open(path).map_err(|why| CommandError::reading(path, &why))?;
             read(&document).map(|_| ())
         }
-        Command::Check { file: None } => match find()? {
+        ConfigCommand::Check { file: None } => match find()? {
             Some(document) => read(&document).map(|_| ()),
             None => {
                 let path = printable::path(&path()?);

@@ -16,11 +16,11 @@ Examples:
   phaselab script check my.demo")]
 pub(super) struct Arguments {
     #[command(subcommand)]
-    command: Command,
+    command: DemoCommand,
 }
 
 #[derive(Debug, Subcommand)]
-enum Command {
+enum DemoCommand {
     /// Report every error in scripts, and whether what they claim is true.
     ///
     /// Reports go to standard error. A script that says which system it is about (Open) is played
@@ -33,7 +33,7 @@ enum Command {
 }
 
 pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
-    let Command::Check { files } = &arguments.command;
+    let DemoCommand::Check { files } = &arguments.command;
     let mut wrong = Vec::new();
     for path in files {
         let source = Document::open(path).map_err(|why| CommandError::reading(path, &why))?;

@@ -36,11 +36,11 @@ pub(super) struct Lessons {
     restart: bool,
     /// How the list is written.
     #[arg(long, value_enum, default_value_t, conflicts_with = "lesson")]
-    format: Format,
+    format: LessonFormat,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum LessonFormat {
     /// For reading.
     #[default]
     Text,
@@ -79,11 +79,11 @@ Examples:
   phaselab lesson check my/own.lesson")]
 pub(super) struct Check {
     #[command(subcommand)]
-    command: Command,
+    command: LessonCommand,
 }
 
 #[derive(Debug, Subcommand)]
-enum Command {
+enum LessonCommand {
     /// Take lessons with the right answer and with every wrong answer, without a terminal.
     ///
     /// A question without exactly one right option, a claim that is false, a task that its solution
@@ -123,7 +123,7 @@ fn source(name: &str) -> Result<Document, CommandError> {
 }
 
 pub(super) fn check(arguments: &Check, shared: &LessonHost<'_>) -> Result<(), CommandError> {
-    let Command::Check { names } = &arguments.command;
+    let LessonCommand::Check { names } = &arguments.command;
     let shipped = || preset::lessons().into_iter().map(str::to_owned).collect();
     let names: Vec<String> = if names.is_empty() { shipped() } else { names.clone() };
     let mut wrong = Vec::new();
@@ -170,13 +170,13 @@ fn title(name: &str) -> String {
     script.and_then(|script| script.head.title).unwrap_or_else(|| name.to_owned())
 }
 
-fn list(format: Format) -> Result<(), CommandError> {
+fn list(format: LessonFormat) -> Result<(), CommandError> {
     let progress = LessonProgress::known().unwrap_or_else(|why| {
         stderr::tell(&why.to_string());
         LessonProgress::default()
     });
     let mark = |name: &str| progress.lessons.get(name).copied().unwrap_or_default();
-    if format == Format::Json {
+    if format == LessonFormat::Json {
         let lessons: Vec<Value> = preset::lessons()
             .into_iter()
             .map(|name| {

@@ -58,7 +58,7 @@ pub(super) struct Arguments {
     init: Vec<Assignment>,
     /// Changes a parameter with the time, smoothly by 10u³ − 15u⁴ + 6u⁵ or evenly; it becomes a column.
     #[arg(long, value_name = "NAME=FROM:TO:START:DURATION[:linear]", allow_hyphen_values = true)]
-    ramp: Vec<ramp::NamedRamp>,
+    ramp: Vec<ramp::RampArgument>,
     /// Carries the state along the flow of a generator in place of the motion: one of the file, by its name, or an
     /// expression G of q and p. The column t is then ε, from 0; dq/dε = ∂G/∂p, dp/dε = −∂G/∂q.
     #[arg(long, value_name = "NAME|EXPR", allow_hyphen_values = true, conflicts_with = "ramp")]

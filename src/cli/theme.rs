@@ -20,17 +20,17 @@ Examples:
   phaselab theme list                    where colour is allowed, with swatches")]
 pub(super) struct Arguments {
     #[command(subcommand)]
-    command: Command,
+    command: ThemeCommand,
 }
 
 #[derive(Debug, clap::Subcommand)]
-enum Command {
+enum ThemeCommand {
     /// List the themes, with their colours where a terminal shows them.
     List,
 }
 
 pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
-    let Command::List = arguments.command;
+    let ThemeCommand::List = arguments.command;
     let variable = |name: &str| std::env::var(name).ok();
     let depth = if std::io::stdout().is_terminal() {
         ColourDepth::from_environment(&variable)

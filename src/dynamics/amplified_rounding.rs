@@ -14,14 +14,14 @@ const MOST: usize = 1024;
 /// What is known of the steps so far.
 pub(super) struct AmplifiedRounding {
     last: DMatrix<f64>,
-    steps: Vec<Steps>,
+    steps: Vec<StepGroup>,
     /// How many steps are put together in one, and how many the last one still lacks.
     together: usize,
     open: usize,
 }
 
 /// Some steps: M and the time at their end, and the squares of what they added to M.
-struct Steps {
+struct StepGroup {
     end: DMatrix<f64>,
     time: f64,
     squares: DMatrix<f64>,
@@ -55,7 +55,7 @@ impl AmplifiedRounding {
                 self.open -= 1;
             }
             _ => {
-                self.steps.push(Steps { end: matrix.clone(), time, squares: added });
+                self.steps.push(StepGroup { end: matrix.clone(), time, squares: added });
                 self.open = self.together - 1;
             }
         }
@@ -64,7 +64,7 @@ impl AmplifiedRounding {
             let mut pairs = pairs.into_iter();
             while let Some(first) = pairs.next() {
                 self.steps.push(match pairs.next() {
-                    Some(next) => Steps { squares: first.squares + next.squares, ..next },
+                    Some(next) => StepGroup { squares: first.squares + next.squares, ..next },
                     None => first,
                 });
             }

@@ -12,11 +12,11 @@ mod members;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::direction::Direction;
+use super::direction::FlowDirection;
 use super::error::DynamicsError;
 use super::family::{Along, Family, Member};
 use super::linear;
-use super::newton::{Fixed, Newton, Reached};
+use super::newton::{Fixed, Newton, NewtonIterate};
 use super::orbit::Orbit;
 use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
@@ -142,14 +142,14 @@ fn followed(continuation: &Continuation<'_>, orbit: &Orbit) -> Result<Family, Dy
 }
 
 /// The equations of an orbit at a point, and their derivatives.
-struct Equations {
+struct FamilyEquations {
     /// What is missing.
     missing: DVector<f64>,
     matrix: DMatrix<f64>,
-    here: Reached,
+    here: NewtonIterate,
 }
 
-impl Equations {
+impl FamilyEquations {
     /// A change of (z, T, μ) in coordinates of the displacements of z that are allowed.
     fn within(&self, change: &DVector<f64>) -> DVector<f64> {
         let (basis, n) = (&self.here.circuit.basis, change.len() - 2);
@@ -264,7 +264,7 @@ impl Continuation<'_> {
         state: &State,
         period: f64,
         parameter: f64,
-    ) -> Result<Equations, DynamicsError> {
+    ) -> Result<FamilyEquations, DynamicsError> {
         let n = self.space.dimension();
         let space = self.space_at(parameter);
         let newton = self.newton(&space);
@@ -286,7 +286,7 @@ impl Continuation<'_> {
             let slope = (at(parameter + step)? - at(parameter - step)?) / (2.0 * step);
             full.view_mut((0, columns), (n + 2, 1)).copy_from(&slope);
         }
-        Ok(Equations { missing, matrix: full, here })
+        Ok(FamilyEquations { missing, matrix: full, here })
     }
 
     /// The unit direction of the family at a point, along `before` if that is given.
@@ -332,7 +332,7 @@ impl Continuation<'_> {
 
     /// ∇H = −𝕁 f.
     fn gradient(&self, point: &FamilyPoint) -> Result<DVector<f64>, DynamicsError> {
-        let rate = Direction::new(&self.space_at(point.parameter)).at(&point.state)?;
+        let rate = FlowDirection::new(&self.space_at(point.parameter)).at(&point.state)?;
         let half = rate.len() / 2;
         Ok(DVector::from_fn(
             rate.len(),
@@ -404,7 +404,7 @@ impl Continuation<'_> {
     fn point(
         &self,
         from: &FamilyPoint,
-        here: &Reached,
+        here: &NewtonIterate,
         parameter: f64,
     ) -> Result<FamilyPoint, DynamicsError> {
         let space = self.space_at(parameter);

@@ -11,13 +11,13 @@ use crate::system::{Form, MotionError, Rates, State, System};
 const AT_REST: f64 = 1e-13;
 
 /// The rates of change of the variables of a phase space.
-pub(super) struct Direction {
+pub(super) struct FlowDirection {
     space: PhaseSpace,
-    source: Source,
+    source: RateSource,
 }
 
 /// Where rates come from.
-enum Source {
+enum RateSource {
     /// The variables are independent.
     Free(VectorField),
     /// Constraints hold them. Rates are those of (q, q̇), carried to (q, p) as a displacement of the state, which they are
@@ -25,27 +25,27 @@ enum Source {
     Constrained { rates: Rates, carrying: System },
 }
 
-impl Direction {
-    pub(super) fn new(space: &PhaseSpace) -> Direction {
+impl FlowDirection {
+    pub(super) fn new(space: &PhaseSpace) -> FlowDirection {
         let source = if space.is_constrained() {
             let mut rates = space.system().native_rates();
             rates.set_parameters(space.parameters());
-            Source::Constrained { rates, carrying: space.system().with_tangents(1) }
+            RateSource::Constrained { rates, carrying: space.system().with_tangents(1) }
         } else {
-            Source::Free(space.vector_field())
+            RateSource::Free(space.vector_field())
         };
-        Direction { space: space.clone(), source }
+        FlowDirection { space: space.clone(), source }
     }
 
     /// The rates at a state of the space.
     pub(super) fn at(&mut self, state: &State) -> Result<DVector<f64>, MotionError> {
         let (space, n) = (&self.space, self.space.dimension());
         match &mut self.source {
-            Source::Free(field) => {
+            RateSource::Free(field) => {
                 field.evaluate(state.time, space.variables(state))?;
                 Ok(field.rate())
             }
-            Source::Constrained { rates, carrying } => {
+            RateSource::Constrained { rates, carrying } => {
                 let (system, parameters) = (space.system(), space.parameters());
                 let native = system.convert(state, Form::Velocity, parameters)?;
                 let mut out = vec![0.0; system.state_len()];
@@ -65,11 +65,11 @@ impl Direction {
         let rates = self.at(state)?;
         let sizes = self.sizes(state);
         let add = |i: usize| match &self.source {
-            Source::Free(field) => {
+            RateSource::Free(field) => {
                 let derivative = field.derivative();
                 sizes.iter().enumerate().map(|(j, size)| derivative[(i, j)].abs() * size).sum()
             }
-            Source::Constrained { .. } => sizes[i] / length,
+            RateSource::Constrained { .. } => sizes[i] / length,
         };
         Ok((0..rates.len()).any(|i| rates[i].abs() > AT_REST * add(i)))
     }

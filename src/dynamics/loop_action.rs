@@ -6,7 +6,7 @@
 use nalgebra::DMatrix;
 
 use super::carrier::Carrier;
-use super::direction::Direction;
+use super::direction::FlowDirection;
 use super::error::DynamicsError;
 use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings, Stepping};
@@ -26,7 +26,7 @@ pub(super) fn loop_action(
     let mut carrier = Carrier::new(space, method, settings, 0)?;
     carrier.start(start, &DMatrix::zeros(space.dimension(), 0))?;
     let rule = gauss(if method.stepping == Stepping::Fixed { 3 } else { 16 });
-    let mut direction = Direction::new(space);
+    let mut direction = FlowDirection::new(space);
     let (half, until) = (space.dimension() / 2, start.time + period);
     let mut sum = 0.0;
     while carrier.time() < until {

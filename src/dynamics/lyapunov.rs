@@ -12,7 +12,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::carrier::Carrier;
-use super::direction::{Direction, basis_of_range};
+use super::direction::{FlowDirection, basis_of_range};
 use super::error::DynamicsError;
 use super::megno::Megno;
 use super::phase_space::PhaseSpace;
@@ -102,7 +102,7 @@ pub fn lyapunov(
         ));
     }
     let n = space.dimension();
-    let mut direction = Direction::new(space);
+    let mut direction = FlowDirection::new(space);
     let what = removed(space, direction.moves(start, until - start.time)?);
     let units = displacement_units(space, start, until - start.time);
     let rates = direction.at(start)?.component_div(&units);

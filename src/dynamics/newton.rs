@@ -12,7 +12,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::amplified_rounding::MapRounding;
-use super::direction::{Direction, basis_of_range};
+use super::direction::{FlowDirection, basis_of_range};
 use super::error::DynamicsError;
 use super::first_return::difference;
 use super::flow_map::flow_map;
@@ -88,14 +88,14 @@ pub(super) const SYMMETRY: f64 = 1e-11;
 const TIMES: f64 = 100.0;
 
 /// Where a search has come to: a state, a period, the motion over it, and what is missing of an orbit.
-pub(super) struct Reached {
+pub(super) struct NewtonIterate {
     pub(super) state: State,
     pub(super) period: f64,
     pub(super) circuit: Circuit,
     pub(super) residual: f64,
 }
 
-impl Reached {
+impl NewtonIterate {
     /// Whether nothing but rounding is missing.
     pub(super) fn is_exact(&self) -> bool {
         self.residual <= ROUNDING * self.circuit.size
@@ -120,7 +120,7 @@ impl Newton<'_> {
         if let Some(fault) = map.failure {
             return Err(fault.into());
         }
-        let mut direction = Direction::new(space);
+        let mut direction = FlowDirection::new(space);
         let rates = [direction.at(state)?, direction.at(&map.state)?];
         let miss = self.units.scaled(&difference(space, &map.state, state));
         let energy = space.system().energy(state, space.parameters())?;
@@ -213,14 +213,22 @@ impl Newton<'_> {
     }
 
     /// What a search begins with.
-    pub(super) fn reached(&self, state: State, period: f64) -> Result<Reached, DynamicsError> {
+    pub(super) fn reached(
+        &self,
+        state: State,
+        period: f64,
+    ) -> Result<NewtonIterate, DynamicsError> {
         let circuit = self.circuit(&state, period)?;
         let residual = self.residual(&circuit);
-        Ok(Reached { state, period, circuit, residual })
+        Ok(NewtonIterate { state, period, circuit, residual })
     }
 
     /// Newton's steps from there as long as they leave less missing; the period stays within five times `first`.
-    pub(super) fn approach(&self, mut here: Reached, first: f64) -> Result<Reached, DynamicsError> {
+    pub(super) fn approach(
+        &self,
+        mut here: NewtonIterate,
+        first: f64,
+    ) -> Result<NewtonIterate, DynamicsError> {
         let mut stalled = 0;
         for _ in 0..STEPS {
             if here.is_exact() || stalled > 1 {
@@ -242,7 +250,7 @@ impl Newton<'_> {
     }
 
     /// The length of the step that Newton's method has left, where symmetries alone are left out.
-    pub(super) fn step_left(&self, here: &Reached) -> Option<f64> {
+    pub(super) fn step_left(&self, here: &NewtonIterate) -> Option<f64> {
         let (matrix, right) = self.equations(&here.circuit);
         linear::least_squares(&matrix, &right, SYMMETRY * matrix.amax()).map(|step| step.norm())
     }
@@ -251,10 +259,10 @@ impl Newton<'_> {
     /// period stays within five times `first` and the motion can be followed there.
     pub(super) fn stepped(
         &self,
-        from: &Reached,
+        from: &NewtonIterate,
         step: &DVector<f64>,
         first: f64,
-    ) -> Result<Option<Reached>, DynamicsError> {
+    ) -> Result<Option<NewtonIterate>, DynamicsError> {
         let n = from.circuit.basis.ncols();
         let change = self.units.unscaled(&(&from.circuit.basis * step.rows(0, n)));
         let later = from.period + step[n] * self.units.time();
@@ -271,10 +279,10 @@ impl Newton<'_> {
     /// After a correction, or a part of it, that leaves less missing. Singular values up to `cut` count as zero.
     fn advanced(
         &self,
-        from: &Reached,
+        from: &NewtonIterate,
         first: f64,
         cut: f64,
-    ) -> Result<Option<Reached>, DynamicsError> {
+    ) -> Result<Option<NewtonIterate>, DynamicsError> {
         let (matrix, right) = self.equations(&from.circuit);
         let step = linear::least_squares(&matrix, &right, SYMMETRY * matrix.amax() + cut);
         let Some(step) = step else { return Ok(None) };
@@ -335,7 +343,7 @@ mod tests {
     use super::*;
 
     /// A motion of size 3 whose neighbours part by this factor, and which misses itself by so much.
-    fn missing(residual: f64, growth: f64, tolerance: Option<f64>) -> Reached {
+    fn missing(residual: f64, growth: f64, tolerance: Option<f64>) -> NewtonIterate {
         let circuit = Circuit {
             miss: DVector::zeros(2),
             monodromy: DMatrix::identity(2, 2),
@@ -348,7 +356,7 @@ mod tests {
             settings: Settings { step: None, tolerance },
         };
         let state = State::new(0.0, crate::system::Form::Momentum, vec![0.0; 2]);
-        Reached { state, period: 1.0, circuit, residual }
+        NewtonIterate { state, period: 1.0, circuit, residual }
     }
 
     #[test]

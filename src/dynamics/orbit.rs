@@ -8,12 +8,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::direction::Direction;
+use super::direction::FlowDirection;
 use super::error::DynamicsError;
 use super::first_return::{difference, return_near};
 use super::linear;
 use super::loop_action::loop_action;
-use super::newton::{CLOSED, Fixed, Newton, Reached};
+use super::newton::{CLOSED, Fixed, Newton, NewtonIterate};
 use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
 use super::resonance::along_resonance;
@@ -78,12 +78,12 @@ impl Orbit {
     ///
     /// # Errors
     /// Returns an error if the motion comes so near to a singularity of its law that nothing is known of the multipliers.
-    pub(super) fn of(newton: &Newton<'_>, closed: &Reached) -> Result<Orbit, DynamicsError> {
+    pub(super) fn of(newton: &Newton<'_>, closed: &NewtonIterate) -> Result<Orbit, DynamicsError> {
         if let Some(why) = newton.singular(closed)? {
             return Err(DynamicsError::Singular(why));
         }
         let (space, circuit) = (newton.space, &closed.circuit);
-        let rate = Direction::new(space).at(&closed.state)?;
+        let rate = FlowDirection::new(space).at(&closed.state)?;
         let trivial = match (space.is_autonomous(), space.is_hamiltonian()) {
             (true, true) => Removed::FlowAndEnergy,
             (true, false) => Removed::Flow,
@@ -281,7 +281,7 @@ fn solve(
     newton: &Newton<'_>,
     start: &State,
     period: f64,
-) -> Result<Result<Reached, Missed>, DynamicsError> {
+) -> Result<Result<NewtonIterate, Missed>, DynamicsError> {
     let begun = newton.reached(start.clone(), period)?;
     let speed = begun.circuit.rates[0].norm();
     let found = polished(newton, begun, period)?;
@@ -319,7 +319,11 @@ fn is_beside(step_left: Option<f64>) -> bool {
 }
 
 /// Where Newton's steps and those along a resonance come to by turns, for as long as they leave less missing.
-fn polished(newton: &Newton<'_>, begun: Reached, period: f64) -> Result<Reached, DynamicsError> {
+fn polished(
+    newton: &Newton<'_>,
+    begun: NewtonIterate,
+    period: f64,
+) -> Result<NewtonIterate, DynamicsError> {
     let mut found = newton.approach(begun, period)?;
     for _ in 0..ROUNDS {
         if found.is_exact() {
@@ -336,7 +340,7 @@ fn polished(newton: &Newton<'_>, begun: Reached, period: f64) -> Result<Reached,
 }
 
 /// The orbit after a part of its period, if it closes there already.
-fn part(newton: &Newton<'_>, closed: &Reached, parts: f64) -> Option<Reached> {
+fn part(newton: &Newton<'_>, closed: &NewtonIterate, parts: f64) -> Option<NewtonIterate> {
     let begun = newton.reached(closed.state.clone(), closed.period / parts).ok()?;
     if begun.residual > 1e-6 * begun.circuit.size {
         return None;

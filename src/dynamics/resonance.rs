@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::error::DynamicsError;
 use super::linear::{self, SingularValues};
-use super::newton::{Newton, Reached, SYMMETRY};
+use super::newton::{Newton, NewtonIterate, SYMMETRY};
 
 /// What is missing may be this part of the size of an orbit for it to be near a resonance.
 const NEAR: f64 = 0.1;
@@ -43,9 +43,9 @@ const GAP: f64 = 0.2;
 /// Returns an error on cancellation.
 pub(super) fn along_resonance(
     newton: &Newton<'_>,
-    mut here: Reached,
+    mut here: NewtonIterate,
     first: f64,
-) -> Result<Reached, DynamicsError> {
+) -> Result<NewtonIterate, DynamicsError> {
     if here.residual > NEAR * here.circuit.size {
         return Ok(here);
     }
@@ -79,9 +79,9 @@ pub(super) fn along_resonance(
 /// After corrections in all but the small directions, until what is missing is missing in these.
 fn restored(
     newton: &Newton<'_>,
-    mut here: Reached,
+    mut here: NewtonIterate,
     (count, first): (usize, f64),
-) -> Result<Option<Reached>, DynamicsError> {
+) -> Result<Option<NewtonIterate>, DynamicsError> {
     let mut before = f64::INFINITY;
     for _ in 0..CORRECTIONS {
         let Some(split) = Split::with(newton, &here, count) else { return Ok(None) };
@@ -111,7 +111,7 @@ struct Split {
 
 impl Split {
     /// With the small ones that the widest gap separates.
-    fn of(newton: &Newton<'_>, here: &Reached) -> Option<Split> {
+    fn of(newton: &Newton<'_>, here: &NewtonIterate) -> Option<Split> {
         let all = Split::with(newton, here, 0)?;
         let sizes = &all.values.sizes;
         let ratio = |k: usize| sizes[k] / sizes[k - 1];
@@ -119,7 +119,7 @@ impl Split {
         (ratio(gap) < GAP).then(|| Split { count: all.rank - gap, ..all })
     }
 
-    fn with(newton: &Newton<'_>, here: &Reached, count: usize) -> Option<Split> {
+    fn with(newton: &Newton<'_>, here: &NewtonIterate, count: usize) -> Option<Split> {
         let (matrix, right) = newton.equations(&here.circuit);
         let values = linear::singular_values(&matrix)?;
         let parts = values.left.transpose() * &right;

@@ -9,7 +9,7 @@
 
 use super::error::DynamicsError;
 use super::flow_map::flow_map;
-use super::newton::{Newton, Reached};
+use super::newton::{Newton, NewtonIterate};
 use crate::num::short;
 
 /// A monodromy matrix whose error is this part of its largest singular value is not known.
@@ -22,7 +22,7 @@ fn is_known(error: f64, growth: f64) -> bool {
 
 impl Newton<'_> {
     /// Why the multipliers of the orbit are not known; nothing where they are.
-    pub(super) fn singular(&self, closed: &Reached) -> Result<Option<String>, DynamicsError> {
+    pub(super) fn singular(&self, closed: &NewtonIterate) -> Result<Option<String>, DynamicsError> {
         let circuit = &closed.circuit;
         let Some(rounding) = &circuit.rounding else { return Ok(None) };
         let error = self.units.map(&rounding.error).amax();

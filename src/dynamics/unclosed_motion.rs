@@ -38,7 +38,7 @@ const ENDLESS: f64 = 1e150;
 const FREQUENCIES: usize = 3;
 
 /// Is told how much of the work is done, of how much.
-type Look<'a> = &'a mut dyn FnMut(u64, u64);
+type ProgressReport<'a> = &'a mut dyn FnMut(u64, u64);
 
 /// An error that says beside what was not found what the motion from the start is, where that can be known. Other errors are as
 /// they are. `look` is told how much of the work is done, of how much.
@@ -47,7 +47,7 @@ pub fn explained(
     space: &PhaseSpace,
     method: (&'static Method, Settings),
     start: &State,
-    look: Look<'_>,
+    look: ProgressReport<'_>,
 ) -> DynamicsError {
     let DynamicsError::Unclosed(why) = error else { return error };
     match character(space, method, start, look) {
@@ -65,7 +65,7 @@ fn character(
     space: &PhaseSpace,
     method: (&'static Method, Settings),
     start: &State,
-    look: Look<'_>,
+    look: ProgressReport<'_>,
 ) -> Result<Option<String>, DynamicsError> {
     let drive = if space.is_autonomous() { None } else { space.drive() };
     let Some((end, count)) = end(space, method, start, drive)? else { return Ok(None) };

@@ -72,18 +72,18 @@ fn added(terms: impl Iterator<Item = String>) -> String {
 }
 
 /// A term of a force.
-struct Term {
+struct ForceTerm {
     shown: String,
     expression: Expr,
     /// Its derivatives along the coordinates that rest, by index.
     slopes: Vec<(usize, Expr)>,
 }
 
-impl Term {
-    fn new(pool: &mut Pool, expression: Expr, resting: &[(usize, Symbol)]) -> Term {
+impl ForceTerm {
+    fn new(pool: &mut Pool, expression: Expr, resting: &[(usize, Symbol)]) -> ForceTerm {
         let slope = |&(i, q): &(usize, Symbol)| (i, pool.derivative(expression, q));
         let slopes = resting.iter().map(slope).collect();
-        Term { shown: pool.unicode(expression), expression, slopes }
+        ForceTerm { shown: pool.unicode(expression), expression, slopes }
     }
 
     /// Its value at a place, as far as the place is known.
@@ -127,10 +127,10 @@ pub(super) fn virtual_work(
             let mut parts = Vec::new();
             for (factor, part) in pool.summands(product) {
                 let part = pool.scale(factor, part);
-                parts.push(Term::new(&mut pool, part, &symbols));
+                parts.push(ForceTerm::new(&mut pool, part, &symbols));
             }
             parts.truncate(if parts.len() > MOST_PARTS { 0 } else { MOST_PARTS });
-            force.push((Term::new(&mut pool, term, &symbols), parts));
+            force.push((ForceTerm::new(&mut pool, term, &symbols), parts));
         }
         forces.push((i, force));
     }
@@ -147,7 +147,7 @@ pub(super) fn virtual_work(
         }
         let multipliers = multipliers(&pool, equations, &resting, &mut known, momentum_rates);
         let work = forces.iter().map(|(coordinate, force)| {
-            let value = |term: &Term| term.value(&pool, &known, variables);
+            let value = |term: &ForceTerm| term.value(&pool, &known, variables);
             let mut terms = Vec::new();
             for (whole, parts) in force {
                 let largest = parts.iter().fold(0.0_f64, |most, part| most.max(value(part).abs()));

@@ -91,13 +91,13 @@ impl Export {
 const LEFT_OUT: &str = "Expectations of the file that no longer hold are left out.";
 
 /// The errors of a text, and a report if it cannot be opened at all.
-type Wrong = (Vec<Diagnostic>, Option<String>);
+type ExportErrors = (Vec<Diagnostic>, Option<String>);
 
 /// Removes the expectations that fail because they were made for other values. Also returns whether there were any.
 fn with_what_holds(
     document: &Document,
     words: String,
-    wrong_with: &dyn Fn(&Document) -> Wrong,
+    wrong_with: &dyn Fn(&Document) -> ExportErrors,
 ) -> Result<(String, bool), String> {
     let mut text = words;
     let mut left_out = false;
@@ -116,7 +116,7 @@ fn with_what_holds(
 }
 
 /// The errors of a text, without its motion.
-fn wrong_as_written(document: &Document) -> Wrong {
+fn wrong_as_written(document: &Document) -> ExportErrors {
     match Prepared::of(document) {
         Err(unready) => (unready.diagnostics, Some(unready.report)),
         Ok(_) => (Vec::new(), None),
@@ -124,7 +124,7 @@ fn wrong_as_written(document: &Document) -> Wrong {
 }
 
 /// The errors of a text, including the expectations that its motion does not fulfil.
-fn wrong_in_motion(document: &Document) -> Wrong {
+fn wrong_in_motion(document: &Document) -> ExportErrors {
     match Prepared::of(document) {
         Err(unready) => (unready.diagnostics, Some(unready.report)),
         Ok(Prepared { model, equations, .. }) => {

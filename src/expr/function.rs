@@ -77,7 +77,7 @@ pub enum Rule {
     /// A recurrence for the normalised coefficients.
     Series(Recurrence),
     /// Two smooth branches on the two sides of a switching surface, which an integrator locates.
-    Branch(fn(&mut Pool, &[Expr]) -> Branches),
+    Branch(fn(&mut Pool, &[Expr]) -> KinkBranches),
     /// A numeric power. The call is rewritten as one and never occurs in a canonical expression.
     Power,
 }
@@ -85,7 +85,7 @@ pub enum Rule {
 /// A function with a kink: equal to `positive` where `switch > 0`, to `negative` where
 /// `switch < 0`, and to their mean on the surface between.
 #[derive(Clone, Copy, Debug)]
-pub struct Branches {
+pub struct KinkBranches {
     /// The expression that changes sign at the kink.
     pub switch: Expr,
     /// The function where `switch > 0`.

@@ -9,11 +9,11 @@ use super::syntax::{BinaryOperator, Syntax, SyntaxKind};
 use crate::num::Number;
 
 /// The plain form of a name with its primes.
-type Names<'n> = &'n dyn Fn(&str, usize) -> String;
+type NameWriter<'n> = &'n dyn Fn(&str, usize) -> String;
 
 impl Syntax {
     /// The tree in plain form.
-    pub fn plain(&self, source: &str, names: Names<'_>) -> String {
+    pub fn plain(&self, source: &str, names: NameWriter<'_>) -> String {
         self.written(source, names).0
     }
 
@@ -58,7 +58,7 @@ impl Syntax {
         }
     }
 
-    fn written(&self, source: &str, names: Names<'_>) -> (String, BindingStrength) {
+    fn written(&self, source: &str, names: NameWriter<'_>) -> (String, BindingStrength) {
         let at_least = |part: &Syntax, level: BindingStrength| {
             let (text, own) = part.written(source, names);
             if own < level { format!("({text})") } else { text }

@@ -6,7 +6,7 @@ use super::pool::Pool;
 use crate::num::Number;
 
 /// The terms of a sum with their coefficients, as [`Pool::summands`] lists them.
-type Terms = [(Number, Expr)];
+type SumTerms = [(Number, Expr)];
 /// Another term of the sum, and the term that results from combining it with the first.
 type Join = (Expr, (Number, Expr));
 
@@ -41,7 +41,7 @@ impl Pool {
 
     /// For a term `c f(u)² rest`, with f a (hyperbolic) sine or cosine, finds another term to
     /// combine it with.
-    fn join_square(&mut self, term: Expr, c: Number, all: &Terms) -> Option<Join> {
+    fn join_square(&mut self, term: Expr, c: Number, all: &SumTerms) -> Option<Join> {
         use FunctionId::{Cos, Cosh, Sin, Sinh};
         let shared = self.shared(term);
         let factors = plain_factors(&shared)?;
@@ -79,7 +79,7 @@ impl Pool {
 
     /// For a term `c cos a cos b rest` or `c sin a cos b rest`, finds another term to combine it
     /// with.
-    fn join_angles(&mut self, term: Expr, c: Number, all: &Terms) -> Option<Join> {
+    fn join_angles(&mut self, term: Expr, c: Number, all: &SumTerms) -> Option<Join> {
         use FunctionId::{Cos, Sin};
         let shared = self.shared(term);
         let factors = plain_factors(&shared)?;
@@ -132,7 +132,7 @@ fn plain_factors(term: &Node) -> Option<&[(Expr, Number)]> {
 }
 
 /// The coefficient of a term: they ascend, but for the constant at the end.
-fn coefficient(all: &Terms, term: Expr) -> Option<Number> {
+fn coefficient(all: &SumTerms, term: Expr) -> Option<Number> {
     let (ascending, constant) = match all {
         [ascending @ .., (c, Expr::ONE)] => (ascending, Some(*c)),
         _ => (all, None),

@@ -12,8 +12,8 @@ mod ends;
 use self::ends::by_its_ends;
 use super::conditions::PlotConditions;
 use super::{
-    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
-    Physics, Picture, Plot, Present, Sign, Upwards,
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
+    Need, Offer, Physics, Picture, Plot, Present, Upwards,
 };
 use crate::dynamics::{
     Hamiltonian, Lagrangian, PhaseSpace, VARIATIONS, VariedAction, conjugate_points,
@@ -204,7 +204,7 @@ impl Instrument for ActionPlot {
         layers.extend(
             curves.map(|(k, points)| (CURVES, Layer::Line(points.clone(), Ink::Curve(k).into()))),
         );
-        layers.push((MOTION, Layer::Point([0.0; 2], Sign::Disc, Ink::Accent)));
+        layers.push((MOTION, Layer::Point([0.0; 2], MarkerShape::Disc, Ink::Accent)));
         layers.push(legend);
         named([least, greatest], layers)
     }

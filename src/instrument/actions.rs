@@ -9,8 +9,8 @@ use std::sync::Arc;
 
 use super::motion_state::{self, CoordinateState, HeldCourse};
 use super::{
-    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
-    Physics, Picture, Plot, Present, Sign, Upwards,
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
+    Need, Offer, Physics, Picture, Plot, Present, Upwards,
 };
 use crate::action_angle::{HeldMotion, OwnMotion, RegionKind, Separatrix};
 use crate::job::{Job, Progress};
@@ -62,7 +62,7 @@ struct Moment {
 }
 
 /// What was found, and of what.
-struct Computed {
+struct ComputedActions {
     course: HeldCourse<Moment>,
     found: Result<Found, String>,
     /// The instants at which another law took the place of the one before, as a ramp by a key does.
@@ -129,7 +129,7 @@ impl Instrument for ActionsPlot {
             );
             if let Ok(row) = &found.own.row {
                 let now = [found.own.energy, row.action];
-                layers.push((NOW, Layer::Point(now, Sign::Disc, Ink::Accent)));
+                layers.push((NOW, Layer::Point(now, MarkerShape::Disc, Ink::Accent)));
             }
         }
         let past = computed(answer).map_or(&[][..], |computed| &computed.course.past[..]);
@@ -138,7 +138,10 @@ impl Instrument for ActionsPlot {
             layers.push((PAST, Layer::Line(line, Ink::Warn.into())));
         }
         if let [first, _, ..] = past {
-            layers.push((NOW, Layer::Point([first.energy, first.action], Sign::Ring, Ink::Warn)));
+            layers.push((
+                NOW,
+                Layer::Point([first.energy, first.action], MarkerShape::Ring, Ink::Warn),
+            ));
         }
         layers.push((NOW, Layer::Legend(sentences(present, answer))));
         Some(Picture::Axes {
@@ -179,16 +182,20 @@ impl Instrument for ActionsPlot {
                 course.past.push(Moment { time: *time, energy, height, action });
             }
             let found = found.map(|(found, _)| found);
-            Answer::new(Computed { course, found, replaced: replaced.clone() })
+            Answer::new(ComputedActions { course, found, replaced: replaced.clone() })
         }))
     }
 
     fn inherited(&self, answer: &Answer) -> Option<Answer> {
-        let known = answer.of::<Computed>()?;
+        let known = answer.of::<ComputedActions>()?;
         let mut replaced = known.replaced.clone();
         replaced.push(*known.course.past.last()?);
         let course = known.course.of_a_replaced_law();
-        Some(Answer::new(Computed { course, found: Err(BEING_COMPUTED.to_owned()), replaced }))
+        Some(Answer::new(ComputedActions {
+            course,
+            found: Err(BEING_COMPUTED.to_owned()),
+            replaced,
+        }))
     }
 
     fn measures(&self) -> &'static [Measure] {
@@ -233,7 +240,7 @@ impl Moment {
     }
 }
 
-impl Computed {
+impl ComputedActions {
     /// Whether it is still what is to be seen at a time.
     fn holds_at(&self, time: f64) -> bool {
         let HeldCourse { state, past, .. } = &self.course;
@@ -308,8 +315,8 @@ impl Found {
     }
 }
 
-fn computed(answer: Option<&Answer>) -> Option<&Computed> {
-    answer?.of::<Computed>()
+fn computed(answer: Option<&Answer>) -> Option<&ComputedActions> {
+    answer?.of::<ComputedActions>()
 }
 
 fn found(answer: Option<&Answer>) -> Option<&Found> {

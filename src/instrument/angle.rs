@@ -10,8 +10,8 @@ use std::sync::Arc;
 
 use super::motion_state::{self, CoordinateState, HeldCourse};
 use super::{
-    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
-    Physics, Picture, Plot, Present, Sign, Upwards,
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
+    Need, Offer, Physics, Picture, Plot, Present, Upwards,
 };
 use crate::action_angle::AngleMoment;
 use crate::job::{Job, Progress};
@@ -32,7 +32,7 @@ const MOST: usize = 2000;
 pub(super) struct AnglePlot;
 
 /// What was found, and of what.
-struct Computed {
+struct ComputedAngle {
     course: HeldCourse<AngleMoment>,
     /// Why there is no angle now.
     lost: Option<String>,
@@ -94,7 +94,7 @@ impl Instrument for AnglePlot {
                 computed.course.past.iter().map(|moment| [moment.time, moment.angle]).collect();
             top = points.iter().map(|at| at[1]).fold(top, f64::max);
             if let Some(&now) = points.last() {
-                layers.push((NOW, Layer::Point(now, Sign::Disc, Ink::Accent)));
+                layers.push((NOW, Layer::Point(now, MarkerShape::Disc, Ink::Accent)));
             }
             layers.push((POINTS, Layer::Points(Arc::new(points), Ink::Curve(0))));
         }
@@ -129,7 +129,7 @@ impl Instrument for AnglePlot {
             if course.past.len() > MOST {
                 course.past = course.past.into_iter().step_by(2).collect();
             }
-            Answer::new(Computed { course, lost })
+            Answer::new(ComputedAngle { course, lost })
         }))
     }
 
@@ -161,7 +161,7 @@ impl Instrument for AnglePlot {
     }
 }
 
-impl Computed {
+impl ComputedAngle {
     /// Whether it is still what is to be seen at a time.
     fn holds_at(&self, time: f64) -> bool {
         let HeldCourse { state, held, past, .. } = &self.course;
@@ -189,8 +189,8 @@ impl Computed {
     }
 }
 
-fn computed(answer: Option<&Answer>) -> Option<&Computed> {
-    answer?.of::<Computed>()
+fn computed(answer: Option<&Answer>) -> Option<&ComputedAngle> {
+    answer?.of::<ComputedAngle>()
 }
 
 /// What is said of the angle, or why there is none.

@@ -165,7 +165,7 @@ impl Instrument for Diagram {
             return Need::Held;
         }
         let view = view(plot, present.physics);
-        let task = Task {
+        let task = DiagramTask {
             section: view.and_then(|view| view.section),
             channel: view
                 .and_then(|view| motions.system.channel_of(view.axes.first()?.first()?.expression)),
@@ -229,7 +229,7 @@ impl Instrument for Diagram {
 }
 
 /// What a job computes: the numbers at the next values of the parameter.
-struct Task {
+struct DiagramTask {
     motions: VariedMotions,
     section: Option<usize>,
     /// The quantity at the crossings.
@@ -237,7 +237,7 @@ struct Task {
     columns: Vec<(f64, Vec<f64>)>,
 }
 
-impl Task {
+impl DiagramTask {
     fn next_part(&self, progress: &Progress) -> ComputedDiagram {
         let conditions = self.motions.conditions.clone();
         let system = self.motions.system.with_cancel(progress.token().clone());

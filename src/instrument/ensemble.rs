@@ -14,8 +14,8 @@ use std::sync::Arc;
 use super::conditions::PlotConditions;
 use super::phase::initial_values;
 use super::{
-    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
-    Offer, Physics, Picture, Plot, Present, Seed, Sign, Upwards,
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
+    Need, NoStart, Offer, Physics, Picture, Plot, Present, Seed, Upwards,
 };
 use crate::expr::{Expr, Symbol};
 use crate::integrate::method_named;
@@ -23,7 +23,7 @@ use crate::job::Job;
 use crate::num::{math, significant};
 use crate::system::{ChannelKind, Form, InitialOverride};
 
-use cloud::{Cloud, CloudFrame, Task};
+use cloud::{Cloud, CloudFrame, CloudTask};
 use origin::CloudOrigin;
 
 /// The levels of the picture.
@@ -106,7 +106,7 @@ impl Instrument for Ensemble {
         let then = is_late(present, answer).then(|| shown(present, answer).map(|frame| frame.own));
         let then = then.flatten().filter(|at| at.iter().all(|x| x.is_finite()));
         let now = then.unwrap_or_else(|| channels.map(|channel| present.value(channel)));
-        layers.push((NOW, Layer::Point(now, Sign::Disc, Ink::Accent)));
+        layers.push((NOW, Layer::Point(now, MarkerShape::Disc, Ink::Accent)));
         let words = [sentence(present, answer), outside_in_words(plot, present, answer)].concat();
         if !words.is_empty() {
             layers.push((NOW, Layer::Legend(vec![words])));
@@ -162,7 +162,7 @@ impl Instrument for Ensemble {
                 None => return Need::Nothing,
             },
         };
-        let task = Task {
+        let task = CloudTask {
             plot: plot.clone(),
             starts,
             model: Arc::clone(model),

@@ -4,7 +4,7 @@
 //! In: a system and its current state. Out: [`FoundEquilibria`], coordinates on plots, initial values. Never here: lists,
 //! keys, how the search works ([`equilibria`](crate::dynamics::equilibria)).
 
-use super::{Ink, Layer, Level, Physics, Present, Sign};
+use super::{Ink, Layer, Level, MarkerShape, Physics, Present};
 use crate::dynamics::{
     Equilibrium, Kind, PhaseSpace, VirtualWork, equilibria_watched, name_equilibria,
     with_virtual_work,
@@ -200,9 +200,9 @@ pub(super) fn marks(
     for (index, one) in present.equilibria.iter().enumerate() {
         let Some(at) = point(one) else { continue };
         let (sign, ink) = match one.stable {
-            Some(false) => (Sign::Cross, Ink::Separatrix),
-            Some(true) => (Sign::Ring, Ink::Curve(2)),
-            None => (Sign::Ring, Ink::Plain),
+            Some(false) => (MarkerShape::Cross, Ink::Separatrix),
+            Some(true) => (MarkerShape::Ring, Ink::Curve(2)),
+            None => (MarkerShape::Ring, Ink::Plain),
         };
         layers.push((level, Layer::Point(at, sign, ink)));
         let name = match one.name.as_str() {

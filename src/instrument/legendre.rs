@@ -4,8 +4,8 @@
 //! the slope q̇ (*The Principles of Dynamics*, § 2.1).
 
 use super::{
-    Across, Answer, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Offer,
-    Physics, Picture, Plot, Present, Sign, Stroke, Upwards,
+    Across, Answer, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape,
+    Measure, Offer, Physics, Picture, Plot, Present, Stroke, Upwards,
 };
 use crate::expr::{Expr, Symbol};
 use crate::model::Mechanics;
@@ -31,7 +31,7 @@ pub(super) struct LegendrePlot;
 
 /// One function of one number.
 #[derive(Clone, Copy)]
-struct Transformed {
+struct TransformedFunction {
     /// L of a velocity, or H of a momentum.
     function: Expr,
     letters: [&'static str; 2],
@@ -43,7 +43,7 @@ struct Transformed {
     alone: bool,
 }
 
-impl Transformed {
+impl TransformedFunction {
     fn of(plot: &Plot, physics: Physics<'_>) -> Option<Self> {
         let Physics { model, system, .. } = physics;
         let ChannelKind::Position(i) = system.channels().get(plot.column(0)?)?.kind else {
@@ -103,7 +103,7 @@ impl Instrument for LegendrePlot {
         let offer = |(_, channel): (usize, usize)| {
             let columns: Columns = vec![vec![channel]];
             let plot = Plot::new(&LegendrePlot, (columns.clone(), None), physics.model);
-            let found = Transformed::of(&plot, physics)?;
+            let found = TransformedFunction::of(&plot, physics)?;
             let (function, number) = (found.letters[0], physics.shown(found.channel));
             Some(Offer {
                 label: format!("Legendre transform, {function} over {number}"),
@@ -122,13 +122,13 @@ impl Instrument for LegendrePlot {
     }
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
-        let found = Transformed::of(plot, present.physics)?;
+        let found = TransformedFunction::of(plot, present.physics)?;
         let entries = vec![Entry::Channel(found.channel), Entry::Channel(found.slope)];
         Some(plot.heading(present.physics, "Legendre transform", entries))
     }
 
     fn across(&self, plot: &Plot, present: &Present<'_>, _answer: Option<&Answer>) -> Across {
-        Transformed::of(plot, present.physics).map_or(Across::Nothing, |found| {
+        TransformedFunction::of(plot, present.physics).map_or(Across::Nothing, |found| {
             Across::Channel(found.channel, Some(found.range(present)))
         })
     }
@@ -140,7 +140,7 @@ impl Instrument for LegendrePlot {
         [from, to]: [f64; 2],
         _answer: Option<&Answer>,
     ) -> Option<Picture> {
-        let found = Transformed::of(plot, present.physics)?;
+        let found = TransformedFunction::of(plot, present.physics)?;
         let [x, y, slope] = found.now(present);
         let step = (to - from) / (POINTS - 1) as f64;
         let numbers: Vec<f64> = (0..POINTS).map(|i| from + step * i as f64).collect();
@@ -167,8 +167,8 @@ impl Instrument for LegendrePlot {
             (AXIS, Layer::Line(vec![[0.0, intercept], [0.0, 0.0]], faint)),
             (TANGENT, Layer::Line(vec![tangent(from), tangent(to)], Ink::Warn.into())),
             (CURVE, Layer::Line(curve, Ink::Accent.into())),
-            (NOW, Layer::Point([0.0, intercept], Sign::Ring, Ink::Warn)),
-            (NOW, Layer::Point([x, y], Sign::Disc, Ink::Accent)),
+            (NOW, Layer::Point([0.0, intercept], MarkerShape::Ring, Ink::Warn)),
+            (NOW, Layer::Point([x, y], MarkerShape::Disc, Ink::Accent)),
             (NOW, Layer::Legend(lines)),
         ];
         let upwards = Upwards::Named(letter.to_owned(), [low, high]);
@@ -181,14 +181,15 @@ impl Instrument for LegendrePlot {
                 word: "slope",
                 about: "the slope of the tangent, by the momentum (or velocity) of the motion",
                 value: |plot, present, _| {
-                    Some(Transformed::of(plot, present.physics)?.now(present)[2])
+                    Some(TransformedFunction::of(plot, present.physics)?.now(present)[2])
                 },
             },
             Measure {
                 word: "intercept",
                 about: "where the tangent meets the vertical axis",
                 value: |plot, present, _| {
-                    let [x, y, slope] = Transformed::of(plot, present.physics)?.now(present);
+                    let [x, y, slope] =
+                        TransformedFunction::of(plot, present.physics)?.now(present);
                     Some(y - slope * x)
                 },
             },

@@ -8,13 +8,13 @@ mod lattice;
 
 use std::sync::Arc;
 
-use lattice::{ComputedMap, LATTICE, MapNumber, PART, Task, coordinates, places};
+use lattice::{ComputedMap, LATTICE, MapNumber, MapTask, PART, coordinates, places};
 
 use super::section::zero;
 use super::varied::{self, VariedMotions};
 use super::{
-    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
-    Offer, Physics, Picture, Plot, PlotTable, Present, Sign, Upwards,
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
+    Need, NoStart, Offer, Physics, Picture, Plot, PlotTable, Present, Upwards,
 };
 use crate::job::Job;
 use crate::mechanics::Valuation;
@@ -150,7 +150,7 @@ impl Instrument for Map {
             }
         };
         let now = [varied::now(present, x?)?, varied::now(present, y?)?];
-        layers.push((NOW, Layer::Point(now, Sign::Disc, Ink::Plain)));
+        layers.push((NOW, Layer::Point(now, MarkerShape::Disc, Ink::Plain)));
         layers.push((NOW, Layer::Legend(lines)));
         Some(Picture::Axes { upwards, layers, occurrences: None })
     }
@@ -187,7 +187,7 @@ impl Instrument for Map {
         if whole || known.is_some_and(|known| known.refused.is_some()) {
             return Need::Held;
         }
-        let task = Task { motions, number: number(plot, present.physics), length, values };
+        let task = MapTask { motions, number: number(plot, present.physics), length, values };
         let first = task.values.len() < AT_ONCE * PART;
         let job = Job::new("map", move |progress| Answer::new(task.next_part(progress)));
         if first { Need::Job(job) } else { Need::Addition(job) }

@@ -7,8 +7,8 @@
 use super::conditions::PlotConditions;
 use super::equilibria::given;
 use super::{
-    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
-    Offer, Physics, Picture, Plot, Present, Seed, Sign, Upwards,
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
+    Need, NoStart, Offer, Physics, Picture, Plot, Present, Seed, Upwards,
 };
 use crate::dynamics::{
     DynamicsError, Fixed, Orbit as Closed, PhaseSpace, Removed, explained, nearest_driven_orbit,
@@ -109,7 +109,7 @@ impl Instrument for OrbitPlot {
         let now = channels.map(|channel| present.value(channel));
         let mut layers = vec![
             (TRAIL, Layer::Trail(channels)),
-            (NOW, Layer::Point(now, Sign::Disc, Ink::Accent)),
+            (NOW, Layer::Point(now, MarkerShape::Disc, Ink::Accent)),
         ];
         if let Some(found) = described(answer) {
             layers.push((CURVE, Layer::Line(found.points.clone(), Ink::Curve(1).into())));

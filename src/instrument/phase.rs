@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use super::equilibria::marks;
 use super::{
-    Across, Answer, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need,
-    NoStart, Offer, Physics, Picture, Plot, Present, Sign, Upwards, value_at,
+    Across, Answer, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape,
+    Measure, Need, NoStart, Offer, Physics, Picture, Plot, Present, Upwards, value_at,
 };
 use crate::analysis::{Landscape, Plane};
 use crate::dynamics::Equilibrium;
@@ -102,7 +102,7 @@ impl Instrument for Phase {
         let [x, y] = [plot.column(0)?, plot.column(1)?];
         let landscape = landscape(answer);
         let levels = landscape.map(|l| (LEVELS, Layer::Landscape(Arc::clone(l))));
-        let now = Layer::Point([x, y].map(|k| present.value(k)), Sign::Disc, Ink::Accent);
+        let now = Layer::Point([x, y].map(|k| present.value(k)), MarkerShape::Disc, Ink::Accent);
         let equilibria = marks(present, MARK, |one| {
             let at = |channel| value_at(present.physics, one, channel);
             Some([at(x)?, at(y)?])

@@ -132,7 +132,7 @@ pub enum Layer {
         /// The channels of the axes.
         channels: [usize; 2],
         /// The marker.
-        sign: Sign,
+        shape: MarkerShape,
     },
     /// The past of two channels of each motion beside the main one, and where it is now.
     Companions([usize; 2]),
@@ -146,7 +146,7 @@ pub enum Layer {
         channels: [usize; 2],
     },
     /// A marker at a point.
-    Point([f64; 2], Sign, Ink),
+    Point([f64; 2], MarkerShape, Ink),
     /// A name beside a point, where there is room.
     Name([f64; 2], String, Ink),
     /// Lines of text in a corner, over everything else.
@@ -215,7 +215,7 @@ pub enum Ink {
 
 /// A marker on a plot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sign {
+pub enum MarkerShape {
     /// The current state.
     Disc,
     /// A point near the current state, or a stable one.

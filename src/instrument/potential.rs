@@ -2,8 +2,8 @@
 //! horizontal line, and the region where the motion is allowed.
 
 use super::{
-    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Offer, Physics, Picture,
-    Plot, Present, Sign, Stroke, Upwards,
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Offer,
+    Physics, Picture, Plot, Present, Stroke, Upwards,
 };
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::Valuation;
@@ -141,8 +141,8 @@ impl Instrument for Potential {
             let points = run.iter().map(|pair| pair[0]).chain([run[run.len() - 1][1]]);
             layers.push((CURVE, Layer::Line(points.collect(), bright.into())));
         }
-        layers.push((NOW, Layer::Point([now[0], energy], Sign::Ring, Ink::Warn)));
-        layers.push((NOW, Layer::Point(now, Sign::Disc, Ink::Accent)));
+        layers.push((NOW, Layer::Point([now[0], energy], MarkerShape::Ring, Ink::Warn)));
+        layers.push((NOW, Layer::Point(now, MarkerShape::Disc, Ink::Accent)));
         let upwards = Upwards::Around(along.y, height(&curve, energy, now[1]));
         Some(Picture::Axes { upwards, layers, occurrences: None })
     }

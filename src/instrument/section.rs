@@ -10,8 +10,8 @@ use std::sync::Arc;
 
 use super::equilibria::{marks, value_at, value_of};
 use super::{
-    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
-    Offer, Physics, Picture, Plot, PlotTable, Present, Seed, Sign, Upwards,
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
+    Need, NoStart, Offer, Physics, Picture, Plot, PlotTable, Present, Seed, Upwards,
 };
 use crate::dynamics::{Rotation, rotation};
 use crate::ensemble::{NotInPlane, PhaseShift, SectionPlan, SectionPlane};
@@ -22,7 +22,9 @@ use crate::mechanics::Valuation;
 use crate::model::{Direction, View};
 use crate::num::math;
 use crate::system::InitialOverride;
-use portrait::{Begun, COUNT, DrawnOrbit, IDLE, Portrait, SectionConditions, TRANSIENT, Task};
+use portrait::{
+    Begun, COUNT, DrawnOrbit, IDLE, Portrait, SectionConditions, SectionTask, TRANSIENT,
+};
 
 /// The levels of the picture.
 const BOUNDARY: Level = 0;
@@ -141,7 +143,7 @@ impl Instrument for SectionPlot {
         }
         layers.push((OWN, Layer::CompanionCrossings { section, channels }));
         layers.push((OWN, Layer::Crossings { section, channels, ink: Ink::Accent }));
-        layers.push((NOW, Layer::LastCrossing { section, channels, sign: Sign::Disc }));
+        layers.push((NOW, Layer::LastCrossing { section, channels, shape: MarkerShape::Disc }));
         layers.extend(marks(present, NOW, |one| {
             let [x, y] = channels.map(|channel| value_at(present.physics, one, channel));
             let when = present.physics.model.sections.get(section)?.when;
@@ -206,7 +208,7 @@ impl Instrument for SectionPlot {
             let known = present.bounds.get(channel);
             known.map_or([f64::NAN; 2], |(lo, hi)| [*lo, *hi])
         };
-        let task = Task {
+        let task = SectionTask {
             plane,
             // the token of the motion is not that of a picture
             law: (Arc::clone(model), Arc::clone(equations)),

@@ -14,7 +14,7 @@ use super::{
 pub static INSTRUMENTS: [&dyn Instrument; 19] = [
     &space::Space,
     &phase::Phase,
-    &transformation::Transformation,
+    &transformation::TransformationPlot,
     &section::SectionPlot,
     &potential::Potential,
     &time::Time,

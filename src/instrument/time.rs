@@ -1,8 +1,8 @@
 //! `time`: quantities against time, each in its colour.
 
 use super::{
-    Across, Answer, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Offer, Physics,
-    Picture, Plot, Present, Sign, Upwards,
+    Across, Answer, Axis, Columns, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape,
+    Offer, Physics, Picture, Plot, Present, Upwards,
 };
 
 /// The levels of the picture: the marks lie over the curves, and the current state over the marks.
@@ -71,7 +71,7 @@ impl Instrument for Time {
             let now = [present.time, present.value(channel)];
             [
                 (level, Layer::Curve { index, channel }),
-                (NOW, Layer::Point(now, Sign::Disc, Ink::Curve(index))),
+                (NOW, Layer::Point(now, MarkerShape::Disc, Ink::Curve(index))),
             ]
         };
         let beside = channels.iter().map(|channel| (0, Layer::CompanionCurves(*channel)));

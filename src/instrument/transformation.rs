@@ -13,11 +13,11 @@ mod judged;
 use std::sync::Arc;
 
 use self::branches::Branches;
-use self::image::{Image, of_branches};
-use self::judged::Judged;
+use self::image::{ImageOrigin, of_branches};
+use self::judged::MapVerdict;
 use super::{
-    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
-    Physics, Picture, Plot, Present, Sign, Stroke, Upwards,
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
+    Need, Offer, Physics, Picture, Plot, Present, Stroke, Upwards,
 };
 use crate::expr::{Expr, Pool, Symbol};
 use crate::job::Job;
@@ -43,7 +43,7 @@ const OUTER: usize = 40;
 const STALE: f64 = 0.1;
 
 /// The row.
-pub(super) struct Transformation;
+pub(super) struct TransformationPlot;
 
 /// What was found of a transformation, and where.
 struct Mapped {
@@ -54,7 +54,7 @@ struct Mapped {
     window: Option<[[f64; 2]; 2]>,
     grid: Arc<Vec<Vec<[f64; 2]>>>,
     branches: Option<Arc<Branches>>,
-    verdict: Option<Judged>,
+    verdict: Option<MapVerdict>,
 }
 
 /// A transformation, and the two of its new variables that are shown.
@@ -63,7 +63,7 @@ struct Shown<'a> {
     new: [Symbol; 2],
 }
 
-impl Instrument for Transformation {
+impl Instrument for TransformationPlot {
     fn name(&self) -> &'static str {
         "transformation"
     }
@@ -152,13 +152,13 @@ impl Instrument for Transformation {
             layers.extend(branches.lines.iter().map(|line| (GRID, Layer::Line(line.clone(), dim))));
             let images = branches.images(at);
             rings = [images.on_grids.len(), images.beside.len()];
-            let ring = |&image| (NOW, Layer::Point(image, Sign::Ring, Ink::Level));
+            let ring = |&image| (NOW, Layer::Point(image, MarkerShape::Ring, Ink::Level));
             layers.extend(images.on_grids.iter().chain(&images.beside).map(ring));
         }
         layers.extend([
             (TRAIL, Layer::Companions([x, y])),
             (TRAIL, Layer::Trail([x, y])),
-            (NOW, Layer::Point([x, y].map(|k| present.value(k)), Sign::Disc, Ink::Accent)),
+            (NOW, Layer::Point([x, y].map(|k| present.value(k)), MarkerShape::Disc, Ink::Accent)),
         ]);
         let mut lines = match mapped {
             _ if shown(plot, present.physics).is_none() => {
@@ -223,7 +223,7 @@ impl Instrument for Transformation {
                 let values = model.parameters.iter_mut().zip(&parameters);
                 values.for_each(|(parameter, &value)| parameter.value = value);
                 let report = TransformationReport::named(&model, &mut equations, &name);
-                let judged = Judged::of(&model, &equations, report.as_ref());
+                let judged = MapVerdict::of(&model, &equations, report.as_ref());
                 let system = system.with_cancel(progress.token().clone());
                 let verdict = judged.beside_its_step((&model, &mut equations, &system), &name);
                 let verdict = Some(verdict);
@@ -307,7 +307,7 @@ fn of_image(plot: &Plot, present: &Present<'_>) -> Option<&'static str> {
     let Shown { law, new } = shown(plot, present.physics)?;
     let solved = implicit(present.physics.equations, new).is_some();
     let image = [plot.column(0)?, plot.column(1)?].map(|channel| present.value(channel));
-    Image { solved, exists: image.iter().all(|x| x.is_finite()) }.line(law)
+    ImageOrigin { solved, exists: image.iter().all(|x| x.is_finite()) }.line(law)
 }
 
 /// The map of two new variables, if it is known by relations only.
@@ -359,8 +359,8 @@ fn active(
         (TRAIL, Layer::Trail(new)),
         (TRAIL, Layer::Trail(old)),
         (GRID, Layer::Line(vec![point, image], faint)),
-        (NOW, Layer::Point(image, Sign::Ring, Ink::Warn)),
-        (NOW, Layer::Point(point, Sign::Disc, Ink::Accent)),
+        (NOW, Layer::Point(image, MarkerShape::Ring, Ink::Warn)),
+        (NOW, Layer::Point(point, MarkerShape::Disc, Ink::Accent)),
         (NOW, Layer::Legend(lines)),
     ];
     let upwards = Upwards::Channel(old[1], both(plot, present, old[1], 1));
@@ -371,7 +371,7 @@ fn mapped(answer: Option<&Answer>) -> Option<&Mapped> {
     answer?.of::<Mapped>()
 }
 
-fn judged(answer: Option<&Answer>) -> Option<&Judged> {
+fn judged(answer: Option<&Answer>) -> Option<&MapVerdict> {
     mapped(answer)?.verdict.as_ref()
 }
 

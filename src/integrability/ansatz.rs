@@ -10,13 +10,13 @@ use crate::expr::{Expr, Pool};
 use crate::num::{Number, PrimeField, Residue};
 
 /// The exponents of a monomial.
-type Exponents = Vec<u32>;
+type MonomialExponents = Vec<u32>;
 
 /// A finite set of monomials: one in the momenta times one in the other generators.
 #[derive(Clone, Debug)]
 pub(super) struct Ansatz {
-    momenta: Vec<Exponents>,
-    coefficients: Vec<Exponents>,
+    momenta: Vec<MonomialExponents>,
+    coefficients: Vec<MonomialExponents>,
     /// The two factors of each column; by ascending degree.
     pub(super) columns: Vec<(usize, usize)>,
     /// The greatest degree of the coefficients of each degree in the momenta.
@@ -59,7 +59,7 @@ impl Ansatz {
                 }
             });
         }
-        let mut momenta: Vec<Exponents> = Vec::new();
+        let mut momenta: Vec<MonomialExponents> = Vec::new();
         let unlimited = vec![u32::MAX; atoms.momenta.len()];
         let mut columns: Vec<(usize, usize)> = Vec::new();
         for &(k, bound) in &bounds {
@@ -127,7 +127,7 @@ impl Ansatz {
         columns: &[usize],
     ) -> AnsatzRow {
         let field = drawn.point.field;
-        let tables = |all: &[Exponents], generators: &[Expr]| -> Vec<(Residue, Residue)> {
+        let tables = |all: &[MonomialExponents], generators: &[Expr]| -> Vec<(Residue, Residue)> {
             let powers: Vec<Vec<(Residue, Residue)>> = generators
                 .iter()
                 .enumerate()
@@ -142,7 +142,7 @@ impl Ansatz {
                     powers
                 })
                 .collect();
-            let whole = |m: &Exponents| {
+            let whole = |m: &MonomialExponents| {
                 m.iter()
                     .enumerate()
                     .filter(|(_, n)| **n > 0)

@@ -46,7 +46,7 @@ const SPARE_BITS: u32 = 24;
 const SEED: u64 = 11;
 
 /// A polynomial in constants of the motion: coefficients, and the indices of the factors.
-type Polynomial = Vec<(Number, Vec<usize>)>;
+type ConstantPolynomial = Vec<(Number, Vec<usize>)>;
 
 /// A constant of the motion made of others, that commutes with a set.
 #[derive(Clone, Debug)]
@@ -114,7 +114,9 @@ pub(super) fn completed(
     }
     let mut found = Vec::new();
     let symbolic: Vec<Expr> = given.functions.iter().map(|(f, _)| *f).collect();
-    let Some(mut work) = Work::of(model, equations, given, chosen) else { return found };
+    let Some(mut work) = InvolutionSearch::of(model, equations, given, chosen) else {
+        return found;
+    };
     while work.set.len() < wanted {
         let Some(next) = work.next(&mut equations.pool) else { break };
         let for_all_parameters = work.set.iter().all(|member| {
@@ -129,7 +131,7 @@ pub(super) fn completed(
     found
 }
 
-struct Work {
+struct InvolutionSearch {
     law: Law,
     field: PrimeField,
     random: Random,
@@ -140,16 +142,16 @@ struct Work {
     /// The constants whose products are taken.
     usable: Vec<usize>,
     /// The commuting set.
-    set: Vec<Polynomial>,
+    set: Vec<ConstantPolynomial>,
 }
 
-impl Work {
+impl InvolutionSearch {
     fn of(
         model: &Model,
         equations: &mut Equations,
         given: &Given<'_>,
         chosen: &[usize],
-    ) -> Option<Work> {
+    ) -> Option<InvolutionSearch> {
         let all: Vec<usize> = (0..given.functions.len()).collect();
         let has_brackets = |&i: &usize| all.iter().all(|&j| given.brackets[i][j].is_some());
         let usable: Vec<usize> =
@@ -181,14 +183,14 @@ impl Work {
             (0..40).any(|_| law.draw(&evaluator, *field, &mut random, &none, SEED).is_some())
         })?;
         let set = chosen.iter().map(|&i| vec![(Number::ONE, vec![i])]).collect();
-        Some(Work { law, field, random, functions, brackets, here, usable, set })
+        Some(InvolutionSearch { law, field, random, functions, brackets, here, usable, set })
     }
 
     /// A constant that commutes with the set and is independent of it, with the parameters' values put in.
-    fn next(&mut self, pool: &mut Pool) -> Option<Polynomial> {
+    fn next(&mut self, pool: &mut Pool) -> Option<ConstantPolynomial> {
         let monomials = self.monomials();
         let null = self.null_space(pool, &monomials)?;
-        let mut candidates: Vec<Polynomial> = Vec::new();
+        let mut candidates: Vec<ConstantPolynomial> = Vec::new();
         for order in orders(monomials.len(), ORDERS) {
             for row in reduced(self.field, &null, &order) {
                 let terms = row.iter().zip(&monomials).filter(|(x, _)| !x.is_zero());
@@ -200,7 +202,9 @@ impl Work {
                         Number::Real(_) => None,
                     }
                 });
-                let Some(candidate) = exact.collect::<Option<Polynomial>>() else { continue };
+                let Some(candidate) = exact.collect::<Option<ConstantPolynomial>>() else {
+                    continue;
+                };
                 if !candidates.contains(&candidate) {
                     candidates.push(candidate);
                 }
@@ -279,8 +283,9 @@ impl Work {
     }
 
     /// Whether a polynomial is functionally independent of the set.
-    fn is_independent(&mut self, pool: &mut Pool, candidate: &Polynomial) -> bool {
-        let members: Vec<Polynomial> = self.set.iter().chain([candidate]).cloned().collect();
+    fn is_independent(&mut self, pool: &mut Pool, candidate: &ConstantPolynomial) -> bool {
+        let members: Vec<ConstantPolynomial> =
+            self.set.iter().chain([candidate]).cloned().collect();
         let members: Vec<Expr> =
             members.iter().map(|member| polynomial(pool, member, &self.functions)).collect();
         let mut roots = roots(&self.law, &members, &[]);
@@ -300,8 +305,8 @@ impl Work {
 /// The bracket of two polynomials in functions, from the brackets of those.
 fn bracket(
     pool: &mut Pool,
-    first: &Polynomial,
-    second: &Polynomial,
+    first: &ConstantPolynomial,
+    second: &ConstantPolynomial,
     functions: &[Expr],
     brackets: &[Vec<Expr>],
 ) -> Expr {
@@ -316,7 +321,10 @@ fn bracket(
 }
 
 /// The bracket of a monomial with a polynomial by Leibniz' rule: terms c \[i, j\] · Π rest, as (c, i, j, rest).
-fn leibniz(monomial: &[usize], with: &Polynomial) -> Vec<(Number, usize, usize, Vec<usize>)> {
+fn leibniz(
+    monomial: &[usize],
+    with: &ConstantPolynomial,
+) -> Vec<(Number, usize, usize, Vec<usize>)> {
     let without = |all: &[usize], k: usize| -> Vec<usize> {
         all.iter().enumerate().filter(|(n, _)| *n != k).map(|(_, &i)| i).collect()
     };
@@ -332,7 +340,7 @@ fn leibniz(monomial: &[usize], with: &Polynomial) -> Vec<(Number, usize, usize, 
 }
 
 /// A polynomial as an expression.
-fn polynomial(pool: &mut Pool, terms: &Polynomial, functions: &[Expr]) -> Expr {
+fn polynomial(pool: &mut Pool, terms: &ConstantPolynomial, functions: &[Expr]) -> Expr {
     let terms: Vec<Expr> = terms
         .iter()
         .map(|(c, factors)| {

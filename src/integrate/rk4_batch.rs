@@ -13,7 +13,7 @@ pub(super) struct RungeKuttaBatch {
     /// What depends on the parameters of one lane alone is computed here.
     single: Rates,
     steps: Batch,
-    numbers: Vec<Number>,
+    numbers: Vec<MovingNumber>,
     /// The index in a state of each number that does not move.
     others: Vec<usize>,
     /// Six times the mean slope of each number that moves.
@@ -22,7 +22,7 @@ pub(super) struct RungeKuttaBatch {
 
 /// A number of the states.
 #[derive(Clone, Copy)]
-struct Number {
+struct MovingNumber {
     value: Batch,
     /// What rounding cut off from it.
     carry: Batch,
@@ -36,7 +36,7 @@ impl RungeKuttaBatch {
         let single = system.native_rates();
         let rates = single.of_orbits()?;
         let zero = Batch::ZERO;
-        let number = Number { value: zero, carry: zero, before: [zero; 2] };
+        let number = MovingNumber { value: zero, carry: zero, before: [zero; 2] };
         let count = system.state_len();
         Some(RungeKuttaBatch {
             others: (0..count).filter(|i| !rates.places().contains(i)).collect(),
@@ -63,7 +63,7 @@ impl RungeKuttaBatch {
             let size = *steps * part;
             for k in 0..sums.len() {
                 let i = rates.places()[k];
-                let Number { value, carry, .. } = numbers[i];
+                let MovingNumber { value, carry, .. } = numbers[i];
                 let slope = if stage == 0 { Batch::ZERO } else { rates.moving().1[k] };
                 rates.moving().0[k] = value + (carry + size * slope);
             }
@@ -105,7 +105,7 @@ impl BatchSteps for RungeKuttaBatch {
     }
 
     fn advance(&mut self, count: u64, times: impl Fn(u64) -> Batch) {
-        vectorized(Steps { orbits: self, count, times });
+        vectorized(RungeKuttaSteps { orbits: self, count, times });
     }
 
     fn are_finite(&self) -> [bool; BATCH] {
@@ -124,19 +124,19 @@ impl BatchSteps for RungeKuttaBatch {
 }
 
 /// Many steps.
-struct Steps<'a, T> {
+struct RungeKuttaSteps<'a, T> {
     orbits: &'a mut RungeKuttaBatch,
     count: u64,
     times: T,
 }
 
-impl<T: Fn(u64) -> Batch> Kernel for Steps<'_, T> {
+impl<T: Fn(u64) -> Batch> Kernel for RungeKuttaSteps<'_, T> {
     type Output = ();
     const OF_SEVERAL: bool = true;
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) {
-        let Steps { orbits, count, times } = self;
+        let RungeKuttaSteps { orbits, count, times } = self;
         for step in 0..count {
             let now = if orbits.rates.reads_time() { times(step) } else { Batch::ZERO };
             orbits.step(now);

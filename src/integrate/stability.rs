@@ -116,14 +116,14 @@ pub(super) fn limit(
 }
 
 /// The rates at some numbers, and the sides of the kinks these lie on.
-struct Point {
+struct RatesAtPoint {
     rates: Vec<f64>,
     sides: Vec<KinkSides>,
 }
 
-impl Point {
+impl RatesAtPoint {
     /// Whether there is no kink between two points.
-    fn is_beside(&self, other: &Point) -> bool {
+    fn is_beside(&self, other: &RatesAtPoint) -> bool {
         self.sides.iter().zip(&other.sides).all(|(a, b)| a.agrees(b))
     }
 }
@@ -137,7 +137,7 @@ fn linearised(
 ) -> Option<DMatrix<f64>> {
     let mut point = |numbers: &[f64]| {
         let mut out = vec![0.0; numbers.len()];
-        rates(numbers, &mut out).map(|sides| Point { rates: out, sides })
+        rates(numbers, &mut out).map(|sides| RatesAtPoint { rates: out, sides })
     };
     let here = point(numbers)?;
     let mut matrix = DMatrix::zeros(moving, moving);
@@ -156,9 +156,9 @@ fn linearised(
             moved[j] = x;
             found.map(|found| (place, found))
         };
-        let beside = |(_, other): &(f64, Point)| here.is_beside(other);
+        let beside = |(_, other): &(f64, RatesAtPoint)| here.is_beside(other);
         let near = at(by).filter(beside).or_else(|| at(-by).filter(beside));
-        let mut write = |(from, here): (f64, &Point), (to, there): (f64, &Point)| {
+        let mut write = |(from, here): (f64, &RatesAtPoint), (to, there): (f64, &RatesAtPoint)| {
             let rates = there.rates.iter().zip(&here.rates);
             for (i, (there, here)) in rates.enumerate().take(moving) {
                 matrix[(i, j)] = step * ((there - here) / (to - from));

@@ -12,7 +12,7 @@ use crate::expr::{Expr, Pool, Symbol};
 use crate::num::Number;
 
 /// A transform and, if they are short enough, the old variables in terms of the new.
-type Transformed = (Expr, Result<Vec<Expr>, NoClosedForm>);
+type LegendreTransform = (Expr, Result<Vec<Expr>, NoClosedForm>);
 
 /// H(q, p, t) and q̇(q, p, t) from L(q, q̇, t), its momenta ∂L/∂q̇ and its mass matrix.
 ///
@@ -27,7 +27,7 @@ pub fn lagrangian_to_hamiltonian(
     lagrangian: Expr,
     momenta: Vec<Expr>,
     mass: Vec<Vec<Expr>>,
-) -> Result<Transformed, NoClosedForm> {
+) -> Result<LegendreTransform, NoClosedForm> {
     let from: Vec<Symbol> = coordinates.iter().map(|c| c.velocity).collect();
     let to: Vec<Symbol> = coordinates.iter().map(|c| c.momentum).collect();
     let names = ("L", "velocities", "the mass matrix");
@@ -68,7 +68,7 @@ fn transform(
     f: Expr,
     (slopes, mut hessian): (Vec<Expr>, Vec<Vec<Expr>>),
     (name, variables, matrix): (&str, &str, &str),
-) -> Result<Transformed, NoClosedForm> {
+) -> Result<LegendreTransform, NoClosedForm> {
     for row in &mut hessian {
         for entry in row.iter_mut() {
             *entry = constant_in(pool, *entry, from).ok_or_else(|| {

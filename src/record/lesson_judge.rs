@@ -18,14 +18,14 @@ use crate::view::lesson::{Paragraph, ParagraphKind};
 const ROUNDING: f64 = 1e-9;
 
 /// What is said, whether the answer was right, and what is right.
-type Judged = (Vec<Paragraph>, (bool, Truth));
+type JudgedAnswer = (Vec<Paragraph>, (bool, Truth));
 
 impl Lesson {
     pub(super) fn judge_choice(
         &self,
         options: &[AnswerChoice],
         chosen: Option<usize>,
-    ) -> Result<Judged, Diagnostic> {
+    ) -> Result<JudgedAnswer, Diagnostic> {
         let findings: Vec<AssertionResult> =
             options.iter().map(|option| self.find(&option.claim)).collect::<Result<_, _>>()?;
         let holds: Vec<bool> = findings.iter().map(|finding| finding.holds).collect();
@@ -56,7 +56,7 @@ impl Lesson {
         value: &LineText,
         within: &LineText,
         said: Option<f64>,
-    ) -> Result<Judged, Diagnostic> {
+    ) -> Result<JudgedAnswer, Diagnostic> {
         let app = &self.runner.lab.app;
         let (value, within) = (assertion::value(app, value)?, assertion::value(app, within)?);
         let number = said.unwrap_or(f64::NAN);

@@ -31,7 +31,7 @@ use vte::Parser;
 pub use self::sink::PASTE_LIMIT;
 use self::sink::{Prefix, Sink};
 use super::events::EventSource;
-use super::question::{Answer, Questions};
+use super::question::{Questions, TerminalReply};
 use super::terminal::{Terminal, TerminalMode};
 
 const ESC: u8 = 0x1b;
@@ -128,7 +128,7 @@ impl EventSource for Decoder {
         self.sink.expects.answers.any()
     }
 
-    fn answer(&mut self) -> Option<Answer> {
+    fn answer(&mut self) -> Option<TerminalReply> {
         self.sink.answers.pop_front()
     }
 }

@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use crossterm::event::Event;
 
-use super::question::{Answer, Questions};
+use super::question::{Questions, TerminalReply};
 use super::terminal::{Terminal, TerminalMode};
 
 /// A reader of a terminal.
@@ -34,5 +34,5 @@ pub(super) trait EventSource {
     fn awaits_answer(&self) -> bool;
 
     /// Returns the next answer of the terminal, once.
-    fn answer(&mut self) -> Option<Answer>;
+    fn answer(&mut self) -> Option<TerminalReply>;
 }

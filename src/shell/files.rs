@@ -79,7 +79,7 @@ pub(super) fn read(place: &Path) -> io::Result<String> {
 #[derive(Debug, Default)]
 pub(super) struct Watch {
     place: Option<PathBuf>,
-    stamp: Option<Stamp>,
+    stamp: Option<FileMetadata>,
     since: Duration,
     /// The number of consecutive checks in which it was missing.
     missed: u32,
@@ -99,7 +99,7 @@ pub(super) enum FileChange {
 const GONE: u32 = 2;
 
 /// The metadata that changes with a file.
-type Stamp = (u64, Option<SystemTime>, u64);
+type FileMetadata = (u64, Option<SystemTime>, u64);
 
 impl Watch {
     /// Starts to watch a file that is about to be read; later changes are reported.
@@ -138,7 +138,7 @@ impl Watch {
 }
 
 /// Returns `None` if there is no file.
-fn stamp(place: &Path) -> Option<Stamp> {
+fn stamp(place: &Path) -> Option<FileMetadata> {
     let about: Metadata = fs::metadata(place).ok().filter(Metadata::is_file)?;
     Some((about.len(), about.modified().ok(), about.ino()))
 }

@@ -20,7 +20,7 @@ use super::events::EventSource;
 use super::governor::Governor;
 use super::lab_error::LabError;
 use super::panic;
-use super::question::{Answer, Questions};
+use super::question::{Questions, TerminalReply};
 use super::queue::Queue;
 use super::signals::Signals;
 use super::terminal::{Ready, Terminal, TerminalError, TerminalMode};
@@ -220,8 +220,8 @@ impl<E: EventSource> FrameLoop<'_, E> {
             }
             while let Some(answer) = self.events.answer() {
                 match answer {
-                    Answer::Background(colour) => page.background(colour),
-                    Answer::Keyboard => self.keyboard = true,
+                    TerminalReply::Background(colour) => page.background(colour),
+                    TerminalReply::Keyboard => self.keyboard = true,
                 }
                 changed = true;
                 due = due.min(self.governor.soon(Instant::now()));

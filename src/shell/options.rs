@@ -264,7 +264,7 @@ impl OptionRow {
     ///
     /// # Errors
     /// Returns what is wrong, as a clause without a full stop, and a suggested correction.
-    pub fn accept(&self, word: &str) -> Result<(), Wrong> {
+    pub fn accept(&self, word: &str) -> Result<(), RejectedWord> {
         if command().try_get_matches_from([format!("--{}={word}", self.name)]).is_ok() {
             return Ok(());
         }
@@ -277,13 +277,13 @@ impl OptionRow {
             (format!("one of {}", self.may_be()), nearest(word, words))
         };
         let message = format!("`{}` is {wanted}, not `{word}`", self.name);
-        Err(Wrong { message, help: near.map(|near| format!("did you mean `{near}`?")) })
+        Err(RejectedWord { message, help: near.map(|near| format!("did you mean `{near}`?")) })
     }
 }
 
 /// Why a word is not accepted.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Wrong {
+pub struct RejectedWord {
     /// What is wrong.
     pub message: String,
     /// A suggested correction, if there is one.

@@ -21,7 +21,7 @@ pub struct Questions {
 
 /// What a terminal has answered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Answer {
+pub(super) enum TerminalReply {
     /// The colour of its background.
     Background(Rgb),
     /// It knows the keyboard protocol.

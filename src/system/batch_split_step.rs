@@ -11,7 +11,7 @@ use super::program::Op;
 use super::rates::Rates;
 use super::registers::Registers;
 use super::stage_list::{Composition, StageList};
-use super::stage_machine::Steps;
+use super::stage_machine::StageSteps;
 use super::state::State;
 use crate::num::{Analytic, BATCH, Batch, vectorized};
 
@@ -90,7 +90,7 @@ impl BatchSteps for BatchSplitStep {
                 keep(registers);
             }
         };
-        vectorized(Steps { registers, stages, count, from: count - 1, seen });
+        vectorized(StageSteps { registers, stages, count, from: count - 1, seen });
     }
 
     fn are_finite(&self) -> [bool; BATCH] {

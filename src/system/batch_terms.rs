@@ -88,7 +88,7 @@ impl BatchTerms {
             }
             self.work.0[lane] = self.work_place.map_or(0.0, |place| state.values[place]);
         }
-        vectorized(Look { terms: self, time });
+        vectorized(TermsKernel { terms: self, time });
     }
 
     /// Evaluates the states that have these numbers at these times, one in each lane.
@@ -97,7 +97,7 @@ impl BatchTerms {
             self.registers[r as usize] = place.map_or(Batch::ZERO, |place| numbers[place]);
         }
         self.work = self.work_place.map_or(Batch::ZERO, |place| numbers[place]);
-        vectorized(Look { terms: self, time: times });
+        vectorized(TermsKernel { terms: self, time: times });
     }
 
     /// Whether the terms of the first lanes need not be evaluated alone.
@@ -164,12 +164,12 @@ impl BatchTerms {
 }
 
 /// The kernel of the evaluation.
-struct Look<'a> {
+struct TermsKernel<'a> {
     terms: &'a mut BatchTerms,
     time: Batch,
 }
 
-impl Kernel for Look<'_> {
+impl Kernel for TermsKernel<'_> {
     type Output = ();
     const OF_SEVERAL: bool = true;
 

@@ -14,14 +14,14 @@ use super::program::Register;
 
 /// The sign of a term.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Sign {
+pub(super) enum TermSign {
     Plus,
     Minus,
 }
 
 /// `f_k = c a_k`, where c depends on parameters only.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Scale {
+pub(super) struct Scaling {
     pub(super) register: Register,
     pub(super) fixed: Register,
     pub(super) varying: Register,
@@ -47,7 +47,7 @@ pub(super) struct Related {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Integral {
     pub(super) register: Register,
-    pub(super) sign: Sign,
+    pub(super) sign: TermSign,
     pub(super) slope: Register,
     pub(super) factor: Register,
     pub(super) inner: u32,
@@ -55,7 +55,7 @@ pub(super) struct Integral {
 
 /// A sum of multiples, a range of the program's table of terms.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sum {
+pub(super) struct LinearSum {
     pub(super) register: Register,
     pub(super) first: u32,
     pub(super) count: u32,
@@ -63,7 +63,7 @@ pub(super) struct Sum {
 
 /// Linear equations. The inner products are those of the varying entries of the matrix, row by row.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Solution {
+pub(super) struct LinearSolution {
     pub(super) register: Register,
     pub(super) block: u32,
     pub(super) inner: u32,
@@ -73,32 +73,32 @@ pub(super) struct Solution {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Step {
     Time(Register),
-    Scale(Scale),
+    Scale(Scaling),
     Product(Product),
     Related(Related),
     Integral(Integral),
-    Sum(Sum),
-    Solution(Solution),
+    Sum(LinearSum),
+    Solution(LinearSolution),
     /// An operation that is evaluated by itself.
     Alone(Register),
 }
 
 /// Operations of one kind, none of which needs one that stands behind it.
 #[derive(Clone, Debug)]
-pub(super) enum Run {
+pub(super) enum OperationRun {
     Time(Register),
-    Scales(Vec<Scale>),
+    Scales(Vec<Scaling>),
     Products(Vec<Product>),
     Related(Vec<Related>),
     Integrals(Vec<Integral>),
-    Sums(Vec<Sum>),
-    Solution(Solution),
+    Sums(Vec<LinearSum>),
+    Solution(LinearSolution),
     Alone(Register),
 }
 
 /// When an operation is finished: in which round, and which place its kind has there.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
-struct Turn {
+struct FinishingTurn {
     round: u32,
     kind: u8,
 }
@@ -106,15 +106,15 @@ struct Turn {
 /// The operations of a program as they are found, each with its turn.
 #[derive(Debug)]
 pub(super) struct Sorter {
-    steps: Vec<(Turn, Step)>,
+    steps: Vec<(FinishingTurn, Step)>,
     /// The turn of every register that is written.
-    turns: Vec<Turn>,
+    turns: Vec<FinishingTurn>,
 }
 
 impl Sorter {
     /// For a program of so many registers.
     pub(super) fn new(registers: usize) -> Sorter {
-        Sorter { steps: Vec::new(), turns: vec![Turn::default(); registers] }
+        Sorter { steps: Vec::new(), turns: vec![FinishingTurn::default(); registers] }
     }
 
     /// Adds an operation that writes `count` registers and needs the operations before that write others.
@@ -127,41 +127,41 @@ impl Sorter {
         let (kind, register) = kind_and_register(&step);
         let latest = needs.into_iter().map(|r| self.turns[r as usize]).max().unwrap_or_default();
         let round = latest.round + u32::from(latest.kind > kind);
-        let turn = Turn { round, kind };
+        let turn = FinishingTurn { round, kind };
         self.turns[register as usize..][..count].fill(turn);
         self.steps.push((turn, step));
     }
 
     /// The runs, in order.
-    pub(super) fn runs(mut self) -> Vec<Run> {
+    pub(super) fn runs(mut self) -> Vec<OperationRun> {
         // operations of one turn stay in the order of the program
         self.steps.sort_by_key(|&(turn, _)| turn);
-        let mut runs: Vec<Run> = Vec::new();
+        let mut runs: Vec<OperationRun> = Vec::new();
         for (_, step) in self.steps {
             match (runs.last_mut(), step) {
-                (Some(Run::Scales(run)), Step::Scale(step)) => run.push(step),
-                (Some(Run::Products(run)), Step::Product(step)) => run.push(step),
-                (Some(Run::Related(run)), Step::Related(step)) => run.push(step),
-                (Some(Run::Integrals(run)), Step::Integral(step)) => run.push(step),
-                (Some(Run::Sums(run)), Step::Sum(step)) => run.push(step),
-                (_, step) => runs.push(Run::of(step)),
+                (Some(OperationRun::Scales(run)), Step::Scale(step)) => run.push(step),
+                (Some(OperationRun::Products(run)), Step::Product(step)) => run.push(step),
+                (Some(OperationRun::Related(run)), Step::Related(step)) => run.push(step),
+                (Some(OperationRun::Integrals(run)), Step::Integral(step)) => run.push(step),
+                (Some(OperationRun::Sums(run)), Step::Sum(step)) => run.push(step),
+                (_, step) => runs.push(OperationRun::of(step)),
             }
         }
         runs
     }
 }
 
-impl Run {
-    fn of(step: Step) -> Run {
+impl OperationRun {
+    fn of(step: Step) -> OperationRun {
         match step {
-            Step::Time(register) => Run::Time(register),
-            Step::Scale(step) => Run::Scales(vec![step]),
-            Step::Product(step) => Run::Products(vec![step]),
-            Step::Related(step) => Run::Related(vec![step]),
-            Step::Integral(step) => Run::Integrals(vec![step]),
-            Step::Sum(step) => Run::Sums(vec![step]),
-            Step::Solution(step) => Run::Solution(step),
-            Step::Alone(register) => Run::Alone(register),
+            Step::Time(register) => OperationRun::Time(register),
+            Step::Scale(step) => OperationRun::Scales(vec![step]),
+            Step::Product(step) => OperationRun::Products(vec![step]),
+            Step::Related(step) => OperationRun::Related(vec![step]),
+            Step::Integral(step) => OperationRun::Integrals(vec![step]),
+            Step::Sum(step) => OperationRun::Sums(vec![step]),
+            Step::Solution(step) => OperationRun::Solution(step),
+            Step::Alone(register) => OperationRun::Alone(register),
         }
     }
 }
@@ -170,12 +170,12 @@ impl Run {
 fn kind_and_register(step: &Step) -> (u8, Register) {
     match *step {
         Step::Time(register) => (0, register),
-        Step::Scale(Scale { register, .. }) => (1, register),
+        Step::Scale(Scaling { register, .. }) => (1, register),
         Step::Product(Product { register, .. }) => (2, register),
         Step::Related(Related { register, .. }) => (3, register),
         Step::Integral(Integral { register, .. }) => (4, register),
-        Step::Sum(Sum { register, .. }) => (5, register),
-        Step::Solution(Solution { register, .. }) => (6, register),
+        Step::Sum(LinearSum { register, .. }) => (5, register),
+        Step::Solution(LinearSolution { register, .. }) => (6, register),
         Step::Alone(register) => (7, register),
     }
 }
@@ -189,12 +189,12 @@ mod tests {
     }
 
     fn scale(register: Register, varying: Register) -> (Step, Vec<Register>) {
-        (Step::Scale(Scale { register, fixed: 0, varying }), vec![varying])
+        (Step::Scale(Scaling { register, fixed: 0, varying }), vec![varying])
     }
 
     fn sum(register: Register, needs: &[Register]) -> (Step, Vec<Register>) {
         let count = needs.len() as u32;
-        (Step::Sum(Sum { register, first: 0, count }), needs.to_vec())
+        (Step::Sum(LinearSum { register, first: 0, count }), needs.to_vec())
     }
 
     /// The registers that each run writes.
@@ -203,14 +203,14 @@ mod tests {
         for (step, needs) in steps {
             sorter.add(*step, 1, needs.iter().copied());
         }
-        let written = |run: &Run| match run {
-            Run::Time(register) | Run::Alone(register) => vec![*register],
-            Run::Scales(run) => run.iter().map(|step| step.register).collect(),
-            Run::Products(run) => run.iter().map(|step| step.register).collect(),
-            Run::Related(run) => run.iter().map(|step| step.register).collect(),
-            Run::Integrals(run) => run.iter().map(|step| step.register).collect(),
-            Run::Sums(run) => run.iter().map(|step| step.register).collect(),
-            Run::Solution(step) => vec![step.register],
+        let written = |run: &OperationRun| match run {
+            OperationRun::Time(register) | OperationRun::Alone(register) => vec![*register],
+            OperationRun::Scales(run) => run.iter().map(|step| step.register).collect(),
+            OperationRun::Products(run) => run.iter().map(|step| step.register).collect(),
+            OperationRun::Related(run) => run.iter().map(|step| step.register).collect(),
+            OperationRun::Integrals(run) => run.iter().map(|step| step.register).collect(),
+            OperationRun::Sums(run) => run.iter().map(|step| step.register).collect(),
+            OperationRun::Solution(step) => vec![step.register],
         };
         sorter.runs().iter().map(written).collect()
     }
@@ -239,10 +239,13 @@ mod tests {
     #[test]
     fn a_solution_is_known_in_all_its_registers() {
         let mut sorter = Sorter::new(8);
-        sorter.add(Step::Solution(Solution { register: 2, block: 0, inner: 0 }), 2, [0, 1]);
+        sorter.add(Step::Solution(LinearSolution { register: 2, block: 0, inner: 0 }), 2, [0, 1]);
         let (step, needs) = product(4, 3, 3);
         sorter.add(step, 1, needs);
         let runs = sorter.runs();
-        assert!(matches!(runs[..], [Run::Solution(_), Run::Products(_)]), "{runs:?}");
+        assert!(
+            matches!(runs[..], [OperationRun::Solution(_), OperationRun::Products(_)]),
+            "{runs:?}"
+        );
     }
 }

@@ -72,7 +72,7 @@ impl ImageProgram {
 
 /// The image of the last state, from which the next one follows.
 #[derive(Clone, Debug)]
-pub(super) struct Image {
+pub(super) struct MapImage {
     values: Evaluator<DoubleDouble>,
     factored: Factored<DoubleDouble>,
     example: Vec<f64>,
@@ -110,9 +110,9 @@ impl Known {
     }
 }
 
-impl Image {
-    pub(super) fn new(of: &ImageProgram) -> Image {
-        Image {
+impl MapImage {
+    pub(super) fn new(of: &ImageProgram) -> MapImage {
+        MapImage {
             factored: Factored::new(of.example.len()),
             inputs: vec![DoubleDouble::ZERO; of.program.inputs()],
             values: Evaluator::new(Arc::clone(&of.program)),

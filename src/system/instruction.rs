@@ -104,7 +104,7 @@ impl Moved {
 /// `constant + Σ coefficient · (register · register)`; the second register of a term that is no
 /// product holds a one.
 #[derive(Clone, Debug)]
-pub(super) struct Sum {
+pub(super) struct InstructionSum {
     pub(super) constant: f64,
     /// The first terms.
     pub(super) coefficients: [f64; 3],

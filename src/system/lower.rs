@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
-use super::program::{Block, Guard, Op, Program, Register, Term};
+use super::program::{Block, Guard, LinearTerm, Op, Program, Register};
 use crate::expr::{Expr, FunctionId, Pool, Symbol};
 use crate::num::{DoubleDouble, Number};
 
@@ -262,7 +262,7 @@ impl<'a> Lowering<'a> {
     pub(super) fn linear(&mut self, constant: Number, terms: &[(Number, Register)]) -> Register {
         let first = self.program.terms.len() as u32;
         for &(c, register) in terms {
-            self.program.terms.push(Term { coefficient: c.double(), register });
+            self.program.terms.push(LinearTerm { coefficient: c.double(), register });
         }
         let constant = self.constant_index(constant.double());
         self.push(Op::Linear { constant, first, count: terms.len() as u32 })

@@ -5,7 +5,7 @@
 
 use super::lower::Lowering;
 use super::program::{Op, PARAMETRIC_POWER_BITS, Register};
-use crate::expr::{Branches, Expr, FunctionId, Node, Pool, Rule};
+use crate::expr::{Expr, FunctionId, KinkBranches, Node, Pool, Rule};
 use crate::num::{DoubleDouble, Number};
 
 /// A product of this degree may, at a zero of its factors and multiplied by others, have its first term
@@ -214,7 +214,7 @@ impl Lowering<'_> {
         }
     }
 
-    fn select(&mut self, branches: Branches) -> Register {
+    fn select(&mut self, branches: KinkBranches) -> Register {
         let positive = self.lower(branches.positive);
         let negative = self.lower(branches.negative);
         let opposite = self.pool.neg(branches.switch);
@@ -241,7 +241,7 @@ impl Lowering<'_> {
 /// `atan2(y, x)` on the two sides of y = 0, on each without a cut nearby: `±π/2 + atan2(∓x, ±y)`.
 /// They agree where x > 0, and differ by a turn where x < 0. The cuts of the new calls lie where
 /// the other branch applies.
-fn half_planes(pool: &mut Pool, arguments: &[Expr]) -> Branches {
+fn half_planes(pool: &mut Pool, arguments: &[Expr]) -> KinkBranches {
     let (y, x) = (arguments[0], arguments[1]);
     let (minus_y, minus_x) = (pool.neg(y), pool.neg(x));
     let above = pool.call(FunctionId::Atan2, &[minus_x, y]);
@@ -250,5 +250,5 @@ fn half_planes(pool: &mut Pool, arguments: &[Expr]) -> Branches {
     let right_angle = pool.scale(Number::HALF, pi);
     let positive = pool.add(right_angle, above);
     let negative = pool.sub(below, right_angle);
-    Branches { switch: y, positive, negative }
+    KinkBranches { switch: y, positive, negative }
 }

@@ -1,6 +1,6 @@
 //! Evaluates the value of every channel at a state.
 
-use super::image::Image;
+use super::image::MapImage;
 use super::native_states::NativeStates;
 use super::value::Evaluator;
 use super::{Form, MotionError, State, System};
@@ -21,14 +21,14 @@ pub struct Observer {
     native: NativeStates,
     inputs: Vec<DoubleDouble>,
     rounded: Vec<f64>,
-    images: Vec<Image>,
+    images: Vec<MapImage>,
 }
 
 impl Observer {
     fn new(system: System, parameters: &[f64]) -> Observer {
         let watch = system.watch();
-        let images: Vec<Image> = watch.images.iter().map(Image::new).collect();
-        let inputs = system.motion_len() + 2 + images.iter().map(Image::len).sum::<usize>();
+        let images: Vec<MapImage> = watch.images.iter().map(MapImage::new).collect();
+        let inputs = system.motion_len() + 2 + images.iter().map(MapImage::len).sum::<usize>();
         let mut observer = Observer {
             precise: Evaluator::new(Arc::clone(&watch.precise)),
             drawn: Evaluator::new(Arc::clone(&watch.drawn)),

@@ -51,7 +51,7 @@ pub(super) enum Op {
 
 /// One summand of a [`Op::Linear`].
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Term {
+pub(super) struct LinearTerm {
     pub(super) coefficient: DoubleDouble,
     pub(super) register: Register,
 }
@@ -90,7 +90,7 @@ impl Block {
 pub struct Program {
     pub(super) ops: Vec<Op>,
     pub(super) constants: Vec<DoubleDouble>,
-    pub(super) terms: Vec<Term>,
+    pub(super) terms: Vec<LinearTerm>,
     pub(super) blocks: Vec<Block>,
     /// Which registers depend on constants and parameters only.
     pub(super) fixed: Vec<bool>,

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::instruction::{BlockPlaces, CHUNK, Instruction, Moved, REGISTERS, Sum};
+use super::instruction::{BlockPlaces, CHUNK, Instruction, InstructionSum, Moved, REGISTERS};
 use super::program::{Op, Program, Register};
 
 /// What instructions refer to.
@@ -20,7 +20,7 @@ pub(super) struct RegisterMap {
     pub(super) numbers: Vec<u8>,
     /// The register of the time, where programs may depend on it.
     pub(super) time: Option<u8>,
-    pub(super) sums: Vec<Sum>,
+    pub(super) sums: Vec<InstructionSum>,
     /// The blocks of more than one equation.
     pub(super) blocks: Vec<BlockPlaces>,
     /// The register that holds a one.
@@ -178,7 +178,7 @@ impl RegisterMap {
                     let registers = factors.map_or([at(term.register), one], |f| f.map(at));
                     (term.coefficient.high, registers)
                 });
-                let mut sum = Sum {
+                let mut sum = InstructionSum {
                     constant: program.constants[constant as usize].high,
                     coefficients: [0.0; 3],
                     registers: [[one; 2]; 3],

@@ -16,7 +16,8 @@
 use rustc_hash::FxHashMap;
 
 use super::finishing_pass::{
-    Integral, Product, Related, Run, Scale, Sign, Solution, Sorter, Step, Sum,
+    Integral, LinearSolution, LinearSum, OperationRun, Product, Related, Scaling, Sorter, Step,
+    TermSign,
 };
 use super::program::{Op, Program, Register};
 use crate::expr::{BilinearEquation, Divisor, Operand, Rule};
@@ -32,19 +33,19 @@ pub(super) struct Pair {
 
 /// The factor of a convolution.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Factor {
+pub(super) enum ConvolutionFactor {
     Plus,
     Minus,
     Times(DoubleDouble),
 }
 
-impl Factor {
+impl ConvolutionFactor {
     /// The sign that it is, if it is no more.
-    fn sign(self) -> Option<Sign> {
+    fn sign(self) -> Option<TermSign> {
         match self {
-            Factor::Plus => Some(Sign::Plus),
-            Factor::Minus => Some(Sign::Minus),
-            Factor::Times(_) => None,
+            ConvolutionFactor::Plus => Some(TermSign::Plus),
+            ConvolutionFactor::Minus => Some(TermSign::Minus),
+            ConvolutionFactor::Times(_) => None,
         }
     }
 }
@@ -65,7 +66,7 @@ pub(super) enum Ends {
 /// One convolution of a recurrence.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Summand {
-    pub(super) factor: Factor,
+    pub(super) factor: ConvolutionFactor,
     /// The inner product, unless one of the operands is constant.
     pub(super) product: Option<u32>,
     pub(super) ends: Ends,
@@ -101,7 +102,7 @@ pub(super) enum Direct {
     /// `a_k`.
     Coefficient(Register),
     /// `± k a_k`.
-    Slope(Factor, Register),
+    Slope(ConvolutionFactor, Register),
 }
 
 /// The schedule of one program.
@@ -109,7 +110,7 @@ pub(super) enum Direct {
 pub(super) struct Schedule {
     pub(super) pairs: Vec<Pair>,
     /// The operations of the finishing pass.
-    pub(super) runs: Vec<Run>,
+    pub(super) runs: Vec<OperationRun>,
     pub(super) relations: Vec<Relation>,
     pub(super) summands: Vec<Summand>,
     /// The registers whose slope enters an inner product.
@@ -157,12 +158,13 @@ impl ScheduleWriter<'_> {
     fn write(&mut self, register: Register) {
         let step = match self.program.ops[register as usize] {
             Op::Time => Step::Time(register),
-            Op::Linear { first, count, .. } => Step::Sum(Sum { register, first, count }),
-            Op::Scale(fixed, varying) => Step::Scale(Scale { register, fixed, varying }),
+            Op::Linear { first, count, .. } => Step::Sum(LinearSum { register, first, count }),
+            Op::Scale(fixed, varying) => Step::Scale(Scaling { register, fixed, varying }),
             Op::Multiply(left, right) => match self.product(false, left, right) {
                 Some(inner) => Step::Product(Product { register, left, right, inner }),
                 None => {
-                    let summand = self.summand(Factor::Plus, false, (left, right), register);
+                    let summand =
+                        self.summand(ConvolutionFactor::Plus, false, (left, right), register);
                     self.relation(register, Direct::None, &[summand], Denominator::One, None)
                 }
             },
@@ -171,19 +173,22 @@ impl ScheduleWriter<'_> {
                 None => return,
             },
             Op::Divide(a, b) => {
-                let summand = self.summand(Factor::Minus, false, (b, register), register);
+                let summand =
+                    self.summand(ConvolutionFactor::Minus, false, (b, register), register);
                 let (direct, denominator) = (Direct::Coefficient(a), Denominator::Value(b));
                 self.relation(register, direct, &[summand], denominator, None)
             }
             Op::Root(a) => {
-                let summand = self.summand(Factor::Minus, false, (register, register), register);
+                let summand =
+                    self.summand(ConvolutionFactor::Minus, false, (register, register), register);
                 let (direct, denominator) = (Direct::Coefficient(a), Denominator::Twice(register));
                 self.relation(register, direct, &[summand], denominator, Some(a))
             }
             Op::Power(a, exponent) => {
                 // y = a^α: a y′ = α a′ y
                 let exponent = self.program.constants[exponent as usize];
-                let (factor, minus) = (Factor::Times(exponent), Factor::Minus);
+                let (factor, minus) =
+                    (ConvolutionFactor::Times(exponent), ConvolutionFactor::Minus);
                 let summands = [
                     self.summand(factor, true, (a, register), register),
                     self.summand(minus, true, (register, a), register),
@@ -207,7 +212,7 @@ impl ScheduleWriter<'_> {
             }
             Op::Solve(block) => {
                 let inner = self.products_of_block(register, block as usize);
-                let solution = Step::Solution(Solution { register, block, inner });
+                let solution = Step::Solution(LinearSolution { register, block, inner });
                 self.add(solution, register, self.program.blocks[block as usize].size());
                 return;
             }
@@ -242,7 +247,8 @@ impl ScheduleWriter<'_> {
             Operand::Value => value,
             Operand::Companion => value + 1,
         };
-        let factor = |sign: f64| if sign < 0.0 { Factor::Minus } else { Factor::Plus };
+        let factor =
+            |sign: f64| if sign < 0.0 { ConvolutionFactor::Minus } else { ConvolutionFactor::Plus };
         let direct = match equation.slope {
             Some((sign, operand)) => Direct::Slope(factor(sign), of(operand)),
             None => Direct::None,
@@ -289,7 +295,7 @@ impl ScheduleWriter<'_> {
     /// A convolution in the recurrence of `own`.
     fn summand(
         &mut self,
-        factor: Factor,
+        factor: ConvolutionFactor,
         of_slope: bool,
         (left, right): (Register, Register),
         own: Register,

@@ -9,7 +9,7 @@ use super::State;
 use super::rates::Rates;
 use super::registers::Registers;
 use super::stage_list::{Composition, StageList};
-use super::stage_machine::Steps;
+use super::stage_machine::StageSteps;
 use crate::num::{BATCH, Batch, vectorized};
 
 /// Many steps of one splitting method.
@@ -108,7 +108,7 @@ impl SplitStep {
             *factor = x;
         }
         let seen = |done, registers: &_| seen(done, registers, &stages.map.numbers);
-        vectorized(Steps { registers, stages, count, from, seen });
+        vectorized(StageSteps { registers, stages, count, from, seen });
         // what is not finite stays so
         let finite = |&place: &u8| {
             let place = usize::from(place);

@@ -9,7 +9,7 @@ use crate::num::Kernel;
 
 /// Many steps. `seen` is handed the count of steps so far and the registers at the end of each step
 /// from `from` on.
-pub(super) struct Steps<'a, R, F> {
+pub(super) struct StageSteps<'a, R, F> {
     pub(super) registers: &'a mut Registers<R>,
     pub(super) stages: &'a StageList,
     pub(super) count: u64,
@@ -17,7 +17,7 @@ pub(super) struct Steps<'a, R, F> {
     pub(super) seen: F,
 }
 
-impl<R: StageNumber, F: FnMut(u64, &Registers<R>)> Kernel for Steps<'_, R, F> {
+impl<R: StageNumber, F: FnMut(u64, &Registers<R>)> Kernel for StageSteps<'_, R, F> {
     type Output = ();
     const OF_SEVERAL: bool = R::OF_SEVERAL;
 

@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
-use super::program::{Block, Op, PARAMETRIC_POWER_BITS, Program, Register, Term};
+use super::program::{Block, LinearTerm, Op, PARAMETRIC_POWER_BITS, Program, Register};
 use crate::expr::FunctionId;
 use crate::num::DoubleDouble;
 
@@ -143,9 +143,11 @@ impl Builder {
                 Op::Input(i) => delta[r] = vector.get(i as usize).copied(),
                 Op::Linear { first, count, .. } => {
                     let terms = &primal.terms[first as usize..(first + count) as usize];
-                    let terms: Vec<Term> = terms
+                    let terms: Vec<LinearTerm> = terms
                         .iter()
-                        .filter_map(|term| Some(Term { register: d(term.register)?, ..*term }))
+                        .filter_map(|term| {
+                            Some(LinearTerm { register: d(term.register)?, ..*term })
+                        })
                         .collect();
                     delta[r] = self.sum(&terms);
                 }
@@ -252,7 +254,7 @@ impl Builder {
         });
         self.slopes.insert(register, less);
         let product = self.product(less, Some(da))?;
-        self.sum(&[Term { coefficient: exponent, register: product }])
+        self.sum(&[LinearTerm { coefficient: exponent, register: product }])
     }
 
     /// The same with an exponent that depends on parameters.
@@ -264,8 +266,8 @@ impl Builder {
     ) -> Delta {
         let da = da?;
         let slope = self.slopes.get(&register).copied().unwrap_or_else(|| {
-            let one = Term { coefficient: DoubleDouble::ONE, register: exponent };
-            let opposite = Term { coefficient: -DoubleDouble::ONE, register: exponent };
+            let one = LinearTerm { coefficient: DoubleDouble::ONE, register: exponent };
+            let opposite = LinearTerm { coefficient: -DoubleDouble::ONE, register: exponent };
             // the slope of a⁰ is 0 · a⁰ and not 0/a, so that it is zero where a is: at a zero of
             // its switch a Select is the mean of its branches, which is 0 here
             let switch = self.push(Op::Square(exponent));
@@ -316,7 +318,7 @@ impl Builder {
                 let denominator = self.slope(y, |builder| {
                     let squares = [u, v].map(|r| builder.push(Op::Square(r)));
                     let one = DoubleDouble::ONE;
-                    let terms = squares.map(|register| Term { coefficient: one, register });
+                    let terms = squares.map(|register| LinearTerm { coefficient: one, register });
                     builder.linear(0.0, &terms)
                 });
                 self.quotient(numerator, denominator)
@@ -342,7 +344,7 @@ impl Builder {
     fn one_and_square(&mut self, r: Register, constant: f64, coefficient: f64) -> Register {
         let square = self.push(Op::Square(r));
         let coefficient = DoubleDouble::from(coefficient);
-        self.linear(constant, &[Term { coefficient, register: square }])
+        self.linear(constant, &[LinearTerm { coefficient, register: square }])
     }
 
     /// The register of a derivative, made once.

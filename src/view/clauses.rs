@@ -4,7 +4,7 @@
 
 use unicode_width::UnicodeWidthStr;
 
-use super::wrap::{Piece, break_up, fill};
+use super::wrap::{TextPiece, break_up, fill};
 
 /// The lines of a remark with formulas in it: products and what is in parentheses stay whole, an operator stays with what
 /// follows it and `=` with both its sides, as far as there is room.
@@ -30,7 +30,7 @@ pub(super) fn clauses(text: &str, width: usize) -> Vec<String> {
     let mut pieces = Vec::new();
     for clause in whole {
         if clause.width() <= width {
-            pieces.push(Piece { text: clause, spaced: true, nested: 0 });
+            pieces.push(TextPiece { text: clause, spaced: true, nested: 0 });
         } else {
             break_up(&clause, width.max(1), [0, 0], &mut pieces);
         }

@@ -11,7 +11,7 @@ use ratatui::style::Style;
 use super::RenderStyle;
 use super::glyphs::Glyphs;
 use super::plot::{Ages, Camera, KeptTrail, PlotFrame, Raster};
-use super::quantity::Source;
+use super::quantity::QuantitySource;
 use super::theme::{Dash, Shade};
 use crate::analysis::Landscape;
 use crate::experiment::Trail;
@@ -65,7 +65,7 @@ pub(super) enum Track {
     /// Of a channel against time, with the pattern of its line, from a time on.
     Curve(usize, Dash, f64),
     /// Of a point in space, through a camera in a reference frame.
-    Point([Source; 3], Camera, Option<usize>),
+    Point([QuantitySource; 3], Camera, Option<usize>),
 }
 
 /// A drawn trail, and the rows by which its continuation is known.

@@ -13,7 +13,7 @@ use crate::instrument::{described, described_mode, displaced};
 use crate::system::{Channel, ChannelKind};
 
 /// A heading, and the test for the channels listed under it.
-type Group = (&'static str, fn(&ChannelKind) -> bool);
+type ChannelGroup = (&'static str, fn(&ChannelKind) -> bool);
 
 /// Builds the page.
 pub(super) fn document(q: &Quantities<'_>) -> TextPage {
@@ -22,7 +22,7 @@ pub(super) fn document(q: &Quantities<'_>) -> TextPage {
     page.heading("State");
     let unit = q.lab.loaded.model.time_unit();
     page.value("t", &readable(q.snapshot.time, 10, glyphs), unit, Vec::new());
-    let groups: [Group; 6] = [
+    let groups: [ChannelGroup; 6] = [
         ("", |kind| matches!(kind, ChannelKind::Position(_))),
         ("Velocities", |kind| matches!(kind, ChannelKind::Velocity(_))),
         ("Momenta", |kind| matches!(kind, ChannelKind::Momentum(_))),

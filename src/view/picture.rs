@@ -19,7 +19,7 @@ use super::theme::Role;
 use super::time_window::time_window;
 use super::{companions, cursor, field, legend, level_curves, prediction, space};
 use crate::instrument::{
-    Across, Entry, Heading, Ink, Layer, Level, Picture, Plot, Sign, Upwards, Viewport,
+    Across, Entry, Heading, Ink, Layer, Level, MarkerShape, Picture, Plot, Upwards, Viewport,
 };
 
 /// Builds the heading: what is shown, as many current values as fit, and what is being computed.
@@ -63,7 +63,7 @@ fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<Span> {
         Entry::Key(ink, words) => {
             let glyphs = canvas.look.glyphs;
             let (mark, style) = match (colourless_mark(canvas, *ink), ink) {
-                (Some(sign), _) => (marker(sign).symbol(glyphs), canvas.style(Role::Text)),
+                (Some(shape), _) => (marker(shape).symbol(glyphs), canvas.style(Role::Text)),
                 (None, Ink::Level) if is_colourless(canvas) => {
                     (glyphs.pick('·', '.'), canvas.style(Role::Text))
                 }
@@ -334,9 +334,9 @@ fn draw_layer(
         Layer::Points(points, ink) => {
             let pen = pen(canvas, *ink, level);
             match colourless_mark(canvas, *ink) {
-                Some(sign) => {
+                Some(shape) => {
                     let pen = Pen { style: canvas.style(Role::Text), ..pen };
-                    points.iter().for_each(|at| raster.marker(frame, *at, marker(sign), &pen));
+                    points.iter().for_each(|at| raster.marker(frame, *at, marker(shape), &pen));
                 }
                 None => raster.points(frame, points.iter().copied(), &pen),
             }
@@ -351,9 +351,9 @@ fn draw_layer(
         Layer::Crossings { section, channels, ink } => {
             raster.points(frame, crossings(q, *section, *channels), &pen(canvas, *ink, level));
         }
-        Layer::LastCrossing { section, channels, sign } => {
+        Layer::LastCrossing { section, channels, shape } => {
             if let Some(at) = crossings(q, *section, *channels).next_back() {
-                raster.marker(frame, at, marker(*sign), &pen(canvas, Ink::Accent, level));
+                raster.marker(frame, at, marker(*shape), &pen(canvas, Ink::Accent, level));
             }
         }
         Layer::Companions(channels) => {
@@ -367,27 +367,27 @@ fn draw_layer(
         }
         // written when the dots are there
         Layer::Legend(_) | Layer::Name(..) => {}
-        Layer::Point(at, sign, ink) => {
-            raster.marker(frame, *at, marker(*sign), &pen(canvas, *ink, level));
+        Layer::Point(at, shape, ink) => {
+            raster.marker(frame, *at, marker(*shape), &pen(canvas, *ink, level));
         }
     }
 }
 
-fn marker(sign: Sign) -> Marker {
-    match sign {
-        Sign::Disc => Marker::Disc,
-        Sign::Ring => Marker::Ring,
-        Sign::Cross => Marker::Cross,
+fn marker(shape: MarkerShape) -> Marker {
+    match shape {
+        MarkerShape::Disc => Marker::Disc,
+        MarkerShape::Ring => Marker::Ring,
+        MarkerShape::Cross => Marker::Cross,
     }
 }
 
-/// The sign that tells points of a verdict from others where there is no colour: crosses for what calls for attention, rings
+/// The marker that tells points of a verdict from others where there is no colour: crosses for what calls for attention, rings
 /// for what is plain, and dots for the rest.
-fn colourless_mark(canvas: &Canvas<'_>, ink: Ink) -> Option<Sign> {
+fn colourless_mark(canvas: &Canvas<'_>, ink: Ink) -> Option<MarkerShape> {
     match ink {
         _ if !is_colourless(canvas) => None,
-        Ink::Warn => Some(Sign::Cross),
-        Ink::Plain => Some(Sign::Ring),
+        Ink::Warn => Some(MarkerShape::Cross),
+        Ink::Plain => Some(MarkerShape::Ring),
         _ => None,
     }
 }

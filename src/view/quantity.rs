@@ -82,12 +82,12 @@ impl<'a> Quantities<'a> {
     }
 
     /// The source of an expression's value: a number, or a channel.
-    pub(super) fn place(&self, expression: Expr) -> Source {
+    pub(super) fn place(&self, expression: Expr) -> QuantitySource {
         if let Some(number) = self.lab.loaded.equations.pool.as_number(expression) {
-            return Source::Number(number.value());
+            return QuantitySource::Number(number.value());
         }
         let channel = self.lab.loaded.system.channel_of(expression);
-        channel.map_or(Source::Number(f64::NAN), Source::Channel)
+        channel.map_or(QuantitySource::Number(f64::NAN), QuantitySource::Channel)
     }
 
     /// The current value of an expression of a shape.
@@ -150,14 +150,14 @@ fn turn_of(lo: f64, hi: f64, period: f64) -> f64 {
 
 /// The source of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Source {
+pub(super) enum QuantitySource {
     /// A constant.
     Number(f64),
     /// The channel with this index.
     Channel(usize),
 }
 
-impl Source {
+impl QuantitySource {
     /// Reads the value from a row of channels.
     pub(super) fn read(self, values: &[f64]) -> f64 {
         match self {

@@ -21,7 +21,7 @@ use super::canvas::Canvas;
 use super::companions;
 use super::kept::{self, Kept, Track, TrailKey};
 use super::plot::{Ages, Camera, DepthBuffer, Marker, Pen, PlotFrame, Raster, Visibility};
-use super::quantity::{Quantities, Source};
+use super::quantity::{Quantities, QuantitySource};
 use super::theme::Role;
 use crate::expr::Symbol;
 use crate::instrument::CameraPose;
@@ -146,8 +146,9 @@ impl<'a> ScenePainter<'a> {
 
     /// Draws what moves of a motion beside the main one: its lines, masses and tracks, in its colour.
     fn ghost(&mut self, shape: &Shape, kept: &mut Kept) {
-        let moves =
-            |point: &Point| point.iter().any(|e| matches!(self.q.place(*e), Source::Channel(_)));
+        let moves = |point: &Point| {
+            point.iter().any(|e| matches!(self.q.place(*e), QuantitySource::Channel(_)))
+        };
         let number = self.beside.unwrap_or(0);
         let pen = Pen::new(companions::ink(&self.q.look.theme, number), TRACK);
         match shape {

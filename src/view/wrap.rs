@@ -6,7 +6,7 @@ use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 /// The lines of a paragraph, broken at spaces; a word longer than a line is broken anywhere.
 pub(super) fn words(text: &str, width: usize) -> Vec<String> {
-    let piece = |word: &str| Piece { text: word.to_owned(), spaced: true, nested: 0 };
+    let piece = |word: &str| TextPiece { text: word.to_owned(), spaced: true, nested: 0 };
     fill(text.split_whitespace().map(piece), width, 0, 0)
 }
 
@@ -157,24 +157,24 @@ pub(super) fn break_up(
     text: &str,
     room: usize,
     [depth, nested]: [usize; 2],
-    pieces: &mut Vec<Piece>,
+    pieces: &mut Vec<TextPiece>,
 ) {
     let fits = |text: &str| text.width() + nested <= room;
     for term in terms(text, depth) {
         if fits(&term) {
-            pieces.push(Piece { text: term, spaced: true, nested });
+            pieces.push(TextPiece { text: term, spaced: true, nested });
         } else if depth >= DEEPEST || nested + NESTED >= room {
             for (i, factor) in factors(&term).into_iter().enumerate() {
                 // There is no space after a `*` sign.
                 let spaced = i == 0 || factor.starts_with(' ');
-                pieces.push(Piece { text: factor.trim_start().to_owned(), spaced, nested });
+                pieces.push(TextPiece { text: factor.trim_start().to_owned(), spaced, nested });
             }
         } else {
             // A parenthesis stays whole if a line of its own suffices.
             for (place, part) in parts(&term, depth).into_iter().enumerate() {
                 let spaced = place == 0 || !part.starts_with('*');
                 if fits(&part) {
-                    pieces.push(Piece { text: part, spaced, nested });
+                    pieces.push(TextPiece { text: part, spaced, nested });
                     continue;
                 }
                 let begins = pieces.len();
@@ -258,7 +258,7 @@ fn factors(term: &str) -> Vec<String> {
 }
 
 /// A part of a text that stays on one line.
-pub(super) struct Piece {
+pub(super) struct TextPiece {
     pub(super) text: String,
     /// Whether a space precedes it on the same line.
     pub(super) spaced: bool,
@@ -268,7 +268,7 @@ pub(super) struct Piece {
 
 /// Fills lines with pieces, the first after `first` columns.
 pub(super) fn fill(
-    pieces: impl Iterator<Item = Piece>,
+    pieces: impl Iterator<Item = TextPiece>,
     width: usize,
     first: usize,
     indent: usize,
@@ -276,7 +276,7 @@ pub(super) fn fill(
     let width = width.max(1);
     let mut lines: Vec<String> = vec![String::new()];
     let mut fresh = true;
-    for Piece { text, spaced, nested } in pieces {
+    for TextPiece { text, spaced, nested } in pieces {
         let mut piece = text;
         let indent = (indent + nested).min(width / 2);
         loop {

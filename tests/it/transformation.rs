@@ -5,7 +5,7 @@ mod branches;
 use phaselab::app::{App, Event, Pane};
 use phaselab::diagnostic::Document;
 use phaselab::experiment::Prepared;
-use phaselab::instrument::{Ink, Layer, Picture, Plot, Sign};
+use phaselab::instrument::{Ink, Layer, MarkerShape, Picture, Plot};
 use phaselab::num::math;
 use phaselab::preset;
 
@@ -276,7 +276,7 @@ impl Course {
                 Layer::Line(line, stroke) => {
                     grids[usize::from(stroke.covering.is_some())].push(line);
                 }
-                Layer::Point(at, Sign::Ring, Ink::Level) => others.push(at),
+                Layer::Point(at, MarkerShape::Ring, Ink::Level) => others.push(at),
                 Layer::Legend(lines) => words = lines,
                 _ => {}
             }

@@ -11,7 +11,7 @@ use crate::printable;
 
 /// A ramp under the name of its parameter.
 #[derive(Clone, PartialEq, Debug)]
-pub(super) struct NamedRamp {
+pub(super) struct RampArgument {
     name: String,
     values: [f64; 2],
     start: f64,
@@ -19,10 +19,10 @@ pub(super) struct NamedRamp {
     linear: bool,
 }
 
-impl FromStr for NamedRamp {
+impl FromStr for RampArgument {
     type Err = String;
 
-    fn from_str(text: &str) -> Result<NamedRamp, String> {
+    fn from_str(text: &str) -> Result<RampArgument, String> {
         let form = "write it as name=from:to:start:duration, or with :linear behind";
         let (name, rest) = text.split_once('=').ok_or(form)?;
         let parts: Vec<&str> = rest.split(':').map(str::trim).collect();
@@ -35,7 +35,7 @@ impl FromStr for NamedRamp {
         if duration <= 0.0 {
             return Err("the duration of a ramp is above zero".to_owned());
         }
-        Ok(NamedRamp {
+        Ok(RampArgument {
             name: name.trim().to_owned(),
             values: [number(from)?, number(to)?],
             start: number(start)?,
@@ -48,7 +48,7 @@ impl FromStr for NamedRamp {
 /// The ramps of a model.
 pub(super) fn of(
     model: &Model,
-    named: &[NamedRamp],
+    named: &[RampArgument],
     set: &[Assignment],
 ) -> Result<Vec<Ramp>, CommandError> {
     let mut ramps: Vec<Ramp> = Vec::new();
@@ -63,7 +63,7 @@ pub(super) fn of(
             let message = format!("--set and --ramp both give {name}: keep one of them");
             return Err(CommandError::WrongUse(message));
         }
-        let NamedRamp { values, start, duration, linear, .. } = *ramp;
+        let RampArgument { values, start, duration, linear, .. } = *ramp;
         ramps.push(Ramp { parameter, values, start, duration, linear });
     }
     Ok(ramps)

@@ -1,6 +1,6 @@
 //! The absolute value.
 
-use super::{Branches, Function, FunctionId, Rule};
+use super::{Function, FunctionId, KinkBranches, Rule};
 use crate::expr::Node;
 use crate::num::Number;
 
@@ -17,7 +17,7 @@ pub(super) const FUNCTION: Function = Function {
         _ => pool.fold_even(FunctionId::Abs, u[0]),
     },
     derivative: |pool, u, _| pool.call(FunctionId::Sign, u),
-    rule: Rule::Branch(|pool, u| Branches {
+    rule: Rule::Branch(|pool, u| KinkBranches {
         switch: u[0],
         positive: u[0],
         negative: pool.scale(Number::MINUS_ONE, u[0]),

@@ -1,6 +1,6 @@
 //! The larger of two.
 
-use super::{Branches, Function, FunctionId, Rule};
+use super::{Function, FunctionId, KinkBranches, Rule};
 use crate::num::Number;
 
 pub(super) const FUNCTION: Function = Function {
@@ -21,7 +21,7 @@ pub(super) const FUNCTION: Function = Function {
         let half = if i == 0 { Number::HALF } else { -Number::HALF };
         pool.linear(Number::HALF, &[(half, side)])
     },
-    rule: Rule::Branch(|pool, u| Branches {
+    rule: Rule::Branch(|pool, u| KinkBranches {
         switch: pool.sub(u[0], u[1]),
         positive: u[0],
         negative: u[1],

@@ -1,6 +1,6 @@
 //! The sign: 1, −1, and 0 at zero.
 
-use super::{Branches, Function, FunctionId, Rule};
+use super::{Function, FunctionId, KinkBranches, Rule};
 use crate::expr::{Expr, Node};
 
 pub(super) const FUNCTION: Function = Function {
@@ -16,7 +16,7 @@ pub(super) const FUNCTION: Function = Function {
         _ => pool.fold_odd(FunctionId::Sign, u[0]),
     },
     derivative: |_, _, _| Expr::ZERO,
-    rule: Rule::Branch(|pool, u| Branches {
+    rule: Rule::Branch(|pool, u| KinkBranches {
         switch: u[0],
         positive: Expr::ONE,
         negative: pool.integer(-1),

@@ -81,7 +81,7 @@ impl Cloud {
 }
 
 /// What a job computes: a cloud from its beginning, or from where it was left.
-pub(super) struct Task {
+pub(super) struct CloudTask {
     pub(super) plot: Plot,
     /// The plane in which the starts are spread.
     pub(super) starts: Plot,
@@ -97,7 +97,7 @@ pub(super) struct Task {
     pub(super) known: Option<Answer>,
 }
 
-impl Task {
+impl CloudTask {
     fn physics(&self) -> Physics<'_> {
         Physics { model: &self.model, equations: &self.equations, system: &self.system }
     }

@@ -46,14 +46,14 @@ pub(super) enum MapNumber {
 }
 
 /// What a job computes: the numbers at the next places.
-pub(super) struct Task {
+pub(super) struct MapTask {
     pub(super) motions: VariedMotions,
     pub(super) number: MapNumber,
     pub(super) length: f64,
     pub(super) values: Vec<f64>,
 }
 
-impl Task {
+impl MapTask {
     pub(super) fn next_part(&self, progress: &Progress) -> ComputedMap {
         let system = self.motions.system.with_cancel(progress.token().clone());
         let mut values = self.values.clone();

@@ -116,7 +116,7 @@ impl SectionConditions {
 }
 
 /// What a job computes: the orbits of a picture at first, or those of its next addition.
-pub(super) struct Task {
+pub(super) struct SectionTask {
     pub(super) plane: SectionPlane,
     /// The law by which a stroboscope's points are carried back to the phase of the initial values.
     pub(super) law: (Arc<Model>, Arc<Equations>),
@@ -140,7 +140,7 @@ pub(super) struct Begun {
     pub(super) pending: (Vec<[f64; 2]>, u64),
 }
 
-impl Task {
+impl SectionTask {
     pub(super) fn portrait(&self, progress: &Progress) -> Portrait {
         let system = self.system.with_cancel(progress.token().clone());
         let begun = self.known.as_ref();

@@ -8,7 +8,7 @@
 
 use std::sync::Arc;
 
-use super::grid::{self, Node, Old};
+use super::grid::{self, GridNode, Old};
 use crate::expr::Symbol;
 use crate::mechanics::{Equations, ImplicitMap, Valuation};
 
@@ -31,8 +31,8 @@ pub(super) struct Branches {
     new: [Symbol; 2],
     periods: [Option<f64>; 2],
     old: Old,
-    main: Vec<Node>,
-    others: Vec<Vec<Node>>,
+    main: Vec<GridNode>,
+    others: Vec<Vec<GridNode>>,
     /// The lines of the other branches.
     pub(super) lines: Vec<Vec<[f64; 2]>>,
 }
@@ -117,14 +117,14 @@ impl Branches {
     }
 
     /// The image of a point on the branch of the nodes, from the nearest of them from which a way leads there.
-    fn next_to(&self, nodes: &[Node], at: &Valuation) -> Option<[f64; 2]> {
+    fn next_to(&self, nodes: &[GridNode], at: &Valuation) -> Option<[f64; 2]> {
         let (symbols, window) = self.old;
         let here = symbols.map(|s| at.at(s));
-        let distance = |(place, _): &Node| {
+        let distance = |(place, _): &GridNode| {
             let part = |k: usize| (place[k] - here[k]) / (window[k][1] - window[k][0]);
             part(0) * part(0) + part(1) * part(1)
         };
-        let mut nearest: Vec<(f64, &Node)> =
+        let mut nearest: Vec<(f64, &GridNode)> =
             nodes.iter().map(|node| (distance(node), node)).collect();
         nearest.sort_by(|a, b| a.0.total_cmp(&b.0));
         RANKS.into_iter().filter_map(|rank| nearest.get(rank)).find_map(|(_, node)| {

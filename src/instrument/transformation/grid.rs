@@ -24,7 +24,7 @@ const ACROSS: usize = 5;
 pub(super) type Old = ([Symbol; 2], [[f64; 2]; 2]);
 
 /// A point of a grid, and its image.
-pub(super) type Node = ([f64; 2], [f64; 2]);
+pub(super) type GridNode = ([f64; 2], [f64; 2]);
 
 /// The lines of new variables that are written down.
 pub(super) fn written(
@@ -55,7 +55,7 @@ pub(super) fn solved(
     map: &ImplicitMap,
     at: &Valuation,
     (new, (old, window)): ([Symbol; 2], Old),
-) -> (Vec<Vec<[f64; 2]>>, Vec<Node>) {
+) -> (Vec<Vec<[f64; 2]>>, Vec<GridNode>) {
     let here = [old, new].map(|symbols| symbols.map(|s| at.at(s)));
     let (mut all, mut nodes) = (Vec::new(), vec![(here[0], here[1])]);
     for constant in [0, 1] {

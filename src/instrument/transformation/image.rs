@@ -7,19 +7,19 @@ use crate::model::{Transformation, TransformationLaw};
 
 /// The image of the moving point.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Image {
+pub(super) struct ImageOrigin {
     /// Whether it is found by Newton's method.
     pub(super) solved: bool,
     /// Whether there is one.
     pub(super) exists: bool,
 }
 
-impl Image {
+impl ImageOrigin {
     /// What is said of it.
     pub(super) fn line(self, law: &Transformation) -> Option<&'static str> {
         match (&law.law, self) {
-            (_, Image { solved: true, exists: true }) => Some("solved numerically"),
-            (_, Image { solved: false, exists: true }) => None,
+            (_, ImageOrigin { solved: true, exists: true }) => Some("solved numerically"),
+            (_, ImageOrigin { solved: false, exists: true }) => None,
             (TransformationLaw::Generating { .. }, _) => {
                 Some("no image: a caustic, det ∂²F/∂old∂new = 0")
             }

@@ -15,7 +15,7 @@ use crate::system::System;
 
 /// What is known of a map.
 #[derive(Clone)]
-pub(super) struct Judged {
+pub(super) struct MapVerdict {
     /// The verdict, and K, in lines.
     pub(super) lines: Vec<String>,
     pub(super) canonical: bool,
@@ -24,7 +24,7 @@ pub(super) struct Judged {
     pub(super) off_step: Option<f64>,
 }
 
-impl Judged {
+impl MapVerdict {
     /// Nothing is said of what is no map.
     pub(super) fn of(
         model: &Model,

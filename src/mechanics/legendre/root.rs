@@ -8,7 +8,7 @@
 use std::collections::HashMap;
 
 use super::super::linear;
-use super::{Transformed, constant_in, tidy_derivative};
+use super::{LegendreTransform, constant_in, tidy_derivative};
 use crate::expr::{Expr, Node, Pool, Symbol};
 use crate::num::Number;
 
@@ -18,7 +18,7 @@ pub(super) fn transform(
     from: &[Symbol],
     to: &[Symbol],
     f: Expr,
-) -> Option<Transformed> {
+) -> Option<LegendreTransform> {
     let zeros: HashMap<Symbol, Expr> = from.iter().map(|&s| (s, Expr::ZERO)).collect();
     // exactly one term has a root; the others are linear in the variables
     let mut root = None;

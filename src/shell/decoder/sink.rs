@@ -12,7 +12,7 @@ use crossterm::event::{
 use vte::{Params, Perform};
 
 use super::super::background;
-use super::super::question::{Answer, Questions};
+use super::super::question::{Questions, TerminalReply};
 use super::extended_key::ExtendedKey;
 use crate::app::{LONGEST_PASTE, key};
 
@@ -55,7 +55,7 @@ pub(super) struct Sink {
     /// The reports that are not noise.
     pub(super) expects: Expected,
     /// What the terminal has answered.
-    pub(super) answers: VecDeque<Answer>,
+    pub(super) answers: VecDeque<TerminalReply>,
     /// The remaining bytes of a mouse report in the old form, which is not supported.
     pub(super) skip: usize,
     /// Whether the parser has completed something since this was last cleared.
@@ -216,7 +216,7 @@ impl Perform for Sink {
             'c' if intermediates == b"?" => self.expects.answers = Questions::default(),
             'u' if intermediates == b"?" => {
                 if mem::take(&mut self.expects.answers.keyboard) {
-                    self.answers.push_back(Answer::Keyboard);
+                    self.answers.push_back(TerminalReply::Keyboard);
                 }
             }
             // These are answers to queries that this program never sends.
@@ -242,7 +242,7 @@ impl Perform for Sink {
         if let ([b"11", answer], true) = (params, self.expects.answers.background)
             && let Some(colour) = background::colour(answer)
         {
-            self.answers.push_back(Answer::Background(colour));
+            self.answers.push_back(TerminalReply::Background(colour));
         }
     }
 
@@ -334,8 +334,8 @@ mod tests {
             decoder.expire();
         }
         let colour = decoder.answer().map(|answer| match answer {
-            Answer::Background(colour) => colour,
-            Answer::Keyboard => panic!("nobody asked"),
+            TerminalReply::Background(colour) => colour,
+            TerminalReply::Keyboard => panic!("nobody asked"),
         });
         let keys = decoder.sink.events.drain(..).collect();
         (colour, keys, decoder.awaits_answer())
@@ -386,11 +386,14 @@ mod tests {
             let mut decoder = Decoder::default();
             decoder.expect_answers(Questions { background: false, keyboard });
             decoder.feed(bytes, Instant::now());
-            let answers: Vec<Answer> = std::iter::from_fn(|| decoder.answer()).collect();
+            let answers: Vec<TerminalReply> = std::iter::from_fn(|| decoder.answer()).collect();
             (answers, decoder.sink.events.len(), decoder.awaits_answer())
         };
-        assert_eq!(answers(true, b"\x1b[?0u\x1b[?62c"), (vec![Answer::Keyboard], 0, false));
-        assert_eq!(answers(true, b"\x1b[?1u\x1b[?0u\x1b[?62c"), (vec![Answer::Keyboard], 0, false));
+        assert_eq!(answers(true, b"\x1b[?0u\x1b[?62c"), (vec![TerminalReply::Keyboard], 0, false));
+        assert_eq!(
+            answers(true, b"\x1b[?1u\x1b[?0u\x1b[?62c"),
+            (vec![TerminalReply::Keyboard], 0, false)
+        );
         // It does not know it, nobody has asked, or it comes too late.
         for silent in [&b"\x1b[?62c"[..], b"\x1b[?62c\x1b[?0u", b"\x1b[u\x1b[>1u\x1b[?62c"] {
             assert_eq!(answers(true, silent), (vec![], 0, false), "{silent:?}");

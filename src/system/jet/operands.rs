@@ -19,13 +19,13 @@ use crate::system::schedule::Pair;
 pub(super) struct Operands<R: Analytic> {
     /// The number of orders.
     stride: usize,
-    groups: Vec<Group<R>>,
+    groups: Vec<OperandGroup<R>>,
     products: Vec<R>,
 }
 
 /// Pairs side by side. The last ones may be filled up.
 #[derive(Clone, Debug)]
-struct Group<R: Analytic> {
+struct OperandGroup<R: Analytic> {
     pairs: Vec<Pair>,
     left: Vec<R::Lanes>,
     right: Vec<R::Lanes>,
@@ -36,13 +36,13 @@ impl<R: Analytic> Operands<R> {
     pub(super) fn new(pairs: &[Pair], stride: usize) -> Operands<R> {
         let group = |pairs: &[Pair]| {
             let last = pairs.last().copied().into_iter().cycle();
-            Group {
+            OperandGroup {
                 pairs: pairs.iter().copied().chain(last).take(R::SIDE).collect(),
                 left: vec![R::ZEROS; stride],
                 right: vec![R::ZEROS; stride],
             }
         };
-        let groups: Vec<Group<R>> = pairs.chunks(R::SIDE).map(group).collect();
+        let groups: Vec<OperandGroup<R>> = pairs.chunks(R::SIDE).map(group).collect();
         let products = vec![R::ZERO; groups.len() * R::SIDE];
         Operands { stride, groups, products }
     }
@@ -62,7 +62,7 @@ impl<R: Analytic> Operands<R> {
     #[inline(always)]
     pub(super) fn store(&mut self, now: &[R], k: usize) {
         let last = self.stride - 1;
-        for Group { pairs, left, right } in &mut self.groups {
+        for OperandGroup { pairs, left, right } in &mut self.groups {
             let pairs = &pairs[..R::SIDE];
             left[k] = R::side_by_side(|lane| now[pairs[lane].left as usize]);
             right[last - k] = R::side_by_side(|lane| now[pairs[lane].right as usize]);

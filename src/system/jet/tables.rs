@@ -9,10 +9,12 @@ use super::operands::Operands;
 use super::series_index::SeriesIndex;
 use super::side::Side;
 use crate::num::{Analytic, Real};
-use crate::system::finishing_pass::{Integral, Product, Related, Run, Scale, Sign, Solution, Sum};
+use crate::system::finishing_pass::{
+    Integral, LinearSolution, LinearSum, OperationRun, Product, Related, Scaling, TermSign,
+};
 use crate::system::parametric_power;
 use crate::system::program::{Block, Op, Program, Register, Singular};
-use crate::system::schedule::{Denominator, Direct, Ends, Factor, Relation, Schedule};
+use crate::system::schedule::{ConvolutionFactor, Denominator, Direct, Ends, Relation, Schedule};
 use crate::system::solve::Factored;
 use crate::system::value::value_of;
 
@@ -162,8 +164,8 @@ impl<R: Coefficient> Tables<R> {
         let mut runs = schedule.runs.iter();
         while let Some(run) = self.finish_plainly::<FUSED>(schedule, &mut runs, k, rate) {
             match *run {
-                Run::Solution(solution) => self.solve(program, solution, k),
-                Run::Alone(register) => {
+                OperationRun::Solution(solution) => self.solve(program, solution, k),
+                OperationRun::Alone(register) => {
                     let coefficient = R::alone(self, program, register, k);
                     self.rows[k * self.width + register as usize] = coefficient;
                 }
@@ -178,10 +180,10 @@ impl<R: Coefficient> Tables<R> {
     fn finish_plainly<'a, const FUSED: bool>(
         &mut self,
         schedule: &Schedule,
-        runs: &mut std::slice::Iter<'a, Run>,
+        runs: &mut std::slice::Iter<'a, OperationRun>,
         k: usize,
         rate: R,
-    ) -> Option<&'a Run> {
+    ) -> Option<&'a OperationRun> {
         // as slices, whose places need not be looked up again after each number that is stored
         let width = self.width;
         let (below, now) = self.rows.split_at_mut(k * width);
@@ -190,20 +192,20 @@ impl<R: Coefficient> Tables<R> {
         let at = |r: Register| r as usize;
         for run in runs {
             match run {
-                Run::Time(register) => now[at(*register)] = rate,
-                Run::Scales(run) => {
-                    for &Scale { register, fixed, varying } in run {
+                OperationRun::Time(register) => now[at(*register)] = rate,
+                OperationRun::Scales(run) => {
+                    for &Scaling { register, fixed, varying } in run {
                         now[at(register)] = values[at(fixed)].times::<FUSED>(now[at(varying)]);
                     }
                 }
-                Run::Products(run) => {
+                OperationRun::Products(run) => {
                     for &Product { register, left, right, inner } in run {
                         let ends = values[at(left)].times::<FUSED>(now[at(right)])
                             + now[at(left)].times::<FUSED>(values[at(right)]);
                         now[at(register)] = products[at(inner)] + ends;
                     }
                 }
-                Run::Related(run) => {
+                OperationRun::Related(run) => {
                     for &Related { register, relation } in run {
                         let relation = &schedule.relations[at(relation)];
                         let x = related::<R, FUSED>(schedule, relation, (values, now, products), k);
@@ -216,31 +218,31 @@ impl<R: Coefficient> Tables<R> {
                         };
                     }
                 }
-                Run::Integrals(run) => {
+                OperationRun::Integrals(run) => {
                     for &Integral { register, sign, slope, factor, inner } in run {
                         let last = now[at(slope)].times::<FUSED>(values[at(factor)]) * k as f64;
                         let sum = products[at(inner)] + last;
-                        let sum = if sign == Sign::Minus { -sum } else { sum };
+                        let sum = if sign == TermSign::Minus { -sum } else { sum };
                         now[at(register)] = (R::ZERO + sum).over(k);
                     }
                 }
-                Run::Sums(run) => {
-                    for &Sum { register, first, count } in run {
+                OperationRun::Sums(run) => {
+                    for &LinearSum { register, first, count } in run {
                         let terms = &terms[first as usize..][..count as usize];
                         now[at(register)] = terms.iter().fold(R::ZERO, |sum, &(term, factor)| {
                             sum + now[at(term)].times::<FUSED>(factor)
                         });
                     }
                 }
-                Run::Solution(_) | Run::Alone(_) => return Some(run),
+                OperationRun::Solution(_) | OperationRun::Alone(_) => return Some(run),
             }
         }
         None
     }
 
     /// `M_0 a_k = f_k − Σ_{j≥1} M_j a_{k−j}`.
-    fn solve(&mut self, program: &Program, solution: Solution, k: usize) {
-        let Solution { register, block, inner } = solution;
+    fn solve(&mut self, program: &Program, solution: LinearSolution, k: usize) {
+        let LinearSolution { register, block, inner } = solution;
         let (block, mut product) = (block as usize, inner as usize);
         let Block { matrix, right, .. } = &program.blocks[block];
         let (n, first) = (right.len(), register as usize);
@@ -348,10 +350,10 @@ fn related<R: Analytic, const FUSED: bool>(
     k: usize,
 ) -> R {
     let at = |r: Register| r as usize;
-    let times = |factor: Factor, x: R| match factor {
-        Factor::Plus => x,
-        Factor::Minus => -x,
-        Factor::Times(factor) => x.times::<FUSED>(R::of(factor)),
+    let times = |factor: ConvolutionFactor, x: R| match factor {
+        ConvolutionFactor::Plus => x,
+        ConvolutionFactor::Minus => -x,
+        ConvolutionFactor::Times(factor) => x.times::<FUSED>(R::of(factor)),
     };
     let mut sum = match relation.direct {
         Direct::None => R::ZERO,

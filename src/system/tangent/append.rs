@@ -2,7 +2,7 @@
 //!
 //! In: registers, coefficients. Out: the register of the result. Never here: rules of differentiation.
 
-use super::super::program::{Op, Register, Term};
+use super::super::program::{LinearTerm, Op, Register};
 use super::{Builder, Delta};
 use crate::num::DoubleDouble;
 
@@ -22,16 +22,16 @@ impl Builder {
     }
 
     pub(super) fn combination(&mut self, terms: &[(f64, Delta)]) -> Delta {
-        let terms: Vec<Term> = terms
+        let terms: Vec<LinearTerm> = terms
             .iter()
             .filter_map(|&(c, delta)| {
-                Some(Term { coefficient: DoubleDouble::from(c), register: delta? })
+                Some(LinearTerm { coefficient: DoubleDouble::from(c), register: delta? })
             })
             .collect();
         self.sum(&terms)
     }
 
-    pub(super) fn sum(&mut self, terms: &[Term]) -> Delta {
+    pub(super) fn sum(&mut self, terms: &[LinearTerm]) -> Delta {
         match terms {
             [] => None,
             [only] if only.coefficient == DoubleDouble::ONE => Some(only.register),
@@ -39,7 +39,7 @@ impl Builder {
         }
     }
 
-    pub(super) fn linear(&mut self, constant: f64, terms: &[Term]) -> Register {
+    pub(super) fn linear(&mut self, constant: f64, terms: &[LinearTerm]) -> Register {
         let first = self.program.terms.len() as u32;
         self.program.terms.extend_from_slice(terms);
         let constant = self.constant_index(DoubleDouble::from(constant));

@@ -6,7 +6,7 @@ use super::{SOLID, ScenePainter};
 use crate::mechanics::Apparent;
 use crate::model::Point;
 use crate::view::plot::Pen;
-use crate::view::quantity::Source;
+use crate::view::quantity::QuantitySource;
 
 /// The length of the longest apparent force so far, as a fraction of the picture.
 const LONGEST: f64 = 0.25;
@@ -17,8 +17,8 @@ impl ScenePainter<'_> {
         let forces = |a: &Apparent| [a.centrifugal, a.coriolis, a.euler, a.dragging];
         let greatest = |vector: &Point| {
             let most = vector.map(|e| match self.q.place(e) {
-                Source::Number(number) => number.abs(),
-                Source::Channel(channel) => {
+                QuantitySource::Number(number) => number.abs(),
+                QuantitySource::Channel(channel) => {
                     let (lo, hi) = self.q.bounds(channel);
                     lo.abs().max(hi.abs())
                 }

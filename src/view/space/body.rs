@@ -103,27 +103,29 @@ impl Outline {
 }
 
 /// The rotations, the first one first, from a piece's own axes to the body's.
-fn turns(piece: &Piece, value: &impl Fn(Expr) -> f64) -> Vec<Turn> {
+fn turns(piece: &Piece, value: &impl Fn(Expr) -> f64) -> Vec<AxisRotation> {
     match &piece.turn {
         PieceOrientation::None => Vec::new(),
-        PieceOrientation::Axis { axis, angle } => vec![Turn::about(axis.map(value), value(*angle))],
+        PieceOrientation::Axis { axis, angle } => {
+            vec![AxisRotation::about(axis.map(value), value(*angle))]
+        }
         PieceOrientation::Euler([phi, theta, psi]) => {
             let (x, z) = ([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]);
             let turns = [(z, psi), (x, theta), (z, phi)];
-            turns.map(|(axis, angle)| Turn::about(axis, value(*angle))).to_vec()
+            turns.map(|(axis, angle)| AxisRotation::about(axis, value(*angle))).to_vec()
         }
     }
 }
 
 /// A rotation about an axis by the right-hand rule: v cos α + (n×v) sin α + n (n·v)(1 − cos α).
 #[derive(Clone, Copy)]
-struct Turn {
+struct AxisRotation {
     n: [f64; 3],
     sin: f64,
     cos: f64,
 }
 
-impl Turn {
+impl AxisRotation {
     fn about(axis: [f64; 3], angle: f64) -> Self {
         let length = axis.iter().map(|a| a * a).sum::<f64>().sqrt();
         let (sin, cos) = math::sin_cos(angle);

@@ -5,7 +5,7 @@
 use crate::expr::{Expr, Symbol};
 use crate::instrument::CameraPose;
 use crate::model::{Point, Shape};
-use crate::view::quantity::{Quantities, Source};
+use crate::view::quantity::{Quantities, QuantitySource};
 
 /// The points of the masses and of the traces of other points, in the order of their colours: what moves comes first,
 /// and the second colour, an amber, is left to the first mass whose place is fixed by numbers and parameters.
@@ -49,6 +49,6 @@ pub(super) fn colour(q: &Quantities<'_>, points: &[Point], at: &Point) -> usize 
 /// Whether a point is another one seen in a plane across an axis: on the floor below it, say.
 fn is_shadow(q: &Quantities<'_>, at: &Point, mass: &Point) -> bool {
     let apart: Vec<usize> = (0..3).filter(|&k| at[k] != mass[k]).collect();
-    let moves = |e| !matches!(q.place(e), Source::Number(_));
+    let moves = |e| !matches!(q.place(e), QuantitySource::Number(_));
     matches!(apart[..], [k] if !moves(at[k])) && mass.iter().any(|e| moves(*e))
 }

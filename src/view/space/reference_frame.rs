@@ -6,18 +6,18 @@
 use crate::expr::Expr;
 use crate::num::math;
 use crate::system::ChannelKind;
-use crate::view::quantity::{Quantities, Source};
+use crate::view::quantity::{Quantities, QuantitySource};
 
 /// A frame, with the channels of its origin and orientation.
 pub(super) struct ReferenceFrame {
     turn: FrameOrientation,
-    origin: [Source; 3],
+    origin: [QuantitySource; 3],
 }
 
 /// The orientation of a frame.
 enum FrameOrientation {
     /// Rotated by an angle about an axis.
-    Axis { axis: [Source; 3], angle: Source },
+    Axis { axis: [QuantitySource; 3], angle: QuantitySource },
     /// Fixed in the body, given by its attitude matrix; this is the channel of the first entry.
     Body(usize),
 }
@@ -47,7 +47,8 @@ impl ReferenceFrame {
         let (axis, angle) = match &self.turn {
             FrameOrientation::Axis { axis, angle } => (axis, angle),
             FrameOrientation::Body(first) => {
-                let entry = |i: usize, j: usize| Source::Channel(first + 3 * i + j).read(row);
+                let entry =
+                    |i: usize, j: usize| QuantitySource::Channel(first + 3 * i + j).read(row);
                 return [0, 1, 2].map(|i| (0..3).map(|j| entry(i, j) * v[j]).sum());
             }
         };
@@ -65,9 +66,9 @@ impl ReferenceFrame {
 
     /// A box that contains the given box as seen from the frame at any time.
     pub(super) fn around(&self, q: &Quantities<'_>, [low, high]: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
-        let span = |source: Source| match source {
-            Source::Number(number) => (number, number),
-            Source::Channel(channel) => q.bounds(channel),
+        let span = |source: QuantitySource| match source {
+            QuantitySource::Number(number) => (number, number),
+            QuantitySource::Channel(channel) => q.bounds(channel),
         };
         let origin = self.origin.map(span);
         let low = [0, 1, 2].map(|k| low[k] - origin[k].1);

@@ -12,7 +12,7 @@ use crate::instrument::CameraPose;
 use crate::model::{Point, Shape};
 use crate::num::{OrientationPolytope, math};
 use crate::view::plot::{Bounds, Camera, Extent, PlotFrame};
-use crate::view::quantity::{Quantities, Source};
+use crate::view::quantity::{Quantities, QuantitySource};
 
 /// The contents of the picture.
 pub(super) struct Scene {
@@ -255,7 +255,7 @@ fn is_free(q: &Quantities<'_>, from: &Point, to: &Point) -> bool {
 
 /// Whether a point is the same at all times.
 pub(super) fn rests(q: &Quantities<'_>, point: &Point) -> bool {
-    point.iter().all(|expression| matches!(q.place(*expression), Source::Number(_)))
+    point.iter().all(|expression| matches!(q.place(*expression), QuantitySource::Number(_)))
 }
 
 /// The box that a point may reach: the one found for the end of a rod, or its extent so far.
@@ -267,8 +267,8 @@ fn reach(q: &Quantities<'_>, point: &Point, reached: &[(Point, Span3)]) -> Span3
 /// The extent of a point's motion so far.
 fn extent(q: &Quantities<'_>, point: &Point) -> Span3 {
     let ends = point.map(|expression| match q.place(expression) {
-        Source::Number(number) => (number, number),
-        Source::Channel(channel) => q.bounds(channel),
+        QuantitySource::Number(number) => (number, number),
+        QuantitySource::Channel(channel) => q.bounds(channel),
     });
     [ends.map(|end| end.0), ends.map(|end| end.1)]
 }
@@ -277,12 +277,12 @@ fn extent(q: &Quantities<'_>, point: &Point) -> Span3 {
 fn hull(q: &Quantities<'_>, point: &Point) -> Option<OrientationPolytope> {
     let sources = point.map(|expression| q.place(expression));
     let channels = sources.map(|source| match source {
-        Source::Channel(channel) => Some(channel),
-        Source::Number(_) => None,
+        QuantitySource::Channel(channel) => Some(channel),
+        QuantitySource::Number(_) => None,
     });
     let constant = sources.map(|source| match source {
-        Source::Number(number) => number,
-        Source::Channel(_) => 0.0,
+        QuantitySource::Number(number) => number,
+        QuantitySource::Channel(_) => 0.0,
     });
     let rest = OrientationPolytope::around(constant);
     if channels == [None; 3] {
@@ -293,7 +293,7 @@ fn hull(q: &Quantities<'_>, point: &Point) -> Option<OrientationPolytope> {
 }
 
 fn is_flat(q: &Quantities<'_>, point: &Point) -> bool {
-    matches!(q.place(point[2]), Source::Number(z) if z == 0.0)
+    matches!(q.place(point[2]), QuantitySource::Number(z) if z == 0.0)
 }
 
 fn grown([low, high]: Span3, by: f64, flat: bool) -> Span3 {

@@ -1,7 +1,7 @@
 //! Branches of a map that has several images: where they lead, and what is said where they do not.
 
 use phaselab::app::App;
-use phaselab::instrument::{Layer, Picture, Sign};
+use phaselab::instrument::{Layer, MarkerShape, Picture};
 
 use super::{Course, plots, shown};
 use crate::hand::{lab, press};
@@ -24,8 +24,8 @@ fn an_image_to_which_no_grid_leads_is_found() {
         let (mut rings, mut points, mut words) = (Vec::new(), Vec::new(), Vec::new());
         for (_, layer) in layers {
             match layer {
-                Layer::Point(at, Sign::Ring, _) => rings.push(at),
-                Layer::Point(at, Sign::Disc, _) => points.push(at),
+                Layer::Point(at, MarkerShape::Ring, _) => rings.push(at),
+                Layer::Point(at, MarkerShape::Disc, _) => points.push(at),
                 Layer::Legend(lines) => words = lines,
                 _ => {}
             }
@@ -75,7 +75,7 @@ fn no_image_that_exists_is_denied() {
         let rings: Vec<[f64; 2]> = layers
             .iter()
             .filter_map(|(_, layer)| match layer {
-                Layer::Point(at, Sign::Ring, _) => Some(*at),
+                Layer::Point(at, MarkerShape::Ring, _) => Some(*at),
                 _ => None,
             })
             .collect();

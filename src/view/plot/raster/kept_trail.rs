@@ -25,7 +25,7 @@ const VEILED: usize = 3;
 
 /// What a stroke leaves on a dot.
 #[derive(Clone, Copy, Debug)]
-struct Stamp {
+struct StrokeStamp {
     time: f64,
     near: f64,
 }
@@ -40,7 +40,7 @@ pub struct KeptTrail {
     nears: Vec<[f64; DOTS]>,
     /// The newest stamp of each cell.
     newest: Vec<f64>,
-    course: Course<Stamp>,
+    course: Course<StrokeStamp>,
     dash: Dash,
     /// Whether the characters of ASCII show the age.
     fading: bool,
@@ -97,7 +97,7 @@ impl KeptTrail {
         let grid = self.grid();
         let (dash, lettered) = (self.dash, grid != [1, 1]);
         let Self { blank, stamps, nears, newest, course, .. } = self;
-        course.to([x, y], (Stamp { time, near }, grid), &mut |dot, inked| {
+        course.to([x, y], (StrokeStamp { time, near }, grid), &mut |dot, inked| {
             if !(lettered || dash.covers(dot[inked.along])) {
                 return;
             }
@@ -137,7 +137,7 @@ impl KeptTrail {
             }
         }
         let (dash, grid) = (self.dash, self.grid());
-        let mut end = |dot: [i32; 2], inked: super::course::Inked<Stamp>| {
+        let mut end = |dot: [i32; 2], inked: super::course::Inked<StrokeStamp>| {
             let sight = behind.map_or(Visibility::Clear, |(depth, _)| {
                 depth.sight(inked.centre(dot), inked.ink.near)
             });
@@ -149,7 +149,7 @@ impl KeptTrail {
         };
         let mut course = self.course.clone();
         let near = ages.behind.map_or(0.0, |(_, near)| near);
-        course.to(present, (Stamp { time: NOW, near }, grid), &mut end);
+        course.to(present, (StrokeStamp { time: NOW, near }, grid), &mut end);
         course.rest(&mut end);
     }
 
