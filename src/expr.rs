@@ -49,7 +49,9 @@ pub use function::{
     Rule,
 };
 pub use node::{Expr, FunctionId, Node};
-pub use notation::{latex_name, latex_of_unicode, plain_name, unicode_name, without_dots};
+pub use notation::{
+    latex_name, latex_of_unicode, plain_name, subscripts, unicode_name, without_dots,
+};
 pub use parse::{parse, parse_all};
 pub use plain::EULER;
 pub use pool::{NODE_LIMIT, Pool};

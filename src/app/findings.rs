@@ -8,6 +8,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::experiment::FoundConstant;
+use crate::expr::subscripts;
 use crate::integrability::{
     Invariants, Limits, Proof, Relations, invariants, is_hamiltonian, relations, separates, summary,
 };
@@ -113,11 +114,6 @@ pub(super) fn followed(findings: &Findings) -> Vec<FoundConstant> {
         .collect()
 }
 
-fn subscript(n: usize) -> String {
-    let digit = |c: char| char::from_u32(0x2080 + c.to_digit(10).unwrap_or(0)).unwrap_or(c);
-    n.to_string().chars().map(digit).collect()
-}
-
 /// Makes the search.
 pub(super) fn search(
     mut model: crate::model::Model,
@@ -149,7 +145,7 @@ pub(super) fn search(
         "energy" => "E".to_owned(),
         name => crate::expr::unicode_name(name).clone(),
     });
-    let found = (1..=invariants.found.len()).map(|n| format!("I{}", subscript(n)));
+    let found = (1..=invariants.found.len()).map(|n| format!("I{}", subscripts(&n.to_string())));
     let names = known.chain(found).collect();
     Ok(Arc::new(Findings {
         equations,

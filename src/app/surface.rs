@@ -3,12 +3,9 @@
 //! In: what is typed: `x = 0, rising`. Out: the text with the surface, which is checked and run as any change of the text,
 //! so that the motion continues; the plot with it, as soon as that runs. Never here: how crossings are located.
 
-use std::f64::consts::TAU;
-
 use super::field::{InputField, Purpose};
 use super::{App, Effect, Lab, Loaded, Notification, Overlay, Pane};
 use crate::instrument::Plot;
-use crate::mechanics::Valuation;
 use crate::model::{Allowed, Direction, Model, Scope, View};
 use crate::preset::{NewSurface, NewZero, SurfaceView};
 use crate::system::ChannelKind;
@@ -38,7 +35,8 @@ impl App {
         let now = surface_of(shown, &lab.loaded.model).map_or_else(String::new, |(view, now)| {
             let on = view.axes.last().and_then(|axis| axis.first());
             let on = on.map_or("", |on| on.written.as_str());
-            format!("{on} = 0, {}", word(now))
+            let of_angle = turn(&lab.loaded, on).is_some();
+            format!("{on} = 0, {}", word(if of_angle { Direction::Either } else { now }))
         });
         self.overlay = Some(Overlay::Field(InputField::new(Purpose::Surface(plot), now)));
         Vec::new()
@@ -156,6 +154,8 @@ fn read(loaded: &Loaded, typed: &str) -> Result<NewSurface, String> {
     let model = &loaded.model;
     let (body, direction) = match typed.rsplit_once(',') {
         None => (typed, None),
+        // the comma between two arguments
+        Some((_, last)) if last.contains(')') => (typed, None),
         Some((body, last)) => {
             let known = DIRECTIONS.iter().find(|(name, _)| *name == last.trim());
             let (_, direction) = known.ok_or_else(|| {
@@ -209,17 +209,14 @@ fn read(loaded: &Loaded, typed: &str) -> Result<NewSurface, String> {
     Ok(NewSurface { on: Some(NewZero::Of(on)), axes: None, direction: Some(direction) })
 }
 
-/// What an angle is divided by so that its sine vanishes once in a turn; nothing if this is not a coordinate with a period.
+/// What an angle is divided by so that its sine vanishes once in a turn, in the syntax of files; nothing if this is not a
+/// coordinate with a period.
 fn turn(loaded: &Loaded, name: &str) -> Option<String> {
     let model = &loaded.model;
     let named = |c: &&crate::model::Coordinate| c.name == name || c.shown == name;
     let period = model.coordinates.iter().find(named)?.period?;
-    let known = Valuation::of_parameters(model, &model.parameter_values());
-    let period = known.value(&model.pool, period);
-    if (period - TAU).abs() < 1e-12 {
-        return Some("2".to_owned());
-    }
-    (period > 0.0 && period.is_finite()).then(|| format!("({period:?}/pi)"))
+    let text = model.pool.text(period);
+    Some(if text == "2*pi" { "2".to_owned() } else { format!("({text}/pi)") })
 }
 
 impl Lab {

@@ -43,6 +43,10 @@ impl App {
         if effects.iter().any(begins) {
             self.notice.take_if(|notice| Some(&*notice) == before);
             self.notifications.clear();
+            // a motion that waits for a law gives way to the one that is begun
+            if let Some(lab) = &mut self.lab {
+                lab.held = None;
+            }
         }
     }
 

@@ -5,6 +5,7 @@ mod journal;
 mod merge;
 mod table;
 
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -28,7 +29,7 @@ use crate::printable;
 
 use identity::{Identity, Shard};
 use journal::Journal;
-use table::{MeasureName, SweepRow, SweepTable};
+use table::{MeasureName, RowRemark, SweepRow, SweepTable};
 
 /// One run per row of a table or point of a grid, in parallel.
 ///
@@ -158,12 +159,12 @@ struct Remarks {
 }
 
 impl Remarks {
-    fn note(&mut self, index: usize, row: &SweepRow) {
-        if let Some(message) = &row.message {
+    fn note(&mut self, index: usize, remark: &RowRemark) {
+        if let Some(message) = &remark.message {
             self.failed += 1;
             self.first.get_or_insert_with(|| format!("row {}, {message}", index + 1));
         }
-        if let Some(departed) = &row.departed {
+        if let Some(departed) = &remark.departed {
             self.departed += 1;
             let worse = self.worst.as_ref().is_none_or(|(_, worst)| departed.drift > worst.drift);
             if worse {
@@ -249,7 +250,7 @@ impl Sweep<'_> {
         let mut written = 0;
         let take = |place, row: Option<SweepRow>| {
             let Some(row) = row else { return ControlFlow::Break(()) };
-            remarks.note(self.index(place), &row);
+            row.remark.iter().for_each(|remark| remarks.note(self.index(place), remark));
             let line = cells::record(row.plain());
             if let Err(error) = out.write_all(line.as_bytes()).and_then(|()| out.flush()) {
                 failed = Some(out.failed(&error));
@@ -282,14 +283,22 @@ impl Sweep<'_> {
             stderr::tell(&format!("{} is complete", printable::path(path)));
             return Ok(());
         }
-        let (journal, mut lines) = Journal::open(path, &self.identity, self.places.len(), resume)?;
+        let (journal, mut lines, known) =
+            Journal::open(path, &self.identity, self.places.len(), resume)?;
         let missing: Vec<usize> = self.places.clone().filter(|&p| lines[p].is_none()).collect();
         let mut tally = Tally::new(lines.len() - missing.len(), lines.len());
-        let (mut remarks, mut failed) = (Remarks::default(), None);
+        let mut failed = None;
+        let mut remarks: BTreeMap<usize, RowRemark> = (known.into_iter())
+            .filter_map(|(place, remark)| Some((place, serde_json::from_value(remark).ok()?)))
+            .collect();
         // a row is in the journal before anything waits for those before it
         let note = |place: usize, row: SweepRow| {
             let line = cells::record(row.plain());
-            let noted = journal.note(place, &line);
+            let noted = journal.note(
+                place,
+                &line,
+                row.remark.as_ref().map(|remark| json!(remark)).as_ref(),
+            );
             (row, line, noted)
         };
         let take = |i: usize, done: Option<(SweepRow, String, std::io::Result<()>)>| {
@@ -298,7 +307,7 @@ impl Sweep<'_> {
                 failed = Some(CommandError::writing(&journal.name(), &error));
                 return ControlFlow::Break(());
             }
-            remarks.note(self.index(missing[i]), &row);
+            remarks.extend(row.remark.map(|remark| (missing[i], remark)));
             lines[missing[i]] = Some(line);
             tally.add();
             ControlFlow::Continue(())
@@ -316,7 +325,9 @@ impl Sweep<'_> {
         let rows: String = lines.into_iter().flatten().collect();
         crowd::write(out, &(self.head() + &rows), self.interrupt)?;
         journal.remove();
-        remarks.tell(&self.table.advice());
+        let mut all = Remarks::default();
+        remarks.iter().for_each(|(&place, remark)| all.note(self.index(place), remark));
+        all.tell(&self.table.advice());
         Ok(())
     }
 
@@ -334,7 +345,9 @@ impl Sweep<'_> {
         self.compute(&places, |_, row| row, take)?;
         drop(tally);
         let mut remarks = Remarks::default();
-        rows.iter().enumerate().for_each(|(i, row)| remarks.note(i, row));
+        for (i, row) in rows.iter().enumerate() {
+            row.remark.iter().for_each(|remark| remarks.note(i, remark));
+        }
         let cells: Vec<Vec<TableCell>> = rows.iter().map(|row| row.cells.clone()).collect();
         let columns = self.table.columns();
         let text = match self.arguments.format {
@@ -342,7 +355,7 @@ impl Sweep<'_> {
                 let mut members = crowd::members(&self.table.header());
                 members.insert("columns".to_owned(), columns.into());
                 let messages = (1..).zip(&rows).filter_map(|(n, row): (u64, &SweepRow)| {
-                    let message = row.message.as_ref()?;
+                    let message = row.remark.as_ref()?.message.as_ref()?;
                     Some(json!({ "row": n, "message": message }))
                 });
                 let messages: Value = messages.collect();

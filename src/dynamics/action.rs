@@ -17,6 +17,7 @@ use crate::system::{Evaluator, Program};
 pub struct Lagrangian {
     degrees: usize,
     values: Evaluator<f64>,
+    /// By q, by q̇, and by the time.
     first: Evaluator<f64>,
     second: Evaluator<f64>,
     /// Whether it depends on the time.
@@ -95,13 +96,15 @@ impl Lagrangian {
             positions.chain(model.coordinates.iter().map(|c| c.velocity)).collect();
         let timed = equations.pool.depends(lagrangian, model.symbols.time);
         let pool = &mut equations.pool;
-        let slopes: Vec<Expr> = inputs.iter().map(|&s| pool.derivative(lagrangian, s)).collect();
+        let mut slopes: Vec<Expr> =
+            inputs.iter().map(|&s| pool.derivative(lagrangian, s)).collect();
         let mut curvatures = Vec::new();
         for (i, &slope) in slopes.iter().enumerate() {
             for &s in &inputs[..=i] {
                 curvatures.push(pool.derivative(slope, s));
             }
         }
+        slopes.push(pool.derivative(lagrangian, model.symbols.time));
         let mut program = |outputs: &[Expr]| compiled(pool, (model, parameters), &inputs, outputs);
         Ok(Lagrangian {
             degrees: n,
@@ -122,6 +125,23 @@ impl Lagrangian {
     pub(super) fn value(&mut self, time: f64, state: &[f64]) -> f64 {
         match self.values.evaluate(self.start + time, state) {
             Ok(()) => self.values.output(0),
+            Err(_) => f64::NAN,
+        }
+    }
+
+    /// ∂L/∂q of a coordinate.
+    pub(super) fn force(&mut self, time: f64, state: &[f64], coordinate: usize) -> f64 {
+        self.slope(time, state, coordinate)
+    }
+
+    /// ∂L/∂t.
+    pub(super) fn explicit_rate(&mut self, time: f64, state: &[f64]) -> f64 {
+        self.slope(time, state, 2 * self.degrees)
+    }
+
+    fn slope(&mut self, time: f64, state: &[f64], index: usize) -> f64 {
+        match self.first.evaluate(self.start + time, state) {
+            Ok(()) => self.first.output(index),
             Err(_) => f64::NAN,
         }
     }

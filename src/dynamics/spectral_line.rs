@@ -2,6 +2,8 @@
 //!
 //! In: frequencies with their errors. Out: the integers k, if there are few and small ones. Never here: the signal.
 
+use crate::expr::subscripts;
+
 /// The greatest Σ|k| of a combination, and the greatest multiple of one frequency alone.
 const ORDER: i32 = 9;
 const MULTIPLE: i32 = 40;
@@ -34,7 +36,7 @@ impl SpectralLine {
 }
 
 fn named(k: &[i32], drive: i32) -> String {
-    let index = |i: usize| (i + 1).to_string().chars().map(subscript).collect::<String>();
+    let index = |i: usize| subscripts(&(i + 1).to_string());
     let own = k.iter().enumerate().map(|(i, &times)| (times, format!("ω{}", index(i))));
     let mut terms: Vec<(i32, String)> = own.chain([(drive, "Ω".to_owned())]).collect();
     terms.retain(|(times, _)| *times != 0);
@@ -51,10 +53,6 @@ fn named(k: &[i32], drive: i32) -> String {
         text.push_str(&format!("{sign}{count}{frequency}"));
     }
     text
-}
-
-fn subscript(digit: char) -> char {
-    digit.to_digit(10).and_then(|d| char::from_u32(0x2080 + d)).unwrap_or(digit)
 }
 
 /// The integers k of least Σ|k| with which a frequency is k·ω, if there are some.

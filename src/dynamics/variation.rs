@@ -28,10 +28,6 @@ const PARTS: [usize; 8] = [4, 8, 16, 32, 64, 128, 256, 512];
 const SETTLED: f64 = 1e-13;
 const SIZE_SETTLED: f64 = 1e-3;
 
-/// The step of the differences by which the action changes with its ends, as a part of the range and of the duration; they are
-/// right to its fourth power.
-const END_STEP: f64 = 1e-3;
-
 /// The least number of parts where the paths beside the motion have corners: roots of what may vanish.
 const WITH_CORNERS: usize = 16;
 
@@ -54,6 +50,8 @@ pub struct EndSlope {
     pub by_position: f64,
     /// ∂S/∂t.
     pub by_time: f64,
+    /// The sizes of what is added up to these two, in their units.
+    pub sizes: [f64; 2],
     /// p of the coordinate.
     pub momentum: f64,
     /// H.
@@ -80,12 +78,18 @@ pub fn varied_action(
     let variation = |k| SineVariation { coordinate, k };
     let curve = |k| followed.curve(variation(k), &mut value);
     let curves = (1..=VARIATIONS).map(curve).collect();
-    let slopes = followed.end_slopes(coordinate, &mut value);
+    let slopes = followed.end_slopes(coordinate, lagrangian);
     let ends = motion(&[0.0, duration]).filter(|ends| ends.len() == 2).map(|ends| {
         [0, 1].map(|end| {
-            let (time, [by_position, by_time]) = ([0.0, duration][end], slopes[end]);
-            let momentum = lagrangian.momenta(time, &ends[end])[coordinate];
-            EndSlope { by_position, by_time, momentum, energy: lagrangian.energy(time, &ends[end]) }
+            let time = [0.0, duration][end];
+            let [(by_position, of_position), (by_time, of_time)] = slopes[end];
+            EndSlope {
+                by_position,
+                by_time,
+                sizes: [of_position, of_time],
+                momentum: lagrangian.momenta(time, &ends[end])[coordinate],
+                energy: lagrangian.energy(time, &ends[end]),
+            }
         })
     });
     Ok(VariedAction { action: followed.integral, curves, ends })
@@ -286,44 +290,29 @@ impl SampledMotion {
         self.points(variation.coordinate, &mut rise)
     }
 
-    /// ∂A/∂q of a coordinate and ∂A/∂t at both ends: by differences of the actions of paths that are moved by ever less towards
-    /// the other end.
-    fn end_slopes(
-        &self,
-        coordinate: usize,
-        integrand: &mut dyn FnMut(f64, &[f64]) -> f64,
-    ) -> [[f64; 2]; 2] {
-        let duration = self.duration;
-        let reach = half_range(&self.path, coordinate);
-        let velocity = self.path.first().map_or(0, |state| state.len() / 2) + coordinate;
-        // 1 at the end that is moved, 0 at the other
-        let share = |end: usize, time: f64| {
-            let part = time / duration;
-            if end == 0 { (1.0 - part, -1.0 / duration) } else { (part, 1.0 / duration) }
-        };
-        [0, 1].map(|end| {
-            let mut moved = |by_time: bool, amount: f64| -> f64 {
-                let terms = self.nodes.iter().zip(&self.path).map(|(&(time, weight), state)| {
-                    let (share, slope) = share(end, time);
-                    let mut varied = state.clone();
-                    let (mut then, mut stretch) = (time, 1.0);
-                    if by_time {
-                        (then, stretch) = (time + amount * share, 1.0 + amount * slope);
-                        varied[velocity - coordinate..].iter_mut().for_each(|v| *v /= stretch);
-                    } else {
-                        varied[coordinate] += amount * share;
-                        varied[velocity] += amount * slope;
-                    }
-                    weight * (stretch * integrand(then, &varied) - integrand(time, state))
-                });
-                terms.sum()
-            };
-            [(false, reach), (true, duration)].map(|(by_time, size)| {
-                let h = END_STEP * size;
-                let mut difference = |k: f64| moved(by_time, k * h) - moved(by_time, -k * h);
-                (8.0 * difference(1.0) - difference(2.0)) / (12.0 * h)
-            })
-        })
+    /// ∂S/∂q of a coordinate and ∂S/∂t at both ends, on paths that are moved by ever less towards the other end, and the sizes
+    /// of what each adds up: with a share s that is 1 at the end and 0 at the other, ∫ (s ∂L/∂q + ṡ p) dt, and
+    /// ∫ (s ∂L/∂t − ṡ H) dt of times t + ε s.
+    fn end_slopes(&self, coordinate: usize, lagrangian: &mut Lagrangian) -> [[(f64, f64); 2]; 2] {
+        let mut slopes = [[(0.0, 0.0); 2]; 2];
+        for (&(time, weight), state) in self.nodes.iter().zip(&self.path) {
+            let by_position = [
+                lagrangian.force(time, state, coordinate),
+                lagrangian.momenta(time, state)[coordinate],
+            ];
+            let by_time = [lagrangian.explicit_rate(time, state), -lagrangian.energy(time, state)];
+            let part = time / self.duration;
+            for (end, (share, rate)) in [(1.0 - part, -1.0), (part, 1.0)].into_iter().enumerate() {
+                for (slope, [by_share, by_rate]) in
+                    slopes[end].iter_mut().zip([by_position, by_time])
+                {
+                    let terms = [share * by_share, rate / self.duration * by_rate];
+                    slope.0 += weight * (terms[0] + terms[1]);
+                    slope.1 += weight * (terms[0].abs() + terms[1].abs());
+                }
+            }
+        }
+        slopes
     }
 
     /// The points (ε, rise) up to half of the range of a coordinate, where the rise is finite.

@@ -155,6 +155,17 @@ impl Experiment {
         place.map_or(f64::NAN, |i| values[i])
     }
 
+    /// Σ |p q̇| among the values of all channels: the size of the energy's terms, however near to zero their sum is.
+    pub(super) fn motion_of(&self, values: &[f64]) -> f64 {
+        let channels = self.system().channels();
+        let value = |kind| channels.iter().position(|c| c.kind == kind).map(|i| values[i]);
+        let product = |i| {
+            let (p, v) = (ChannelKind::Momentum(i), ChannelKind::Velocity(i));
+            value(p).zip(value(v)).map_or(0.0, |(p, v)| (p * v).abs())
+        };
+        (0..self.system().moving()).map(product).sum()
+    }
+
     fn change_initial(&mut self, index: usize, value: f64) {
         if index >= self.system().moving() || !value.is_finite() {
             return self.tell(format!("an initial value cannot be {value}"));

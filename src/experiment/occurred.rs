@@ -39,7 +39,7 @@ impl Experiment {
                 let given = self.energy_of(after) - energy;
                 if !given.is_finite() {
                     lead
-                } else if given.abs() <= ROUNDING * energy.abs() {
+                } else if given.abs() <= ROUNDING * (energy.abs() + self.motion_of(&before)) {
                     format!("{lead}: energy unchanged")
                 } else {
                     let sign = if given < 0.0 { '−' } else { '+' };

@@ -112,6 +112,11 @@ fn split(name: &str) -> (&str, &str) {
     if stem.is_empty() { (name, "") } else { (stem, subscript) }
 }
 
+/// A text with its digits below the line.
+pub fn subscripts(text: &str) -> String {
+    text.chars().map(|c| subscript_character(c).unwrap_or(c)).collect()
+}
+
 /// Digits only: Unicode has x and r below the line but no y and no z, and `pₓ² + p_y²` would look like two kinds of
 /// thing.
 fn subscript_character(c: char) -> Option<char> {

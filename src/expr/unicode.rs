@@ -50,6 +50,8 @@ fn raised_power(text: &str) -> (String, &str) {
     let word = text[sign..].find(|c: char| !(c.is_alphanumeric() || c == '_' || c == '.'));
     let (power, rest) = text.split_at(word.map_or(text.len(), |end| sign + end));
     match power.parse() {
+        // a tower has one power above the line, and what is above that is lost
+        _ if rest.starts_with('^') => ("^".to_owned(), text),
         Ok(n) => (superscript(n), rest),
         Err(_) if power == "n" => (RAISED_N.to_string(), rest),
         Err(_) => ("^".to_owned(), text),

@@ -12,7 +12,8 @@ use crate::model::{GeneratingType, Model};
 /// The points at which a determinant vanishes.
 const POINTS: usize = 8;
 
-/// A determinant vanishes if it is below this part of the product of the sizes of M.
+/// A determinant vanishes if it is below this part of 1 once each row of M is measured by its greatest entry, each entry times
+/// the size of its coordinate or momentum: then the units of old and new ones do not count.
 const VANISHES: f64 = 1e-12;
 
 impl PhaseMap {
@@ -24,16 +25,29 @@ impl PhaseMap {
     ) -> Vec<(GeneratingType, String)> {
         let n = self.old.len() / 2;
         let images = self.images(model, equations, POINTS);
-        let matrices: Vec<_> =
-            images.iter().filter_map(|at| self.tangent(&equations.pool, at)).collect();
+        let sizes: Vec<f64> = (self.old.iter())
+            .map(|&old| images.iter().map(|at| at.at(old).abs()).fold(0.0, f64::max))
+            .map(|size| if size > 0.0 { size } else { 1.0 })
+            .collect();
+        let measured = |at| {
+            let mut matrix = self.tangent(&equations.pool, at)?;
+            for (mut column, size) in matrix.column_iter_mut().zip(&sizes) {
+                column *= *size;
+            }
+            for mut row in matrix.row_iter_mut() {
+                let greatest = row.amax();
+                row /= if greatest > 0.0 { greatest } else { 1.0 };
+            }
+            Some(matrix)
+        };
+        let matrices: Vec<_> = images.iter().filter_map(measured).collect();
         let vanishes = |of: &GeneratingType| {
             let row = if of.has_new_position() { 0 } else { n };
             let column = if of.has_position() { n } else { 0 };
             !matrices.is_empty()
                 && matrices.iter().all(|matrix| {
                     let block = matrix.view((row, column), (n, n)).into_owned();
-                    let size: f64 = (0..n).map(|_| matrix.amax()).product();
-                    block.determinant().abs() <= VANISHES * size
+                    block.determinant().abs() <= VANISHES
                 })
         };
         let named = |of: GeneratingType| {

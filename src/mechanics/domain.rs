@@ -64,8 +64,11 @@ fn is_never_negative(pool: &Pool, e: Expr) -> bool {
     squares.iter().all(|(c, _)| *c >= 0.0)
         && others.iter().all(|(c, factors)| {
             // what lies between −1 and 1 counts as 1
-            let free: Vec<(Expr, Number)> =
-                factors.iter().filter(|(b, _)| !within_one(pool, *b)).copied().collect();
+            let free: Vec<(Expr, Number)> = factors
+                .iter()
+                .filter(|(b, n)| n.value() < 0.0 || !within_one(pool, *b))
+                .copied()
+                .collect();
             let pairs = (0..squares.len()).flat_map(|j| (0..=j).map(move |i| (i, j)));
             let outweighs = |&(i, j): &(usize, usize)| {
                 let ((p, a), (q, b)) = (&squares[i], &squares[j]);

@@ -19,9 +19,15 @@ pub fn latex(report: &Report<'_>, further: &Further) -> String {
         for progress in &ramp.progress {
             let symbol = &pool.symbol_info(progress.symbol).latex;
             let [start, end] = progress.times.map(|e| pool.latex(e));
-            let line = format!(
+            let mut line = format!(
                 "&{symbol} \\text{{ from 0 at }} t = {start} \\text{{ to 1 at }} t = {end}"
             );
+            if let Some(time) = progress.stopped {
+                line.push_str(&format!(
+                    " \\text{{, stays from }} t = {} \\text{{ on}}",
+                    pool.latex(time)
+                ));
+            }
             page.lines.push(line);
         }
     }

@@ -6,7 +6,7 @@
 //! derivations, and the numbers of exponents.
 
 use super::Model;
-use super::parameter::{Parameter, RangeSpacing};
+use super::parameter::Parameter;
 use crate::expr::{Expr, Pool, Rank, Symbol};
 use crate::num::Number;
 
@@ -24,17 +24,8 @@ impl Model {
         }
         let parameter = |&(value, symbol): &(f64, Symbol)| {
             let info = pool.symbol_info(symbol);
-            Parameter {
-                name: info.name.clone(),
-                shown: info.unicode.clone(),
-                symbol,
-                value,
-                min: value,
-                max: value,
-                scale: RangeSpacing::Linear,
-                unit: String::new(),
-                about: String::new(),
-            }
+            let [name, shown] = [&info.name, &info.unicode].map(Clone::clone);
+            Parameter { name, shown, ..Parameter::nameless(symbol, value) }
         };
         let named: Vec<Parameter> = known.iter().map(parameter).collect();
         self.parameters.extend(named);

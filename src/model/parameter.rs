@@ -25,6 +25,23 @@ pub struct Parameter {
     pub about: String,
 }
 
+impl Parameter {
+    /// A number that nobody sees by a name, and nobody changes.
+    pub(super) fn nameless(symbol: Symbol, value: f64) -> Parameter {
+        Parameter {
+            name: String::new(),
+            shown: String::new(),
+            symbol,
+            value,
+            min: value,
+            max: value,
+            scale: RangeSpacing::Linear,
+            unit: String::new(),
+            about: String::new(),
+        }
+    }
+}
+
 /// The spacing of the steps in a range.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub enum RangeSpacing {

@@ -6,8 +6,8 @@
 use std::collections::HashMap;
 
 use super::coordinate::dotted;
-use super::parameter::{Parameter, RangeSpacing};
-use crate::expr::{Expr, FunctionId, Pool, Rank, Symbol, latex_of_unicode};
+use super::parameter::Parameter;
+use crate::expr::{Expr, FunctionId, Node, Pool, Rank, Symbol, latex_of_unicode, subscripts};
 use crate::num::Number;
 
 /// A part of a parameter's way, as a file gives it: its numbers may be expressions in other parameters.
@@ -69,6 +69,68 @@ pub struct RampProgress {
     pub symbol: Symbol,
     /// When the part begins, and when it ends.
     pub times: [Expr; 2],
+    /// When a later part takes its place, if that is before its end.
+    pub stopped: Option<Expr>,
+}
+
+/// A part of a parameter's way among the others: it begins at the value that those before it have reached, and ends what is
+/// left of them.
+struct RampStage {
+    part: RampPart,
+    /// From the value that it begins with to the one that it leads to.
+    change: Expr,
+    /// How far it comes before a later one begins; all the way, if there is nothing.
+    limit: Option<Expr>,
+    /// When that one begins.
+    stopped: Option<Expr>,
+}
+
+fn stages(pool: &mut Pool, initial: Expr, parts: &[RampPart]) -> Vec<RampStage> {
+    let mut stages: Vec<RampStage> = Vec::new();
+    for &part in parts {
+        stages.iter_mut().for_each(|earlier| earlier.stop(pool, part.start));
+        let value = match stages.last() {
+            Some(last) if last.limit.is_none() => last.part.to,
+            _ => stages.iter().fold(initial, |value, RampStage { part, change, limit, .. }| {
+                let share = limit.map_or(*change, |limit| {
+                    let share = part.form.share(pool, limit);
+                    pool.mul(*change, share)
+                });
+                pool.add(value, share)
+            }),
+        };
+        let change = pool.sub(part.to, value);
+        stages.push(RampStage { part, change, limit: None, stopped: None });
+    }
+    stages
+}
+
+impl RampStage {
+    /// Lets it end at a time, if that is before its end.
+    fn stop(&mut self, pool: &mut Pool, time: Expr) {
+        let passed = pool.sub(time, self.part.start);
+        let passed = pool.div(passed, self.part.duration);
+        let one = pool.number(Number::ONE);
+        let reached = match pool.node(passed) {
+            Node::Number(n) if n.value() >= 1.0 => return,
+            Node::Number(n) if n.value() <= 0.0 => Expr::ZERO,
+            Node::Number(_) => passed,
+            _ => {
+                let passed = pool.call(FunctionId::Max, &[passed, Expr::ZERO]);
+                pool.call(FunctionId::Min, &[passed, one])
+            }
+        };
+        let earlier = |pool: &mut Pool, known: Option<Expr>, new: Expr| match known {
+            None => new,
+            Some(known) => match (pool.node(known), pool.node(new)) {
+                (Node::Number(a), Node::Number(b)) if a.value() <= b.value() => known,
+                (Node::Number(_), Node::Number(_)) => new,
+                _ => pool.call(FunctionId::Min, &[known, new]),
+            },
+        };
+        self.limit = Some(earlier(pool, self.limit, reached));
+        self.stopped = Some(earlier(pool, self.stopped, time));
+    }
 }
 
 impl RampForm {
@@ -93,22 +155,20 @@ impl RampForm {
 }
 
 impl Ramped {
-    /// Makes a parameter follow its schedule, one part after the other, from its own value, which stays what it is before the first.
+    /// Makes a parameter follow its schedule from its own value, which stays what it is before the first part.
     pub fn lead(&mut self, pool: &mut Pool, time: Symbol, parameter: Symbol, parts: &[RampPart]) {
         let own = pool.variable(parameter);
         let time = pool.variable(time);
-        let (mut value, mut last) = (own, own);
-        for part in parts {
+        let mut value = own;
+        let one = pool.number(Number::ONE);
+        for RampStage { part, change, limit, .. } in stages(pool, own, parts) {
             let passed = pool.sub(time, part.start);
             let passed = pool.div(passed, part.duration);
             let passed = pool.call(FunctionId::Max, &[passed, Expr::ZERO]);
-            let one = pool.number(Number::ONE);
-            let u = pool.call(FunctionId::Min, &[passed, one]);
+            let u = pool.call(FunctionId::Min, &[passed, limit.unwrap_or(one)]);
             let share = part.form.share(pool, u);
-            let change = pool.sub(part.to, last);
             let change = pool.mul(change, share);
             value = pool.linear(Number::ZERO, &[(Number::ONE, value), (Number::ONE, change)]);
-            last = part.to;
         }
         self.functions.insert(parameter, value);
     }
@@ -139,17 +199,7 @@ impl Ramped {
             introduce(&written, &dotted(shown, mark), &latex, Rank::Rate)
         });
         let instant = introduce("the instant", "s", "s", Rank::Variable);
-        let any = |symbol, value| Parameter {
-            name: String::new(),
-            shown: String::new(),
-            symbol,
-            value,
-            min: value,
-            max: value,
-            scale: RangeSpacing::Linear,
-            unit: String::new(),
-            about: String::new(),
-        };
+        let any = Parameter::nameless;
         let [rate, second, third] = derivatives;
         let mut added = vec![any(rate, 0.618_034), any(second, -0.414_214), any(third, 0.236_068)];
         // the instant is the same for all
@@ -220,28 +270,33 @@ impl NamedRamp {
             std::iter::once(name.clone()).chain((2..).map(move |n| format!("{name}{n}")))
         };
         let initial = unused(pool, numbered(format!("{name}_i")), taken);
+        let number = pool.symbol_info(initial).name[name.len() + 2..].to_owned();
+        let index = format!("ᵢ{}", subscripts(&number));
         pool.describe(
             initial,
-            &format!("{}ᵢ", parameter.shown),
-            &format!("{{{}}}_i", latex_of_unicode(&parameter.shown)),
+            &format!("{}{index}", parameter.shown),
+            &format!("{{{}}}_{{i{number}}}", latex_of_unicode(&parameter.shown)),
             Rank::Constant,
         );
         let initial = pool.variable(initial);
         let own = HashMap::from([(parameter.symbol, initial)]);
-        let (mut function, mut last) = (initial, initial);
+        let parts: Vec<RampPart> = (parts.iter())
+            .map(|part| {
+                let [to, start, duration] =
+                    [part.to, part.start, part.duration].map(|e| pool.substitute(e, &own));
+                RampPart { to, start, duration, form: part.form }
+            })
+            .collect();
+        let mut function = initial;
         let mut progress = Vec::new();
-        for part in parts {
-            let [to, start, duration] =
-                [part.to, part.start, part.duration].map(|e| pool.substitute(e, &own));
-            let end = pool.add(start, duration);
+        for RampStage { part, change, stopped, .. } in stages(pool, initial, &parts) {
+            let end = pool.add(part.start, part.duration);
             let symbol = unused(pool, numbered("u".to_owned()), taken);
-            progress.push(RampProgress { symbol, times: [start, end] });
+            progress.push(RampProgress { symbol, times: [part.start, end], stopped });
             let u = pool.variable(symbol);
             let share = part.form.share(pool, u);
-            let change = pool.sub(to, last);
             let change = pool.mul(change, share);
             function = pool.add(function, change);
-            last = to;
         }
         NamedRamp { parameter: parameter.symbol, derivatives, function, progress }
     }

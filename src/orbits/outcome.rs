@@ -6,6 +6,8 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Deserializer, Serialize};
+
 use crate::ensemble::{Follower, OrbitCourse, OrbitStatus, Start, side_by_side};
 use crate::experiment::{DriftWatch, Experiment, Gauge, Setup, Status, energy_drift};
 use crate::integrate::{BatchPropagator, LaneStatus, Settings, method_named};
@@ -49,12 +51,18 @@ pub struct RunOutcome {
 }
 
 /// A conserved quantity that has left its value.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Departed {
     /// Its name.
     pub name: String,
     /// Its greatest drift, relative to what moves.
+    #[serde(deserialize_with = "unbounded")]
     pub drift: f64,
+}
+
+/// JSON has no infinity, and serde_json writes `null` for it.
+fn unbounded<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
 }
 
 /// The steps between two looks at the token.

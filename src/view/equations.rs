@@ -143,7 +143,10 @@ impl EquationRows<'_> {
             for progress in &ramp.progress {
                 let [start, end] = progress.times.map(|e| self.time(e));
                 let range = self.look.glyphs.text("0 … 1").into_owned();
-                let words = format!("from t = {start} to t = {end}");
+                let mut words = format!("from t = {start} to t = {end}");
+                if let Some(time) = progress.stopped {
+                    words.push_str(&format!(", stays from t = {} on", self.time(time)));
+                }
                 self.page.formula(&self.symbol(progress.symbol), range, &words);
             }
         }

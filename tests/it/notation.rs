@@ -298,6 +298,7 @@ fn a_text_of_a_file_is_shown_with_the_names_of_the_screen() {
         ("energy of running", "energy of running"),
         ("theta^2 - x1^-12", "θ² − x₁⁻¹²"),
         ("2^n", "2ⁿ"),
+        ("x1^2^3", "x₁^2³"),
         ("x^(1/2)*2^nu*x^2.5", "x^(1/2)*2^nu*x^2.5"),
         ("ψ'", "ψ'"),
         ("", ""),

@@ -484,6 +484,17 @@ fn an_impulse_without_work_says_that_the_energy_is_unchanged() {
     }
 }
 
+/// Where the energy itself is zero, rounding is measured by what it is made of.
+#[test]
+fn a_turn_at_no_energy_leaves_it_unchanged() {
+    let text = "title = 't'\n[coordinates]\nx = { initial = 0.0, velocity = 1.1 }\ny = { initial = 1.0, velocity = 0.3 }\n\
+                [lagrangian]\nL = \"1/2*(x'^2 + y'^2) + 0.65\"\n[[impulses]]\nname = 'turn'\nat = [1.0]\n\
+                change = { p_x = \"0.7*cos(1.234) - x'\", p_y = \"sqrt(1.3 - (0.7*cos(1.234))^2) - y'\" }\n";
+    let mut turned = file(text);
+    run(&mut turned, 2.0);
+    assert_eq!(*turned.snapshot().notices, ["turn at t = 1: energy unchanged".to_owned()]);
+}
+
 /// A pendulum in x, y with a rod, started at the bottom.
 const ROD: &str = "
 title = 'rod'

@@ -310,6 +310,24 @@ fn generating_functions_that_break_down_are_named_with_the_determinant() {
     }
 }
 
+/// Units break nothing down: Q = q/λ, P = λp has F2 = qP/λ and F3 = −λpQ however large λ is, and neither F1 nor F4.
+#[test]
+fn units_break_no_generating_function_down() {
+    for scale in ["1.0", "1e7", "1e-7"] {
+        let text = format!(
+            "title = \"scaled\"\n[coordinates]\nq = {{ initial = 1.0, momentum = 0.5 }}\n[parameters]\nl = {scale}\n\
+             [hamiltonian]\nH = \"p_q^2/2 + q^2/2\"\n[[transformations]]\nname = \"scaled\"\nkind = \"explicit\"\n\
+             Q = {{ Q = \"q/l\" }}\nP = {{ P = \"l*p_q\" }}\n[[views]]\nkind = \"transformation\"\nx = \"Q\"\ny = \"P\"\n"
+        );
+        let mut course = Course::with(&text);
+        course.go(1.0);
+        let (_, words) = shown(&course.app, &plots(&course.app)[0]);
+        let broken = words.iter().find(|line| line.contains("down"));
+        let said = "F1, F4 break down: ∂Q/∂p = ∂P/∂q = 0";
+        assert_eq!(broken.map(String::as_str), Some(said), "at {scale}: {words:?}");
+    }
+}
+
 /// F2 = q P²/2: p = P²/2 and Q = q P, so that P = ±√(2p): both roots are drawn, and where P alone solves there is but one.
 #[test]
 fn both_square_roots_are_drawn() {

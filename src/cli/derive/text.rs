@@ -117,7 +117,10 @@ impl TextReport<'_> {
             rows.push((left, self.math(ramp.function)));
             for progress in &ramp.progress {
                 let [start, end] = progress.times.map(|e| self.math(e));
-                let words = format!("0 … 1 from t = {start} to t = {end}");
+                let mut words = format!("0 … 1 from t = {start} to t = {end}");
+                if let Some(time) = progress.stopped {
+                    words.push_str(&format!(", stays from t = {} on", self.math(time)));
+                }
                 rows.push((self.symbol(progress.symbol), self.words(&words)));
             }
         }

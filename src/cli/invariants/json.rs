@@ -47,7 +47,10 @@ pub(super) fn write(answer: &InvariantsReport<'_>) -> String {
         .iter()
         .map(|s| json!({ "degree": s.degree, "family": s.family, "monomials": s.size }));
     // a number of the file that stands for itself is no parameter
-    let written = model.parameters.iter().filter(|p| p.name.parse::<f64>().is_err());
+    let written = model
+        .parameters
+        .iter()
+        .filter(|p| p.name.starts_with(|c: char| c.is_alphabetic() || c == '_'));
     let parameters: serde_json::Map<String, Value> =
         written.map(|p| (p.name.clone(), json!(p.value))).collect();
     let mut object = json!({

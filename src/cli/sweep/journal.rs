@@ -3,12 +3,14 @@
 //! In: rows in any order. Out: a file beside the one to be written, which survives a kill at any moment: a line counts
 //! once its end is there. Never here: how a row is computed.
 
+use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use rustix::fs::{FlockOperation, flock};
+use serde_json::Value;
 
 use super::identity::Identity;
 use crate::cli::failure::CommandError;
@@ -101,13 +103,13 @@ pub(super) fn discard(output: &Path) {
 }
 
 impl Journal {
-    /// Begins a journal, or continues one. Returns with it the line of each place that is known.
+    /// Begins a journal, or continues one. Returns with it the line of each place that is known, and what is remarked of it.
     pub(super) fn open(
         output: &Path,
         identity: &Identity,
         places: usize,
         resume: bool,
-    ) -> Result<(Journal, Vec<Option<String>>), CommandError> {
+    ) -> Result<(Journal, Vec<Option<String>>, BTreeMap<usize, Value>), CommandError> {
         let path = path_of(output);
         let name = printable::path(&path);
         let failed = |error: io::Error| CommandError::writing(&name, &error);
@@ -125,7 +127,8 @@ impl Journal {
         // a line without its end was being written when the program was killed
         let whole = bytes.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
         let text = String::from_utf8_lossy(&bytes[..whole]);
-        let mut lines = vec![None; places];
+        let mut lines: Vec<Option<String>> = vec![None; places];
+        let mut remarks: BTreeMap<usize, Value> = BTreeMap::new();
         let mut written = text.split_inclusive('\n');
         if let Some(first) = written.next() {
             if Identity::read(first.trim_end()).as_ref() != Some(identity) {
@@ -141,6 +144,11 @@ impl Journal {
         }
         for line in written {
             let Some((place, row)) = line.split_once(' ') else { continue };
+            if let Some(place) = place.strip_prefix('!') {
+                let remark = place.parse().ok().zip(serde_json::from_str(row).ok());
+                remarks.extend(remark.filter(|(place, _)| *place < places));
+                continue;
+            }
             if let Some(known) = place.parse().ok().and_then(|place: usize| lines.get_mut(place)) {
                 *known = Some(row.to_owned());
             }
@@ -150,13 +158,16 @@ impl Journal {
         if whole == 0 {
             journal.add(&format!("{}\n", identity.line())).map_err(failed)?;
         }
-        Ok((Journal { path, lines: Mutex::new(journal) }, lines))
+        // of a row that was not written no remark holds
+        remarks.retain(|&place, _| lines[place].is_some());
+        Ok((Journal { path, lines: Mutex::new(journal) }, lines, remarks))
     }
 
-    /// Notes the line of a place.
-    pub(super) fn note(&self, place: usize, line: &str) -> io::Result<()> {
+    /// Notes the line of a place, and before it what is remarked of it.
+    pub(super) fn note(&self, place: usize, line: &str, remark: Option<&Value>) -> io::Result<()> {
         let mut lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner);
-        lines.add(&format!("{place} {line}"))
+        let remark = remark.map_or_else(String::new, |remark| format!("!{place} {remark}\n"));
+        lines.add(&format!("{remark}{place} {line}"))
     }
 
     /// Its name in messages.

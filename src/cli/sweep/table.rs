@@ -4,6 +4,8 @@
 
 use std::str::FromStr;
 
+use serde::{Deserialize, Serialize};
+
 use super::super::advice::advice;
 use super::super::assignment;
 use super::super::cells::TableCell;
@@ -105,6 +107,12 @@ pub(super) struct SweepTable {
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct SweepRow {
     pub(super) cells: Vec<TableCell>,
+    pub(super) remark: Option<RowRemark>,
+}
+
+/// What is to be said of a row besides its numbers.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub(super) struct RowRemark {
     /// Why the run was not completed.
     pub(super) message: Option<String>,
     /// What is conserved by the law of motion, and has left its value.
@@ -247,7 +255,9 @@ impl SweepTable {
         }
         let failed = matches!(outcome.status, OrbitStatus::Faulted | OrbitStatus::Refused);
         let message = outcome.message.filter(|_| failed);
-        Some(SweepRow { cells, message, departed: outcome.departed })
+        let remark = RowRemark { message, departed: outcome.departed };
+        let remark = (remark.message.is_some() || remark.departed.is_some()).then_some(remark);
+        Some(SweepRow { cells, remark })
     }
 }
 

@@ -47,7 +47,7 @@ pub(in crate::preset) const PARAMETER: SchemaTable = SchemaTable {
 
 pub(super) const RAMP: SchemaTable = SchemaTable {
     head: "[[ramps]]",
-    about: "A parameter that goes from its value to another one: a function of the time wherever it is used, but for initial values. Several of one parameter follow each other.",
+    about: "A parameter that goes from its value to another one: a function of the time wherever it is used, but for initial values. Of several of one parameter each begins at the value that those before it in the file have reached, and ends what is left of them.",
     keys: &[
         key("parameter", Text, "its name").needed("write parameter = \"omega\""),
         key("to", Formula, "where it leads, of other parameters").needed("write to = 2"),

@@ -154,6 +154,56 @@ fn a_mode_under_constraints_begins_on_their_surface() {
     assert!(present.values[2..4].iter().all(|v| v.abs() < 1e-12), "begins at rest");
 }
 
+/// Places of a coordinate with a period are near across its ends, and what is as far from one name as from another has none.
+#[test]
+fn names_are_near_within_a_period_and_nearer_than_halfway() {
+    let named = |text: &str| {
+        let case = crate::hand::lowered(text);
+        let parameters = case.model.parameter_values();
+        let space = phaselab::dynamics::PhaseSpace::of(
+            &case.model,
+            &case.equations,
+            &case.system,
+            &parameters,
+        );
+        let space = space.unwrap();
+        let start = case.system.initial(0.0, &parameters, &[]).unwrap();
+        let state = space.state(&start).unwrap();
+        let mut found = phaselab::dynamics::equilibria(&space, &state).unwrap().found;
+        phaselab::dynamics::name_equilibria(&case.model, &parameters, &mut found);
+        found
+    };
+    let found = named(
+        "title = \"t\"\n[coordinates]\na = { initial = 1.0, velocity = 0.0, period = \"2*pi\" }\n[lagrangian]\n\
+         L = \"1/2*a'^2 + cos(a)\"\n[[equilibria]]\nname = \"up\"\nnear = { a = \"-pi\" }\n[[equilibria]]\n\
+         name = \"down\"\nnear = { a = \"2*pi\" }\n",
+    );
+    for one in &found {
+        let expected = if one.variables[0].cos() > 0.0 { "down" } else { "up" };
+        assert_eq!(one.name, expected, "{}", one.variables[0]);
+    }
+    assert!(found.len() >= 2);
+    let well = |a: &str| {
+        format!(
+            "title = \"t\"\n[coordinates]\nx = {{ initial = 0.5, velocity = 0.0 }}\n[parameters]\na = {a}\n[lagrangian]\n\
+             L = \"1/2*x'^2 + a*x^2/2 - x^4/4\"\n[[equilibria]]\nname = \"left\"\nnear = {{ x = \"-1\" }}\n\
+             [[equilibria]]\nname = \"right\"\nnear = {{ x = \"1\" }}\n"
+        )
+    };
+    let found = named(&well("1.0"));
+    for one in &found {
+        let expected = match one.variables[0] {
+            x if x < -0.5 => "left",
+            x if x > 0.5 => "right",
+            _ => "",
+        };
+        assert_eq!(one.name, expected);
+    }
+    assert_eq!(found.len(), 3);
+    let found = named(&well("-1.0"));
+    assert!(!found.is_empty() && found.iter().all(|one| one.name.is_empty()));
+}
+
 /// The five points of the restricted problem have their names in the list and on portraits, and those on the axis on the section
 /// y = 0; the names are those that the file gives, at other masses too.
 #[test]

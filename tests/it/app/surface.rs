@@ -121,6 +121,27 @@ fn an_angle_passes_a_value_once_in_a_turn() {
     write(&mut app, "theta2 = pi/2");
     checked(&mut app);
     assert_eq!(shown(&app), ("sin((theta2 - (pi/2))/2)".to_owned(), Direction::Either));
+    // of a period of one's own, whatever its parameters become; what is offered of it is accepted
+    let text = "title = \"turns\"\n[coordinates]\na = { initial = 0.3, velocity = 1.0, period = \"P\" }\n\
+                b = { initial = 0.3, velocity = 1.0 }\n[parameters]\nP = 3.0\n[lagrangian]\n\
+                L = \"1/2*(a'^2 + b'^2) - 1/2*b^2\"\n[[views]]\nkind = \"section\"\non = \"a\"\nx = \"b\"\ny = \"p_b\"\n";
+    for (typed, surface) in [("a = 1", "sin((a - 1)/(P/pi))"), ("", "sin((a)/(P/pi))")] {
+        let loaded = crate::hand::lowered(text);
+        let seen = crate::hand::snapshot(&loaded, 1.0);
+        let (mut app, _) = App::new(crate::hand::catalog(), Some("test"));
+        app.update(phaselab::app::Event::Loaded(Ok(loaded)));
+        app.update(phaselab::app::Event::Snapshot(std::sync::Arc::new(seen)));
+        focus(&mut app, "section");
+        press(&mut app, "L");
+        if typed.is_empty() {
+            press(&mut app, "Enter");
+        } else {
+            press(&mut app, "Ctrl-u");
+            write(&mut app, typed);
+        }
+        checked(&mut app);
+        assert_eq!(shown(&app), (surface.to_owned(), Direction::Either), "{typed}");
+    }
 }
 
 /// Every period of time, and every time an event happens.
@@ -175,7 +196,11 @@ fn what_is_no_surface_is_refused_and_the_field_stays() {
     write(&mut app, "z = 0");
     assert!(said(&app).contains("unknown name `z`"), "{}", said(&app));
     press(&mut app, "Esc");
-    for (typed, words) in [("x", "Write x = 0"), ("x = 0, sideways", "no direction")] {
+    for (typed, words) in [
+        ("x", "Write x = 0"),
+        ("x = 0, sideways", "no direction"),
+        ("max(y, z) = 0", "unknown name `z`"),
+    ] {
         press(&mut app, "L");
         write(&mut app, typed);
         assert!(said(&app).contains(words), "{typed}: {}", said(&app));

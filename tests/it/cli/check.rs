@@ -231,6 +231,17 @@ fn a_root_that_is_squared_away_is_reported() {
     with_file(&file, &["derive", "system.toml"]).says("x ≥ 0");
     let kept = file.replace("(1 + sqrt(x)^2)", "(sqrt(x) + sqrt(x)^2)");
     assert!(!with_file(&kept, &["check", "system.toml"]).text().contains(said));
+    // 1/cos a may be beyond 1, where cos a cannot
+    let chord = |part: &str| {
+        let law = format!("L = \"1/2*(x'^2 + y'^2 + a'^2) - sqrt(x^2 + y^2 + 2*x*y{part})^2\"");
+        let file = one(
+            "x = { initial = 1 }\ny = { initial = 1 }\na = { initial = 0.3 }",
+            "[lagrangian]\n",
+        ) + &law;
+        with_file(&file, &["derive", "system.toml"]).success()
+    };
+    assert!(chord("/cos(a)").contains("its root is squared away"));
+    assert!(!chord("*cos(a)").contains("its root is squared away"));
 }
 
 /// What is zero at most is never below: the squared length of a chord, by the law of cosines, under a function's range. Just

@@ -67,6 +67,16 @@ fn numbers_in_odd_units_are_as_good_as_parameters() {
     }
 }
 
+/// Names that a number has elsewhere are parameters all the same.
+#[test]
+fn parameters_keep_their_names_in_json() {
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 1.0 }\n[parameters]\ninf = 2.0\nnan = 1.0\n[lagrangian]\n\
+                L = \"1/2*nan*x'^2 - 1/2*inf*x^2\"\n";
+    let words = ["invariants", "system.toml", "--degree", "1", "--format", "json"];
+    let answer = with_file(text, &words).json();
+    assert_eq!(answer["parameters"], serde_json::json!({ "inf": 2.0, "nan": 1.0 }));
+}
+
 #[test]
 fn absence_is_stated_with_what_was_searched() {
     let answer = json(&["invariants", "henon-heiles", "--degree", "3", "--format", "json"]);

@@ -137,6 +137,30 @@ fn a_file_may_have_its_ramps() {
         near(action["initial"].as_f64().unwrap(), 2.0 * PI * (0.5 + 1.0 / 32.0), 1e-12);
         assert_eq!(action["verdict"], "adiabatic", "{action}");
     }
+    // one that begins before the last has ended, or before it has begun, goes on from the value of that moment and ends it
+    let cubic = |u: f64| u * u * (3.0 - 2.0 * u);
+    for start in ["4", "T/5"] {
+        let overlapping = format!(
+            "{plain}[[ramps]]\nparameter = \"w\"\nto = 3\nstart = 2\nduration = 8\nform = \"cubic\"\n\
+             [[ramps]]\nparameter = \"w\"\nto = 0.5\nstart = \"{start}\"\nduration = 2\nform = \"linear\"\n"
+        );
+        let reached = 1.0 + 2.0 * cubic(0.25);
+        for (at, value) in [
+            (3.0, 1.0 + 2.0 * cubic(0.125)),
+            (4.0, reached),
+            (5.0, 0.5 * (reached + 0.5)),
+            (6.0, 0.5),
+            (20.0, 0.5),
+        ] {
+            near(end(&overlapping, &[&format!("--at={at}"), "--observe=w"])[6], value, 4e-15);
+        }
+        let report = with_file(&overlapping, &["derive", "system.toml"]).success();
+        assert!(report.contains("from t = 2 to t = 10, stays from t = "), "{report}");
+        let early = overlapping.replace("start = 2", "start = 9");
+        for (at, value) in [(4.0, 1.0), (5.0, 0.75), (6.0, 0.5), (15.0, 0.5)] {
+            near(end(&early, &[&format!("--at={at}"), "--observe=w"])[6], value, 4e-15);
+        }
+    }
     // two after each other: up and down again
     let twice = format!(
         "{plain}[[ramps]]\nparameter = \"w\"\nto = 3\nduration = 2\n[[ramps]]\nparameter = \"w\"\nto = 1.5\nstart = 4\nduration = 2\n"

@@ -202,6 +202,30 @@ fn a_resumed_sweep_goes_on_and_computes_no_row_again() {
     assert_eq!(fs::read_to_string(path("other.csv")).unwrap(), "x\n1\n");
 }
 
+/// What is remarked of rows that the journal has is told at the end with that of the others.
+#[test]
+fn a_resumed_sweep_remarks_on_all_of_its_rows() {
+    let home = tempfile::tempdir().unwrap();
+    let coarse =
+        ["harmonic-oscillator", "--grid=x=0.5:1.5:3", "--until=40", "--method=rk4", "--step=1.5"];
+    let sweep = |more: &[&str]| in_folder(home.path(), &[&coarse[..], more].concat());
+    let whole = sweep(&[]);
+    let remark = "in 3 rows a conserved quantity leaves its value, most in row ";
+    assert!(whole.stderr.contains(remark), "{}", whole.stderr);
+    let text = whole.stdout;
+    let identity = text.lines().find(|line| line.starts_with("# sweep:")).unwrap();
+    let rows = lines(&text);
+    let journal = format!(
+        "{identity}\n!0 {{\"message\":null,\"departed\":{{\"name\":\"J\",\"drift\":null}}}}\n0 {}\n!1 {{\"mess",
+        rows[1]
+    );
+    fs::write(home.path().join("out.csv.journal"), journal).unwrap();
+    let resumed = sweep(&["-o", "out.csv", "--resume"]);
+    assert_eq!(resumed.code, 0);
+    assert!(resumed.stderr.contains(&format!("{remark}1: `J`")), "{}", resumed.stderr);
+    assert_eq!(fs::read_to_string(home.path().join("out.csv")).unwrap(), text);
+}
+
 /// Killed by SIGKILL at any moment, a sweep loses no row that it had finished.
 #[test]
 fn a_killed_sweep_is_resumed_to_the_same_bytes() {

@@ -102,6 +102,13 @@ fn slopes_by_the_ends_are_momenta_and_energies() {
     let driven = |t: f64| [t.powi(3) / 6.0 + 0.4 * t, 0.5 * t * t + 0.4];
     let energy = |t: f64| 0.5 * driven(t)[1].powi(2) - t * driven(t)[0];
     check("1/2*x'^2 + t*x", &driven, &|t| driven(t)[1], &energy);
+    // x″ = cos 300t, many swings of which fall on any step of differences
+    let shaken = |t: f64| {
+        let w = 300.0;
+        [0.3 * t + (1.0 - (w * t).cos()) / (w * w), 0.3 + (w * t).sin() / w]
+    };
+    let energy = |t: f64| 0.5 * shaken(t)[1].powi(2) - (300.0 * t).cos() * shaken(t)[0];
+    check("1/2*x'^2 + cos(300*t)*x", &shaken, &|t| shaken(t)[1], &energy);
     // what is no motion has other slopes
     let wrong = beside("1/2*x'^2 - 1/2*x^2", |t| [1.0 + t, 1.0], 2.0).1.unwrap();
     let [_, last] = wrong.ends.expect("the slopes at both ends");
@@ -162,6 +169,12 @@ fn the_lab_says_when_the_action_is_no_longer_least() {
     let (shown, measure) = picture(OSCILLATOR, 9.5);
     assert!(shown.contains("3 kinetic foci from t = 3.1416"), "{shown}");
     assert_eq!(measure("foci"), Some(3.0));
+    // in other units, and under a fast drive
+    for law in ["1e-9*(1/2*x'^2 - 1/2*x^2)", "1/2*x'^2 - 1/2*x^2 + x*cos(1500*t)"] {
+        let (shown, _) = picture(&OSCILLATOR.replace("1/2*x'^2 - 1/2*x^2", law), 2.0);
+        assert!(shown.contains("= p,") && shown.contains("= −p, = H"), "{law}: {shown}");
+        assert!(!shown.contains('≠'), "{law}: {shown}");
+    }
     // at rest on the top of a hill nothing ever meets again
     let hill = OSCILLATOR.replace("- 1/2*x^2", "+ 1/2*x^2").replace("1.0 }", "0.0 }");
     let (shown, measure) = picture(&hill, 9.5);
