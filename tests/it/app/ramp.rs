@@ -35,6 +35,19 @@ fn text(real: &mut Real) -> Option<String> {
     })
 }
 
+/// The law of a text takes the place of the one before, as once it is checked.
+fn rebuild(real: &mut Real, written: &str) {
+    let loaded = Loaded { epoch: 2, ..lowered(written) };
+    let Loaded { model, equations, system, .. } = &loaded;
+    real.experiment = Experiment::new(model, equations, system, Setup::of(model)).unwrap();
+    real.experiment.set_epoch(2);
+    let took = Some(std::time::Duration::from_millis(800));
+    let checked = CheckedText { ticket: 1, outcome: Ok(loaded), took };
+    let effects = real.app.update(Event::Checked(Box::new(checked)));
+    real.execute(effects);
+    real.look();
+}
+
 #[test]
 fn a_ramp_that_is_typed_is_a_part_of_the_text() {
     let mut real = Real::with(lowered(OSCILLATOR));
@@ -75,15 +88,7 @@ fn a_ramp_begins_where_it_was_asked_for() {
     // the old law runs on meanwhile, and is not seen
     real.run(50);
     assert_eq!((real.seen().time, real.seen().values.to_vec()), before);
-    let loaded = Loaded { epoch: 2, ..lowered(&written) };
-    let Loaded { model, equations, system, .. } = &loaded;
-    real.experiment = Experiment::new(model, equations, system, Setup::of(model)).unwrap();
-    real.experiment.set_epoch(2);
-    let took = Some(std::time::Duration::from_millis(800));
-    let checked = CheckedText { ticket: 1, outcome: Ok(loaded), took };
-    let effects = real.app.update(Event::Checked(Box::new(checked)));
-    real.execute(effects);
-    real.look();
+    rebuild(&mut real, &written);
     assert_eq!(real.seen().time, before.0);
     let value = |real: &Real, name: &str| {
         let channels = real.lab().loaded.system.channels();
@@ -111,6 +116,23 @@ fn a_ramp_begins_where_it_was_asked_for() {
     let held = real.seen().time;
     real.run(20);
     assert_eq!(real.seen().time, held);
+}
+
+/// A motion that is begun while a ramp waits for its law is not taken back when that is there.
+#[test]
+fn a_reset_while_a_ramp_waits_stays() {
+    let mut real = Real::with(lowered(OSCILLATOR));
+    real.run(90);
+    ask(&mut real, "2 in 0.5 linear");
+    let written = text(&mut real).expect("a text to be checked");
+    let held = real.seen().time;
+    real.run(20);
+    assert_eq!(real.seen().time, held);
+    real.press("r");
+    real.run(5);
+    assert!(real.seen().time < 0.5 * held, "{} {held}", real.seen().time);
+    rebuild(&mut real, &written);
+    assert!(real.seen().time < 0.5 * held, "{} {held}", real.seen().time);
 }
 
 /// p in the row of the oscillator before the ramp: q, q̇, p.
