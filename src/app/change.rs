@@ -4,8 +4,8 @@
 //! them. Never here: which key triggers a change, or how the history is stored.
 
 use super::history::Change;
-use super::{App, Effect, Lab, Pane, ValueId};
-use crate::experiment::{Command, with_override};
+use super::{App, Effect, Lab, Loaded, Pane, ValueId};
+use crate::experiment::{Checkpoint, Command, with_override};
 use crate::instrument::Plot;
 use crate::integrate::Settings;
 use crate::num::significant;
@@ -87,6 +87,16 @@ impl Lab {
         let before = self.given();
         let after = self.given_with(values);
         self.history.note(Change::Start([before, after.clone()]));
+        vec![self.begin_with(after)]
+    }
+
+    /// Starts the motion where a flow has led; undone, the motion goes on from where it was carried away.
+    pub(super) fn start_carried(&mut self, after: Vec<InitialOverride>) -> Vec<Effect> {
+        if let Some(seen) = self.seen() {
+            let Loaded { model, system, .. } = &self.loaded;
+            let before = Box::new(Checkpoint::of(model, system, seen).with_past(system, seen));
+            self.history.note(Change::Flow { before, after: after.clone() });
+        }
         vec![self.begin_with(after)]
     }
 
@@ -182,6 +192,7 @@ impl Lab {
                 went(&name, side.way(*numbers).map(short))
             }
             Change::Start(_) => "the initial values".to_owned(),
+            Change::Flow { .. } => "the flow".to_owned(),
             Change::FullReset { .. } => "the reset to the file's values".to_owned(),
             Change::Plot { index, .. } => {
                 format!("what is shown of {}", self.name_of(Pane::Plot(*index)))
@@ -217,6 +228,13 @@ impl Lab {
                 vec![effect]
             }
             Change::Start(given) => vec![self.begin_with(side.of(given))],
+            Change::Flow { before, after } => match side {
+                ChangeSide::After => vec![self.begin_with(after)],
+                ChangeSide::Before => {
+                    self.awaited = Some((*before).clone());
+                    vec![Effect::Tell(Command::Restore(before))]
+                }
+            },
             Change::FullReset { parameters, given } => match side {
                 ChangeSide::After => vec![self.give_back()],
                 ChangeSide::Before => {

@@ -11,7 +11,7 @@ use super::computation::Asker;
 use super::field::{InputField, number};
 use super::menu::{Choice, Choosing, Item, Menu};
 use super::{App, Effect, Loaded, Notification, Overlay};
-use crate::experiment::{Command, Derived, Experiment, Setup, Status};
+use crate::experiment::{Derived, Experiment, Setup, Status};
 use crate::expr::{Expr, Pool};
 use crate::instrument::Answer;
 use crate::integrability::symmetry_flow;
@@ -340,8 +340,9 @@ impl App {
         };
         Some(match carried {
             Ok(end) => {
+                let effects = lab.start_carried(end.values.clone());
                 self.notice = Some(Notification::info(end.sentence()));
-                vec![Effect::Tell(Command::Start(end.values))]
+                effects
             }
             Err(why) => self.notify(format!("The flow cannot be followed: {why}.")),
         })

@@ -5,6 +5,7 @@
 
 use std::time::Duration;
 
+use crate::experiment::Checkpoint;
 use crate::instrument::Plot;
 use crate::integrate::Settings;
 use crate::system::InitialOverride;
@@ -33,6 +34,13 @@ pub(super) enum Change {
     },
     /// Several initial values were set at once: all overrides before and after.
     Start([Vec<InitialOverride>; 2]),
+    /// A flow has carried the state to another orbit.
+    Flow {
+        /// The motion before.
+        before: Box<Checkpoint>,
+        /// The overrides of the file's initial values after.
+        after: Vec<InitialOverride>,
+    },
     /// All values were reset to the file's.
     FullReset {
         /// The parameters before.

@@ -41,6 +41,7 @@ fn angular_momentum_turns_the_orbit_and_back() {
     real.press("2");
     real.run(30);
     let before = ["x", "y", "p_x", "p_y", "energy"].map(|name| value(&real, name));
+    let time = real.seen().time;
     let all = real.lab().flows();
     let pool = &real.lab().findings().unwrap().unwrap().equations.pool;
     let momentum = all
@@ -69,6 +70,13 @@ fn angular_momentum_turns_the_orbit_and_back() {
     for (name, value_before) in ["x", "y", "p_x", "p_y", "energy"].iter().zip(before) {
         assert!((value(&real, name) - value_before).abs() < 1e-12, "{name}");
     }
+    // undone, the motion is where it was when it was first carried away, at that time; redone, it begins where the flow led
+    assert_eq!(real.seen().time, 0.0);
+    real.press("u u");
+    assert_eq!(real.seen().time, time);
+    assert_eq!(["x", "y", "p_x", "p_y", "energy"].map(|name| value(&real, name)), before);
+    real.press("U");
+    assert_eq!(["x", "y", "p_x", "p_y", "energy"].map(|name| value(&real, name)), after);
 }
 
 /// Along the flow of the Runge–Lenz vector the energy stays and the eccentricity does not.
