@@ -176,6 +176,7 @@ impl Lab {
             physics: self.loaded.physics(),
             time: snapshot.time,
             carried: self.answers.known_until().min(snapshot.time),
+            changed: snapshot.recorded.changed,
             parameters: &snapshot.parameters,
             initial: &snapshot.initial,
             values: &snapshot.values,

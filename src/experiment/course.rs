@@ -36,6 +36,8 @@ pub struct Experiment {
     pub(super) other_way: Option<System>,
     /// The reading of the clock at which time was reversed last, or the motion began.
     pub(super) began: f64,
+    /// When a parameter was changed last, if one was since the restart.
+    pub(super) changed: Option<f64>,
     /// The run before time was reversed.
     pub(super) echo: Option<Box<Echo>>,
     /// The time in the past that is looked at.
@@ -80,6 +82,7 @@ impl Experiment {
             equations: Arc::clone(equations),
             other_way: None,
             began: setup.start,
+            changed: None,
             echo: None,
             scrubbed: None,
             initial: Arc::default(),
@@ -256,7 +259,7 @@ impl Experiment {
     pub(super) fn recorded(&self) -> Recorded {
         let from = self.motion.known_from().unwrap_or(self.clock());
         let from = self.motion.sign() * from.max(self.began);
-        Recorded { from, to: self.time(), scrubbed: self.scrubbed.is_some() }
+        Recorded { from, to: self.time(), scrubbed: self.scrubbed.is_some(), changed: self.changed }
     }
 
     /// Restarts from the initial values.
@@ -264,6 +267,7 @@ impl Experiment {
         self.face_forwards();
         self.scrubbed = None;
         self.began = self.setup.start;
+        self.changed = None;
         self.fault = None;
         self.ended = None;
         self.occurrences.clear();

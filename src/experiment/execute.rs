@@ -127,6 +127,7 @@ impl Experiment {
         let new = &self.setup.parameters;
         let state = self.system().change_parameters(self.motion.state(), &old, new);
         self.continue_from(state);
+        self.changed = Some(self.time());
         self.pass_parameters();
         self.gauge(Gauges::refer);
         let jump = self.energy() - before;

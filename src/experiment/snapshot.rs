@@ -100,6 +100,8 @@ pub struct Recorded {
     pub to: f64,
     /// Whether a time before is looked at.
     pub scrubbed: bool,
+    /// When a parameter was changed last, if one was since the start.
+    pub changed: Option<f64>,
 }
 
 /// Whether time runs.

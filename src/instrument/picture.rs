@@ -99,6 +99,8 @@ pub enum Layer {
     Landscape(Arc<Landscape>),
     /// The past of two channels, fading with age.
     Trail([usize; 2]),
+    /// Their past since a time, if one is given: what they were before is another quantity.
+    RecentTrail([usize; 2], Option<f64>),
     /// A channel against time, drawn as the curve of this index.
     Curve {
         /// The index of the curve.

@@ -31,6 +31,8 @@ pub struct Present<'a> {
     pub time: f64,
     /// The time up to which everything is known that is carried along beside the motion, such as a cloud; at most the time.
     pub carried: f64,
+    /// When a parameter was changed last, if one was since the start.
+    pub changed: Option<f64>,
     /// The parameters.
     pub parameters: &'a [f64],
     /// The initial values: coordinates, then velocities or momenta.

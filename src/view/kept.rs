@@ -62,6 +62,8 @@ pub(super) struct TrailKey {
 pub(super) enum Track {
     /// Of two channels.
     Channels([usize; 2]),
+    /// Of two channels from a time on.
+    Recent([usize; 2], f64),
     /// Of a channel against time, with the pattern of its line, from a time on.
     Curve(usize, Dash, f64),
     /// Of a point in space, through a camera in a reference frame.
@@ -214,7 +216,7 @@ impl DrawnTrail {
     fn empty(key: &TrailKey, glyphs: Glyphs) -> Self {
         let line = match key.track {
             Track::Curve(_, dash, _) => Some(dash),
-            Track::Channels(_) | Track::Point(..) => None,
+            Track::Channels(_) | Track::Recent(..) | Track::Point(..) => None,
         };
         let trail = KeptTrail::new(&key.frame, glyphs, line);
         Self { trail, first: Vec::new(), last: Vec::new() }

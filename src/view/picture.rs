@@ -293,12 +293,18 @@ fn draw_layer(
             }));
             canvas.kept = kept;
         }
-        Layer::Trail([x, y]) => {
+        Layer::Trail([x, y]) | Layer::RecentTrail([x, y], _) => {
             let rows = &q.snapshot.trail;
-            let track = Track::Channels([*x, *y]);
+            let (track, begin) = match layer {
+                Layer::RecentTrail(_, Some(time)) => {
+                    (Track::Recent([*x, *y], *time), rows.order(*time))
+                }
+                _ => (Track::Channels([*x, *y]), f64::NEG_INFINITY),
+            };
             let key = TrailKey { epoch: q.snapshot.epoch, motion: 0, frame: *frame, track };
             let kept = canvas.kept.trail(key, (rows, look.glyphs), |row| {
-                Some([*row.get(1 + x)?, *row.get(1 + y)?, 0.0])
+                let recent = rows.order(*row.first()?) >= begin;
+                recent.then_some([*row.get(1 + x)?, *row.get(1 + y)?, 0.0])
             });
             let ramp = look.theme.trail(0);
             let since = kept::since(rows, ramp.len());

@@ -21,7 +21,7 @@ pub(super) const LEAST: u16 = SHORTEST + 18;
 
 /// Whether the bar is shown: while time stands still, runs backwards, or has marks.
 pub(super) fn is_shown(lab: &Lab, snapshot: &Snapshot) -> bool {
-    let Recorded { from, to, scrubbed } = snapshot.recorded;
+    let Recorded { from, to, scrubbed, .. } = snapshot.recorded;
     let stands = matches!(snapshot.status, Status::Paused | Status::Ended(_));
     from != to && (scrubbed || stands || snapshot.backwards || !lab.marks.is_empty())
 }

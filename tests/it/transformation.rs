@@ -292,6 +292,44 @@ impl Course {
     }
 }
 
+/// The trail begins where a parameter was changed last: before, the same names were other quantities.
+#[test]
+fn the_trail_in_new_variables_is_that_of_the_present_map() {
+    let text = "title = \"scaled\"\n[coordinates]\nq = { initial = 1.0, momentum = 0.5 }\n[parameters]\nl = 2\n\
+                [hamiltonian]\nH = \"p_q^2/2 + q^2/2\"\n[[transformations]]\nname = \"scaled\"\nkind = \"explicit\"\n\
+                Q = { Q = \"q/l\" }\nP = { P = \"l*p_q\" }\n[[views]]\nkind = \"transformation\"\nx = \"Q\"\ny = \"P\"\n";
+    let mut course = Course::with(text);
+    course.go(1.5);
+    let whole = course.app.lab.as_ref().unwrap().snapshot.clone().expect("a snapshot");
+    let drawn = |seen: phaselab::experiment::Snapshot| {
+        let mut app = course.app.clone();
+        app.update(phaselab::app::Event::Snapshot(std::sync::Arc::new(seen)));
+        let all =
+            crate::screen::rows(&crate::screen::screen(&app, &crate::screen::rich(), (120, 40)));
+        // the pane at the top left
+        let pane = all.iter().skip(1).take(20).map(|row| row.chars().take(40).collect());
+        pane.collect::<Vec<String>>()
+    };
+    let with = |changed, from: f64| {
+        let mut seen = (*whole).clone();
+        let rows: Vec<Vec<f64>> =
+            seen.trail.rows().filter(|row| row[0] >= from).map(<[f64]>::to_vec).collect();
+        seen.trail = phaselab::experiment::Trail::from_rows(seen.values.len() + 1, &rows);
+        seen.recorded.changed = changed;
+        drawn(seen)
+    };
+    let all = with(None, 0.0);
+    assert_eq!(with(Some(0.8), 0.0), with(None, 0.8));
+    assert_ne!(with(Some(0.8), 0.0), all);
+    let mut experiment = course.experiment;
+    assert_eq!(experiment.snapshot().recorded.changed, None);
+    experiment.execute(phaselab::experiment::Command::Parameter { index: 0, value: 3.0 });
+    let seen = experiment.snapshot();
+    assert_eq!(seen.recorded.changed, Some(seen.time));
+    experiment.execute(phaselab::experiment::Command::Reset);
+    assert_eq!(experiment.snapshot().recorded.changed, None);
+}
+
 /// Q = q cos a + p sin a, P = p cos a − q sin a: F2 and F3 divide by cos a, F1 and F4 by sin a, which is never both zero.
 #[test]
 fn generating_functions_that_break_down_are_named_with_the_determinant() {
