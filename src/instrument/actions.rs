@@ -44,6 +44,9 @@ const BEING_COMPUTED: &str = "being computed";
 /// Beyond this energy, relative to the motion's, a top is out of the picture.
 const FAR: f64 = 20.0;
 
+/// An instant this part of the time after the start is called the start.
+const AT_START: f64 = 1e-3;
+
 /// The part of the time since the start, and of the period, after which a moving law is looked at again.
 const LATER: f64 = 0.01;
 const OF_A_PERIOD: f64 = 0.25;
@@ -376,13 +379,20 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
         } else {
             "not adiabatic"
         };
+        // the first instant looked at may lie a little behind the start
+        let start = present.physics.model.run.start;
+        let since = if (since - start).abs() <= AT_START * (present.time - start).abs() {
+            start
+        } else {
+            since
+        };
         lines.push(format!("since t = {}: {verdict}", short(since)));
         lines.push(changes_in_words([action, height]));
     }
     if let Some(last) = computed.replaced.last()
         && let Some(changes) = computed.changes_since(last)
     {
-        lines.push(format!("since the last ramp, at t = {}:", short(last.time)));
+        lines.push(format!("since t = {}, before the last ramp:", short(last.time)));
         lines.push(changes_in_words(changes));
     }
     lines
