@@ -16,8 +16,9 @@ use phaselab::system::{ChannelKind, InitialOverride, System};
 
 use super::case::{Case, Law};
 use super::extrapolation::{Arrival, Lost, follow};
-use super::oracle::{energy, momentum, rounding_of_terms};
+use super::oracle::{energy, momentum, rates, rounding_of_terms};
 use super::processor_time::ProcessorTime;
+use super::tree::Branches;
 
 /// The kinds of failure.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -363,6 +364,8 @@ fn judge(
     let adaptive = ["auto", "taylor", "dop853"].contains(&case.method.as_str());
     let default = case.method == "auto";
     match &told.end {
+        // the judge has stepped over a pole: the steps on both sides of it see little of it
+        End::Fault(_) if is_pole(case, &known, &told) => return Outcome::Stopped,
         End::Fault(message) if default => {
             return failed(Kind::GivesUp, message);
         }
@@ -433,6 +436,22 @@ fn judge(
     let allowed = allowed * known.scale;
     let failure = twin_failure(as_run, &told, allowed, budget, cancel);
     failure.map_or(Outcome::Accurate, Outcome::Failed)
+}
+
+/// Rates that are so many times those on the judge's way belong to a pole.
+const POLE: f64 = 1e6;
+
+/// Whether rates where the program stopped are of another kind than those that the judge has met.
+fn is_pole(case: &Case, known: &Known, told: &Told) -> bool {
+    let greatest = |time: f64, state: &[f64]| {
+        let rates = rates(case, time, state, &mut Branches::default());
+        rates
+            .iter()
+            .fold(0.0_f64, |most, r| if r.is_nan() { f64::INFINITY } else { most.max(r.abs()) })
+    };
+    let way = known.arrival.way.iter().map(|(time, state)| greatest(*time, state));
+    let met = way.fold(greatest(0.0, &case.start), f64::max);
+    greatest(told.time, &told.state) > POLE * met
 }
 
 /// Checks the energy at the end, and the reports about it.
@@ -529,7 +548,7 @@ fn twin_failure(
         let words: &[&str] =
             if told.over_kinks { &["bounded", "secular", "open"] } else { &["bounded", "secular"] };
         let alike = a.max_drift.max(b.max_drift) < 10.0 * a.max_drift.min(b.max_drift);
-        case.tolerance.is_some()
+        (case.tolerance.is_some() || told.over_kinks)
             && (alike || told.over_kinks)
             && words.contains(&a.word)
             && words.contains(&b.word)
