@@ -200,7 +200,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     };
     let out = Output::open(arguments.output.as_deref(), form)?;
     let (columns, strict) = (system.columns(), arguments.strict);
-    let gives_up = system.has_kinks() && settings.step.is_none();
+    let gives_up = settings.step.is_none();
     let first = experiment.snapshot().state.clone();
     let adiabatic = adiabatic.map(|known| (known, first, system.clone()));
     let steps = STEPS_PER_LOOK;

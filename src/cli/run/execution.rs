@@ -37,7 +37,7 @@ pub(super) struct Run<'i> {
     pub(super) steps: u64,
     /// Whether a motion that violates its conservation laws is a failure.
     pub(super) strict: bool,
-    /// Whether it is given up where kinks lie so close that it has no end.
+    /// Whether it is given up where its steps are so short that it has no end.
     pub(super) gives_up: bool,
     /// Where parameters are ramped, what the action variable is found by: with the first state.
     pub(super) adiabatic: Option<(Adiabatic, Arc<State>, System)>,
@@ -140,7 +140,8 @@ impl Run<'_> {
 
     fn rows(&mut self, table: &PendingRows) -> Result<(), EarlyEnd> {
         let (start, end) = (self.times.start(), self.times.end());
-        let (mut bar, mut outlook) = (Bar::new(start, end), Outlook::new(start, end));
+        let (mut bar, mut outlook) =
+            (Bar::new(start, end), Outlook::new(start, end, self.experiment.system().has_kinks()));
         let mut row = vec![0.0; self.columns + 1];
         for time in self.times.rows() {
             self.reach(time, &mut bar, &mut outlook)?;
