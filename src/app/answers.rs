@@ -10,7 +10,7 @@ use crate::instrument::{Answer, Columns, FoundEquilibria, Instrument, Plot};
 use crate::integrability::PointSymmetry;
 use crate::job::Outcome;
 use crate::mechanics::{Equations, Further};
-use crate::model::Variation;
+use crate::model::{Model, Variation};
 
 /// The results and running jobs for the plots of a lab.
 #[derive(Clone, Debug, Default)]
@@ -60,6 +60,8 @@ pub(super) struct SymmetrySearch {
 /// What a search found.
 #[derive(Clone, Debug)]
 pub(super) struct FoundSymmetries {
+    /// The system with its numbers that are no short fractions as parameters.
+    pub(super) model: Model,
     /// The equations, in which the changes stand.
     pub(super) equations: Equations,
     pub(super) parameters: Vec<f64>,

@@ -13,7 +13,8 @@ use crate::integrability::{
     Invariants, Limits, Proof, Relations, invariants, is_hamiltonian, relations, separates, summary,
 };
 use crate::job::Progress;
-use crate::mechanics::Equations;
+use crate::mechanics::{Equations, derive};
+use crate::model::Model;
 
 /// A search that takes longer than this is reported as under way.
 const PATIENCE: Duration = Duration::from_millis(300);
@@ -30,6 +31,8 @@ const DEGREE_WITHOUT_CLOCK: u32 = 4;
 /// What a search found, with everything that is said of it.
 #[derive(Clone, Debug)]
 pub struct Findings {
+    /// The system with its numbers that are no short fractions as parameters.
+    pub(super) model: Model,
     /// The equations, in which the formulas stand.
     pub equations: Equations,
     /// The constants of the motion, and what was searched.
@@ -114,20 +117,37 @@ pub(super) fn followed(findings: &Findings) -> Vec<FoundConstant> {
         .collect()
 }
 
+/// The law that is searched: at these values of the parameters, with numbers that are no short fractions as parameters
+/// too, because products of them are rounded and relations between these would be lost.
+pub(super) fn searched_law(
+    mut model: Model,
+    equations: Equations,
+    parameters: &[f64],
+    progress: &Progress,
+) -> Result<(Model, Equations), String> {
+    model.parameters.iter_mut().zip(parameters).for_each(|(p, &value)| p.value = value);
+    let mut equations = equations;
+    if model.name_literals() {
+        model.pool.set_cancel(progress.token().clone());
+        equations = derive(&model).map_err(|why| why.to_string())?;
+    }
+    equations.pool.set_cancel(progress.token().clone());
+    if equations.has_pending_forms() {
+        equations.find_closed_forms();
+    }
+    Ok((model, equations))
+}
+
 /// Makes the search.
 pub(super) fn search(
-    mut model: crate::model::Model,
-    mut equations: Equations,
+    model: Model,
+    equations: Equations,
     parameters: &[f64],
     further: u32,
     progress: &Progress,
     has_clock: bool,
 ) -> Result<Arc<Findings>, String> {
-    model.parameters.iter_mut().zip(parameters).for_each(|(p, &value)| p.value = value);
-    equations.pool.set_cancel(progress.token().clone());
-    if equations.has_pending_forms() {
-        equations.find_closed_forms();
-    }
+    let (model, mut equations) = searched_law(model, equations, parameters, progress)?;
     let first = if has_clock { DEGREE } else { DEGREE_WITHOUT_CLOCK };
     let asked = Cell::new(0_u64);
     let questions = QUESTIONS << (2 * further);
@@ -148,6 +168,7 @@ pub(super) fn search(
     let found = (1..=invariants.found.len()).map(|n| format!("I{}", subscripts(&n.to_string())));
     let names = known.chain(found).collect();
     Ok(Arc::new(Findings {
+        model,
         equations,
         invariants,
         relations,

@@ -247,16 +247,17 @@ impl App {
         let Some(lab) = &self.lab else { return Vec::new() };
         let Some(Ok(findings)) = lab.findings() else { return Vec::new() };
         let Some((_, generator)) = lab.flows().into_iter().nth(index) else { return Vec::new() };
-        let equations = findings.equations.clone();
-        self.follow(FlowGenerator::Constant(generator), equations, epsilon)
+        let law = (findings.model.clone(), findings.equations.clone());
+        self.follow(FlowGenerator::Constant(generator), law, epsilon)
     }
 
     /// Follows the flow of a generator of the file.
     pub(super) fn follow_generator(&mut self, index: usize, epsilon: f64) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };
         let Some(generator) = lab.loaded.model.generators.get(index) else { return Vec::new() };
-        let (generator, equations) = (generator.expression, (*lab.loaded.equations).clone());
-        self.follow(FlowGenerator::Constant(generator), equations, epsilon)
+        let generator = generator.expression;
+        let law = ((*lab.loaded.model).clone(), (*lab.loaded.equations).clone());
+        self.follow(FlowGenerator::Constant(generator), law, epsilon)
     }
 
     /// Follows the flow of a generator that was typed: `G; ε`.
@@ -275,7 +276,8 @@ impl App {
         });
         match read.and_then(|e| Ok((e, number(model, &parameters, far)?))) {
             Ok((generator, epsilon)) => {
-                self.follow(FlowGenerator::Constant(generator), equations, epsilon)
+                let law = ((**model).clone(), equations);
+                self.follow(FlowGenerator::Constant(generator), law, epsilon)
             }
             Err(sentence) => {
                 field.diagnostic = Some(sentence);
@@ -285,11 +287,12 @@ impl App {
         }
     }
 
-    /// Follows a flow from the current state; its generator stands in these equations.
+    /// Follows a flow from the current state; its generator stands in these equations, whose model may have more
+    /// parameters than the file.
     pub(super) fn follow(
         &mut self,
         generator: FlowGenerator,
-        equations: Equations,
+        (searched, equations): (Model, Equations),
         epsilon: f64,
     ) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };
@@ -305,15 +308,17 @@ impl App {
             Arc::clone(&snapshot.values)
         };
         let channels = system.channels().iter().zip(values.iter());
-        let model = (**model).clone();
-        let time = model.run.start;
+        let mut parameters = snapshot.parameters.to_vec();
+        let further = searched.parameters.iter().skip(parameters.len());
+        parameters.extend(further.map(|parameter| parameter.value));
+        let time = searched.run.start;
         let start = FlowStart {
-            model,
+            model: searched,
             equations,
             generator,
             epsilon,
             time,
-            parameters: snapshot.parameters.to_vec(),
+            parameters,
             state: channels.map(|(c, &value)| (c.kind, value)).collect(),
         };
         let job =

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::answers::FoundSymmetries;
+use super::findings::searched_law;
 use super::flow::FlowGenerator;
 use super::{App, Asker, Choice, Choosing, Effect, Item, Lab, Menu, Notification, Overlay};
 use crate::instrument::Answer;
@@ -21,21 +22,17 @@ const BUDGET: Duration = Duration::from_secs(10);
 impl FoundSymmetries {
     /// Makes the search: Noether's first, so that they are known for what they are.
     fn search(
-        mut model: Model,
-        mut equations: Equations,
+        model: Model,
+        equations: Equations,
         parameters: Vec<f64>,
         progress: &Progress,
     ) -> Result<FoundSymmetries, String> {
-        model.parameters.iter_mut().zip(&parameters).for_each(|(p, &value)| p.value = value);
-        equations.pool.set_cancel(progress.token().clone());
-        if equations.has_pending_forms() {
-            equations.find_closed_forms();
-        }
+        let (model, mut equations) = searched_law(model, equations, &parameters, progress)?;
         let is_over = || progress.is_cancelled() || progress.is_spent();
         let noether = symmetries(&model, &mut equations, &is_over).ok();
         let found = point_symmetries(&model, &mut equations, noether.as_ref(), &is_over);
         let found = found.map_err(|why| why.to_string())?.found;
-        Ok(FoundSymmetries { equations, parameters, found })
+        Ok(FoundSymmetries { model, equations, parameters, found })
     }
 }
 
@@ -130,8 +127,8 @@ impl App {
         };
         let Some(symmetry) = found.found.get(index) else { return Vec::new() };
         let generator = FlowGenerator::Symmetry(symmetry.time, symmetry.coordinates.clone());
-        let equations = found.equations.clone();
-        self.follow(generator, equations, epsilon)
+        let law = (found.model.clone(), found.equations.clone());
+        self.follow(generator, law, epsilon)
     }
 }
 

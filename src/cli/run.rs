@@ -6,6 +6,7 @@ mod clock;
 mod execution;
 mod flow_of;
 mod invariants;
+mod outlook;
 pub(super) mod progress;
 mod ramp;
 mod times;
@@ -199,10 +200,11 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     };
     let out = Output::open(arguments.output.as_deref(), form)?;
     let (columns, strict) = (system.columns(), arguments.strict);
+    let gives_up = settings.step.is_none();
     let first = experiment.snapshot().state.clone();
     let adiabatic = adiabatic.map(|known| (known, first, system.clone()));
     let steps = STEPS_PER_LOOK;
-    let run = Run { experiment, times, columns, interrupt, steps, strict, adiabatic };
+    let run = Run { experiment, times, columns, interrupt, steps, strict, gives_up, adiabatic };
     match (run.write(arguments.format, out, &header), interrupt.signal()) {
         // a signal takes precedence over any other failure
         (Err(_), Some(signal)) => Err(CommandError::Signal(signal)),

@@ -90,7 +90,7 @@ const COUNT: u64 = 100;
 const MOST: u64 = 100_000_000;
 
 /// The steps without a crossing after which an orbit without an end in time is given up.
-const IDLE: u64 = 1_000_000;
+const IDLE: u64 = 100_000;
 
 /// A direction of crossing.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]

@@ -292,8 +292,7 @@ fn solve(
     // what a motion moves by in a period may be much larger than where it is
     let near = newton.size(start).max(newton.size(&found.state)).min(circuit.size);
     let (moved, open) = (circuit.rates[0].norm() * turned, found.residual > CLOSED * near);
-    let vanished = moved <= VANISHED * speed;
-    let still = moved < STILL * circuit.size || open && moved <= STILL * speed || vanished;
+    let still = is_still(moved, circuit.size, speed, open);
     if newton.space.is_autonomous() && still {
         return Ok(Err(Missed { part: f64::INFINITY, why: rest(newton, &found.state) }));
     }
@@ -364,9 +363,34 @@ fn rest(newton: &Newton<'_>, state: &State) -> String {
     )
 }
 
+/// Whether what moves so fast is at rest, beside the size of its orbit and the speed with which the search began: where an
+/// orbit closes, only what has vanished beside that speed.
+fn is_still(moved: f64, size: f64, speed: f64, open: bool) -> bool {
+    moved < STILL * size || moved <= if open { STILL } else { VANISHED } * speed
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rest_is_a_millionth_of_the_orbit_and_of_the_speed_where_it_is_open_and_else_nothing() {
+        for (moved, size, speed, open, still) in [
+            (0.9e-6, 1.0, 0.0, false, true),
+            (1.1e-6, 1.0, 0.0, false, false),
+            (0.9e-6, 0.0, 1.0, true, true),
+            (1.1e-6, 0.0, 1.0, true, false),
+            (0.9e-6, 0.0, 1.0, false, false),
+            (0.9e-12, 0.0, 1.0, false, true),
+            (1.1e-12, 0.0, 1.0, false, false),
+        ] {
+            assert_eq!(
+                is_still(moved, size, speed, open),
+                still,
+                "{moved:e} of {size:e}, {speed:e}"
+            );
+        }
+    }
 
     #[test]
     fn an_orbit_is_beside_a_motion_within_a_hundred_thousandth_of_its_size() {

@@ -137,6 +137,11 @@ impl Experiment {
         self.motion.clock()
     }
 
+    /// The clock up to which the motion is computed, and the number of steps that it took so far.
+    pub fn computed(&self) -> (f64, u64) {
+        (self.motion.computed(), self.motion.steps())
+    }
+
     /// Whether time runs backwards.
     pub fn is_backwards(&self) -> bool {
         self.motion.sign() < 0.0

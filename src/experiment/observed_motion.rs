@@ -281,6 +281,11 @@ impl ObservedMotion {
         self.inner.steps()
     }
 
+    /// The clock at the end of the last step; that of the current state may lie before it.
+    pub(super) fn computed(&self) -> f64 {
+        self.inner.computed().time
+    }
+
     pub(super) fn set_steps(&mut self, steps: u64) {
         self.inner.set_steps(steps);
     }

@@ -1,7 +1,7 @@
 //! The file writer: writes whole files to the disk, one after the other, on its own thread, so that no frame waits
 //! for a disk.
 //!
-//! In: the contents of a file, or its removal. Out: the outcomes. Never here: what the texts mean.
+//! In: the contents of a file, its removal, or a wish that it be on the disk. Out: the outcomes. Never here: what the texts mean.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -18,10 +18,18 @@ use super::atomic_file::{self, Durability, named, sync_folder};
 /// A closure that produces the text of a file; it may be slow.
 type Maker = Box<dyn FnOnce() -> io::Result<String> + Send>;
 
+/// What is done with a file.
+enum Task {
+    Write(Maker),
+    Remove,
+    /// What was given its name without waiting for the disk is put on the disk.
+    Sync,
+}
+
 /// Writes files.
 #[derive(Debug)]
 pub(super) struct FileWriter {
-    tasks: Sender<(PathBuf, Option<Maker>)>,
+    tasks: Sender<(PathBuf, Task)>,
     outcomes: Receiver<(PathBuf, io::Result<()>)>,
     /// How many writes of each file are outstanding.
     open: BTreeMap<PathBuf, usize>,
@@ -32,20 +40,21 @@ pub(super) struct FileWriter {
 impl FileWriter {
     /// Creates an idle writer.
     pub(super) fn new() -> io::Result<Self> {
-        let (tasks, given) = channel::<(PathBuf, Option<Maker>)>();
+        let (tasks, given) = channel::<(PathBuf, Task)>();
         let (sender, outcomes) = channel();
         let hurried = Arc::new(AtomicBool::new(false));
         let hurry = Arc::clone(&hurried);
         thread::Builder::new().name("scribe".to_owned()).spawn(move || {
-            for (path, text) in given {
-                let done = match text {
-                    Some(text) => text().and_then(|text| {
+            for (path, task) in given {
+                let done = match task {
+                    Task::Write(text) => text().and_then(|text| {
                         let hurried = hurry.load(Ordering::Relaxed);
                         let durability =
                             if hurried { Durability::Cached } else { Durability::OnDisk };
                         put(&path, &text, durability)
                     }),
-                    None => remove(&path),
+                    Task::Remove => remove(&path),
+                    Task::Sync => sync(&path),
                 };
                 if sender.send((path, done)).is_err() {
                     break;
@@ -55,10 +64,10 @@ impl FileWriter {
         Ok(Self { tasks, outcomes, open: BTreeMap::new(), hurried })
     }
 
-    /// From now on gives files their names without waiting for the disk: the program is being terminated, the files
-    /// outlive it, and the system writes them back.
-    pub(super) fn hurry(&self) {
-        self.hurried.store(true, Ordering::Relaxed);
+    /// From now on gives files their names without waiting for the disk, or no longer does: where the program ends, the
+    /// files outlive it, and the system writes them back.
+    pub(super) fn hurry(&self, hurried: bool) {
+        self.hurried.store(hurried, Ordering::Relaxed);
     }
 
     /// Queues the writing of a file.
@@ -67,16 +76,21 @@ impl FileWriter {
         path: &Path,
         text: impl FnOnce() -> io::Result<String> + Send + 'static,
     ) {
-        self.give(path, Some(Box::new(text)));
+        self.give(path, Task::Write(Box::new(text)));
     }
 
     /// Queues the removal of a file; a missing file is not an error.
     pub(super) fn remove(&mut self, path: &Path) {
-        self.give(path, None);
+        self.give(path, Task::Remove);
     }
 
-    fn give(&mut self, path: &Path, text: Option<Maker>) {
-        if self.tasks.send((path.to_owned(), text)).is_ok() {
+    /// Queues that a file is put on the disk as it is.
+    pub(super) fn sync(&mut self, path: &Path) {
+        self.give(path, Task::Sync);
+    }
+
+    fn give(&mut self, path: &Path, task: Task) {
+        if self.tasks.send((path.to_owned(), task)).is_ok() {
             *self.open.entry(path.to_owned()).or_default() += 1;
         }
     }
@@ -127,6 +141,11 @@ fn put(path: &Path, text: &str, durability: Durability) -> io::Result<()> {
     atomic_file::write(path, text.as_bytes(), durability).map_err(|error| named(path, &error))
 }
 
+fn sync(path: &Path) -> io::Result<()> {
+    let synced = fs::File::open(path).and_then(|file| file.sync_all());
+    synced.and_then(|()| sync_folder(path)).map_err(|error| named(path, &error))
+}
+
 fn remove(path: &Path) -> io::Result<()> {
     match fs::remove_file(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
@@ -161,6 +180,22 @@ mod tests {
         file_writer.remove(&path);
         assert!(file_writer.settle(LONG).iter().all(|(_, done)| done.is_ok()));
         assert!(!path.exists());
+    }
+
+    #[test]
+    fn in_a_hurry_a_file_has_its_name_first_and_is_put_on_the_disk_afterwards() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.toml");
+        let mut file_writer = FileWriter::new().expect("a thread");
+        file_writer.hurry(true);
+        file_writer.write(&path, || Ok("one".to_owned()));
+        assert!(file_writer.settle(LONG).iter().all(|(_, done)| done.is_ok()));
+        assert_eq!(fs::read_to_string(&path).expect("it is there"), "one");
+        file_writer.sync(&path);
+        file_writer.sync(&folder.path().join("none"));
+        let outcomes = file_writer.settle(LONG);
+        assert!(outcomes[0].1.is_ok() && outcomes[1].1.is_err(), "{outcomes:?}");
+        assert_eq!(fs::read_to_string(&path).expect("it is there"), "one");
     }
 
     #[test]

@@ -83,6 +83,8 @@ pub(super) struct Session {
     clipboard: Option<String>,
     /// The result of saving at the end.
     left: Option<ExitResult>,
+    /// Whether the program was being terminated when it was saved.
+    hurried: bool,
 }
 
 /// The result of saving at the end.
@@ -153,6 +155,7 @@ impl Session {
             has_clipboard: clipboard::is_there(&|name| std::env::var(name).ok()),
             clipboard: None,
             left: None,
+            hurried: false,
         };
         session.find_guides();
         session.perform(effects);
@@ -234,10 +237,13 @@ impl Session {
         request
     }
 
-    /// Returns the result of saving the recording and the session at the end, and saves them if that has not been
-    /// done yet.
+    /// Returns the result of saving the recording and the session at the end, saves them if that has not been
+    /// done yet, and puts them on the disk, unless that takes long.
     pub(super) fn left(&mut self) -> ExitResult {
         self.on_exit(true);
+        if let Some(store) = self.store.as_mut().filter(|_| !self.hurried) {
+            store.sync(HURRIED);
+        }
         self.left.take().unwrap_or(ExitResult { recorded: Ok(()), kept: Ok(()) })
     }
 
@@ -377,6 +383,7 @@ impl Screen for Session {
             return;
         }
         self.leave_guide();
+        self.hurried = hurried;
         // A working thread would use up the time that is left.
         self.loader.stop();
         self.checker.stop();
@@ -386,8 +393,9 @@ impl Screen for Session {
             (true, false) => FOR_TEXTS,
             (true, true) => HURRIED,
         };
-        if let Some(store) = self.store.as_ref().filter(|_| hurried) {
-            store.hurry();
+        // Files outlive the program: they are put on the disk when the terminal is a shell's again.
+        if let Some(store) = &self.store {
+            store.hurry(true);
         }
         // The texts come first, since they could not be recovered.
         let kept = self.keep_within(time);

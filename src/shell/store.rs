@@ -193,9 +193,17 @@ impl Store {
         true
     }
 
-    /// Stops waiting for the disk from now on.
-    pub(super) fn hurry(&self) {
-        self.file_writer.hurry();
+    /// Whether files are given their names without waiting for the disk from now on.
+    pub(super) fn hurry(&self, hurried: bool) {
+        self.file_writer.hurry(hurried);
+    }
+
+    /// Puts the files on the disk that were stored without waiting for it, within this time: what the disk has not taken by
+    /// then the system writes back, since no reader misses anything.
+    pub(super) fn sync(&mut self, time: Duration) {
+        let files = self.session.iter().chain(&self.texts).filter(|path| path.exists());
+        files.for_each(|path| self.file_writer.sync(path));
+        self.file_writer.settle(time);
     }
 
     /// Returns the errors since the last call; each names its file.

@@ -65,6 +65,8 @@ pub enum MotionErrorKind {
     Swings,
     /// No velocities were found for the given momenta (or the reverse).
     NoVelocities,
+    /// The same in a step of fixed size, which may be too long.
+    NoVelocitiesInStep,
     /// A step led to velocities on another branch for the same momenta.
     BranchLeft,
     /// The equations of an implicit step were not solved. Contains the step size.
@@ -144,7 +146,7 @@ impl fmt::Display for MotionError {
             MotionErrorKind::TooSmall(name) => {
                 write!(f, "{name} is too small at t = {time}")?;
             }
-            MotionErrorKind::NoVelocities => {
+            MotionErrorKind::NoVelocities | MotionErrorKind::NoVelocitiesInStep => {
                 write!(f, "no velocities were found that belong to the momenta at t = {time}")?;
             }
             MotionErrorKind::BranchLeft => {
@@ -231,6 +233,9 @@ impl fmt::Display for MotionError {
                 ": numbers below 2.2e-308 do not keep all their digits; give 0, or choose other units"
             }
             MotionErrorKind::NoVelocities => ": the momenta may lie outside their range",
+            MotionErrorKind::NoVelocitiesInStep => {
+                ": try a smaller step, unless the momenta lie outside their range"
+            }
             MotionErrorKind::BranchLeft => {
                 ": a step led beyond the place where the momenta p = ∂L/∂q̇ turn back"
             }

@@ -271,10 +271,8 @@ impl<R: Real> SeriesBuilder<R> {
     fn clear_balanced(&mut self, order: usize, terms: Option<&[f64]>) {
         for i in 0..self.inputs {
             let c = &mut self.state[i * (self.order + 1) + order];
-            let balanced = terms.is_none_or(|terms| {
-                let size = c.value().abs();
-                terms[i].is_finite() && size > 0.0 && size <= BALANCED * R::ROUNDING * terms[i]
-            });
+            let balanced =
+                terms.is_none_or(|terms| is_balanced(c.value().abs(), terms[i], R::ROUNDING));
             if self.steered[i] && balanced {
                 *c = R::ZERO;
             }
@@ -349,5 +347,26 @@ impl<R: Coefficient> Kernel for Grow<'_, R> {
             builder.continue_with::<FUSED>(k, clock)?;
         }
         Ok(())
+    }
+}
+
+/// Whether a coefficient of this size is rounding of what weights balance in it.
+fn is_balanced(size: f64, terms: f64, rounding: f64) -> bool {
+    terms.is_finite() && size > 0.0 && size <= BALANCED * rounding * terms
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_balanced;
+
+    #[test]
+    fn a_coefficient_is_rounding_up_to_sixty_four_digits_of_what_is_balanced() {
+        for terms in [1e-20, 1.0, 1e9] {
+            assert!(is_balanced(63.0 * f64::EPSILON * terms, terms, f64::EPSILON));
+            assert!(!is_balanced(65.0 * f64::EPSILON * terms, terms, f64::EPSILON));
+        }
+        // what is zero needs no clearing, and beside what is not finite nothing is known
+        assert!(!is_balanced(0.0, 1.0, f64::EPSILON));
+        assert!(!is_balanced(1.0, f64::INFINITY, f64::EPSILON));
     }
 }

@@ -37,6 +37,9 @@ const STUBBORN: f64 = 1e-20;
 /// at a fold of the relation.
 const SETTLED: f64 = 1e-15;
 
+/// A step this small relative to the numbers with which the iteration began moves nothing.
+const NOTHING: f64 = 1e-26;
+
 /// The program of the relation. It maps a state in the native form to the other rates, followed by
 /// the matrix of their derivatives with respect to the native ones.
 pub(super) fn program(builder: &mut ProgramBuilder<'_>) -> Result<Arc<Program>, Symbol> {
@@ -96,6 +99,8 @@ struct NewtonWorkspace {
     factored: Factored<DoubleDouble>,
     /// The sizes of the terms, at the beginning and at the end of a step, never at a distant trial point.
     scales: [Vec<f64>; 2],
+    /// The same where the iteration began.
+    first_scales: Vec<f64>,
     step: Vec<DoubleDouble>,
     missed: Vec<DoubleDouble>,
     next: Vec<DoubleDouble>,
@@ -108,6 +113,7 @@ impl NewtonWorkspace {
         NewtonWorkspace {
             factored: Factored::new(unknown),
             scales: [vec![0.0; unknown], vec![0.0; unknown]],
+            first_scales: vec![0.0; unknown],
             step: zeros.clone(),
             missed: zeros.clone(),
             next: zeros.clone(),
@@ -182,6 +188,7 @@ impl Legendre {
         let NewtonWorkspace {
             factored,
             scales: [scales, scales_there],
+            first_scales,
             step,
             missed,
             next,
@@ -189,6 +196,15 @@ impl Legendre {
         } = newton;
         let halvings = if self.near_only { FEW_HALVINGS } else { HALVINGS };
         self.missing(time, targets, unknown, scales, step)?;
+        first_scales.copy_from_slice(scales);
+        let sizes = unknown.iter().map(|&i| self.state[n + i].high.abs());
+        let first_size = sizes.fold(0.0, f64::max);
+        // a value that has come to nearly nothing is known to the digits of its terms, which the sizes of the terms do
+        // not show: e^v − 1
+        let is_nothing = |moved: f64, missed: &[DoubleDouble], first_scales: &[f64]| {
+            moved <= NOTHING * first_size && largest(missed, first_scales) <= ROUNDING
+        };
+        let mut moved = f64::INFINITY;
         let mut left = None;
         let mut last_change = f64::INFINITY;
         for _ in 0..STEPS {
@@ -223,6 +239,13 @@ impl Legendre {
                     }
                     break;
                 }
+                let whole = step.iter().fold(0.0_f64, |most, x| most.max(x.high.abs()));
+                if is_nothing(whole, missed, first_scales) {
+                    for (&x, &i) in before.iter().zip(unknown) {
+                        self.state[n + i] = x;
+                    }
+                    return Ok(left.unwrap_or(0.0));
+                }
                 if halving == halvings {
                     return Err(LegendreError::NotConverging);
                 }
@@ -240,7 +263,11 @@ impl Legendre {
                 return Ok(left.unwrap_or(0.0));
             }
             last_change = change;
+            moved = step.iter().fold(0.0_f64, |most, x| most.max((x.high * size).abs()));
             step.copy_from_slice(next);
+        }
+        if is_nothing(moved, step, first_scales) {
+            return Ok(left.unwrap_or(0.0));
         }
         Err(LegendreError::NotConverging)
     }

@@ -625,3 +625,29 @@ when = 't - 0.70000000000001'
     assert!((value(&beside, "x") - 0.4).abs() < 1e-13, "{}", value(&beside, "x"));
     assert!((value(&beside, "y") - 1.0).abs() < 1e-13);
 }
+
+/// An impulse after which nothing moves any more: e^v − 1 comes to nothing by cancellation, so that the residual of what it
+/// should be is rounding beside numbers that are no longer seen.
+#[test]
+fn an_impulse_may_stop_a_motion_whose_momentum_is_no_polynomial() {
+    let momenta: [(&str, fn(f64) -> f64); 4] = [
+        ("exp(x') - x'", |v| v.exp() - 1.0),
+        ("cosh(x') + x'*0.3", |v| v.sinh() + 0.3),
+        ("-sqrt(1 - x'^2)", |v| v / (1.0 - v * v).sqrt()),
+        ("exp(-3*x')/3 + x'", |v| 1.0 - (-3.0 * v).exp()),
+    ];
+    for (law, momentum) in momenta {
+        for velocity in [0.6, -0.45] {
+            let change = momentum(0.0) - momentum(velocity);
+            let text = format!(
+                "title = 'stopped'\n[coordinates]\nx = {{ initial = 0, velocity = {velocity} }}\n[lagrangian]\n\
+                 L = \"{law}\"\n[[impulses]]\nname = 'stop'\nat = 0.5\nchange = {{ p_x = '{change:?}' }}\n"
+            );
+            let mut body = file(&text);
+            run(&mut body, 1.0);
+            let (x, v) = (value(&body, "x"), value(&body, "x'"));
+            assert!(v.abs() < 1e-15, "{law} from {velocity}: {v:e}");
+            assert!((x - 0.5 * velocity).abs() < 1e-15, "{law} from {velocity}: {x}");
+        }
+    }
+}

@@ -14,6 +14,7 @@ use super::super::rows::{RowFormat, Rows};
 use super::super::stderr;
 use super::adiabatic::Adiabatic;
 use super::invariants::Departure;
+use super::outlook::Outlook;
 use super::progress::Bar;
 use super::times::Times;
 use super::{cautions, invariants};
@@ -36,6 +37,8 @@ pub(super) struct Run<'i> {
     pub(super) steps: u64,
     /// Whether a motion that violates its conservation laws is a failure.
     pub(super) strict: bool,
+    /// Whether it is given up where its steps are so short that it has no end.
+    pub(super) gives_up: bool,
     /// Where parameters are ramped, what the action variable is found by: with the first state.
     pub(super) adiabatic: Option<(Adiabatic, Arc<State>, System)>,
 }
@@ -136,10 +139,12 @@ impl Run<'_> {
     }
 
     fn rows(&mut self, table: &PendingRows) -> Result<(), EarlyEnd> {
-        let mut bar = Bar::new(self.times.start(), self.times.end());
+        let (start, end) = (self.times.start(), self.times.end());
+        let (mut bar, mut outlook) =
+            (Bar::new(start, end), Outlook::new(start, end, self.experiment.system().has_kinks()));
         let mut row = vec![0.0; self.columns + 1];
         for time in self.times.rows() {
-            self.reach(time, &mut bar)?;
+            self.reach(time, &mut bar, &mut outlook)?;
             row[0] = time;
             row[1..].copy_from_slice(&self.experiment.values()[..self.columns]);
             match &mut *table.rows() {
@@ -147,15 +152,14 @@ impl Run<'_> {
                 None => return self.interrupted(),
             }
         }
-        let end = self.times.end();
-        self.reach(end, &mut bar)
+        self.reach(end, &mut bar, &mut outlook)
     }
 
     fn interrupted(&self) -> Result<(), EarlyEnd> {
         self.interrupt.signal().map_or(Ok(()), |signal| Err(EarlyEnd::Signal(signal)))
     }
 
-    fn reach(&mut self, time: f64, bar: &mut Bar) -> Result<(), EarlyEnd> {
+    fn reach(&mut self, time: f64, bar: &mut Bar, outlook: &mut Outlook) -> Result<(), EarlyEnd> {
         loop {
             let begun = Instant::now();
             let progress = self.experiment.advance(time, self.steps);
@@ -176,6 +180,12 @@ impl Run<'_> {
             }
             if matches!(progress, AdvanceOutcome::Arrived | AdvanceOutcome::Ended) {
                 return Ok(());
+            }
+            let (time, steps) = self.experiment.computed();
+            if self.gives_up
+                && let Some(message) = outlook.see(time, steps)
+            {
+                return Err(EarlyEnd::Fault(experiment::Failure { time, message }));
             }
         }
     }

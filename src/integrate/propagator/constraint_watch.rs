@@ -137,7 +137,10 @@ impl Propagator {
                 | MotionErrorKind::NoSide
                 | MotionErrorKind::Sticks
         );
-        if !may_be_passed || self.system.cancel().is_cancelled() {
+        // trials leave impulses out
+        let of_impulse = matches!(fault.kind, MotionErrorKind::NoVelocities)
+            && !self.system.discontinuities().impulses.is_empty();
+        if !may_be_passed || of_impulse || self.system.cancel().is_cancelled() {
             return fault;
         }
         let is_singular = self.projector.as_mut().is_some_and(|projector| {
@@ -161,6 +164,7 @@ impl Propagator {
             None if self.method.stepping == Stepping::Fixed => {
                 let kind = match fault.kind {
                     MotionErrorKind::NotFinite(name) => MotionErrorKind::NotFiniteInStep(name),
+                    MotionErrorKind::NoVelocities => MotionErrorKind::NoVelocitiesInStep,
                     MotionErrorKind::ConstraintLost(name) => {
                         MotionErrorKind::ConstraintLostInStep(name)
                     }

@@ -69,7 +69,12 @@ pub(super) fn is_exact(
     let size = largest_term(coefficients, after);
     let (_, slope) = value_and_slope(coefficients, after);
     let value = rates.guard(passing.guard);
-    value.is_nan() || value <= (ZERO * size).max(slope.abs() * within)
+    value.is_nan() || is_zero(value, size, slope * within)
+}
+
+/// Whether a root is zero, beside terms of this size and its change in a time that does not count.
+fn is_zero(value: f64, size: f64, change: f64) -> bool {
+    value <= (ZERO * size).max(change.abs())
 }
 
 /// Whether some root deviates from its series a time `after` the origin, in its unit, at a state
@@ -120,7 +125,22 @@ fn polish(series: &Series, guard: usize, x: f64) -> DoubleDouble {
 
 #[cfg(test)]
 mod tests {
-    use super::passes;
+    use super::{is_zero, passes};
+
+    #[test]
+    fn a_root_is_zero_to_the_rounding_of_its_terms_or_within_the_time_that_does_not_count() {
+        for (value, size, change, zero) in [
+            (0.0, 0.0, 0.0, true),
+            (2.9e-15, 1.0, 0.0, true),
+            (3.1e-15, 1.0, 0.0, false),
+            (2.9e-5, 1e10, 0.0, true),
+            (3.1e-5, 1e10, 0.0, false),
+            (0.9e-7, 1.0, -1e-7, true),
+            (1.1e-7, 1.0, 1e-7, false),
+        ] {
+            assert_eq!(is_zero(value, size, change), zero, "{value:e} of {size:e}, {change:e}");
+        }
+    }
 
     #[test]
     fn a_root_that_stays_above_a_fifth_of_its_largest_is_not_looked_at() {

@@ -225,7 +225,7 @@ impl CollocationStep {
             if i >= self.moving {
                 size = size.max(self.integral_after(&start, i, wanted / step));
             }
-            (self.two[i] - whole[i]).high.abs() <= AGREEMENT * size
+            is_same(self.two[i] - whole[i], size)
         }))
     }
 
@@ -348,4 +348,29 @@ impl CollocationStep {
 
 fn numbers_of(state: &State) -> Vec<DoubleDouble> {
     (0..state.values.len()).map(|i| state.exact(i)).collect()
+}
+
+/// Whether two ways of taking a step differ by nothing that counts beside a number of this size.
+fn is_same(difference: DoubleDouble, size: f64) -> bool {
+    difference.high.abs() <= AGREEMENT * size
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_ways_of_taking_a_step_agree_to_1e_18_of_each_number() {
+        for size in [1e-30, 1.0, 1e12] {
+            for (part, same) in
+                [(0.9e-18, true), (-0.9e-18, true), (1.1e-18, false), (-1.1e-18, false)]
+            {
+                assert_eq!(
+                    is_same(DoubleDouble::from(part * size), size),
+                    same,
+                    "{part:e} of {size:e}"
+                );
+            }
+        }
+    }
 }

@@ -109,7 +109,7 @@ pub(super) fn set_out(
     let Some(state) = trial.first_step(FIRST * stride)? else { return Ok(None) };
     let none = vec![DoubleDouble::ZERO; still.values.len()];
     let (from, length) = (still.clone(), stride.abs());
-    let mut still = Still::new(from, none, (n, size, length));
+    let mut still = Still::new(from, none, (n, system.moving()), (size, length));
     let state = still.begin(rates, (onset, state), limit)?;
     Ok(Some((still, state)))
 }
@@ -143,6 +143,6 @@ fn carried(
     }
     let known = rates.iter().all(|x| x.is_finite());
     let (from, degrees) = (trial.still, trial.n);
-    let still = Still::new(from, rates, (degrees, size, stride));
+    let still = Still::new(from, rates, (degrees, moving), (size, stride));
     Ok(if known { Sticking::Stays(still) } else { Sticking::Unknown })
 }

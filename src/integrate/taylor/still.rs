@@ -28,6 +28,8 @@ pub(super) struct Still {
     /// The rates of all numbers at rest, zero except for the auxiliary numbers and integrals.
     rates: Vec<DoubleDouble>,
     degrees: usize,
+    /// The place of the first auxiliary number.
+    moving: usize,
     /// The size of the trial velocities.
     size: f64,
     /// The length of a step within which the forces are followed in time.
@@ -41,13 +43,15 @@ pub(super) struct Still {
 
 impl Still {
     /// A motion at rest at a state, with the rates of its auxiliary numbers; the number of degrees of
-    /// freedom, the size of trial velocities, the length of a typical step.
+    /// freedom and the place of the first auxiliary number, the size of trial velocities, the length of a
+    /// typical step.
     pub(super) fn new(
         from: State,
         rates: Vec<DoubleDouble>,
-        (degrees, size, stride): (usize, f64, f64),
+        (degrees, moving): (usize, usize),
+        (size, stride): (f64, f64),
     ) -> Still {
-        Still { from, rates, degrees, size, stride, next: stride, onset: None, over: false }
+        Still { from, rates, degrees, moving, size, stride, next: stride, onset: None, over: false }
     }
 
     /// Whether the motion has started at the end of the last step.
@@ -161,22 +165,21 @@ impl Still {
         }
         let mut state = self.from.clone();
         let after = time - self.from.exact_time();
-        let carried: Vec<usize> =
-            (0..self.rates.len()).filter(|&i| self.rates[i] != DoubleDouble::ZERO).collect();
+        let carried = self.moving..self.rates.len();
         if !rates.depends_on_time() {
-            for &i in &carried {
+            for i in carried {
                 state.set(i, state.exact(i) + self.rates[i] * after);
             }
         } else if !carried.is_empty() {
+            // also what has no rate where the rest began: the work of a force that is zero there
             let pieces = (after.high.abs() / self.stride * f64::from(CHECKS)).ceil().max(1.0);
             let half = after * (0.5 / pieces);
             for k in 0..pieces as u32 {
                 let middle = self.from.exact_time() + half * f64::from(2 * k + 1);
                 for (place, weight) in POINTS {
-                    let there = self.barely_moving();
-                    rates.evaluate(middle + half * place, &there)?;
-                    for &i in &carried {
-                        state.set(i, state.exact(i) + half * weight * rates.rate(i));
+                    let sums = self.rates_at_rest(rates, middle + half * place)?;
+                    for (i, rate) in carried.clone().zip(sums) {
+                        state.set(i, state.exact(i) + half * weight * rate);
                     }
                 }
             }
@@ -185,11 +188,26 @@ impl Still {
         Ok(state)
     }
 
-    /// The numbers at rest, except for one small velocity, since friction has no value at rest.
-    fn barely_moving(&self) -> Vec<DoubleDouble> {
+    /// The rates of the auxiliary numbers at rest, at a time: those of two small velocities, less what is
+    /// proportional to these, since friction has no value at rest.
+    fn rates_at_rest(
+        &self,
+        rates: &mut ExactRates,
+        time: DoubleDouble,
+    ) -> Result<Vec<DoubleDouble>, MotionError> {
+        let mut at = |size: f64| -> Result<Vec<DoubleDouble>, MotionError> {
+            rates.evaluate(time, &self.barely_moving(size))?;
+            Ok((self.moving..self.rates.len()).map(|i| rates.rate(i)).collect())
+        };
+        let (faster, slower) = (at(self.size)?, at(0.5 * self.size)?);
+        Ok(faster.into_iter().zip(slower).map(|(fast, slow)| slow + slow - fast).collect())
+    }
+
+    /// The numbers at rest, except for one small velocity.
+    fn barely_moving(&self, size: f64) -> Vec<DoubleDouble> {
         let mut numbers: Vec<DoubleDouble> =
             (0..self.from.values.len()).map(|i| self.from.exact(i)).collect();
-        numbers[self.degrees] = numbers[self.degrees] + DoubleDouble::from(self.size);
+        numbers[self.degrees] = numbers[self.degrees] + DoubleDouble::from(size);
         numbers
     }
 }

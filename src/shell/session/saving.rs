@@ -102,15 +102,22 @@ impl Session {
         first.map_or(Ok(()), Err)
     }
 
-    /// Whether the program may end. It may not before the user has been warned of the loss of a text.
+    /// Whether the program may end. It may not before the user has been warned of the loss of a text. A text that has
+    /// its file outlives the program, so the disk is not waited for.
     pub(super) fn may_end(&mut self) -> bool {
         if !self.app.workbench.keeps || self.app.unsaved().is_empty() {
             return true;
+        }
+        if let Some(store) = &self.store {
+            store.hurry(true);
         }
         if let Err(error) = self.keep_within(UNHURRIED) {
             error!("{error}");
         }
         if !self.app.workbench.keeps {
+            if let Some(store) = &self.store {
+                store.hurry(false);
+            }
             self.app.stay();
         }
         self.app.workbench.keeps

@@ -255,3 +255,27 @@ fn a_generator_that_is_typed_or_of_the_file_carries_the_state() {
     let Some(Overlay::Field(field)) = &real.app.overlay else { panic!("no field") };
     assert!(field.diagnostic.as_ref().is_some_and(|why| why.contains("unknown name `y`")));
 }
+
+/// The flow of a constant in whose formula numbers of the file stand, found as if they were parameters.
+#[test]
+fn a_flow_knows_the_numbers_that_were_searched_as_parameters() {
+    let mut real = Real::with(lowered(
+        "title = \"Kepler\"\n[coordinates]\nx = { initial = 1.0, momentum = 0.0 }\n\
+         y = { initial = 0.0, momentum = 1.0931e-30 }\n[hamiltonian]\n\
+         H = \"1/2*(p_x^2 + p_y^2)/9.1093837e-31 - 1.1204542e-30/sqrt(x^2 + y^2)\"\n",
+    ));
+    real.press("2");
+    let pool = &real.lab().findings().unwrap().unwrap().equations.pool;
+    let all: Vec<String> = real.lab().flows().into_iter().map(|(_, e)| pool.unicode(e)).collect();
+    let vector = all.iter().find(|text| text.contains("p_x p_y") && text.contains('√'));
+    let vector = vector.unwrap_or_else(|| panic!("no Runge–Lenz vector among {all:?}")).clone();
+    assert!(vector.contains("10⁻³⁰") || vector.contains("10⁻³¹"), "{vector}");
+    let before = ["x", "y", "energy"].map(|name| value(&real, name));
+    apply(&mut real, &vector, "0.001");
+    let notice = real.app.notice.as_ref().map(|n| n.text.clone()).unwrap_or_default();
+    let after = ["x", "y", "energy"].map(|name| value(&real, name));
+    let moved = (after[0] - before[0]).hypot(after[1] - before[1]);
+    assert!(moved > 1e-4, "{vector}: {before:?} {after:?} {notice}");
+    let kept = (after[2] - before[2]).abs() < 1e-12 * before[2].abs();
+    assert!(kept, "{vector}: {before:?} {after:?} {notice}");
+}

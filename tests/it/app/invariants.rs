@@ -155,3 +155,27 @@ fn what_cannot_be_searched_says_why() {
     assert!(why.contains("no search is made through `abs`"), "{why}");
     real.press("I 1 2 B B");
 }
+
+/// Numbers in units of SI are no short fractions, and their products are rounded: what is searched takes them as it takes
+/// parameters of the same values.
+#[test]
+fn numbers_of_the_file_are_searched_like_parameters() {
+    let head = "title = \"Hydrogen\"\n[coordinates]\nx = { initial = 5.29e-11, momentum = 0.0 }\n\
+                y = { initial = 0.0, momentum = 1.7e-24 }\n";
+    let law = "[hamiltonian]\nH = \"(p_x^2 + p_y^2)/(2*M) - K/sqrt(x^2 + y^2)\"\n";
+    let literals = law.replace('M', "9.1093837e-31").replace('K', "2.3070775e-28");
+    let named = format!("{head}[parameters]\nM = 9.1093837e-31\nK = 2.3070775e-28\n{law}");
+    let of = |text: &str| {
+        let mut real = Real::with(lowered(text));
+        real.press("2");
+        let gauges: Vec<(String, bool)> =
+            found(&real).into_iter().map(|g| (g.reason, g.proved)).collect();
+        let told = summary(&real.app);
+        (told, gauges)
+    };
+    let by_name = of(&named);
+    assert!(by_name.0.starts_with("superintegrable: 3 independent"), "{by_name:?}");
+    let literal = of(&format!("{head}{literals}"));
+    assert_eq!(literal, by_name);
+    assert!(literal.1.iter().all(|(_, proved)| *proved), "{literal:?}");
+}

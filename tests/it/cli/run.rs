@@ -618,3 +618,26 @@ fn stability_is_judged_beside_a_kink() {
         assert!(!unstable(method, "1", wall), "{method} away from the wall");
     }
 }
+
+/// A body left on a kink with a velocity of 1e-10 meets it every 2e-10, and would do so fifty thousand million times.
+#[test]
+fn a_run_from_kink_to_kink_that_has_no_end_is_given_up_with_its_rows() {
+    let wedge = |velocity: &str, step: &str| {
+        format!(
+            "title = \"Wedge\"\n[coordinates]\nx = {{ initial = 0, velocity = {velocity} }}\n\
+             [lagrangian]\nL = \"1/2*x'^2 - abs(x)\"\n[run]\n{step}"
+        )
+    };
+    for method in ["taylor", "rk4"] {
+        let words = ["run", "system.toml", "--method", method, "--at", "0,1e-8,10"];
+        let done = with_file(&wedge("1e-10", ""), &words);
+        assert_eq!(done.code, 1, "{method}: {}", done.stderr);
+        assert!(done.stderr.contains("from one kink to the next"), "{}", done.stderr);
+        assert!(done.stdout.contains("\n1e-8,"), "{}", done.stdout);
+    }
+    // this one has an end, and at rest on the kink nothing is ever to be done
+    for velocity in ["1e-3", "0"] {
+        let done = with_file(&wedge(velocity, ""), &["run", "system.toml", "--at", "0,1,10"]);
+        assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{velocity}");
+    }
+}

@@ -361,3 +361,15 @@ fn rotation_numbers_are_those_of_closed_forms() {
     let wrong = with_file(text, &["section", "./system.toml", "--on=x", "--rotation=y"]);
     assert!(wrong.code == 2 && wrong.stderr.contains("has no period"), "{}", wrong.stderr);
 }
+
+/// An orbit that never crosses is not followed for more than a hundred thousand steps, whatever the method.
+#[test]
+fn an_orbit_that_crosses_no_more_is_given_up() {
+    let text = "title = \"Far\"\n[coordinates]\nx = { initial = 1, velocity = 0 }\n[lagrangian]\n\
+                L = \"1/2*x'^2 - 1/2*x^2\"\n";
+    for method in ["taylor", "rk4"] {
+        let words = ["section", "system.toml", "--on", "x - 2", "--method", method];
+        let done = with_file(text, &words);
+        assert!(done.text().contains("no crossing in 100000 steps"), "{method}");
+    }
+}

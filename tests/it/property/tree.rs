@@ -152,6 +152,13 @@ impl Smooth {
     }
 }
 
+/// ln(cosh(u)) and its derivatives, also where the cosine overflows.
+fn ln_cosh(u: f64) -> [f64; 3] {
+    let tail = (-2.0 * u.abs()).exp();
+    let slope = u.tanh();
+    [u.abs() + tail.ln_1p() - std::f64::consts::LN_2, slope, 4.0 * tail / (1.0 + tail).powi(2)]
+}
+
 impl Kinked {
     /// The values on the branch above zero or below; a branch continues beyond the kink.
     fn values(self, u: f64, above: bool) -> [f64; 3] {
@@ -217,6 +224,10 @@ impl Tree {
                 ])
             }
             Tree::Smooth(function, argument) => {
+                if let (Smooth::Ln, Tree::Smooth(Smooth::Cosh, inner)) = (function, &**argument) {
+                    let inner = inner.jet(point, branches);
+                    return inner.chain(ln_cosh(inner.value));
+                }
                 let argument = argument.jet(point, branches);
                 argument.chain(function.values(argument.value))
             }

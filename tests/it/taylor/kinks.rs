@@ -1,5 +1,7 @@
 //! Kinks, compared with closed forms composed of pieces.
 
+use phaselab::diagnostic::Document;
+use phaselab::experiment::Prepared;
 use phaselab::integrate::{METHODS, Settings};
 use phaselab::num::DoubleDouble;
 
@@ -262,6 +264,49 @@ fn rest_under_friction_ends_when_the_force_says_however_far_the_end_of_the_run_i
         run.stepper.at(2.0, &mut state).unwrap();
         // the numbers of `a_force_that_turns_sets_a_body_in_motion_against_dry_friction`
         near(&state.values[..2], &[0.043_977_287_439_496_93, -0.005_638_639_436_022_64], 4e-17);
+    }
+}
+
+/// In the plane along a line, where all is as on the line: a block dragged by a spring, whose end moves evenly. The spring's
+/// work is zero where the rest begins and not on the way, and places count as soon as it moves: it sets out at 3/8 with
+/// x'' = 0.8 τ − 4 x, so that x' = (1 − cos 2τ)/5.
+#[test]
+fn a_block_that_is_dragged_sets_out_as_on_a_line() {
+    for (x, y) in [("x", "y"), ("y", "x")] {
+        let mut run = Run::new(&format!(
+            "title = \"Dragged\"\n[coordinates]\nx = {{ initial = 0 }}\ny = {{ initial = 0 }}\n\
+             [lagrangian]\nL = \"1/2*(x'^2 + y'^2) - 2*(({x} - 0.2*t)^2 + {y}^2)\"\n\
+             dissipation = \"0.3*sqrt(x'^2 + y'^2)\"\n"
+        ));
+        let place = usize::from(x == "y");
+        for t in [0.3_f64, 0.376, 0.38, 0.4, 0.5, 1.0] {
+            let tau = (t - 0.375).max(0.0);
+            let (v, moved) =
+                ((1.0 - (2.0 * tau).cos()) / 5.0, tau / 5.0 - (2.0 * tau).sin() / 10.0);
+            let found = run.to(t);
+            near(&[found[place], found[place + 2]], &[moved, v], 1e-15);
+            near(&[found[1 - place], found[3 - place]], &[0.0, 0.0], 1e-25);
+        }
+    }
+}
+
+/// Friction at rest does no work, and what drags it does: the energy balance holds, also where it is zero at first.
+#[test]
+fn the_energy_of_what_drags_a_block_at_rest_is_its_work() {
+    for start in ["0", "1e-3", "-0.02"] {
+        let text = format!(
+            "title = \"Dragged\"\n[coordinates]\nx = {{ initial = {start} }}\ny = {{ initial = 0 }}\n\
+             [lagrangian]\nL = \"1/2*(x'^2 + y'^2) - 2*((x - 0.2*t)^2 + y^2)\"\n\
+             dissipation = \"0.3*sqrt(x'^2 + y'^2)\"\n"
+        );
+        for end in [0.2, 1.0, 6.0] {
+            let mut ready = Prepared::of(&Document::new("dragged.toml", text.clone())).unwrap();
+            ready.experiment.advance(end, u64::MAX);
+            let gauges = ready.experiment.snapshot().gauges;
+            let balance = gauges.iter().find(|g| g.name == "energy balance").expect("a gauge");
+            let (drift, word) = (balance.max_drift, balance.verdict.word());
+            assert!(drift < 1e-13, "from {start} to {end}: {drift}, {word}");
+        }
     }
 }
 
