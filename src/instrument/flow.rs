@@ -12,8 +12,10 @@ use super::{
     Physics, Picture, Plot, Present, Upwards,
 };
 use crate::dynamics::{FlowMoment, PhaseSpace, flow_course};
+use crate::expr::Expr;
 use crate::integrate::{Method, Settings, method_named};
 use crate::job::{Job, Progress};
+use crate::model::Model;
 use crate::num::{math, significant};
 use crate::system::State;
 
@@ -87,7 +89,13 @@ impl Instrument for FlowPlot {
     }
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
-        let entries = vec![Entry::Words(format!("M = ∂η(t)/∂η(0) by {}", present.method))];
+        let mut entries = vec![Entry::Words(format!("M = ∂η(t)/∂η(0) by {}", present.method))];
+        if present.method != EXACT && only_h_acts(present.physics.model) {
+            entries = vec![
+                Entry::Key(Ink::Curve(0), present.method.to_owned()),
+                Entry::Key(Ink::Curve(1), "exact flow".to_owned()),
+            ];
+        }
         Some(plot.heading(present.physics, "Flow map", entries))
     }
 
@@ -198,6 +206,12 @@ impl Instrument for FlowPlot {
             },
         ]
     }
+}
+
+/// Whether nothing but H acts, so that two curves are drawn.
+fn only_h_acts(model: &Model) -> bool {
+    let forces = model.mechanics.forces();
+    model.mechanics.dissipation() == Expr::ZERO && forces.iter().all(|&e| e == Expr::ZERO)
 }
 
 /// Follows the motion to a time, by its method and, where that is another one, by the exact one.
