@@ -16,7 +16,5 @@ pub use angle::angle;
 pub use effective_potential::{AllowedInterval, EffectivePotential};
 pub use held::{HeldMotion, HeldSystem, NotHeld, OwnMotion};
 pub use moment::AngleMoment;
-pub use row::{
-    ActionRow, ActionSystems, NoAction, RegionKind, action_between, action_row, cyclic_row,
-};
+pub use row::{ActionRow, ActionSystems, NoAction, RegionKind, action_row, cyclic_row};
 pub use separatrix::Separatrix;

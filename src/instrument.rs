@@ -14,6 +14,7 @@ mod diagram;
 mod ensemble;
 mod equilibria;
 mod exponents;
+mod flow;
 mod kind;
 mod legendre;
 mod map;

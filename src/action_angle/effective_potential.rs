@@ -318,6 +318,11 @@ impl<'a> EffectivePotential<'a> {
         lobes
     }
 
+    /// Whether two energies are the same to rounding.
+    pub fn is_same_energy(&self, one: f64, other: f64) -> bool {
+        (one - other).abs() <= NOISE * (other.abs() + self.height)
+    }
+
     /// Whether an energy is that of a separatrix that ends a region, whose motion there takes for ever.
     pub fn is_separatrix(&self, region: AllowedInterval, energy: f64) -> bool {
         let noise = NOISE * (energy.abs() + self.height);

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 
 use super::{
     ActionRow, ActionSystems, AllowedInterval, EffectivePotential, NoAction, RegionKind,
-    Separatrix, action_between, action_row, angle,
+    Separatrix, action_row, angle,
 };
 use crate::cancel::Cancel;
 use crate::ensemble::{Start, add_section};
@@ -252,20 +252,7 @@ impl HeldMotion<'_> {
     /// # Errors
     /// Returns an error if a lobe has no momentum somewhere.
     pub fn separatrices(&mut self) -> Result<Vec<Separatrix>, NoAction> {
-        let mut all = Vec::new();
-        for top in self.potential.tops() {
-            let mut actions = Vec::new();
-            for lobe in self.potential.lobes(top) {
-                actions.push(match (lobe.left, lobe.right) {
-                    (Some(left), Some(right)) => {
-                        action_between(&mut self.potential, left, right, top[1])?
-                    }
-                    _ => f64::INFINITY,
-                });
-            }
-            all.push(Separatrix::of(&self.potential, top, actions));
-        }
-        Ok(all)
+        Ok(Separatrix::all(&mut self.potential, || false)?)
     }
 
     /// The least energy of the coordinate.

@@ -172,10 +172,12 @@ fn libration(
         let (kind, period) = (RegionKind::Libration, f64::INFINITY);
         return Ok(ActionRow { energy, kind, turning_points, action, period, mean_rate: None });
     }
-    let start = potential.at_rest(left);
+    let from = flatter_end(potential, [left, right]);
+    let start = potential.at_rest(from);
     let one = systems.turning.degrees() == 1;
     let found = follow(systems, (systems.turning, systems.turns), &start, 2)?;
-    for (row, expected) in found.iter().zip([right, left]) {
+    let other = if from == left { right } else { left };
+    for (row, expected) in found.iter().zip([other, from]) {
         let place = row[systems.column];
         if (place - expected).abs() > RETURNS * (right - left) {
             return Err(if one {
@@ -191,7 +193,7 @@ fn libration(
     } else {
         action_between(potential, left, right, energy)?
     };
-    let period = located + late(potential, systems, &start, &found, ([left, right], action))?;
+    let period = located + late(potential, systems, &start, &found, (from, other, action))?;
     let turning_points = vec![left, right];
     let kind = RegionKind::Libration;
     Ok(ActionRow { energy, kind, turning_points, action, period, mean_rate: None })
@@ -204,20 +206,31 @@ fn late(
     systems: &ActionSystems<'_>,
     start: &Start,
     found: &[Vec<f64>],
-    ([left, right], action): ([f64; 2], f64),
+    (from, other, action): (f64, f64, f64),
 ) -> Result<f64, NoAction> {
     let kind = potential.momentum();
     let column = systems.turning.channels().iter().position(|channel| channel.kind == kind);
     let (Some(column), Some(row)) = (column, found.last()) else { return Ok(0.0) };
     let begun = potential.observed(start, kind).map_err(NotOnShell::from)?;
     let missing = begun - row[1 + column];
-    let typical = 0.5 * action.abs() / (right - left);
+    let width = (other - from).abs();
+    let typical = 0.5 * action.abs() / width;
     if missing.abs() <= MULTIPLE_ZERO * typical {
         return Ok(0.0);
     }
-    let step = SLOPE_STEP * (right - left);
-    let slope = (potential.at(left + step) - potential.at(left - step)) / (2.0 * step);
+    let step = SLOPE_STEP * width;
+    let slope = (potential.at(from + step) - potential.at(from - step)) / (2.0 * step);
     Ok(-missing / slope)
+}
+
+/// The end of a region from which the motion sets out: that at which the rounding of the place changes the energy by much less, or
+/// the left one. Next to a separatrix the period is the logarithm of a difference of energies.
+fn flatter_end(potential: &mut EffectivePotential<'_>, [left, right]: [f64; 2]) -> f64 {
+    let step = SLOPE_STEP * (right - left);
+    let mut change =
+        |place: f64, inside: f64| ((potential.at(inside) - potential.at(place)) * place).abs();
+    let is_flatter = change(right, right - step) < 0.1 * change(left, left + step);
+    if is_flatter { right } else { left }
 }
 
 /// The row of a cyclic coordinate while another one librates: the action is its momentum times a turn, and the frequency
@@ -324,7 +337,7 @@ fn end(found: &[Vec<f64>]) -> (f64, f64) {
 ///
 /// # Errors
 /// Returns an error if there is no state in between.
-pub fn action_between(
+pub(super) fn action_between(
     potential: &mut EffectivePotential<'_>,
     left: f64,
     right: f64,

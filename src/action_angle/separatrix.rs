@@ -1,9 +1,11 @@
-//! A separatrix: a top of the effective potential with ∮ p dq of its lobes, of libration below it and of a turn above it.
+//! A separatrix: tops of the effective potential with ∮ p dq of their lobes, of libration below it and of a turn above it.
 //!
-//! In: a top, and the actions of its lobes. Out: [`Separatrix`]. Never here: how an action is computed.
+//! In: an effective potential. Out: [`Separatrix`]. Never here: how an action is computed.
 //! Source: *The Principles of Dynamics*, § 4.2.
 
-use super::EffectivePotential;
+use super::row::action_between;
+use super::{AllowedInterval, EffectivePotential};
+use crate::ensemble::NotOnShell;
 
 /// A separatrix, and ∮ p dq of each of its lobes, from left to right; of a coordinate with a period, of one turn.
 #[derive(Clone, PartialEq, Debug)]
@@ -16,16 +18,70 @@ pub struct Separatrix {
     pub turn: Option<f64>,
 }
 
+/// The lobes of tops of the same energy that are connected with each other.
+struct Lobes {
+    energy: f64,
+    lobes: Vec<AllowedInterval>,
+}
+
 impl Separatrix {
-    /// The separatrix of a top with the actions of its lobes.
-    pub fn of(
-        potential: &EffectivePotential<'_>,
-        [_, energy]: [f64; 2],
-        actions: Vec<f64>,
-    ) -> Separatrix {
-        let highest = potential.tops().iter().all(|other| other[1] <= energy);
-        let turns = potential.period().is_some() && highest && actions.len() == 1;
-        let turn = actions.first().filter(|_| turns).map(|action| 0.5 * action);
-        Separatrix { energy, actions, turn }
+    /// The separatrices, from left to right; those found before `stop` if that asks for an end.
+    ///
+    /// # Errors
+    /// Returns an error if a lobe has no momentum somewhere.
+    pub fn all(
+        potential: &mut EffectivePotential<'_>,
+        mut stop: impl FnMut() -> bool,
+    ) -> Result<Vec<Separatrix>, NotOnShell> {
+        let mut all = Vec::new();
+        for Lobes { energy, lobes } in connected(potential) {
+            let mut actions = Vec::new();
+            for lobe in &lobes {
+                actions.push(match (lobe.left, lobe.right) {
+                    (Some(left), Some(right)) => action_between(potential, left, right, energy)?,
+                    _ => f64::INFINITY,
+                });
+                if stop() {
+                    return Ok(all);
+                }
+            }
+            let turn = is_of_rotation(potential, energy).then(|| 0.5 * actions.iter().sum::<f64>());
+            all.push(Separatrix { energy, actions, turn });
+        }
+        Ok(all)
     }
+}
+
+/// The lobes of each top; tops of the same energy that share a lobe have one separatrix. The lobes of the highest tops of a
+/// period fill it, since it begins at such a top.
+fn connected(potential: &mut EffectivePotential<'_>) -> Vec<Lobes> {
+    let mut all: Vec<Lobes> = Vec::new();
+    for top in potential.tops() {
+        let mut lobes = potential.lobes(top);
+        if let Some(last) = all.last_mut()
+            && potential.is_same_energy(last.energy, top[1])
+            && let (Some(before), Some(first)) = (last.lobes.last(), lobes.first())
+            && is_same_lobe(*before, *first)
+        {
+            last.energy = last.energy.max(top[1]);
+            last.lobes.extend(lobes.drain(1..));
+        } else {
+            all.push(Lobes { energy: top[1], lobes });
+        }
+    }
+    all
+}
+
+/// Whether two lobes have the same ends, to what is known of the place of a top.
+fn is_same_lobe(one: AllowedInterval, other: AllowedInterval) -> bool {
+    let ends = [one.left.zip(other.left), one.right.zip(other.right)];
+    let width = one.left.zip(one.right).map_or(0.0, |(left, right)| right - left);
+    ends.iter().all(|end| end.is_some_and(|(a, b)| (a - b).abs() <= 1e-4 * width))
+}
+
+/// Whether beyond an energy the coordinate goes round and round.
+fn is_of_rotation(potential: &EffectivePotential<'_>, energy: f64) -> bool {
+    let tops = potential.tops();
+    let is_below = |other: f64| other <= energy || potential.is_same_energy(other, energy);
+    potential.period().is_some() && tops.iter().all(|top| is_below(top[1]))
 }

@@ -93,6 +93,11 @@ impl App {
 }
 
 impl Lab {
+    /// Whether the motion waits for the law with a ramp that was typed.
+    pub fn waits_for_law(&self) -> bool {
+        self.held.is_some()
+    }
+
     /// Lets the motion continue from what is seen, once the law with the ramp is there: the ramp begins at that very time, so
     /// that nothing jumps.
     fn hold_for_ramp(&mut self) {

@@ -16,7 +16,7 @@ use super::output::Output;
 use super::section::surface;
 use crate::action_angle::{
     ActionRow, ActionSystems, AllowedInterval, EffectivePotential, NoAction, RegionKind,
-    Separatrix, action_between, action_row, cyclic_row,
+    Separatrix, action_row, cyclic_row,
 };
 use crate::diagnostic::nearest;
 use crate::ensemble::add_section;
@@ -103,22 +103,11 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
             rows.push(row.map_err(|why| could_not(why.to_string()))?);
         }
     }
-    let mut separatrices = Vec::new();
-    let tops = potential.tops();
-    'tops: for top in tops.into_iter().filter(|_| along.is_none()) {
-        let mut actions = Vec::new();
-        for lobe in potential.lobes(top) {
-            let action = match (lobe.left, lobe.right) {
-                (Some(left), Some(right)) => action_between(&mut potential, left, right, top[1]),
-                _ => Ok(f64::INFINITY),
-            };
-            if interrupt.signal().is_some() {
-                break 'tops;
-            }
-            actions.push(action.map_err(|why| could_not(why.to_string()))?);
-        }
-        separatrices.push(Separatrix::of(&potential, top, actions));
-    }
+    let separatrices = match along {
+        None => Separatrix::all(&mut potential, || interrupt.signal().is_some())
+            .map_err(|why| could_not(why.to_string()))?,
+        Some(_) => Vec::new(),
+    };
     if let Some(signal) = interrupt.signal().filter(|_| rows.is_empty()) {
         return Err(CommandError::Signal(signal));
     }

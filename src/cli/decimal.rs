@@ -25,6 +25,11 @@ pub(super) fn push_shortest(out: &mut String, x: f64) {
     }
 }
 
+/// An error or a residual to two digits; 0 where there is none.
+pub(super) fn magnitude(x: f64) -> String {
+    if x == 0.0 { "0".to_owned() } else { format!("{x:.1e}") }
+}
+
 /// The times `start, start + every, …` up to `until`. They are computed in exact decimals, so that
 /// the third multiple of 0.1 is 0.3 and the last one is not lost to rounding.
 pub(super) fn multiples(start: f64, every: f64, until: f64) -> impl Iterator<Item = f64> + Clone {

@@ -3,6 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::assignment::number;
+use super::decimal::magnitude;
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::run::progress::Bar;
@@ -94,7 +95,8 @@ fn text(study: &Study, map: &FlowMap) -> String {
             "|M𝕁Mᵀ − 𝕁|"
         };
         text.push_str(&format!(
-            "largest entry of {form}: {residual:.1e}, of which rounding may be {rounding:.0e}\n"
+            "largest entry of {form}: {}, of which rounding may be {rounding:.0e}\n",
+            magnitude(residual)
         ));
     }
     text

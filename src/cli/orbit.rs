@@ -252,7 +252,7 @@ fn text(study: &Study, orbit: &Orbit) -> String {
     }
     text.push_str(&format!("start    {}\n", start.join(", ")));
     let only = if orbit.closes_to_rounding { "" } else { " (larger than rounding explains)" };
-    text.push_str(&format!("closure  {:.1e}{only}\n", orbit.closure));
+    text.push_str(&format!("closure  {}{only}\n", decimal::magnitude(orbit.closure)));
     text.push_str("\nmultipliers\n");
     let rows = multiplier_rows(orbit);
     let widest = rows.iter().map(|(value, _)| value.chars().count()).max().unwrap_or(0);

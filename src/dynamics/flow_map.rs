@@ -14,7 +14,7 @@ use nalgebra::DMatrix;
 use super::amplified_rounding::{AmplifiedRounding, MapRounding};
 use super::carrier::Carrier;
 use super::error::DynamicsError;
-use super::phase_space::PhaseSpace;
+use super::phase_space::{PhaseSpace, VectorField};
 
 use crate::integrate::{Method, Settings, Stepping};
 use crate::num::{gauss, math};
@@ -82,9 +82,8 @@ pub fn flow_map(
     let mut carrier = Carrier::new(space, method, settings, n)?;
     let (allowed, dimension) = space.allowed_displacements(start)?;
     carrier.start(start, &allowed)?;
-    let rule = gauss(if method.stepping == Stepping::Fixed { FEW_NODES } else { NODES });
     let free = !space.is_constrained();
-    let mut field = (free && !space.is_hamiltonian()).then(|| space.vector_field());
+    let mut divergence = free.then(|| Divergence::of(space, method));
     let canonical = free && space.form() == crate::system::Form::Momentum;
     let mut rounding = free.then(|| AmplifiedRounding::new(n));
     let forwards = until >= start.time;
@@ -96,13 +95,8 @@ pub fn flow_map(
         }
         let (begin, end) = carrier.interval();
         let end = if (end < until) == forwards { end } else { until };
-        if let Some(field) = &mut field {
-            for &(part, weight) in &rule {
-                let now = begin + part * (end - begin);
-                let (state, _) = carrier.at(now)?;
-                field.evaluate(now, space.variables(&state))?;
-                logarithm += weight * (end - begin) * field.derivative().trace();
-            }
+        if let Some(divergence) = &mut divergence {
+            logarithm += divergence.along(space, &mut carrier, [begin, end])?;
         }
         time = end;
         if let Some(rounding) = &mut rounding {
@@ -149,6 +143,42 @@ pub fn flow_map(
         settings: carrier.settings(),
         failure,
     })
+}
+
+/// The divergence of the rates along a motion, by which the volume of phase space changes.
+pub(super) struct Divergence {
+    /// The rates; `None` where nothing but H acts, and their divergence is 0.
+    field: Option<VectorField>,
+    rule: Vec<(f64, f64)>,
+}
+
+impl Divergence {
+    pub(super) fn of(space: &PhaseSpace, method: &Method) -> Divergence {
+        let field = (!space.is_hamiltonian()).then(|| space.vector_field());
+        let rule = gauss(if method.stepping == Stepping::Fixed { FEW_NODES } else { NODES });
+        Divergence { field, rule }
+    }
+
+    /// ∫ div f dt over a part of the last step.
+    ///
+    /// # Errors
+    /// Returns an error if the rates or the motion cannot be evaluated.
+    pub(super) fn along(
+        &mut self,
+        space: &PhaseSpace,
+        carrier: &mut Carrier,
+        [begin, end]: [f64; 2],
+    ) -> Result<f64, DynamicsError> {
+        let Some(field) = &mut self.field else { return Ok(0.0) };
+        let mut sum = 0.0;
+        for &(part, weight) in &self.rule {
+            let now = begin + part * (end - begin);
+            let (state, _) = carrier.at(now)?;
+            field.evaluate(now, space.variables(&state))?;
+            sum += weight * (end - begin) * field.derivative().trace();
+        }
+        Ok(sum)
+    }
 }
 
 /// The largest entry of |Mᵀ𝕁M − Pᵀ𝕁P| with what rounding may leave of that entry, ε times its entry of |M|ᵀ|𝕁||M| + |P|ᵀ|𝕁||P|:

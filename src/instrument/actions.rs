@@ -108,8 +108,10 @@ impl Instrument for ActionsPlot {
         Some(plot.heading(present.physics, "Action variable", entries))
     }
 
-    fn across(&self, _plot: &Plot, _present: &Present<'_>, answer: Option<&Answer>) -> Across {
-        Across::Named("E".to_owned(), ranges(answer)[0])
+    fn across(&self, _plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
+        let name = energy_unit(present.physics)
+            .map_or_else(|| "E".to_owned(), |unit| format!("E [{unit}]"));
+        Across::Named(name, ranges(answer)[0])
     }
 
     fn picture(
@@ -147,11 +149,12 @@ impl Instrument for ActionsPlot {
             ));
         }
         layers.push((NOW, Layer::Legend(sentences(present, answer))));
-        Some(Picture::Axes {
-            upwards: Upwards::Named("J".to_owned(), high),
-            layers,
-            occurrences: None,
-        })
+        let units = energy_unit(present.physics).zip(Some(present.physics.model.time_unit()));
+        let name = match units.filter(|(_, time)| !time.is_empty()) {
+            Some((energy, time)) => format!("J [{energy} {time}]"),
+            None => "J".to_owned(),
+        };
+        Some(Picture::Axes { upwards: Upwards::Named(name, high), layers, occurrences: None })
     }
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
@@ -316,6 +319,13 @@ impl Found {
         }
         Ok(Found { curves, separatrices, own })
     }
+}
+
+/// The unit of the energy, if it is known.
+fn energy_unit(physics: Physics<'_>) -> Option<&str> {
+    let channel = physics.channel(ChannelKind::Energy)?;
+    let unit = physics.system.channels()[channel].unit.as_str();
+    (!unit.is_empty()).then_some(unit)
 }
 
 fn computed(answer: Option<&Answer>) -> Option<&ComputedActions> {

@@ -6,12 +6,12 @@
 use super::kind::{Instrument, Offer};
 use super::present::Physics;
 use super::{
-    action, actions, angle, diagram, ensemble, exponents, legendre, map, orbit, phase, potential,
-    section, separation, space, spectrum, time, transformation,
+    action, actions, angle, diagram, ensemble, exponents, flow, legendre, map, orbit, phase,
+    potential, section, separation, space, spectrum, time, transformation,
 };
 
 /// All kinds, in the order in which the lab opens with them.
-pub static INSTRUMENTS: [&dyn Instrument; 19] = [
+pub static INSTRUMENTS: [&dyn Instrument; 20] = [
     &space::Space,
     &phase::Phase,
     &transformation::TransformationPlot,
@@ -20,6 +20,7 @@ pub static INSTRUMENTS: [&dyn Instrument; 19] = [
     &time::Time,
     &separation::SeparationPlot,
     &exponents::Exponents,
+    &flow::FlowPlot,
     &ensemble::Ensemble,
     &orbit::OrbitPlot,
     &spectrum::SpectrumPlot,

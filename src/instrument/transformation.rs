@@ -349,7 +349,8 @@ fn active(
     // few lines, so that they hide neither point
     let verdict =
         judged(answer).map_or(&[][..], |judged| &judged.lines[..judged.lines.len().min(1)]);
-    let mut lines = [vec![format!("({q}, {p}) → ({new_q}, {new_p})")], verdict.to_vec()].concat();
+    let mut lines =
+        [vec![format!("({q}, {p}) → ({new_q}, {new_p}), the ring")], verdict.to_vec()].concat();
     lines.extend(
         of_image(plot, present).filter(|_| !image.iter().all(|x| x.is_finite())).map(str::to_owned),
     );

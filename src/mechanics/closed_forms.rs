@@ -6,7 +6,6 @@
 //! the fields asked for filled in. Each is found once. Never here: the elimination itself.
 
 use std::collections::BTreeSet;
-use std::sync::Arc;
 
 use super::derive::too_large;
 use super::equations::{CLOSED_FORM_LIMIT, Equations, Flow, NoClosedForm, Separable};
@@ -27,9 +26,7 @@ impl Equations {
         self.lagrangian();
         self.separable();
         self.separation();
-        if let Some(named) = &mut self.supplements.named_ramps {
-            Arc::make_mut(named).equations.find_closed_forms();
-        }
+        self.find_named_ramps();
     }
 
     /// Returns whether a closed form has not been searched for yet.
@@ -38,6 +35,7 @@ impl Equations {
             || self.pending.transform
             || self.pending.separable
             || self.supplements.separation.is_none()
+            || self.supplements.law_with_ramps_named.is_some()
     }
 
     /// Whether Hamilton–Jacobi separates in the file's coordinates.

@@ -37,14 +37,28 @@ pub fn derive(model: &Model) -> Result<Equations, NoClosedForm> {
 /// Returns an error if the derivation grows beyond [`crate::expr::NODE_LIMIT`] nodes.
 pub fn derive_for_motion(model: &Model) -> Result<Equations, NoClosedForm> {
     let mut equations = derive_once(model)?;
-    // what only reads better is left out where it cannot be had
-    if let Some(named) = named_ramps::model(model)
-        && let Ok(derived) = derive_once(&named)
-    {
-        let named = NamedRamps::of(named, derived, &equations.conserved);
-        equations.supplements.named_ramps = Some(Arc::new(named));
-    }
+    equations.supplements.law_with_ramps_named = named_ramps::model(model).map(Arc::new);
     Ok(equations)
+}
+
+impl Equations {
+    /// Derives the law with its ramps by name, once. It only reads better: where it grows beyond the limit it is left out, and
+    /// where the work is cancelled it remains to be done.
+    pub(super) fn find_named_ramps(&mut self) {
+        let Some(model) = &self.supplements.law_with_ramps_named else { return };
+        let mut model = Model::clone(model);
+        model.pool.set_cancel(self.pool.cancel().clone());
+        let derived = derive_once(&model);
+        if self.pool.cancel().is_cancelled() {
+            return;
+        }
+        self.supplements.law_with_ramps_named = None;
+        self.supplements.named_ramps = derived.ok().map(|derived| {
+            let mut named = NamedRamps::of(model, derived, &self.conserved);
+            named.equations.find_closed_forms();
+            Arc::new(named)
+        });
+    }
 }
 
 fn derive_once(model: &Model) -> Result<Equations, NoClosedForm> {

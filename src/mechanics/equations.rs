@@ -121,6 +121,8 @@ pub struct Supplements {
     pub separation: Option<Separation>,
     /// The law and what follows from it with ramped parameters by their names, if there are any.
     pub named_ramps: Option<Arc<NamedRamps>>,
+    /// The law from which that is derived, until it has been.
+    pub law_with_ramps_named: Option<Arc<Model>>,
     /// Where parameters keep their names: of each, and of its rates, the rate.
     pub ramp_rates: Vec<(Symbol, Expr)>,
     /// The file's values of the parameters and of what follows from a body, as exact numbers.

@@ -209,6 +209,8 @@ impl PhaseMap {
         let value = pool.linear(Number::ZERO, &terms);
         let mut ways = vec![(relations, missing.clone(), value)];
         ways.splice(0..0, self.of_given(pool, given, types));
+        let direct = self.of_linear_map(pool, &images, types);
+        ways.splice(0..0, direct.map(|value| (Vec::new(), Vec::new(), value)));
         let points: Vec<Valuation> = (0..POINTS)
             .filter_map(|k| {
                 let at = Valuation::near_start(model, equations, k);
@@ -222,6 +224,7 @@ impl PhaseMap {
                 .relations
         };
         let map: HashMap<Symbol, Expr> = forwards.iter().copied().collect();
+        let mut best: Option<(Expr, bool)> = None;
         for (relations, unknowns, value) in ways {
             let mut found: Option<(Expr, bool)> = None;
             let mut accept = |pool: &mut Pool, solution: &Solution| {
@@ -256,12 +259,70 @@ impl PhaseMap {
                 found = Some((function, proved));
                 true
             };
-            let solved = isolate::solve(&mut equations.pool, &relations, &unknowns, &mut accept);
-            if let (Some(_), Some((function, proved))) = (solved, found) {
-                return (Ok(function), proved);
+            let pool = &mut equations.pool;
+            let (is_direct, solved) = if unknowns.is_empty() {
+                (true, accept(pool, &Vec::new()))
+            } else {
+                (false, isolate::solve(pool, &relations, &unknowns, &mut accept).is_some())
+            };
+            let lighter = |found: &(Expr, bool)| {
+                best.is_none_or(|best| pool.weight(found.0) < pool.weight(best.0))
+            };
+            if let Some(found) = found.filter(|found| solved && lighter(found)) {
+                best = Some(found);
+            }
+            if solved && !is_direct {
+                break;
             }
         }
-        no("its variables cannot be solved for the others".to_owned())
+        match best {
+            Some((function, proved)) => (Ok(function), proved),
+            None => no("its variables cannot be solved for the others".to_owned()),
+        }
+    }
+
+    /// That of a linear map of one pair, Q = A q + B p and P = C q + D p, by its coefficients, with nothing solved for: with
+    /// A D − B C = 1, F1 = (q Q − ½ A q² − ½ D Q²)/B, and the others alike.
+    fn of_linear_map(
+        &self,
+        pool: &mut Pool,
+        images: &[Expr],
+        types: &[GeneratingType],
+    ) -> Option<Expr> {
+        let (&[q, p], [of]) = (&self.old[..], types) else { return None };
+        let mut entries = Vec::new();
+        let origin = HashMap::from([(q, Expr::ZERO), (p, Expr::ZERO)]);
+        for &image in images {
+            for s in [q, p] {
+                let slope = pool.derivative(image, s);
+                entries.push(pool.simplify(slope));
+            }
+            let at_origin = pool.substitute(image, &origin);
+            if pool.is_zero(at_origin) != Zero::Proved {
+                return None;
+            }
+        }
+        let &[a, b, c, d] = &entries[..] else { return None };
+        if entries.iter().any(|&e| pool.depends_on_any(e, &self.old)) {
+            return None;
+        }
+        let sign = if of.has_position() { Number::ONE } else { Number::MINUS_ONE };
+        let (divisor, old, new) = match (of.has_position(), of.has_new_position()) {
+            (true, true) => (b, pool.neg(a), pool.neg(d)),
+            (true, false) => (d, pool.neg(c), b),
+            (false, true) => (a, b, pool.neg(c)),
+            (false, false) => (c, d, a),
+        };
+        let x = pool.variable(if of.has_position() { q } else { p });
+        let y = pool.variable(self.implicit.new[usize::from(!of.has_new_position())]);
+        let product = pool.mul(x, y);
+        let mut terms = vec![(sign, product)];
+        for (coefficient, variable) in [(old, x), (new, y)] {
+            let square = pool.mul(variable, variable);
+            terms.push((Number::HALF, pool.mul(coefficient, square)));
+        }
+        let numerator = pool.linear(Number::ZERO, &terms);
+        Some(pool.div(numerator, divisor))
     }
 
     /// Legendre's transformation of the function that is given: its own relations are solved for the variables that the wanted

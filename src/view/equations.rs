@@ -21,6 +21,10 @@ const MOST: u64 = 4_000;
 pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
     let report = Report::readable(&lab.loaded.model, &lab.loaded.equations);
     let mut writer = EquationRows { report: &report, look, page: TextPage::default() };
+    if !is_derived(lab) {
+        writer.is_being_derived();
+        return writer.page;
+    }
     constants::verdict(lab, &mut writer.page);
     writer.law();
     writer.constraints();
@@ -38,15 +42,24 @@ pub(super) fn document(lab: &Lab, look: &RenderStyle) -> TextPage {
 pub(super) fn law(lab: &Lab, look: &RenderStyle) -> TextPage {
     let report = Report::readable(&lab.loaded.model, &lab.loaded.equations);
     let mut writer = EquationRows { report: &report, look, page: TextPage::default() };
-    writer.lines(&[report.law]);
-    writer.ramps();
-    writer.page.gap();
-    writer.solved();
+    if is_derived(lab) {
+        writer.lines(&[report.law]);
+        writer.ramps();
+        writer.page.gap();
+        writer.solved();
+    } else {
+        writer.is_being_derived();
+    }
     for paragraph in report.model.info.notes.split("\n\n").map(str::trim) {
         writer.page.gap();
         writer.page.notes(Role::Dim, paragraph);
     }
     writer.page
+}
+
+/// Whether the law is there as one reads it.
+fn is_derived(lab: &Lab) -> bool {
+    lab.loaded.equations.supplements.law_with_ramps_named.is_none()
 }
 
 struct EquationRows<'a> {
@@ -102,6 +115,10 @@ impl EquationRows<'_> {
 
     fn lines<'l>(&mut self, lines: impl IntoIterator<Item = &'l ReportedEquation>) {
         lines.into_iter().for_each(|line| self.line(line, ""));
+    }
+
+    fn is_being_derived(&mut self) {
+        self.page.words(Role::Dim, "The equations are being derived.");
     }
 
     fn not_closed(&mut self, why: &NoClosedForm) {

@@ -90,7 +90,9 @@ pub(super) fn status(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
     let area = columns(area, 1, area.width.saturating_sub(2));
     let Some(snapshot) = app.snapshot().filter(|_| app.page != Page::Picker) else { return };
     let glyphs = canvas.look.glyphs;
+    let waits = app.lab.as_ref().is_some_and(Lab::waits_for_law);
     let (sign, word, role) = match &snapshot.status {
+        Status::Running if waits => (glyphs.pick("‖", "="), "waiting", Role::Warn),
         Status::Running if !app.held && snapshot.backwards => {
             (glyphs.pick("◀", "<"), "back   ", Role::Warn)
         }
@@ -164,6 +166,7 @@ fn speed(snapshot: &Snapshot, glyphs: Glyphs) -> String {
 pub(super) fn status_words(q: &Quantities<'_>) -> String {
     let (snapshot, glyphs) = (q.snapshot, q.look.glyphs);
     let status = match &snapshot.status {
+        Status::Running if q.lab.waits_for_law() => "waiting until the law is rebuilt".to_owned(),
         Status::Running => "running".to_owned(),
         Status::Paused => "paused".to_owned(),
         Status::Ended(event) => format!("ended by {event}"),

@@ -20,6 +20,7 @@ mod escaping_cloud;
 mod experiment;
 mod expr;
 mod expr_parse;
+mod flow_plot;
 mod fuzz;
 mod hand;
 mod honest;

@@ -4,6 +4,7 @@ mod bad;
 mod catalog;
 mod good;
 mod hostile;
+mod notes;
 mod scope;
 mod tables;
 

@@ -113,7 +113,7 @@ fn in_the_active_view_the_point_is_moved_and_the_coordinates_stay() {
     let Some(Picture::Axes { layers, .. }) = picture else { panic!("it has axes") };
     let beside = layers.iter().filter(|(_, layer)| matches!(layer, Layer::Companions(_)));
     assert_eq!(beside.count(), 2);
-    assert_eq!(words[0], "(q, p_q) → (Q₁, P₁)");
+    assert_eq!(words[0], "(q, p_q) → (Q₁, P₁), the ring");
     assert_eq!(words[1], "canonical, proved");
     let heading = plot.kind.heading(&plot, &present).expect("a heading");
     assert!(heading.given || heading.title == "Transformation, active");

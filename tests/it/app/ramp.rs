@@ -88,8 +88,12 @@ fn a_ramp_begins_where_it_was_asked_for() {
     // the old law runs on meanwhile, and is not seen
     real.run(50);
     assert_eq!((real.seen().time, real.seen().values.to_vec()), before);
+    let status = |real: &Real| rows(&screen(&real.app, &rich(), (120, 40))).join("\n");
+    let held = status(&real);
+    assert!(held.contains("waiting") && !held.contains("running"), "{held}");
     rebuild(&mut real, &written);
     assert_eq!(real.seen().time, before.0);
+    assert!(!status(&real).contains("waiting"), "{}", status(&real));
     let value = |real: &Real, name: &str| {
         let channels = real.lab().loaded.system.channels();
         real.seen().values[channels.iter().position(|c| c.name == name).expect(name)]

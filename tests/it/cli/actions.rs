@@ -397,3 +397,65 @@ fn a_separatrix_is_told_from_what_is_next_to_it() {
     let text = phaselab(&["actions", "double-well"]).success();
     assert!(!text.contains("turn of rotation"), "{text}");
 }
+
+/// Tops of the same energy whose lobes meet have one separatrix, and a turn passes all lobes of a period, each one way.
+#[test]
+fn tops_of_the_same_energy_have_one_separatrix() {
+    let rotor = |law: &str| {
+        let file = format!(
+            "title = \"A rotor\"\n[coordinates]\nx = {{ initial = 0.0, velocity = 0.3, period = \"2*pi\" }}\n\
+             [lagrangian]\nL = \"1/2*x'^2 + {law}\"\n"
+        );
+        actions(&file, &["--energy=0.5"])
+    };
+    // p = 2 |cos x|; then p = |cos x| √(4 + 0.6 cos x), by quadrature (mpmath)
+    let cases = [
+        ("cos(2*x)", vec![8.0, 8.0], 8.0),
+        (
+            "cos(2*x) + 0.3*cos(x)^3",
+            vec![8.457_155_927_207_6, 7.512_673_592_062_454],
+            7.984_914_759_635_027,
+        ),
+    ];
+    for (law, lobes, turn) in cases {
+        let object = rotor(law);
+        let [separatrix] = &object["separatrices"].as_array().unwrap()[..] else {
+            panic!("{object}")
+        };
+        near(&separatrix["energy"], 1.0, 1e-14);
+        near(&separatrix["turn"], turn, 1e-12);
+        let mut found: Vec<f64> = separatrix["actions"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|action| action.as_f64().unwrap())
+            .collect();
+        found.sort_by(|a, b| b.total_cmp(a));
+        assert_eq!(found.len(), 2, "{object}");
+        for (found, lobe) in found.iter().zip(lobes) {
+            assert!((found - lobe).abs() < 1e-12, "{found} {lobe}");
+        }
+    }
+    // without a period: three wells between and beside two tops; no turn
+    let wells = [f64::sqrt(6.0) / 6.0, f64::sqrt(6.0) / 3.0, f64::sqrt(6.0) / 6.0];
+    let object = actions(&line("x^2*(x^2 - 1)^2", "0"), &["--energy=0.1"]);
+    let [separatrix] = &object["separatrices"].as_array().unwrap()[..] else { panic!("{object}") };
+    near(&separatrix["energy"], 4.0 / 27.0, 1e-15);
+    assert_eq!(separatrix["turn"], Value::Null);
+    for (action, expected) in separatrix["actions"].as_array().unwrap().iter().zip(wells) {
+        near(action, expected, 1e-10);
+    }
+    assert_eq!(separatrix["actions"].as_array().unwrap().len(), 3);
+}
+
+/// Next to a separatrix the period is the logarithm of a difference of energies: T = 2√2 K(m)/b with a² = 1 − s, b² = 1 + s,
+/// m = 1 − a²/b² and s = √(1 + 4E), in either lobe.
+#[test]
+fn a_period_next_to_a_separatrix_is_that_of_its_energy() {
+    let object = actions(&line("1/4*x^4 - 1/2*x^2", "1"), &["--energy=-1e-9"]);
+    let rows = object["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 2);
+    for row in rows {
+        near(&row["period"], 23.495_854_574_308_083, 1e-11);
+    }
+}

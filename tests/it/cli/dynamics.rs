@@ -287,3 +287,12 @@ fn the_frequency_of_chaos_drifts() {
     assert!(torus < 1e-6, "{torus}");
     assert!(chaos > 1e-4, "{chaos}");
 }
+
+/// An error that is exactly nothing is written 0.
+#[test]
+fn a_residual_of_nothing_is_zero() {
+    let step = ["--method=symplectic-euler", "--step=0.1", "--until=0.1"];
+    let run = phaselab(&[&["flow", "symplectic-euler"][..], &step[..]].concat());
+    let text = run.text();
+    assert!(text.contains("𝕁|: 0, of which"), "{text}");
+}

@@ -218,6 +218,20 @@ fn k_of_a_linear_map_is_short() {
     assert_eq!(twice["K"], "1/2*P5^2 + 1/2*Q5^2");
 }
 
+/// Those of a linear map are written by its coefficients, and nothing is multiplied out: `twice` is a turn by 2a.
+#[test]
+fn generating_functions_of_a_linear_map_are_short() {
+    let found = phaselab(&["derive", "four-generators", "--format", "json"]).json();
+    let all = found["transformations"].as_array().expect("a list");
+    let twice = all.iter().find(|one| one["name"] == "twice").expect("a composition");
+    for name in ["F1", "F2", "F3", "F4"] {
+        let one = &twice["generating_functions"][name];
+        let function = one["F"].as_str().expect("a function");
+        assert!(function.len() < 90, "{name}: {function}");
+        assert_eq!(one["proved"], true, "{name}: {function}");
+    }
+}
+
 #[test]
 fn the_other_three_generating_functions() {
     let by = |kind: &str, f: &str| {

@@ -1,6 +1,6 @@
 //! The flow map.
 
-use phaselab::dynamics::{DynamicsError, FlowMap, PhaseSpace, flow_map};
+use phaselab::dynamics::{DynamicsError, FlowMap, PhaseSpace, flow_course, flow_map};
 
 use super::{Case, file, method, preset, taylor};
 use crate::hand::loaded;
@@ -132,4 +132,48 @@ fn a_motion_that_ends_early_has_the_map_so_far() {
     let case = file(text, &[]);
     let found = flow_map(&case.space, taylor(), &case.start, 3.0, &mut |_| {}).unwrap();
     assert!(found.failure.is_some() && found.time > 1.0 && found.time < 1.2, "{}", found.time);
+}
+
+/// The map at several times of one motion is the map at each of them, and that of the forced damped pendulum is heyoka's.
+#[test]
+fn the_course_of_a_flow_map_has_the_map_at_each_time() {
+    let forced = "title = \"t\"\n[coordinates]\nx = { initial = 0.2, velocity = 0.3 }\n\
+                  [lagrangian]\nL = \"1/2*x'^2 + cos(x) + x*cos(t)\"\ndissipation = \"0.2*x'^2\"\n";
+    let case = file(forced, &[]);
+    let times = [0.0, 0.4, 1.7, 3.0];
+    let course = |case: &Case, by: (&str, Option<f64>), times: &[f64]| {
+        let found =
+            flow_course(&case.space, method(by.0, by.1), &case.start, times, &mut |_| {}).unwrap();
+        assert!(found.1.is_none());
+        found.0
+    };
+    let found = course(&case, ("taylor", None), &times);
+    assert_eq!(found.len(), 4);
+    for (moment, time) in found.iter().zip(times) {
+        assert_eq!(moment.time, time);
+        let alone = map(&case, time);
+        let off = (&moment.matrix - &alone.matrix).amax();
+        assert!(off < 1e-14, "{off} at {time}");
+        assert!((moment.determinant_expected - (-0.4 * time).exp()).abs() < 1e-14);
+        assert!((moment.determinant - moment.determinant_expected).abs() < 1e-14);
+    }
+    // heyoka.py, var_ode_sys, recomputed
+    let heyoka =
+        [[-0.425477996842754, 0.419836489925857], [-0.191718183438907, -0.518719944062857]];
+    for (i, row) in heyoka.iter().enumerate() {
+        for (j, entry) in row.iter().enumerate() {
+            assert!((found[3].matrix[(i, j)] - entry).abs() < 2e-14, "{i} {j}");
+        }
+    }
+    // of a method of fixed step the moments are at the ends of its steps, and are its own map
+    let pendulum = preset("symplectic-euler", &[], &[1.2, 0.5]);
+    for (name, is_symplectic) in [("rk4", false), ("leapfrog", true)] {
+        let moments = course(&pendulum, (name, Some(0.2)), &[1.0, 5.05, 10.0]);
+        let ends: Vec<f64> = moments.iter().map(|moment| moment.time).collect();
+        assert!((ends[1] - 5.2).abs() < 1e-12, "{ends:?}");
+        let alone = map_by(&pendulum, (name, Some(0.2)), ends[1]);
+        assert!((&moments[1].matrix - &alone.matrix).amax() < 1e-13);
+        let residual = moments[2].symplectic_residual.unwrap();
+        assert!((residual < 1e-13) == is_symplectic, "{name}: {residual}");
+    }
 }

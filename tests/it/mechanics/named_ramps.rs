@@ -3,6 +3,7 @@
 
 use std::collections::HashMap;
 
+use phaselab::cancel::Cancel;
 use phaselab::diagnostic::Document;
 use phaselab::expr::{Expr, Pool};
 use phaselab::mechanics::{self, Equations, Further, NamedRamps};
@@ -175,6 +176,23 @@ fn the_names_of_a_ramp_are_free() {
         pool.symbols_of(ramp.function).iter().map(|&s| pool.symbol_info(s).name.as_str()).collect();
     names.sort_unstable();
     assert_eq!(names, ["l_i2", "u3"]);
+}
+
+/// A motion needs the law with the functions of the time only; by name it is derived once somebody reads it. A cancelled
+/// derivation is not taken for one that cannot be had.
+#[test]
+fn a_motion_is_derived_once_and_the_law_by_name_on_request() {
+    let model = Document::new("t", format!("{PENDULUM}{RAMP}")).read().unwrap().model;
+    let mut equations = mechanics::derive_for_motion(&model).unwrap();
+    assert!(equations.supplements.named_ramps.is_none() && equations.has_pending_forms());
+    let cancel = Cancel::new();
+    cancel.cancel();
+    equations.pool.set_cancel(cancel);
+    equations.find_closed_forms();
+    assert!(equations.supplements.named_ramps.is_none() && equations.has_pending_forms());
+    equations.pool.set_cancel(Cancel::new());
+    equations.find_closed_forms();
+    assert!(equations.supplements.named_ramps.is_some() && !equations.has_pending_forms());
 }
 
 #[test]

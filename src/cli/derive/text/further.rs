@@ -3,6 +3,7 @@
 //!
 //! In: [`Further`]. Out: lines of the report. Never here: what is known of a law at once.
 
+use super::super::super::decimal::magnitude;
 use super::TextReport;
 use crate::mechanics::{Class, Classed, Further};
 
@@ -64,7 +65,7 @@ impl TextReport<'_> {
             let name = self.words(&known.map.name);
             let verdict = &known.verdict;
             let residual = verdict.residual.map_or_else(String::new, |residual| {
-                format!("; residual {residual:.1e} at points near the start")
+                format!("; residual {} at points near the start", magnitude(residual))
             });
             let judged = match (verdict.canonical, verdict.proved) {
                 (true, true) => format!("canonical, proved{residual}"),
@@ -79,7 +80,12 @@ impl TextReport<'_> {
             if known.map.forwards.is_none() {
                 self.line("  the new variables are not known in closed form");
             }
-            if let Some(why) = &verdict.why {
+            for bracket in &verdict.failing {
+                let [f, g] = bracket.pair.map(|symbol| self.symbol(symbol));
+                let (is, expected) = (self.math(bracket.is), self.math(bracket.expected));
+                self.line(&format!("  [{f}, {g}] = {is}, not {expected}"));
+            }
+            if let Some(why) = verdict.why.as_ref().filter(|_| verdict.failing.is_empty()) {
                 self.line(&format!("  {}", self.words(why)));
             }
             if let Some(valence) = verdict.valence {

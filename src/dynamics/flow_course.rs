@@ -1,0 +1,89 @@
+//! The derivative of the flow at several times of one motion: M(t) = ∂η(t)/∂η(0) with its determinant and ‖M𝕁Mᵀ − 𝕁‖.
+//!
+//! In: a state, times. Out: [`FlowMoment`]s. Under a method of fixed step M is that of the method's own map, and the times are
+//! those at which its steps end. Never here: constraints and impulses, what rounding leaves ([`flow_map`](super::flow_map)).
+
+use nalgebra::DMatrix;
+
+use super::carrier::Carrier;
+use super::error::DynamicsError;
+use super::flow_map::Divergence;
+use super::phase_space::PhaseSpace;
+use crate::integrate::{Method, Settings};
+use crate::num::math;
+use crate::system::{Form, MotionError, State};
+
+/// The derivative of a motion by its initial values, at one time.
+#[derive(Clone, PartialEq, Debug)]
+pub struct FlowMoment {
+    /// The time.
+    pub time: f64,
+    /// ∂η_i(t)/∂η_j(0).
+    pub matrix: DMatrix<f64>,
+    /// Its determinant.
+    pub determinant: f64,
+    /// exp ∫ div f dt along the motion: 1 where nothing but H acts.
+    pub determinant_expected: f64,
+    /// The largest entry of |M𝕁Mᵀ − 𝕁|; `None` if the variables are not canonical.
+    pub symplectic_residual: Option<f64>,
+}
+
+/// Follows a motion from a state of the space through increasing times, and `look`s on after each step. A motion that cannot
+/// continue has the moments up to there, and the error.
+///
+/// # Errors
+/// Returns an error if the motion cannot begin, or M cannot be evaluated.
+pub fn flow_course(
+    space: &PhaseSpace,
+    (method, settings): (&'static Method, Settings),
+    start: &State,
+    times: &[f64],
+    look: &mut dyn FnMut(f64),
+) -> Result<(Vec<FlowMoment>, Option<MotionError>), DynamicsError> {
+    let n = space.dimension();
+    let mut carrier = Carrier::new(space, method, settings, n)?;
+    carrier.start(start, &DMatrix::identity(n, n))?;
+    let mut divergence = Divergence::of(space, method);
+    let (mut logarithm, mut done) = (0.0, start.time);
+    let mut moments = Vec::new();
+    let mut waiting = times;
+    while let Some(&last) = waiting.last() {
+        if let Err(fault) = carrier.step(last) {
+            return Ok((moments, Some(fault)));
+        }
+        let (_, end) = carrier.interval();
+        let passed = waiting.partition_point(|&time| time <= end);
+        let (reached, left) = waiting.split_at(passed);
+        // a state inside a step of fixed size is no state of the method's own map
+        let within = if carrier.is_fixed() { &reached[..0] } else { reached };
+        let at_end = carrier.is_fixed() && !reached.is_empty();
+        for time in within.iter().copied().chain(at_end.then_some(end)) {
+            logarithm += divergence.along(space, &mut carrier, [done, time])?;
+            done = time;
+            let (_, matrix) = carrier.at(time)?;
+            moments.push(FlowMoment::of(space, time, matrix, math::exp(logarithm)));
+        }
+        if !left.is_empty() && done < end {
+            logarithm += divergence.along(space, &mut carrier, [done, end])?;
+            done = end;
+        }
+        waiting = left;
+        look(end);
+    }
+    Ok((moments, None))
+}
+
+impl FlowMoment {
+    fn of(
+        space: &PhaseSpace,
+        time: f64,
+        matrix: DMatrix<f64>,
+        determinant_expected: f64,
+    ) -> FlowMoment {
+        let none = DMatrix::zeros(matrix.nrows(), matrix.ncols());
+        let residual = || PhaseSpace::symplectic_residual(&matrix, &none).0;
+        let symplectic_residual = (space.form() == Form::Momentum).then(residual);
+        let determinant = matrix.determinant();
+        FlowMoment { time, matrix, determinant, determinant_expected, symplectic_residual }
+    }
+}

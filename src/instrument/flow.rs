@@ -1,0 +1,304 @@
+//! `flow`: the derivative of the flow M(t) = ∂η(t)/∂η(0) of the motion from its initial values: ‖M𝕁Mᵀ − 𝕁‖ for the map of the
+//! method and for that of the exact flow; under friction det M beside what Liouville's theorem predicts of it.
+//!
+//! The job follows the variational equations along the motion ([`flow_course`]), over a time that is doubled when the motion has
+//! come to its end. Never here: constraints and impulses, for which `phaselab flow` has the map at one time.
+
+use nalgebra::DMatrix;
+
+use super::conditions::PlotConditions;
+use super::{
+    Across, Answer, Columns, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
+    Physics, Picture, Plot, Present, Upwards,
+};
+use crate::dynamics::{FlowMoment, PhaseSpace, flow_course};
+use crate::expr::Expr;
+use crate::integrate::{Method, Settings, method_named};
+use crate::job::{Job, Progress};
+use crate::model::Model;
+use crate::num::{math, significant};
+use crate::system::State;
+
+/// The levels of the picture.
+const BESIDE: Level = 0;
+const CURVE: Level = 1;
+const NOW: Level = 2;
+
+/// The first time followed, in seconds of the wall clock at the file's own speed, and how often it is doubled.
+const SECONDS: f64 = 10.0;
+const DOUBLINGS: u32 = 8;
+
+/// The times at which M is taken.
+const TIMES: usize = 120;
+
+/// A job counts its progress in so many parts.
+const PARTS: f64 = 1000.0;
+
+/// The method whose map is that of the flow, to rounding.
+const EXACT: &str = "taylor";
+
+/// What is below this power of ten is drawn there: 0 has no logarithm.
+const LEAST_POWER: f64 = -17.0;
+
+/// The most entries of M that are written.
+const ENTRIES: usize = 4;
+
+/// The row.
+pub(super) struct FlowPlot;
+
+/// What was found, and of which motion.
+struct Followed {
+    conditions: PlotConditions,
+    doublings: u32,
+    end: f64,
+    outcome: Result<Courses, String>,
+}
+
+/// The moments of the map of the method, and of the exact flow where the method is another one.
+struct Courses {
+    own: Vec<FlowMoment>,
+    exact: Option<Vec<FlowMoment>>,
+    /// Whether nothing but H acts.
+    is_hamiltonian: bool,
+    /// Why they end early.
+    failure: Option<String>,
+}
+
+impl Instrument for FlowPlot {
+    fn name(&self) -> &'static str {
+        "flow"
+    }
+
+    fn shows_a_view(&self) -> bool {
+        false
+    }
+
+    fn offers(&self, _physics: Physics<'_>) -> Vec<Offer> {
+        vec![Offer {
+            label: "flow map".to_owned(),
+            about: "M = ∂η(t)/∂η(0): det M, and how symplectic it is, by this method and exactly"
+                .to_owned(),
+            columns: Columns::new(),
+            view: None,
+            over: Vec::new(),
+        }]
+    }
+
+    fn words(&self, _plot: &Plot, _physics: Physics<'_>) -> String {
+        "flow map".to_owned()
+    }
+
+    fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
+        let mut entries = vec![Entry::Words(format!("M = ∂η(t)/∂η(0) by {}", present.method))];
+        if present.method != EXACT && only_h_acts(present.physics.model) {
+            entries = vec![
+                Entry::Key(Ink::Curve(0), present.method.to_owned()),
+                Entry::Key(Ink::Curve(1), "exact flow".to_owned()),
+            ];
+        }
+        Some(plot.heading(present.physics, "Flow map", entries))
+    }
+
+    fn across(&self, _plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
+        let start = present.physics.model.run.start;
+        let end = followed(answer).map_or(start + length(present.physics, 0), |known| known.end);
+        Across::Times([start, end])
+    }
+
+    fn picture(
+        &self,
+        _plot: &Plot,
+        present: &Present<'_>,
+        _seen: [f64; 2],
+        answer: Option<&Answer>,
+    ) -> Option<Picture> {
+        let mut layers = vec![(NOW, Layer::Legend(sentences(present, answer)))];
+        let Some(courses) = courses(answer) else {
+            let upwards = Upwards::Named("‖M𝕁Mᵀ − 𝕁‖".to_owned(), [0.0, 1.0]);
+            return Some(Picture::Axes { upwards, layers, occurrences: None });
+        };
+        let curve = |moments: &[FlowMoment], of: &dyn Fn(&FlowMoment) -> Option<f64>| {
+            let point = |moment: &FlowMoment| Some([moment.time, of(moment)?]);
+            moments.iter().filter_map(point).collect::<Vec<[f64; 2]>>()
+        };
+        let mut lines = Vec::new();
+        let name = if courses.is_hamiltonian {
+            let exact = courses.exact.as_deref().unwrap_or_default();
+            lines.push((BESIDE, curve(exact, &power), Ink::Curve(1)));
+            lines.push((CURVE, curve(&courses.own, &power), Ink::Curve(0)));
+            "log₁₀ ‖M𝕁Mᵀ − 𝕁‖"
+        } else {
+            let expected = |moment: &FlowMoment| Some(moment.determinant_expected);
+            lines.push((BESIDE, curve(&courses.own, &expected), Ink::Level));
+            lines.push((CURVE, curve(&courses.own, &|m| Some(m.determinant)), Ink::Curve(0)));
+            "det M"
+        };
+        let heights = || lines.iter().flat_map(|(_, line, _)| line).map(|point| point[1]);
+        let highest = heights().fold(f64::NEG_INFINITY, f64::max);
+        let lowest =
+            heights().fold(if courses.is_hamiltonian { LEAST_POWER } else { 0.0 }, f64::min);
+        let highest = if highest > lowest { highest } else { lowest + 1.0 };
+        let upwards = Upwards::Named(name.to_owned(), [lowest, highest]);
+        layers.extend(
+            lines.into_iter().map(|(level, line, ink)| (level, Layer::Line(line, ink.into()))),
+        );
+        Some(Picture::Axes { upwards, layers, occurrences: None })
+    }
+
+    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+        let conditions = PlotConditions::of(present, &plot.seeds);
+        let start = present.physics.model.run.start;
+        let known = followed(answer).filter(|known| known.conditions == conditions);
+        if let Some(known) = known
+            && (present.time <= known.end
+                || known.doublings >= DOUBLINGS
+                || !matches!(&known.outcome, Ok(Courses { failure: None, .. })))
+        {
+            return Need::Held;
+        }
+        let is_short = |n: &u32| start + length(present.physics, *n) < present.time;
+        let doublings = (0..DOUBLINGS).find(|n| !is_short(n)).unwrap_or(DOUBLINGS);
+        let Some(method) = method_named(present.method) else { return Need::Nothing };
+        let Physics { model, equations, system } = present.physics;
+        let (model, equations, system) = (model.clone(), equations.clone(), system.clone());
+        let end = start + length(present.physics, doublings);
+        let job = Job::new("flow map", move |progress| {
+            let system = system.with_cancel(progress.token().clone());
+            let space = PhaseSpace::of(&model, &equations, &system, &conditions.parameters);
+            let outcome = space.map_err(|why| why.to_string()).and_then(|space| {
+                let state = conditions.state(space.system(), start);
+                let state = state.and_then(|state| space.state(&state));
+                let state = state.map_err(|why| why.to_string())?;
+                follow(&space, (method, conditions.settings), (&state, end), progress)
+            });
+            Answer::new(Followed { conditions: conditions.clone(), doublings, end, outcome })
+        });
+        Need::Job(job)
+    }
+
+    fn measures(&self) -> &'static [Measure] {
+        &[
+            Measure {
+                word: "determinant",
+                about: "det M of the method's map, now",
+                value: |_, present, answer| Some(now(present, &courses(answer)?.own)?.determinant),
+            },
+            Measure {
+                word: "expected",
+                about: "what Liouville's theorem expects of it",
+                value: |_, present, answer| {
+                    Some(now(present, &courses(answer)?.own)?.determinant_expected)
+                },
+            },
+            Measure {
+                word: "residual",
+                about: "the largest entry of |MJMᵀ − J| of the method's map, now",
+                value: |_, present, answer| {
+                    now(present, &courses(answer)?.own)?.symplectic_residual
+                },
+            },
+            Measure {
+                word: "exact_residual",
+                about: "the same of the exact flow, where the method is another one",
+                value: |_, present, answer| {
+                    now(present, courses(answer)?.exact.as_deref()?)?.symplectic_residual
+                },
+            },
+        ]
+    }
+}
+
+/// Whether nothing but H acts, so that two curves are drawn.
+fn only_h_acts(model: &Model) -> bool {
+    let forces = model.mechanics.forces();
+    model.mechanics.dissipation() == Expr::ZERO && forces.iter().all(|&e| e == Expr::ZERO)
+}
+
+/// Follows the motion to a time, by its method and, where that is another one, by the exact one.
+fn follow(
+    space: &PhaseSpace,
+    (method, settings): (&'static Method, Settings),
+    (state, end): (&State, f64),
+    progress: &Progress,
+) -> Result<Courses, String> {
+    progress.expect(PARTS as u64);
+    let begin = state.time;
+    let at = |i: usize| begin + (end - begin) * i as f64 / TIMES as f64;
+    let times: Vec<f64> = (0..=TIMES).map(at).collect();
+    let exact = method_named(EXACT).filter(|exact| exact.name != method.name);
+    let share = if exact.is_some() { 0.5 } else { 1.0 };
+    let part = |time: f64| share * ((time - begin) / (end - begin)).min(1.0) * PARTS;
+    let mut look = |time: f64| progress.reach(part(time) as u64);
+    let own = flow_course(space, (method, settings), state, &times, &mut look);
+    let (own, failure) = own.map_err(|why| why.to_string())?;
+    let mut look = |time: f64| progress.reach((part(time) + share * PARTS) as u64);
+    let exact = exact.and_then(|exact| {
+        let settings = Settings { step: None, tolerance: None };
+        let found = flow_course(space, (exact, settings), state, &times, &mut look);
+        found.ok().map(|(moments, _)| moments)
+    });
+    let failure = failure.map(|fault| fault.to_string());
+    Ok(Courses { own, exact, is_hamiltonian: space.is_hamiltonian(), failure })
+}
+
+/// What is said of the map as it is now.
+fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
+    let courses = match followed(answer).map(|known| &known.outcome) {
+        None => return vec!["being computed".to_owned()],
+        Some(Err(why)) => return vec![why.clone()],
+        Some(Ok(courses)) => courses,
+    };
+    let Some(own) = now(present, &courses.own) else { return Vec::new() };
+    let short = |x: f64, digits| significant(x, digits, 1e-3..1e4).replace('-', "−");
+    let size = |x: f64| if x == 0.0 { "0".to_owned() } else { short(x, 2) };
+    let mut lines = Vec::new();
+    let unit = present.physics.model.time_unit();
+    let at = format!("{} {unit}", short(own.time, 4));
+    let (found, expected) = (short(own.determinant, 6), short(own.determinant_expected, 6));
+    lines.push(format!("t = {}: det M = {found}, expected {expected}", at.trim_end()));
+    if let (true, Some(residual)) = (courses.is_hamiltonian, own.symplectic_residual) {
+        let beside = courses.exact.as_deref().and_then(|exact| now(present, exact));
+        let exact = beside.and_then(|moment| moment.symplectic_residual);
+        let exact = exact.map_or_else(String::new, |x| format!(", {} by the exact flow", size(x)));
+        lines.push(format!("‖M𝕁Mᵀ − 𝕁‖ = {} by {}{exact}", size(residual), present.method));
+    }
+    if own.matrix.len() <= ENTRIES {
+        lines.push(format!("M = ({})", rows(&own.matrix, &|x| short(x, 4))));
+    }
+    lines.extend(courses.failure.clone());
+    lines
+}
+
+/// The rows of a matrix, parted by a bar.
+fn rows(matrix: &DMatrix<f64>, short: &dyn Fn(f64) -> String) -> String {
+    let row = |i: usize| {
+        let entries = matrix.row(i).iter().map(|&x| short(x)).collect::<Vec<_>>();
+        entries.join(" ")
+    };
+    (0..matrix.nrows()).map(row).collect::<Vec<_>>().join(" | ")
+}
+
+/// The last moment that the motion has passed.
+fn now<'a>(present: &Present<'_>, moments: &'a [FlowMoment]) -> Option<&'a FlowMoment> {
+    let passed = moments.partition_point(|moment| moment.time <= present.time);
+    moments.get(passed.saturating_sub(1))
+}
+
+/// The power of ten of ‖M𝕁Mᵀ − 𝕁‖.
+fn power(moment: &FlowMoment) -> Option<f64> {
+    let power = math::ln(moment.symplectic_residual?) / math::ln(10.0);
+    (!power.is_nan()).then_some(power.max(LEAST_POWER))
+}
+
+/// How long the motion is followed.
+fn length(physics: Physics<'_>, doublings: u32) -> f64 {
+    SECONDS * physics.model.run.speed * f64::from(1 << doublings)
+}
+
+fn followed(answer: Option<&Answer>) -> Option<&Followed> {
+    answer?.of::<Followed>()
+}
+
+fn courses(answer: Option<&Answer>) -> Option<&Courses> {
+    followed(answer)?.outcome.as_ref().ok()
+}
