@@ -17,6 +17,7 @@ mod exponents;
 mod kind;
 mod legendre;
 mod map;
+mod mode_amplitude;
 mod motion_state;
 mod opening;
 mod orbit;
