@@ -18,6 +18,7 @@ mod flow;
 mod kind;
 mod legendre;
 mod map;
+mod mode_amplitude;
 mod motion_state;
 mod opening;
 mod orbit;

@@ -7,5 +7,5 @@
 mod measure;
 mod outcome;
 
-pub use measure::{MEASURES, MeasuredOrbit, OrbitMeasure, Zeros, measure_named};
+pub use measure::{MEASURES, MeasuredOrbits, OrbitMeasure, Zeros, measure_named};
 pub use outcome::{Departed, RunOutcome, RunPlan};

@@ -72,6 +72,9 @@ impl App {
         };
         let RampRequest { to, duration, form } = request;
         let ramp = NewRamp { parameter: name.clone(), to, start, duration, form };
+        if let Some(why) = self.remind_of_what_does_not_run() {
+            return self.notify(why);
+        }
         let Some(buffer) = self.ready_buffer() else { return Vec::new() };
         match ramp.added_to(&buffer.editor.text()) {
             Ok(text) => {

@@ -108,6 +108,9 @@ impl App {
         surface: &NewSurface,
         sentence: String,
     ) -> Vec<Effect> {
+        if let Some(why) = self.remind_of_what_does_not_run() {
+            return self.notify(why);
+        }
         let Some(buffer) = self.ready_buffer() else { return Vec::new() };
         match surface.written_to(&buffer.editor.text(), view) {
             Ok(text) => {
@@ -236,6 +239,7 @@ impl Lab {
         };
         if let (Some(x), Some(y)) = (named(0), named(1))
             && x != y
+            && !self.holds_an_axis(shown, typed)
         {
             return Ok([x, y]);
         }

@@ -45,6 +45,9 @@ impl App {
             return Some(self.set_typed_axis(axis));
         }
         let observable = NewObservable { name: name.clone(), expression: typed };
+        if let Some(why) = self.remind_of_what_does_not_run() {
+            return Some(self.notify(why));
+        }
         let buffer = self.ready_buffer()?;
         match observable.added_to(&buffer.editor.text()) {
             Ok(text) => {

@@ -10,8 +10,8 @@ use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::study::{self, Study, StudyArguments, shown, table};
 use crate::dynamics::{
-    Along, Bifurcation, Family, Fixed, Orbit, Removed, drive_period, driven_family, driven_orbit,
-    family, periodic_orbit,
+    Along, Bifurcation, Family, Fixed, Orbit, OrbitStability, Removed, drive_period, driven_family,
+    driven_orbit, family, is_near_one, periodic_orbit,
 };
 use crate::printable;
 
@@ -170,14 +170,12 @@ fn members(study: &Study, family: &Family) -> Value {
             "multipliers": multipliers(&member.orbit),
             "trace": member.orbit.transverse.trace(),
             "stable": member.orbit.stable,
+            "stability": member.orbit.stability().word(),
             "bifurcation": member.bifurcation.map(word),
         })
     };
     Value::Array(family.members.iter().map(member).collect())
 }
-
-/// Multipliers up to this far from 1 are shown together: of a double one half of the digits are lost.
-const NEAR_ONE: f64 = 1e-5;
 
 /// An error that rounding leaves of a matrix is mentioned if it may show in the digits of the multipliers.
 const NOTICED: f64 = 1e-8;
@@ -193,7 +191,7 @@ fn rows(family: &Family, name: &str) -> String {
             shown(orbit.period),
             shown(orbit.energy),
             shown(orbit.transverse.trace()),
-            if orbit.stable { "stable" } else { "unstable" }.to_owned(),
+            orbit.stability().word().to_owned(),
             member.bifurcation.map_or("", word).to_owned(),
         ]);
     }
@@ -231,11 +229,13 @@ fn object(study: &Study, orbit: &Orbit) -> Map<String, Value> {
     insert("multipliers", json!(multipliers(orbit)));
     let exponents = orbit.multipliers.iter().map(|z| orbit.exponent(*z));
     insert("multipliers_error", json!(orbit.rounding));
-    insert("exponents", exponents.chain(std::iter::repeat_n(0.0, orbit.trivial.count())).collect());
+    let trivial_ones = std::iter::repeat_n(Some(0.0), orbit.trivial.count());
+    insert("exponents", exponents.chain(trivial_ones).collect());
     insert("trivial", json!(trivial(orbit.trivial)));
     insert("trace", json!(orbit.transverse.trace()));
     insert("residue", json!(orbit.residue()));
     insert("stable", json!(orbit.stable));
+    insert("stability", json!(orbit.stability().word()));
     object
 }
 
@@ -243,8 +243,15 @@ fn text(study: &Study, orbit: &Orbit) -> String {
     let names = study.space.names();
     let start = names.iter().zip(study.space.variables(&orbit.state));
     let start: Vec<String> = start.map(|(name, &x)| format!("{name} = {x:?}")).collect();
-    let stable = if orbit.stable { "stable" } else { "unstable" };
-    let mut text = format!("{stable} periodic orbit\n\n");
+    let headline = match orbit.stability() {
+        OrbitStability::Neutral => "periodic orbit, one of a family in E",
+        OrbitStability::Parabolic => {
+            "parabolic periodic orbit: all multipliers are 1, as on a torus filled with periodic orbits"
+        }
+        OrbitStability::Stable => "stable periodic orbit",
+        OrbitStability::Unstable => "unstable periodic orbit",
+    };
+    let mut text = format!("{headline}\n\n");
     text.push_str(&format!("period   {:?}\n", orbit.period));
     text.push_str(&format!("energy   {:?}\n", orbit.energy));
     if let Some(action) = orbit.action {
@@ -273,8 +280,10 @@ fn text(study: &Study, orbit: &Orbit) -> String {
 fn multiplier_rows(orbit: &Orbit) -> Vec<(String, String)> {
     let off_one = |z: &[f64; 2]| crate::num::math::hypot(z[0] - 1.0, z[1]);
     let (ones, others): (Vec<&[f64; 2]>, Vec<&[f64; 2]>) =
-        orbit.multipliers.iter().partition(|z| off_one(z) <= NEAR_ONE);
+        orbit.multipliers.iter().partition(|z| is_near_one(z));
     let mut rows = Vec::new();
+    let (small, others): (Vec<&[f64; 2]>, Vec<&[f64; 2]>) =
+        others.into_iter().partition(|z| orbit.nearly_vanishes(**z));
     for &z in others.into_iter().filter(|z| z[1] >= 0.0) {
         let value = match z[1] {
             0.0 => shown(z[0]),
@@ -282,9 +291,14 @@ fn multiplier_rows(orbit: &Orbit) -> Vec<(String, String)> {
         };
         let meaning = match orbit.rotation(z) {
             Some(turns) => format!("ν = {turns:.12}"),
-            None => format!("ln|μ|/T = {:.12}", orbit.exponent(z)),
+            None => orbit.exponent(z).map_or(String::new(), |x| format!("ln|μ|/T = {x:.12}")),
         };
         rows.push((value, meaning));
+    }
+    if let Some(error) = orbit.rounding.filter(|_| !small.is_empty()) {
+        let times =
+            if small.len() > 1 { format!("{} times, ", small.len()) } else { String::new() };
+        rows.push(("0".to_owned(), format!("{times}to {error:.0e}: lost in rounding")));
     }
     if !ones.is_empty() {
         let spread = ones.iter().map(|z| off_one(z)).fold(0.0, f64::max);

@@ -1,5 +1,6 @@
 //! `phaselab plot`: a table of numbers drawn as text.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::failure::CommandError;
@@ -12,7 +13,8 @@ use crate::{file, printable};
 /// Draw a table of numbers as text: what D writes in the lab, or run, section and sweep.
 ///
 /// Two of its columns are drawn against each other, a third one as shades. By default these are the
-/// first two, or the three of the table of a map; in front of a section's the number of the orbit is left out.
+/// first two whose numbers differ, or the three of the table of a map; of a section's the number of the orbit and of the
+/// crossing and its time are left out.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -130,11 +132,12 @@ impl NumberTable {
 
     /// What is drawn of it: the columns asked for, or those that follow from its shape.
     fn plot(&self, arguments: &Arguments) -> Result<TablePlot, CommandError> {
-        let first = usize::from(self.columns[0] == "orbit" && self.columns.len() > 2);
+        let numbered = self.columns[0] == "orbit" && self.columns.len() > 2;
+        let (across, upwards) = self.axes(numbered);
         let given = |name: &Option<String>| name.as_ref().map(|name| self.named(name)).transpose();
-        let x = given(&arguments.x)?.unwrap_or(first);
-        let y = given(&arguments.y)?.unwrap_or(first + 1);
-        let is_map = first == 0 && self.columns.len() == 3 && self.is_lattice();
+        let x = given(&arguments.x)?.unwrap_or(across);
+        let y = given(&arguments.y)?.unwrap_or(upwards);
+        let is_map = !numbered && self.columns.len() == 3 && self.is_lattice();
         let of = given(&arguments.of)?.or(is_map.then_some(2));
         let points: Vec<[f64; 3]> = (self.rows.iter())
             .map(|row| [row[x], row[y], of.map_or(1.0, |of| row[of])])
@@ -142,7 +145,10 @@ impl NumberTable {
             .collect();
         if points.is_empty() {
             let [x, y] = [x, y].map(|k| printable::quoted(&self.columns[k]));
-            let what = format!("no row has numbers for both `{x}` and `{y}`");
+            let what = match of.map(|k| printable::quoted(&self.columns[k])) {
+                None => format!("no row has numbers for both `{x}` and `{y}`"),
+                Some(of) => format!("no row has numbers for all of `{x}`, `{y}` and `{of}`"),
+            };
             return Err(CommandError::WrongUse(what));
         }
         let title = printable::quoted(&self.title);
@@ -150,15 +156,38 @@ impl NumberTable {
         Ok(TablePlot { title, x: name(x), y: name(y), of: of.map(name), points })
     }
 
-    /// Whether the first two columns are places of a lattice: few values, each with many.
+    /// The columns that are drawn where none is asked for: the first two that have numbers, in front of those that are the
+    /// same in all rows, as the time at the end of a sweep. Of a section, whose rows begin with the `orbit`, its number and
+    /// the time of a crossing come last as well.
+    fn axes(&self, numbered: bool) -> (usize, usize) {
+        let finite = |k: usize| self.rows.iter().map(move |row| row[k]).filter(|x| x.is_finite());
+        let worth = |k: &usize| {
+            let of_crossing = numbered && ["orbit", "n", "t"].contains(&self.columns[*k].as_str());
+            match (finite(*k).next(), of_crossing) {
+                (None, _) => 3,
+                (_, true) => 2,
+                (Some(first), false) => u8::from(finite(*k).all(|x| x == first)),
+            }
+        };
+        let mut all: Vec<usize> = (0..self.columns.len()).collect();
+        // those of equal worth stay in their order
+        all.sort_by_key(worth);
+        (all[0].min(all[1]), all[0].max(all[1]))
+    }
+
+    /// Whether the first two columns are places of a lattice: few values, each with many. Where there are only two of
+    /// either, each place is there.
     fn is_lattice(&self) -> bool {
-        let values = |k: usize| {
-            let mut all: Vec<u64> = self.rows.iter().map(|row| row[k].to_bits()).collect();
-            all.sort_unstable();
-            all.dedup();
+        let different = |of: &dyn Fn(&Vec<f64>) -> [u64; 2]| {
+            let all: BTreeSet<[u64; 2]> = self.rows.iter().map(of).collect();
             all.len()
         };
-        let (columns, rows) = (values(0), values(1));
-        columns > 1 && rows > 1 && columns * rows <= 2 * self.rows.len()
+        let columns = different(&|row| [row[0].to_bits(); 2]);
+        let rows = different(&|row| [row[1].to_bits(); 2]);
+        let places = different(&|row| [row[0].to_bits(), row[1].to_bits()]);
+        let is_whole = places == columns * rows;
+        columns > 1
+            && rows > 1
+            && (is_whole || (columns.min(rows) > 2 && columns * rows <= 2 * places))
     }
 }

@@ -68,6 +68,33 @@ pub(super) fn kernel(matrix: &DMatrix<f64>, cut: f64) -> Vec<DVector<f64>> {
 /// A singular vector is a new one if this much of it lies outside those before it.
 const NEW: f64 = 0.1;
 
+/// Eigenvalues of a square below this part of its greatest belong to vectors that the matrix takes to nearly zero.
+const NULL: f64 = 1e-10;
+
+/// A vector that a matrix takes to nearly zero, with all its digits: the eigenvectors of the square have half of them.
+fn refined(
+    vector: &DVector<f64>,
+    matrix: &DMatrix<f64>,
+    square: &SymmetricEigen<f64, nalgebra::Dyn>,
+) -> DVector<f64> {
+    let mut vector = vector.clone();
+    let least = NULL * square.eigenvalues.amax();
+    if (matrix * &vector).norm_squared() > least {
+        return vector;
+    }
+    for _ in 0..REFINEMENTS {
+        let left = matrix.transpose() * (matrix * &vector);
+        let others = square.eigenvalues.iter().zip(square.eigenvectors.column_iter());
+        for (value, other) in others.filter(|(value, _)| **value > least) {
+            vector -= other * (other.dot(&left) / value);
+        }
+    }
+    vector
+}
+
+/// Each gains half of all digits.
+const REFINEMENTS: usize = 2;
+
 /// A vector that the matrix minus i ω takes to (nearly) zero, the `rank`-th best.
 pub(super) fn null_vector(
     matrix: &DMatrix<f64>,
@@ -96,7 +123,7 @@ pub(super) fn null_vector(
     order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
     let mut found: Vec<DVector<Complex<f64>>> = Vec::new();
     for k in order {
-        let both = eigen.eigenvectors.column(k);
+        let both = refined(&eigen.eigenvectors.column(k).into_owned(), &parts, &eigen);
         let mut vector = DVector::from_fn(n, |i, _| Complex::new(both[i], both[i + n]));
         for _ in 0..2 {
             for one in &found {

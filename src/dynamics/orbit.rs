@@ -42,6 +42,9 @@ const ROUNDS: usize = 4;
 /// A multiplier this close to the unit circle lies on it.
 const ON_CIRCLE: f64 = 1e-6;
 
+/// The part of a matrix by which rounding turns what is across an orbit.
+const DIRECTIONS: f64 = 4.0 * f64::EPSILON;
+
 /// A periodic orbit.
 #[derive(Clone, Debug)]
 pub struct Orbit {
@@ -99,7 +102,10 @@ impl Orbit {
         let multipliers = linear::eigenvalues(&transverse);
         let rounding = circuit.rounding.as_ref().map(|rounding| {
             let frame = frame.abs();
-            (frame.transpose() * newton.units.map(&rounding.error) * frame).amax()
+            let error = frame.transpose() * newton.units.map(&rounding.error) * &frame;
+            // the directions across the orbit are known to rounding, too
+            let turned = newton.units.map(&circuit.monodromy).abs() * frame;
+            error.amax() + DIRECTIONS * turned.amax()
         });
         let stable = multipliers.iter().all(|z| math::hypot(z[0], z[1]) <= 1.0 + ON_CIRCLE);
         let size = newton.size(&closed.state);
@@ -129,9 +135,16 @@ impl Orbit {
         preserves.then(|| (2.0 - across.trace()) / 4.0)
     }
 
-    /// The characteristic exponent ln|μ|/T of a multiplier μ: the Lyapunov exponent along its direction.
-    pub fn exponent(&self, [re, im]: [f64; 2]) -> f64 {
-        math::ln(math::hypot(re, im)) / self.period
+    /// Whether a multiplier is so small that it is lost in rounding, so that no more is known of it than that it nearly vanishes.
+    pub fn nearly_vanishes(&self, [re, im]: [f64; 2]) -> bool {
+        self.rounding.is_some_and(|rounding| math::hypot(re, im) <= rounding)
+    }
+
+    /// The characteristic exponent ln|μ|/T of a multiplier μ: the Lyapunov exponent along its direction; nothing where μ is
+    /// lost in rounding.
+    pub fn exponent(&self, [re, im]: [f64; 2]) -> Option<f64> {
+        let known = !self.nearly_vanishes([re, im]);
+        known.then(|| math::ln(math::hypot(re, im)) / self.period)
     }
 
     /// The angle by which a pair of multipliers e^{±2πiν} turns in a period, in turns: 0 < ν < ½, or nothing off the unit circle.

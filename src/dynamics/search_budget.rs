@@ -43,3 +43,24 @@ impl<'a> SearchBudget<'a> {
             .then(|| format!("the search ended after {} steps of the motion", self.total))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::integrate::method_named;
+
+    #[test]
+    fn a_search_ends_after_its_steps_and_says_after_how_many() {
+        for (name, steps) in [("taylor", 100_000), ("dop853", 100_000), ("leapfrog", 4_000_000)] {
+            let told = Cell::new((0, 0));
+            let look = |taken, total| told.set((taken, total));
+            let budget = SearchBudget::of(method_named(name).expect("a method"), &look);
+            (1..steps).for_each(|_| budget.step());
+            assert_eq!((budget.is_spent(), budget.ended()), (false, None), "{name}");
+            budget.step();
+            let ended = format!("the search ended after {steps} steps of the motion");
+            assert_eq!((budget.is_spent(), budget.ended()), (true, Some(ended)), "{name}");
+            assert_eq!(told.get(), (steps, steps), "{name}");
+        }
+    }
+}

@@ -1,4 +1,4 @@
-//! Orbits that come within rounding of a singularity of their law.
+//! Orbits that come so close to a singularity of their law that rounding leaves nothing of their multipliers.
 //!
 //! In: a motion that closes. Out: what is said of it where its monodromy matrix is not known. Never here: how an orbit is
 //! searched for.
@@ -36,12 +36,13 @@ impl Newton<'_> {
             .map(|(name, value)| format!("{name} = {}", short(*value)))
             .collect();
         Ok(Some(format!(
-            "the orbit that closes near the start, after {}, passes a singularity of its law within rounding, at {} after its \
-             start: {}. Neighbouring motions part there without bound, so that it has no multipliers that are known. Begin \
-             farther from it, or with another period or energy",
+            "the orbit that closes near the start, after {}, passes close to a singularity of its law, at {} after its \
+             start: {}. Neighbouring motions part there so far that rounding may change the matrix of its multipliers by \
+             {:.0e} of its size, so that they are not known. Begin farther from it, or with another period or energy",
             short(closed.period),
             short(rounding.worst - start.time),
-            place.join(", ")
+            place.join(", "),
+            error / circuit.growth()
         )))
     }
 }

@@ -175,7 +175,7 @@ impl Torus {
             self.frequencies.iter().map(|&(x, error)| digits(x, SIGMAS * error)).collect();
         let ratios = self.ratios();
         let values: Vec<String> = (ratios.iter())
-            .map(|(ratio, doubt)| format!("{} ± {doubt:.0e}", digits(*ratio, *doubt)))
+            .map(|(ratio, doubt)| format!("{} ± {}", digits(*ratio, *doubt), in_one_digit(*doubt)))
             .collect();
         let whose = if self.is_driven { " (the first is that of the drive)" } else { "" };
         let all = format!("its frequencies {}{whose}", frequencies.join(" and "));
@@ -229,10 +229,28 @@ fn digits(x: f64, error: f64) -> String {
     to_its_error(x, error, 10, 1e-4..1e6)
 }
 
+/// A number with one digit; as a decimal where that is short.
+fn in_one_digit(x: f64) -> String {
+    match x {
+        0.095..0.95 => format!("{x:.1}"),
+        0.0095..0.095 => format!("{x:.2}"),
+        _ => format!("{x:.0e}"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::num::math;
+
+    #[test]
+    fn an_error_has_one_digit() {
+        for (x, text) in
+            [(0.096, "0.1"), (0.094, "0.09"), (0.02, "0.02"), (0.004, "4e-3"), (1.2, "1e0")]
+        {
+            assert_eq!(in_one_digit(x), text);
+        }
+    }
 
     fn sentence(ratio: f64, doubt: f64) -> String {
         let frequencies = vec![(1.0, 0.0), (ratio, doubt / SIGMAS)];

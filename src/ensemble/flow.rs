@@ -74,6 +74,7 @@ impl SystemFlow {
     pub fn carry(&self, from: &State, times: &[f64], channels: &[usize]) -> Carried {
         let mut carried = Carried::default();
         // where it ends early is what is there
+        let from = (from, &self.parameters[..]);
         let end = self.follow(from, times, channels, &mut carried.seen);
         carried.end = end.ok().flatten();
         carried
@@ -93,7 +94,11 @@ impl SystemFlow {
     ) -> Result<Vec<Carried>, PoolError> {
         let mut all = Vec::with_capacity(from.len());
         let groups: Vec<&[Option<&State>]> = from.chunks(GROUP).collect();
-        let one = |group: usize| self.carry_group(groups[group], times, channels);
+        let one = |group: usize| {
+            let own = |&state| (state, &self.parameters[..]);
+            let group: Vec<_> = groups[group].iter().map(own).collect();
+            self.carry_each(&group, times, channels)
+        };
         in_order(0, groups.len(), self.system.cancel(), one, |_, carried| {
             all.extend(carried);
             done(all.len() as u64);
@@ -102,23 +107,43 @@ impl SystemFlow {
         Ok(all)
     }
 
-    fn carry_group(
+    /// How many states [`SystemFlow::carry_each`] is best given at a time: as many as there are lanes where states are
+    /// carried side by side, otherwise one, so that there is work for all threads.
+    pub fn group(&self) -> usize {
+        let (method, settings) = self.method;
+        match BatchPropagator::new(&self.system.without_marks(), method, settings) {
+            Some(_) => BATCH,
+            None => 1,
+        }
+    }
+
+    /// Carries states, each with parameters of its own in place of those of the flow, on this thread, several of them side
+    /// by side as [`SystemFlow::carry_all`] does.
+    pub fn carry_each(
         &self,
-        from: &[Option<&State>],
+        from: &[(Option<&State>, &[f64])],
         times: &[f64],
         channels: &[usize],
     ) -> Vec<Carried> {
-        let alone = |state: Option<&State>| {
-            state.map_or_else(Carried::default, |state| self.carry(state, times, channels))
+        let alone = |(state, parameters): (Option<&State>, &[f64])| {
+            let mut carried = Carried::default();
+            if let Some(state) = state {
+                let seen = &mut carried.seen;
+                // where it ends early is what is there
+                let end = self.follow((state, parameters), times, channels, seen);
+                carried.end = end.ok().flatten();
+            }
+            carried
         };
         let (method, settings) = self.method;
         match BatchPropagator::new(&self.system.without_marks(), method, settings) {
             Some(mut batch) => {
                 let mut together = CarriedTogether {
+                    system: &self.system,
                     from,
-                    parameters: &self.parameters,
                     times,
-                    sight: FlowObserver::new(&self.system, &self.parameters, channels),
+                    channels,
+                    sights: std::array::from_fn(|_| None),
                     here: State::new(0.0, self.system.form(), Vec::new()),
                     carried: vec![Some(Carried::default()); from.len()],
                     effort: self.effort,
@@ -127,26 +152,26 @@ impl SystemFlow {
                 // what a cancellation leaves is not asked for
                 side_by_side(&mut batch, from.len(), &mut together);
                 let carried = together.carried.into_iter().zip(from);
-                carried.map(|(one, &state)| one.unwrap_or_else(|| alone(state))).collect()
+                carried.map(|(one, &own)| one.unwrap_or_else(|| alone(own))).collect()
             }
-            None => from.iter().map(|&state| alone(state)).collect(),
+            None => from.iter().map(|&own| alone(own)).collect(),
         }
     }
 
     fn follow(
         &self,
-        from: &State,
+        (from, parameters): (&State, &[f64]),
         times: &[f64],
         channels: &[usize],
         seen: &mut Vec<Vec<f64>>,
     ) -> Result<Option<State>, MotionError> {
         let (method, settings) = self.method;
         let system = self.system.without_marks();
-        let Ok(mut motion) = Propagator::new(&system, method, settings, &self.parameters) else {
+        let Ok(mut motion) = Propagator::new(&system, method, settings, parameters) else {
             return Ok(None);
         };
-        motion.restore(from, &self.parameters, self.start, &[])?;
-        let mut sight = FlowObserver::new(motion.system(), &self.parameters, channels);
+        motion.restore(from, parameters, self.start, &[])?;
+        let mut sight = FlowObserver::new(motion.system(), parameters, channels);
         let last = times.last().copied().unwrap_or(from.time);
         for &time in times {
             loop {
@@ -197,10 +222,13 @@ impl FlowObserver<'_> {
 
 /// States carried side by side.
 struct CarriedTogether<'a> {
-    from: &'a [Option<&'a State>],
-    parameters: &'a [f64],
+    system: &'a System,
+    /// Each with its parameters.
+    from: &'a [(Option<&'a State>, &'a [f64])],
     times: &'a [f64],
-    sight: FlowObserver<'a>,
+    channels: &'a [usize],
+    /// What is seen in each lane, and with which parameters.
+    sights: [Option<(&'a [f64], FlowObserver<'a>)>; BATCH],
     here: State,
     /// What becomes of each state; `None` for what has to be carried alone.
     carried: Vec<Option<Carried>>,
@@ -211,10 +239,14 @@ struct CarriedTogether<'a> {
 
 impl Follower for CarriedTogether<'_> {
     fn begin(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
-        let Some(state) = self.from[orbit] else { return OrbitCourse::Over };
-        if batch.begin(lane, state, self.parameters) == LaneStatus::Irregular {
+        let (Some(state), parameters) = self.from[orbit] else { return OrbitCourse::Over };
+        if batch.begin(lane, state, parameters) == LaneStatus::Irregular {
             self.carried[orbit] = None;
             return OrbitCourse::Over;
+        }
+        if self.sights[lane].as_ref().is_none_or(|(known, _)| *known != parameters) {
+            let sight = FlowObserver::new(self.system, parameters, self.channels);
+            self.sights[lane] = Some((parameters, sight));
         }
         self.steps[lane] = 0;
         self.seen(orbit, lane, batch)
@@ -240,7 +272,10 @@ impl Follower for CarriedTogether<'_> {
 impl CarriedTogether<'_> {
     /// Reads the channels at all times that have been reached.
     fn seen(&mut self, orbit: usize, lane: usize, batch: &mut BatchPropagator) -> OrbitCourse {
-        let Some(one) = &mut self.carried[orbit] else { return OrbitCourse::Over };
+        let (Some(one), Some((_, sight))) = (&mut self.carried[orbit], &mut self.sights[lane])
+        else {
+            return OrbitCourse::Over;
+        };
         let Some(&last) = self.times.last() else {
             one.end = Some(batch.state(lane).clone());
             return OrbitCourse::Over;
@@ -251,7 +286,7 @@ impl CarriedTogether<'_> {
                 return OrbitCourse::Until(last);
             }
             batch.at(lane, time, &mut self.here);
-            match self.sight.of(&self.here) {
+            match sight.of(&self.here) {
                 Ok(row) => one.seen.push(row),
                 Err(_) => return OrbitCourse::Over,
             }

@@ -4,6 +4,7 @@
 //! In: a system and its current state. Out: [`FoundEquilibria`], coordinates on plots, initial values. Never here: lists,
 //! keys, how the search works ([`equilibria`](crate::dynamics::equilibria)).
 
+use super::mode_amplitude::mode_amplitude;
 use super::{Ink, Layer, Level, MarkerShape, Physics, Present};
 use crate::dynamics::{
     Equilibrium, Kind, PhaseSpace, VirtualWork, equilibria_watched, name_equilibria,
@@ -15,7 +16,7 @@ use crate::job::Progress;
 use crate::num::significant;
 use crate::system::{ChannelKind, ConstraintProjector, Form, InitialOverride, State};
 
-/// How far a motion along a mode is displaced, in the largest coordinate: as an angle, and as a part of its range so far.
+/// How far a motion along a mode is displaced at most, in the largest coordinate: as an angle, and as a part of its range so far.
 const AMPLITUDE: f64 = 0.1;
 
 /// The equilibria at certain parameters.
@@ -117,25 +118,27 @@ pub fn start_along(present: &Present<'_>, one: &Equilibrium, mode: usize) -> Vec
         let extent = hi - lo;
         period.map(|period| period / std::f64::consts::TAU).or((extent > 0.0).then_some(extent))
     });
-    let amplitude = AMPLITUDE * range.unwrap_or(1.0);
+    let wanted = AMPLITUDE * range.unwrap_or(1.0);
     let cyclic = |i: usize| one.rates.iter().find(|(other, _)| *other == i).map(|(_, rate)| *rate);
     // q(t) = a (in phase · cos ωt − quadrature · sin ωt)
-    let places: Vec<f64> =
-        (0..n).map(|i| one.variables[i] + amplitude * mode.in_phase[i]).collect();
-    let speeds: Vec<f64> =
-        (0..n).map(|i| -amplitude * mode.frequency * mode.quadrature[i]).collect();
+    let place = |amplitude: f64, i: usize| one.variables[i] + amplitude * mode.in_phase[i];
+    let speed = |amplitude: f64, i: usize| -amplitude * mode.frequency * mode.quadrature[i];
     if let Some(mut projector) = physics.system.projector(present.parameters) {
+        let places: Vec<f64> = (0..n).map(|i| place(wanted, i)).collect();
+        let speeds: Vec<f64> = (0..n).map(|i| speed(wanted, i)).collect();
         return on_the_surface(&mut projector, present, (&places, &speeds), cyclic);
     }
-    let mut given = Vec::new();
-    for i in 0..n {
-        given.push(InitialOverride::Position(i, places[i]));
-        given.push(match cyclic(i) {
-            Some(_) => InitialOverride::Momentum(i, one.variables[n + i]),
-            None => InitialOverride::Velocity(i, speeds[i]),
-        });
-    }
-    given
+    let given = |amplitude: f64| -> Vec<InitialOverride> {
+        let of_one = |i: usize| {
+            let rate = match cyclic(i) {
+                Some(_) => InitialOverride::Momentum(i, one.variables[n + i]),
+                None => InitialOverride::Velocity(i, speed(amplitude, i)),
+            };
+            [InitialOverride::Position(i, place(amplitude, i)), rate]
+        };
+        (0..n).flat_map(of_one).collect()
+    };
+    given(mode_amplitude(present, one, wanted, given))
 }
 
 /// The same where constraints hold the coordinates: a displacement along a tangent is moved onto their surface. Nothing, if

@@ -11,8 +11,8 @@ use super::{
     Need, NoStart, Offer, Physics, Picture, Plot, Present, Seed, Upwards,
 };
 use crate::dynamics::{
-    DynamicsError, Fixed, Orbit as Closed, PhaseSpace, Removed, explained, nearest_driven_orbit,
-    nearest_orbit,
+    DynamicsError, Fixed, Orbit as Closed, OrbitStability, PhaseSpace, Removed, explained,
+    nearest_driven_orbit, nearest_orbit,
 };
 use crate::ensemble::{Start, SystemFlow};
 use crate::integrate::{Method, Settings, method_named};
@@ -361,7 +361,8 @@ fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
             format!("{} {sign} {}i", brief(re), brief(im.abs()))
         }
     };
-    let own: Vec<String> = orbit.multipliers.iter().map(|z| multiplier(*z)).collect();
+    let shown = |&z: &[f64; 2]| multiplier(if orbit.nearly_vanishes(z) { [0.0, 0.0] } else { z });
+    let own: Vec<String> = orbit.multipliers.iter().map(shown).collect();
     let trivial = match orbit.trivial {
         Removed::Nothing => "",
         Removed::Flow => "1 (flow)",
@@ -373,10 +374,10 @@ fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     if let Some(error) = orbit.rounding.filter(|error| *error > NOTICED) {
         lines.push(format!("rounding {error:.0e} in their matrix").replace('-', "−"));
     }
-    let how = match (orbit.multipliers.is_empty(), orbit.stable) {
-        (true, _) => "neutral: one of a family in E".to_owned(),
-        (false, true) => "stable".to_owned(),
-        (false, false) => "unstable".to_owned(),
+    let how = match orbit.stability() {
+        OrbitStability::Neutral => "neutral: one of a family in E".to_owned(),
+        OrbitStability::Parabolic => "parabolic: all multipliers are 1".to_owned(),
+        other => other.word().to_owned(),
     };
     let residue = orbit.residue().map(|residue| format!(", residue {}", brief(residue)));
     lines.push(how + &residue.unwrap_or_default());

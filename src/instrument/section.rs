@@ -338,9 +338,10 @@ fn by_chaos(plot: &Plot) -> bool {
 
 fn chaos_ink(regular: Option<bool>) -> Ink {
     match regular {
-        Some(true) => Ink::Level,
+        Some(true) => Ink::Curve(0),
         Some(false) => Ink::Warn,
-        None => Ink::Plain,
+        // the faintest: nothing is said of it
+        None => Ink::Level,
     }
 }
 

@@ -1,11 +1,11 @@
 //! What can be measured on an orbit beside its end: one row of a table for each measure.
 //!
-//! In: an orbit from its start to an end in time, and an expression where the measure takes one. Out: a number; NaN where
-//! the orbit has none. A new measure is a constant below and a line in [`MEASURES`]; what it needs of the system beyond
+//! In: orbits from their starts to an end in time, and an expression where the measure takes one. Out: a number for each; NaN
+//! where an orbit has none. A new measure is a constant below and a line in [`MEASURES`]; what it needs of the system beyond
 //! the equations of motion, it does with the [`System`] that it is handed. Never here: tables, names of columns.
 
 use crate::dynamics::{PhaseSpace, lyapunov};
-use crate::ensemble::{Crossings, OrbitStatus, SectionPlan, Start, crossings};
+use crate::ensemble::{Crossings, OrbitStatus, SectionPlan, Start, crossings_of_all};
 use crate::integrate::{Method, Settings};
 use crate::mechanics::Equations;
 use crate::model::Model;
@@ -19,8 +19,8 @@ pub struct OrbitMeasure {
     pub about: &'static str,
     /// The expression whose zeros it looks at.
     pub of: Zeros,
-    /// Measures an orbit; `None` if it was cancelled.
-    pub measure: fn(&MeasuredOrbit<'_>) -> Option<f64>,
+    /// Measures orbits, several of them side by side where that is possible; `None` for one that was cancelled.
+    pub measure: fn(&MeasuredOrbits<'_>) -> Vec<Option<f64>>,
 }
 
 /// The expression whose rising zeros a measure looks at.
@@ -35,8 +35,8 @@ pub enum Zeros {
     None,
 }
 
-/// An orbit to be measured.
-pub struct MeasuredOrbit<'a> {
+/// Orbits to be measured.
+pub struct MeasuredOrbits<'a> {
     /// The model.
     pub model: &'a Model,
     /// Its equations.
@@ -49,36 +49,39 @@ pub struct MeasuredOrbit<'a> {
     pub method: &'static Method,
     /// Its settings.
     pub settings: Settings,
-    /// Where the orbit begins.
-    pub start: &'a Start,
-    /// The time at which it ends.
-    pub end: f64,
+    /// Where each orbit begins, and the time at which it ends.
+    pub orbits: &'a [(&'a Start, f64)],
 }
 
-impl MeasuredOrbit<'_> {
-    /// The zeros on the orbit, at most `count`, up to its end or to an error; `None` if it was cancelled.
-    fn zeros(&self, count: Option<u64>) -> Option<Crossings> {
-        let plan = SectionPlan {
-            event: self.event.to_owned(),
-            count,
-            until: Some(self.end),
-            idle: u64::MAX,
-            all_channels: false,
+impl MeasuredOrbits<'_> {
+    /// A number of the zeros on each orbit, at most `count`, up to its end or to an error.
+    fn of_zeros(&self, count: Option<u64>, number: fn(&Crossings) -> f64) -> Vec<Option<f64>> {
+        let together = |orbits: &[(&Start, f64)]| {
+            let plan = SectionPlan {
+                event: self.event.to_owned(),
+                count,
+                until: Some(orbits[0].1),
+                idle: u64::MAX,
+                all_channels: false,
+            };
+            let starts = orbits.iter().map(|&(start, _)| Ok(start.clone())).collect();
+            crossings_of_all(self.system, self.method, self.settings, starts, &plan)
         };
-        let found = crossings(self.system, self.method, self.settings, self.start, &plan);
-        (!self.system.cancel().is_cancelled()).then_some(found)
+        // those that end at one time
+        let groups = self.orbits.chunk_by(|(_, a), (_, b)| a == b);
+        let found: Vec<Crossings> = groups.flat_map(together).collect();
+        let cancelled = self.system.cancel().is_cancelled();
+        found.iter().map(|found| (!cancelled).then(|| number(found))).collect()
     }
-}
 
-impl MeasuredOrbit<'_> {
-    /// The largest Lyapunov exponent up to the end, if the orbit has one and reaches it.
-    fn exponent(&self) -> Option<f64> {
-        let parameters = &self.start.parameters;
+    /// The largest Lyapunov exponent of an orbit up to the end, if it has one and reaches it.
+    fn exponent(&self, (start, end): (&Start, f64)) -> Option<f64> {
+        let parameters = &start.parameters;
         let space =
             PhaseSpace::on_constraints(self.model, self.equations, self.system, parameters).ok()?;
-        let state = self.start.state(self.system).and_then(|state| space.state(&state)).ok()?;
+        let state = start.state(self.system).and_then(|state| space.state(&state)).ok()?;
         let method = (self.method, self.settings);
-        let found = lyapunov(&space, method, &state, self.end, &mut |_| ()).ok()?;
+        let found = lyapunov(&space, method, &state, end, &mut |_| ()).ok()?;
         found.exponents.first().copied().filter(|_| found.failure.is_none())
     }
 }
@@ -95,9 +98,8 @@ const PERIOD: OrbitMeasure = OrbitMeasure {
     name: "period",
     about: "the mean time between maxima of the first coordinate, or with =EXPR between upward zeros of an expression; empty where there are fewer than two",
     of: Zeros::Maxima,
-    measure: |orbit| {
-        let found = orbit.zeros(None)?;
-        Some(match (found.rows.first(), found.rows.last()) {
+    measure: |orbits| {
+        orbits.of_zeros(None, |found| match (found.rows.first(), found.rows.last()) {
             (Some(first), Some(last)) if found.rows.len() > 1 => {
                 (last[0] - first[0]) / (found.rows.len() - 1) as f64
             }
@@ -110,9 +112,8 @@ const ESCAPE: OrbitMeasure = OrbitMeasure {
     name: "escape",
     about: "the first time at which EXPR of escape=EXPR rises through zero; empty where it does not",
     of: Zeros::Given,
-    measure: |orbit| {
-        let found = orbit.zeros(Some(1))?;
-        Some(found.rows.first().map_or(f64::NAN, |row| row[0]))
+    measure: |orbits| {
+        orbits.of_zeros(Some(1), |found| found.rows.first().map_or(f64::NAN, |row| row[0]))
     },
 };
 
@@ -120,10 +121,11 @@ const CROSSINGS: OrbitMeasure = OrbitMeasure {
     name: "crossings",
     about: "how often EXPR of crossings=EXPR rises through zero",
     of: Zeros::Given,
-    measure: |orbit| {
-        let found = orbit.zeros(None)?;
-        let begun = found.status != OrbitStatus::Refused;
-        Some(if begun { found.rows.len() as f64 } else { f64::NAN })
+    measure: |orbits| {
+        orbits.of_zeros(None, |found| {
+            let begun = found.status != OrbitStatus::Refused;
+            if begun { found.rows.len() as f64 } else { f64::NAN }
+        })
     },
 };
 
@@ -131,8 +133,11 @@ const LYAPUNOV: OrbitMeasure = OrbitMeasure {
     name: "lyapunov",
     about: "the largest Lyapunov exponent over the time of the run; empty where the orbit cannot be followed to its end",
     of: Zeros::None,
-    measure: |orbit| {
-        let found = orbit.exponent();
-        (!orbit.system.cancel().is_cancelled()).then_some(found.unwrap_or(f64::NAN))
+    measure: |orbits| {
+        let one = |&orbit| {
+            let found = orbits.exponent(orbit);
+            (!orbits.system.cancel().is_cancelled()).then_some(found.unwrap_or(f64::NAN))
+        };
+        orbits.orbits.iter().map(one).collect()
     },
 };

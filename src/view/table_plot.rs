@@ -68,10 +68,12 @@ pub fn drawn(plot: &TablePlot, [columns, rows]: [u16; 2], glyphs: Glyphs) -> Str
             let Some(at) = frame.cell([*x, *y]) else { continue };
             let (i, j) = (at.x - frame.area.x, at.y - frame.area.y);
             let cell = &mut cells[usize::from(j) * wide + usize::from(i)];
-            *cell = (cell.0 + value, cell.1 + 1);
+            // halves, since the difference of two numbers may be larger than any
+            let share = (0.5 * value - 0.5 * least) / (0.5 * most - 0.5 * least);
+            *cell = (cell.0 + share, cell.1 + 1);
         }
         for (index, (sum, count)) in cells.into_iter().enumerate().filter(|(_, c)| c.1 > 0) {
-            let share = (sum / f64::from(count) - least) / (most - least);
+            let share = sum / f64::from(count);
             let step = if share.is_finite() { (4.0 * share).floor().clamp(0.0, 3.0) } else { 0.0 };
             let (x, y) = ((index % wide) as u16, (index / wide) as u16);
             let at = Position { x: frame.area.x + x, y: frame.area.y + y };

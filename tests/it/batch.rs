@@ -364,3 +364,28 @@ fn events_are_found_in_the_lanes_themselves() {
         assert_eq!(*times, alone);
     }
 }
+
+/// Otherwise a map over a parameter would show the motions of the flow's own.
+#[test]
+fn states_with_parameters_of_their_own_are_carried_as_each_alone() {
+    let ready = Prepared::of(&catalog().find("henon-heiles").unwrap()).unwrap();
+    let states = states(&ready, 2 * BATCH + 3);
+    let own = |i: usize| {
+        let mut parameters = ready.model.parameter_values();
+        parameters.iter_mut().for_each(|x| *x *= 1.0 + 0.05 * ((i * 37) % 11) as f64);
+        parameters
+    };
+    let parameters: Vec<Vec<f64>> = (0..states.len()).map(own).collect();
+    assert!(parameters[0] != parameters[1], "a system with parameters");
+    let from: Vec<_> = states.iter().map(Some).zip(parameters.iter().map(|p| &p[..])).collect();
+    let channels: Vec<usize> = (0..ready.system.columns()).collect();
+    for tolerance in TOLERANCES {
+        let flow = flow(&ready, tolerance);
+        assert_eq!(flow.group(), BATCH);
+        let together = flow.carry_each(&from, &[1.0, 12.5], &channels);
+        for ((one, state), parameters) in together.iter().zip(&states).zip(&parameters) {
+            let flow = SystemFlow { parameters: parameters.clone(), ..flow.clone() };
+            assert_eq!(bits(one), bits(&flow.carry(state, &[1.0, 12.5], &channels)));
+        }
+    }
+}

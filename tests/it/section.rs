@@ -323,12 +323,17 @@ fn a_key_colours_orbits_by_whether_they_are_regular() {
         let plot = app.lab.as_ref().unwrap().plots[0].clone();
         let of = |wanted: Ink| inked.iter().filter(|ink| **ink == wanted).count() as f64;
         assert_eq!(of(Ink::Warn), measure(&app, &plot, "chaotic"));
-        assert_eq!(of(Ink::Level), measure(&app, &plot, "regular"));
-        assert_eq!((of(Ink::Warn) > 4.0, of(Ink::Level) > 2.0), (chaos, true), "{inked:?}");
+        assert_eq!(of(Ink::Curve(0)), measure(&app, &plot, "regular"));
+        assert_eq!((of(Ink::Warn) > 4.0, of(Ink::Curve(0)) > 2.0), (chaos, true), "{inked:?}");
         // without colour chaotic orbits are crosses, and so is their key
         let theme = Theme::dark(ColourDepth::None);
         let text = rows(&screen(&app, &RenderStyle { theme, ..rich() }, (120, 40))).concat();
-        assert!(text.contains("× chaotic") && text.contains("· regular"), "{text}");
+        assert!(
+            text.contains("× chaotic")
+                && text.contains("● regular")
+                && text.contains("· undecided"),
+            "{text}"
+        );
         assert_eq!(text.matches('×').count() > 20, chaos, "{text}");
         typed(&mut app, "H");
         assert_eq!(inks(&app, 0), plain);

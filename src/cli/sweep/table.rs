@@ -19,8 +19,9 @@ use crate::diagnostic::nearest;
 use crate::dynamics::PhaseSpace;
 use crate::ensemble::{OrbitStatus, Start, add_section};
 use crate::model::Direction;
+use crate::num::BATCH;
 use crate::orbits::{
-    Departed, MEASURES, MeasuredOrbit, OrbitMeasure, RunOutcome, RunPlan, Zeros, measure_named,
+    Departed, MEASURES, MeasuredOrbits, OrbitMeasure, RunOutcome, RunPlan, Zeros, measure_named,
 };
 use crate::printable;
 use crate::system::{InitialOverride, System};
@@ -221,43 +222,73 @@ impl SweepTable {
             (start, self.until.unwrap_or(start.time + LENGTH))
         };
         let runs: Vec<(&Start, f64)> = indices.iter().map(run).collect();
+        // as many are measured at a time as there are lanes
+        let many = if self.plan.is_side_by_side() { BATCH } else { 1 };
+        let mut ended = Vec::new();
+        let mut rows = |ended: &mut Vec<(usize, RunOutcome)>| {
+            let measured = self.measured(&runs, ended);
+            for ((i, outcome), numbers) in ended.drain(..).zip(measured) {
+                if let Some(numbers) = numbers {
+                    done(i, self.row(runs[i].0, outcome, &numbers));
+                }
+            }
+        };
         self.plan.run_all(&runs, |i, outcome| {
-            let (start, end) = runs[i];
-            self.row(start, end, outcome).into_iter().for_each(|row| done(i, row));
+            ended.push((i, outcome));
+            if self.measures.is_empty() || ended.len() >= many {
+                rows(&mut ended);
+            }
         });
+        rows(&mut ended);
     }
 
-    /// The row of a run; `None` if a measure was cancelled.
-    fn row(&self, start: &Start, end: f64, outcome: RunOutcome) -> Option<SweepRow> {
-        let mut cells: Vec<TableCell> =
-            self.set.iter().map(|&set| TableCell::Number(value(set, start))).collect();
-        cells.push(TableCell::Word(outcome.status.word().to_owned()));
-        cells.push(TableCell::Number(outcome.time));
-        cells.extend(outcome.values.iter().map(|&x| TableCell::Number(x)));
-        cells.push(TableCell::Number(outcome.energy_drift));
+    /// All measures of each run that has ended; `None` for one that was cancelled.
+    fn measured(
+        &self,
+        runs: &[(&Start, f64)],
+        ended: &[(usize, RunOutcome)],
+    ) -> Vec<Option<Vec<f64>>> {
+        let begun = |(i, outcome): &(usize, RunOutcome)| {
+            (outcome.status != OrbitStatus::Refused).then_some(runs[*i])
+        };
+        let orbits: Vec<(&Start, f64)> = ended.iter().filter_map(begun).collect();
+        let mut all = vec![Some(Vec::new()); ended.len()];
         for taken in &self.measures {
-            let orbit = MeasuredOrbit {
+            let orbits = MeasuredOrbits {
                 model: &self.laid.model,
                 equations: &self.laid.equations,
                 system: &taken.system,
                 event: &taken.event,
                 method: self.laid.method,
                 settings: self.laid.settings,
-                start,
-                end,
+                orbits: &orbits,
             };
-            let measured = if outcome.status == OrbitStatus::Refused {
-                f64::NAN
-            } else {
-                (taken.name.measure.measure)(&orbit)?
-            };
-            cells.push(TableCell::Number(measured));
+            let mut found = (taken.name.measure.measure)(&orbits).into_iter();
+            for (numbers, one) in all.iter_mut().zip(ended) {
+                let number = begun(one).map_or(Some(f64::NAN), |_| found.next().flatten());
+                *numbers = numbers.take().zip(number).map(|(mut numbers, number)| {
+                    numbers.push(number);
+                    numbers
+                });
+            }
         }
+        all
+    }
+
+    /// The row of a run and what was measured on it.
+    fn row(&self, start: &Start, outcome: RunOutcome, measured: &[f64]) -> SweepRow {
+        let mut cells: Vec<TableCell> =
+            self.set.iter().map(|&set| TableCell::Number(value(set, start))).collect();
+        cells.push(TableCell::Word(outcome.status.word().to_owned()));
+        cells.push(TableCell::Number(outcome.time));
+        cells.extend(outcome.values.iter().map(|&x| TableCell::Number(x)));
+        cells.push(TableCell::Number(outcome.energy_drift));
+        cells.extend(measured.iter().map(|&x| TableCell::Number(x)));
         let failed = matches!(outcome.status, OrbitStatus::Faulted | OrbitStatus::Refused);
         let message = outcome.message.filter(|_| failed);
         let remark = RowRemark { message, departed: outcome.departed };
         let remark = (remark.message.is_some() || remark.departed.is_some()).then_some(remark);
-        Some(SweepRow { cells, remark })
+        SweepRow { cells, remark }
     }
 }
 

@@ -6,12 +6,12 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use crate::ensemble::{
-    Crossings, SectionPlan, Start, SystemFlow, crossings_of_all, in_order, section_group,
+    Carried, Crossings, SectionPlan, Start, SystemFlow, crossings_of_all, in_order, section_group,
 };
 use crate::instrument::Field;
 use crate::instrument::varied::{self, VariedConditions, VariedMotions};
 use crate::job::Progress;
-use crate::system::System;
+use crate::system::{MotionError, State, System};
 
 /// The places of the lattice, and how many of them make one part of the work, after which the picture is drawn anew.
 pub(super) const LATTICE: [usize; 2] = [128, 64];
@@ -100,7 +100,8 @@ impl MapTask {
         let (method, settings) = self.motions.method;
         match self.number {
             MapNumber::FirstCrossing(_) => section_group(system, method, settings),
-            _ => 1,
+            MapNumber::AtTheEnd(_) => self.flow(system).group(),
+            MapNumber::Exponent => 1,
         }
     }
 
@@ -113,9 +114,7 @@ impl MapTask {
                 found.map(|found| Ok(found?.unwrap_or(f64::NAN))).collect()
             }
             MapNumber::FirstCrossing(section) => self.first_crossings(system, section, starts),
-            MapNumber::AtTheEnd(channel) => {
-                starts.iter().map(|start| self.at_the_end(system, start, channel)).collect()
-            }
+            MapNumber::AtTheEnd(channel) => self.at_the_end(system, &starts, channel),
         }
     }
 
@@ -146,20 +145,44 @@ impl MapTask {
         found.into_iter().map(time).collect()
     }
 
-    /// A channel at the end of a motion.
-    fn at_the_end(&self, system: &System, start: &Start, channel: usize) -> Result<f64, String> {
-        let state = start.state(system).map_err(|why| why.to_string())?;
-        let flow = SystemFlow {
+    /// A channel at the end of each motion.
+    fn at_the_end(
+        &self,
+        system: &System,
+        starts: &[Start],
+        channel: usize,
+    ) -> Vec<Result<f64, String>> {
+        let states: Vec<_> = starts.iter().map(|start| start.state(system)).collect();
+        let from: Vec<_> = states
+            .iter()
+            .zip(starts)
+            .map(|(state, start)| (state.as_ref().ok(), &start.parameters[..]))
+            .collect();
+        // all begin when the file says
+        let end = self.motions.model.run.start + self.length;
+        let carried = self.flow(system).carry_each(&from, &[end], &[channel]);
+        let value = |(carried, start): (&Carried, &Start)| {
+            let value = carried.seen.first().and_then(|row| row.first());
+            let value = *value.ok_or("the motion cannot be followed to its end")?;
+            Ok(varied::within(value, system.period(channel, &start.parameters)))
+        };
+        let found = carried.iter().zip(starts).map(value);
+        let begun = |(found, state): (_, &Result<State, MotionError>)| match state {
+            Ok(_) => found,
+            Err(why) => Err(ToString::to_string(why)),
+        };
+        found.zip(&states).map(begun).collect()
+    }
+
+    /// The flow of the motions, each of which brings its own parameters.
+    fn flow(&self, system: &System) -> SystemFlow {
+        SystemFlow {
             system: system.clone(),
             method: self.motions.method,
-            parameters: start.parameters.clone(),
-            start: start.time,
+            parameters: self.motions.model.parameter_values(),
+            start: self.motions.model.run.start,
             effort: None,
-        };
-        let carried = flow.carry(&state, &[start.time + self.length], &[channel]);
-        let value = carried.seen.first().and_then(|row| row.first());
-        let value = *value.ok_or("the motion cannot be followed to its end")?;
-        Ok(varied::within(value, system.period(channel, &start.parameters)))
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use toml::Spanned;
 use super::NamedFormula;
 use super::system::formulas;
 use super::table::Table;
-use crate::diagnostic::{Diagnostics, SourceRange};
+use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 
 /// A name of an equilibrium as written.
 pub(in crate::preset) struct DraftEquilibrium {
@@ -27,7 +27,15 @@ pub(super) fn equilibria(
         if let Some((place, found)) = table.take("near") {
             let shape = "near = { x = \"...\" }";
             let inner = Table::of(found, "`near`".to_owned(), place, shape, diagnostics);
-            near = inner.map_or(near, |inner| formulas(&inner, "the coordinate", diagnostics));
+            near = inner.map_or(near, |inner| {
+                let all = formulas(&inner, "the coordinate", diagnostics);
+                if all.is_empty() {
+                    let message = "`near` has no coordinate, so this may be any equilibrium";
+                    let error = Diagnostic::error(inner.place.clone(), message);
+                    diagnostics.push(error.with_help(format!("write {shape}")));
+                }
+                all
+            });
         }
         all.push(DraftEquilibrium { name, near, place: table.place.clone() });
         table.finish(diagnostics);

@@ -116,6 +116,36 @@ fn a_gyroscopic_mode_begins_with_its_velocity() {
     assert!(rates > 1e-4, "an ellipse is not begun at rest: {rates}");
 }
 
+/// The slow mode of L₄ leads along the orbit of the Moon: displaced by a tenth of what Arenstorf's orbit covers, the probe would
+/// leave L₄ for good.
+#[test]
+fn a_mode_begins_where_the_forces_are_nearly_linear() {
+    for mode in [0, 1] {
+        let mut real = Real::of("restricted-three-body");
+        real.run(60);
+        real.look();
+        let lines = found(&mut real);
+        let stable = lines.iter().find(|(label, _)| label.contains(": stable")).unwrap();
+        let Choice::Equilibrium(index) = stable.1 else { panic!("{stable:?}") };
+        let line = lines.iter().position(|(_, c)| *c == Choice::Mode(index, mode)).unwrap();
+        let place = real.lab().present().unwrap().equilibria[index].clone();
+        real.press(&format!("{} Enter", "Down ".repeat(line)));
+        real.look();
+        let off = |real: &Real| {
+            let seen = real.seen().values.clone();
+            (seen[0] - place.variables[0]).hypot(seen[1] - place.variables[1])
+        };
+        let begun = off(&real);
+        assert!((0.002..0.1).contains(&begun), "{mode}: {begun}");
+        let period = std::f64::consts::TAU / place.modes[mode].frequency;
+        for part in 1..=40 {
+            real.experiment.advance(f64::from(part) * period / 20.0, u64::MAX);
+            real.look();
+            assert!(off(&real) < 2.0 * begun, "{mode} {part}: {} of {begun}", off(&real));
+        }
+    }
+}
+
 #[test]
 fn scripts_find_equilibria_and_portraits_mark_them() {
     drop(played(

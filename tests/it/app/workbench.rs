@@ -422,6 +422,34 @@ fn without_resuming_the_file_runs_and_the_text_waits_for_its_editor() {
     assert_eq!(rest(&mut again).len(), 1);
 }
 
+/// A key that changes the text must not make old changes run that nobody sees.
+#[test]
+fn a_text_from_before_is_not_run_by_a_key() {
+    let mut app = edited();
+    replace(&mut app, "cos(theta)", "cos(2*theta)");
+    let (mut again, _) = started_again(&app, false);
+    let before = again.unsaved();
+    for _ in 0..12 {
+        press(&mut again, "Tab");
+        press(&mut again, "L");
+        if again.overlay.is_some() {
+            break;
+        }
+    }
+    assert!(again.overlay.is_some(), "a field for the surface");
+    press(&mut again, "t h e t a = 0 . 2 Enter");
+    let notice = again.notice.as_ref().map_or("", |notice| &notice.text);
+    assert!(
+        notice.ends_with("has unsaved changes that do not run; E shows and runs them."),
+        "{notice}"
+    );
+    assert_eq!(again.unsaved(), before);
+    // once it is seen it runs, and the surface is written into it
+    press(&mut again, "E Esc");
+    press(&mut again, "L t h e t a = 0 . 2 Enter");
+    assert_ne!(again.unsaved(), before);
+}
+
 #[test]
 fn another_system_s_start_leaves_kept_texts_alone() {
     let mut app = edited();

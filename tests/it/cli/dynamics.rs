@@ -46,7 +46,8 @@ fn an_orbit_and_its_family_are_written() {
     let found = phaselab(&[&words[..], &["--along", "energy=-9:-6:2"]].concat()).json();
     assert!((found["period"].as_f64().unwrap() - 2.01740933501252).abs() < 1e-12);
     assert_eq!(found["multipliers"], serde_json::json!([[1.0, 0.0], [1.0, 0.0]]));
-    assert_eq!(found["stable"], true);
+    assert_eq!((&found["stable"], &found["stability"]), (&true.into(), &"neutral".into()));
+    assert_eq!(found["family"][0]["stability"], "neutral");
     let values: Vec<f64> =
         found["family"].as_array().unwrap().iter().map(|m| m["value"].as_f64().unwrap()).collect();
     assert_eq!(values, [-9.0, -6.0]);
@@ -56,6 +57,43 @@ fn an_orbit_and_its_family_are_written() {
     }
     let done = phaselab(&["orbit", "damped-pendulum", "--energy", "1"]);
     assert_eq!(done.code, 2);
+}
+
+/// An oscillator that is the same in all directions has ellipses only: its periodic orbits fill tori, and none has a stability
+/// of its own. Beside it: orbit B of Hénon and Heiles, and one about which neighbours turn.
+#[test]
+fn an_orbit_on_a_torus_of_periodic_orbits_is_called_parabolic() {
+    let isotropic = "title = 't'\n[coordinates]\nx = { initial = 1.0, velocity = 0.2 }\n\
+                     y = { initial = 0.3, velocity = 0.8 }\n[lagrangian]\n\
+                     L = \"1/2*(x'^2 + y'^2) - 1/2*(x^2 + y^2)\"\n";
+    let orbit = |words: &[&str]| match words {
+        ["system.toml", ..] => with_file(isotropic, &[&["orbit"], words].concat()),
+        _ => phaselab(&[&["orbit"], words].concat()),
+    };
+    let table = [
+        (&["system.toml"][..], "parabolic"),
+        (
+            &["henon-heiles", "--init=y=-0.18540508709080214", "--init=p_x=0.45975654576795759"],
+            "unstable",
+        ),
+        (&["henon-heiles", "--init=y=0.3", "--init=p_x=0.4"], "stable"),
+        (&["pendulum"], "neutral"),
+    ];
+    for (words, stability) in table {
+        let found = orbit(&[words, &["--format=json"]].concat()).json();
+        assert_eq!(found["stability"], stability, "{words:?}");
+        assert_eq!(found["stable"], stability != "unstable", "{words:?}");
+        let text = orbit(words).success();
+        let first = text.lines().next().unwrap();
+        match stability {
+            "neutral" => assert_eq!(first, "periodic orbit, one of a family in E"),
+            "parabolic" => assert!(
+                first.starts_with("parabolic periodic orbit: all multipliers are 1"),
+                "{first}"
+            ),
+            _ => assert_eq!(first, format!("{stability} periodic orbit")),
+        }
+    }
 }
 
 /// ω = √(g/l) agm(1, cos ½θ₀) and its odd multiples; of a pendulum that turns over the mean rate 2π/T.

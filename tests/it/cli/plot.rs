@@ -51,8 +51,52 @@ fn the_table_of_a_map_is_shaded() {
     assert!(below.contains('.') && !below.contains('#'), "{text}");
 }
 
+/// Rows of three numbers are points where they are no lattice, however few there are.
+#[test]
+fn a_table_of_two_rows_is_no_map() {
+    for table in ["t,x,y\n0,1,2\n1,3,4\n", "t,x,y\n0,1,2\n1,1,4\n2,3,5\n3,3,5\n"] {
+        let text = plotted(table, &["--ascii", "--size", "50x20"]).success();
+        assert!(!text.contains(" to # "), "{text}");
+    }
+    let whole = plotted("a,b,c\n0,1,2\n1,1,4\n0,3,5\n1,3,6\n", &["--ascii"]).success();
+    assert!(whole.starts_with("c: . 2 to # 6"), "{whole}");
+}
+
+/// The difference of the greatest and the least number may be infinite.
+#[test]
+fn the_largest_numbers_have_their_shades() {
+    let table = "a,b,c\n0,0,-1e308\n0,1,1e308\n1,0,1.7e308\n1,1,-1.7e308\n";
+    let text = plotted(table, &["--ascii", "--size", "40x12"]).success();
+    let lines = rows(&text);
+    // from the upper left: 1e308 and −1.7e308, below −1e308 and 1.7e308
+    let shades = |line: &Vec<char>| -> String {
+        line.iter().skip(5).filter(|c| ".:+#".contains(**c)).collect()
+    };
+    let drawn: Vec<String> =
+        lines[1..10].iter().map(shades).filter(|line| !line.is_empty()).collect();
+    assert_eq!(drawn, ["#.", ".#"], "{text}");
+}
+
+/// Of a section the columns after those of the crossing are drawn; of a sweep words and what is the same in all rows are not.
+#[test]
+fn the_columns_of_other_commands_are_found() {
+    let axes = |table: &str| {
+        let text = plotted(table, &["--ascii", "--size", "40x12"]).success();
+        let across = text.lines().find(|line| line.trim_start().starts_with('+')).unwrap();
+        let across = across.rsplit(' ').next().unwrap().to_owned();
+        [across, text.lines().next().unwrap().trim().to_owned()]
+    };
+    assert_eq!(axes("orbit,n,t,y,p_y\n1,1,0.5,1,2\n1,2,0.7,1.5,3\n"), ["y", "p_y"]);
+    let sweep = "x0,status,t,x,energy_drift\n0.1,completed,10,1,0\n0.2,completed,10,2,0\n";
+    assert_eq!(axes(sweep), ["x0", "x"]);
+    // nothing but what is the same
+    assert_eq!(axes("a,b\n1,2\n1,2\n"), ["a", "b"]);
+}
+
 #[test]
 fn what_is_no_table_is_refused() {
+    let empty = "no row has numbers for all of `a`, `b` and `c`";
+    plotted("a,b,c\n1,2,\n3,4,\n", &["--of", "c"]).fails(2, &[empty]);
     let unknown = "there is no column `z`; the columns are x, y";
     plotted(DIAGONAL, &["--x", "z"]).fails(2, &[unknown]);
     plotted(DIAGONAL, &["--size", "9x9"]).fails(2, &["COLUMNSxROWS"]);

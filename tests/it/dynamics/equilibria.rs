@@ -496,3 +496,34 @@ fn a_law_has_the_same_equilibria_in_any_units() {
         assert_eq!(found, [], "{units:?} {named}");
     }
 }
+
+/// At L₄ the first component of the linearised motion, (−ω² − U_xx) x − 2iω y = U_xy y, gives y/x; at L₁ the ellipse has the
+/// axis of the bodies as one of its own.
+#[test]
+fn modes_have_all_their_digits() {
+    let case = preset("restricted-three-body", &[], &[]);
+    let mu = 0.012277471_f64;
+    let found = of(&case);
+    let near = |x: f64, y: f64| {
+        let is_there =
+            |one: &&Equilibrium| (one.variables[0] - x).hypot(one.variables[1] - y) < 0.02;
+        found.iter().find(is_there).expect("an equilibrium")
+    };
+    for side in [1.0, -1.0] {
+        let one = near(0.5 - mu, side * 0.75_f64.sqrt());
+        assert_eq!(one.modes.len(), 2);
+        for mode in &one.modes {
+            let (w, a) = (mode.frequency, 0.75);
+            let b = side * 27.0_f64.sqrt() / 4.0 * (1.0 - 2.0 * mu);
+            // (−ω² − a)/(b + 2iω)
+            let size = (-w * w - a) / (b * b + 4.0 * w * w);
+            let ratio = [size * b, -size * 2.0 * w];
+            // at q = (in phase + i quadrature) e^{iωt}, or its conjugate
+            assert!((mode.in_phase[0] - 1.0).abs() < 1e-15, "{mode:?}");
+            close(mode.in_phase[1], ratio[0], 1e-12);
+            close(mode.quadrature[1].abs(), ratio[1].abs(), 1e-12);
+        }
+    }
+    let one = near(0.836, 0.0);
+    assert_eq!((one.modes[0].in_phase[0], one.modes[0].quadrature[1]), (0.0, 0.0));
+}
