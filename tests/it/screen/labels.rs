@@ -290,7 +290,7 @@ fn no_line_of_a_formula_hangs_left_of_its_sign() {
             let mut sign = 0;
             for row in section.take_while(|row| row.chars().any(char::is_alphanumeric)) {
                 let letters: Vec<char> = row.chars().collect();
-                let begins = letters.iter().position(|c| *c != ' ');
+                let begins = letters.iter().position(|c| !"│ ".contains(*c));
                 match letters.windows(3).position(|three| three == [' ', '=', ' ']) {
                     Some(at) => sign = at + 1,
                     None => {
