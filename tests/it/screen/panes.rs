@@ -832,11 +832,11 @@ fn a_notice_blanks_nothing_beside_it_but_what_is_left_of_words_in_a_frame() {
         }
     }
     // in the rows of a pane too no word is torn
-    let mut app = lab("heavy-top", 1.0);
-    let (size, word) = ((80, 24), |c: char| c.is_alphanumeric() || ('▁'..='█').contains(&c));
+    let mut app = in_lab();
+    let (size, word) = ((120, 40), |c: char| c.is_alphanumeric() || ('▁'..='█').contains(&c));
     let before = rows(&screen(&app, &rich(), size));
     let mut torn = 0;
-    for long in 38..70 {
+    for long in 78..110 {
         app.notice = Some(Notification::info(format!("{0} {0} {0}", "m".repeat(long))));
         let after = rows(&screen(&app, &rich(), size));
         for row in (0..after.len()).filter(|row| after[*row].contains(&"m".repeat(long))) {
