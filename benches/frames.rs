@@ -5,7 +5,8 @@
 //! seconds of motion at 80 × 24, thirty frames a second, after the first two seconds, and the median time from a picture to
 //! its bytes, both ways. Then a line for each system: the
 //! median time of a frame at 120 × 40 over a full trail, both ways in turn. `-- NAME…` prints only these lines, for the systems
-//! that are named; `-- all` prints the mean bytes for every preset, in true colour, at 80 × 24 and 120 × 40, and their means.
+//! that are named; `-- counted NAME FRAMES` only draws that many frames by a painter, for a program that counts instructions
+//! (`valgrind --tool=callgrind --toggle-collect='*Painter*draw*'`); `-- all` prints the mean bytes for every preset, in true colour, at 80 × 24 and 120 × 40, and their means.
 
 #![allow(clippy::print_stdout, reason = "a benchmark reports on the terminal")]
 
@@ -180,6 +181,14 @@ fn timed(names: &[&str]) {
     }
 }
 
+/// Draws frames of a system over a full trail by a painter and measures nothing itself.
+fn counted(name: &str, frames: u32) {
+    let mut motion = Motion::of(name, ColourDepth::True);
+    for frame in FULL..FULL + frames {
+        black_box(motion.picture(frame, Size { width: 120, height: 40 }));
+    }
+}
+
 fn main() {
     crossterm::style::force_color_output(true);
     let given: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
@@ -187,6 +196,9 @@ fn main() {
     match names[..] {
         [] => {}
         ["all"] => return all(),
+        ["counted", name, frames] => {
+            return counted(name, frames.parse().expect("a number of frames"));
+        }
         _ => return timed(&names),
     }
     let titles = ["crossterm", "frames", "saved", "crossterm", "frames"];

@@ -7,7 +7,8 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::parser::ValueSource;
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use super::actions;
 use super::bracket;
@@ -81,7 +82,38 @@ Examples:
 /// The whole command line, from which help, completions and the manual are made.
 pub fn command() -> clap::Command {
     let exits = exit::lines(80);
-    Arguments::command().after_help(format!("{EXAMPLES}\n\nExit status:\n{exits}"))
+    let takes = |command: clap::Command, name: &str| {
+        command.mut_subcommand(name, |sub| sub.args(screen_options()))
+    };
+    let command = ON_SCREEN.into_iter().fold(Arguments::command(), takes);
+    command.after_help(format!("{EXAMPLES}\n\nExit status:\n{exits}"))
+}
+
+/// The options of the laboratory that commands on its screen take, before their name or after it.
+fn screen_options() -> Vec<clap::Arg> {
+    let lab = Options::augment_args(clap::Command::new("options"));
+    let own = lab.get_arguments().filter(|option| {
+        option.get_long().is_some_and(|name| !OF_LAB_ALONE.iter().any(|other| other[2..] == *name))
+    });
+    own.map(|option| option.clone().help_heading("Screen")).collect()
+}
+
+/// Takes the options of the laboratory among the arguments of a command on its screen, as words.
+fn options_after(matches: &clap::ArgMatches) -> Vec<OsString> {
+    let Some((_, given)) = matches.subcommand().filter(|(name, _)| ON_SCREEN.contains(name)) else {
+        return Vec::new();
+    };
+    let options = screen_options();
+    let given = options.iter().filter_map(|option| {
+        let id = option.get_id().as_str();
+        if given.value_source(id) != Some(ValueSource::CommandLine) {
+            return None;
+        }
+        let mut word = OsString::from(format!("--{}=", option.get_long()?));
+        word.push(given.get_raw(id)?.next()?);
+        Some(word)
+    });
+    given.collect()
 }
 
 /// The commands, described with their arguments.
@@ -131,8 +163,10 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             return CommandError::WrongUse(message).code();
         }
     };
-    let arguments = match parse(command(), &words) {
-        Ok(arguments) => arguments,
+    let read = command().try_get_matches_from(&words);
+    let read = read.and_then(|m| Ok((Arguments::from_arg_matches(&m)?, options_after(&m))));
+    let (arguments, after) = match read {
+        Ok(read) => read,
         Err(error) => {
             // a request for help is not an error
             if let Some(message) = misspelt(&words).filter(|_| error.use_stderr()) {
@@ -142,7 +176,7 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             return refused(&words, &error);
         }
     };
-    match perform(arguments, &words, &of_screen) {
+    match perform(arguments, &words, &[of_screen, after].concat()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             stderr::tell(failure.message());
@@ -163,7 +197,7 @@ fn options(defaults: Words, words: &[OsString]) -> Result<Options, CommandError>
     Ok(arguments.lab.options)
 }
 
-/// The commands that show something on the screen of the laboratory, and take its options before their name.
+/// The commands that show something on the screen of the laboratory, and take its options before their name or after it.
 const ON_SCREEN: [&str; 3] = ["tour", "lessons", "play"];
 
 /// The options of the laboratory that none of these takes.

@@ -2,9 +2,6 @@
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
-
-use indicatif::{ProgressBar, ProgressStyle};
 
 use super::demo_source::scripted;
 use super::failure::CommandError;
@@ -14,7 +11,7 @@ use super::record;
 use crate::diagnostic::Document;
 use crate::preset::demo;
 use crate::record::RecordedCast;
-use crate::shell;
+use crate::shell::{self, NotRecorded, RecordingAhead, Request};
 use crate::{file, printable};
 
 /// Play a cast (asciinema's, version 2 or 3) or a script of a demo on the terminal.
@@ -45,16 +42,27 @@ pub(super) fn perform(
     read: ReadOptions,
     interrupt: &Interrupt,
 ) -> Result<(), CommandError> {
-    let cast = read_cast(&arguments.file)?;
     let request = lab::request(None, of_screen, read)?;
+    let played = read_played(&arguments.file)?;
     // the terminal must be restored first
     interrupt.stand_aside();
-    lab::how_it_ended(shell::show(cast, &request))
+    match played {
+        Played::Cast(cast) => lab::how_it_ended(shell::show(cast, &request)),
+        Played::Script(source) => play_script(&source, &request),
+    }
 }
 
-fn read_cast(path: &Path) -> Result<RecordedCast, CommandError> {
+/// What is played.
+enum Played {
+    /// A cast.
+    Cast(RecordedCast),
+    /// The text of a script.
+    Script(Document),
+}
+
+fn read_played(path: &Path) -> Result<Played, CommandError> {
     if let Some(own) = path.to_str().filter(|_| !path.exists()).and_then(demo) {
-        return recorded(&own);
+        return Ok(Played::Script(own));
     }
     let (bytes, _) = file::read(path, LIMIT).map_err(|why| CommandError::reading(path, &why))?;
     let shown = printable::path(path);
@@ -64,24 +72,28 @@ fn read_cast(path: &Path) -> Result<RecordedCast, CommandError> {
     }
     if bytes.trim_ascii_start().starts_with(b"{") {
         let text = String::from_utf8_lossy(&bytes);
-        return RecordedCast::read(&text)
+        let cast = RecordedCast::read(&text);
+        return cast
+            .map(Played::Cast)
             .map_err(|why| CommandError::WrongFile(format!("{shown}: {why}")));
     }
-    recorded(&Document::from_bytes(shown, &bytes))
+    Ok(Played::Script(Document::from_bytes(shown, &bytes)))
 }
 
-/// Plays a script to make a cast.
-fn recorded(source: &Document) -> Result<RecordedCast, CommandError> {
+/// Records a script and shows the recording meanwhile. Errors in the script are reported after the terminal is restored.
+fn play_script(source: &Document, request: &Request) -> Result<(), CommandError> {
     let (script, system, name) = scripted(source)?;
-    // the screen stays as it is until all is computed; a terminal is told why
-    let wait = ProgressBar::new_spinner();
-    let style = ProgressStyle::with_template("{spinner} {msg}");
-    wait.set_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
-    wait.set_message(format!("computing the demo of {}", printable::line(&name)));
-    wait.enable_steady_tick(Duration::from_millis(100));
-    let recording = record::recorded(&script, source, &system, &name, None);
-    wait.finish_and_clear();
-    let recording = recording?;
-    record::hold(source, &recording)?;
-    Ok(recording.into())
+    let begin = || RecordingAhead::begin(script, system, &name, record::DEFAULT_SIZE);
+    let (ending, recorded) = match shell::show_ahead(begin, request) {
+        Ok(done) => done,
+        Err(error) => return lab::how_it_ended(Err(error)),
+    };
+    match recorded {
+        Some(Ok(recording)) => record::hold(source, &recording)?,
+        Some(Err(NotRecorded::Script(wrong))) => return Err(record::located(source, &wrong)),
+        Some(Err(NotRecorded::Failed(why))) => return Err(CommandError::CouldNot(why)),
+        // it was left before all was recorded
+        None => {}
+    }
+    lab::how_it_ended(Ok(ending))
 }

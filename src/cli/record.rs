@@ -139,6 +139,9 @@ pub(super) fn own_demo(name: &str, instead: &str) -> Result<Document, CommandErr
     })
 }
 
+/// Columns and rows, where nobody says them.
+pub(super) const DEFAULT_SIZE: (u16, u16) = (80, 24);
+
 /// Plays a script about a system.
 pub(super) fn recorded(
     script: &Script,
@@ -149,7 +152,7 @@ pub(super) fn recorded(
 ) -> Result<Recording, CommandError> {
     // the errors of the system are reported for the system's own file
     open::read(system)?;
-    let size = size.unwrap_or((80, 24));
+    let size = size.unwrap_or(DEFAULT_SIZE);
     play(script, system, called(name), size).map_err(|diagnostics| located(source, &diagnostics))
 }
 

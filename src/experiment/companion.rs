@@ -26,6 +26,19 @@ pub enum CompanionOrigin {
 }
 
 impl CompanionOrigin {
+    /// What the motion of this number is, as a sentence without a full stop.
+    pub(super) fn sentence(&self, number: usize) -> String {
+        let is = match self {
+            CompanionOrigin::Start(_) => "begins there, beside the main one",
+            CompanionOrigin::Neighbour(_) => "begins close beside the main one",
+            CompanionOrigin::Pinned(_) => {
+                "is this run, pinned; what changes from now on is seen beside it"
+            }
+            CompanionOrigin::Before => "is the run before time was reversed",
+        };
+        format!("motion {number} {is}")
+    }
+
     /// The word for it.
     pub fn word(&self) -> &'static str {
         match self {

@@ -97,10 +97,10 @@ impl Experiment {
         let parameters = self.setup.parameters.clone();
         let method = (self.motion.method(), self.motion.settings());
         let numbers = NUMBERS / MOST_COMPANIONS;
-        let word = origin.word();
+        let sentence = origin.sentence(number);
         match CompanionMotion::new(&system, method, (number, origin), &parameters, numbers) {
             Ok(one) => {
-                self.tell(format!("motion {number} beside the main one: {word}"));
+                self.tell(sentence);
                 Some(one)
             }
             Err(why) => {

@@ -53,7 +53,8 @@ impl PotentialView {
 
     /// The potential at other values of the coordinate, with everything else at its current value.
     pub fn along(&self, pool: &Pool, now: &Valuation, places: &[f64]) -> Vec<f64> {
-        pool.evaluate_along(self.expression, (self.coordinate, places), &|symbol| now.at(symbol))
+        let at = |symbol| steady(now.at(symbol));
+        pool.evaluate_along(self.expression, (self.coordinate, places), &at)
     }
 }
 
@@ -120,7 +121,7 @@ impl Instrument for Potential {
     ) -> Option<Picture> {
         let along = PotentialView::of(present.physics, plot.view?)?;
         let (model, now) = (present.physics.model, present.valuation());
-        let energy = now.at(model.symbols.energy);
+        let energy = steady(now.at(model.symbols.energy));
         let x = |i: usize| from + (to - from) * i as f64 / (POINTS - 1) as f64;
         let places: Vec<f64> = (0..POINTS).map(x).collect();
         let heights = along.along(&model.pool, &now, &places);
@@ -145,6 +146,17 @@ impl Instrument for Potential {
         layers.push((NOW, Layer::Point(now, MarkerShape::Disc, Ink::Accent)));
         let upwards = Upwards::Around(along.y, height(&curve, energy, now[1]));
         Some(Picture::Axes { upwards, layers, occurrences: None })
+    }
+}
+
+/// A value without its last bits: where it is conserved they are rounding errors, and without them the curve is the one of
+/// the frame before, bit by bit, and need not be drawn again.
+fn steady(value: f64) -> f64 {
+    const LOST: u64 = 1 << 14;
+    if value.is_finite() {
+        f64::from_bits((value.to_bits() + LOST / 2) & !(LOST - 1))
+    } else {
+        value
     }
 }
 

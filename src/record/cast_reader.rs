@@ -139,16 +139,22 @@ fn sized((columns, rows): (u64, u64)) -> Result<(u16, u16), String> {
     Err(format!("a screen has 1x1 to {MOST_COLUMNS}x{MOST_ROWS} characters, not {columns}x{rows}"))
 }
 
-impl From<Recording> for RecordedCast {
-    fn from(recording: Recording) -> RecordedCast {
-        let converted = |event| match event {
+impl From<RecordingEvent> for CastEvent {
+    fn from(event: RecordingEvent) -> CastEvent {
+        match event {
             RecordingEvent::Output(text) => CastEvent::Output(text),
             RecordingEvent::Marker(name) => CastEvent::Marker(name),
-        };
+        }
+    }
+}
+
+impl From<Recording> for RecordedCast {
+    fn from(recording: Recording) -> RecordedCast {
+        let events = recording.events.into_iter();
         RecordedCast {
             title: Some(recording.title),
             size: recording.size,
-            events: recording.events.into_iter().map(|(time, e)| (time, converted(e))).collect(),
+            events: events.map(|(time, event)| (time, event.into())).collect(),
             end: recording.end,
         }
     }

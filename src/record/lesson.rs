@@ -380,8 +380,8 @@ impl Lesson {
     fn end(&mut self) {
         let (right, all) = self.score();
         let text = match all {
-            0 => "This is the end of the lesson.".to_owned(),
-            _ => format!("This is the end of the lesson. Right predictions: {right} of {all}."),
+            0 => "This is the end.".to_owned(),
+            _ => format!("This is the end. Right predictions: {right} of {all}."),
         };
         self.said = vec![paragraph(ParagraphKind::Text, text)];
         self.enter(LessonStage::Ended);

@@ -4,6 +4,7 @@
 //! line of a script does, or the format of a cast.
 
 use std::io;
+use std::ops::ControlFlow;
 use std::time::Duration;
 
 use ratatui::buffer::Buffer;
@@ -87,6 +88,21 @@ pub fn play(
     called: &str,
     size: (u16, u16),
 ) -> Result<Recording, Vec<Diagnostic>> {
+    let mut whole = |_: &[(Micros, RecordingEvent)], _| ControlFlow::Continue(());
+    play_while(script, document, (called, size), &mut whole).map(|(recording, _)| recording)
+}
+
+/// Plays a script like [`play`], and hands over what is new as it comes, with the time that is reached, as long as that is
+/// wanted. Returns also whether the script was played to its end.
+///
+/// # Errors
+/// Returns the errors of the script that only its system and its screen reveal.
+pub fn play_while(
+    script: &Script,
+    document: &Document,
+    (called, size): (&str, (u16, u16)),
+    wanted: &mut dyn FnMut(&[(Micros, RecordingEvent)], Micros) -> ControlFlow<()>,
+) -> Result<(Recording, bool), Vec<Diagnostic>> {
     let size = script.head.size.unwrap_or(size);
     let diagnostics = too_long(script, size.0);
     if !diagnostics.is_empty() {
@@ -106,14 +122,19 @@ pub fn play(
         log: Vec::new(),
         false_claims: Vec::new(),
     };
-    while take.advance().map_err(alone)? {}
+    let mut whole = true;
+    let mut heard = 0;
+    while whole && take.advance().map_err(alone)? {
+        whole = wanted(&take.events[heard..], take.performance.now()).is_continue();
+        heard = take.events.len();
+    }
     let Take { performance, screen, look, events, markers, log, false_claims, .. } = take;
     let lab = performance.lab;
     let of_system = || {
         let opened = lab.app.lab.as_ref();
         opened.map_or_else(|| called.to_owned(), |opened| opened.loaded.model.info.title.clone())
     };
-    Ok(Recording {
+    let recording = Recording {
         title: title.unwrap_or_else(of_system),
         size,
         fps,
@@ -125,7 +146,8 @@ pub fn play(
         markers,
         log,
         false_claims,
-    })
+    };
+    Ok((recording, whole))
 }
 
 /// A frame that could not be written.

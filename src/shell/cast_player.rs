@@ -1,6 +1,6 @@
 //! The cast player: shows a cast on the terminal, at its own speed or another.
 //!
-//! In: a [`RecordedCast`], keys, time. Out: cells. A cast may be an untrusted file, so its output goes to a
+//! In: a [`RecordedCast`], or one that is still being recorded, keys, time. Out: cells. A cast may be an untrusted file, so its output goes to a
 //! terminal in memory, and only characters and colours leave that terminal. Its processing time per frame is
 //! limited, so that no cast blocks the keys. Never here: files, or the format of a cast.
 
@@ -12,7 +12,8 @@ use ratatui::layout::{Position, Rect, Size};
 use ratatui::style::{Color, Modifier, Style};
 
 use super::frame_loop::{Screen, ScreenRequest};
-use crate::record::{CastEvent, RecordedCast};
+use super::recording_ahead::{NotRecorded, RecordingAhead};
+use crate::record::{CastEvent, RecordedCast, Recording};
 use crate::view::RenderStyle;
 use crate::view::colour::{ColourDepth, Rgb};
 use crate::view::theme::Role;
@@ -20,6 +21,10 @@ use crate::view::theme::Role;
 /// A cast being shown.
 pub struct CastPlayer {
     cast: RecordedCast,
+    /// Where the rest of the cast comes from while it is still being recorded.
+    ahead: Option<RecordingAhead>,
+    /// How its recording ended.
+    recorded: Option<Result<Recording, NotRecorded>>,
     look: RenderStyle,
     screen: avt::Vt,
     /// The index of the next event, and how many bytes of it have been written.
@@ -35,9 +40,9 @@ pub struct CastPlayer {
     awake: Duration,
     /// The size of the window.
     size: Size,
-    /// The parts of the control line that change by themselves: the second, whether the cast is over, whether the
-    /// line is shown.
-    shown: (u64, bool, bool),
+    /// The parts of the control line that change by themselves: the second, the last second, whether the cast is over,
+    /// whether the line is shown.
+    shown: (u64, u64, bool, bool),
 }
 
 /// How long the control line covers the last row after a key, and at the start.
@@ -66,6 +71,8 @@ impl CastPlayer {
         let screen = blank(cast.size);
         Self {
             cast,
+            ahead: None,
+            recorded: None,
             look,
             screen,
             next: (0, 0),
@@ -75,7 +82,31 @@ impl CastPlayer {
             wanted: None,
             awake: AT_FIRST,
             size: Size::default(),
-            shown: (0, false, true),
+            shown: (0, 0, false, true),
+        }
+    }
+
+    /// Creates a player at the start of a cast that is still being recorded.
+    pub fn following(ahead: RecordingAhead, look: RenderStyle) -> Self {
+        let cast = RecordedCast { title: None, size: ahead.size, events: Vec::new(), end: 0 };
+        Self { ahead: Some(ahead), ..Self::new(cast, look) }
+    }
+
+    /// Returns how the recording of the cast ended, if it was recorded meanwhile and has ended.
+    pub fn recorded(self) -> Option<Result<Recording, NotRecorded>> {
+        self.recorded
+    }
+
+    /// Takes over what has been recorded since the last frame.
+    fn follow(&mut self) {
+        let Some(ahead) = &mut self.ahead else { return };
+        let (new, ended) = ahead.take();
+        for (events, reached) in new {
+            self.cast.events.extend(events);
+            self.cast.end = reached;
+        }
+        if ended.is_some() {
+            (self.recorded, self.ahead) = (ended, None);
         }
     }
 
@@ -105,7 +136,8 @@ impl CastPlayer {
 
     /// Whether the cast is over.
     pub fn is_over(&self) -> bool {
-        self.next.0 == self.cast.events.len() && self.time >= self.cast.end as f64
+        let at_end = self.next.0 == self.cast.events.len() && self.time >= self.cast.end as f64;
+        at_end && self.ahead.is_none()
     }
 
     /// Seeks to a time; seeking backwards replays the cast from the start.
@@ -224,10 +256,11 @@ impl CastPlayer {
         };
         let chapter = self.chapters().rfind(|(time, _)| *time <= self.time);
         let chapter = chapter.map_or(String::new(), |(_, name)| format!("  {name}"));
+        let so_far = if self.ahead.is_some() { " so far" } else { "" };
         let pieces = [
             (role, format!("{sign} ")),
             (Role::Accent, clock(self.time)),
-            (Role::Dim, format!(" of {}  ", clock(self.cast.end as f64))),
+            (Role::Dim, format!(" of {}{so_far}  ", clock(self.cast.end as f64))),
             (Role::Text, format!("×{}{chapter}", SPEEDS[self.speed])),
         ];
         let (pause, rest) = if self.is_over() { ("again", "") } else { ("pause", "  . step") };
@@ -295,6 +328,7 @@ impl Screen for CastPlayer {
     }
 
     fn advance(&mut self, elapsed: Duration) -> bool {
+        self.follow();
         // All events up to the current time must be written before time advances.
         let behind =
             self.cast.events.get(self.next.0).is_some_and(|(t, _)| (*t as f64) < self.time);
@@ -304,7 +338,8 @@ impl Screen for CastPlayer {
         }
         let written = self.write();
         self.awake = self.awake.saturating_sub(elapsed);
-        let shown = ((self.time / 1e6) as u64, self.is_over(), self.shows_controls());
+        let (second, last) = ((self.time / 1e6) as u64, self.cast.end / 1_000_000);
+        let shown = (second, last, self.is_over(), self.shows_controls());
         let changed = written || shown != self.shown;
         self.shown = shown;
         changed
@@ -344,6 +379,11 @@ impl Screen for CastPlayer {
 
     fn is_typing(&self) -> bool {
         false
+    }
+
+    /// Nothing more comes of a script that is wrong.
+    fn is_done(&self) -> bool {
+        matches!(self.recorded, Some(Err(_)))
     }
 }
 

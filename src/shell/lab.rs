@@ -14,6 +14,7 @@ use super::frame_loop::{Ending, FramePace, perform};
 use super::lab_error::LabError;
 use super::lesson::LessonScreen;
 use super::log::Log;
+use super::recording_ahead::{NotRecorded, RecordingAhead};
 use super::regular;
 use super::request::Request;
 use super::session::{ExitResult, Session};
@@ -22,7 +23,7 @@ use super::store::Store;
 use super::terminal::TerminalError;
 use crate::diagnostic::Diagnostic;
 use crate::preset::Catalog;
-use crate::record::{Lesson, RecordedCast, ScriptRunner, screenshot};
+use crate::record::{Lesson, RecordedCast, Recording, ScriptRunner, screenshot};
 
 /// Opens the laboratory on the terminal until the user leaves it.
 ///
@@ -102,6 +103,23 @@ pub fn show(cast: RecordedCast, request: &Request) -> Result<Ending, LabError> {
     // Nothing in a cast can be clicked, and its text can be selected.
     let pace = FramePace { mouse: false, ..request.pace(&variable) };
     perform(&mut CastPlayer::new(cast, request.look(&variable)), pace)
+}
+
+/// Shows a cast on the terminal while it is being recorded, from its first frame on, until the user leaves it. `begin` begins
+/// the recording. Returns also how the recording ended, if it has.
+///
+/// # Errors
+/// Returns an error, before the screen is touched, if there is no terminal.
+pub fn show_ahead(
+    begin: impl FnOnce() -> RecordingAhead,
+    request: &Request,
+) -> Result<(Ending, Option<Result<Recording, NotRecorded>>), LabError> {
+    TerminalError::check()?;
+    let variable = |name: &str| std::env::var(name).ok();
+    let pace = FramePace { mouse: false, ..request.pace(&variable) };
+    let mut player = CastPlayer::following(begin(), request.look(&variable));
+    let ending = perform(&mut player, pace)?;
+    Ok((ending, player.recorded()))
 }
 
 /// Performs a demo on the terminal until it ends or the user leaves it. Returns its last picture as text with

@@ -276,15 +276,22 @@ pub(super) fn notice(canvas: &mut Canvas<'_>, body: Rect, app: &App) {
     let room = usize::from(body.width.saturating_sub(6));
     let lines = words_in(&canvas.text(&text), room, NOTICE);
     let wide = lines.iter().map(|line| line.width()).max().unwrap_or(0).min(room);
+    let framed = is_frame(canvas, row(body, usize::from(body.height).saturating_sub(1)));
     for (index, line) in lines.iter().enumerate() {
         let at = usize::from(body.height).saturating_sub(lines.len()) + index;
         let at = columns(row(body, at), 2, body.width.saturating_sub(4));
         let gap = " ".repeat(wide.saturating_sub(line.width()));
+        let torn = framed && tears_a_word(canvas, columns(at, wide as u16 + 1, 2));
         // Nothing of the frame below is left, its weight included.
         canvas.blank(columns(at, 0, wide as u16 + 2));
+        if torn {
+            erase_while(canvas, columns(at, wide as u16 + 2, at.width), is_of_word);
+        }
         canvas.left(columns(at, 1, wide as u16), role, &format!("{line}{gap}"));
-        if index + 1 == lines.len() && is_frame(canvas, row(body, usize::from(body.height) - 1)) {
-            erase_rest(canvas, columns(at, wide as u16 + 2, at.width));
+        if index + 1 == lines.len() && framed {
+            // such as `wn` of `+1 down`
+            let rest = |c: char| c.is_alphanumeric() || c == ' ' || c == '↓';
+            erase_while(canvas, columns(at, wide as u16 + 2, at.width), rest);
         }
     }
 }
@@ -296,11 +303,25 @@ fn is_frame(canvas: &Canvas<'_>, row: Rect) -> bool {
     row.width > 0 && [own, border::THICK.bottom_left].contains(&corner)
 }
 
-/// Makes blank what a notification has left of the words in a frame, such as `wn` of `+1 down`.
-fn erase_rest(canvas: &mut Canvas<'_>, row: Rect) {
+/// Whether a word or a row of bars stands in both of two cells, so that blanking the first leaves a rest of it.
+fn tears_a_word(canvas: &Canvas<'_>, cells: Rect) -> bool {
+    let part = |x: u16| {
+        let symbol = canvas.buffer.cell((x, cells.y)).map_or("", |cell| cell.symbol());
+        symbol.chars().any(is_of_word)
+    };
+    cells.width == 2 && part(cells.x) && part(cells.x + 1)
+}
+
+/// Whether a character stands in words, numbers, formulas and bars: not a blank, a frame or a dot of a picture.
+fn is_of_word(c: char) -> bool {
+    !(c.is_whitespace() || matches!(c, '\u{2500}'..='\u{257f}' | '\u{2800}'..='\u{28ff}' | '|'))
+}
+
+/// Makes blank what a notification has left of the words in a row: the cells up to the first that holds anything else.
+fn erase_while(canvas: &mut Canvas<'_>, row: Rect, is_rest: impl Fn(char) -> bool) {
     let rest = (0..row.width).take_while(|x| {
         let symbol = canvas.buffer.cell((row.x + x, row.y)).map_or("", |cell| cell.symbol());
-        symbol.chars().all(|c| c.is_alphanumeric() || c == ' ' || c == '↓')
+        symbol.chars().all(&is_rest)
     });
     let rest = rest.count() as u16;
     canvas.blank(columns(row, 0, rest));

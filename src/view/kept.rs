@@ -29,6 +29,8 @@ pub(super) struct Kept {
     levels: Vec<Held<LevelsKey, Raster>>,
     lines: Vec<Held<LinesKey, Raster>>,
     law: Option<(LawKey, Vec<Row>)>,
+    /// How many rows of trails have been stroked.
+    stroked: u64,
 }
 
 /// The parts of a render style that decide how something kept looks.
@@ -109,7 +111,7 @@ impl Kept {
             glyphs: style.glyphs,
         };
         if self.look.as_ref() != Some(&look) {
-            *self = Self { look: Some(look), ..Self::default() };
+            *self = Self { look: Some(look), stroked: self.stroked, ..Self::default() };
         }
         self.trails.iter_mut().for_each(|kept| kept.used = false);
         self.levels.iter_mut().for_each(|kept| kept.used = false);
@@ -148,8 +150,13 @@ impl Kept {
                 _ => rows.len(),
             }
         });
-        value.carry_on(rows, new, locate);
+        self.stroked += value.carry_on(rows, new, locate);
         &value.trail
+    }
+
+    /// How many rows of trails have been stroked since the first frame.
+    pub(super) fn stroked(&self) -> u64 {
+        self.stroked
     }
 
     /// The raster of level curves, drawn where it is not known yet.
@@ -244,25 +251,27 @@ impl DrawnTrail {
         None
     }
 
-    /// Draws the newest rows.
+    /// Draws the newest rows, and returns how many these are.
     fn carry_on(
         &mut self,
         rows: &Trail,
         count: usize,
         locate: impl Fn(&[f64]) -> Option<[f64; 3]>,
-    ) {
+    ) -> u64 {
         if self.first.is_empty() {
             self.first = rows.row(0).unwrap_or_default().to_vec();
         }
-        let all = rows.len();
-        for row in (all - count.min(all)..all).filter_map(|index| rows.row(index)) {
+        // from the end: an index would be searched for among the chunks
+        let newest: Vec<&[f64]> = rows.rows().rev().take(count).collect();
+        for row in newest.iter().rev() {
             if let Some(point) = locate(row) {
                 self.trail.to(point, rows.order(row[0]));
             }
         }
-        if let Some(newest) = rows.row(all.wrapping_sub(1)) {
+        if let Some(&newest) = newest.first() {
             newest.clone_into(&mut self.last);
         }
+        newest.len() as u64
     }
 }
 

@@ -109,9 +109,9 @@ fn lines(canvas: &Canvas<'_>, lab: &Lab, prompt: &Prompt, width: usize) -> Vec<V
                     }
                     (Zero::No, Some(known)) if known.proof != Zero::Proved => (
                         Role::Text,
-                        "It does not vanish; the second form holds to rounding, without a proof.",
+                        "It is not identically zero; the second form holds to rounding, without a proof.",
                     ),
-                    (Zero::No, _) => (Role::Text, "It does not vanish."),
+                    (Zero::No, _) => (Role::Text, "It is not identically zero."),
                 };
                 page.words(role, verdict);
                 for chart in charts {

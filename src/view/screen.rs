@@ -39,6 +39,12 @@ pub struct Painter {
 }
 
 impl Painter {
+    /// How many recorded rows have been stroked into trails so far: those that are new in each frame, and all where a trail is
+    /// begun anew.
+    pub fn stroked(&self) -> u64 {
+        self.kept.stroked()
+    }
+
     /// Draws the whole screen over a blank area, and returns how far its page of text can be scrolled.
     pub fn draw(
         &mut self,

@@ -14,8 +14,10 @@ use super::theme::Role;
 use super::wrap::{formula_beside, words};
 use crate::app::Drawn;
 
-/// The indent of the further lines of a formula whose terms would not be whole beside its label.
+/// The indent of the further lines of a formula whose terms would not be whole beside its label, in a pane narrower than this;
+/// on a page they stand right of the sign.
 const HANGING: usize = 4;
+const NARROW: usize = 56;
 
 /// The greatest line length that is easy to read.
 const MEASURE: u16 = 110;
@@ -221,7 +223,8 @@ impl TextPage {
                 TextBlock::Formula { label, body, remark } => {
                     let (label, body) = (canvas.text(label), canvas.text(body));
                     let margin = widest + 5;
-                    let broken = formula_beside(&body, width, margin, [margin + 2, HANGING]);
+                    let least = if width < NARROW { HANGING } else { margin };
+                    let broken = formula_beside(&body, width, margin, [margin + 2, least]);
                     let last = broken.len() - 1;
                     for (i, line) in broken.into_iter().enumerate() {
                         let gap = " ".repeat(widest.saturating_sub(label.width()));

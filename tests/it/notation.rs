@@ -146,6 +146,12 @@ fn what_could_be_read_in_two_ways_is_refused_with_both() {
         &["this `|` may open or close; write abs(...) for an absolute value inside another"],
     );
     check("mgl", &["unknown name `mgl`; names side by side are written apart: `m g l`"]);
+    check("cosθ", &["unknown name `cosθ`; names side by side are written apart: `cos θ`"]);
+    check("mlsin θ", &["unknown name `mlsin`; names side by side are written apart: `m l sin`"]);
+    check(
+        "sincos",
+        &["unknown name `sincos`; give it a value in [parameters], or define it in [definitions]"],
+    );
 }
 
 #[test]

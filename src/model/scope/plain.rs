@@ -4,7 +4,7 @@
 
 use super::Scope;
 use super::meaning::Meaning;
-use crate::expr::{EULER, Span, Syntax, SyntaxError};
+use crate::expr::{EULER, FUNCTIONS, Span, Syntax, SyntaxError};
 
 /// The longest unknown name that is taken apart.
 const LONGEST_APART: usize = 40;
@@ -74,12 +74,16 @@ impl Scope {
         }))
     }
 
-    /// An unknown name as known ones side by side, if it consists of them: `mgl` is `m g l`.
+    /// An unknown name as known ones side by side, if it consists of them: `mgl` is `m g l`, and `mlsin` before an argument
+    /// `m l sin`.
     pub(super) fn taken_apart(&self, name: &str, primes: usize) -> Option<String> {
         if name.len() > LONGEST_APART {
             return None;
         }
-        let known = |piece: &str| self.knows(piece) || self.shown().has(piece);
+        let is_function =
+            |piece: &str| FUNCTIONS.iter().any(|row| [row.name, row.unicode].contains(&piece));
+        let is_name = |piece: &str| self.knows(piece) || self.shown().has(piece);
+        let known = |piece: &str| is_name(piece) || primes == 0 && is_function(piece);
         let mut pieces: Vec<&str> = Vec::new();
         let mut rest = name;
         while !rest.is_empty() {
@@ -90,7 +94,7 @@ impl Scope {
         }
         // `kk` is a slip
         let repeated = pieces.windows(2).any(|pair| pair[0] == pair[1]);
-        (pieces.len() > 1 && !repeated)
+        (pieces.len() > 1 && !repeated && pieces.iter().any(|piece| is_name(piece)))
             .then(|| format!("{}{}", pieces.join(" "), "'".repeat(primes)))
     }
 }

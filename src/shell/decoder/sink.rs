@@ -125,6 +125,8 @@ impl Sink {
         let kind = match (button & !0b1_1100, released) {
             (0, false) => MouseEventKind::Down(MouseButton::Left),
             (0, true) => MouseEventKind::Up(MouseButton::Left),
+            (2, false) => MouseEventKind::Down(MouseButton::Right),
+            (2, true) => MouseEventKind::Up(MouseButton::Right),
             (32, false) => MouseEventKind::Drag(MouseButton::Left),
             (64, false) => MouseEventKind::ScrollUp,
             (65, false) => MouseEventKind::ScrollDown,
@@ -272,7 +274,7 @@ mod tests {
     use crate::view::colour::Rgb;
 
     #[test]
-    fn the_mouse_is_its_left_button_and_its_wheel() {
+    fn the_mouse_is_its_left_and_right_button_and_its_wheel() {
         let check = |bytes: &str, expected: &[(u16, u16, MouseEventKind)]| {
             let plain = |&(column, row, kind): &(u16, u16, MouseEventKind)| {
                 Event::Mouse(MouseEvent { kind, column, row, modifiers: KeyModifiers::NONE })
@@ -283,6 +285,9 @@ mod tests {
         let (press, release) =
             (MouseEventKind::Down(MouseButton::Left), MouseEventKind::Up(MouseButton::Left));
         check("\x1b[<0;1;1M\x1b[<0;1;1m", &[(0, 0, press), (0, 0, release)]);
+        let (press_right, release_right) =
+            (MouseEventKind::Down(MouseButton::Right), MouseEventKind::Up(MouseButton::Right));
+        check("\x1b[<2;1;1M\x1b[<2;1;1m", &[(0, 0, press_right), (0, 0, release_right)]);
         check("\x1b[<32;80;24M", &[(79, 23, MouseEventKind::Drag(MouseButton::Left))]);
         let (up, down) = (MouseEventKind::ScrollUp, MouseEventKind::ScrollDown);
         check("\x1b[<64;5;6M\x1b[<65;5;6M", &[(4, 5, up), (4, 5, down)]);
@@ -294,8 +299,8 @@ mod tests {
             "\x1b[<0;1M",
             "\x1b[<0;1;1;1M",
             "\x1b[<M",
-            // The middle and the right button, motion without a button, horizontal scrolling, extra buttons.
-            "\x1b[<1;1;1M\x1b[<2;1;1m",
+            // The middle button, the right one dragged, motion without a button, horizontal scrolling, extra buttons.
+            "\x1b[<1;1;1M\x1b[<1;1;1m",
             "\x1b[<34;1;1M\x1b[<35;1;1M",
             "\x1b[<66;1;1M\x1b[<67;1;1M\x1b[<64;1;1m",
             "\x1b[<128;1;1M\x1b[<65535;1;1M",

@@ -7,7 +7,7 @@ use ratatui::layout::Rect;
 use super::body::Outline;
 use super::circle::{circle, square};
 use super::reference_frame::ReferenceFrame;
-use crate::expr::Symbol;
+use crate::expr::{Expr, Symbol};
 use crate::instrument::CameraPose;
 use crate::model::{Point, Shape};
 use crate::num::{OrientationPolytope, math};
@@ -112,7 +112,7 @@ impl Scene {
                 self.reached(q, to, reached, 0.0);
             }
             Shape::Mass { at, radius } => {
-                let radius = radius.map_or(0.0, |radius| q.number(radius).abs());
+                let radius = radius.map_or(0.0, |radius| room(q, radius));
                 self.reached(q, at, reached, radius);
             }
             Shape::Trace { at } => self.reached(q, at, reached, 0.0),
@@ -123,23 +123,23 @@ impl Scene {
                 self.reached(q, at, reached, radius);
             }
             Shape::Circle { centre, radius, normal } | Shape::Disc { centre, radius, normal } => {
-                let radius = q.number(*radius);
+                let radius = room(q, *radius);
                 if rests(q, centre) && rests(q, normal) {
                     self.points(circle(q.point(centre), radius, q.point(normal)));
                 } else {
                     // A rim that turns may be anywhere on the sphere.
-                    self.reached(q, centre, reached, radius.abs());
+                    self.reached(q, centre, reached, radius);
                 }
             }
             Shape::Sphere { centre, radius } => {
-                self.reached(q, centre, reached, q.number(*radius).abs());
+                self.reached(q, centre, reached, room(q, *radius));
             }
             Shape::Cone { tip, base, radius } => {
                 self.reached(q, tip, reached, 0.0);
-                self.reached(q, base, reached, q.number(*radius).abs());
+                self.reached(q, base, reached, room(q, *radius));
             }
             Shape::Cylinder { from, to, radius } => {
-                let radius = q.number(*radius).abs();
+                let radius = room(q, *radius);
                 self.reached(q, from, reached, radius);
                 self.reached(q, to, reached, radius);
             }
@@ -153,7 +153,7 @@ impl Scene {
             }
             Shape::Path { points } => self.points(points.iter().map(|point| q.point(point))),
             Shape::Plane { at, normal, size } => {
-                self.points(square(q.point(at), q.point(normal), q.number(*size)));
+                self.points(square(q.point(at), q.point(normal), room(q, *size)));
             }
         }
     }
@@ -217,6 +217,18 @@ fn rounded([low, high]: Span3, step: f64) -> Option<Span3> {
     let ends = [corner(low, f64::floor), corner(high, f64::ceil)];
     ends.as_flattened().iter().all(|v| v.is_finite()).then_some(ends)
 }
+
+/// The room for a radius or an edge. What is computed of the motion is rounded up by at most a hundredth, so that the picture
+/// does not move with the rounding errors of a number that is otherwise constant.
+fn room(q: &Quantities<'_>, length: Expr) -> f64 {
+    let length = q.number(length).abs();
+    let step = round_step(length / 100.0);
+    let rounded = (length / step - SPARE).ceil() * step;
+    if rounded.is_finite() { rounded } else { length }
+}
+
+/// By how much of a step a multiple of it may be missed by rounding errors.
+const SPARE: f64 = 1e-6;
 
 /// The greatest of 1, 2 and 5 times a power of ten that does not exceed a length.
 fn round_step(length: f64) -> f64 {

@@ -1,5 +1,5 @@
-//! Options of the laboratory before the name of a command: they hold where the command shows something on its screen, and
-//! are refused by name where it does not.
+//! Options of the laboratory before the name of a command or after it: they hold where the command shows something on its
+//! screen, and are refused by name where it does not.
 
 use super::phaselab;
 
@@ -30,6 +30,27 @@ fn a_command_on_the_screen_takes_them() {
     // what is wrong with them is said as ever
     phaselab(&["--fps", "0", "tour"]).fails(2, &["--fps"]);
     phaselab(&["--fps", "tour"]).fails(2, &["--fps"]);
+}
+
+#[test]
+fn it_takes_them_after_its_name_too() {
+    phaselab(&["tour", "--fps", "4"]).fails(2, &["needs a terminal"]);
+    phaselab(&["tour", "--restart", "--mouse=false"]).fails(2, &["needs a terminal"]);
+    phaselab(&["--theme", "light", "play", "pendulum", "--fps=4"]).fails(2, &["needs a terminal"]);
+    let listed = phaselab(&["lessons", "--theme", "light"]).success();
+    assert_eq!(listed, phaselab(&["lessons"]).success());
+    phaselab(&["tour", "--fps", "0"]).fails(2, &["--fps"]);
+    phaselab(&["lessons", "kepler", "--glyphs", "brail"]).fails(2, &["--glyphs", "braille"]);
+    phaselab(&["--fps", "4", "tour", "--fps", "5"]).fails(2, &["--fps", "multiple times"]);
+    // what a lesson or a cast does not take is refused there too, and so is all of it without a screen
+    phaselab(&["tour", "--watch"]).fails(2, &["--watch"]);
+    phaselab(&["play", "pendulum", "--log"]).fails(2, &["--log"]);
+    phaselab(&["derive", "pendulum", "--fps", "4"]).fails(2, &["--fps"]);
+    let help = phaselab(&["play", "--help"]).success();
+    assert!(
+        help.contains("--fps") && help.contains("--theme") && !help.contains("--watch"),
+        "{help}"
+    );
 }
 
 /// Who has just written a file asks for it by the same name.

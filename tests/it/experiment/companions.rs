@@ -230,3 +230,16 @@ fn methods_are_compared_side_by_side_from_one_start() {
     let lost = 1.0 - lossy.last().unwrap()[1] / lossy[0][1];
     assert!(lost > 0.005, "{lost}");
 }
+
+#[test]
+fn what_is_added_is_said_in_a_whole_sentence() {
+    let mut experiment = begun("pendulum", |_| {});
+    run(&mut experiment, 0.5);
+    let mut said = |command: Command, sentence: &str| {
+        experiment.execute(command);
+        assert_eq!(experiment.snapshot().notices.last().map(String::as_str), Some(sentence));
+    };
+    said(Command::AddStart(vec![Position(0, 0.5)]), "motion 1 begins there, beside the main one");
+    said(Command::AddNeighbour, "motion 2 begins close beside the main one");
+    said(Command::Pin, "motion 3 is this run, pinned; what changes from now on is seen beside it");
+}

@@ -135,6 +135,27 @@ fn a_pendulum_from_rest() {
     assert_eq!(runs, 72);
 }
 
+/// Side by side from the same start: the energy of a symplectic method stays in the band of its first periods, and that of RK4
+/// leaves it, always in the same direction.
+#[test]
+fn the_drift_of_a_symplectic_method_is_bounded_and_that_of_rk4_grows() {
+    let text = "title = \"Pendulum\"\n[coordinates]\ntheta = { initial = 2.0 }\n\
+                [lagrangian]\nL = \"1/2*theta'^2 + cos(theta)\"\n";
+    let period = period_of_pendulum(2.0);
+    let energy = |method: &str, periods: u32| {
+        let time = f64::from(periods) * period;
+        gauge(&carried(text, method, Some(0.025 * period), time).snapshot(), "energy")
+    };
+    let after: [u32; 6] = [10, 20, 40, 80, 160, 320];
+    let bounded = after.map(|periods| energy("leapfrog", periods).max_drift);
+    let first = bounded[0];
+    assert!(first > 1e-4 && bounded.iter().all(|most| *most <= 1.02 * first), "{bounded:?}");
+    // h⁵ a step: the loss is proportional to the time
+    let lost = after.map(|periods| energy("rk4", periods).drift);
+    assert!(lost.windows(2).all(|pair| pair[1].abs() > 1.5 * pair[0].abs()), "{lost:?}");
+    assert!(lost.windows(2).all(|pair| pair[0].signum() == pair[1].signum()), "{lost:?}");
+}
+
 #[test]
 fn a_planet_in_a_plane() {
     let text = "title = \"Planet\"\n[coordinates]\nx = { initial = 1.5 }\n\

@@ -1,10 +1,12 @@
 //! The projector: casts shown at their own speed, whatever their origin.
 
+use std::ops::ControlFlow;
 use std::time::Duration;
 
 use crossterm::event::{Event, KeyCode};
-use phaselab::record::RecordedCast;
-use phaselab::shell::{CastPlayer, Screen, ScreenRequest};
+use phaselab::diagnostic::Document;
+use phaselab::record::{RecordedCast, play_while};
+use phaselab::shell::{CastPlayer, NotRecorded, RecordingAhead, Screen, ScreenRequest};
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
@@ -14,7 +16,8 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::Color;
 
-use super::played;
+use super::{played, script};
+use crate::hand::catalog;
 
 fn look() -> RenderStyle {
     RenderStyle { theme: Theme::dark(ColourDepth::Ansi256), glyphs: Glyphs::Braille }
@@ -233,4 +236,62 @@ fn a_bomb_does_not_keep_the_keys_waiting() {
     }
     assert_eq!(press(&mut it, KeyCode::Char('q')), ScreenRequest::Quit);
     assert!(began.elapsed() < Duration::from_secs(10), "{:?}", began.elapsed());
+}
+
+fn system(name: &str) -> Document {
+    catalog().find(name).expect("a preset")
+}
+
+/// The script of a second and a half of the pendulum.
+const SCRIPT: &str = "Size 60x20\nCaption \"One\"\nWait 1s\nMarker \"Middle\"\nWait 500ms";
+
+#[test]
+fn a_demo_is_there_from_its_first_frame_on_and_not_only_when_all_is_computed() {
+    let (script, system) = (script(SCRIPT), system("pendulum"));
+    let mut heard = Vec::new();
+    let first = play_while(&script, &system, ("pendulum", (80, 24)), &mut |events, _| {
+        heard.extend(events.to_vec());
+        if heard.is_empty() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    });
+    let (recording, whole) = first.expect("a good script");
+    assert!(!whole && heard.len() == 1 && recording.events == heard, "{heard:?}");
+    assert!(recording.end < 100_000, "nothing after the first frame was computed");
+}
+
+#[test]
+fn a_cast_that_is_recorded_meanwhile_is_the_one_that_is_recorded_alone() {
+    let alone = played("pendulum", SCRIPT);
+    let ahead = RecordingAhead::begin(script(SCRIPT), system("pendulum"), "pendulum", (80, 24));
+    let mut it = CastPlayer::following(ahead, look());
+    assert!(!it.is_over(), "nothing is there yet, and the rest is to come");
+    // time passes only as far as there is something to see
+    let mut frames = 0;
+    while !it.is_over() {
+        it.advance(Duration::from_millis(20));
+        assert!(!it.is_done());
+        let text = shown(&mut it, (80, 21));
+        frames += 1;
+        assert!(frames < 75 || text.contains("0:0"), "{text}");
+        std::thread::yield_now();
+    }
+    let mut replayed = CastPlayer::new(alone.clone().into(), look());
+    pass(&mut replayed, 10_000);
+    assert_eq!(shown(&mut it, (80, 20)), shown(&mut replayed, (80, 20)));
+    let recorded = it.recorded().expect("it has ended").expect("a good script");
+    assert_eq!((recorded.events, recorded.end), (alone.events, alone.end));
+}
+
+#[test]
+fn a_script_that_proves_wrong_while_it_is_shown_ends_the_show() {
+    let wrong = "Wait 100ms\nSet nothing = 1";
+    let ahead = RecordingAhead::begin(script(wrong), system("pendulum"), "pendulum", (80, 24));
+    let mut it = CastPlayer::following(ahead, look());
+    while !it.is_done() {
+        it.advance(Duration::from_millis(20));
+        std::thread::yield_now();
+    }
+    match it.recorded() {
+        Some(Err(NotRecorded::Script(wrong))) => assert_eq!(wrong.len(), 1, "{wrong:?}"),
+        other => panic!("{other:?}"),
+    }
 }

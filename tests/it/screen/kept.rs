@@ -53,6 +53,33 @@ fn what_is_kept_is_what_would_be_drawn_anew() {
     }
 }
 
+/// A trail is continued by the rows that are new, and begun anew only where its axes or its scene have changed: not because the
+/// last bits of a number in the picture have.
+#[test]
+fn a_frame_strokes_only_the_rows_that_are_new() {
+    let area = Rect::new(0, 0, 120, 40);
+    for name in ["pendulum", "heavy-top", "henon-heiles", "planet"] {
+        let (mut real, mut painter) = (Real::of(name), Painter::default());
+        real.run(600);
+        let mut frugal = 0;
+        let (mut newest, mut stroked) = (f64::NEG_INFINITY, 0);
+        for _ in 0..31 {
+            real.run(2);
+            painter.draw(&real.app, &rich(), area, &mut Buffer::empty(area));
+            let trail = &real.seen().trail;
+            let new = trail.rows().rev().take_while(|row| row[0] > newest).count() as u64;
+            // a picture in space, a portrait, and curves against the time
+            let most = 6 * new;
+            frugal += usize::from(painter.stroked() - stroked <= most);
+            assert!(trail.len() > 300, "{name}: {} rows", trail.len());
+            newest = trail.rows().next_back().unwrap()[0];
+            stroked = painter.stroked();
+        }
+        // the window of a time series grows in steps
+        assert!(frugal >= 26, "{name}: {frugal} frames of 31 stroke only what is new");
+    }
+}
+
 /// The columns and rows of the first pane that the picture takes, without the triad in its corner.
 fn filled(name: &str) -> [usize; 2] {
     let mut real = Real::of(name);

@@ -275,3 +275,31 @@ fn without_colour_a_sphere_leaves_the_curve_on_it_in_sight() {
     let (coloured, plain) = (dots(ColourDepth::True), dots(ColourDepth::None));
     assert!(plain > 100 && 2 * plain < coloured, "{plain} of {coloured} dots");
 }
+
+/// The further lines of a formula stand right of its sign, however long its terms are.
+#[test]
+fn no_line_of_a_formula_hangs_left_of_its_sign() {
+    let mut further = 0;
+    for name in ["double-pendulum", "heavy-top", "chain-pendulum"] {
+        let mut app = lab(name, 1.0);
+        press(&mut app, "2");
+        for size in [(80, 250), (100, 250)] {
+            let rows = rows(&screen(&app, &rich(), size));
+            let from = rows.iter().position(|row| row.contains("Equations of motion"));
+            let section = rows[from.expect("a heading") + 1..].iter();
+            let mut sign = 0;
+            for row in section.take_while(|row| row.chars().any(char::is_alphanumeric)) {
+                let letters: Vec<char> = row.chars().collect();
+                let begins = letters.iter().position(|c| !"│ ".contains(*c));
+                match letters.windows(3).position(|three| three == [' ', '=', ' ']) {
+                    Some(at) => sign = at + 1,
+                    None => {
+                        further += 1;
+                        assert!(begins.unwrap_or(0) > sign, "{name} at {size:?}: {row}");
+                    }
+                }
+            }
+        }
+    }
+    assert!(further > 5, "{further}");
+}

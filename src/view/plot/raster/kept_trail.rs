@@ -62,7 +62,8 @@ pub struct Ages<'a> {
 impl Ages<'_> {
     /// The age of a stamp, if it is still drawn.
     fn of(&self, stamp: f64) -> Option<usize> {
-        self.since.iter().rposition(|since| *since <= stamp)
+        // the times of the ages ascend
+        self.since.partition_point(|since| *since <= stamp).checked_sub(1)
     }
 
     /// The age with which a dot is drawn, if it is drawn: behind a veil it looks old.
