@@ -239,11 +239,7 @@ impl Walker<'_> {
     fn is_changed(&mut self, time: f64, state: &[f64], step: &Step, h: f64) -> Result<bool, Lost> {
         let before = self.rates(time, state)?;
         let after = self.rates(time + h, &step.state)?;
-        let size = |rates: &[f64], state: &[f64]| {
-            rates.iter().chain(state).fold(LEAST_SCALE, |most, x| most.max(x.abs()))
-        };
-        // a wall that is left in one step is as little seen as one that is met
-        let largest = size(&before, state).min(size(&after, &step.state));
+        let largest = before.iter().chain(state).fold(LEAST_SCALE, |most, x| most.max(x.abs()));
         Ok(before.iter().zip(&after).any(|(a, b)| (a - b).abs() > CHANGED * largest))
     }
 
