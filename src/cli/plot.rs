@@ -43,6 +43,9 @@ pub(super) struct Arguments {
     ascii: bool,
 }
 
+/// Numbers of a section that differ by no more than this part of its greatest are the same.
+const SAME: f64 = 1e-14;
+
 /// The greatest size of a table that is read, and the sizes of a drawing.
 const LIMIT: u64 = 256 << 20;
 const LEAST: [u16; 2] = [20, 8];
@@ -161,12 +164,16 @@ impl NumberTable {
     /// the time of a crossing come last as well.
     fn axes(&self, numbered: bool) -> (usize, usize) {
         let finite = |k: usize| self.rows.iter().map(move |row| row[k]).filter(|x| x.is_finite());
+        let all = || self.rows.iter().flatten().filter(|x| x.is_finite());
+        // what a section holds is the same but for rounding
+        let greatest = all().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let rounding = if numbered { SAME * greatest } else { 0.0 };
         let worth = |k: &usize| {
             let of_crossing = numbered && ["orbit", "n", "t"].contains(&self.columns[*k].as_str());
             match (finite(*k).next(), of_crossing) {
                 (None, _) => 3,
                 (_, true) => 2,
-                (Some(first), false) => u8::from(finite(*k).all(|x| x == first)),
+                (Some(first), false) => u8::from(finite(*k).all(|x| (x - first).abs() <= rounding)),
             }
         };
         let mut all: Vec<usize> = (0..self.columns.len()).collect();

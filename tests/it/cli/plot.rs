@@ -87,6 +87,8 @@ fn the_columns_of_other_commands_are_found() {
         [across, text.lines().next().unwrap().trim().to_owned()]
     };
     assert_eq!(axes("orbit,n,t,y,p_y\n1,1,0.5,1,2\n1,2,0.7,1.5,3\n"), ["y", "p_y"]);
+    let section = "orbit,n,t,x,y,p_y\n1,1,0.5,0,1,2\n1,2,0.7,1e-30,1.5,3\n";
+    assert_eq!(axes(section), ["y", "p_y"]);
     let sweep = "x0,status,t,x,energy_drift\n0.1,completed,10,1,0\n0.2,completed,10,2,0\n";
     assert_eq!(axes(sweep), ["x0", "x"]);
     // nothing but what is the same
