@@ -326,7 +326,9 @@ impl Sweep<'_> {
         crowd::write(out, &(self.head() + &rows), self.interrupt)?;
         journal.remove();
         let mut all = Remarks::default();
-        remarks.iter().for_each(|(&place, remark)| all.note(self.index(place), remark));
+        for (&place, remark) in &remarks {
+            all.note(self.index(place), remark);
+        }
         all.tell(&self.table.advice());
         Ok(())
     }

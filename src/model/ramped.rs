@@ -88,7 +88,9 @@ struct RampStage {
 fn stages(pool: &mut Pool, initial: Expr, parts: &[RampPart]) -> Vec<RampStage> {
     let mut stages: Vec<RampStage> = Vec::new();
     for &part in parts {
-        stages.iter_mut().for_each(|earlier| earlier.stop(pool, part.start));
+        for earlier in &mut stages {
+            earlier.stop(pool, part.start);
+        }
         let value = match stages.last() {
             Some(last) if last.limit.is_none() => last.part.to,
             _ => stages.iter().fold(initial, |value, RampStage { part, change, limit, .. }| {

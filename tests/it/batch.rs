@@ -372,7 +372,9 @@ fn states_with_parameters_of_their_own_are_carried_as_each_alone() {
     let states = states(&ready, 2 * BATCH + 3);
     let own = |i: usize| {
         let mut parameters = ready.model.parameter_values();
-        parameters.iter_mut().for_each(|x| *x *= 1.0 + 0.05 * ((i * 37) % 11) as f64);
+        for x in &mut parameters {
+            *x *= 1.0 + 0.05 * ((i * 37) % 11) as f64;
+        }
         parameters
     };
     let parameters: Vec<Vec<f64>> = (0..states.len()).map(own).collect();

@@ -551,8 +551,7 @@ fn twin_failure(
         let words: &[&str] =
             if told.over_kinks { &["bounded", "secular", "open"] } else { &["bounded", "secular"] };
         let alike = a.max_drift.max(b.max_drift) < 10.0 * a.max_drift.min(b.max_drift);
-        (case.tolerance.is_some() || told.over_kinks)
-            && (alike || told.over_kinks)
+        (told.over_kinks || case.tolerance.is_some() && alike)
             && words.contains(&a.word)
             && words.contains(&b.word)
     };
