@@ -82,15 +82,7 @@ impl App {
         let found = view.and_then(|view| Ok((read(&lab.loaded, &typed)?, view, axes?)));
         match found {
             Ok((surface, view, axes)) => {
-                let channels = lab.loaded.system.channels();
-                let column = |name: &String| channels.iter().position(|c| c.name == *name);
-                let columns: Vec<usize> = axes.iter().flatten().filter_map(column).collect();
                 let surface = NewSurface { axes, ..surface };
-                if let (Some(lab), [x, y]) = (&mut self.lab, &columns[..])
-                    && let Some(shown) = lab.plots.get_mut(plot)
-                {
-                    shown.columns = vec![vec![*x], vec![*y]];
-                }
                 let sentence = format!("Section at {typed}; E shows it in the text.");
                 self.write_surface((plot, &view), &surface, sentence)
             }
@@ -124,6 +116,12 @@ impl App {
         } else if let Some(lab) = &mut self.lab
             && let Some(shown) = lab.plots.get_mut(plot)
         {
+            let channels = lab.loaded.system.channels();
+            let column = |name: &String| channels.iter().position(|c| c.name == *name);
+            let columns: Vec<usize> = surface.axes.iter().flatten().filter_map(column).collect();
+            if let [x, y] = columns[..] {
+                shown.columns = vec![vec![x], vec![y]];
+            }
             // orbits were added to the surface before
             shown.seeds.clear();
             lab.answers.stale = true;
