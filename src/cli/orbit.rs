@@ -284,6 +284,8 @@ fn multiplier_rows(orbit: &Orbit) -> Vec<(String, String)> {
     let mut rows = Vec::new();
     let (small, others): (Vec<&[f64; 2]>, Vec<&[f64; 2]>) =
         others.into_iter().partition(|z| orbit.nearly_vanishes(**z));
+    let (lost, others): (Vec<&[f64; 2]>, Vec<&[f64; 2]>) =
+        others.into_iter().partition(|z| orbit.is_lost(**z));
     for &z in others.into_iter().filter(|z| z[1] >= 0.0) {
         let value = match z[1] {
             0.0 => shown(z[0]),
@@ -294,6 +296,13 @@ fn multiplier_rows(orbit: &Orbit) -> Vec<(String, String)> {
             None => orbit.exponent(z).map_or(String::new(), |x| format!("ln|μ|/T = {x:.12}")),
         };
         rows.push((value, meaning));
+    }
+    if let Some(error) = orbit.rounding.filter(|_| !lost.is_empty()) {
+        let times = if lost.len() > 1 { format!("{} times, ", lost.len()) } else { String::new() };
+        rows.push((
+            "not known".to_owned(),
+            format!("{times}at most {error:.0e}: lost in rounding"),
+        ));
     }
     if let Some(error) = orbit.rounding.filter(|_| !small.is_empty()) {
         let times =

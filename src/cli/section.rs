@@ -89,8 +89,10 @@ const COUNT: u64 = 100;
 /// The most crossings of an orbit.
 const MOST: u64 = 100_000_000;
 
-/// The steps without a crossing after which an orbit without an end in time is given up.
+/// The steps without a crossing after which an orbit without an end in time is given up, and those where their size was asked
+/// for, which may be small.
 const IDLE: u64 = 100_000;
+const IDLE_ASKED: u64 = 1_000_000;
 
 /// A direction of crossing.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, clap::ValueEnum)]
@@ -142,8 +144,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         return Err(CommandError::WrongUse(message));
     }
     let count = arguments.count.or(arguments.until.is_none().then_some(COUNT));
-    let plan =
-        SectionPlan { event, count, until: arguments.until, idle: IDLE, all_channels: false };
+    let idle = if laid.settings.step.is_some() { IDLE_ASKED } else { IDLE };
+    let plan = SectionPlan { event, count, until: arguments.until, idle, all_channels: false };
     let shown = shown_columns(&laid, wanted.as_deref())?;
     let rotation_columns =
         rotation_names.map(|names| RotationColumns::of(&laid, &names)).transpose()?;

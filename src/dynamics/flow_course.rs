@@ -24,9 +24,19 @@ pub struct FlowMoment {
     pub determinant: f64,
     /// exp ∫ div f dt along the motion: 1 where nothing but H acts.
     pub determinant_expected: f64,
+    /// Whether rounding leaves nothing of it: products of the entries of M cancel.
+    pub determinant_lost: bool,
     /// The largest entry of |M𝕁Mᵀ − 𝕁|; `None` if the variables are not canonical.
     pub symplectic_residual: Option<f64>,
+    /// Whether it is no more than what rounding leaves of large entries of M.
+    pub residual_lost: bool,
 }
+
+/// What rounding may leave of det M and of an entry of 𝕁 that is no longer small beside 1.
+const NOT_SMALL: f64 = 1e-3;
+
+/// How many times its estimate rounding may be.
+const TIMES: f64 = 64.0;
 
 /// Follows a motion from a state of the space through increasing times, and `look`s on after each step. A motion that cannot
 /// continue has the moments up to there, and the error.
@@ -81,9 +91,22 @@ impl FlowMoment {
         determinant_expected: f64,
     ) -> FlowMoment {
         let none = DMatrix::zeros(matrix.nrows(), matrix.ncols());
-        let residual = || PhaseSpace::symplectic_residual(&matrix, &none).0;
-        let symplectic_residual = (space.form() == Form::Momentum).then(residual);
+        let residual = || PhaseSpace::symplectic_residual(&matrix, &none);
+        let residual = (space.form() == Form::Momentum).then(residual);
+        let lost = |(residual, rounding): (f64, f64)| {
+            let rounding = TIMES * rounding;
+            rounding >= NOT_SMALL && residual <= rounding
+        };
         let determinant = matrix.determinant();
-        FlowMoment { time, matrix, determinant, determinant_expected, symplectic_residual }
+        let rows: f64 = matrix.row_iter().map(|row| row.norm()).product();
+        FlowMoment {
+            time,
+            determinant,
+            determinant_expected,
+            determinant_lost: f64::EPSILON * rows >= NOT_SMALL * determinant_expected.abs(),
+            symplectic_residual: residual.map(|(largest, _)| largest),
+            residual_lost: residual.is_some_and(lost),
+            matrix,
+        }
     }
 }

@@ -42,6 +42,9 @@ const ROUNDS: usize = 4;
 /// A multiplier this close to the unit circle lies on it.
 const ON_CIRCLE: f64 = 1e-6;
 
+/// Rounding up to this size leaves of a multiplier that is smaller that it nearly vanishes.
+const VANISHING: f64 = 1e-3;
+
 /// The part of a matrix by which rounding turns what is across an orbit.
 const DIRECTIONS: f64 = 4.0 * f64::EPSILON;
 
@@ -135,15 +138,21 @@ impl Orbit {
         preserves.then(|| (2.0 - across.trace()) / 4.0)
     }
 
-    /// Whether a multiplier is so small that it is lost in rounding, so that no more is known of it than that it nearly vanishes.
-    pub fn nearly_vanishes(&self, [re, im]: [f64; 2]) -> bool {
+    /// Whether a multiplier is so small that it is lost in rounding.
+    pub fn is_lost(&self, [re, im]: [f64; 2]) -> bool {
         self.rounding.is_some_and(|rounding| math::hypot(re, im) <= rounding)
+    }
+
+    /// Whether no more is known of a multiplier than that it nearly vanishes: it is lost in rounding that is itself small. Beside
+    /// a multiplier of 10¹⁶ and more nothing is known of those on the unit circle.
+    pub fn nearly_vanishes(&self, multiplier: [f64; 2]) -> bool {
+        self.is_lost(multiplier) && self.rounding.is_some_and(|rounding| rounding <= VANISHING)
     }
 
     /// The characteristic exponent ln|μ|/T of a multiplier μ: the Lyapunov exponent along its direction; nothing where μ is
     /// lost in rounding.
     pub fn exponent(&self, [re, im]: [f64; 2]) -> Option<f64> {
-        let known = !self.nearly_vanishes([re, im]);
+        let known = !self.is_lost([re, im]);
         known.then(|| math::ln(math::hypot(re, im)) / self.period)
     }
 

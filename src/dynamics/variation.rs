@@ -28,6 +28,9 @@ const PARTS: [usize; 8] = [4, 8, 16, 32, 64, 128, 256, 512];
 const SETTLED: f64 = 1e-13;
 const SIZE_SETTLED: f64 = 1e-3;
 
+/// The same of how it changes with the ends, as a part of what is added up.
+const SLOPES_SETTLED: f64 = 1e-9;
+
 /// The least number of parts where the paths beside the motion have corners: roots of what may vanish.
 const WITH_CORNERS: usize = 16;
 
@@ -38,7 +41,7 @@ pub struct VariedAction {
     pub action: f64,
     /// For each variation the points (ε, A(ε) − A(0)), in the units of the coordinate and of the action.
     pub curves: Vec<Vec<[f64; 2]>>,
-    /// Of Hamilton's action, how it changes with its ends: the start, and now.
+    /// Of Hamilton's action, how it changes with its ends: the start, and now. Nothing where that does not settle.
     pub ends: Option<[EndSlope; 2]>,
 }
 
@@ -78,8 +81,9 @@ pub fn varied_action(
     let variation = |k| SineVariation { coordinate, k };
     let curve = |k| followed.curve(variation(k), &mut value);
     let curves = (1..=VARIATIONS).map(curve).collect();
-    let slopes = followed.end_slopes(coordinate, lagrangian);
-    let ends = motion(&[0.0, duration]).filter(|ends| ends.len() == 2).map(|ends| {
+    let slopes = settled_slopes(&followed, motion, coordinate, lagrangian);
+    let ends = motion(&[0.0, duration]).filter(|ends| ends.len() == 2);
+    let ends = ends.zip(slopes).map(|(ends, slopes)| {
         [0, 1].map(|end| {
             let time = [0.0, duration][end];
             let [(by_position, of_position), (by_time, of_time)] = slopes[end];
@@ -93,6 +97,30 @@ pub fn varied_action(
         })
     });
     Ok(VariedAction { action: followed.integral, curves, ends })
+}
+
+/// How the action changes with the ends, once more parts of the path change it no more; the action itself may settle before.
+/// `None` where it does not.
+fn settled_slopes(
+    followed: &SampledMotion,
+    motion: Motion<'_>,
+    coordinate: usize,
+    lagrangian: &mut Lagrangian,
+) -> Option<[[(f64, f64); 2]; 2]> {
+    let mut before = followed.end_slopes(coordinate, lagrangian);
+    let known = followed.nodes.len() / NODES;
+    for parts in PARTS.into_iter().filter(|&parts| parts > known) {
+        let slopes = SampledMotion::sampled(motion, followed.duration, parts)
+            .ok()?
+            .end_slopes(coordinate, lagrangian);
+        let same =
+            |(a, _): &(f64, f64), (b, size): &(f64, f64)| (a - b).abs() <= SLOPES_SETTLED * size;
+        if before.iter().flatten().zip(slopes.iter().flatten()).all(|(a, b)| same(a, b)) {
+            return Some(slopes);
+        }
+        before = slopes;
+    }
+    None
 }
 
 /// The abbreviated action ∫ Σ p dq of a motion, and of the same ways as of [`varied_action`], each gone with the energy of the
@@ -245,6 +273,19 @@ struct SampledMotion {
 }
 
 impl SampledMotion {
+    /// At the nodes of so many parts; nothing is integrated yet.
+    fn sampled(
+        motion: Motion<'_>,
+        duration: f64,
+        parts: usize,
+    ) -> Result<SampledMotion, DynamicsError> {
+        let nodes = nodes(parts, duration);
+        let times: Vec<f64> = nodes.iter().map(|&(time, _)| time).collect();
+        let path = motion(&times).filter(|path| path.len() == nodes.len());
+        let path = path.ok_or_else(|| unsuited("the motion cannot be followed so far"))?;
+        Ok(SampledMotion { duration, nodes, path, integral: f64::NAN })
+    }
+
     fn of(
         motion: Motion<'_>,
         duration: f64,
@@ -253,11 +294,8 @@ impl SampledMotion {
     ) -> Result<SampledMotion, DynamicsError> {
         let (mut before, mut size_before) = (f64::NAN, f64::NAN);
         for parts in PARTS.into_iter().filter(|&parts| parts >= fewest) {
-            let nodes = nodes(parts, duration);
-            let times: Vec<f64> = nodes.iter().map(|&(time, _)| time).collect();
-            let path = motion(&times).filter(|path| path.len() == nodes.len());
-            let path = path.ok_or_else(|| unsuited("the motion cannot be followed so far"))?;
-            let terms: Vec<f64> = (nodes.iter().zip(&path))
+            let sampled = SampledMotion::sampled(motion, duration, parts)?;
+            let terms: Vec<f64> = (sampled.nodes.iter().zip(&sampled.path))
                 .map(|(&(time, weight), state)| weight * integrand(time, state))
                 .collect();
             let integral: f64 = terms.iter().sum();
@@ -267,7 +305,7 @@ impl SampledMotion {
             let size: f64 = terms.iter().map(|term| term.abs()).sum();
             let bounded = (size - size_before).abs() <= SIZE_SETTLED * size;
             if bounded && (integral - before).abs() <= SETTLED * size {
-                return Ok(SampledMotion { duration, nodes, path, integral });
+                return Ok(SampledMotion { integral, ..sampled });
             }
             (before, size_before) = (integral, size);
         }

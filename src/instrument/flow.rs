@@ -130,7 +130,7 @@ impl Instrument for FlowPlot {
         } else {
             let expected = |moment: &FlowMoment| Some(moment.determinant_expected);
             lines.push((BESIDE, curve(&courses.own, &expected), Ink::Level));
-            lines.push((CURVE, curve(&courses.own, &|m| Some(m.determinant)), Ink::Curve(0)));
+            lines.push((CURVE, curve(&courses.own, &determinant), Ink::Curve(0)));
             "det M"
         };
         let heights = || lines.iter().flat_map(|(_, line, _)| line).map(|point| point[1]);
@@ -181,7 +181,7 @@ impl Instrument for FlowPlot {
             Measure {
                 word: "determinant",
                 about: "det M of the method's map, now",
-                value: |_, present, answer| Some(now(present, &courses(answer)?.own)?.determinant),
+                value: |_, present, answer| determinant(now(present, &courses(answer)?.own)?),
             },
             Measure {
                 word: "expected",
@@ -193,15 +193,13 @@ impl Instrument for FlowPlot {
             Measure {
                 word: "residual",
                 about: "the largest entry of |MJMᵀ − J| of the method's map, now",
-                value: |_, present, answer| {
-                    now(present, &courses(answer)?.own)?.symplectic_residual
-                },
+                value: |_, present, answer| residual(now(present, &courses(answer)?.own)?),
             },
             Measure {
                 word: "exact_residual",
                 about: "the same of the exact flow, where the method is another one",
                 value: |_, present, answer| {
-                    now(present, courses(answer)?.exact.as_deref()?)?.symplectic_residual
+                    residual(now(present, courses(answer)?.exact.as_deref()?)?)
                 },
             },
         ]
@@ -254,13 +252,23 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
     let mut lines = Vec::new();
     let unit = present.physics.model.time_unit();
     let at = format!("{} {unit}", short(own.time, 4));
-    let (found, expected) = (short(own.determinant, 6), short(own.determinant_expected, 6));
-    lines.push(format!("t = {}: det M = {found}, expected {expected}", at.trim_end()));
-    if let (true, Some(residual)) = (courses.is_hamiltonian, own.symplectic_residual) {
+    let expected = short(own.determinant_expected, 6);
+    let found = match determinant(own) {
+        Some(found) => format!("det M = {}", short(found, 6)),
+        None => "det M is lost in rounding".to_owned(),
+    };
+    lines.push(format!("t = {}: {found}, expected {expected}", at.trim_end()));
+    if courses.is_hamiltonian && own.symplectic_residual.is_some() {
         let beside = courses.exact.as_deref().and_then(|exact| now(present, exact));
-        let exact = beside.and_then(|moment| moment.symplectic_residual);
+        let exact = beside.and_then(residual);
         let exact = exact.map_or_else(String::new, |x| format!(", {} by the exact flow", size(x)));
-        lines.push(format!("‖M𝕁Mᵀ − 𝕁‖ = {} by {}{exact}", size(residual), present.method));
+        lines.push(match residual(own) {
+            Some(own) => format!("‖M𝕁Mᵀ − 𝕁‖ = {} by {}{exact}", size(own), present.method),
+            None => {
+                let entries = short(own.matrix.amax(), 1);
+                format!("‖M𝕁Mᵀ − 𝕁‖ is lost in rounding: M has entries of {entries}{exact}")
+            }
+        });
     }
     if own.matrix.len() <= ENTRIES {
         lines.push(format!("M = ({})", rows(&own.matrix, &|x| short(x, 4))));
@@ -284,9 +292,19 @@ fn now<'a>(present: &Present<'_>, moments: &'a [FlowMoment]) -> Option<&'a FlowM
     moments.get(passed.saturating_sub(1))
 }
 
+/// det M, where rounding leaves something of it.
+fn determinant(moment: &FlowMoment) -> Option<f64> {
+    (!moment.determinant_lost).then_some(moment.determinant)
+}
+
+/// ‖M𝕁Mᵀ − 𝕁‖, where it is more than rounding of large entries.
+fn residual(moment: &FlowMoment) -> Option<f64> {
+    moment.symplectic_residual.filter(|_| !moment.residual_lost)
+}
+
 /// The power of ten of ‖M𝕁Mᵀ − 𝕁‖.
 fn power(moment: &FlowMoment) -> Option<f64> {
-    let power = math::ln(moment.symplectic_residual?) / math::ln(10.0);
+    let power = math::ln(residual(moment)?) / math::ln(10.0);
     (!power.is_nan()).then_some(power.max(LEAST_POWER))
 }
 

@@ -46,8 +46,9 @@ pub(super) fn mode_amplitude(
     amplitude
 }
 
-/// The part of the rates at a displaced state that does not follow from their derivatives at the equilibrium, of the
-/// coordinates or of the momenta, whichever is greater.
+/// The part of the rates at a displaced state that does not follow from their derivatives D at the equilibrium, of the
+/// coordinates or of the momenta, whichever is greater. A motion that begins at rest has no velocity yet: rates are measured by
+/// those that come a quarter of an oscillation later, ω times the displacement, with ω² = |D² η|/|η|.
 fn beyond_first_order(
     field: &mut VectorField,
     time: f64,
@@ -57,15 +58,19 @@ fn beyond_first_order(
     let (still, derivative) = (field.rate(), field.derivative());
     field.evaluate(time, displaced).ok()?;
     let moved = displaced.iter().zip(rest).map(|(x, y)| x - y);
-    let linear = derivative * nalgebra::DVector::from_iterator(rest.len(), moved);
+    let moved = nalgebra::DVector::from_iterator(rest.len(), moved);
+    let linear = &derivative * &moved;
     let other = field.rate() - still - &linear;
+    let second = derivative * &linear;
     let half = rest.len() / 2;
     let size = |v: &nalgebra::DVector<f64>, from: usize| {
         v.iter().skip(from).take(half).fold(0.0, |sum, x| math::hypot(sum, *x))
     };
-    let part = |from: usize| match (size(&other, from), size(&linear, from)) {
-        (0.0, _) => 0.0,
-        (other, linear) => other / linear,
+    let turning = (size(&second, 0) / size(&moved, 0)).sqrt();
+    let turning = if turning.is_finite() { turning } else { 0.0 };
+    let part = |from: usize| match size(&other, from) {
+        0.0 => 0.0,
+        other => other / size(&linear, from).max(turning * size(&moved, from)),
     };
     Some(part(0).max(part(half))).filter(|part| !part.is_nan())
 }

@@ -361,7 +361,11 @@ fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
             format!("{} {sign} {}i", brief(re), brief(im.abs()))
         }
     };
-    let shown = |&z: &[f64; 2]| multiplier(if orbit.nearly_vanishes(z) { [0.0, 0.0] } else { z });
+    let shown = |&z: &[f64; 2]| match (orbit.nearly_vanishes(z), orbit.is_lost(z)) {
+        (true, _) => multiplier([0.0, 0.0]),
+        (false, true) => "one not known".to_owned(),
+        (false, false) => multiplier(z),
+    };
     let own: Vec<String> = orbit.multipliers.iter().map(shown).collect();
     let trivial = match orbit.trivial {
         Removed::Nothing => "",

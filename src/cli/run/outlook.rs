@@ -43,13 +43,11 @@ impl Outlook {
         let shortened = before > 0 && step < SHORTENED * (from - self.start) / before as f64;
         (left > MOST && (self.kinks || shortened)).then(|| {
             let [time, end] = [time, self.end].map(printable::number);
-            let [what, help] = if self.kinks {
-                [
-                    "from one kink to the next it takes steps of",
-                    ", or begin the motion exactly on the kink, or farther from it",
-                ]
+            let what = if shortened { "it has come to steps of" } else { "it takes steps of" };
+            let help = if self.kinks {
+                "; where it goes from one kink to the next, begin exactly on the kink, or farther from it"
             } else {
-                ["it has come to steps of", ""]
+                ""
             };
             format!(
                 "{what} {step:.1e} at t = {time}, and {left:.1e} more of them to t = {end}: end the run sooner with \

@@ -372,4 +372,9 @@ fn an_orbit_that_crosses_no_more_is_given_up() {
         let done = with_file(text, &words);
         assert!(done.text().contains("no crossing in 100000 steps"), "{method}");
     }
+    // small steps that were asked for have time for an oscillation
+    let words =
+        ["section", "system.toml", "--on=x", "--method=leapfrog", "--step=2e-5", "--count=2"];
+    let done = with_file(text, &words).success();
+    assert!(!done.contains("no crossing"), "{done}");
 }

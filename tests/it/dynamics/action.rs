@@ -109,6 +109,11 @@ fn slopes_by_the_ends_are_momenta_and_energies() {
     };
     let energy = |t: f64| 0.5 * shaken(t)[1].powi(2) - (300.0 * t).cos() * shaken(t)[0];
     check("1/2*x'^2 + cos(300*t)*x", &shaken, &|t| shaken(t)[1], &energy);
+    // Bateman's dual oscillator at y = 0: the action is nothing, and settles before its slopes do
+    let text = "title = 't'\n[coordinates]\nx = { initial = 1.0 }\ny = { initial = 0.0 }\n[lagrangian]\n\
+                L = \"x'*y' - 40000*x*y\"\n[[views]]\nkind = \"action\"\nx = \"y\"\n";
+    let (shown, _) = picture(text, 9.0);
+    assert!(!shown.contains('≠'), "{shown}");
     // what is no motion has other slopes
     let wrong = beside("1/2*x'^2 - 1/2*x^2", |t| [1.0 + t, 1.0], 2.0).1.unwrap();
     let [_, last] = wrong.ends.expect("the slopes at both ends");
