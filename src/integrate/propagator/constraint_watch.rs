@@ -157,7 +157,9 @@ impl Propagator {
             };
             return MotionError { kind: MotionErrorKind::SingularConstraints(passage), ..fault };
         }
-        let passage = if self.is_steep(&fault.kind) { None } else { self.way_past(fault.time) };
+        // a method that does not locate kinks may stop so at one
+        let steep = self.method.locates_kinks && self.is_steep(&fault.kind);
+        let passage = if steep { None } else { self.way_past(fault.time) };
         match passage {
             Some(passage) => MotionError {
                 kind: MotionErrorKind::Passable(Box::new(fault.kind), passage),
