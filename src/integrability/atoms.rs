@@ -97,6 +97,10 @@ impl Atoms {
                 atoms.add(q, u32::MAX);
             }
         }
+        if found.algebraic.contains(&law.time) {
+            let time = pool.variable(law.time);
+            atoms.add(time, u32::MAX);
+        }
         for (term, d) in &found.angles {
             let d = if family.half_angles { 2 * d } else { *d };
             atoms.add_angle(pool, *term, d);

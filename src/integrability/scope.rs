@@ -77,8 +77,12 @@ impl SearchScope {
         all.map(bound).collect()
     }
 
-    /// Whether the motion is unchanged where time and momenta are reversed, so that even and odd constants separate.
+    /// Whether the motion is unchanged where time and momenta are reversed, so that even and odd constants separate. A law
+    /// that contains the time is another one then.
     fn is_reversible(&self, pool: &Pool) -> bool {
+        if self.law.expressions().iter().any(|&e| pool.depends(e, self.law.time)) {
+            return false;
+        }
         let momenta = self.law.momenta();
         let even = |e: &Expr| parity(pool, *e, momenta) == Some(true);
         match &self.law.rule {

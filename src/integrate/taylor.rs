@@ -27,6 +27,7 @@ mod step_screen;
 mod step_size;
 mod sticking;
 mod still;
+mod touch;
 mod trial_velocities;
 
 pub(super) use batch::TaylorBatch;
@@ -100,6 +101,8 @@ struct Taylor {
     leapt: Option<(State, Option<Vec<DoubleDouble>>)>,
     /// A motion at rest, until it starts moving.
     resting: Option<Still>,
+    /// The step before which the motion was last taken to touch rest, and did not.
+    touch_tried: f64,
     parameters: Vec<f64>,
     /// The last limit of a step, and the decimal number it is written as.
     limit: (f64, DoubleDouble),
@@ -141,6 +144,7 @@ impl Taylor {
             landed: false,
             leapt: None,
             resting: None,
+            touch_tried: f64::INFINITY,
             parameters: Vec::new(),
             limit: (f64::NAN, DoubleDouble::ZERO),
             leaps: (0, f64::NAN),
@@ -216,6 +220,7 @@ impl Stepper for Taylor {
         self.landed = false;
         self.leapt = None;
         self.resting = None;
+        self.touch_tried = f64::INFINITY;
         self.parameters = parameters.to_vec();
         self.leaps = (0, f64::NAN);
         let parameters = self.system.inputs(parameters);
@@ -263,6 +268,9 @@ impl Stepper for Taylor {
             },
         };
         let Some(step) = longest else { return Ok(()) };
+        if self.cross_touch(step, limit)? {
+            return Ok(());
+        }
         self.leapt = None;
         match self.end_of_step(step, left)? {
             Some(end) => self.go_to(end, step, (left.high, limit)),

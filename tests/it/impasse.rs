@@ -518,3 +518,17 @@ fn a_start_on_a_hidden_kink_is_reported_with_the_method_that_passes_it() {
     run(&mut written, 1.0);
     assert!((value(&taylor, "v") - value(&written, "v")).abs() < 1e-13);
 }
+
+/// A collision on a line, of a body that something else drives as well: methods that step over it give numbers, and as the
+/// attraction is weak beside the velocity these even agree. No method passes it, and none is named.
+#[test]
+fn a_collision_that_others_step_over_names_none_of_them() {
+    let text = "[coordinates]\nr = { initial = 1.191, velocity = -0.765 }\ntheta = { initial = 1.046889, velocity = -0.672435 }\n\
+                [lagrangian]\nL = \"0.5*r'^2 + 0.5*theta'^2 + 0.808/sqrt(r^2 + theta^2) - 3*exp(5*(theta + 5))\"\n\
+                [[constraints]]\nname = \"held\"\nexpression = \"theta - 0.879*r\"\n";
+    let free = "[coordinates]\nx = { initial = 1, velocity = -1e6 }\n[lagrangian]\nL = \"1/2*x'^2 + 1/abs(x)\"\n";
+    for text in [text, free] {
+        let message = fault(file(text), 0.25);
+        assert!(message.contains("collision") && !message.contains("passes it"), "{message}");
+    }
+}

@@ -151,11 +151,12 @@ fn the_judge_tells_a_run_that_is_wrong() {
 }
 
 /// Cases in which a long run found the judge wrong, or a message without help: ln(cosh(u)) beyond the range of cosh(u), a
-/// pendulum upside down, errors at kinks that are stepped over, a loss of energy that is told, a step too long for any velocity.
+/// pendulum upside down, rounding that the motion enlarges on its way, errors at kinks that are stepped over, a loss of energy
+/// that is told, a step too long for any velocity.
 #[test]
 fn what_a_long_run_found_stays_mended() {
     let budget = Budget { steps: 100_000, evaluations: 100_000, ..BUDGET };
-    for index in [29, 1762, 3790, 3830, 4495] {
+    for index in [29, 1762, 3393, 3790, 3830, 4495] {
         let outcome = judged(&random::case(2_276_825_521, index), budget);
         assert!(!matches!(outcome, Outcome::Failed(_)), "case {index}: {outcome:?}");
     }

@@ -9,7 +9,7 @@
 use super::Propagator;
 use super::singularity_record::SingularityRecord;
 use crate::integrate::{Settings, Stepper, Stepping, initial_step, method_named};
-use crate::num::math;
+use crate::num::{DoubleDouble, math};
 use crate::system::{
     ConstraintProjector, Directions, Form, MotionError, MotionErrorKind, Passage, State,
 };
@@ -34,7 +34,8 @@ const STEPS_THERE: f64 = 50.0;
 /// … at most with this many, …
 const MOST_STEPS: u32 = 4000;
 
-/// … and once more with half the step: the results may differ by this part.
+/// … and once more with half the step: the results may differ by this part. It is also the part of the velocities by which
+/// the rates may change them in a step that no longer moves the clock, where another method may pass.
 const AGREES: f64 = 1e-3;
 
 /// A trial from the beginning of the motion goes beyond the place by this part of the time to it.
@@ -156,7 +157,10 @@ impl Propagator {
             };
             return MotionError { kind: MotionErrorKind::SingularConstraints(passage), ..fault };
         }
-        match self.way_past(fault.time) {
+        // a method that does not locate kinks may stop so at one
+        let steep = self.method.locates_kinks && self.is_steep(&fault.kind);
+        let passage = if steep { None } else { self.way_past(fault.time) };
+        match passage {
             Some(passage) => MotionError {
                 kind: MotionErrorKind::Passable(Box::new(fault.kind), passage),
                 ..fault
@@ -174,6 +178,27 @@ impl Propagator {
             }
             None => fault,
         }
+    }
+
+    /// Whether the motion stops where its rates grow without bound, as in a collision: over a step too small to move the
+    /// clock they still change its velocities. Another method only steps over it.
+    fn is_steep(&self, kind: &MotionErrorKind) -> bool {
+        let (MotionErrorKind::StepUnderflow(step), n) = (kind, self.system.degrees()) else {
+            return false;
+        };
+        let state = self.stepper.state();
+        let numbers: Vec<DoubleDouble> = (0..state.values.len()).map(|i| state.exact(i)).collect();
+        let mut rates = self.system.exact_rates();
+        rates.set_parameters(&self.system.inputs(&self.parameters));
+        if state.form != self.system.form()
+            || numbers.len() < 2 * n
+            || rates.evaluate(state.exact_time(), &numbers).is_err()
+        {
+            return false;
+        }
+        let change = (n..2 * n).map(|i| (rates.rate(i).high * step).abs()).fold(0.0, f64::max);
+        let size = (n..2 * n).map(|i| numbers[i].high.abs()).fold(0.0, f64::max);
+        change > AGREES * size
     }
 
     /// The initial states and end times of trials that pass a time at which the motion stops: from

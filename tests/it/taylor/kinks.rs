@@ -290,6 +290,25 @@ fn a_block_that_is_dragged_sets_out_as_on_a_line() {
     }
 }
 
+/// Dragged diagonally it touches rest once a period, with v = 0 and v' = 0, and goes on the same way: at 1 − cos 2τ times the
+/// velocity of the pull, up to any time, also one within a touch.
+#[test]
+fn a_block_dragged_diagonally_touches_rest_and_goes_on() {
+    let pi = std::f64::consts::PI;
+    for (a, b) in [(0.2_f64, 0.1_f64), (0.1, -0.2)] {
+        let begin = 0.3 / 4.0 / a.hypot(b);
+        for tau in [1.0, 3.0, 3.14, pi, 3.142, 3.2, 4.0, 6.0, 2.0 * pi, 7.0, 20.0] {
+            let mut run = Run::new(&format!(
+                "title = \"Dragged\"\n[coordinates]\nx = {{ initial = 0 }}\ny = {{ initial = 0 }}\n\
+                 [lagrangian]\nL = \"1/2*(x'^2 + y'^2) - 2*((x - ({a})*t)^2 + (y - ({b})*t)^2)\"\n\
+                 dissipation = \"0.3*sqrt(x'^2 + y'^2)\"\n"
+            ));
+            let (v, moved) = (1.0 - (2.0 * tau).cos(), tau - 0.5 * (2.0 * tau).sin());
+            near(&run.to(begin + tau), &[a * moved, b * moved, a * v, b * v], 2e-14);
+        }
+    }
+}
+
 /// Friction at rest does no work, and what drags it does: the energy balance holds, also where it is zero at first.
 #[test]
 fn the_energy_of_what_drags_a_block_at_rest_is_its_work() {
