@@ -24,7 +24,7 @@ const OWN: Level = 2;
 const NOW: Level = 3;
 
 /// The half waves, and how far each is taken to either side, in the reach of the coordinate.
-const HALF_WAVES: [f64; 3] = [1.0, 2.0, 3.0];
+const HALF_WAVES: [f64; 2] = [1.0, 2.0];
 const FAR: [f64; 3] = [0.5, 1.0, 2.0];
 
 /// Points of a curve.

@@ -20,10 +20,9 @@ fn what_divides_is_cancelled_and_nothing_else() {
 fn products_come_apart_again() {
     for (a, b) in [("q - u", "q^2 + u^2 + q*u"), ("q + 2*u", "q - u^3"), ("q*u + a", "q + b")] {
         let whole = text(&format!("({a})*({b})"), |pool, e| pool.multiplied_out(e));
-        let found = text(&format!("({whole})/({a})"), |pool, e| {
-            let e = pool.divided_out(e);
-            pool.multiplied_out(e)
-        });
-        assert_eq!(found, text(b, |pool, e| pool.multiplied_out(e)), "({a})({b})");
+        let found = text(&format!("({whole})/({a})"), |pool, e| pool.divided_out(e));
+        assert!(!found.contains('/'), "{found}");
+        let left = text(&format!("({found}) - ({b})"), |pool, e| pool.multiplied_out(e));
+        assert_eq!(left, "0", "({a})({b})");
     }
 }
