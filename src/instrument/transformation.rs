@@ -78,10 +78,6 @@ impl Instrument for TransformationPlot {
         }
     }
 
-    fn has_equal_axes(&self) -> bool {
-        true
-    }
-
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
         let channel = |symbol: Symbol| {
             let name = &physics.model.pool.symbol_info(symbol).name;

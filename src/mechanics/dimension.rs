@@ -200,7 +200,7 @@ impl Equations {
             None => is_entry(s).then(place),
         };
         symbols.iter().any(moves)
-            && symbols.iter().all(|s| moves(s) || given(s) || *s == model.symbols.time)
+            && symbols.iter().all(|s| moves(s) || given(s))
             && self.dimension(e, &degree) == Some(place())
     }
 

@@ -547,14 +547,3 @@ fn the_page_of_equations_has_transformations() {
     assert!(falling.contains("Integral of the Hamilton–Jacobi equation: complete"), "{falling}");
     assert!(falling.contains("∂S/∂α"), "{falling}");
 }
-
-/// The plane of two places is drawn at one scale, and that of a place and a momentum is not.
-#[test]
-fn rotating_axes_are_drawn_one_to_one() {
-    let equal = |name: &str| -> Vec<bool> {
-        let app = lab(name, 0.5);
-        plots(&app).iter().map(|plot| plot.viewport().expect("a window").equal).collect()
-    };
-    assert_eq!(equal("moving-axes"), [true, false]);
-    assert_eq!(equal("angle-of-the-oscillator"), [false, false]);
-}
