@@ -13,6 +13,7 @@ mod ball;
 mod common_root;
 mod conditioning;
 mod derivative;
+mod division;
 mod evaluate;
 mod expand;
 mod function;

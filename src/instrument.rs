@@ -22,6 +22,7 @@ mod mode_amplitude;
 mod motion_state;
 mod opening;
 mod orbit;
+mod paths;
 mod phase;
 mod picture;
 mod plot;

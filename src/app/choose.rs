@@ -60,7 +60,7 @@ impl App {
     }
 
     /// Chooses an offer for a plot; any further axes are asked for next.
-    fn take_offer(&mut self, plot: usize, index: usize) -> Vec<Effect> {
+    pub(super) fn take_offer(&mut self, plot: usize, index: usize) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };
         let physics = lab.loaded.physics();
         let Some((kind, offer)) = offers(physics).into_iter().nth(index) else {
@@ -150,6 +150,7 @@ impl App {
             (_, Choice::System(index)) => self.open_system(index),
             (_, Choice::Value(target)) => self.type_into(target),
             (_, Choice::Pane(pane)) => self.look_at(pane),
+            (_, Choice::Show(index)) => self.show_nearest(index),
             (Choosing::Contents { plot }, Choice::Offer(index)) => self.take_offer(plot, index),
             (Choosing::Axis { plot, .. }, Choice::Channel(_)) => {
                 let channels = menu.channels();

@@ -98,6 +98,8 @@ pub enum Choice {
     Symmetry(usize),
     /// The offer of this index, among all offers for a plot.
     Offer(usize),
+    /// The same offer, in the nearest plot, which then has the focus.
+    Show(usize),
     /// A channel.
     Channel(usize),
     /// The system of this index in the catalog.

@@ -38,6 +38,20 @@ impl App {
     }
 }
 
+/// Pictures chosen by name.
+impl App {
+    /// Shows the offer of this index in the nearest plot, or in that of the motion if there is no other.
+    pub(super) fn show_nearest(&mut self, index: usize) -> Vec<Effect> {
+        let pane = self.nearest(Place::Plot).or_else(|| self.nearest(Place::Space));
+        let Some(Pane::Plot(plot)) = pane else { return Vec::new() };
+        self.go(Page::Lab);
+        if let Some(lab) = &mut self.lab {
+            lab.focus = Pane::Plot(plot);
+        }
+        self.take_offer(plot, index)
+    }
+}
+
 /// What a picture has instead of what it shows.
 impl App {
     /// Lets the nearest transformation move the point, or the coordinates again, or the nearest action show its next

@@ -6,6 +6,7 @@
 
 use super::keymap::{Binding, KEYS, Place};
 use super::{Action, App, Choice, Choosing, Effect, Item, Lab, Menu, Overlay, Pane, ValueId};
+use crate::instrument::{INSTRUMENTS, Instrument, Offer, offers};
 use crate::integrate::METHODS;
 use crate::system::System;
 
@@ -46,6 +47,7 @@ impl App {
         items.extend(nearby);
         if let Some(lab) = &self.lab {
             items.extend(lab.pane_lines());
+            items.extend(lab.picture_lines());
             items.extend(method_lines(&lab.loaded.system));
         }
         items.extend(self.theme_lines());
@@ -274,6 +276,26 @@ impl Lab {
             choice: Choice::Pane(pane),
         };
         self.panes().map(line).collect()
+    }
+
+    /// Returns a line for each picture that a plot can show, with the name of its kind, and one for each kind of which this
+    /// system has none.
+    fn picture_lines(&self) -> Vec<Item> {
+        let offered = offers(self.loaded.physics());
+        let named = |kind: &str, label: &str| {
+            let said = label.to_lowercase().contains(kind);
+            if said { format!("show {label}") } else { format!("show {kind}: {label}") }
+        };
+        let line = |(index, (kind, offer)): (usize, &(&dyn Instrument, Offer))| {
+            Item::plain(named(kind.name(), &offer.label), offer.about.clone(), Choice::Show(index))
+        };
+        let lacking = INSTRUMENTS.into_iter().map(Instrument::name);
+        let lacking = lacking.filter(|name| !offered.iter().any(|(kind, _)| kind.name() == *name));
+        let none = |name: &str| Item {
+            unavailable: Some("this system has nothing that it could show".to_owned()),
+            ..Item::plain(format!("show {name}"), "a kind of plot", Choice::Show(usize::MAX))
+        };
+        offered.iter().enumerate().map(line).chain(lacking.map(none)).collect()
     }
 
     /// Returns the name of a pane with the word for its kind.

@@ -344,7 +344,7 @@ fn beside(
 }
 
 /// How long the path is: up to now, on a grid.
-fn duration(present: &Present<'_>) -> f64 {
+pub(super) fn duration(present: &Present<'_>) -> f64 {
     let run = &present.physics.model.run;
     let grid = if run.speed.is_normal() { GRID * run.speed.abs() } else { GRID };
     grid * ((present.time - run.start) / grid).floor().clamp(1.0, MOST)

@@ -9,6 +9,7 @@ use super::{
 };
 use crate::expr::{Expr, Symbol};
 use crate::model::Mechanics;
+use crate::num::significant;
 use crate::system::ChannelKind;
 
 /// The levels of the picture.
@@ -19,6 +20,9 @@ const NOW: Level = 3;
 
 /// Points of the curve.
 const POINTS: usize = 241;
+
+/// The places at which the range of the vertical axis is looked up, but for one.
+const PLACES: usize = 16;
 
 /// The range, as a multiple of what the motion has reached.
 const BEYOND: f64 = 1.4;
@@ -36,6 +40,8 @@ struct TransformedFunction {
     function: Expr,
     letters: [&'static str; 2],
     number: Symbol,
+    /// The coordinate, and its channel.
+    place: (Symbol, usize),
     /// The channels of that number, and of the slope.
     channel: usize,
     slope: usize,
@@ -46,7 +52,8 @@ struct TransformedFunction {
 impl TransformedFunction {
     fn of(plot: &Plot, physics: Physics<'_>) -> Option<Self> {
         let Physics { model, system, .. } = physics;
-        let ChannelKind::Position(i) = system.channels().get(plot.column(0)?)?.kind else {
+        let column = plot.column(0)?;
+        let ChannelKind::Position(i) = system.channels().get(column)?.kind else {
             return None;
         };
         let coordinate = model.coordinates.get(i)?;
@@ -62,7 +69,8 @@ impl TransformedFunction {
         };
         let (channel, slope) = (physics.channel(channel)?, physics.channel(slope)?);
         let alone = model.coordinates.len() == 1;
-        Some(Self { function, letters, number, channel, slope, alone })
+        let place = (coordinate.position, column);
+        Some(Self { function, letters, number, place, channel, slope, alone })
     }
 
     /// The numbers of the motion now: the abscissa, the function there, and the slope.
@@ -79,6 +87,24 @@ impl TransformedFunction {
             model.pool.evaluate(self.function, &at)
         };
         numbers.iter().map(value).collect()
+    }
+
+    /// Values of the function where the coordinate has been, at the ends of the range and in its middle: with them the vertical
+    /// axis stays where it is while the curve goes up and down.
+    fn elsewhere(&self, present: &Present<'_>, [from, to]: [f64; 2]) -> Vec<f64> {
+        let Some(&(low, high)) = present.bounds.get(self.place.1) else { return Vec::new() };
+        let (model, now) = (present.physics.model, present.valuation());
+        let places = (0..=PLACES).map(|k| low + (high - low) * k as f64 / PLACES as f64);
+        let all = places.flat_map(|place| [from, 0.5 * (from + to), to].map(|x| (place, x)));
+        let value = |(place, x): (f64, f64)| {
+            let at = |symbol| match symbol {
+                s if s == self.number => x,
+                s if s == self.place.0 => place,
+                _ => now.at(symbol),
+            };
+            model.pool.evaluate(self.function, &at)
+        };
+        all.map(value).collect()
     }
 
     fn range(&self, present: &Present<'_>) -> [f64; 2] {
@@ -147,17 +173,23 @@ impl Instrument for LegendrePlot {
         let values = found.at(present, &numbers);
         let intercept = y - slope * x;
         let tangent = |at: f64| [at, intercept + slope * at];
-        let seen = values.iter().chain([&y, &intercept]).filter(|value| value.is_finite());
+        let elsewhere = found.elsewhere(present, [from, to]);
+        let seen = values.iter().chain(&elsewhere).chain([&y, &intercept]);
+        let seen = seen.filter(|value| value.is_finite());
         let (low, high) = seen.fold((0.0_f64, 0.0_f64), |(lo, hi), &v| (lo.min(v), hi.max(v)));
         let faint = Stroke { ink: Ink::Level, covering: Some(0.5) };
         let [letter, other] = found.letters;
         let [number, of_slope] = [found.channel, found.slope].map(|c| present.physics.shown(c));
         let named = if found.alone {
-            format!("intercept −{other}")
+            format!("−{other}")
         } else {
-            format!("intercept {letter} − {of_slope} {number}")
+            format!("{letter} − {of_slope} {number}")
         };
-        let mut lines = vec![format!("slope {of_slope}, {named}")];
+        let short = |x: f64| significant(x, 4, 1e-3..1e5).replace('-', "−");
+        let mut lines = vec![
+            format!("slope {of_slope} = {}", short(slope)),
+            format!("intercept {named} = {}", short(intercept)),
+        ];
         lines.extend(shape(&values).map(|shape| match shape {
             CurveShape::Straight => format!("straight: {of_slope} does not determine {number}"),
             CurveShape::Bent => format!("not convex: several {number} may have one {of_slope}"),

@@ -6,12 +6,12 @@
 use super::kind::{Instrument, Offer};
 use super::present::Physics;
 use super::{
-    action, actions, angle, diagram, ensemble, exponents, flow, legendre, map, orbit, phase,
+    action, actions, angle, diagram, ensemble, exponents, flow, legendre, map, orbit, paths, phase,
     potential, section, separation, space, spectrum, time, transformation,
 };
 
 /// All kinds, in the order in which the lab opens with them.
-pub static INSTRUMENTS: [&dyn Instrument; 20] = [
+pub static INSTRUMENTS: [&dyn Instrument; 21] = [
     &space::Space,
     &phase::Phase,
     &transformation::TransformationPlot,
@@ -29,6 +29,7 @@ pub static INSTRUMENTS: [&dyn Instrument; 20] = [
     &action::ActionPlot(action::Principle::Hamilton),
     &action::ActionPlot(action::Principle::Maupertuis),
     &action::ActionPlot(action::Principle::PhaseSpace),
+    &paths::PathsPlot,
     &legendre::LegendrePlot,
     &diagram::Diagram,
     &map::Map,

@@ -13,13 +13,14 @@ mod judged;
 use std::sync::Arc;
 
 use self::branches::Branches;
+use self::grid::old_variables;
 use self::image::{ImageOrigin, of_branches};
 use self::judged::MapVerdict;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
     Need, Offer, Physics, Picture, Plot, Present, Stroke, Upwards,
 };
-use crate::expr::{Expr, Pool, Symbol};
+use crate::expr::Symbol;
 use crate::job::Job;
 use crate::mechanics::{Equations, ImplicitMap, TransformationReport, Valuation, relations_of};
 use crate::model::Transformation as Law;
@@ -434,17 +435,4 @@ fn depends_on_time(
     let relations = implicit(equations, new).into_iter().flat_map(|map| &map.relations);
     let mut all = written.chain(relations.copied());
     all.any(|e| equations.pool.depends(e, model.symbols.time))
-}
-
-/// The two old variables on which new ones, or their relations, depend, with their channels; `None` if there are others.
-fn old_variables(pool: &Pool, physics: Physics<'_>, of: &[Expr]) -> Option<[(Symbol, usize); 2]> {
-    let model = physics.model;
-    let coordinates = model.coordinates.iter().enumerate();
-    let all = coordinates.flat_map(|(i, c)| {
-        [(c.position, ChannelKind::Position(i)), (c.momentum, ChannelKind::Momentum(i))]
-    });
-    let on = all.filter(|(symbol, _)| of.iter().any(|&e| pool.depends(e, *symbol)));
-    let on: Vec<(Symbol, usize)> =
-        on.map(|(s, kind)| Some((s, physics.channel(kind)?))).collect::<Option<_>>()?;
-    on.try_into().ok()
 }

@@ -374,6 +374,7 @@ impl PhaseMap {
                 let is = pool.linear(Number::ZERO, &terms);
                 let is = super::slope::zero_if_proved(pool, is);
                 let is = pool.simplify(is);
+                let is = pool.divided_out(is);
                 let expected = if j == i + n { Expr::ONE } else { Expr::ZERO };
                 let difference = pool.sub(is, expected);
                 let zero = pool.is_zero(difference);

@@ -44,6 +44,8 @@ pub struct TransformationReport {
     pub backwards: Option<Solution>,
     /// K(Q, P, t), or why there is none.
     pub hamiltonian: Result<Expr, NoClosedForm>,
+    /// K as a function of (q, p, t), of an explicit map whose K(Q, P, t) is not known.
+    pub hamiltonian_in_old: Option<Expr>,
     /// Its generating functions of each type, if it is canonical and they can be searched for.
     pub functions: Vec<GeneratingFunction>,
 }
@@ -86,7 +88,12 @@ impl TransformationReport {
         let verdict = map.verdict(model, equations);
         let backwards = map.backwards(model, equations);
         let hamiltonian = map.new_hamiltonian(model, equations, &verdict, backwards.as_ref());
-        TransformationReport { map, verdict, backwards, hamiltonian, functions: Vec::new() }
+        let hamiltonian_in_old = match &hamiltonian {
+            Ok(_) => None,
+            Err(_) => map.hamiltonian_in_old(model, equations, &verdict),
+        };
+        let functions = Vec::new();
+        TransformationReport { map, verdict, backwards, hamiltonian, hamiltonian_in_old, functions }
     }
 }
 

@@ -79,6 +79,9 @@ pub fn latex(report: &Report<'_>, further: &Further) -> String {
         if let Ok(e) = known.hamiltonian {
             page.add("K", &pool.latex(e));
         }
+        if let Some(e) = known.hamiltonian_in_old {
+            page.add("K(q, p, t)", &pool.latex(e));
+        }
     }
     for known in &further.generators {
         page.add("G", &pool.latex(known.expression));

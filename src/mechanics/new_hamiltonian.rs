@@ -70,6 +70,23 @@ impl PhaseMap {
         Ok(e)
     }
 
+    /// K as a function of the old variables and t: c H + R of a map that is given explicitly, which needs no inverse.
+    pub fn hamiltonian_in_old(
+        &self,
+        model: &Model,
+        equations: &mut Equations,
+        verdict: &CanonicalVerdict,
+    ) -> Option<Expr> {
+        let known = self.is_explicit() && (verdict.canonical || verdict.valence.is_some());
+        let hamiltonian = equations.hamiltonian().clone().ok().filter(|_| known)?;
+        let pool = &mut equations.pool;
+        let rate = self.rate_of_explicit(pool, model.symbols.time).ok()?;
+        let scaled = pool.mul(verdict.valence.unwrap_or(Expr::ONE), hamiltonian);
+        let e = pool.add(scaled, rate);
+        let e = pool.simplify_terms(e);
+        (pool.weight(e) <= CLOSED_FORM_LIMIT).then_some(e)
+    }
+
     /// K as H(q, ∂F/∂q, t) + ∂F/∂t where the old variables drop out of it, as they do where F is found by Hamilton and Jacobi:
     /// then nothing has to be solved for.
     fn separated(

@@ -92,6 +92,9 @@ impl FurtherRows<'_> {
                 Err(why) if verdict.canonical => self.page.words(Role::Dim, format!("K: {why}.")),
                 Err(_) => {}
             }
+            if let Some(e) = known.hamiltonian_in_old {
+                self.put("K", e, "in the old variables");
+            }
         }
     }
 

@@ -6,6 +6,7 @@ use proptest::prelude::*;
 
 use crate::build::{names, read, sample, try_read};
 
+mod division;
 mod pool;
 
 fn text(source: &str, f: impl Fn(&mut Pool, Expr) -> Expr) -> String {

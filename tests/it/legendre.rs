@@ -1,7 +1,7 @@
 //! The picture of the Legendre transform: slope and intercept against closed forms, and what has none.
 
 use phaselab::app::App;
-use phaselab::instrument::{Layer, Picture, Plot, named, offers};
+use phaselab::instrument::{Layer, Picture, Plot, Upwards, named, offers};
 
 use crate::hand::begun;
 use crate::section::measure;
@@ -45,7 +45,7 @@ fn the_slope_is_the_momentum_and_the_intercept_minus_the_hamiltonian() {
     // γ = 1/0.8: p = γ v, H = γ − x
     near(measure(&app, &plot(&app), "slope"), 0.75);
     near(measure(&app, &plot(&app), "intercept"), -(1.25 - 0.5));
-    assert_eq!(told(&app), "slope p_x, intercept −H");
+    assert_eq!(told(&app), "slope p_x = 0.75\nintercept −H = −0.75");
     // the tangent touches the curve from below, and meets the axis at the intercept
     let lines = drawn(&app).into_iter().filter_map(|layer| match layer {
         Layer::Line(points, _) => Some(points),
@@ -67,7 +67,7 @@ fn a_hamiltonian_is_transformed_back() {
     // x' = p/2, L = x'² − x²
     near(measure(&app, &plot(&app), "slope"), 0.3);
     near(measure(&app, &plot(&app), "intercept"), -(0.09 - 0.25));
-    assert_eq!(told(&app), "slope ẋ, intercept −L");
+    assert_eq!(told(&app), "slope ẋ = 0.3\nintercept −L = 0.16");
 }
 
 #[test]
@@ -88,7 +88,7 @@ fn of_several_velocities_one_is_transformed() {
     near(measure(&app, &plot(&app), "slope"), 1.1);
     let lagrangian = 0.5 * (0.72 + 0.01) - 0.06 - 2.0;
     near(measure(&app, &plot(&app), "intercept"), lagrangian - 1.1 * 0.6);
-    assert_eq!(told(&app), "slope p_x, intercept L − p_x ẋ");
+    assert_eq!(told(&app), "slope p_x = 1.1\nintercept L − p_x ẋ = −2.355");
 }
 
 #[test]
@@ -99,4 +99,25 @@ fn variables_of_brackets_have_no_transform() {
     let lowered = crate::hand::lowered(text);
     assert!(lowered.model.is_poisson());
     assert!(offers(lowered.physics()).iter().all(|(of, _)| *of != kind));
+}
+
+/// The vertical axis of a pendulum stays where it is while the curve goes up and down with −V.
+#[test]
+fn the_vertical_axis_stays_while_the_curve_moves() {
+    let text = "title = 'a test'\n[coordinates]\nx = { initial = 2.0, velocity = 0.0 }\n\
+                [lagrangian]\nL = \"x'^2/2 + 9.81*cos(x)\"\n[[views]]\nkind = \"legendre\"\nx = \"x\"\n";
+    let app = begun(text);
+    let lab = app.lab.as_ref().unwrap();
+    let plot = plot(&app);
+    let mut present = lab.present().unwrap();
+    let bounds: Vec<(f64, f64)> = present.bounds.iter().map(|_| (-2.0, 2.0)).collect();
+    present.bounds = &bounds;
+    let Some(Picture::Axes { upwards, .. }) = plot.kind.picture(&plot, &present, [-7.0, 7.0], None)
+    else {
+        panic!("no axes")
+    };
+    let Upwards::Named(_, [low, high]) = upwards else { panic!("no range") };
+    // at the lowest point L is 9.81 more than ½ v², at the turning point 9.81 cos 2
+    near(high, 24.5 + 9.81);
+    near(low, 9.81 * 2.0_f64.cos());
 }

@@ -231,6 +231,7 @@ impl JsonReport<'_> {
                 "proved": known.verdict.proved,
                 "residual": known.verdict.residual,
                 "K": known.hamiltonian.as_ref().ok().map(|&e| self.text(e)),
+                "K_of_old": known.hamiltonian_in_old.map(|e| self.text(e)),
                 "new": map(&known.map.forwards, &known.map.implicit.new),
                 "old": map(&known.backwards, &known.map.old),
                 "valence": valence,

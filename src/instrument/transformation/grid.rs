@@ -4,7 +4,9 @@
 //! where a new variable jumps or has no value. Never here: drawing.
 
 use crate::expr::{Expr, Pool, Symbol};
+use crate::instrument::Physics;
 use crate::mechanics::{ImplicitMap, Valuation};
+use crate::system::ChannelKind;
 
 /// The lines of each old variable, and the points of a line.
 const LINES: usize = 7;
@@ -141,6 +143,23 @@ fn parted(line: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
     }
     parts.retain(|part| part.len() > 1);
     parts
+}
+
+/// The two old variables on which new ones, or their relations, depend, with their channels; `None` if there are others.
+pub(super) fn old_variables(
+    pool: &Pool,
+    physics: Physics<'_>,
+    of: &[Expr],
+) -> Option<[(Symbol, usize); 2]> {
+    let model = physics.model;
+    let coordinates = model.coordinates.iter().enumerate();
+    let all = coordinates.flat_map(|(i, c)| {
+        [(c.position, ChannelKind::Position(i)), (c.momentum, ChannelKind::Momentum(i))]
+    });
+    let on = all.filter(|(symbol, _)| of.iter().any(|&e| pool.depends(e, *symbol)));
+    let on: Vec<(Symbol, usize)> =
+        on.map(|(s, kind)| Some((s, physics.channel(kind)?))).collect::<Option<_>>()?;
+    on.try_into().ok()
 }
 
 #[cfg(test)]

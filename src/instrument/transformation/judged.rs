@@ -122,5 +122,7 @@ fn lines(pool: &Pool, report: &TransformationReport) -> Vec<String> {
     lines.extend(failing);
     lines.extend(verdict.valence.map(|c| format!("of valence {}", pool.unicode(c))));
     lines.extend(report.hamiltonian.as_ref().ok().map(|k| format!("K = {}", pool.unicode(*k))));
+    let in_old = report.hamiltonian_in_old;
+    lines.extend(in_old.map(|k| format!("K = {} at (q, p)", pool.unicode(k))));
     lines
 }

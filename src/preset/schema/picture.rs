@@ -35,7 +35,7 @@ pub(super) const VIEW: SchemaTable = SchemaTable {
         key(
             "kind",
             Text,
-            "`phase`, `space`, `time`, `potential`, `section`, `diagram`, `map`, `transformation`, `ensemble`, `orbit`, `spectrum`, `actions`, `angle`, `action`, `abbreviated`, `phase-action`, `legendre` or `flow`",
+            "`phase`, `space`, `time`, `potential`, `section`, `diagram`, `map`, `transformation`, `ensemble`, `orbit`, `spectrum`, `actions`, `angle`, `action`, `abbreviated`, `phase-action`, `paths`, `legendre` or `flow`",
         )
         .needed("write kind = \"phase\", \"space\", \"time\", \"potential\" or \"section\""),
         key("title", Text, "what it is called"),
@@ -52,6 +52,7 @@ pub(super) const VIEW: SchemaTable = SchemaTable {
             "action",
             "abbreviated",
             "phase-action",
+            "paths",
             "legendre",
         ]),
         key("y", Formulas, "the vertical axis; several in a time series").only(&[

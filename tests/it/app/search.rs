@@ -86,3 +86,25 @@ fn the_palette_finds_words_and_not_chance() {
     let chance = lines(&lab, "ene");
     assert!(!chance.iter().any(|line| line.starts_with("focus the next")), "{chance:?}");
 }
+
+/// The palette finds every kind of plot by its name, and shows it in the nearest plot.
+#[test]
+fn every_kind_of_plot_is_found_by_its_name() {
+    for kind in phaselab::instrument::INSTRUMENTS {
+        let found = lines(&in_lab(), kind.name());
+        let shown =
+            |line: &String| line.starts_with("show ") && line.to_lowercase().contains(kind.name());
+        assert!(found.iter().any(shown), "{}: {found:?}", kind.name());
+    }
+    for begin in ["", "Tab", "2"] {
+        let mut app = in_lab();
+        press(&mut app, begin);
+        press(&mut app, ":");
+        app.update(Event::Paste("Legendre".to_owned()));
+        press(&mut app, "Enter");
+        let lab = app.lab.as_ref().unwrap();
+        let (_, plot) = lab.focused_plot().expect("a plot has the focus");
+        assert_eq!(plot.kind.name(), "legendre", "after {begin:?}");
+        assert_eq!(app.page, phaselab::app::Page::Lab);
+    }
+}

@@ -204,3 +204,23 @@ fn three_ramps_have_three_slopes() {
     }
     assert!(last[2] < 1e-12, "{}", last[2]);
 }
+
+/// What the notes of `slow-oscillator` say of three ramps; J by DOP853 of SciPy, to thirteen digits a step.
+#[test]
+fn the_oscillator_of_the_notes_loses_what_they_say() {
+    for (time, expected, words) in [
+        ("60", 0.500_016_426_424_5, "3 parts in 10⁵"),
+        ("5", 0.495_690_827_187_4, "0.9 per cent"),
+        ("1", 0.402_571_192_895_3, "a fifth of J"),
+    ] {
+        let set = format!("T={time}");
+        let run = ["run", "slow-oscillator", "--set", &set, "--at", "80", "--format", "json"];
+        let found = phaselab(&[&run[..], &["--observe", "J=energy/omega"]].concat()).json();
+        let names = found["columns"].as_array().unwrap();
+        let at = names.iter().position(|name| name == "J").unwrap();
+        let action = found["rows"][0][at].as_f64().unwrap();
+        assert!((action - expected).abs() < 1e-10, "T = {time}: {action}");
+        let file = include_str!("../../../presets/adiabatic/slow-oscillator.toml");
+        assert!(file.contains(words), "{words}");
+    }
+}

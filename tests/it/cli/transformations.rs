@@ -390,3 +390,43 @@ fn an_image_goes_on_beyond_a_place_where_its_relations_break_down() {
         assert!((momentum - expected).abs() < 1e-10, "{pair:?}");
     }
 }
+
+/// K of an explicit map whose inverse is not found is said in the old variables, which needs none.
+#[test]
+fn k_is_said_in_the_old_variables_where_no_inverse_is_found() {
+    let sheet = transformation(
+        "sheet",
+        "kind = \"explicit\"\nQ = { A = \"sqrt(q)*cos(2*p_q)\" }\nP = { B = \"sqrt(q)*sin(2*p_q)\" }",
+    );
+    let found = derived(OSCILLATOR, &sheet);
+    let map = &found["transformations"][0];
+    assert_eq!(map["canonical"], true, "{map}");
+    if map["K"].is_null() {
+        assert_eq!(map["K_of_old"], "1/2*p_q^2/m + 1/2*m*omega^2*q^2", "{map}");
+        let text = with_file(&format!("{OSCILLATOR}{sheet}"), &["derive", "system.toml"]).success();
+        assert!(text.contains("(in the old variables)"), "{text}");
+    } else {
+        panic!("the inverse is found now: test K itself; {map}");
+    }
+    // what is not canonical has no K, and what has one in the new variables needs no other
+    let rational = transformation(
+        "rational",
+        "kind = \"explicit\"\nQ = { C = \"q^2/(1 + q) - 1/(1 + q)\" }\nP = { D = \"2*p_q\" }",
+    );
+    let found = derived(OSCILLATOR, &rational);
+    assert!(found["transformations"][0]["K_of_old"].is_null());
+    assert_eq!(found["transformations"][0]["valence"], "2", "{found}");
+}
+
+/// A failing bracket of rational functions has nothing left to cancel.
+#[test]
+fn a_failing_bracket_is_cancelled() {
+    let law = transformation(
+        "rational",
+        "kind = \"explicit\"\nQ = { A1 = \"x^2/(x - y) - y^2/(x - y)\", A2 = \"y\" }\nP = { B1 = \"p_x\", B2 = \"p_y\" }",
+    );
+    let found = derived(PLANE, &law);
+    let bracket = &found["transformations"][0]["failing_brackets"][0];
+    assert_eq!((&bracket["f"], &bracket["g"]), (&"A1".into(), &"B2".into()), "{found}");
+    assert_eq!(bracket["is"], "1", "{bracket}");
+}

@@ -8,11 +8,12 @@ use phaselab::dynamics::{
     Hamiltonian, Lagrangian, PhaseSpace, VariedAction, conjugate_points,
     conjugate_points_at_energy, varied_abbreviated_action, varied_phase_action,
 };
-use phaselab::instrument::{Plot, named};
+use phaselab::instrument::{Layer, Plot, named};
 use phaselab::integrate::{METHODS, Settings};
 
-use crate::hand::{catalog, lowered, press, snapshot};
+use crate::hand::{catalog, lab, lowered, press, snapshot};
 use crate::screen::{rich, rows};
+use crate::section::{layers, measure};
 
 /// A law in the plane, without parameters.
 fn plane(law: &str) -> String {
@@ -254,4 +255,25 @@ fn one_coordinate_has_no_other_way() {
         assert!(screen.contains(words), "{screen}");
         assert!(!screen.contains("foci"), "{screen}");
     }
+}
+
+/// Between the ends of the pendulum's swing of 4 s there are three true paths: rest, S = 4, and a swing to either side,
+/// S = 8 (E(k) − k′² K(k)) − 4 (2k² − 1).
+#[test]
+fn every_true_path_between_the_ends_of_a_swing_is_shown() {
+    let mut app = lab("least-action", 4.0);
+    press(&mut app, "Wait");
+    let plots = app.lab.as_ref().unwrap().plots.clone();
+    let paths = plots.iter().find(|plot| plot.kind.name() == "paths").expect("the file has one");
+    let of = |word: &str| measure(&app, paths, word);
+    assert_eq!(of("count"), 3.0);
+    assert!((of("least") - 3.344_291_248_362_989_3).abs() < 1e-10, "{}", of("least"));
+    assert!((of("greatest") - 4.0).abs() < 1e-10, "{}", of("greatest"));
+    let said = layers(&app, paths).into_iter().find_map(|layer| match layer {
+        Layer::Legend(lines) => Some(lines),
+        _ => None,
+    });
+    let said = said.expect("words");
+    assert!(said.contains(&"S = 3.3443, least nearby, the motion".to_owned()), "{said:?}");
+    assert!(said.contains(&"S = 4, Morse index 1".to_owned()), "{said:?}");
 }

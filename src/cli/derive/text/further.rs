@@ -107,6 +107,9 @@ impl TextReport<'_> {
                 }
                 Err(_) => {}
             }
+            if let Some(e) = known.hamiltonian_in_old {
+                self.line(&format!("  K = {}   (in the old variables)", self.math(e)));
+            }
         }
     }
 

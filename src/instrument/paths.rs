@@ -1,0 +1,316 @@
+//! `paths`: every true path found between the ends of the motion, over the time, with its action and its Morse index.
+//!
+//! The ends are where the running motion began and where it is now. The job begins Newton's method from the straight line
+//! between them with ε sin(kπs) added to one coordinate, s from 0 to 1 on the way, and collects the different paths that make
+//! the action stationary. Never here: how such a path is found (`dynamics`), nor that there are no others.
+//! Source: *The Principles of Dynamics*, §§ 1.4.1, 3.5.
+
+use super::action::duration;
+use super::conditions::PlotConditions;
+use super::{
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
+    Need, Offer, Physics, Picture, Plot, Present, Upwards,
+};
+use crate::dynamics::{Lagrangian, PathKind, PhaseSpace, StationaryPath, stationary_path};
+use crate::ensemble::SystemFlow;
+use crate::integrate::{Method, method_named};
+use crate::job::{Job, Progress};
+use crate::num::{math, significant};
+use crate::system::{ChannelKind, System};
+
+/// The levels of the picture.
+const OTHERS: Level = 1;
+const OWN: Level = 2;
+const NOW: Level = 3;
+
+/// The half waves, and how far each is taken to either side, in the reach of the coordinate.
+const HALF_WAVES: [f64; 2] = [1.0, 2.0];
+const FAR: [f64; 3] = [0.5, 1.0, 2.0];
+
+/// Points of a curve.
+const POINTS: usize = 161;
+
+/// Two paths are the same if they differ by less than this part of their reach everywhere.
+const SAME: f64 = 1e-6;
+
+/// The most paths that are named in the corner.
+const NAMED: usize = 5;
+
+/// The row.
+pub(super) struct PathsPlot;
+
+/// What was found, and of which motion.
+struct ComputedPaths {
+    conditions: PlotConditions,
+    coordinate: usize,
+    duration: f64,
+    outcome: Result<Vec<TruePath>, String>,
+}
+
+/// A path that makes the action stationary.
+struct TruePath {
+    action: f64,
+    index: usize,
+    kind: PathKind,
+    /// Whether the motion takes it.
+    own: bool,
+    /// The coordinate over the time.
+    points: Vec<[f64; 2]>,
+}
+
+impl Instrument for PathsPlot {
+    fn name(&self) -> &'static str {
+        "paths"
+    }
+
+    fn written(&self) -> &'static [Axis] {
+        const { &[Axis { heading: "Coordinate", coordinate: true, ..Axis::ACROSS }] }
+    }
+
+    fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
+        let offer = |(index, channel): (usize, usize)| Offer {
+            label: format!("true paths of {}", physics.model.coordinates[index].shown),
+            about: "all paths found between the ends of the motion, with their actions".to_owned(),
+            columns: vec![vec![channel]],
+            view: None,
+            over: Vec::new(),
+        };
+        physics.positions().map(offer).collect()
+    }
+
+    fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
+        let name = plot.column(0).map_or("?", |channel| physics.shown(channel));
+        format!("true paths of {name}")
+    }
+
+    fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
+        let entries = vec![Entry::Words("between the start and now".to_owned())];
+        Some(plot.heading(present.physics, "True paths", entries))
+    }
+
+    fn across(&self, _plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
+        let begin = present.physics.model.run.start;
+        let length = computed(answer).map_or_else(|| duration(present), |known| known.duration);
+        Across::Named("t".to_owned(), [begin, begin + length])
+    }
+
+    fn picture(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        _seen: [f64; 2],
+        answer: Option<&Answer>,
+    ) -> Option<Picture> {
+        let column = plot.column(0)?;
+        let mut layers = Vec::new();
+        let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut others = 0;
+        for path in found(answer) {
+            for point in &path.points {
+                ends = [ends[0].min(point[1]), ends[1].max(point[1])];
+            }
+            let (level, ink) = if path.own {
+                (OWN, Ink::Accent)
+            } else {
+                others += 1;
+                (OTHERS, Ink::Curve(others))
+            };
+            layers.push((level, Layer::Line(path.points.clone(), ink.into())));
+            let marks = [path.points.first(), path.points.last()].into_iter().flatten();
+            layers.extend(marks.map(|&at| (NOW, Layer::Point(at, MarkerShape::Ring, Ink::Level))));
+        }
+        layers.push((NOW, Layer::Legend(lines(answer))));
+        let range = if ends[0] < ends[1] { ends } else { [-1.0, 1.0] };
+        let name = present.physics.shown(column).to_owned();
+        Some(Picture::Axes { upwards: Upwards::Named(name, range), layers, occurrences: None })
+    }
+
+    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+        let Physics { model, equations, system } = present.physics;
+        let (Some(channel), Some(method)) = (plot.column(0), method_named(present.method)) else {
+            return Need::Nothing;
+        };
+        let ChannelKind::Position(coordinate) = system.channels()[channel].kind else {
+            return Need::Nothing;
+        };
+        let conditions = PlotConditions::of(present, &plot.seeds);
+        let duration = duration(present);
+        let known = computed(answer);
+        if known.is_some_and(|known| {
+            (known.coordinate, known.duration) == (coordinate, duration)
+                && known.conditions == conditions
+        }) {
+            return Need::Held;
+        }
+        let reach = reach(present, channel);
+        let (model, equations, system) = (model.clone(), equations.clone(), system.clone());
+        Need::Job(Job::new("paths", move |progress: &Progress| {
+            let system = system.with_cancel(progress.token().clone());
+            let mut own = (*equations).clone();
+            let begin = model.run.start;
+            let parameters = &conditions.parameters;
+            let space = PhaseSpace::without_end(&model, &equations, &system, parameters);
+            let outcome = space.map_err(|why| why.to_string()).and_then(|space| {
+                if !space.is_hamiltonian() {
+                    return Err("not stationary: forces act that have no potential".to_owned());
+                }
+                let lagrangian = Lagrangian::of(&model, &mut own, parameters);
+                let mut lagrangian = lagrangian.map_err(|why| why.to_string())?;
+                let motion = motion(space.system(), (method, &conditions, begin), duration)?;
+                Ok(Way { motion, coordinate, reach, begin, duration }.paths(&mut lagrangian))
+            });
+            let conditions = conditions.clone();
+            Answer::new(ComputedPaths { conditions, coordinate, duration, outcome })
+        }))
+    }
+
+    fn measures(&self) -> &'static [Measure] {
+        &[
+            Measure {
+                word: "count",
+                about: "how many true paths were found",
+                value: |_, _, answer| {
+                    let known = computed(answer)?.outcome.as_ref().ok()?;
+                    Some(known.len() as f64)
+                },
+            },
+            Measure {
+                word: "least",
+                about: "the least action of them",
+                value: |_, _, answer| Some(found(answer).first()?.action),
+            },
+            Measure {
+                word: "greatest",
+                about: "the greatest action of them",
+                value: |_, _, answer| Some(found(answer).last()?.action),
+            },
+        ]
+    }
+}
+
+/// The motion between whose ends paths are searched for.
+struct Way {
+    /// The coordinates at evenly spaced times.
+    motion: Vec<Vec<f64>>,
+    coordinate: usize,
+    reach: f64,
+    begin: f64,
+    duration: f64,
+}
+
+impl Way {
+    /// The different paths, that of the least action first.
+    fn paths(&self, lagrangian: &mut Lagrangian) -> Vec<TruePath> {
+        let mut known: Vec<StationaryPath> = Vec::new();
+        let [from, to] = [&self.motion[0], &self.motion[POINTS - 1]];
+        let amplitudes = FAR.into_iter().flat_map(|far| [far, -far]);
+        let waves = HALF_WAVES.into_iter().flat_map(|k| amplitudes.clone().map(move |a| (k, a)));
+        for (k, amplitude) in std::iter::once((1.0, 0.0)).chain(waves) {
+            let guess = |t: f64| -> Vec<f64> {
+                let s = t / self.duration;
+                let straight = |(a, b): (&f64, &f64)| if s == 1.0 { *b } else { a + s * (b - a) };
+                let mut at: Vec<f64> = from.iter().zip(to).map(straight).collect();
+                if s > 0.0 && s < 1.0 {
+                    let wave = math::sin(k * std::f64::consts::PI * s);
+                    at[self.coordinate] += amplitude * self.reach * wave;
+                }
+                at
+            };
+            let found = stationary_path(lagrangian, &guess, self.duration).ok();
+            known.extend(found.filter(|path| known.iter().all(|other| !self.same(path, other))));
+        }
+        let mut all: Vec<TruePath> = known.iter().map(|path| self.seen(path)).collect();
+        all.sort_by(|a, b| a.action.total_cmp(&b.action));
+        all
+    }
+
+    fn times(&self) -> impl Iterator<Item = f64> + '_ {
+        (0..POINTS).map(|k| self.duration * k as f64 / (POINTS - 1) as f64)
+    }
+
+    fn same(&self, path: &StationaryPath, other: &StationaryPath) -> bool {
+        let n = self.motion[0].len();
+        self.times().all(|t| self.near(&path.at(t)[..n], &other.at(t)[..n]))
+    }
+
+    fn near(&self, a: &[f64], b: &[f64]) -> bool {
+        a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME * self.reach.max(1.0))
+    }
+
+    fn seen(&self, path: &StationaryPath) -> TruePath {
+        let n = self.motion[0].len();
+        let own = self.times().zip(&self.motion).all(|(t, at)| self.near(&path.at(t)[..n], at));
+        let points = self.times().map(|t| [self.begin + t, path.at(t)[self.coordinate]]).collect();
+        TruePath { action: path.action, index: path.index, kind: path.kind, own, points }
+    }
+}
+
+/// The coordinates of the motion at evenly spaced times up to a duration.
+fn motion(
+    system: &System,
+    (method, conditions, begin): (&'static Method, &PlotConditions, f64),
+    duration: f64,
+) -> Result<Vec<Vec<f64>>, String> {
+    let start = conditions.state(system, begin).map_err(|fault| fault.to_string())?;
+    let (parameters, method) = (conditions.parameters.clone(), (method, conditions.settings));
+    let flow =
+        SystemFlow { system: system.clone(), method, parameters, start: begin, effort: None };
+    let position = |i| system.channels().iter().position(|c| c.kind == ChannelKind::Position(i));
+    let channels: Option<Vec<usize>> = (0..system.degrees()).map(position).collect();
+    let channels = channels.ok_or("the motion has no coordinates")?;
+    let time = |k: usize| begin + duration * k as f64 / (POINTS - 1) as f64;
+    let times: Vec<f64> = (0..POINTS).map(time).collect();
+    let carried = flow.carry(&start, &times, &channels);
+    let whole = carried.end.map(|_| carried.seen);
+    whole.ok_or_else(|| "the motion cannot be followed up to now".to_owned())
+}
+
+/// How far a coordinate may be thought to go: a quarter turn, or what the motion has reached.
+fn reach(present: &Present<'_>, channel: usize) -> f64 {
+    if let Some(turn) = present.physics.system.period(channel, present.parameters) {
+        return 0.25 * turn.abs();
+    }
+    let (low, high) = present.bounds.get(channel).copied().unwrap_or((0.0, 0.0));
+    let reached = low.abs().max(high.abs());
+    if reached.is_normal() { reached } else { 1.0 }
+}
+
+fn computed(answer: Option<&Answer>) -> Option<&ComputedPaths> {
+    answer?.of::<ComputedPaths>()
+}
+
+fn found(answer: Option<&Answer>) -> &[TruePath] {
+    computed(answer).and_then(|known| known.outcome.as_deref().ok()).unwrap_or(&[])
+}
+
+/// What is said of the paths.
+fn lines(answer: Option<&Answer>) -> Vec<String> {
+    let all = match computed(answer).map(|known| &known.outcome) {
+        None => return vec!["being computed".to_owned()],
+        Some(Err(why)) => return vec![why.clone()],
+        Some(Ok(all)) if all.is_empty() => return vec!["no true path was found".to_owned()],
+        Some(Ok(all)) => all,
+    };
+    let mut lines: Vec<(String, usize)> = Vec::new();
+    for path in all {
+        let action = significant(path.action, 5, 1e-3..1e5).replace('-', "−");
+        let nature = match path.kind {
+            PathKind::Minimum => "least nearby".to_owned(),
+            PathKind::Saddle => format!("Morse index {}", path.index),
+            PathKind::Degenerate => "at a kinetic focus".to_owned(),
+        };
+        let own = if path.own { ", the motion" } else { "" };
+        let line = format!("S = {action}, {nature}{own}");
+        // a path and its mirror image have the same action
+        match lines.iter_mut().find(|(known, _)| *known == line) {
+            Some((_, count)) => *count += 1,
+            None => lines.push((line, 1)),
+        }
+    }
+    let more = lines.len().saturating_sub(NAMED);
+    let named = lines.into_iter().take(NAMED).map(|(line, count)| match count {
+        1 => line,
+        count => format!("{line} ({count} paths)"),
+    });
+    named.chain((more > 0).then(|| format!("and {more} more"))).collect()
+}

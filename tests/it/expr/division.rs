@@ -1,0 +1,28 @@
+//! Division of sums by long division, against products multiplied out.
+
+use super::text;
+
+#[test]
+fn what_divides_is_cancelled_and_nothing_else() {
+    for (written, expected) in [
+        ("(q^2 - q*u)/(q - u)^2", "q/(q - u)"),
+        ("(q^2 + u^2 - 2*q*u)/(q - u)^2", "1"),
+        ("(a^2 - b^2)/(a + b)", "a - b"),
+        ("(q^2 + 1)/(q - u)", "(q^2 + 1)/(q - u)"),
+        ("(q^2 + u)/(q^2 - u)", "(q^2 + u)/(q^2 - u)"),
+    ] {
+        let expected = text(expected, |_, e| e);
+        assert_eq!(text(written, |pool, e| pool.divided_out(e)), expected, "{written}");
+    }
+}
+
+#[test]
+fn products_come_apart_again() {
+    for (a, b) in [("q - u", "q^2 + u^2 + q*u"), ("q + 2*u", "q - u^3"), ("q*u + a", "q + b")] {
+        let whole = text(&format!("({a})*({b})"), |pool, e| pool.multiplied_out(e));
+        let found = text(&format!("({whole})/({a})"), |pool, e| pool.divided_out(e));
+        assert!(!found.contains('/'), "{found}");
+        let left = text(&format!("({found}) - ({b})"), |pool, e| pool.multiplied_out(e));
+        assert_eq!(left, "0", "({a})({b})");
+    }
+}
