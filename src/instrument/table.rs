@@ -11,7 +11,7 @@ use super::{
 };
 
 /// All kinds, in the order in which the lab opens with them.
-pub static INSTRUMENTS: [&dyn Instrument; 20] = [
+pub static INSTRUMENTS: [&dyn Instrument; 22] = [
     &space::Space,
     &phase::Phase,
     &transformation::TransformationPlot,
@@ -30,7 +30,9 @@ pub static INSTRUMENTS: [&dyn Instrument; 20] = [
     &action::ActionPlot(action::Principle::Maupertuis),
     &action::ActionPlot(action::Principle::PhaseSpace),
     &legendre::LegendrePlot,
-    &diagram::Diagram,
+    &diagram::Diagram(diagram::Number::Crossings),
+    &diagram::Diagram(diagram::Number::Frequency),
+    &diagram::Diagram(diagram::Number::Period),
     &map::Map,
 ];
 
