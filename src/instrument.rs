@@ -15,6 +15,7 @@ mod ensemble;
 mod equilibria;
 mod exponents;
 mod flow;
+mod frequency;
 mod kind;
 mod legendre;
 mod map;

@@ -1,6 +1,6 @@
-//! The diagram over the selected parameter.
+//! The diagram over the selected parameter or initial value.
 //!
-//! In: the parameter that is selected. Out: the pane with its diagram. Never here: what is drawn in it.
+//! In: the value that is selected. Out: the pane with its diagram. Never here: what is drawn in it.
 
 use super::{App, Effect, Lab, Pane, ValueId};
 use crate::expr::Expr;
@@ -8,16 +8,29 @@ use crate::instrument::{Physics, Plot, named};
 use crate::model::Variation;
 
 impl App {
-    /// Shows what becomes of the motion over the range of the selected parameter.
+    /// Shows what becomes of the motion over the range of the selected parameter or initial value.
     pub(super) fn show_diagram(&mut self) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
-        let Some(ValueId::Parameter(over)) = lab.selected() else {
-            return self.notify("A diagram is over a parameter: choose one.");
+        let over = match lab.selected() {
+            Some(ValueId::Parameter(index)) => Variation::Parameter(index),
+            Some(ValueId::Initial(index)) => Variation::Initial(index),
+            None => {
+                return self
+                    .notify("A diagram is over a parameter or an initial value: choose one.");
+            }
         };
+        if matches!(over, Variation::Initial(_))
+            && !lab.loaded.physics().model.constraints.is_empty()
+        {
+            return self.notify(
+                "Constraints hold the initial values, of which none varies alone: choose a parameter.",
+            );
+        }
         lab.show_over(over);
         if lab.is_always_regular() {
             return self.notify(
-                "With one coordinate and a constant energy every motion is regular: the exponent is 0, except at a saddle.",
+                "With one coordinate and a constant energy every motion is regular, and its exponent 0 except at a saddle: \
+                 the frequency is shown, and Q shows the period.",
             );
         }
         Vec::new()
@@ -34,16 +47,17 @@ impl Lab {
             && equations.energy_rate == Expr::ZERO
     }
 
-    /// Focuses the diagram over a parameter, which takes the place of another one. Its surface of section is the first of
-    /// the file; without one it is of the Lyapunov exponent.
-    fn show_over(&mut self, over: usize) {
-        let Some(kind) = named("diagram") else { return };
+    /// Focuses the diagram over a parameter or an initial value, which takes the place of another one. Its surface of section is
+    /// the first of the file; without one it is of the Lyapunov exponent, and where that is always 0, of the frequency.
+    fn show_over(&mut self, over: Variation) {
+        let name = if self.is_always_regular() { "frequency" } else { "diagram" };
+        let Some(kind) = named(name) else { return };
         let physics = self.loaded.physics();
         let views = &physics.model.views;
-        let of_file = views.iter().position(|view| view.over == [Variation::Parameter(over)]);
+        let of_file = views.iter().position(|view| view.over == [over]);
         let view = of_file.or_else(|| views.iter().position(|view| view.section.is_some()));
         let mut plot = Plot::new(kind, (Vec::new(), view), physics.model).opened(physics);
-        plot.over = vec![Variation::Parameter(over)];
+        plot.over = vec![over];
         let known = self.plots.iter().position(|shown| shown.kind == kind);
         let index = known.unwrap_or(self.plots.len());
         match self.plots.get(index) {

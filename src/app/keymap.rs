@@ -288,7 +288,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Lab, &[BACKTAB], Action::PreviousPane, "", "focus the previous pane"),
     row(Place::Lab, &[c('b')], Action::ApplyImpulse, "impulse", "apply an impulse that waits for a key"),
     row(Place::Lab, &[c('f')], Action::NextFrame, "frame", "view the motion in space in the next reference frame of the file, or in the original one again"),
-    row(Place::Lab, &[c('Q')], Action::Active, "", "let a transformation move the point (the active view), or the coordinates again (the passive one); the next principle of an action: Hamilton, Maupertuis, phase space"),
+    row(Place::Lab, &[c('Q')], Action::Active, "", "let a transformation move the point (the active view), or the coordinates again (the passive one); the next principle of an action: Hamilton, Maupertuis, phase space; a diagram its frequency, its period"),
     row(Place::Lab, &[c('z')], Action::Zoom, "zoom", "zoom: let the focused pane fill the page, or put it back"),
 
     row(Place::Space, &[LEFT, c('h')], Action::Move(ArrowDirection::Left), "turn", "turn the picture to the left"),
@@ -335,7 +335,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Values, &[SHIFT_LEFT, c('H'), c('-')], change(-1, true), "", "less, by a coarse step"),
     row(Place::Values, &[SHIFT_RIGHT, c('L'), c('+'), c('=')], change(1, true), "", "more, by a coarse step"),
     row(Place::Values, &[ENTER], Action::TypeValue, "type", "type the value: a number or an expression, such as pi, sqrt(2) or 2*l"),
-    row(Place::Values, &[c('v')], Action::Diagram, "", "show what becomes of the motion over the range of this parameter: a bifurcation diagram where the file has a surface of section, otherwise the Lyapunov exponent"),
+    row(Place::Values, &[c('v')], Action::Diagram, "", "show what becomes of the motion over a range of this parameter or initial value: a bifurcation diagram where the file has a surface of section, otherwise the Lyapunov exponent; the frequency where a single coordinate keeps its energy"),
     row(Place::Values, &[c('c')], Action::Ramp, "", "ramp this parameter from now on, to another value in a given time; shows the action variable J, which a slow ramp conserves"),
     row(Place::Values, &[BACKSPACE, DELETE], Action::Restore, "", "the value of the file"),
 

@@ -55,12 +55,12 @@ impl App {
 /// What a picture has instead of what it shows.
 impl App {
     /// Lets the nearest transformation move the point, or the coordinates again, or the nearest action show its next
-    /// principle. The focus stays.
+    /// principle, a diagram its next number. The focus stays.
     pub(super) fn other_way(&mut self) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let Some(index) = lab.with_other_way() else {
             return self.notify(
-                "Only a transformation moves the coordinates or the point, and only an action has other principles; v chooses one.",
+                "Only a transformation moves the coordinates or the point, only an action has other principles, and only a diagram other numbers; v chooses one.",
             );
         };
         lab.redraw(index, |plot, _| {
@@ -80,7 +80,7 @@ fn moves_points(plot: &Plot) -> bool {
 }
 
 impl Lab {
-    /// The nearest picture of a transformation or of an action.
+    /// The nearest picture of a transformation, of an action, or over a range.
     pub(super) fn with_other_way(&self) -> Option<usize> {
         self.nearest_fitting(|plot| moves_points(plot) || plot.kind.other().is_some())
     }

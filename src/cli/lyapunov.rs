@@ -13,6 +13,9 @@ use crate::dynamics::{Chaos, Gali, Lyapunov, Removed, gali, lyapunov};
 ///
 /// All Lyapunov exponents with their uncertainty, the largest first, MEGNO (about 2 for regular
 /// motion, growing for chaotic), and a verdict with its reason: regular, chaotic, or undecided.
+/// An exponent is the mean rate of growth under a weight that vanishes smoothly at both ends of
+/// the time; after ± stands the standard error of the mean over parts of it, with 2/t for the
+/// direction of the vector.
 /// Where H is conserved the direction of the motion and that of the energy are taken out; their
 /// exponents are zero.
 #[derive(Debug, clap::Args)]

@@ -169,16 +169,13 @@ fn members(study: &Study, family: &Family) -> Value {
             "closure": member.orbit.closure,
             "multipliers": multipliers(&member.orbit),
             "trace": member.orbit.transverse.trace(),
-            "stable": member.orbit.stable,
+            "stable": member.orbit.is_stable(),
             "stability": member.orbit.stability().word(),
             "bifurcation": member.bifurcation.map(word),
         })
     };
     Value::Array(family.members.iter().map(member).collect())
 }
-
-/// An error that rounding leaves of a matrix is mentioned if it may show in the digits of the multipliers.
-const NOTICED: f64 = 1e-8;
 
 /// The family as a table, and why it ends early.
 fn rows(family: &Family, name: &str) -> String {
@@ -234,7 +231,7 @@ fn object(study: &Study, orbit: &Orbit) -> Map<String, Value> {
     insert("trivial", json!(trivial(orbit.trivial)));
     insert("trace", json!(orbit.transverse.trace()));
     insert("residue", json!(orbit.residue()));
-    insert("stable", json!(orbit.stable));
+    insert("stable", json!(orbit.is_stable()));
     insert("stability", json!(orbit.stability().word()));
     object
 }
@@ -266,7 +263,7 @@ fn text(study: &Study, orbit: &Orbit) -> String {
     for (value, meaning) in rows {
         text.push_str(&format!("  {value:<widest$}  {meaning}\n"));
     }
-    if let Some(error) = orbit.rounding.filter(|error| *error > NOTICED) {
+    if let Some(error) = orbit.rounding.filter(|error| *error > crate::dynamics::NOTICED_ROUNDING) {
         text.push_str(&format!("rounding    {error:.0e} in the entries of their matrix\n"));
     }
     if let Some(residue) = orbit.residue() {

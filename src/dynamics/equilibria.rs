@@ -13,7 +13,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::constrained_balance::ConstrainedBalance;
-use super::equilibrium::{Equilibria, Equilibrium, in_a_family};
+use super::equilibrium::{Equilibria, Equilibrium, in_a_family, in_order};
 use super::equilibrium_units::{coordinate_units, units};
 use super::error::DynamicsError;
 use super::halton::halton;
@@ -116,7 +116,7 @@ pub fn equilibria_watched(
             break;
         }
     }
-    found.sort_by(|a, b| a.energy.total_cmp(&b.energy));
+    in_order(&mut found);
     let periods = search.unknowns.iter().filter_map(|&i| Some((i, space.turns()[i]?))).collect();
     Ok(Equilibria { found, periods, cancelled })
 }

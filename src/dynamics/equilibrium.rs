@@ -61,3 +61,19 @@ pub(super) fn in_a_family(known: &Equilibrium, one: &Equilibrium, constrained: b
         _ => false,
     }
 }
+
+/// Energies and places count as the same up to this part of them.
+const ALIKE: f64 = 1e-7;
+
+/// Sorts by energy, and those of one energy by their places, so that the order is not that in which they were found.
+pub(super) fn in_order(found: &mut [Equilibrium]) {
+    found.sort_by(|a, b| a.energy.total_cmp(&b.energy));
+    let apart = |a: f64, b: f64| (a - b).abs() > ALIKE * a.abs().max(b.abs()).max(ALIKE);
+    for alike in found.chunk_by_mut(|a, b| !apart(a.energy, b.energy)) {
+        alike.sort_by(|a, b| {
+            let mut places = a.variables.iter().zip(&b.variables);
+            let differ = places.find(|(x, y)| apart(**x, **y));
+            differ.map_or(std::cmp::Ordering::Equal, |(x, y)| y.total_cmp(x))
+        });
+    }
+}

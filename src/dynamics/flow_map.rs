@@ -68,6 +68,21 @@ pub fn flow_map(
     until: f64,
     look: &mut dyn FnMut(f64),
 ) -> Result<FlowMap, DynamicsError> {
+    let mut look_on = |time| {
+        look(time);
+        true
+    };
+    flow_map_while(space, (method, settings), start, until, &mut look_on)
+}
+
+/// The same for as long as `look` returns true; otherwise the result is that of the time reached.
+pub(super) fn flow_map_while(
+    space: &PhaseSpace,
+    (method, settings): (&'static Method, Settings),
+    start: &State,
+    until: f64,
+    look: &mut dyn FnMut(f64) -> bool,
+) -> Result<FlowMap, DynamicsError> {
     if space.has_jumps() && until < start.time {
         return Err(DynamicsError::Unsuited(
             "impulses act on the motion, which is then followed forwards only".to_owned(),
@@ -102,7 +117,9 @@ pub fn flow_map(
         if let Some(rounding) = &mut rounding {
             rounding.step(&carrier.at(time)?.1, time);
         }
-        look(time);
+        if !look(time) {
+            break;
+        }
     }
     let (state, matrix) = carrier.at(time)?;
     if !free {

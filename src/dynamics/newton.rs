@@ -15,7 +15,7 @@ use super::amplified_rounding::MapRounding;
 use super::direction::{FlowDirection, basis_of_range};
 use super::error::DynamicsError;
 use super::first_return::difference;
-use super::flow_map::flow_map;
+use super::flow_map::flow_map_while;
 use super::linear;
 use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
@@ -112,11 +112,19 @@ impl NewtonIterate {
 impl Newton<'_> {
     pub(super) fn circuit(&self, state: &State, period: f64) -> Result<Circuit, DynamicsError> {
         let (space, method) = (self.space, self.method);
-        if let Some(ended) = self.budget.and_then(SearchBudget::ended) {
-            return Err(DynamicsError::Unclosed(ended));
+        let until = state.time + period;
+        let mut count = |time| {
+            self.budget.into_iter().for_each(SearchBudget::step);
+            time == until || self.budget.is_none_or(|budget| !budget.is_spent())
+        };
+        let ended = || self.budget.and_then(SearchBudget::ended).map(DynamicsError::Unclosed);
+        if let Some(ended) = ended() {
+            return Err(ended);
         }
-        let mut count = |_| self.budget.into_iter().for_each(SearchBudget::step);
-        let map = flow_map(space, method, state, state.time + period, &mut count)?;
+        let map = flow_map_while(space, method, state, until, &mut count)?;
+        if let Some(ended) = ended().filter(|_| map.failure.is_none() && map.time != until) {
+            return Err(ended);
+        }
         if let Some(fault) = map.failure {
             return Err(fault.into());
         }

@@ -286,7 +286,7 @@ fn closed_near(
     // the same orbit may have been followed several times
     if !matches!(fixed, Fixed::Period(_)) {
         for parts in [5.0, 3.0, 2.0] {
-            while let Some(shorter) = part(&newton, &closed, parts) {
+            while let Some(shorter) = part(&newton, &closed, parts)? {
                 closed = shorter;
             }
         }
@@ -361,12 +361,26 @@ fn polished(
 }
 
 /// The orbit after a part of its period, if it closes there already.
-fn part(newton: &Newton<'_>, closed: &NewtonIterate, parts: f64) -> Option<NewtonIterate> {
-    let begun = newton.reached(closed.state.clone(), closed.period / parts).ok()?;
-    if begun.residual > 1e-6 * begun.circuit.size {
-        return None;
+///
+/// # Errors
+/// Returns an error on cancellation; where the motion cannot be followed, it closes after the whole period alone.
+fn part(
+    newton: &Newton<'_>,
+    closed: &NewtonIterate,
+    parts: f64,
+) -> Result<Option<NewtonIterate>, DynamicsError> {
+    let shorter = || -> Result<Option<NewtonIterate>, DynamicsError> {
+        let begun = newton.reached(closed.state.clone(), closed.period / parts)?;
+        if begun.residual > 1e-6 * begun.circuit.size {
+            return Ok(None);
+        }
+        Ok(solve(newton, &closed.state, closed.period / parts)?.ok())
+    };
+    match shorter() {
+        Err(why) if why.is_cancelled() => Err(why),
+        Err(_) => Ok(None),
+        found => found,
     }
-    solve(newton, &closed.state, closed.period / parts).ok()?.ok()
 }
 
 /// What was found is an equilibrium, which closes after any time.

@@ -5,6 +5,9 @@
 use super::orbit::Orbit;
 use crate::num::math;
 
+/// An error that rounding leaves of the matrix of the multipliers is mentioned if it may show in their digits.
+pub const NOTICED_ROUNDING: f64 = 1e-8;
+
 /// A multiplier up to this far from 1 is listed as 1: of a double one half of the digits are lost.
 const NEAR_ONE: f64 = 1e-5;
 
@@ -42,11 +45,34 @@ pub fn is_near_one([re, im]: &[f64; 2]) -> bool {
     math::hypot(re - 1.0, *im) <= NEAR_ONE
 }
 
+/// Whether two multipliers of product 1 lie on the unit circle, by the trace of their matrix and its error; `None` where
+/// the trace is ±2 within it.
+fn is_elliptic(trace: f64, error: f64) -> Option<bool> {
+    let within = 2.0 - trace.abs();
+    (within.abs() > error).then_some(within > 0.0)
+}
+
 impl Orbit {
     /// Whether a multiplier is 1 as far as rounding of the matrix lets it be known.
     fn is_one(&self, [re, im]: [f64; 2]) -> bool {
         let rounding = self.rounding.unwrap_or(0.0).max(f64::EPSILON);
         math::hypot(re - 1.0, im) <= (TIMES * rounding).sqrt().min(NEAR_ONE)
+    }
+
+    /// Whether no multiplier lies outside the unit circle; `None` where that is within the error of what is known of them.
+    pub fn is_stable(&self) -> Option<bool> {
+        match self.stability() {
+            OrbitStability::Parabolic => None,
+            OrbitStability::Neutral => Some(self.stable),
+            OrbitStability::Stable | OrbitStability::Unstable => {
+                // Greene's residue is that of two multipliers whose product is 1
+                let error = 2.0 * self.rounding.unwrap_or(0.0).max(f64::EPSILON);
+                match self.residue() {
+                    Some(_) => is_elliptic(self.transverse.trace(), error),
+                    None => Some(self.stable),
+                }
+            }
+        }
     }
 
     /// What becomes of its neighbours, to first order.
@@ -58,6 +84,28 @@ impl Orbit {
             }
             (false, true) => OrbitStability::Stable,
             (false, false) => OrbitStability::Unstable,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_trace_of_two_within_its_error_leaves_open_whether_an_orbit_is_stable() {
+        for (trace, stable) in [
+            (1.9, Some(true)),
+            (-1.9, Some(true)),
+            (2.0 - 1.1e-9, Some(true)),
+            (2.0 - 0.9e-9, None),
+            (2.0, None),
+            (2.0 + 0.9e-9, None),
+            (-2.0 - 0.9e-9, None),
+            (2.0 + 1.1e-9, Some(false)),
+            (-2.0 - 1.1e-9, Some(false)),
+        ] {
+            assert_eq!(is_elliptic(trace, 1e-9), stable, "{trace}");
         }
     }
 }

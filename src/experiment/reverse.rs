@@ -187,8 +187,10 @@ impl Experiment {
         match returned.error {
             Some(0.0) => self.tell(format!("back at t = {start}: where it began, to the last bit")),
             Some(error) => self.tell(format!(
-                "back at t = {start}: {} from where it began; a step errs by ε ≈ {}",
+                "back at t = {start}: {} from where it began; a step errs by {} {}",
                 short(error),
+                // what was not measured is the tolerance
+                if returned.step.is_some() { "ε ≈" } else { "at most ε ≈" },
                 short(returned.step_error),
             )),
             None => self.tell(format!("back at t = {start}")),

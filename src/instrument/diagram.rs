@@ -1,73 +1,64 @@
-//! `diagram`: what becomes of the motion over a range of one parameter: where it crosses a surface of section (a
-//! bifurcation diagram), or, where no surface is given, its largest Lyapunov exponent.
+//! `diagram`, `frequency`, `period`: what becomes of the motion over a range of one parameter or initial value: where it crosses
+//! a surface of section (a bifurcation diagram), or, where no surface is given, its largest Lyapunov exponent; its frequency; its
+//! period.
 //!
-//! The job follows one motion from the initial values for each value of the parameter, the values spread evenly over
-//! what is seen, ever more closely, so that the picture fills as one looks and a zoom refines it. The running motion is a
-//! vertical line; a point of the picture stands for a value of the parameter.
+//! The job follows one motion for each value of the parameter, the values spread evenly over what is seen, ever more closely, so
+//! that the picture fills as one looks and a zoom refines it. The running motion is a vertical line; a point of the picture
+//! stands for a value of the parameter.
 
-use std::ops::ControlFlow;
+mod task;
+
 use std::sync::Arc;
+
+pub(super) use task::Number;
+use task::{ComputedDiagram, DiagramTask, MOST, PART};
 
 use super::section::zero;
 use super::straight_line::StraightLine;
-use super::varied::{self, VariedConditions, VariedMotions};
+use super::varied::{self, VariedMotions};
 use super::{
-    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, Offer,
-    Physics, Picture, Plot, PlotTable, Present, Upwards,
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, Measure, Need, NoStart,
+    Offer, Physics, Picture, Plot, PlotTable, Present, Upwards,
 };
-use crate::ensemble::{Crossings, SectionPlan, Start, crossings_of_all, in_order, section_group};
-use crate::expr::Expr;
-use crate::job::{Job, Progress};
+use crate::job::Job;
 use crate::model::{Variation, View};
-use crate::system::System;
+use crate::system::InitialOverride;
 
 /// The levels of the picture.
 const NOW: Level = 0;
 const POINTS: Level = 1;
 
-/// The values of the parameter, and how many of them make one part of the work, after which the picture is drawn anew.
-const MOST: usize = 256;
-const PART: usize = 16;
-
 /// The parts that are waited for where there is no background.
 const AT_ONCE: usize = 2;
-
-/// The crossings at each value, and those before them that are left out where friction draws all motions to an attractor.
-const COUNT: usize = 80;
-const TRANSIENT: usize = 160;
-
-/// A motion ends after so many steps without a crossing.
-const IDLE: u64 = 4000;
-
-/// An exponent is followed over so many seconds of the wall clock at the file's own speed.
-const SECONDS: f64 = 120.0;
 
 /// Crossings closer than this part of the range of all count as one.
 const SAME: f64 = 1e-3;
 
-/// The row.
-pub(super) struct Diagram;
+/// Numbers that differ by less than this part of them are drawn as one.
+const LEVEL: f64 = 1e-6;
 
-/// What was computed, and under which conditions.
-struct ComputedDiagram {
-    conditions: VariedConditions,
-    /// The numbers at each value of the parameter.
-    columns: Vec<(f64, Vec<f64>)>,
-    /// All of them as points.
-    points: Arc<Vec<[f64; 2]>>,
-    /// The range of the numbers.
-    extent: [f64; 2],
-    /// Why a motion could not be followed.
-    refused: Option<String>,
-}
+/// The row of a number.
+pub(super) struct Diagram(pub(super) Number);
 
 impl Instrument for Diagram {
     fn name(&self) -> &'static str {
-        "diagram"
+        match self.0 {
+            Number::Crossings => "diagram",
+            Number::Frequency => "frequency",
+            Number::Period => "period",
+        }
+    }
+
+    fn other(&self) -> Option<&'static dyn Instrument> {
+        Some(match self.0 {
+            Number::Crossings => &Diagram(Number::Frequency),
+            Number::Frequency => &Diagram(Number::Period),
+            Number::Period => &Diagram(Number::Crossings),
+        })
     }
 
     fn written(&self) -> &'static [Axis] {
-        &[Axis::UPWARDS]
+        if self.0 == Number::Crossings { &[Axis::UPWARDS] } else { &[] }
     }
 
     fn chosen(&self) -> &'static [Axis] {
@@ -75,7 +66,7 @@ impl Instrument for Diagram {
     }
 
     fn is_section(&self) -> bool {
-        true
+        self.0 == Number::Crossings
     }
 
     fn is_over_a_parameter(&self) -> bool {
@@ -87,29 +78,53 @@ impl Instrument for Diagram {
     }
 
     fn shows(&self, view: Option<&View>) -> bool {
-        view.is_none_or(|view| view.section.is_some())
+        view.is_none_or(|view| view.section.is_some() || view.kind == self.name())
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
-        let views = physics.model.views.iter().enumerate();
-        let offer = |(index, view): (usize, &View)| Offer {
-            label: format!("diagram over {}", name(physics, &view.over)),
-            about: "where the motion crosses a surface, over the range of a parameter".to_owned(),
-            columns: Vec::new(),
-            view: Some(index),
-            over: Vec::new(),
+        let (noun, about) = match self.0 {
+            Number::Crossings => {
+                ("diagram", "where the motion crosses a surface, over the range of a parameter")
+            }
+            Number::Frequency => ("frequency", "the frequency of the motion, over a range"),
+            Number::Period => ("period", "the period of the motion, over a range"),
         };
-        views.filter(|(_, view)| view.kind == self.name()).map(offer).collect()
+        let offer = |over: &[Variation], view: Option<usize>| Offer {
+            label: format!("{noun} over {}", name(physics, over)),
+            about: about.to_owned(),
+            columns: Vec::new(),
+            view,
+            over: over.to_vec(),
+        };
+        let views = physics.model.views.iter().enumerate();
+        let of_file = views.filter(|(_, view)| view.kind == self.name());
+        let mut all: Vec<Offer> =
+            of_file.map(|(index, view)| offer(&view.over, Some(index))).collect();
+        let is_offered = match self.0 {
+            Number::Crossings => false,
+            Number::Frequency => true,
+            // with more degrees of freedom few motions have one
+            Number::Period => physics.system.degrees() == 1,
+        };
+        if is_offered && !physics.model.is_poisson() {
+            all.extend(varied::offered(physics).map(|over| offer(&[over], None)));
+        }
+        all
     }
 
     fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
-        format!("{} over {}", quantity(plot, physics), name(physics, &plot.over))
+        format!("{} over {}", self.quantity(plot, physics), name(physics, &plot.over))
     }
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
         let value = varied::now(present, *plot.over.first()?)?;
+        let title = match self.0 {
+            Number::Crossings => "Diagram",
+            Number::Frequency => "Frequency",
+            Number::Period => "Period",
+        };
         let entry = Entry::Number(name(present.physics, &plot.over).to_owned(), value);
-        Some(plot.heading(present.physics, "Diagram", vec![entry]))
+        Some(plot.heading(present.physics, title, vec![entry]))
     }
 
     fn across(&self, plot: &Plot, present: &Present<'_>, _answer: Option<&Answer>) -> Across {
@@ -126,7 +141,7 @@ impl Instrument for Diagram {
         _seen: [f64; 2],
         answer: Option<&Answer>,
     ) -> Option<Picture> {
-        let found = computed(answer);
+        let found = computed(plot, answer);
         let points = found.map(|found| Arc::clone(&found.points)).unwrap_or_default();
         let [low, high] = heights(plot, present, found);
         let now = varied::now(present, *plot.over.first()?)?;
@@ -136,9 +151,8 @@ impl Instrument for Diagram {
         if view(plot, present.physics).is_some() {
             layers.push((POINTS, Layer::Bands(points, 0)));
         } else {
-            let mut curve = points.to_vec();
-            curve.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            layers.push((POINTS, Layer::Line(curve, Ink::Curve(0).into())));
+            let curves = found.map_or_else(Vec::new, curves).into_iter();
+            layers.extend(curves.map(|curve| (POINTS, Layer::Line(curve, Ink::Curve(0).into()))));
         }
         if let Some(line) = straight_line(plot, present.physics, found) {
             let [from, to] = varied::range(plot, present, 0)?;
@@ -149,8 +163,22 @@ impl Instrument for Diagram {
         if let Some(why) = found.and_then(|found| found.refused.as_ref()) {
             layers.push((POINTS, Layer::Legend(vec![why.clone()])));
         }
-        let upwards = Upwards::Named(quantity(plot, present.physics), [low, high]);
+        let upwards = Upwards::Named(self.quantity(plot, present.physics), [low, high]);
         Some(Picture::Axes { upwards, layers, occurrences: None })
+    }
+
+    fn start(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        at: [f64; 2],
+    ) -> Result<Vec<InitialOverride>, NoStart> {
+        match plot.over.first() {
+            Some(&Variation::Initial(index)) => {
+                Ok(vec![present.physics.system.initial_override(index, at[0])])
+            }
+            _ => Err(NoStart::Nothing),
+        }
     }
 
     fn parameters_at(&self, plot: &Plot, at: [f64; 2]) -> Vec<(usize, f64)> {
@@ -159,13 +187,14 @@ impl Instrument for Diagram {
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
         let Some(motions) = VariedMotions::of(plot, present) else { return Need::Nothing };
-        let known = computed(answer).filter(|known| known.conditions == motions.conditions);
+        let known = computed(plot, answer).filter(|known| known.conditions == motions.conditions);
         let columns = known.map_or_else(Vec::new, |known| known.columns.clone());
         if columns.len() >= MOST || known.is_some_and(|known| known.refused.is_some()) {
             return Need::Held;
         }
         let view = view(plot, present.physics);
         let task = DiagramTask {
+            number: self.0,
             section: view.and_then(|view| view.section),
             channel: view
                 .and_then(|view| motions.system.channel_of(view.axes.first()?.first()?.expression)),
@@ -184,11 +213,11 @@ impl Instrument for Diagram {
         answer: Option<&Answer>,
     ) -> Option<PlotTable> {
         let mut rows: Vec<Vec<f64>> =
-            computed(answer)?.points.iter().map(|at| at.to_vec()).collect();
+            computed(plot, answer)?.points.iter().map(|at| at.to_vec()).collect();
         // the values were taken ever more closely; crossings stay in their order
         rows.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let over = varied::written(present.physics, *plot.over.first()?).to_owned();
-        let columns = vec![over, quantity(plot, present.physics)];
+        let columns = vec![over, self.quantity(plot, present.physics)];
         Some(PlotTable { columns, counts: 0, rows })
     }
 
@@ -197,13 +226,13 @@ impl Instrument for Diagram {
             Measure {
                 word: "columns",
                 about: "how many values of the parameter are there",
-                value: |_, _, answer| Some(computed(answer)?.columns.len() as f64),
+                value: |plot, _, answer| Some(computed(plot, answer)?.columns.len() as f64),
             },
             Measure {
                 word: "branches",
                 about: "how many different crossings there are at the value next to that of the running motion",
                 value: |plot, present, answer| {
-                    let found = computed(answer)?;
+                    let found = computed(plot, answer)?;
                     let now = varied::now(present, *plot.over.first()?)?;
                     let [low, high] = heights(plot, present, Some(found));
                     branches(&found.columns, now, SAME * (high - low))
@@ -213,7 +242,7 @@ impl Instrument for Diagram {
                 word: "slope",
                 about: "the slope of the straight line of least squares, where the file asks for it",
                 value: |plot, present, answer| {
-                    Some(straight_line(plot, present.physics, computed(answer))?.slope)
+                    Some(straight_line(plot, present.physics, computed(plot, answer))?.slope)
                 },
             },
             Measure {
@@ -221,119 +250,34 @@ impl Instrument for Diagram {
                 about: "the last number at that value: a crossing, or the exponent",
                 value: |plot, present, answer| {
                     let now = varied::now(present, *plot.over.first()?)?;
-                    nearest(&computed(answer)?.columns, now)?.1.last().copied()
+                    nearest(&computed(plot, answer)?.columns, now)?.1.last().copied()
                 },
             },
         ]
     }
 }
 
-/// What a job computes: the numbers at the next values of the parameter.
-struct DiagramTask {
-    motions: VariedMotions,
-    section: Option<usize>,
-    /// The quantity at the crossings.
-    channel: Option<usize>,
-    columns: Vec<(f64, Vec<f64>)>,
+/// What was computed of the kind that a plot is.
+fn computed<'a>(plot: &Plot, answer: Option<&'a Answer>) -> Option<&'a ComputedDiagram> {
+    let found = answer?.of::<ComputedDiagram>();
+    found.filter(|found| Diagram(found.number).name() == plot.kind.name())
 }
 
-impl DiagramTask {
-    fn next_part(&self, progress: &Progress) -> ComputedDiagram {
-        let conditions = self.motions.conditions.clone();
-        let system = self.motions.system.with_cancel(progress.token().clone());
-        let mut columns = self.columns.clone();
-        let first = columns.len();
-        let [from, to] = conditions.window.first().copied().unwrap_or_default();
-        let at = |i: usize| from + (to - from) * evenly(first + i);
-        progress.expect(PART as u64);
-        let mut refused = None;
-        let places: Vec<f64> = (0..PART).map(at).collect();
-        let groups: Vec<&[f64]> = places.chunks(self.group(&system)).collect();
-        let group = |i: usize| self.numbers(&system, groups[i]);
-        let mut done = 0;
-        let take = |i: usize, found: Vec<Result<Vec<f64>, String>>| {
-            done += found.len() as u64;
-            progress.reach(done);
-            for (&value, found) in groups[i].iter().zip(found) {
-                // a value without a motion leaves a gap; the reason is shown where none has one
-                let numbers = found.unwrap_or_else(|why| {
-                    refused.get_or_insert(why);
-                    Vec::new()
-                });
-                columns.push((value, numbers));
-            }
-            ControlFlow::Continue(())
-        };
-        let threads = in_order(0, groups.len(), progress.token(), group, take);
-        if let Err(why) = threads {
-            refused = Some(why.to_string());
-        }
-        let nothing = columns.iter().all(|(_, numbers)| numbers.is_empty());
-        let refused = refused.filter(|_| nothing);
-        let points: Vec<[f64; 2]> =
-            columns.iter().flat_map(|(x, all)| all.iter().map(|y| [*x, *y])).collect();
-        let finite = points.iter().map(|at| at[1]).filter(|y| y.is_finite());
-        let extent = finite
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)]);
-        ComputedDiagram { conditions, columns, points: Arc::new(points), extent, refused }
-    }
-
-    /// How many motions one thread follows at a time.
-    fn group(&self, system: &System) -> usize {
-        let (method, settings) = self.motions.method;
-        self.section.map_or(1, |_| section_group(system, method, settings))
-    }
-
-    /// The crossings of the motions at values of the parameter, or their largest exponents.
-    fn numbers(&self, system: &System, values: &[f64]) -> Vec<Result<Vec<f64>, String>> {
-        let VariedMotions { model, method: (method, settings), .. } = &self.motions;
-        let starts: Vec<Start> = values.iter().map(|&x| self.motions.start(&[x])).collect();
-        let (Some(section), Some(channel)) = (self.section, self.channel) else {
-            let length = SECONDS * model.run.speed;
-            let exponent =
-                |start| Ok(self.motions.exponent(system, start, length)?.into_iter().collect());
-            return starts.iter().map(exponent).collect();
-        };
-        let dissipates = model.mechanics.dissipation() != Expr::ZERO;
-        let transient = if dissipates { TRANSIENT } else { 0 };
-        let plan = SectionPlan {
-            event: model.sections[section].name.clone(),
-            count: Some((transient + COUNT) as u64),
-            until: None,
-            idle: IDLE,
-            all_channels: true,
-        };
-        let numbers = |(found, period): (Crossings, Option<f64>)| {
-            let rows = found.rows.iter().skip(transient);
-            let numbers: Vec<f64> = rows
-                .filter_map(|row| row.get(1 + channel).map(|&x| varied::within(x, period)))
-                .collect();
-            match found.message {
-                Some(why) if numbers.is_empty() => Err(why),
-                _ => Ok(numbers),
-            }
-        };
-        let periods: Vec<Option<f64>> =
-            starts.iter().map(|start| system.period(channel, &start.parameters)).collect();
-        let starts = starts.into_iter().map(Ok).collect();
-        let found = crossings_of_all(system, method, *settings, starts, &plan);
-        found.into_iter().zip(periods).map(numbers).collect()
-    }
-}
-
-/// The i-th of numbers that fill the interval from 0 to 1 ever more closely: the binary digits of i, mirrored at the
-/// point (J. G. van der Corput, 1935).
-fn evenly(i: usize) -> f64 {
-    (i as u64).reverse_bits() as f64 / u64::MAX as f64
-}
-
-fn computed(answer: Option<&Answer>) -> Option<&ComputedDiagram> {
-    answer?.of::<ComputedDiagram>()
-}
-
-/// The view of the file that has the surface.
+/// The view of the file that has the surface, if crossings are shown.
 fn view<'a>(plot: &Plot, physics: Physics<'a>) -> Option<&'a View> {
-    physics.model.views.get(plot.view?).filter(|view| view.section.is_some())
+    let view = physics.model.views.get(plot.view?)?;
+    Some(view).filter(|view| view.section.is_some() && plot.kind.is_section())
+}
+
+/// The curves through the numbers, each up to a value that has none.
+fn curves(found: &ComputedDiagram) -> Vec<Vec<[f64; 2]>> {
+    let mut columns: Vec<_> = found.columns.iter().collect();
+    columns.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let pieces = columns.split(|(_, numbers)| numbers.is_empty());
+    let points = |piece: &[&(f64, Vec<f64>)]| {
+        piece.iter().flat_map(|(x, all)| all.iter().map(|y| [*x, *y])).collect()
+    };
+    pieces.filter(|piece| !piece.is_empty()).map(points).collect()
 }
 
 /// The name of what it runs over.
@@ -341,8 +285,23 @@ fn name<'a>(physics: Physics<'a>, over: &[Variation]) -> &'a str {
     over.first().map_or("?", |&over| varied::named(physics, over).0)
 }
 
-/// What is drawn upwards.
-fn quantity(plot: &Plot, physics: Physics<'_>) -> String {
+impl Diagram {
+    /// What is drawn upwards.
+    fn quantity(&self, plot: &Plot, physics: Physics<'_>) -> String {
+        let first = physics.model.coordinates.first().map_or("?", |q| q.shown.as_str());
+        let unit = |unit: String| if unit.is_empty() { unit } else { format!(" [{unit}]") };
+        let time = physics.model.time_unit();
+        let rate = if time.is_empty() { String::new() } else { format!("rad/{time}") };
+        match self.0 {
+            Number::Crossings => crossing(plot, physics),
+            Number::Frequency => format!("frequency ω of {first}{}", unit(rate)),
+            Number::Period => format!("period 2π/ω of {first}{}", unit(time.to_owned())),
+        }
+    }
+}
+
+/// What is drawn upwards where the motions cross a surface, or where there is none.
+fn crossing(plot: &Plot, physics: Physics<'_>) -> String {
     let Some(view) = view(plot, physics) else { return "largest exponent λ".to_owned() };
     let axis = |axis: usize| view.axes.get(axis).and_then(|axis| axis.first());
     let Some(written) = axis(0) else { return "?".to_owned() };
@@ -363,7 +322,17 @@ fn straight_line(
 
 /// The range upwards: the file's, or that of the numbers.
 fn heights(plot: &Plot, present: &Present<'_>, found: Option<&ComputedDiagram>) -> [f64; 2] {
-    let own = found.map(|found| found.extent).filter(|[low, high]| low < high);
+    let own = found.map(|found| found.extent).filter(|[low, high]| low < high || low == high);
+    // numbers that differ by rounding are one
+    let own = own.map(|[low, high]| {
+        let about = if view(plot, present.physics).is_some() || high - low > LEVEL * high.abs() {
+            0.0
+        } else {
+            0.1 * high.abs()
+        };
+        [low - about, high + about]
+    });
+    let own = own.filter(|[low, high]| low < high);
     // it shows the horizontal axis of a section
     let section = view(plot, present.physics).filter(|view| view.kind != plot.kind.name());
     let given = match section {

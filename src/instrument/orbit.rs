@@ -31,9 +31,6 @@ const POINTS: usize = 2048;
 /// What is beyond the extent of an orbit is this part of it.
 const MARGIN: f64 = 0.25;
 
-/// An error that rounding leaves of the multipliers' matrix is mentioned if it may show in their digits.
-const NOTICED: f64 = 1e-6;
-
 /// The row.
 pub(super) struct OrbitPlot;
 
@@ -375,7 +372,7 @@ fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     let all = [own.join(", "), trivial.to_owned()];
     let all: Vec<String> = all.into_iter().filter(|part| !part.is_empty()).collect();
     lines.push(format!("multipliers {}", all.join(", ")));
-    if let Some(error) = orbit.rounding.filter(|error| *error > NOTICED) {
+    if let Some(error) = orbit.rounding.filter(|error| *error > crate::dynamics::NOTICED_ROUNDING) {
         lines.push(format!("rounding {error:.0e} in their matrix").replace('-', "−"));
     }
     let how = match orbit.stability() {

@@ -11,7 +11,7 @@ use super::{
 };
 
 /// All kinds, in the order in which the lab opens with them.
-pub static INSTRUMENTS: [&dyn Instrument; 21] = [
+pub static INSTRUMENTS: [&dyn Instrument; 23] = [
     &space::Space,
     &phase::Phase,
     &transformation::TransformationPlot,
@@ -31,7 +31,9 @@ pub static INSTRUMENTS: [&dyn Instrument; 21] = [
     &action::ActionPlot(action::Principle::PhaseSpace),
     &paths::PathsPlot,
     &legendre::LegendrePlot,
-    &diagram::Diagram,
+    &diagram::Diagram(diagram::Number::Crossings),
+    &diagram::Diagram(diagram::Number::Frequency),
+    &diagram::Diagram(diagram::Number::Period),
     &map::Map,
 ];
 

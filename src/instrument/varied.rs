@@ -16,6 +16,9 @@ use crate::system::{ChannelKind, InitialOverride, System};
 /// The tolerance of the method: a dot is a thousandth of the picture.
 const TOLERANCE: f64 = 1e-10;
 
+/// Of so many parameters and of so many initial values pictures are offered; `v` on any of them has its own.
+const OFFERED: usize = 3;
+
 /// What the motions of a picture depend on; parameters that are varied count as zero, initial values are left out.
 #[derive(Clone, PartialEq)]
 pub(super) struct VariedConditions {
@@ -75,7 +78,7 @@ impl VariedConditions {
 /// The motions of a picture, as a job follows them.
 pub(super) struct VariedMotions {
     pub(super) model: Arc<Model>,
-    equations: Arc<Equations>,
+    pub(super) equations: Arc<Equations>,
     pub(super) system: Arc<System>,
     /// The method, and its step or tolerance.
     pub(super) method: (&'static Method, Settings),
@@ -125,6 +128,14 @@ impl VariedMotions {
         let seen = |&exponent: &f64| if regular { exponent.min(0.0) } else { exponent };
         Ok(found.exponents.first().map(seen))
     }
+}
+
+/// The parameters and initial values that pictures over one of them are offered of.
+pub(super) fn offered(physics: Physics<'_>) -> impl Iterator<Item = Variation> {
+    let parameters = (0..physics.model.parameters.len()).map(Variation::Parameter);
+    let free = physics.model.constraints.is_empty();
+    let initial = if free { physics.model.moving() } else { 0 };
+    parameters.take(OFFERED).chain((0..initial.min(OFFERED)).map(Variation::Initial))
 }
 
 /// A number within half a period of zero: an angle is the same after a turn.

@@ -170,7 +170,7 @@ fn a_key_shows_the_exponent_where_there_is_no_section() {
                   [parameters]\nk = { value = 1.0, min = 0.25, max = 4.0 }\n\
                   [lagrangian]\nL = \"1/2*x'^2 + 1/2*k*x^2\"\n[run]\nspeed = 0.1\n";
     let mut app = begun(saddle);
-    press(&mut app, "v");
+    press(&mut app, "v Q Q");
     let plot = diagram(&app);
     let lab = app.lab.as_ref().unwrap();
     assert_eq!(lab.focused_plot().map(|(_, shown)| shown), Some(&plot));
@@ -192,13 +192,103 @@ fn a_key_shows_the_exponent_where_there_is_no_section() {
     let swing = saddle.replace("+ 1/2*k*x^2", "- 1/2*k*x^2").replace("0.0 }", "1.0 }");
     let mut regular = begun(&swing.replace("speed = 0.1", "speed = 1.0"));
     press(&mut regular, "v");
+    // and its frequency is shown in place of an exponent that is always 0: √k
+    assert!(told(&mut regular).contains("every motion is regular"));
+    let of = |app: &App, kind: &str| {
+        let plot = &app.lab.as_ref().unwrap().focused_plot().unwrap().1.clone();
+        assert_eq!(plot.kind.name(), kind);
+        computed(app, plot)
+    };
+    let found = of(&regular, "frequency");
+    assert_eq!(found.len(), 32);
+    assert!(found.iter().all(|[k, omega]| (omega / k.sqrt() - 1.0).abs() < 1e-8), "{found:?}");
+    press(&mut regular, "Q");
+    let found = of(&regular, "period");
+    let period = |k: f64| std::f64::consts::TAU / k.sqrt();
+    assert!(found.iter().all(|[k, t]| (t / period(*k) - 1.0).abs() < 1e-8), "{found:?}");
+    press(&mut regular, "Q");
     assert_eq!(measure(&regular, &diagram(&regular), "value"), 0.0);
-    let told = regular.notice.take().map(|notice| notice.text).unwrap_or_default();
-    assert!(told.contains("every motion is regular"), "{told}");
-    // the values at rest are no parameters
-    press(&mut app, "Tab Tab v");
-    let told = app.notice.take().map(|notice| notice.text).unwrap_or_default();
-    assert!(told.contains("over a parameter"), "{told}");
+}
+
+fn told(app: &mut App) -> String {
+    app.notice.take().map(|notice| notice.text).unwrap_or_default()
+}
+
+/// The rows of what a plot over a range has computed.
+fn computed(app: &App, plot: &Plot) -> Vec<[f64; 2]> {
+    let lab = app.lab.as_ref().unwrap();
+    let table = plot.kind.table(plot, &lab.present().unwrap(), lab.answer(plot)).expect("a table");
+    table.rows.iter().map(|row| [row[0], row[1]]).collect()
+}
+
+/// Over the angle at which a pendulum is let go, and over its velocity at the bottom: to and fro and round, by the complete
+/// elliptic integral K(k) as an arithmetic-geometric mean.
+#[test]
+fn the_frequency_over_an_initial_value_is_that_of_the_elliptic_integral() {
+    let quarter = |k: f64| {
+        let (mut a, mut b) = (1.0_f64, (1.0 - k * k).sqrt());
+        for _ in 0..60 {
+            (a, b) = (0.5 * (a + b), (a * b).sqrt());
+        }
+        std::f64::consts::FRAC_PI_2 / a
+    };
+    let frequency = |k: f64| std::f64::consts::FRAC_PI_2 / quarter(k);
+    let text = "title = 'a test'\n[coordinates]\n\
+                q = { initial = 1.0, velocity = 0.0, period = \"2*pi\" }\n\
+                [lagrangian]\nL = \"1/2*q'^2 + cos(q)\"\n[run]\nspeed = 1.0\n";
+    let mut app = begun(text);
+    press(&mut app, "Tab v");
+    let plot = app.lab.as_ref().unwrap().focused_plot().unwrap().1.clone();
+    assert_eq!((plot.kind.name(), &plot.over[..]), ("frequency", &[Variation::Initial(0)][..]));
+    let found = computed(&app, &plot);
+    assert!(found.len() >= 28, "{found:?}");
+    for [q, omega] in found {
+        let exact = frequency((0.5 * q).sin().abs());
+        assert!((omega / exact - 1.0).abs() < 1e-5, "{q} {omega} {exact}");
+    }
+    let mut app =
+        begun(&text.replace("initial = 1.0, velocity = 0.0", "initial = 0.0, velocity = 1.5"));
+    press(&mut app, "Tab Down v");
+    let plot = app.lab.as_ref().unwrap().focused_plot().unwrap().1.clone();
+    assert_eq!((plot.kind.name(), &plot.over[..]), ("frequency", &[Variation::Initial(1)][..]));
+    let found = computed(&app, &plot);
+    assert!(found.iter().any(|[v, _]| v.abs() > 2.1), "{found:?}");
+    for [v, omega] in found {
+        let k = 0.5 * v.abs();
+        // round it goes in 2K(1/k)/k
+        let exact = if k < 1.0 { frequency(k) } else { 2.0 * k * frequency(1.0 / k) };
+        assert!((omega / exact - 1.0).abs() < 1e-5, "{v} {omega} {exact}");
+    }
+}
+
+/// Where an oscillator has settled the frequency is that of its limit cycle: T = 6.6632868593231301896… for μ = 1 (D. Viswanath).
+#[test]
+fn the_period_of_a_limit_cycle_is_that_after_it_has_settled() {
+    let text = "title = 'a test'\n[coordinates]\nx = { initial = 0.5, velocity = 0.0 }\n\
+                [parameters]\nmu = { value = 1.0, min = 1.0, max = 1.000001 }\n\
+                [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n\
+                forces = { x = \"mu*(1 - x^2)*x'\" }\n[run]\nspeed = 1.0\n\
+                [[views]]\nkind = \"period\"\nover = \"mu\"\n";
+    let (tables, view) = text.split_at(text.find("[[views]]").unwrap());
+    let place = tables.find("[run]").unwrap();
+    let app = begun(&[&tables[..place], view, &tables[place..]].concat());
+    let plots = &app.lab.as_ref().unwrap().plots;
+    let plot = plots.iter().find(|plot| plot.kind.name() == "period").expect("the view").clone();
+    let found = computed(&app, &plot);
+    assert_eq!(found.len(), 32);
+    assert!(found.iter().all(|[_, t]| (t / 6.663_286_859_323_13 - 1.0).abs() < 2e-6), "{found:?}");
+}
+
+/// A chaotic motion has no frequency, and leaves a gap.
+#[test]
+fn what_is_offered_over_a_range_is_there_where_it_is_known() {
+    let saddle = "title = 'a test'\n[coordinates]\nx = { initial = 1.0 }\n\
+                  [parameters]\nk = { value = 1.0, min = 0.25, max = 4.0 }\n\
+                  [lagrangian]\nL = \"1/2*x'^2 + 1/2*k*x^2\"\n[run]\nspeed = 0.1\n";
+    let mut app = begun(saddle);
+    press(&mut app, "v Q");
+    let plot = app.lab.as_ref().unwrap().focused_plot().unwrap().1.clone();
+    assert!(computed(&app, &plot).is_empty(), "what runs away has no frequency or period");
 }
 
 /// The axes of the section whose surface it shares are others: the parameter has its own range, and upwards is the

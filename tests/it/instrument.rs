@@ -30,7 +30,10 @@ fn with_all_kinds() -> App {
         if !lab.plots.iter().any(|plot| plot.kind == kind) {
             let offer = kind.offers(lab.loaded.physics()).remove(0);
             let shown = (offer.columns, offer.view);
-            let plot = Plot::new(kind, shown, &lab.loaded.model).opened(lab.loaded.physics());
+            let mut plot = Plot::new(kind, shown, &lab.loaded.model).opened(lab.loaded.physics());
+            if plot.over.is_empty() {
+                plot.over = offer.over;
+            }
             lab.plots.push(plot);
         }
     }

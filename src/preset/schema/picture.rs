@@ -35,7 +35,7 @@ pub(super) const VIEW: SchemaTable = SchemaTable {
         key(
             "kind",
             Text,
-            "`phase`, `space`, `time`, `potential`, `section`, `diagram`, `map`, `transformation`, `ensemble`, `orbit`, `spectrum`, `actions`, `angle`, `action`, `abbreviated`, `phase-action`, `paths`, `legendre` or `flow`",
+            "`phase`, `space`, `time`, `potential`, `section`, `diagram`, `frequency`, `period`, `map`, `transformation`, `ensemble`, `orbit`, `spectrum`, `actions`, `angle`, `action`, `abbreviated`, `phase-action`, `paths`, `legendre` or `flow`",
         )
         .needed("write kind = \"phase\", \"space\", \"time\", \"potential\" or \"section\""),
         key("title", Text, "what it is called"),
@@ -69,7 +69,7 @@ pub(super) const VIEW: SchemaTable = SchemaTable {
         ]),
         key("over", Text, "the parameter over whose range it runs")
             .needed("write over = \"...\", a parameter")
-            .only(&["diagram"]),
+            .only(&["diagram", "frequency", "period"]),
         key("on", Formula, "vanishes on the surface of section")
             .needed("write on = \"...\", which vanishes on the surface")
             .only(&["section", "diagram", "map"]),
@@ -83,7 +83,7 @@ pub(super) const VIEW: SchemaTable = SchemaTable {
             .only(&["map"]),
         key("until", Formula, "the time at which the motions end").only(&["map"]),
         key("slope", Flag, "`true` draws the straight line of least squares, with its slope")
-            .only(&["diagram"]),
+            .only(&["diagram", "frequency", "period"]),
         key("frame", Text, "the frame it is seen from").only(&["space"]),
         key("shapes", List(&SHAPE), "what is drawn in place of the shapes of [space]")
             .only(&["space"]),

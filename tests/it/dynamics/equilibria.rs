@@ -527,3 +527,13 @@ fn modes_have_all_their_digits() {
     let one = near(0.836, 0.0);
     assert_eq!((one.modes[0].in_phase[0], one.modes[0].quadrature[1]), (0.0, 0.0));
 }
+
+/// L₄ and L₅ have one energy: which comes first is no matter of where the search begins.
+#[test]
+fn equilibria_of_one_energy_have_an_order_of_their_own() {
+    for x0 in [0.5, -0.5, 0.994] {
+        let found = of(&preset("restricted-three-body", &[("x0", x0)], &[]));
+        let above: Vec<bool> = found[3..].iter().map(|one| one.variables[1] > 0.0).collect();
+        assert_eq!(above, [true, false], "{x0}");
+    }
+}
