@@ -189,7 +189,8 @@ pub(super) fn draw(
         Picture::Axes { upwards, layers, occurrences } => (upwards, layers, occurrences),
     };
     let look = canvas.look;
-    let (area, beside) = legend::beside(area, &layers, canvas.look);
+    let (whole, zoomable) = (area, !q.lab.zoomed);
+    let (area, beside) = legend::beside(whole, (&layers, zoomable), canvas.look);
     let axes = Axes::new(across?, axis_upwards(q, &upwards, viewport));
     let mut axes = if viewport.equal { axes.equal() } else { axes };
     if let Across::Time = plot.kind.across(plot, &present, answer) {
@@ -223,7 +224,8 @@ pub(super) fn draw(
     names::draw(canvas, &frame, &layers);
     for (_, layer) in &layers {
         if let Layer::Legend(lines) = layer {
-            legend::draw(canvas, beside.unwrap_or(frame.area), lines);
+            let few = legend::has_few(whole, beside, zoomable);
+            legend::draw(canvas, beside.unwrap_or(frame.area), (lines, few));
         }
     }
     keys_above(canvas, area, keys);
