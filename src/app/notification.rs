@@ -49,6 +49,20 @@ impl NotificationQueue {
         }
     }
 
+    /// Removes a sentence that dates an occurrence once there has been another of its name; `repeated` are the names of what
+    /// occurred more than once.
+    pub(super) fn outdate<'a>(
+        &mut self,
+        now: &mut Option<Notification>,
+        mut repeated: impl Iterator<Item = &'a str>,
+    ) {
+        if let Some(notice) = now
+            && repeated.any(|name| notice.is_past(name))
+        {
+            *now = self.0.pop_front();
+        }
+    }
+
     pub(super) fn clear(&mut self) {
         self.0.clear();
     }
@@ -59,6 +73,12 @@ impl Notification {
     fn says_more_of(&self, other: &Self) -> bool {
         let lead = |text: &str| text.split_once(": ").map(|(lead, _)| lead.to_owned());
         lead(&self.text).is_some_and(|of| lead(&other.text) == Some(of))
+    }
+
+    /// Whether it dates an occurrence of this name, and has been shown for its turn.
+    fn is_past(&self, name: &str) -> bool {
+        let rest = self.text.strip_prefix(name);
+        self.shown >= TURN && rest.is_some_and(|rest| rest.starts_with(" at t = "))
     }
 
     /// Creates a notification of success or of a change.
@@ -102,5 +122,19 @@ mod tests {
         }
         assert_eq!(now.map(|n| n.text).as_deref(), Some("m: energy jumped by +3"));
         assert_eq!(queue.0.len(), 1);
+    }
+    #[test]
+    fn what_occurred_is_not_dated_any_more_once_it_occurred_again() {
+        let mut queue = NotificationQueue::default();
+        let mut now = Some(Notification::info("kick at t = 1: energy +0.1"));
+        queue.outdate(&mut now, ["kick"].into_iter());
+        assert!(now.is_some(), "it has its turn");
+        queue.tick(&mut now, TURN);
+        queue.outdate(&mut now, ["kic", "push"].into_iter());
+        assert!(now.is_some(), "of another name");
+        queue.outdate(&mut now, std::iter::empty());
+        assert!(now.is_some(), "it is the only one");
+        queue.outdate(&mut now, ["push", "kick"].into_iter());
+        assert_eq!(now, None);
     }
 }

@@ -221,6 +221,9 @@ impl App {
             for sentence in notifications(&before, &snapshot.notices) {
                 self.notifications.tell(&mut self.notice, Notification::info(sentence.clone()));
             }
+            let counts = snapshot.occurrences.tallies().iter().filter(|tally| tally.count > 1);
+            let repeated = counts.map(|tally| tally.name.as_str());
+            self.notifications.outdate(&mut self.notice, repeated);
         }
         Vec::new()
     }

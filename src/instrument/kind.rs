@@ -98,6 +98,11 @@ pub trait Instrument: Sync {
         false
     }
 
+    /// Whether its two quantities are a plane with one scale, where units and places do not say it.
+    fn is_plane(&self, _plot: &Plot, _physics: Physics<'_>) -> Option<bool> {
+        None
+    }
+
     /// The horizontal position that stays fixed when zooming, as a fraction of the width.
     fn anchor(&self) -> f64 {
         0.5

@@ -19,7 +19,6 @@ use super::{
 use crate::job::Job;
 use crate::mechanics::Valuation;
 use crate::model::{Variation, View};
-use crate::num::significant;
 use crate::system::InitialOverride;
 
 /// The levels of the picture.
@@ -132,22 +131,17 @@ impl Instrument for Map {
         let [x, y] = [0, 1].map(|axis| plot.over.get(axis).copied());
         let range = varied::range(plot, present, 1)?;
         let mut layers = Vec::new();
-        let (mut lines, mut words) = (Vec::new(), String::new());
+        let mut lines = Vec::new();
         match computed(answer) {
             None => lines.push("being computed".to_owned()),
             Some(ComputedMap { refused: Some(why), .. }) => lines.push(why.clone()),
             Some(found) => {
                 layers.push((FIELD, Layer::Field(Arc::clone(&found.field))));
-                let [low, high] = found.field.range.map(short);
-                words = format!("  faint {low} … strong {high}");
             }
         }
         let upwards = match varied::channel(present.physics, y?) {
-            Some(channel) => Upwards::Annotated { channel, range: Some(range), words },
-            None => {
-                let name = varied::with_unit(present.physics, y?);
-                Upwards::Named(format!("{name}{words}"), range)
-            }
+            Some(channel) => Upwards::Channel(channel, Some(range)),
+            None => Upwards::Named(varied::with_unit(present.physics, y?), range),
         };
         let now = [varied::now(present, x?)?, varied::now(present, y?)?];
         layers.push((NOW, Layer::Point(now, MarkerShape::Disc, Ink::Plain)));
@@ -279,8 +273,4 @@ fn length(plot: &Plot, present: &Present<'_>) -> f64 {
         .map(|until| Valuation::of_parameters(model, present.parameters).value(&model.pool, until));
     let until = until.map(|until| until - model.run.start).filter(|x| x.is_finite() && *x > 0.0);
     until.unwrap_or(SECONDS * model.run.speed.abs())
-}
-
-fn short(x: f64) -> String {
-    significant(x, 3, 1e-3..1e5).replace('-', "−")
 }

@@ -58,6 +58,9 @@ impl Plot {
 
     /// Whether it shows a plane with one scale: two quantities of the same unit, or two places where there are no units.
     pub fn is_plane(&self, physics: Physics<'_>) -> bool {
+        if let Some(known) = self.kind.is_plane(self, physics) {
+            return known;
+        }
         let channel = |axis: usize| physics.system.channels().get(self.column(axis)?);
         let Some((x, y)) = channel(0).zip(channel(1)) else { return false };
         let alike = if x.unit.is_empty() { x.is_place && y.is_place } else { true };

@@ -9,6 +9,7 @@ mod branches;
 mod grid;
 mod image;
 mod judged;
+mod point;
 
 use std::sync::Arc;
 
@@ -96,6 +97,14 @@ impl Instrument for TransformationPlot {
             })
         });
         pairs.collect()
+    }
+
+    fn has_equal_axes(&self) -> bool {
+        true
+    }
+
+    fn is_plane(&self, plot: &Plot, physics: Physics<'_>) -> Option<bool> {
+        Some(point::is_plane(plot, physics))
     }
 
     fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
@@ -347,11 +356,10 @@ fn active(
     let (point, image) = (at(old), at(new));
     let faint = Stroke { ink: Ink::Level, covering: Some(0.5) };
     let [[q, p], [new_q, new_p]] = [old, new].map(|pair| pair.map(|c| present.physics.shown(c)));
-    // few lines, so that they hide neither point
-    let verdict =
-        judged(answer).map_or(&[][..], |judged| &judged.lines[..judged.lines.len().min(1)]);
-    let mut lines =
-        [vec![format!("({q}, {p}) → ({new_q}, {new_p}), the ring")], verdict.to_vec()].concat();
+    // few words, so that they hide neither point
+    let verdict = judged(answer).and_then(|judged| judged.lines.first()?.split(": ").next());
+    let mut lines = vec![format!("({q}, {p}) → ({new_q}, {new_p}), the ring")];
+    lines.extend(verdict.map(str::to_owned));
     lines.extend(
         of_image(plot, present).filter(|_| !image.iter().all(|x| x.is_finite())).map(str::to_owned),
     );

@@ -71,5 +71,7 @@ mod tests {
         let letters = |text: &str| text.replace(' ', "");
         assert_eq!(letters(&lines.concat()), letters(long));
         assert!(lines.iter().all(|line| line.chars().count() <= 24), "{lines:?}");
+        // An exponent is part of its factor.
+        assert!(lines.iter().any(|line| line.contains("^(1/s − 1)")), "{lines:?}");
     }
 }

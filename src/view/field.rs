@@ -1,13 +1,15 @@
 //! A number at each place of a plane, as shades: two places in a character where there are colours enough, else one.
 //!
-//! In: a field, the frame of the axes. Out: cells of the buffer, over which the other layers of a picture are drawn. Never
-//! here: what the numbers are.
+//! In: a field, the frame of the axes. Out: cells of the buffer, over which the other layers of a picture are drawn, and
+//! the shades with their numbers. Never here: what the numbers are.
 
 use ratatui::layout::Position;
 use ratatui::style::Style;
 
-use super::canvas::Canvas;
+use super::canvas::{Canvas, Span};
+use super::number::brief;
 use super::plot::PlotFrame;
+use super::theme::Role;
 use crate::instrument::Field;
 use crate::view::colour::ColourDepth;
 
@@ -15,12 +17,33 @@ use crate::view::colour::ColourDepth;
 const SHADES: [char; 5] = ['·', '░', '▒', '▓', '█'];
 const ASCII: [char; 8] = ['.', ':', '-', '=', '+', '*', '#', '@'];
 
+/// The step of a share from 0 to 1.
+fn step(share: f64, steps: usize) -> usize {
+    ((share * steps as f64) as usize).min(steps - 1)
+}
+
+/// The faintest shade, that in the middle and the strongest, each as it is drawn here, with its number.
+pub(super) fn keys(canvas: &Canvas<'_>, field: &Field) -> Vec<Span> {
+    let (theme, glyphs) = (&canvas.look.theme, canvas.look.glyphs);
+    let ramp = theme.density();
+    let few = matches!(theme.depth(), ColourDepth::None | ColourDepth::Ansi16);
+    let signs = glyphs.pick(&SHADES[..], &ASCII[..]);
+    let [low, high] = field.range;
+    let shades = [(0.0, low), (0.5, f64::midpoint(low, high)), (1.0, high)];
+    let distinct = if high > low { &shades[..] } else { &shades[2..] };
+    let spans = distinct.iter().flat_map(|&(share, value)| {
+        let sign = if few || glyphs.is_ascii() { signs[step(share, signs.len())] } else { '█' };
+        let key = (format!("  {sign} "), ramp[step(share, ramp.len())].style);
+        [key, canvas.span(Role::Dim, brief(value, 3, glyphs))]
+    });
+    spans.collect()
+}
+
 /// Draws a field.
 pub(super) fn draw(canvas: &mut Canvas<'_>, frame: &PlotFrame, field: &Field) {
     let (theme, glyphs) = (&canvas.look.theme, canvas.look.glyphs);
     let ramp = theme.density();
     let few = matches!(theme.depth(), ColourDepth::None | ColourDepth::Ansi16);
-    let step = |share: f64, steps: usize| ((share * steps as f64) as usize).min(steps - 1);
     let number = |position: Position, share: f64| {
         let [x, _] = frame.at(position);
         let area = frame.area;

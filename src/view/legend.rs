@@ -1,7 +1,8 @@
 //! What an instrument writes into its plot: a few lines, beside the axes where they take a third of the pane at most,
-//! above them else, so that they cover nothing; in their upper left corner where there is no room for both.
+//! above them else, so that they cover nothing; in their upper left corner where there is no room for both. A low plot has
+//! two of them at most, the second of which says what the zoomed pane shows.
 //!
-//! In: the lines, the area. Out: cells. Never here: what the lines say.
+//! In: the lines, the area, whether the pane can be zoomed. Out: cells. Never here: what the lines say.
 
 use ratatui::layout::{Constraint, Layout, Rect};
 use unicode_width::UnicodeWidthStr;
@@ -9,6 +10,7 @@ use unicode_width::UnicodeWidthStr;
 use super::canvas::Canvas;
 use super::clauses::clauses;
 use super::theme::Role;
+use super::wrap::shortened;
 use super::{RenderStyle, number};
 use crate::instrument::{Layer, Level};
 
@@ -19,10 +21,14 @@ const PARTS: u16 = 3;
 /// Axes have at least this height.
 const LOW: u16 = 6;
 
+/// An area of fewer rows leaves its lines so many above the axes.
+const SMALL: u16 = 16;
+const FEW: usize = 2;
+
 /// Parts an area into one for the axes and one for the lines, so that these cover nothing.
 pub(super) fn beside(
     area: Rect,
-    layers: &[(Level, Layer)],
+    (layers, zoomable): (&[(Level, Layer)], bool),
     look: &RenderStyle,
 ) -> (Rect, Option<Rect>) {
     let width = |line: &String| shown(line, look).width();
@@ -38,7 +44,7 @@ pub(super) fn beside(
             (axes, Some(lines))
         }
         Some(_) => {
-            let wanted = u16::try_from(wrapped(area, layers, look)).unwrap_or(u16::MAX);
+            let wanted = u16::try_from(wrapped(area, (layers, zoomable), look)).unwrap_or(u16::MAX);
             let room = (area.height / 2).min(area.height.saturating_sub(LOW));
             let parts = [Constraint::Length(wanted.min(room)), Constraint::Min(0)];
             let [lines, axes] = Layout::vertical(parts).areas(area);
@@ -48,23 +54,62 @@ pub(super) fn beside(
     }
 }
 
+/// Whether the lines of an area, which have a part of it, are few: its zoomed pane has room for more of them.
+pub(super) fn has_few(area: Rect, lines: Option<Rect>, zoomable: bool) -> bool {
+    let above = lines.is_none_or(|lines| lines.height < area.height);
+    zoomable && above && area.height < SMALL
+}
+
 /// The number of rows of all lines.
-fn wrapped(area: Rect, layers: &[(Level, Layer)], look: &RenderStyle) -> usize {
+fn wrapped(area: Rect, (layers, zoomable): (&[(Level, Layer)], bool), look: &RenderStyle) -> usize {
     let lines = layers.iter().map(|(_, layer)| match layer {
-        Layer::Legend(lines) => rows(area, lines, look).count(),
+        Layer::Legend(lines) => rows(area, (lines, zoomable && area.height < SMALL), look).len(),
         _ => 0,
     });
     lines.sum()
 }
 
-/// The rows of some lines in the width of an area.
-fn rows<'a>(
-    area: Rect,
-    lines: &'a [String],
-    look: &'a RenderStyle,
-) -> impl Iterator<Item = String> + 'a {
+/// The rows of some lines in the width of an area: few of them, or all.
+fn rows(area: Rect, (lines, few): (&[String], bool), look: &RenderStyle) -> Vec<String> {
     let room = usize::from(area.width).saturating_sub(2).max(1);
-    lines.iter().flat_map(move |line| clauses(&shown(line, look), room))
+    let lines: Vec<String> = lines.iter().map(|line| shown(line, look)).collect();
+    let all: Vec<String> = lines.iter().flat_map(|line| clauses(line, room)).collect();
+    let [first, others @ ..] = &lines[..] else { return all };
+    if !few || all.len() <= FEW {
+        return all;
+    }
+    let mark = look.glyphs.pick("…", "...");
+    let first = if first.width() <= room { first.clone() } else { beginning(first, room, mark) };
+    let whole = first == lines[0];
+    let beside = others.first().filter(|_| whole).map(|line| format!("{line}   z: more"));
+    let second = beside.filter(|line| line.width() <= room && others.len() > 1);
+    let second = second.unwrap_or_else(|| match others.first().and_then(|line| left_side(line)) {
+        Some(name) if whole && others.len() == 1 => format!("z shows {name}"),
+        Some(name) if whole => format!("z shows {name} and more"),
+        _ => "z shows more".to_owned(),
+    });
+    vec![first, second]
+}
+
+/// The beginning of a line that is too long, up to an equals sign or a word and never inside a parenthesis.
+fn beginning(line: &str, room: usize, mark: &str) -> String {
+    let (mut open, mut end) = (0_usize, 0);
+    for (at, character) in line.char_indices() {
+        match character {
+            '(' | '[' => open += 1,
+            ')' | ']' => open = open.saturating_sub(1),
+            ' ' if open == 0 && line[..at].width() + 1 + mark.width() <= room => end = at,
+            _ => {}
+        }
+    }
+    let kept = line[..end].trim_end_matches(['+', '−', '-', '·', '*', '/', ',', ';', ' ']);
+    if kept.is_empty() { shortened(line, room, mark) } else { format!("{kept} {mark}") }
+}
+
+/// What a line gives the value of: the one word before its equals sign.
+fn left_side(line: &str) -> Option<&str> {
+    let (name, _) = line.split_once(" = ")?;
+    (!name.contains(char::is_whitespace)).then_some(name)
 }
 
 /// A line in the characters of this terminal, its numbers written as elsewhere.
@@ -73,10 +118,10 @@ fn shown(line: &str, look: &RenderStyle) -> String {
 }
 
 /// Writes lines from the top, wrapped, as far as there is room for them; where there is not, the last row says so.
-pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, lines: &[String]) {
+pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, (lines, few): (&[String], bool)) {
     let look = canvas.look;
     let room = usize::from(area.width).saturating_sub(2);
-    let mut rows = rows(area, lines, look).peekable();
+    let mut rows = rows(area, (lines, few), look).into_iter().peekable();
     for y in area.y..area.bottom() {
         let Some(mut line) = rows.next() else { break };
         if y + 1 == area.bottom() && rows.peek().is_some() {
@@ -103,7 +148,8 @@ mod tests {
             for long in [10, 20, 29, 39, 60] {
                 let area = Rect::new(5, 3, width, 20);
                 let lines = vec!["a".repeat(long), "b".to_owned()];
-                let (axes, words) = beside(area, &[(0, Layer::Legend(lines))], &look);
+                let layers = [(0, Layer::Legend(lines))];
+                let (axes, words) = beside(area, (&layers, true), &look);
                 let words = words.expect("words");
                 assert!(axes.width >= width - width / 3, "{width} {long}: {axes:?}");
                 assert_eq!(axes.intersection(words).area(), 0, "{width} {long}");
@@ -112,5 +158,45 @@ mod tests {
                 assert!(is_beside || axes.width == width && axes.height >= 15, "{axes:?}");
             }
         }
+    }
+    /// A plot of a terminal of 24 rows keeps its height: the verdict, and what the zoomed pane shows besides. A zoomed one
+    /// has all, and nothing is cut inside a factor.
+    #[test]
+    fn a_low_plot_has_two_lines_at_most() {
+        let look = RenderStyle { theme: Theme::dark(ColourDepth::True), glyphs: Glyphs::Braille };
+        let written = |lines: &[&str], few| {
+            let lines: Vec<String> = lines.iter().map(|&line| line.to_owned()).collect();
+            rows(Rect::new(0, 0, 38, 12), (&lines, few), &look)
+        };
+        let k = "K = ½ k X² + ½ k Y² + (PX² + PY²)/(2 m) − Ω X PY + Ω Y PX";
+        let down = "F1, F4 break down: det ∂Q/∂p = det ∂P/∂q = 0";
+        let lines = ["canonical, proved", k, down];
+        assert_eq!(written(&lines, true), ["canonical, proved", "z shows K and more"]);
+        assert_eq!(written(&lines[..2], true), ["canonical, proved", "z shows K"]);
+        assert_eq!(written(&lines[..1], true), ["canonical, proved"]);
+        assert_eq!(
+            written(&["canonical, proved", "K = ω P"], true),
+            lines_of("canonical, proved|K = ω P")
+        );
+        assert!(written(&lines, false).len() > 4);
+        let least = ["S = 1.7555", "least of all paths nearby", "∂S/∂θ = 0.732 = p"];
+        assert_eq!(
+            written(&least, true),
+            lines_of("S = 1.7555|least of all paths nearby   z: more")
+        );
+        let long = "not canonical: [Q, P] = (√(p_q² + m² ω² q²)/c)^(1/s − 1)/(c s √(p_q² + m² ω² q²)), not 1";
+        assert_eq!(written(&[long, k], true), lines_of("not canonical: [Q, P] = …|z shows more"));
+        let layers = [(0, Layer::Legend(lines.map(str::to_owned).to_vec()))];
+        let heights = |height, zoomable| {
+            let (axes, words) = beside(Rect::new(0, 0, 38, height), (&layers, zoomable), &look);
+            [axes.height, words.expect("words").height]
+        };
+        assert_eq!(heights(12, true), [10, 2]);
+        assert_eq!(heights(12, false), [7, 5]);
+        assert_eq!(heights(20, true), [15, 5]);
+    }
+
+    fn lines_of(text: &str) -> Vec<&str> {
+        text.split('|').collect()
     }
 }

@@ -138,9 +138,11 @@ fn format(value: f64, significant: usize, glyphs: Glyphs, trim: bool) -> String 
     times_power(if trim { trimmed(mantissa) } else { mantissa }, exponent, glyphs)
 }
 
-/// Joins a mantissa and a power of ten.
+/// Joins a mantissa and a power of ten, unless that is 1.
 fn times_power(mantissa: &str, exponent: i32, glyphs: Glyphs) -> String {
-    if glyphs.is_ascii() {
+    if exponent == 0 {
+        signed(mantissa.to_owned(), glyphs)
+    } else if glyphs.is_ascii() {
         format!("{mantissa}e{exponent}")
     } else {
         signed(mantissa.to_owned(), glyphs) + &power(exponent, glyphs)

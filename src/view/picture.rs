@@ -11,7 +11,7 @@ use super::ink::pen;
 use super::kept::{self, Track, TrailKey};
 use super::marks::{self, Marks};
 use super::names;
-use super::number::readable;
+use super::number::{readable, with_powers};
 use super::plot::ticks::nice_range;
 use super::plot::{Ages, Axes, DrawnAxis, Marker, Pen, PlotFrame, Raster, Scale};
 use super::quantity::{Quantities, through};
@@ -59,7 +59,10 @@ fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<Span> {
     match entry {
         Entry::Channel(channel) => valued(&q.name(*channel), q.value(*channel)),
         Entry::Number(name, value) => valued(name, *value),
-        Entry::Words(words) => vec![canvas.span(Role::Dim, format!("  {words}"))],
+        Entry::Words(words) => {
+            let words = with_powers(words, canvas.look.glyphs);
+            vec![canvas.span(Role::Dim, format!("  {words}"))]
+        }
         Entry::Key(ink, words) => {
             let glyphs = canvas.look.glyphs;
             let (mark, style) = match (colourless_mark(canvas, *ink), ink) {
@@ -189,7 +192,8 @@ pub(super) fn draw(
         Picture::Axes { upwards, layers, occurrences } => (upwards, layers, occurrences),
     };
     let look = canvas.look;
-    let (area, beside) = legend::beside(area, &layers, canvas.look);
+    let (whole, zoomable) = (area, !q.lab.zoomed);
+    let (area, beside) = legend::beside(whole, (&layers, zoomable), canvas.look);
     let axes = Axes::new(across?, axis_upwards(q, &upwards, viewport));
     let mut axes = if viewport.equal { axes.equal() } else { axes };
     if let Across::Time = plot.kind.across(plot, &present, answer) {
@@ -223,10 +227,16 @@ pub(super) fn draw(
     names::draw(canvas, &frame, &layers);
     for (_, layer) in &layers {
         if let Layer::Legend(lines) = layer {
-            legend::draw(canvas, beside.unwrap_or(frame.area), lines);
+            let few = legend::has_few(whole, beside, zoomable);
+            legend::draw(canvas, beside.unwrap_or(frame.area), (lines, few));
         }
     }
-    keys_above(canvas, area, keys);
+    let shades = layers.iter().flat_map(|(_, layer)| match layer {
+        Layer::Field(found) => field::keys(canvas, found),
+        _ => Vec::new(),
+    });
+    let keys: Vec<Span> = keys.iter().cloned().chain(shades).collect();
+    keys_above(canvas, area, &keys);
     let reading = cursor::draw(canvas, area, &frame, (viewport, &marks));
     if q.lab.focused_plot().is_some_and(|(_, focused)| std::ptr::eq(focused, plot)) {
         canvas.reading = reading;
@@ -252,7 +262,8 @@ fn axis_upwards(q: &Quantities<'_>, upwards: &Upwards, viewport: Viewport) -> Dr
         }
         Upwards::Named(name, [low, high]) => {
             let (lo, hi) = nice_range(*low, *high);
-            let name = q.look.glyphs.text(name);
+            let name = with_powers(name, q.look.glyphs);
+            let name = q.look.glyphs.text(&name);
             DrawnAxis::new(name, "", through(Scale::linear(lo, hi), (viewport, 1)))
         }
     }

@@ -228,16 +228,31 @@ fn parts(term: &str, depth: usize) -> Vec<String> {
 fn cut(text: &str, depth: usize, parted: impl Fn(&str, &str) -> bool) -> Vec<String> {
     let mut pieces: Vec<String> = Vec::new();
     let (mut open, mut before) = (0_usize, "");
+    // the parentheses that were open where an exponent began
+    let mut exponent: Option<usize> = None;
     for word in text.split(' ').filter(|word| !word.is_empty()) {
         match pieces.last_mut() {
-            Some(piece) if open > depth || !parted(before, word) => {
+            Some(piece) if open > depth || exponent.is_some() || !parted(before, word) => {
                 piece.push(' ');
                 piece.push_str(word);
             }
             _ => pieces.push(word.to_owned()),
         }
-        open += word.matches(['(', '[']).count();
-        open = open.saturating_sub(word.matches([')', ']']).count());
+        let mut last = ' ';
+        for character in word.chars() {
+            match character {
+                '(' | '[' => {
+                    exponent = exponent.or((last == '^').then_some(open));
+                    open += 1;
+                }
+                ')' | ']' => {
+                    open = open.saturating_sub(1);
+                    exponent = exponent.filter(|&outside| open > outside);
+                }
+                _ => {}
+            }
+            last = character;
+        }
         before = word;
     }
     pieces

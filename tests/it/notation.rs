@@ -148,6 +148,34 @@ fn what_could_be_read_in_two_ways_is_refused_with_both() {
     check("mgl", &["unknown name `mgl`; names side by side are written apart: `m g l`"]);
     check("cosθ", &["unknown name `cosθ`; names side by side are written apart: `cos θ`"]);
     check("mlsin θ", &["unknown name `mlsin`; names side by side are written apart: `m l sin`"]);
+    // several are told at once, and then how the whole of it is written
+    let apart = |name: &str, pieces: &str| {
+        format!("unknown name `{name}`; names side by side are written apart: `{pieces}`")
+    };
+    check(
+        "mgl*cosθ + 2*mlsin θ",
+        &[
+            &apart("mgl", "m g l"),
+            &apart("cosθ", "cos θ"),
+            &format!("{}; all of it: `m g l*cos θ + 2*m l sin θ`", apart("mlsin", "m l sin")),
+        ],
+    );
+    // what could then be read in two ways is enclosed
+    check(
+        "x/ml + mgl",
+        &[
+            &apart("ml", "m l"),
+            &format!("{}; all of it: `x/(m l) + (m g l)`", apart("mgl", "m g l")),
+        ],
+    );
+    // with another error the whole is not known
+    check(
+        "mgl + qqq",
+        &[
+            &apart("mgl", "m g l"),
+            "unknown name `qqq`; give it a value in [parameters], or define it in [definitions]",
+        ],
+    );
     check(
         "sincos",
         &["unknown name `sincos`; give it a value in [parameters], or define it in [definitions]"],

@@ -78,8 +78,29 @@ fn the_oscillator_by_its_angle_has_the_grid_of_q_and_p() {
     // the same without its scale is not canonical
     let (grid, words) = shown(&app, polar);
     assert!(!grid.is_empty());
-    assert_eq!(words[..2], ["not canonical", "[θ, r] = 1/√(p_q² + q²), not 1"]);
+    assert_eq!(words[0], "not canonical: [θ, r] = 1/√(p_q² + q²), not 1");
     assert_eq!(measure(&app, polar, "canonical"), 0.0);
+}
+
+/// Coordinates that turn, or move, are as long as the old ones: X and Y are drawn one to one where x and y are. A pair (Q, P) has
+/// areas and no lengths, and other coordinates than linear ones have none that compare.
+#[test]
+fn new_coordinates_are_drawn_one_to_one_where_the_old_ones_are() {
+    let equal = |app: &App| -> Vec<bool> {
+        plots(app).iter().map(|plot| plot.viewport().expect("axes").equal).collect()
+    };
+    assert_eq!(equal(&lab("moving-axes", 0.1)), [true, false]);
+    assert_eq!(equal(&lab("angle-of-the-oscillator", 0.1)), [false, false]);
+    let text = crate::hand::catalog().find("moving-axes").expect("a preset").text.clone();
+    let polar = text.replace(
+        "PX*(x*cos(Omega*t) + y*sin(Omega*t)) + PY*(y*cos(Omega*t) - x*sin(Omega*t))",
+        "PX*sqrt(x^2 + y^2) + PY*atan2(y, x)",
+    );
+    assert_ne!(polar, text);
+    assert_eq!(equal(&begun(&polar))[0], false);
+    let of_two_units = text.replacen("y = { unit = \"m\"", "y = { unit = \"km\"", 1);
+    assert_ne!(of_two_units, text);
+    assert_eq!(equal(&begun(&of_two_units))[0], false);
 }
 
 /// An angle written as atan2 jumps by a turn: its trail leaves at one edge and enters at the other.

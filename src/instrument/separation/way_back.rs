@@ -91,6 +91,10 @@ pub(super) fn heading(returned: Returned) -> Heading {
         (None, Some(distance)) => entries.push(Entry::Number("d =".to_owned(), distance)),
         (None, None) => {}
     }
+    if returned.step_error.0 > 0.0 {
+        let error = significant(returned.step_error.0, 3, 1e-4..1e4);
+        entries.push(Entry::Words(format!("ε = {error} a step")));
+    }
     Heading { title: "Return error ln d".to_owned(), given: false, entries }
 }
 
@@ -117,10 +121,9 @@ pub(super) fn picture(
         range = Some([seen[0].min(ends[0]).min(ends[1]), seen[1].max(ends[0]).max(ends[1])]);
         let stroke = Stroke { ink: Ink::Accent, covering: Some(0.5) };
         layers.push((LINE, Layer::Line(line, stroke)));
-        let error = significant(returned.step_error.0, 3, 1e-4..1e4);
         let now = expected(returned, answer, returned.gone[0]);
         let now = now.map(|value| format!(" = {}", significant(value, 2, 1e-4..1e4)));
-        name = format!("ln d   line: {}{}, ε = {error}", law(returned), now.unwrap_or_default());
+        name = format!("ln d   line: {}{}", law(returned), now.unwrap_or_default());
     }
     let upwards = Upwards::Named(name, range.unwrap_or([-40.0, 0.0]));
     Picture::Axes { upwards, layers, occurrences: None }

@@ -115,10 +115,14 @@ fn lines(pool: &Pool, report: &TransformationReport) -> Vec<String> {
         (true, false) => format!("canonical to rounding: |M 𝕁 Mᵀ − 𝕁| = {off}"),
         (false, _) => "not canonical".to_owned(),
     }];
-    let failing = verdict.failing.iter().map(|bracket| {
+    let mut failing = verdict.failing.iter().map(|bracket| {
         let [a, b] = bracket.pair.map(|s| pool.symbol_info(s).unicode.clone());
         format!("[{a}, {b}] = {}, not {}", pool.unicode(bracket.is), pool.unicode(bracket.expected))
     });
+    // the first of them beside the verdict, so that a low plot has it too
+    if let Some((line, first)) = lines.first_mut().zip(failing.next()) {
+        *line = format!("{line}: {first}");
+    }
     lines.extend(failing);
     lines.extend(verdict.valence.map(|c| format!("of valence {}", pool.unicode(c))));
     lines.extend(report.hamiltonian.as_ref().ok().map(|k| format!("K = {}", pool.unicode(*k))));

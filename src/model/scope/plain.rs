@@ -4,10 +4,13 @@
 
 use super::Scope;
 use super::meaning::Meaning;
-use crate::expr::{EULER, FUNCTIONS, Span, Syntax, SyntaxError};
+use crate::expr::{EULER, FUNCTIONS, Span, Syntax, SyntaxError, parse_all};
 
 /// The longest unknown name that is taken apart.
 const LONGEST_APART: usize = 40;
+
+/// The longest text that is written out with its corrections.
+const LONGEST_LINE: usize = 240;
 
 /// A name that may have primes of its own, and further ones.
 fn with_primes(name: &str, primes: usize) -> (String, usize) {
@@ -96,5 +99,45 @@ impl Scope {
         let repeated = pieces.windows(2).any(|pair| pair[0] == pair[1]);
         (pieces.len() > 1 && !repeated && pieces.iter().any(|piece| is_name(piece)))
             .then(|| format!("{}{}", pieces.join(" "), "'".repeat(primes)))
+    }
+    /// Says how a whole text reads in which several products are run together, after what is said of each of them. `told` errors
+    /// are of other texts.
+    pub(super) fn add_corrected_line(&mut self, text: &str, told: usize) {
+        let Some(line) = self.corrected_line(text, told) else { return };
+        let last = self.diagnostics.last_mut().and_then(|last| last.help.as_mut());
+        if let Some(help) = last {
+            help.push_str(&format!("; all of it: `{line}`"));
+        }
+    }
+
+    /// A text with its products written apart, if those are all its errors and there are several.
+    fn corrected_line(&self, text: &str, told: usize) -> Option<String> {
+        let errors = self.diagnostics.get(told..)?;
+        if errors.len() < 2 || text.len() > LONGEST_LINE {
+            return None;
+        }
+        let apart = |error: &SyntaxError| {
+            let written = text.get(error.span.start..error.span.end)?;
+            let bare = written.trim_end_matches(['\'', '′']);
+            let primes = written.chars().count() - bare.chars().count();
+            let apart = self.taken_apart(bare, primes)?;
+            let said = error.help.as_ref().is_some_and(|help| help.contains(&apart));
+            said.then_some((error.span, apart))
+        };
+        let mut pieces: Vec<(Span, String)> = errors.iter().map(apart).collect::<Option<_>>()?;
+        pieces.sort_by_key(|(span, _)| span.start);
+        let with = |enclosed: bool| {
+            let (mut line, mut end) = (String::new(), 0);
+            for (span, apart) in &pieces {
+                line.push_str(text.get(end..span.start)?);
+                line.push_str(&if enclosed { format!("({apart})") } else { apart.clone() });
+                end = span.end;
+            }
+            line.push_str(text.get(end..)?);
+            let (_, errors) = parse_all(&line);
+            errors.is_empty().then_some(line)
+        };
+        // `x/m l` can be read in two ways
+        with(false).or_else(|| with(true))
     }
 }

@@ -106,10 +106,16 @@ fn the_plane_shows_the_step_beside_the_map() {
         plot.kind.measures().iter().find(|m| m.word == "off_step").expect("it is measured");
     let off = (measure.value)(plot, &lab.present().expect("a motion"), lab.answer(plot));
     assert!(off.is_some_and(|off| off < 1e-15), "{off:?}");
-    let area = ratatui::layout::Rect::new(0, 0, 80, 24);
-    let mut buffer = ratatui::buffer::Buffer::empty(area);
-    phaselab::view::draw(&app, &crate::screen::rich(), area, &mut buffer);
-    let page = crate::screen::rows(&buffer).join("\n");
+    let page = |width, height| {
+        let area = ratatui::layout::Rect::new(0, 0, width, height);
+        let mut buffer = ratatui::buffer::Buffer::empty(area);
+        phaselab::view::draw(&app, &crate::screen::rich(), area, &mut buffer);
+        crate::screen::rows(&buffer).join("\n")
+    };
+    // a low plot leaves it to the zoomed pane
+    let low = page(80, 24);
+    assert!(low.contains("canonical, proved") && low.contains("z shows more"), "{low}");
+    let page = page(120, 40);
     for words in ["is one step of symplectic-euler", "20 points", "map: M = (", "step: M = ("] {
         assert!(page.contains(words), "{words}: {page}");
     }
