@@ -107,6 +107,7 @@ impl Lab {
         let Some(seen) = self.seen() else { return };
         let Loaded { model, system, .. } = &self.loaded;
         let checkpoint = Checkpoint::of(model, system, seen).with_past(system, seen);
+        let checkpoint = checkpoint.with_another_law(seen.time);
         self.held.get_or_insert(checkpoint);
     }
 

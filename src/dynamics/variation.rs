@@ -107,12 +107,17 @@ fn settled_slopes(
     coordinate: usize,
     lagrangian: &mut Lagrangian,
 ) -> Option<[[(f64, f64); 2]; 2]> {
-    let mut before = followed.end_slopes(coordinate, lagrangian);
     let known = followed.nodes.len() / NODES;
-    for parts in PARTS.into_iter().filter(|&parts| parts > known) {
-        let slopes = SampledMotion::sampled(motion, followed.duration, parts)
-            .ok()?
-            .end_slopes(coordinate, lagrangian);
+    let mut sampled = |parts: usize| {
+        Some(
+            SampledMotion::sampled(motion, followed.duration, parts)
+                .ok()?
+                .end_slopes(coordinate, lagrangian),
+        )
+    };
+    let mut before = sampled(known / 2)?;
+    for parts in PARTS.into_iter().filter(|&parts| parts >= known) {
+        let slopes = sampled(parts)?;
         let same =
             |(a, _): &(f64, f64), (b, size): &(f64, f64)| (a - b).abs() <= SLOPES_SETTLED * size;
         if before.iter().flatten().zip(slopes.iter().flatten()).all(|(a, b)| same(a, b)) {

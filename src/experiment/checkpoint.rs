@@ -58,6 +58,8 @@ pub struct Checkpoint {
 #[derive(Clone, PartialEq)]
 pub struct Past {
     names: Vec<String>,
+    /// When a parameter was changed last.
+    changed: Option<f64>,
     trail: Trail,
 }
 
@@ -135,7 +137,17 @@ impl Checkpoint {
     #[must_use]
     pub fn with_past(self, system: &System, snapshot: &Snapshot) -> Checkpoint {
         let names = system.channels().iter().map(|channel| channel.name.clone()).collect();
-        Checkpoint { past: Some(Past { names, trail: snapshot.trail.clone() }), ..self }
+        let (changed, trail) = (snapshot.recorded.changed, snapshot.trail.clone());
+        Checkpoint { past: Some(Past { names, changed, trail }), ..self }
+    }
+
+    /// Lets the law be another one from a time on than in the recorded past.
+    #[must_use]
+    pub fn with_another_law(mut self, time: f64) -> Checkpoint {
+        if let Some(past) = &mut self.past {
+            past.changed = Some(time);
+        }
+        self
     }
 }
 
@@ -279,6 +291,7 @@ impl Experiment {
         if let Some(past) = past.filter(|_| same) {
             let row = past.row(self.motion.system().channels(), present.time);
             self.recorder.precede(&past.trail, row);
+            self.changed = past.changed;
         }
     }
 

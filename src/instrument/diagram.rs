@@ -322,7 +322,7 @@ fn straight_line(
 
 /// The range upwards: the file's, or that of the numbers.
 fn heights(plot: &Plot, present: &Present<'_>, found: Option<&ComputedDiagram>) -> [f64; 2] {
-    let own = found.map(|found| found.extent).filter(|[low, high]| low < high || low == high);
+    let own = found.map(|found| found.extent).filter(|[low, high]| low <= high);
     // numbers that differ by rounding are one
     let own = own.map(|[low, high]| {
         let about = if view(plot, present.physics).is_some() || high - low > LEVEL * high.abs() {

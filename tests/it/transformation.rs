@@ -97,10 +97,10 @@ fn new_coordinates_are_drawn_one_to_one_where_the_old_ones_are() {
         "PX*sqrt(x^2 + y^2) + PY*atan2(y, x)",
     );
     assert_ne!(polar, text);
-    assert_eq!(equal(&begun(&polar))[0], false);
+    assert!(!equal(&begun(&polar))[0]);
     let of_two_units = text.replacen("y = { unit = \"m\"", "y = { unit = \"km\"", 1);
     assert_ne!(of_two_units, text);
-    assert_eq!(equal(&begun(&of_two_units))[0], false);
+    assert!(!equal(&begun(&of_two_units))[0]);
 }
 
 /// An angle written as atan2 jumps by a turn: its trail leaves at one edge and enters at the other.
