@@ -231,6 +231,8 @@ impl Lab {
             Change::Flow { before, after } => match side {
                 ChangeSide::After => vec![self.begin_with(after)],
                 ChangeSide::Before => {
+                    // what waits for a text waits no longer
+                    self.held = None;
                     self.awaited = Some((*before).clone());
                     vec![Effect::Tell(Command::Restore(before))]
                 }

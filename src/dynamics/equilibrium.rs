@@ -2,6 +2,8 @@
 //!
 //! In: what a search finds of it. Out: its numbers. Never here: how it is found.
 
+use std::cmp::Ordering;
+
 use super::small_oscillation::{Kind, Mode};
 use super::virtual_work::VirtualWork;
 
@@ -62,18 +64,28 @@ pub(super) fn in_a_family(known: &Equilibrium, one: &Equilibrium, constrained: b
     }
 }
 
-/// Energies and places count as the same up to this part of them.
+/// Energies and places count as the same up to this part of the largest.
 const ALIKE: f64 = 1e-7;
 
 /// Sorts by energy, and those of one energy by their places, so that the order is not that in which they were found.
 pub(super) fn in_order(found: &mut [Equilibrium]) {
     found.sort_by(|a, b| a.energy.total_cmp(&b.energy));
-    let apart = |a: f64, b: f64| (a - b).abs() > ALIKE * a.abs().max(b.abs()).max(ALIKE);
-    for alike in found.chunk_by_mut(|a, b| !apart(a.energy, b.energy)) {
+    let largest = |of: &dyn Fn(&Equilibrium) -> f64| {
+        found.iter().map(|one| of(one).abs()).filter(|x| x.is_finite()).fold(0.0, f64::max)
+    };
+    let energy = ALIKE * largest(&|one| one.energy);
+    let count = found.first().map_or(0, |one| one.variables.len());
+    let sizes: Vec<f64> = (0..count).map(|k| ALIKE * largest(&|one| one.variables[k])).collect();
+    for alike in found.chunk_by_mut(|a, b| (a.energy - b.energy).abs() <= energy) {
+        // in whole parts, so that the order is one
+        let parts = |one: &Equilibrium| -> Vec<f64> {
+            let parts = one.variables.iter().zip(&sizes);
+            parts.map(|(x, size)| if *size > 0.0 { (x / size).round() } else { 0.0 }).collect()
+        };
         alike.sort_by(|a, b| {
-            let mut places = a.variables.iter().zip(&b.variables);
-            let differ = places.find(|(x, y)| apart(**x, **y));
-            differ.map_or(std::cmp::Ordering::Equal, |(x, y)| y.total_cmp(x))
+            let pairs = parts(b).into_iter().zip(parts(a));
+            let orders = pairs.map(|(x, y)| if x == y { Ordering::Equal } else { x.total_cmp(&y) });
+            orders.fold(Ordering::Equal, Ordering::then)
         });
     }
 }

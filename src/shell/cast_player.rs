@@ -34,6 +34,8 @@ pub struct CastPlayer {
     /// An index into [`SPEEDS`].
     speed: usize,
     paused: bool,
+    /// Whether the end is to be shown, which is not recorded yet.
+    to_end: bool,
     /// Whether the user has shown or hidden the control line, if so.
     wanted: Option<bool>,
     /// How much longer the control line is shown by default.
@@ -79,6 +81,7 @@ impl CastPlayer {
             time: 0.0,
             speed: NORMAL,
             paused: false,
+            to_end: false,
             wanted: None,
             awake: AT_FIRST,
             size: Size::default(),
@@ -107,6 +110,10 @@ impl CastPlayer {
         }
         if ended.is_some() {
             (self.recorded, self.ahead) = (ended, None);
+        }
+        if self.to_end {
+            self.go(self.cast.end as f64);
+            self.to_end = self.ahead.is_some();
         }
     }
 
@@ -169,6 +176,7 @@ impl CastPlayer {
     fn press(&mut self, key: KeyEvent) -> ScreenRequest {
         let shown = self.shows_controls();
         self.awake = self.awake.max(AWAKE);
+        self.to_end = false;
         let ctrl = key.modifiers.contains(KeyModifiers::CONTROL);
         match key.code {
             KeyCode::Char(c) if ctrl => match c {
@@ -188,7 +196,10 @@ impl CastPlayer {
                 KeyCode::Left | KeyCode::Char('h') => self.go(self.time - LEAP),
                 KeyCode::Right | KeyCode::Char('l') => self.go(self.time + LEAP),
                 KeyCode::Home | KeyCode::Char('0') => self.go(0.0),
-                KeyCode::End => self.go(self.cast.end as f64),
+                KeyCode::End => {
+                    self.go(self.cast.end as f64);
+                    self.to_end = self.ahead.is_some();
+                }
                 KeyCode::Tab | KeyCode::BackTab => {
                     let to = if code == KeyCode::BackTab {
                         // Shortly after a chapter's start, go to the previous one.

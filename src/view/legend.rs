@@ -159,6 +159,7 @@ mod tests {
             }
         }
     }
+
     /// A plot of a terminal of 24 rows keeps its height: the verdict, and what the zoomed pane shows besides. A zoomed one
     /// has all, and nothing is cut inside a factor.
     #[test]
@@ -192,8 +193,9 @@ mod tests {
             [axes.height, words.expect("words").height]
         };
         assert_eq!(heights(12, true), [10, 2]);
-        assert_eq!(heights(12, false), [7, 5]);
-        assert_eq!(heights(20, true), [15, 5]);
+        let whole = written(&lines, false).len() as u16;
+        assert_eq!(heights(12, false), [12 - whole, whole]);
+        assert_eq!(heights(20, true), [20 - whole, whole]);
     }
 
     fn lines_of(text: &str) -> Vec<&str> {

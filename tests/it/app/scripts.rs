@@ -132,7 +132,7 @@ fn scripts_in_the_lab() {
         ("Tab Tab Tab v Down Down Enter", "lab space + menu \"Vertical axis, against t\"", ""),
         ("Tab Tab Tab v Down Down Enter Down Enter", "lab time [1]", ""),
         ("Tab Tab Tab v Down Down Enter Tab Down Tab Enter", "lab time [0, 1]", ""),
-        ("Tab Tab Tab v Down Down Down Down Down Enter Down Down Enter", "lab phase 0 2", ""),
+        ("Tab Tab Tab v Down Down Down Down Down Down Enter Down Down Enter", "lab phase 0 2", ""),
         ("Tab Tab Tab v Esc", "lab space", ""),
         (": z o o m Enter", "lab parameter 0 zoomed", ""),
     ];

@@ -1,8 +1,6 @@
 //! Periodic orbits.
 
-use phaselab::dynamics::{
-    Along, DynamicsError, Fixed, Orbit, Removed, family, nearest_orbit, periodic_orbit,
-};
+use phaselab::dynamics::{Along, DynamicsError, Fixed, Orbit, Removed, family, periodic_orbit};
 
 use super::{Case, file, method, preset, taylor};
 
@@ -330,23 +328,4 @@ fn a_multiplier_below_rounding_has_no_exponent() {
             None => assert!(!known),
         }
     }
-}
-
-/// Of a period of more steps than a search has it follows those that it has, and no more: it used to follow all of them.
-#[test]
-fn a_search_ends_within_a_period_that_is_too_long() {
-    let case = file(
-        "title = \"t\"\n[coordinates]\nx = { initial = 1.9, momentum = 0 }\n\
-         [hamiltonian]\nH = \"1/2*p_x^2 + 1/4*x^4\"\n",
-        &[],
-    );
-    let taken = std::cell::Cell::new(0);
-    let look = |steps, _| taken.set(steps);
-    let (kind, mut settings) = taylor();
-    settings.tolerance = Some(1e-15);
-    let asked = (Some(1e6), Fixed::Period(1e6));
-    let found = nearest_orbit(&case.space, (kind, settings), &case.start, asked, &look);
-    let why = found.unwrap_err().to_string();
-    assert!(why.contains("the search ended after 100000 steps of the motion"), "{why}");
-    assert_eq!(taken.get(), 100_000);
 }

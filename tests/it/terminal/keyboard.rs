@@ -66,7 +66,7 @@ fn where_it_is_known_shift_enter_is_a_key_of_its_own() {
         // what the cursor reads in the middle of the plane
         lab.shows("0.0924");
         lab.press(shift_enter);
-        lab.shows("motion 1 beside the main one");
+        lab.shows("motion 1 begins there");
         lab.press("q");
         assert_eq!(lab.ends().0, 0);
         is_off(&lab);
