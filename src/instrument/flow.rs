@@ -289,7 +289,7 @@ fn rows(matrix: &DMatrix<f64>, short: &dyn Fn(f64) -> String) -> String {
 /// The last moment that the motion has passed.
 fn now<'a>(present: &Present<'_>, moments: &'a [FlowMoment]) -> Option<&'a FlowMoment> {
     let passed = moments.partition_point(|moment| moment.time <= present.time);
-    moments.get(passed.saturating_sub(1))
+    moments.get(passed.checked_sub(1)?)
 }
 
 /// det M, where rounding leaves something of it.

@@ -234,7 +234,7 @@ impl Way {
     }
 
     fn near(&self, a: &[f64], b: &[f64]) -> bool {
-        a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME * self.reach.max(1.0))
+        a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME * self.reach)
     }
 
     fn seen(&self, path: &StationaryPath) -> TruePath {

@@ -172,7 +172,7 @@ impl Scope {
     /// Reads an expression in this scope. Returns `None` if there were errors, which are then in
     /// [`Scope::diagnostics`].
     pub fn read(&mut self, pool: &mut Pool, text: &str) -> Option<Expr> {
-        let (before, told) = (self.error_count, self.diagnostics.len());
+        let (before, reported) = (self.error_count, self.diagnostics.len());
         self.plain = None;
         let (syntax, diagnostics) = parse_all(text);
         for diagnostic in diagnostics {
@@ -184,7 +184,7 @@ impl Scope {
             self.check_result(pool, e, syntax.span);
         }
         if self.error_count > before {
-            self.add_corrected_line(text, told);
+            self.add_corrected_line(text, reported);
             return None;
         }
         self.plain = self.plain_form(text, &syntax);

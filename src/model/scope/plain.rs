@@ -100,10 +100,11 @@ impl Scope {
         (pieces.len() > 1 && !repeated && pieces.iter().any(|piece| is_name(piece)))
             .then(|| format!("{}{}", pieces.join(" "), "'".repeat(primes)))
     }
-    /// Says how a whole text reads in which several products are run together, after what is said of each of them. `told` errors
-    /// are of other texts.
-    pub(super) fn add_corrected_line(&mut self, text: &str, told: usize) {
-        let Some(line) = self.corrected_line(text, told) else { return };
+
+    /// Says how a whole text reads in which several products are run together, after what is said of each of them. Its errors
+    /// are those at `from` and after.
+    pub(super) fn add_corrected_line(&mut self, text: &str, from: usize) {
+        let Some(line) = self.corrected_line(text, from) else { return };
         let last = self.diagnostics.last_mut().and_then(|last| last.help.as_mut());
         if let Some(help) = last {
             help.push_str(&format!("; all of it: `{line}`"));
@@ -111,8 +112,8 @@ impl Scope {
     }
 
     /// A text with its products written apart, if those are all its errors and there are several.
-    fn corrected_line(&self, text: &str, told: usize) -> Option<String> {
-        let errors = self.diagnostics.get(told..)?;
+    fn corrected_line(&self, text: &str, from: usize) -> Option<String> {
+        let errors = self.diagnostics.get(from..)?;
         if errors.len() < 2 || text.len() > LONGEST_LINE {
             return None;
         }
