@@ -17,6 +17,7 @@ pub(crate) mod atomic_file;
 mod background;
 mod bandwidth;
 mod cast_player;
+mod cast_screen;
 mod checker;
 mod clipboard;
 pub mod config;

@@ -3,12 +3,14 @@
 //! In: a periodic orbit, and what changes along its family: the energy, the period, or a parameter.
 //! Out: the orbits at given values, in their order along the family, and between them the folds,
 //! where the family turns back, and the bifurcations, where a multiplier passes 1 or −1. Never
-//! here: how one orbit is closed; what lies between two points of a family (`members`).
+//! here: how one orbit is closed; what lies between two points of a family (`members`), displacements within what is allowed (`equations`).
 //!
 //! Source: H. B. Keller, Lectures on Numerical Methods in Bifurcation Problems, Springer 1987; the
 //! bifurcations of orbits: K. R. Meyer, Trans. Amer. Math. Soc. 149 (1970) 95.
 
+mod equations;
 mod members;
+mod point;
 
 use nalgebra::{DMatrix, DVector};
 
@@ -22,6 +24,8 @@ use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings};
 use crate::system::State;
+use equations::FamilyEquations;
+use point::FamilyPoint;
 
 /// The most steps in one direction.
 const STEPS: usize = 300;
@@ -38,32 +42,6 @@ const CLOSED: f64 = 1e-11;
 
 /// A change of a parameter for its difference.
 const DIFFERENCE: f64 = 1e-5;
-
-/// A point of a family.
-#[derive(Clone)]
-struct FamilyPoint {
-    state: State,
-    period: f64,
-    parameter: f64,
-    /// The direction of the family, in (z, T, μ), for a step onwards.
-    tangent: DVector<f64>,
-    value: f64,
-    orbit: Orbit,
-}
-
-impl FamilyPoint {
-    /// What changes its sign at a period doubling: Π (μᵢ + 1) of the transverse multipliers.
-    fn doubling(&self) -> f64 {
-        let n = self.orbit.transverse.nrows();
-        (&self.orbit.transverse + DMatrix::identity(n, n)).determinant()
-    }
-
-    /// What changes its sign where a multiplier passes 1: Π (μᵢ − 1).
-    fn unit(&self) -> f64 {
-        let n = self.orbit.transverse.nrows();
-        (&self.orbit.transverse - DMatrix::identity(n, n)).determinant()
-    }
-}
 
 /// Follows the family of an orbit in both directions, as far as its values lie between the first
 /// and the last of `values`.
@@ -139,34 +117,6 @@ fn followed(continuation: &Continuation<'_>, orbit: &Orbit) -> Result<Family, Dy
     }
     family.members.extend(after);
     Ok(family)
-}
-
-/// The equations of an orbit at a point, and their derivatives.
-struct FamilyEquations {
-    /// What is missing.
-    missing: DVector<f64>,
-    matrix: DMatrix<f64>,
-    here: NewtonIterate,
-}
-
-impl FamilyEquations {
-    /// A change of (z, T, μ) in coordinates of the displacements of z that are allowed.
-    fn within(&self, change: &DVector<f64>) -> DVector<f64> {
-        let (basis, n) = (&self.here.circuit.basis, change.len() - 2);
-        let allowed = basis.transpose() * change.rows(0, n);
-        let mut within = allowed.resize_vertically(basis.ncols() + 2, 0.0);
-        within.rows_mut(basis.ncols(), 2).copy_from(&change.rows(n, 2));
-        within
-    }
-
-    /// The same back.
-    fn outside(&self, within: &DVector<f64>) -> DVector<f64> {
-        let basis = &self.here.circuit.basis;
-        let (n, allowed) = (basis.nrows(), basis.ncols());
-        let mut change = (basis * within.rows(0, allowed)).resize_vertically(n + 2, 0.0);
-        change.rows_mut(n, 2).copy_from(&within.rows(allowed, 2));
-        change
-    }
 }
 
 struct Continuation<'a> {

@@ -5,6 +5,7 @@
 //! parts, so that the picture fills as one looks, and begun anew when a parameter, the method or the energy changes.
 
 mod portrait;
+mod regularity;
 
 use std::sync::Arc;
 
@@ -13,18 +14,17 @@ use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
     Need, NoStart, Offer, Physics, Picture, Plot, PlotTable, Present, Seed, Upwards,
 };
-use crate::dynamics::{Rotation, rotation};
 use crate::ensemble::{NotInPlane, PhaseShift, SectionPlan, SectionPlane};
 use crate::expr::Expr;
 use crate::integrate::method_named;
 use crate::job::Job;
 use crate::mechanics::Valuation;
 use crate::model::{Direction, View};
-use crate::num::math;
 use crate::system::InitialOverride;
 use portrait::{
     Begun, COUNT, DrawnOrbit, IDLE, Portrait, SectionConditions, SectionTask, TRANSIENT,
 };
+use regularity::{by_chaos, chaos_ink, newest_rotation, own_rotation, to_its_error};
 
 /// The levels of the picture.
 const BOUNDARY: Level = 0;
@@ -34,9 +34,6 @@ const NOW: Level = 3;
 
 /// An equilibrium lies on a surface up to this value of what vanishes there.
 const ON_SURFACE: f64 = 1e-9;
-
-/// The newest crossings of the running motion by which its rotation number is measured.
-const COUNT_OWN: usize = 1000;
 
 /// The row.
 pub(super) struct SectionPlot;
@@ -317,50 +314,6 @@ impl Instrument for SectionPlot {
 
 fn portrait(answer: Option<&Answer>) -> Option<&Portrait> {
     answer?.of::<Portrait>()
-}
-
-/// The rotation number of the newest orbit, if it goes through a point that a person chose; a list would cover the picture.
-fn newest_rotation(portrait: &Portrait) -> Option<String> {
-    let chosen = matches!(portrait.seeds.last(), Some(Seed::Through(_)));
-    let newest = portrait.orbits.last().filter(|_| chosen)?;
-    Some(match &newest.rotation {
-        Ok(found) => {
-            format!("rotation {}", to_its_error(found.number, found.error))
-        }
-        Err(why) => format!("no rotation number: {why}"),
-    })
-}
-
-/// Whether orbits are coloured by whether they are regular.
-fn by_chaos(plot: &Plot) -> bool {
-    plot.viewport().is_some_and(|viewport| viewport.by_chaos)
-}
-
-fn chaos_ink(regular: Option<bool>) -> Ink {
-    match regular {
-        Some(true) => Ink::Curve(0),
-        Some(false) => Ink::Warn,
-        // the faintest: nothing is said of it
-        None => Ink::Level,
-    }
-}
-
-/// The rotation number of the running motion, if it has one, by its newest crossings.
-fn own_rotation(plot: &Plot, present: &Present<'_>) -> Option<Rotation> {
-    let Physics { system, .. } = present.physics;
-    let axes = [plot.column(0)?, plot.column(1)?];
-    let section = view(plot, present.physics)?.section?;
-    let rows = present.crossings.rows(section, present.values.len());
-    let newest = rows.rev().take(COUNT_OWN).map(|row| axes.map(|axis| row[1 + axis]));
-    let mut points: Vec<[f64; 2]> = newest.collect();
-    points.reverse();
-    rotation(&points, axes.map(|axis| system.period(axis, present.parameters))).ok()
-}
-
-/// A number between 0 and 1 with the decimals that its error leaves.
-fn to_its_error(number: f64, error: f64) -> String {
-    let decimals = (1..12).take_while(|k| error < 0.5 * math::powi(10.0, -k)).count();
-    format!("{number:.decimals$}")
 }
 
 /// The view of the file that has the surface.

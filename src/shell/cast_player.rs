@@ -9,13 +9,13 @@ use std::time::{Duration, Instant};
 use crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect, Size};
-use ratatui::style::{Color, Modifier, Style};
 
+use super::cast_screen::draw_screen;
 use super::frame_loop::{Screen, ScreenRequest};
 use super::recording_ahead::{NotRecorded, RecordingAhead};
 use crate::record::{CastEvent, RecordedCast, Recording};
 use crate::view::RenderStyle;
-use crate::view::colour::{ColourDepth, Rgb};
+use crate::view::colour::Rgb;
 use crate::view::theme::Role;
 
 /// A cast being shown.
@@ -358,24 +358,7 @@ impl Screen for CastPlayer {
 
     fn draw(&mut self, area: Rect, buffer: &mut Buffer) -> Option<Position> {
         self.size = area.as_size();
-        let depth = self.look.theme.depth();
-        for (y, line) in (area.top()..area.bottom()).zip(self.screen.view()) {
-            let mut x = area.left();
-            for cell in line.cells() {
-                // This is the second half of a wide character.
-                if cell.width() == 0 {
-                    continue;
-                }
-                if x + cell.width() as u16 > area.right() {
-                    break;
-                }
-                let drawn = &mut buffer[(x, y)];
-                let plain = self.look.glyphs.is_ascii() && !cell.char().is_ascii();
-                drawn.set_char(if plain { spelt(cell.char()) } else { cell.char() });
-                drawn.set_style(style(cell.pen(), depth));
-                x += cell.width() as u16;
-            }
-        }
+        draw_screen(&self.screen, &self.look, area, buffer);
         if area.height > 0 && self.shows_controls() {
             let rows = self.screen.size().1;
             let y = if self.has_room() { area.y + rows as u16 } else { area.bottom() - 1 };
@@ -411,46 +394,4 @@ fn wide(columns: u16) -> usize {
 fn clock(time: f64) -> String {
     let seconds = (time / 1e6) as u64;
     format!("{}:{:02}", seconds / 60, seconds % 60)
-}
-
-/// Returns an ASCII replacement of a character.
-fn spelt(character: char) -> char {
-    let text = crate::view::glyphs::Glyphs::Ascii.text(&character.to_string()).into_owned();
-    match (character, text.as_str()) {
-        ('\u{2800}', _) => ' ',
-        ('\u{2801}'..='\u{28ff}' | '▀'..='▟', _) => '*',
-        ('─'..='╿', "?") => '+',
-        (_, text) => text.chars().next().unwrap_or('?'),
-    }
-}
-
-fn style(pen: &avt::Pen, depth: ColourDepth) -> Style {
-    let mut style = Style::new();
-    style.fg = pen.foreground().and_then(|c| colour(c, depth));
-    style.bg = pen.background().and_then(|c| colour(c, depth));
-    let weights = [
-        (pen.is_bold(), Modifier::BOLD),
-        (pen.is_faint(), Modifier::DIM),
-        (pen.is_italic(), Modifier::ITALIC),
-        (pen.is_underline(), Modifier::UNDERLINED),
-        (pen.is_strikethrough(), Modifier::CROSSED_OUT),
-        (pen.is_inverse(), Modifier::REVERSED),
-    ];
-    for (_, weight) in weights.into_iter().filter(|(has, _)| *has) {
-        style = style.add_modifier(weight);
-    }
-    style
-}
-
-/// Reduces a colour to what this terminal supports.
-fn colour(colour: avt::Color, depth: ColourDepth) -> Option<Color> {
-    match (depth, colour) {
-        (ColourDepth::None, _) => None,
-        (ColourDepth::True, avt::Color::RGB(c)) => Some(Color::Rgb(c.r, c.g, c.b)),
-        (ColourDepth::Ansi256, avt::Color::RGB(c)) => {
-            Some(Color::Indexed(Rgb(c.r, c.g, c.b).nearest256()))
-        }
-        (ColourDepth::Ansi16, avt::Color::RGB(_) | avt::Color::Indexed(16..)) => None,
-        (_, avt::Color::Indexed(index)) => Some(Color::Indexed(index)),
-    }
 }
