@@ -15,7 +15,7 @@ use super::located_event::LocatedEvent;
 use super::zeno::AccumulationDetector;
 use super::{Method, MethodError, Settings, Stepper, Stepping, Unstable};
 use crate::num::DoubleDouble;
-use crate::system::{Branch, ConstraintProjector, Form, MotionError, State, System};
+use crate::system::{Branch, ConstraintProjector, Form, Logarithms, MotionError, State, System};
 pub use occurrence::{Occurrence, OccurrenceKind};
 use singularity_record::SingularityRecord;
 
@@ -64,6 +64,8 @@ pub struct Propagator {
     watch: SingularityRecord,
     /// The branch of the velocities, if several belong to the momenta.
     branch: Option<Branch>,
+    /// The logarithms of the energy, if it has any.
+    logarithms: Option<Logarithms>,
     /// The number of changes of the enforced constraints among redundant ones.
     holdings: u64,
     ended: bool,
@@ -105,6 +107,7 @@ impl Propagator {
             accumulation: vec![AccumulationDetector::NONE; system.discontinuities().events.len()],
             watch: SingularityRecord::default(),
             branch: None,
+            logarithms: None,
             holdings: 0,
             ended: false,
             impulse: None,
@@ -259,6 +262,7 @@ impl Propagator {
         }
         self.watch_from_here();
         self.branch = self.system.branch(&self.state, &self.parameters);
+        self.logarithms = self.system.logarithms(&self.parameters);
         self.stepper.start(&self.state, &self.parameters)
     }
 

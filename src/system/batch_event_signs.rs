@@ -9,7 +9,7 @@ use super::System;
 use super::batch_series::BatchSeries;
 use super::jet::Jet;
 use super::program::{Op, Program};
-use super::sign_bound::{signs_kept, stay};
+use super::sign_bound::{last_terms_count, signs_kept, stay};
 use crate::num::{Analytic, Batch, DoubleDouble, Kernel, vectorized};
 
 /// The functions of one system.
@@ -29,8 +29,11 @@ enum Functions {
         jet: Box<Jet<Batch>>,
         /// What depends on the parameters of one lane alone is computed here.
         single: Box<Jet<f64>>,
-        inputs: usize,
+        /// Whether the functions read each of the numbers of the motion.
+        read: Vec<bool>,
         outputs: usize,
+        /// Their degree as polynomials in these and the time, if they are polynomials.
+        degree: Option<usize>,
     },
 }
 
@@ -54,16 +57,19 @@ impl System {
             matches!(program.ops[r as usize], Op::Select { .. } | Op::ParametricPower(..))
         };
         let smooth = program.switches() == 0 && program.guards.is_empty();
-        let auxiliary = program.inputs_read()[self.motion_len()..].contains(&true);
+        let mut read = program.inputs_read();
+        let auxiliary = read[self.motion_len()..].contains(&true);
         if !smooth || auxiliary || program.body.iter().any(alone) {
             return None;
         }
+        read.truncate(self.motion_len());
         let jet = Jet::new(Arc::clone(program), order);
         Some(Functions::Program {
             single: Box::new(Jet::like(&jet, 0)),
             jet: Box::new(jet),
-            inputs: self.motion_len(),
+            read,
             outputs: program.outputs(),
+            degree: program.degree(),
         })
     }
 }
@@ -85,17 +91,23 @@ impl BatchEventSigns {
         signs: &[Batch],
         (cut_off, time): (f64, Batch),
     ) -> Batch {
-        if let Functions::Program { jet, inputs, .. } = &mut self.functions {
-            for place in 0..*inputs {
-                for (k, &c) in series.coefficients(place).iter().enumerate() {
+        let mut is_whole = true;
+        if let Functions::Program { jet, read, degree, .. } = &mut self.functions {
+            let mut taken = 1;
+            for (place, _) in read.iter().enumerate().filter(|(_, read)| **read) {
+                let coefficients = series.coefficients(place);
+                for (k, &c) in coefficients.iter().enumerate() {
                     jet.set_input(place, k, c);
                 }
+                let last = coefficients.iter().rposition(|c| *c != Batch::ZERO);
+                taken = taken.max(last.unwrap_or(0));
             }
+            is_whole = degree.is_some_and(|degree| degree.saturating_mul(taken) <= series.order());
             if jet.advance_to(series.order(), series.start(), series.scale()).is_err() {
                 return Batch::ZERO;
             }
         }
-        vectorized(KeepSigns { functions: self, series, signs, cut_off, time })
+        vectorized(KeepSigns { functions: self, series, signs, cut_off, time, is_whole })
     }
 }
 
@@ -106,6 +118,8 @@ struct KeepSigns<'a> {
     signs: &'a [Batch],
     cut_off: f64,
     time: Batch,
+    /// Whether the functions are the polynomials that were found, with nothing cut off.
+    is_whole: bool,
 }
 
 impl Kernel for KeepSigns<'_> {
@@ -114,7 +128,7 @@ impl Kernel for KeepSigns<'_> {
 
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> Batch {
-        let KeepSigns { functions, series, signs, cut_off, time } = self;
+        let KeepSigns { functions, series, signs, cut_off, time, is_whole } = self;
         let mut all = Batch::ONE;
         for (event, &sign) in signs.iter().enumerate() {
             let (c, cut_off) = match &functions.functions {
@@ -123,6 +137,9 @@ impl Kernel for KeepSigns<'_> {
                 Functions::Program { jet, .. } => (jet.output_series(event), cut_off),
             };
             all = all * (c[0] * sign).is_above(Batch::ZERO) * signs_kept(c, cut_off, time);
+            if !is_whole {
+                all = all * last_terms_count(c);
+            }
         }
         if let Functions::Program { jet, outputs, .. } = &functions.functions {
             for argument in functions.count..*outputs {

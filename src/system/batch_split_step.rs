@@ -34,7 +34,12 @@ impl System {
             let part = |op: &Op| matches!(op, Op::Select { .. } | Op::ParametricPower(..));
             rates.program.ops.iter().any(part)
         };
-        if parts(&drift) || parts(&kick) || !self.is_undisturbed() || self.has_branches() {
+        if parts(&drift)
+            || parts(&kick)
+            || !self.is_undisturbed()
+            || self.has_branches()
+            || self.has_logarithms()
+        {
             return None;
         }
         let stages = StageList::new(&drift, &kick, composition)?;

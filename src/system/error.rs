@@ -69,6 +69,8 @@ pub enum MotionErrorKind {
     NoVelocitiesInStep,
     /// A step led to velocities on another branch for the same momenta.
     BranchLeft,
+    /// A step led to where a logarithm of the energy has no value.
+    LogarithmLeft,
     /// The equations of an implicit step were not solved. Contains the step size.
     NoConvergence(f64),
     /// The step became too small to advance the time. Contains the step size.
@@ -151,6 +153,9 @@ impl fmt::Display for MotionError {
             }
             MotionErrorKind::BranchLeft => {
                 write!(f, "the branch of the velocities ends after t = {time}")?;
+            }
+            MotionErrorKind::LogarithmLeft => {
+                write!(f, "the motion leaves the domain of ln after t = {time}")?;
             }
             MotionErrorKind::NoConvergence(step) => {
                 write!(f, "the implicit step of size {step:e} was not solved at t = {time}")?;
@@ -238,6 +243,10 @@ impl fmt::Display for MotionError {
             }
             MotionErrorKind::BranchLeft => {
                 ": a step led beyond the place where the momenta p = ∂L/∂q̇ turn back"
+            }
+            MotionErrorKind::LogarithmLeft => {
+                ": a step led to where the energy has no value, although the forces have one; try a smaller step or \
+                 tolerance, unless a collision lies there"
             }
             MotionErrorKind::NoConvergence(_) | MotionErrorKind::Swings => ": try a smaller step",
             MotionErrorKind::StepUnderflow(_) => ": a collision or another singularity lies ahead",

@@ -41,22 +41,11 @@ impl EventFunctions {
     }
 
     /// Expands the functions along a step whose series is known, about a time `x` after the series'
-    /// origin, in its unit. Returns how far beyond it, up to `whole`, the expansions represent the
-    /// functions up to a part `cut_off` of their size, or `None` if there are none.
-    pub fn expand(
-        &mut self,
-        series: &dyn StepSeries,
-        x: f64,
-        (cut_off, whole): (f64, f64),
-    ) -> Option<f64> {
-        let expansion = self.expansion(series.order());
-        if !expansion.about(series, x) {
-            return None;
-        }
-        if expansion.is_of_numbers() {
-            return Some(whole);
-        }
-        Some(expansion.reach(cut_off, whole)).filter(|reach| !reach.is_nan())
+    /// origin, in its unit. Returns how far beyond it, up to the second of `within`, the expansions represent the
+    /// functions up to a part of their size, the first of `within`, or `None` if there are none.
+    pub fn expand(&mut self, series: &dyn StepSeries, x: f64, within: (f64, f64)) -> Option<f64> {
+        let reach = self.expansion(series.order()).expand(series, x, within);
+        Some(reach).filter(|reach| !reach.is_nan())
     }
 
     /// Whether every function surely has this sign from the origin of a series up to a time after it, in its unit, on

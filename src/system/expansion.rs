@@ -11,9 +11,12 @@ use std::sync::Arc;
 use super::System;
 use super::jet::{Jet, Side};
 use super::program::Program;
-use super::sign_bound::{LAST, bound, keeps_sign, stays};
+use super::sign_bound::{LAST, bound, ends_in_zeros, keeps_sign, stays};
 use super::step_series::StepSeries;
 use crate::num::{DoubleDouble, math};
+
+/// The most times ahead from which functions are looked at whose series end in zeros.
+const MOST_LOOKS: u32 = 100;
 
 /// The series of the functions, up to one order.
 #[derive(Clone, Debug)]
@@ -27,6 +30,10 @@ pub(super) struct Expansion {
     read: Vec<bool>,
     /// The numbers of the motion that the functions are, if they are nothing else.
     numbers: Option<Vec<usize>>,
+    /// The degree of the functions as polynomials in the numbers of the motion and the time, if they are polynomials.
+    degree: Option<usize>,
+    /// The degree of the series that were taken in last.
+    taken_degree: usize,
     /// A series of the motion shifted to another time.
     moved: Vec<f64>,
     /// Such series of the numbers that the functions are.
@@ -47,6 +54,8 @@ impl Expansion {
             numbers: program.outputs_as_inputs().filter(|numbers| {
                 program.switches() == 0 && numbers.iter().all(|&i| i < system.motion_len())
             }),
+            degree: program.degree(),
+            taken_degree: 1,
             jet: Jet::new(program, order),
             functions,
             moved: vec![0.0; order + 1],
@@ -96,6 +105,7 @@ impl Expansion {
     /// Sets the coefficients of what the functions depend on.
     fn take_in(&mut self, series: &dyn StepSeries, x: f64) {
         let motion_len = self.system.motion_len();
+        self.taken_degree = 1;
         let mut next = self.system.driven_len();
         for place in 0..motion_len {
             self.take_in_one(place, (series.coefficients(place), series.unit(place)), x);
@@ -116,6 +126,8 @@ impl Expansion {
             return;
         }
         shift(coefficients, x, &mut self.moved);
+        let degree = self.moved.iter().rposition(|c| *c != 0.0).unwrap_or(0);
+        self.taken_degree = self.taken_degree.max(degree);
         for (k, &c) in self.moved.iter().enumerate() {
             self.jet.set_input(place, k, c * unit);
         }
@@ -143,6 +155,7 @@ impl Expansion {
         let arguments = self.functions..self.outputs;
         self.jet.switches() == 0
             && self.about(series, 0.0)
+            && !self.may_go_on()
             && signs.iter().enumerate().all(|(i, &sign)| keeps(self.function(i), sign))
             && arguments.into_iter().all(|i| stays(self.jet.output_series(i), time))
     }
@@ -165,9 +178,53 @@ impl Expansion {
         self.numbers.is_some()
     }
 
+    /// Whether the functions are the polynomials that were found, with nothing cut off.
+    fn is_whole(&self) -> bool {
+        self.degree.is_some_and(|degree| degree.saturating_mul(self.taken_degree) <= self.order())
+    }
+
+    /// Whether a series ends in zeros and its function may go on beyond: the next term of cos t⁴ at 0 comes eight orders
+    /// after the last.
+    fn may_go_on(&self) -> bool {
+        let functions = (0..self.functions).map(|i| self.function(i));
+        !self.is_whole() && functions.chain(self.switches()).any(ends_in_zeros)
+    }
+
+    /// Expands the functions about a time `x` after the origin of the motion's series, in its unit, and returns how far
+    /// the series represent them up to a part `cut_off` of them, looked at no farther than `whole`; a NaN if there are
+    /// none.
+    pub(super) fn expand(
+        &mut self,
+        series: &dyn StepSeries,
+        x: f64,
+        (cut_off, whole): (f64, f64),
+    ) -> f64 {
+        if !self.about(series, x) {
+            return f64::NAN;
+        }
+        if self.is_of_numbers() {
+            return whole;
+        }
+        let reach = self.reach(cut_off, whole);
+        if !self.may_go_on() {
+            return reach;
+        }
+        // the last terms show nothing here, but those about a time ahead do, if they also hold back to here
+        let mut ahead = if reach.is_finite() { 0.5 * reach } else { 1.0 };
+        for _ in 0..MOST_LOOKS {
+            let there =
+                if self.about(series, x + ahead) { self.reach(cut_off, whole) } else { 0.0 };
+            if there >= ahead {
+                break;
+            }
+            ahead *= if there > 0.0 { 0.5 * (there / ahead) } else { 0.1 };
+        }
+        if self.about(series, x) { reach.min(2.0 * ahead) } else { f64::NAN }
+    }
+
     /// How far the series represent their functions up to a part `cut_off` of them, in their unit,
     /// looked at no farther than `whole`.
-    pub(super) fn reach(&self, cut_off: f64, whole: f64) -> f64 {
+    fn reach(&self, cut_off: f64, whole: f64) -> f64 {
         // mostly they do so all the way, which takes no root to see
         let (functions, arguments) = (0..self.functions, self.functions..self.outputs);
         let series = |i: usize| self.jet.output_series(i);

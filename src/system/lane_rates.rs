@@ -43,7 +43,7 @@ impl Rates {
     pub fn of_orbits(&self) -> Option<OrbitRates> {
         let parts = |op: &Op| matches!(op, Op::Select { .. } | Op::ParametricPower(..));
         let system = self.system();
-        let alike = system.is_undisturbed() && !system.has_branches();
+        let alike = system.is_undisturbed() && !system.has_branches() && !system.has_logarithms();
         let smooth = !self.program.ops.iter().any(parts);
         self.in_lanes().filter(|_| alike && smooth)
     }

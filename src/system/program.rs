@@ -180,6 +180,30 @@ impl Program {
         self.inputs.iter().map(|&r| read[r as usize]).collect()
     }
 
+    /// The degree of the outputs and switches as polynomials in the inputs and the time, if they are polynomials.
+    pub(super) fn degree(&self) -> Option<usize> {
+        let mut degrees: Vec<Option<usize>> = Vec::with_capacity(self.ops.len());
+        for (op, &fixed) in self.ops.iter().zip(&self.fixed) {
+            let of = |register: Register| degrees[register as usize];
+            let degree = match *op {
+                _ if fixed => Some(0),
+                Op::Time | Op::Input(_) => Some(1),
+                Op::Linear { first, count, .. } => {
+                    let terms = &self.terms[first as usize..(first + count) as usize];
+                    terms.iter().try_fold(0, |most, term| Some(of(term.register)?.max(most)))
+                }
+                Op::Scale(_, a) => of(a),
+                Op::Multiply(a, b) => of(a).zip(of(b)).map(|(a, b)| a.saturating_add(b)),
+                Op::Square(a) => of(a).map(|a| a.saturating_mul(2)),
+                Op::Divide(a, b) if self.fixed[b as usize] => of(a),
+                _ => None,
+            };
+            degrees.push(degree);
+        }
+        let all = self.outputs.iter().chain(&self.switches);
+        all.copied().try_fold(0, |most, r| Some(degrees[r as usize]?.max(most)))
+    }
+
     /// The input that each output is, if all of them are inputs.
     pub(super) fn outputs_as_inputs(&self) -> Option<Vec<usize>> {
         let input = |output: &Register| self.inputs.iter().position(|input| input == output);

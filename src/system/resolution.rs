@@ -79,10 +79,10 @@ impl Resolution {
         if turned {
             return Attempt::OtherSides;
         }
-        if !built || !self.expansion.about(&self.series, 0.0) {
+        if !built {
             return Attempt::NotFinite;
         }
-        let length = self.expansion.reach(CUT_OFF, f64::INFINITY);
+        let length = self.expansion.expand(&self.series, 0.0, (CUT_OFF, f64::INFINITY));
         if length.is_nan() {
             return Attempt::NotFinite;
         }

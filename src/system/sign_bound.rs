@@ -40,6 +40,18 @@ pub(super) fn keeps_sign(c: &[f64], cut_off: f64, time: f64) -> bool {
     represented && 0.5 * against < (1.0 - MARGIN) * first && LEAST * all < first
 }
 
+/// Whether the last terms of a series vanish, by which it is judged how far it represents its function.
+pub(super) fn ends_in_zeros(c: &[f64]) -> bool {
+    c[c.len() - LAST..].iter().all(|x| *x == 0.0)
+}
+
+/// The opposite of [`ends_in_zeros`] in each lane: one or zero. To be inlined into a kernel.
+#[inline(always)]
+pub(super) fn last_terms_count(c: &[Batch]) -> Batch {
+    let last = c[c.len() - LAST..].iter();
+    last.fold(Batch::ZERO, |sum, x| sum + x.abs()).is_above(Batch::ZERO)
+}
+
 /// How far the argument of an exponential may change.
 #[inline(always)]
 pub(super) fn bound(argument: f64) -> f64 {

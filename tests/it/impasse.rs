@@ -532,3 +532,49 @@ fn a_collision_that_others_step_over_names_none_of_them() {
         assert!(message.contains("collision") && !message.contains("passes it"), "{message}");
     }
 }
+
+/// The force −1/x goes on where ln x has no value: no method ends a step there, and none is called to pass.
+#[test]
+fn a_motion_ends_where_a_logarithm_of_its_energy_does() {
+    let text = "[coordinates]\nx = { initial = 1.0, velocity = -0.5 }\n[lagrangian]\nL = \"1/2*x'^2 - ln(x)\"";
+    let steps = [("rk4", Some(0.01)), ("gauss4", Some(0.01)), ("gauss6", Some(0.01))];
+    for (method, step) in steps.into_iter().chain([("dop853", None), ("taylor", None)]) {
+        let mut fall = by(method, step, text);
+        assert_ne!(fall.advance(5.0, PLENTY), AdvanceOutcome::Arrived, "{method}");
+        let Status::Failed(fault) = fall.status() else { panic!("{method}: {:?}", fall.status()) };
+        let message = fault.message.clone();
+        assert!(!message.contains("passes it"), "{method}: {message}");
+        assert!(value(&fall, "x") > 0.0, "{method}: {message}");
+        // ½v² = ⅛ − ln x: it falls in after ∫ dx/√(¼ − 2 ln x) = 0.876
+        assert!((fall.time() - 0.876).abs() < 0.02, "{method}: {} {message}", fall.time());
+        if step.is_some() {
+            assert!(message.contains("leaves the domain of ln"), "{method}: {message}");
+        }
+    }
+}
+
+/// A logarithm that keeps its value stops nothing: the logarithmic potential of a galaxy.
+#[test]
+fn a_logarithm_of_what_stays_positive_stops_nothing() {
+    let text = "[coordinates]\nx = { initial = 1.0 }\ny = { initial = 0.0, velocity = 0.4 }\n[lagrangian]\n\
+                L = \"1/2*(x'^2 + y'^2) - 1/2*ln(0.1 + x^2 + y^2)\"";
+    for (method, step) in
+        [("rk4", Some(0.01)), ("gauss4", Some(0.01)), ("leapfrog", Some(0.001)), ("dop853", None)]
+    {
+        let mut orbit = by(method, step, text);
+        run(&mut orbit, 20.0);
+        assert!(value(&orbit, "x").abs() < 1.1, "{method}");
+    }
+}
+
+/// Falls into a centre end for every method, and none is called to pass them.
+#[test]
+fn no_method_is_named_where_all_collide() {
+    for potential in ["-1/x^2", "2*ln(x)", "-1/sqrt(x)", "-1/abs(x)"] {
+        let text = format!(
+            "[coordinates]\nx = {{ initial = 1.0, velocity = -1.0 }}\n[lagrangian]\nL = \"1/2*x'^2 - ({potential})\""
+        );
+        let message = fault(by("dop853", None, &text), 9.0);
+        assert!(!message.contains("passes it"), "{potential}: {message}");
+    }
+}

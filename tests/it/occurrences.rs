@@ -651,3 +651,36 @@ fn an_impulse_may_stop_a_motion_whose_momentum_is_no_polynomial() {
         }
     }
 }
+
+/// Near t = 0 the terms of cos t⁴ are eight orders apart, so that a series may end in nothing but zeros though the function
+/// goes on.
+#[test]
+fn events_whose_series_have_gaps_are_all_found() {
+    use std::f64::consts::PI;
+    let half_turns = |power: i32, end: f64| -> Vec<f64> {
+        let last = (end.powi(power) / PI - 0.5).floor() as i32;
+        (0..=last).map(|n| ((f64::from(n) + 0.5) * PI).powf(1.0 / f64::from(power))).collect()
+    };
+    let alone = [
+        ("t^40 - 2", vec![2.0_f64.powf(1.0 / 40.0)]),
+        ("x^30 - 3", vec![3.0_f64.powf(1.0 / 30.0)]),
+        ("exp(-t^12) - 1/2", vec![2.0_f64.ln().powf(1.0 / 12.0)]),
+    ];
+    let turning = [("cos(t^3)", 3), ("cos(t^4)", 4), ("cos(x^8)", 8)];
+    for end in [1.5, 3.0, 4.5] {
+        let turning = turning.iter().map(|&(when, power)| (when, half_turns(power, end)));
+        for (when, expected) in turning.chain(alone.clone()) {
+            // cos(x⁸) swings some 20,000 times up to 3, and half a million up to 4.5
+            if expected.len() > 1000 {
+                continue;
+            }
+            let mut free = file(&format!("{FREE}[[events]]\nname = 'zero'\nwhen = \"{when}\"\n"));
+            run(&mut free, end);
+            let found = times(&free, "zero");
+            assert_eq!(found.len(), expected.len(), "{when} to {end}: {found:?}");
+            for (found, expected) in found.iter().zip(&expected) {
+                assert!((found - expected).abs() < 1e-14 * expected, "{when}: {found} {expected}");
+            }
+        }
+    }
+}

@@ -92,6 +92,7 @@ impl Propagator {
             && self.whole.constraints() == 0
             && self.crossings.is_none()
             && self.branch.is_none()
+            && self.logarithms.is_none()
             && self.system.attitude_place().is_none()
             && self.impulse_schedule.is_empty()
     }
@@ -143,6 +144,7 @@ impl Propagator {
         }
         self.steps += 1;
         self.check_branch()?;
+        self.check_logarithms()?;
         if self.projector.is_some() || self.system.attitude_place().is_some() {
             self.before.copy_from(self.stepper.state());
             if let Some(projector) = &mut self.projector {
@@ -207,6 +209,17 @@ impl Propagator {
         let (begin, _) = self.stepper.interval();
         let state = self.stepper.state();
         Err(self.system.fault(MotionErrorKind::BranchLeft, begin, &state.values))
+    }
+
+    /// Returns an error if a step has led to where a logarithm of the energy has no value.
+    fn check_logarithms(&mut self) -> Result<(), MotionError> {
+        let Some(logarithms) = &mut self.logarithms else { return Ok(()) };
+        if logarithms.have_values(self.stepper.state()) {
+            return Ok(());
+        }
+        let (begin, _) = self.stepper.interval();
+        let state = self.stepper.state();
+        Err(self.system.fault(MotionErrorKind::LogarithmLeft, begin, &state.values))
     }
 
     /// Enforces those of redundant constraints that are most independent.

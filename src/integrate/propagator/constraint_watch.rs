@@ -225,10 +225,12 @@ impl Propagator {
         for name in ["taylor", "dop853"] {
             let method = method_named(name).filter(|method| method.name != self.method.name);
             let Some(method) = method else { continue };
-            // a state nearby may be so near that no step can be told apart there
-            for (from, until) in self.around(time) {
-                if self.lead_past(method, settings, &from, until).is_some() {
-                    return Some(Passage { method: method.name, step: None });
+            // from the beginning first: one that begins nearby may end before it comes to what stops the motion
+            for (from, until) in self.around(time).into_iter().rev() {
+                match self.trial(method, settings, &from, until) {
+                    Trial::Passed(_) => return Some(Passage { method: method.name, step: None }),
+                    Trial::Stopped => break,
+                    Trial::Unfinished => {}
                 }
             }
         }
@@ -243,9 +245,9 @@ impl Propagator {
             let mut step = math::powi(10.0, math::log10(steps).floor() as i32);
             for _ in 0..STEPS_TRIED {
                 let settings = |step| Settings { step: Some(step), tolerance: None };
-                let coarse = self.lead_past(method, settings(step), &from, until);
-                let fine = self.lead_past(method, settings(0.5 * step), &from, until);
-                if let (Some(coarse), Some(fine)) = (coarse, fine)
+                let coarse = self.trial(method, settings(step), &from, until);
+                let fine = self.trial(method, settings(0.5 * step), &from, until);
+                if let (Trial::Passed(coarse), Trial::Passed(fine)) = (coarse, fine)
                     && agree(&from, &coarse, &fine, self.system.degrees())
                 {
                     return Some(Passage { method: method.name, step: Some(step) });
@@ -257,30 +259,56 @@ impl Propagator {
     }
 
     /// Integrates the motion from a state to a time by a method.
-    fn lead_past(
+    fn trial(
         &mut self,
         method: &'static crate::integrate::Method,
         settings: Settings,
         from: &State,
         until: f64,
-    ) -> Option<State> {
+    ) -> Trial {
+        self.integrated(method, settings, from, until).unwrap_or(Trial::Stopped)
+    }
+
+    /// The same; `None` where it stops.
+    fn integrated(
+        &mut self,
+        method: &'static crate::integrate::Method,
+        settings: Settings,
+        from: &State,
+        until: f64,
+    ) -> Option<Trial> {
         let mut stepper = (method.make)(&self.system, &settings).ok()?;
         stepper.start(from, &self.parameters).ok()?;
         let mut state = from.clone();
         for _ in 0..MOST_STEPS {
             if stepper.time() >= until {
                 stepper.at(until, &mut state).ok()?;
-                return Some(state);
+                return Some(Trial::Passed(state));
             }
             stepper.step(until).ok()?;
             state.copy_from(stepper.state());
+            if let Some(logarithms) = &mut self.logarithms
+                && !logarithms.have_values(&state)
+            {
+                return None;
+            }
             if let Some(projector) = &mut self.projector {
                 projector.project(&mut state).ok()?;
                 stepper.replace_state(&state);
             }
         }
-        None
+        Some(Trial::Unfinished)
     }
+}
+
+/// How an integration by another method went.
+enum Trial {
+    /// It reached this state beyond the place.
+    Passed(State),
+    /// It stopped too.
+    Stopped,
+    /// It took too many steps to find out.
+    Unfinished,
 }
 
 /// Whether two integrations from a state end at the same point. Numbers are compared relative to
