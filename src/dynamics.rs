@@ -76,7 +76,7 @@ pub use lyapunov::{Chaos, Lyapunov, lyapunov};
 pub use method_step::MethodStep;
 pub use newton::Fixed;
 pub use orbit::{Orbit, nearest_orbit, periodic_orbit};
-pub use orbit_stability::{NOTICED_ROUNDING, OrbitStability, is_near_one};
+pub use orbit_stability::{NOTICED_ROUNDING, OrbitStability};
 pub use phase_space::{PhaseSpace, VectorField};
 pub use principle::{Hamiltonian, abbreviated_action, action_at_energy};
 pub use return_growth::{ReturnGrowth, growth_after, return_growth};

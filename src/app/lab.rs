@@ -176,7 +176,11 @@ impl Lab {
             physics: self.loaded.physics(),
             time: snapshot.time,
             carried: self.answers.known_until().min(snapshot.time),
-            changed: snapshot.recorded.changed,
+            changed: snapshot
+                .recorded
+                .changed
+                .as_deref()
+                .map(|last| (last.what.as_str(), &last.state)),
             parameters: &snapshot.parameters,
             initial: &snapshot.initial,
             values: &snapshot.values,

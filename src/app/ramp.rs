@@ -84,7 +84,7 @@ impl App {
             Err(why) => return self.notify(format!("The text cannot be changed: {why}.")),
         }
         if let Some(lab) = &mut self.lab {
-            lab.hold_for_ramp();
+            lab.hold_for_ramp(&name);
             lab.show_action_variable();
         }
         let sentence = format!(
@@ -103,11 +103,11 @@ impl Lab {
 
     /// Lets the motion continue from what is seen, once the law with the ramp is there: the ramp begins at that very time, so
     /// that nothing jumps.
-    fn hold_for_ramp(&mut self) {
+    fn hold_for_ramp(&mut self, name: &str) {
         let Some(seen) = self.seen() else { return };
         let Loaded { model, system, .. } = &self.loaded;
         let checkpoint = Checkpoint::of(model, system, seen).with_past(system, seen);
-        let checkpoint = checkpoint.with_another_law(seen.time);
+        let checkpoint = checkpoint.with_another_law(name);
         self.held.get_or_insert(checkpoint);
     }
 

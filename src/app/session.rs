@@ -133,7 +133,8 @@ impl App {
         if let (Some(saved), None, Some(seen)) = (&mut saved, waits, old.seen()) {
             // The recorded trail continues too.
             let checkpoint = std::mem::take(&mut saved.moment);
-            saved.moment = checkpoint.with_past(&old.loaded.system, seen);
+            let checkpoint = checkpoint.with_past(&old.loaded.system, seen);
+            saved.moment = checkpoint.with_another_law("the text");
         }
         let mut lab = Lab::new(loaded);
         // A history refers to values, channels, views and frames by index.

@@ -11,7 +11,7 @@ use super::interrupt::Interrupt;
 use super::study::{self, Study, StudyArguments, shown, table};
 use crate::dynamics::{
     Along, Bifurcation, Family, Fixed, Orbit, OrbitStability, Removed, drive_period, driven_family,
-    driven_orbit, family, is_near_one, periodic_orbit,
+    driven_orbit, family, periodic_orbit,
 };
 use crate::printable;
 
@@ -277,7 +277,7 @@ fn text(study: &Study, orbit: &Orbit) -> String {
 fn multiplier_rows(orbit: &Orbit) -> Vec<(String, String)> {
     let off_one = |z: &[f64; 2]| crate::num::math::hypot(z[0] - 1.0, z[1]);
     let (ones, others): (Vec<&[f64; 2]>, Vec<&[f64; 2]>) =
-        orbit.multipliers.iter().partition(|z| is_near_one(z));
+        orbit.multipliers.iter().partition(|z| orbit.is_one(**z));
     let mut rows = Vec::new();
     let (small, others): (Vec<&[f64; 2]>, Vec<&[f64; 2]>) =
         others.into_iter().partition(|z| orbit.nearly_vanishes(**z));

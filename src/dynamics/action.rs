@@ -7,6 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use super::error::DynamicsError;
 use super::lobatto::Lobatto;
 
+use crate::cancel::Cancel;
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{Equations, body_constants};
 use crate::model::Model;
@@ -23,6 +24,7 @@ pub struct Lagrangian {
     /// Whether it depends on the time.
     pub(super) timed: bool,
     start: f64,
+    cancel: Cancel,
 }
 
 /// A path: q and q̇ at a time from its beginning.
@@ -113,7 +115,25 @@ impl Lagrangian {
             second: program(&curvatures)?,
             timed,
             start: model.run.start,
+            cancel: Cancel::new(),
         })
+    }
+
+    /// The same for paths that begin at this time, and not at the start of the file.
+    #[must_use]
+    pub fn beginning_at(self, start: f64) -> Lagrangian {
+        Lagrangian { start, ..self }
+    }
+
+    /// The same for searches that end soon after this token is set.
+    #[must_use]
+    pub fn with_cancel(self, cancel: Cancel) -> Lagrangian {
+        Lagrangian { cancel, ..self }
+    }
+
+    /// Whether searches are to end.
+    pub fn is_cancelled(&self) -> bool {
+        self.cancel.is_cancelled()
     }
 
     /// The number of coordinates.
@@ -212,7 +232,8 @@ impl Lagrangian {
         Err(unsuited("the integral of L along this path does not settle: the path is not smooth"))
     }
 
-    /// The action of a path given at nodes, column by column, with its derivatives.
+    /// The action of a path given at nodes, column by column, with its derivatives; `None` where it has none, or once it is
+    /// cancelled.
     pub(super) fn expand(
         &mut self,
         rule: &Lobatto,
@@ -228,6 +249,9 @@ impl Lagrangian {
         let (mut action, mut inertia) = (0.0, 0.0);
         let mut state = vec![0.0; 2 * n];
         for k in 0..=last {
+            if self.is_cancelled() {
+                return None;
+            }
             let time = 0.5 * duration * (1.0 + rule.nodes[k]);
             for a in 0..n {
                 state[a] = path[(a, k)];

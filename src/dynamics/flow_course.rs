@@ -28,6 +28,10 @@ pub struct FlowMoment {
     pub determinant_lost: bool,
     /// The largest entry of |M𝕁Mᵀ − 𝕁|; `None` if the variables are not canonical.
     pub symplectic_residual: Option<f64>,
+    /// What rounding of M in so many steps leaves of that entry.
+    pub symplectic_rounding: Option<f64>,
+    /// The same of whichever entry it leaves the most of.
+    pub rounding_floor: f64,
     /// Whether it is no more than what rounding leaves of large entries of M.
     pub residual_lost: bool,
 }
@@ -35,8 +39,9 @@ pub struct FlowMoment {
 /// What rounding may leave of det M and of an entry of 𝕁 that is no longer small beside 1.
 const NOT_SMALL: f64 = 1e-3;
 
-/// How many times its estimate rounding may be.
+/// How many times its estimate rounding may be: that of M alone, and that of M in so many steps.
 const TIMES: f64 = 64.0;
+const TIMES_IN_STEPS: f64 = 16.0;
 
 /// Follows a motion from a state of the space through increasing times, and `look`s on after each step. A motion that cannot
 /// continue has the moments up to there, and the error.
@@ -71,7 +76,8 @@ pub fn flow_course(
             logarithm += divergence.along(space, &mut carrier, [done, time])?;
             done = time;
             let (_, matrix) = carrier.at(time)?;
-            moments.push(FlowMoment::of(space, time, matrix, math::exp(logarithm)));
+            let steps = carrier.steps();
+            moments.push(FlowMoment::of(space, (time, steps), matrix, math::exp(logarithm)));
         }
         if !left.is_empty() && done < end {
             logarithm += divergence.along(space, &mut carrier, [done, end])?;
@@ -84,9 +90,15 @@ pub fn flow_course(
 }
 
 impl FlowMoment {
+    /// Whether ‖M𝕁Mᵀ − 𝕁‖ is no more than what rounding leaves of it: M is symplectic as far as can be known.
+    pub fn is_at_rounding(&self) -> bool {
+        let known = self.symplectic_residual.zip(self.symplectic_rounding);
+        known.is_some_and(|(residual, rounding)| residual <= TIMES_IN_STEPS * rounding)
+    }
+
     fn of(
         space: &PhaseSpace,
-        time: f64,
+        (time, steps): (f64, u64),
         matrix: DMatrix<f64>,
         determinant_expected: f64,
     ) -> FlowMoment {
@@ -106,14 +118,45 @@ impl FlowMoment {
         };
         let bound: f64 =
             columns.iter().product::<f64>() * (0..matrix.nrows()).map(scaled).product::<f64>();
+        // errors of different steps are independent, so that their squares add up
+        let in_steps = (steps as f64).max(1.0).sqrt();
+        // |M| |𝕁|
+        let n = matrix.ncols();
+        let swapped = DMatrix::from_fn(n, n, |i, j| matrix[(i, (j + n / 2) % n)].abs());
         FlowMoment {
             time,
             determinant,
             determinant_expected,
             determinant_lost: f64::EPSILON * bound >= NOT_SMALL * determinant_expected.abs(),
             symplectic_residual: residual.map(|(largest, _)| largest),
+            symplectic_rounding: residual.map(|(_, rounding)| rounding * in_steps),
+            rounding_floor: (swapped * matrix.abs().transpose()).amax() * f64::EPSILON * in_steps,
             residual_lost: residual.is_some_and(lost),
             matrix,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_map_is_symplectic_up_to_sixteen_times_its_rounding() {
+        let moment = |residual: f64| FlowMoment {
+            time: 1.0,
+            matrix: DMatrix::identity(2, 2),
+            determinant: 1.0,
+            determinant_expected: 1.0,
+            determinant_lost: false,
+            symplectic_residual: Some(residual),
+            symplectic_rounding: Some(1e-15),
+            rounding_floor: 1e-15,
+            residual_lost: false,
+        };
+        assert!(moment(0.0).is_at_rounding() && moment(15.9e-15).is_at_rounding());
+        assert!(!moment(16.1e-15).is_at_rounding() && !moment(f64::NAN).is_at_rounding());
+        let unknown = FlowMoment { symplectic_residual: None, ..moment(0.0) };
+        assert!(!unknown.is_at_rounding());
     }
 }

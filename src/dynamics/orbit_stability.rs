@@ -8,7 +8,7 @@ use crate::num::math;
 /// An error that rounding leaves of the matrix of the multipliers is mentioned if it may show in their digits.
 pub const NOTICED_ROUNDING: f64 = 1e-8;
 
-/// A multiplier up to this far from 1 is listed as 1: of a double one half of the digits are lost.
+/// A multiplier farther from 1 is none, whatever rounding leaves of it.
 const NEAR_ONE: f64 = 1e-5;
 
 /// (μ − 1)² of a double multiplier 1 is rounding of the matrix, up to this many times.
@@ -40,9 +40,9 @@ impl OrbitStability {
     }
 }
 
-/// Whether a multiplier is 1 but for half of the digits.
-pub fn is_near_one([re, im]: &[f64; 2]) -> bool {
-    math::hypot(re - 1.0, *im) <= NEAR_ONE
+/// Whether a multiplier is 1 as far as rounding of the matrix lets it be known: of a double one half of the digits are lost.
+fn is_one([re, im]: [f64; 2], rounding: f64) -> bool {
+    math::hypot(re - 1.0, im) <= (TIMES * rounding).sqrt().min(NEAR_ONE)
 }
 
 /// Whether two multipliers of product 1 lie on the unit circle, by the trace of their matrix and its error; `None` where
@@ -54,9 +54,8 @@ fn is_elliptic(trace: f64, error: f64) -> Option<bool> {
 
 impl Orbit {
     /// Whether a multiplier is 1 as far as rounding of the matrix lets it be known.
-    fn is_one(&self, [re, im]: [f64; 2]) -> bool {
-        let rounding = self.rounding.unwrap_or(0.0).max(f64::EPSILON);
-        math::hypot(re - 1.0, im) <= (TIMES * rounding).sqrt().min(NEAR_ONE)
+    pub fn is_one(&self, multiplier: [f64; 2]) -> bool {
+        is_one(multiplier, self.rounding.unwrap_or(0.0).max(f64::EPSILON))
     }
 
     /// Whether no multiplier lies outside the unit circle; `None` where that is within the error of what is known of them.
@@ -91,6 +90,20 @@ impl Orbit {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// √(100 ε) of what rounding leaves of the matrix, and never more than 1e-5.
+    #[test]
+    fn a_multiplier_is_one_to_half_of_the_digits_of_its_matrix() {
+        for (rounding, within, beyond) in
+            [(1e-14, 0.99e-6, 1.01e-6), (1e-12, 0.99e-5, 1.01e-5), (1e-8, 0.99e-5, 1.01e-5)]
+        {
+            for (re, im) in [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.6, -0.8)] {
+                let at = |off: f64| [1.0 + off * re, off * im];
+                assert!(is_one(at(within), rounding), "{rounding} {re} {im}");
+                assert!(!is_one(at(beyond), rounding), "{rounding} {re} {im}");
+            }
+        }
+    }
 
     #[test]
     fn a_trace_of_two_within_its_error_leaves_open_whether_an_orbit_is_stable() {

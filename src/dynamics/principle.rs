@@ -132,6 +132,12 @@ impl Hamiltonian {
         Ok(Hamiltonian { degrees: model.coordinates.len(), value, start: model.run.start })
     }
 
+    /// The same for paths that begin at this time, and not at the start of the file.
+    #[must_use]
+    pub fn beginning_at(self, start: f64) -> Hamiltonian {
+        Hamiltonian { start, ..self }
+    }
+
     /// ∫ (Σ p q̇ − H) dt along a path of a duration in phase space, which gives q, q̇ and then p at a time: stationary on a
     /// motion for variations of q with fixed ends and of p alike.
     ///

@@ -26,6 +26,9 @@ const STEPS: usize = 80;
 /// particle.
 const ZERO: f64 = 1e-8;
 
+/// What is said of a search that is not wanted any more.
+const CANCELLED: &str = "the search was cancelled";
+
 /// What a stationary path is among its neighbours.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum PathKind {
@@ -71,7 +74,7 @@ fn no_path(why: &str) -> DynamicsError {
 /// Finds the stationary path near a guess, whose ends must be right.
 ///
 /// # Errors
-/// Returns an error if Newton's method comes to none, or its path is not resolved.
+/// Returns an error if Newton's method comes to none, its path is not resolved, or the search is cancelled.
 pub fn stationary_path(
     lagrangian: &mut Lagrangian,
     guess: &dyn Fn(f64) -> Vec<f64>,
@@ -80,6 +83,9 @@ pub fn stationary_path(
     let n = lagrangian.degrees();
     let mut before: Option<StationaryPath> = None;
     for degree in DEGREES {
+        if lagrangian.is_cancelled() {
+            return Err(no_path(CANCELLED));
+        }
         let rule = Lobatto::new(degree);
         let times: Vec<f64> = rule.nodes.iter().map(|x| 0.5 * duration * (1.0 + x)).collect();
         let at = |time: f64| match &before {
@@ -94,6 +100,9 @@ pub fn stationary_path(
             (0..n).for_each(|a| first[(a, k)] = end[a]);
         }
         let Some((values, expansion)) = newton(lagrangian, &rule, first.clone(), duration) else {
+            if lagrangian.is_cancelled() {
+                return Err(no_path(CANCELLED));
+            }
             if before.is_some() || degree < DEGREES[2] {
                 // a coarse polynomial may have no stationary point where a finer one has
                 continue;
@@ -150,6 +159,9 @@ pub fn nearest_stationary_path(
     let mut nearest: Option<(f64, StationaryPath)> = None;
     let mut failed = None;
     for multiple in MULTIPLES {
+        if lagrangian.is_cancelled() {
+            return Err(no_path(CANCELLED));
+        }
         let begin = |time: f64| -> Vec<f64> {
             if time <= 0.0 || time >= duration {
                 return guess(time);

@@ -28,8 +28,10 @@ const PARTS: [usize; 8] = [4, 8, 16, 32, 64, 128, 256, 512];
 const SETTLED: f64 = 1e-13;
 const SIZE_SETTLED: f64 = 1e-3;
 
-/// The same of how it changes with the ends, as a part of what is added up.
+/// The same of how it changes with the ends, as a part of what is added up; more parts are taken until it changes by no more
+/// than rounding, or no less than before.
 const SLOPES_SETTLED: f64 = 1e-9;
+const SLOPES_ROUNDING: f64 = 1e-14;
 
 /// The least number of parts where the paths beside the motion have corners: roots of what may vanish.
 const WITH_CORNERS: usize = 16;
@@ -55,6 +57,8 @@ pub struct EndSlope {
     pub by_time: f64,
     /// The sizes of what is added up to these two, in their units.
     pub sizes: [f64; 2],
+    /// How far the integrals of these two are known: by how much fewer parts of the path changed them, and rounding.
+    pub errors: [f64; 2],
     /// p of the coordinate.
     pub momentum: f64,
     /// H.
@@ -86,17 +90,27 @@ pub fn varied_action(
     let ends = ends.zip(slopes).map(|(ends, slopes)| {
         [0, 1].map(|end| {
             let time = [0.0, duration][end];
-            let [(by_position, of_position), (by_time, of_time)] = slopes[end];
+            let [by_position, by_time] = slopes[end];
             EndSlope {
-                by_position,
-                by_time,
-                sizes: [of_position, of_time],
+                by_position: by_position.value,
+                by_time: by_time.value,
+                sizes: [by_position.size, by_time.size],
+                errors: [by_position.error, by_time.error],
                 momentum: lagrangian.momenta(time, &ends[end])[coordinate],
                 energy: lagrangian.energy(time, &ends[end]),
             }
         })
     });
     Ok(VariedAction { action: followed.integral, curves, ends })
+}
+
+/// An integral along the path.
+#[derive(Clone, Copy)]
+struct EndIntegral {
+    value: f64,
+    /// The sum of the absolute values of its terms.
+    size: f64,
+    error: f64,
 }
 
 /// How the action changes with the ends, once more parts of the path change it no more; the action itself may settle before.
@@ -106,7 +120,7 @@ fn settled_slopes(
     motion: Motion<'_>,
     coordinate: usize,
     lagrangian: &mut Lagrangian,
-) -> Option<[[(f64, f64); 2]; 2]> {
+) -> Option<[[EndIntegral; 2]; 2]> {
     let known = followed.nodes.len() / NODES;
     let mut sampled = |parts: usize| {
         Some(
@@ -116,16 +130,27 @@ fn settled_slopes(
         )
     };
     let mut before = sampled(known / 2)?;
+    let (mut settled, mut change_before) = (None, f64::INFINITY);
     for parts in PARTS.into_iter().filter(|&parts| parts >= known) {
-        let slopes = sampled(parts)?;
-        let same =
-            |(a, _): &(f64, f64), (b, size): &(f64, f64)| (a - b).abs() <= SLOPES_SETTLED * size;
-        if before.iter().flatten().zip(slopes.iter().flatten()).all(|(a, b)| same(a, b)) {
-            return Some(slopes);
+        let mut slopes = sampled(parts)?;
+        let mut change = 0.0_f64;
+        let pairs = slopes.iter_mut().flatten().zip(before.iter().flatten());
+        for (now, before) in pairs.filter(|(now, _)| now.size > 0.0) {
+            let changed = (now.value - before.value).abs();
+            now.error = changed + SLOPES_ROUNDING * now.size;
+            // a size that is not finite never settles
+            let part = changed / now.size;
+            change = if part > change || part.is_nan() { part } else { change };
         }
-        before = slopes;
+        if change <= SLOPES_SETTLED && change < change_before {
+            settled = Some(slopes);
+        }
+        if settled.is_some() && (change <= SLOPES_ROUNDING || change >= 0.5 * change_before) {
+            return settled;
+        }
+        (before, change_before) = (slopes, change);
     }
-    None
+    settled
 }
 
 /// The abbreviated action ∫ Σ p dq of a motion, and of the same ways as of [`varied_action`], each gone with the energy of the
@@ -336,8 +361,8 @@ impl SampledMotion {
     /// ∂S/∂q of a coordinate and ∂S/∂t at both ends, on paths that are moved by ever less towards the other end, and the sizes
     /// of what each adds up: with a share s that is 1 at the end and 0 at the other, ∫ (s ∂L/∂q + ṡ p) dt, and
     /// ∫ (s ∂L/∂t − ṡ H) dt of times t + ε s.
-    fn end_slopes(&self, coordinate: usize, lagrangian: &mut Lagrangian) -> [[(f64, f64); 2]; 2] {
-        let mut slopes = [[(0.0, 0.0); 2]; 2];
+    fn end_slopes(&self, coordinate: usize, lagrangian: &mut Lagrangian) -> [[EndIntegral; 2]; 2] {
+        let mut slopes = [[EndIntegral { value: 0.0, size: 0.0, error: 0.0 }; 2]; 2];
         for (&(time, weight), state) in self.nodes.iter().zip(&self.path) {
             let by_position = [
                 lagrangian.force(time, state, coordinate),
@@ -350,8 +375,8 @@ impl SampledMotion {
                     slopes[end].iter_mut().zip([by_position, by_time])
                 {
                     let terms = [share * by_share, rate / self.duration * by_rate];
-                    slope.0 += weight * (terms[0] + terms[1]);
-                    slope.1 += weight * (terms[0].abs() + terms[1].abs());
+                    slope.value += weight * (terms[0] + terms[1]);
+                    slope.size += weight * (terms[0].abs() + terms[1].abs());
                 }
             }
         }

@@ -8,10 +8,12 @@
 //! the old one, and a value set by the user is preserved.
 
 use std::fmt;
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use super::gauges::Gauges;
+use super::last_change::SavedChange;
 use super::named::{Named, given, named};
 use super::reference::Reference;
 use super::{Experiment, SavedCompanion, Setup, Snapshot, Status, Trail};
@@ -58,8 +60,8 @@ pub struct Checkpoint {
 #[derive(Clone, PartialEq)]
 pub struct Past {
     names: Vec<String>,
-    /// When a parameter was changed last.
-    changed: Option<f64>,
+    /// What of the law is another one from the checkpoint on, if anything is.
+    changed: Option<String>,
     trail: Trail,
 }
 
@@ -100,6 +102,9 @@ pub struct MotionState {
     pub steps: u64,
     /// The references of the gauges.
     pub references: Vec<Reference>,
+    /// Where the law was changed last, if it was since the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub changed: Option<SavedChange>,
 }
 
 impl Checkpoint {
@@ -137,15 +142,15 @@ impl Checkpoint {
     #[must_use]
     pub fn with_past(self, system: &System, snapshot: &Snapshot) -> Checkpoint {
         let names = system.channels().iter().map(|channel| channel.name.clone()).collect();
-        let (changed, trail) = (snapshot.recorded.changed, snapshot.trail.clone());
-        Checkpoint { past: Some(Past { names, changed, trail }), ..self }
+        let trail = snapshot.trail.clone();
+        Checkpoint { past: Some(Past { names, changed: None, trail }), ..self }
     }
 
-    /// Lets the law be another one from a time on than in the recorded past.
+    /// Lets the law be another one from here on than in the recorded past, because this was changed.
     #[must_use]
-    pub fn with_another_law(mut self, time: f64) -> Checkpoint {
+    pub fn with_another_law(mut self, what: &str) -> Checkpoint {
         if let Some(past) = &mut self.past {
-            past.changed = Some(time);
+            past.changed = Some(what.to_owned());
         }
         self
     }
@@ -212,6 +217,7 @@ impl MotionState {
             },
             steps: snapshot.method.steps,
             references: snapshot.gauges.iter().map(reference).collect(),
+            changed: snapshot.recorded.changed.as_deref().and_then(SavedChange::of),
         })
     }
 
@@ -270,8 +276,14 @@ impl Experiment {
                 present.released.iter().filter(|name| self.constraint(name).is_none()).cloned(),
             );
             match self.restore_state(present) {
-                Ok(()) if checkpoint.backwards => self.go_on_backwards(),
-                Ok(()) => self.restore_past(checkpoint.past.as_ref(), present),
+                Ok(()) => {
+                    self.restore_change(checkpoint.past.as_ref(), present);
+                    if checkpoint.backwards {
+                        self.go_on_backwards();
+                    } else {
+                        self.restore_past(checkpoint.past.as_ref(), present);
+                    }
+                }
                 Err(why) => {
                     self.restart();
                     self.tell(format!("the motion starts again: {why}"));
@@ -291,7 +303,18 @@ impl Experiment {
         if let Some(past) = past.filter(|_| same) {
             let row = past.row(self.motion.system().channels(), present.time);
             self.recorder.precede(&past.trail, row);
-            self.changed = past.changed;
+        }
+    }
+
+    /// Restores where the law was changed last: here, if it is another one than before.
+    fn restore_change(&mut self, past: Option<&Past>, present: &MotionState) {
+        match past.and_then(|past| past.changed.clone()) {
+            Some(what) => self.changed_here(what),
+            None => {
+                let saved = present.changed.as_ref();
+                let change = saved.and_then(|saved| saved.of_system(self.system()));
+                self.changed = change.map(Arc::new);
+            }
         }
     }
 

@@ -10,6 +10,7 @@ use super::echo::Echo;
 use super::event_log::EventLog;
 use super::gauges::{GaugeInputs, Gauges};
 use super::hull::Hulls;
+use super::last_change::LastChange;
 use super::observed_motion::ObservedMotion;
 use super::recorder::Recorder;
 use super::row_spacing::RowSpacing;
@@ -36,8 +37,8 @@ pub struct Experiment {
     pub(super) other_way: Option<System>,
     /// The reading of the clock at which time was reversed last, or the motion began.
     pub(super) began: f64,
-    /// When a parameter was changed last, if one was since the restart.
-    pub(super) changed: Option<f64>,
+    /// Where the law was changed last, if it was since the restart.
+    pub(super) changed: Option<Arc<LastChange>>,
     /// The run before time was reversed.
     pub(super) echo: Option<Box<Echo>>,
     /// The time in the past that is looked at.
@@ -264,7 +265,8 @@ impl Experiment {
     pub(super) fn recorded(&self) -> Recorded {
         let from = self.motion.known_from().unwrap_or(self.clock());
         let from = self.motion.sign() * from.max(self.began);
-        Recorded { from, to: self.time(), scrubbed: self.scrubbed.is_some(), changed: self.changed }
+        let (scrubbed, changed) = (self.scrubbed.is_some(), self.changed.clone());
+        Recorded { from, to: self.time(), scrubbed, changed }
     }
 
     /// Restarts from the initial values.

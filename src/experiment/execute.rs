@@ -3,7 +3,10 @@
 //! A parameter that jumps preserves q and p, not q̇ (L jumps, ∂L/∂q̇ does not): *The Principles of
 //! Dynamics*, § 1.3.3 with no impulse.
 
+use std::sync::Arc;
+
 use super::gauges::Gauges;
+use super::last_change::LastChange;
 use super::setup::{choose_method, with_override};
 use super::{Command, Experiment, FoundConstant, MethodNotFound};
 use crate::integrate::{Method, Settings, Stepping};
@@ -127,13 +130,29 @@ impl Experiment {
         let new = &self.setup.parameters;
         let state = self.system().change_parameters(self.motion.state(), &old, new);
         self.continue_from(state);
-        self.changed = Some(self.time());
+        // at the start it may be the motion of the file with this value
+        let is_start = |first: &State, state: &State| {
+            let moving = ..self.system().moving();
+            first.time == state.time
+                && first.form == state.form
+                && first.values[moving] == state.values[moving]
+        };
+        match &initial {
+            Ok(first) if is_start(first, self.motion.state()) => self.changed = None,
+            _ => self.changed_here(name.clone()),
+        }
         self.pass_parameters();
         self.gauge(Gauges::refer);
         let jump = self.energy() - before;
         if jump.abs() > 1e-12 * before.abs() {
             self.report_jump(&format!("{name}: energy jumped by"), jump);
         }
+    }
+
+    /// From its current state on the motion follows another law.
+    pub(super) fn changed_here(&mut self, what: String) {
+        let state = Arc::new(self.motion.dated_state());
+        self.changed = Some(Arc::new(LastChange { what, state }));
     }
 
     /// Reports a jump in energy; a parameter that is changed repeatedly is reported once.

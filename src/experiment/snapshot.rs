@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Companion, EventLog, Hull, Return, Setup, Trail};
+use super::{Companion, EventLog, Hull, LastChange, Return, Setup, Trail};
 use crate::analysis::{CrossingLog, DistanceHistory, Verdict};
 use crate::system::{Form, State};
 
@@ -92,7 +92,7 @@ impl Snapshot {
 }
 
 /// The recorded past of a motion, which can be looked at again.
-#[derive(Clone, Copy, PartialEq, Debug, Default)]
+#[derive(Clone, PartialEq, Debug, Default)]
 pub struct Recorded {
     /// The first time that can be looked at; it is later than `to` if time runs backwards.
     pub from: f64,
@@ -100,8 +100,8 @@ pub struct Recorded {
     pub to: f64,
     /// Whether a time before is looked at.
     pub scrubbed: bool,
-    /// When a parameter was changed last, if one was since the start.
-    pub changed: Option<f64>,
+    /// Where the law was changed last, if it was since the start.
+    pub changed: Option<Arc<LastChange>>,
 }
 
 /// Whether time runs.

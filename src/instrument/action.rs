@@ -98,6 +98,7 @@ struct ComputedAction {
     principle: Principle,
     conditions: PlotConditions,
     coordinate: usize,
+    begin: f64,
     duration: f64,
     outcome: Result<Beside, String>,
 }
@@ -188,8 +189,7 @@ impl Instrument for ActionPlot {
         answer: Option<&Answer>,
     ) -> Option<Picture> {
         let name = plot.column(0).map(|channel| present.physics.shown(channel));
-        let legend =
-            (MOTION, Layer::Legend(sentences(answer, (present.physics.model.run.start, name))));
+        let legend = (MOTION, Layer::Legend(sentences(answer, name)));
         let named = |range, layers| {
             let letter = self.0.letter();
             let upwards = Upwards::Named(format!("{letter}(ε) − {letter}(0)"), range);
@@ -217,7 +217,7 @@ impl Instrument for ActionPlot {
         let ChannelKind::Position(coordinate) = system.channels()[channel].kind else {
             return Need::Nothing;
         };
-        let conditions = PlotConditions::of(present, &plot.seeds);
+        let conditions = PlotConditions::of_recorded(present, &plot.seeds);
         let (principle, duration) = (self.0, duration(present));
         let holds = |known: &ComputedAction| {
             (known.principle, known.coordinate, known.duration) == (principle, coordinate, duration)
@@ -230,16 +230,20 @@ impl Instrument for ActionPlot {
         Need::Job(Job::new("action", move |progress: &Progress| {
             let system = system.with_cancel(progress.token().clone());
             let parameters = &conditions.parameters;
+            let begin = conditions.begin(model.run.start);
             let outcome = PhaseSpace::without_end(&model, &equations, &system, parameters)
                 .map_err(|why| why.to_string())
                 .and_then(|space| {
                     let mut own = (*equations).clone();
-                    let actions = Actions::of((&model, &mut own), parameters, principle)?;
-                    let begin = model.run.start;
-                    beside(&space, actions, (method, &conditions, begin), coordinate, duration)
+                    let of = (principle, begin);
+                    let actions = Actions::of((&model, &mut own), parameters, of)?;
+                    let start = (begin, model.run.start);
+                    beside(&space, actions, (method, &conditions, start), coordinate, duration)
                 });
             let conditions = conditions.clone();
-            Answer::new(ComputedAction { principle, conditions, coordinate, duration, outcome })
+            let found =
+                ComputedAction { principle, conditions, coordinate, begin, duration, outcome };
+            Answer::new(found)
         }))
     }
 
@@ -286,13 +290,14 @@ impl Actions {
     fn of(
         (model, equations): (&Model, &mut Equations),
         parameters: &[f64],
-        principle: Principle,
+        (principle, begin): (Principle, f64),
     ) -> Result<Actions, String> {
         let lagrangian = Lagrangian::of(model, equations, parameters);
-        let lagrangian = lagrangian.map_err(|why| why.to_string())?;
+        let lagrangian = lagrangian.map_err(|why| why.to_string())?.beginning_at(begin);
         let hamiltonian = (principle == Principle::PhaseSpace)
             .then(|| Hamiltonian::of(model, equations, parameters).map_err(|why| why.to_string()));
-        Ok(Actions { lagrangian, principle, hamiltonian: hamiltonian.transpose()? })
+        let hamiltonian = hamiltonian.transpose()?.map(|h| h.beginning_at(begin));
+        Ok(Actions { lagrangian, principle, hamiltonian })
     }
 }
 
@@ -300,15 +305,14 @@ impl Actions {
 fn beside(
     space: &PhaseSpace,
     mut actions: Actions,
-    (method, conditions, begin): (&'static Method, &PlotConditions, f64),
+    (method, conditions, (begin, start)): (&'static Method, &PlotConditions, (f64, f64)),
     coordinate: usize,
     duration: f64,
 ) -> Result<Beside, String> {
     let system = space.system();
-    let start = conditions.state(system, begin).map_err(|fault| fault.to_string())?;
+    let first = conditions.state(system, begin).map_err(|fault| fault.to_string())?;
     let (parameters, method) = (conditions.parameters.clone(), (method, conditions.settings));
-    let flow =
-        SystemFlow { system: system.clone(), method, parameters, start: begin, effort: None };
+    let flow = SystemFlow { system: system.clone(), method, parameters, start, effort: None };
     let channel = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
     let n = system.degrees();
     let kinds = (0..n).map(ChannelKind::Position).chain((0..n).map(ChannelKind::Velocity));
@@ -316,7 +320,7 @@ fn beside(
     let channels = channels.ok_or("the motion has no velocities")?;
     let mut motion = |times: &[f64]| {
         let times: Vec<f64> = times.iter().map(|time| begin + time).collect();
-        let carried = flow.carry(&start, &times, &channels);
+        let carried = flow.carry(&first, &times, &channels);
         carried.end.map(|_| carried.seen)
     };
     let (lagrangian, principle) = (&mut actions.lagrangian, actions.principle);
@@ -331,7 +335,7 @@ fn beside(
     };
     let varied = varied.map_err(|why| why.to_string())?;
     let foci = if space.is_hamiltonian() {
-        let state = space.state(&start).map_err(|fault| fault.to_string())?;
+        let state = space.state(&first).map_err(|fault| fault.to_string())?;
         let foci = match principle {
             Principle::Maupertuis => conjugate_points_at_energy(space, method, &state, duration),
             _ => conjugate_points(space, method, &state, duration),
@@ -347,7 +351,7 @@ fn beside(
 pub(super) fn duration(present: &Present<'_>) -> f64 {
     let run = &present.physics.model.run;
     let grid = if run.speed.is_normal() { GRID * run.speed.abs() } else { GRID };
-    grid * ((present.time - run.start) / grid).floor().clamp(1.0, MOST)
+    grid * ((present.time - present.began()) / grid).floor().clamp(1.0, MOST)
 }
 
 fn computed(answer: Option<&Answer>) -> Option<&ComputedAction> {
@@ -363,14 +367,14 @@ fn varied(answer: Option<&Answer>) -> Option<&VariedAction> {
 }
 
 /// What is said of the motion's action, or why it has none.
-fn sentences(answer: Option<&Answer>, (begin, coordinate): (f64, Option<&str>)) -> Vec<String> {
+fn sentences(answer: Option<&Answer>, coordinate: Option<&str>) -> Vec<String> {
     let Some(computed) = computed(answer) else { return vec!["being computed".to_owned()] };
     let found = match &computed.outcome {
         Err(why) => return vec![why.clone()],
         Ok(found) => found,
     };
     let short = |x: f64| significant(x, 5, 1e-3..1e5).replace('-', "−");
-    let at = |focus: &f64| format!("t = {}", short(begin + focus));
+    let at = |focus: &f64| format!("t = {}", short(computed.begin + focus));
     // as many negative directions as foci that were passed (M. Morse)
     let not_least = |foci: usize| match computed.principle {
         Principle::Maupertuis => "not least at equal H".to_owned(),
@@ -410,7 +414,8 @@ fn sentences(answer: Option<&Answer>, (begin, coordinate): (f64, Option<&str>)) 
     // of a motion that does not make the action stationary these slopes say nothing
     let ends = found.varied.ends.filter(|_| found.foci.is_some());
     let ends = ends.map_or_else(Vec::new, |ends| by_its_ends(&ends, coordinate.unwrap_or("q")));
-    [vec![action], rest, ends].concat()
+    let since = computed.conditions.since().into_iter().collect();
+    [vec![action], rest, ends, since].concat()
 }
 
 /// By how much the action in phase space is greater on the last curve of each kind, so that they are known without colours.

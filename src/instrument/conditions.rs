@@ -2,8 +2,11 @@
 //!
 //! In: the current state, what was added. Out: [`PlotConditions`], to be compared. Never here: what is computed.
 
+use std::sync::Arc;
+
 use super::{Present, Seed};
 use crate::integrate::Settings;
+use crate::num::significant;
 use crate::system::{InitialOverride, MotionError, State, System};
 
 /// The values of the system, the method, and what a person added to the plot.
@@ -14,6 +17,8 @@ pub(super) struct PlotConditions {
     method: &'static str,
     pub(super) settings: Settings,
     pub(super) seeds: Vec<Seed>,
+    /// What of the law was changed last on the way, and the state there, if the motion is followed from there.
+    changed: Option<(String, Arc<State>)>,
 }
 
 impl PlotConditions {
@@ -24,11 +29,33 @@ impl PlotConditions {
             method: present.method,
             settings: present.settings,
             seeds: seeds.to_vec(),
+            changed: None,
         }
     }
 
-    /// The state of the initial values.
+    /// The same for a picture of the motion as it was recorded: under the law of now it is so from where that was changed last.
+    pub(super) fn of_recorded(present: &Present<'_>, seeds: &[Seed]) -> Self {
+        let changed = present.changed.map(|(what, state)| (what.to_owned(), Arc::clone(state)));
+        Self { changed, ..Self::of(present, seeds) }
+    }
+
+    /// When the motion begins that is followed: `start`, or where the law was changed last.
+    pub(super) fn begin(&self, start: f64) -> f64 {
+        self.changed.as_ref().map_or(start, |(_, state)| state.time)
+    }
+
+    /// Why it does not begin at the start, if it does not.
+    pub(super) fn since(&self) -> Option<String> {
+        let (what, state) = self.changed.as_ref()?;
+        let time = significant(state.time, 4, 1e-3..1e5).replace('-', "−");
+        Some(format!("since t = {time}, where {what} was changed"))
+    }
+
+    /// The state of the initial values at the start, or that where the law was changed last.
     pub(super) fn state(&self, system: &System, time: f64) -> Result<State, MotionError> {
+        if let Some((_, state)) = &self.changed {
+            return Ok(State::clone(state));
+        }
         let given = self.initial.iter().enumerate();
         let given: Vec<InitialOverride> =
             given.map(|(i, &x)| system.initial_override(i, x)).collect();

@@ -2,7 +2,7 @@
 //! method and for that of the exact flow; under friction det M beside what Liouville's theorem predicts of it.
 //!
 //! The job follows the variational equations along the motion ([`flow_course`]), over a time that is doubled when the motion has
-//! come to its end. Never here: constraints and impulses, for which `phaselab flow` has the map at one time.
+//! come to its end. Where the law was changed on the way, the motion is that since then, and M = ∂η(t)/∂η there. Never here: constraints and impulses, for which `phaselab flow` has the map at one time.
 
 use nalgebra::DMatrix;
 
@@ -50,6 +50,7 @@ pub(super) struct FlowPlot;
 struct Followed {
     conditions: PlotConditions,
     doublings: u32,
+    begin: f64,
     end: f64,
     outcome: Result<Courses, String>,
 }
@@ -60,8 +61,8 @@ struct Courses {
     exact: Option<Vec<FlowMoment>>,
     /// Whether nothing but H acts.
     is_hamiltonian: bool,
-    /// Why they end early.
-    failure: Option<String>,
+    /// When one of them ends early, and why.
+    failures: Vec<(f64, String)>,
 }
 
 impl Instrument for FlowPlot {
@@ -89,7 +90,8 @@ impl Instrument for FlowPlot {
     }
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
-        let mut entries = vec![Entry::Words(format!("M = ∂η(t)/∂η(0) by {}", present.method))];
+        let mut entries =
+            vec![Entry::Words(format!("M = ∂η(t)/∂η({}) by {}", origin(present), present.method))];
         if present.method != EXACT && only_h_acts(present.physics.model) {
             entries = vec![
                 Entry::Key(Ink::Curve(0), present.method.to_owned()),
@@ -100,9 +102,11 @@ impl Instrument for FlowPlot {
     }
 
     fn across(&self, _plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
-        let start = present.physics.model.run.start;
-        let end = followed(answer).map_or(start + length(present.physics, 0), |known| known.end);
-        Across::Times([start, end])
+        let start = present.began();
+        let span = |known: &Followed| [known.begin, known.end];
+        Across::Times(
+            followed(answer).map_or_else(|| [start, start + length(present.physics, 0)], span),
+        )
     }
 
     fn picture(
@@ -146,13 +150,13 @@ impl Instrument for FlowPlot {
     }
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
-        let conditions = PlotConditions::of(present, &plot.seeds);
-        let start = present.physics.model.run.start;
+        let conditions = PlotConditions::of_recorded(present, &plot.seeds);
+        let start = conditions.begin(present.physics.model.run.start);
         let known = followed(answer).filter(|known| known.conditions == conditions);
         if let Some(known) = known
             && (present.time <= known.end
                 || known.doublings >= DOUBLINGS
-                || !matches!(&known.outcome, Ok(Courses { failure: None, .. })))
+                || !known.outcome.as_ref().is_ok_and(|courses| courses.failures.is_empty()))
         {
             return Need::Held;
         }
@@ -171,7 +175,8 @@ impl Instrument for FlowPlot {
                 let state = state.map_err(|why| why.to_string())?;
                 follow(&space, (method, conditions.settings), (&state, end), progress)
             });
-            Answer::new(Followed { conditions: conditions.clone(), doublings, end, outcome })
+            let conditions = conditions.clone();
+            Answer::new(Followed { conditions, doublings, begin: start, end, outcome })
         });
         Need::Job(job)
     }
@@ -212,7 +217,7 @@ fn only_h_acts(model: &Model) -> bool {
     model.mechanics.dissipation() == Expr::ZERO && forces.iter().all(|&e| e == Expr::ZERO)
 }
 
-/// Follows the motion to a time, by its method and, where that is another one, by the exact one.
+/// Follows the motion to a time by its method, and by the exact one where that is another one and is drawn.
 fn follow(
     space: &PhaseSpace,
     (method, settings): (&'static Method, Settings),
@@ -223,20 +228,28 @@ fn follow(
     let begin = state.time;
     let at = |i: usize| begin + (end - begin) * i as f64 / TIMES as f64;
     let times: Vec<f64> = (0..=TIMES).map(at).collect();
-    let exact = method_named(EXACT).filter(|exact| exact.name != method.name);
+    let is_hamiltonian = space.is_hamiltonian();
+    let exact = method_named(EXACT).filter(|exact| is_hamiltonian && exact.name != method.name);
     let share = if exact.is_some() { 0.5 } else { 1.0 };
     let part = |time: f64| share * ((time - begin) / (end - begin)).min(1.0) * PARTS;
     let mut look = |time: f64| progress.reach(part(time) as u64);
     let own = flow_course(space, (method, settings), state, &times, &mut look);
-    let (own, failure) = own.map_err(|why| why.to_string())?;
+    let (own, fault) = own.map_err(|why| why.to_string())?;
+    let mut failures: Vec<(f64, String)> =
+        fault.into_iter().map(|fault| (fault.time, fault.to_string())).collect();
     let mut look = |time: f64| progress.reach((part(time) + share * PARTS) as u64);
     let exact = exact.and_then(|exact| {
         let settings = Settings { step: None, tolerance: None };
-        let found = flow_course(space, (exact, settings), state, &times, &mut look);
-        found.ok().map(|(moments, _)| moments)
+        let (found, fault) = match flow_course(space, (exact, settings), state, &times, &mut look) {
+            Ok((found, fault)) => (Some(found), fault.map(|fault| (fault.time, fault.to_string()))),
+            Err(why) => (None, Some((begin, why.to_string()))),
+        };
+        // where both end for one reason it is said once
+        let fault = fault.filter(|(_, why)| failures.iter().all(|(_, own)| own != why));
+        failures.extend(fault.map(|(time, why)| (time, format!("the exact flow: {why}"))));
+        found
     });
-    let failure = failure.map(|fault| fault.to_string());
-    Ok(Courses { own, exact, is_hamiltonian: space.is_hamiltonian(), failure })
+    Ok(Courses { own, exact, is_hamiltonian, failures })
 }
 
 /// What is said of the map as it is now.
@@ -246,7 +259,8 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
         Some(Err(why)) => return vec![why.clone()],
         Some(Ok(courses)) => courses,
     };
-    let Some(own) = now(present, &courses.own) else { return Vec::new() };
+    let since = followed(answer).and_then(|known| known.conditions.since());
+    let Some(own) = now(present, &courses.own) else { return since.into_iter().collect() };
     let short = |x: f64, digits| significant(x, digits, 1e-3..1e4).replace('-', "−");
     let size = |x: f64| if x == 0.0 { "0".to_owned() } else { short(x, 2) };
     let mut lines = Vec::new();
@@ -259,11 +273,25 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
     };
     lines.push(format!("t = {}: {found}, expected {expected}", at.trim_end()));
     if courses.is_hamiltonian && own.symplectic_residual.is_some() {
+        let of_square = |moment: &FlowMoment, residual: f64| {
+            let largest = moment.matrix.amax();
+            format!("{} of |M|²", size(residual / (largest * largest)))
+        };
         let beside = courses.exact.as_deref().and_then(|exact| now(present, exact));
-        let exact = beside.and_then(residual);
-        let exact = exact.map_or_else(String::new, |x| format!(", {} by the exact flow", size(x)));
+        let beside = beside.and_then(|moment| Some((moment, residual(moment)?)));
+        let exact = beside.map_or_else(String::new, |(moment, x)| {
+            if moment.is_at_rounding() {
+                format!(", at rounding ({}) by the exact flow", of_square(moment, x))
+            } else {
+                format!(", {} by the exact flow", size(x))
+            }
+        });
         lines.push(match residual(own) {
-            Some(own) => format!("‖M𝕁Mᵀ − 𝕁‖ = {} by {}{exact}", size(own), present.method),
+            Some(x) if own.is_at_rounding() => {
+                let method = present.method;
+                format!("‖M𝕁Mᵀ − 𝕁‖ at rounding ({}) by {method}{exact}", of_square(own, x))
+            }
+            Some(x) => format!("‖M𝕁Mᵀ − 𝕁‖ = {} by {}{exact}", size(x), present.method),
             None => {
                 let entries = short(own.matrix.amax(), 1);
                 format!("‖M𝕁Mᵀ − 𝕁‖ is lost in rounding: M has entries of {entries}{exact}")
@@ -273,7 +301,9 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
     if own.matrix.len() <= ENTRIES {
         lines.push(format!("M = ({})", rows(&own.matrix, &|x| short(x, 4))));
     }
-    lines.extend(courses.failure.clone());
+    let failed = courses.failures.iter().filter(|(time, _)| *time <= present.time);
+    lines.extend(failed.map(|(_, why)| why.clone()));
+    lines.extend(since);
     lines
 }
 
@@ -302,10 +332,17 @@ fn residual(moment: &FlowMoment) -> Option<f64> {
     moment.symplectic_residual.filter(|_| !moment.residual_lost)
 }
 
-/// The power of ten of ‖M𝕁Mᵀ − 𝕁‖.
+/// The power of ten of ‖M𝕁Mᵀ − 𝕁‖; at rounding that of what rounding leaves, so that it is seen as a floor.
 fn power(moment: &FlowMoment) -> Option<f64> {
-    let power = math::ln(residual(moment)?) / math::ln(10.0);
+    let residual = residual(moment)?;
+    let seen = if moment.is_at_rounding() { moment.rounding_floor } else { residual };
+    let power = math::ln(seen) / math::ln(10.0);
     (!power.is_nan()).then_some(power.max(LEAST_POWER))
+}
+
+/// The time from which M is, in its formula.
+fn origin(present: &Present<'_>) -> String {
+    significant(present.began(), 3, 1e-3..1e5).replace('-', "−")
 }
 
 /// How long the motion is followed.

@@ -43,6 +43,7 @@ pub(super) struct PathsPlot;
 struct ComputedPaths {
     conditions: PlotConditions,
     coordinate: usize,
+    begin: f64,
     duration: f64,
     outcome: Result<Vec<TruePath>, String>,
 }
@@ -84,14 +85,16 @@ impl Instrument for PathsPlot {
     }
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
-        let entries = vec![Entry::Words("between the start and now".to_owned())];
+        let from = if present.changed.is_some() { "the last change" } else { "the start" };
+        let entries = vec![Entry::Words(format!("between {from} and now"))];
         Some(plot.heading(present.physics, "True paths", entries))
     }
 
     fn across(&self, _plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
-        let begin = present.physics.model.run.start;
-        let length = computed(answer).map_or_else(|| duration(present), |known| known.duration);
-        Across::Named("t".to_owned(), [begin, begin + length])
+        let begin = present.began();
+        let span = |known: &ComputedPaths| [known.begin, known.begin + known.duration];
+        let range = computed(answer).map_or_else(|| [begin, begin + duration(present)], span);
+        Across::Named("t".to_owned(), range)
     }
 
     fn picture(
@@ -133,7 +136,7 @@ impl Instrument for PathsPlot {
         let ChannelKind::Position(coordinate) = system.channels()[channel].kind else {
             return Need::Nothing;
         };
-        let conditions = PlotConditions::of(present, &plot.seeds);
+        let conditions = PlotConditions::of_recorded(present, &plot.seeds);
         let duration = duration(present);
         let known = computed(answer);
         if known.is_some_and(|known| {
@@ -147,7 +150,7 @@ impl Instrument for PathsPlot {
         Need::Job(Job::new("paths", move |progress: &Progress| {
             let system = system.with_cancel(progress.token().clone());
             let mut own = (*equations).clone();
-            let begin = model.run.start;
+            let begin = conditions.begin(model.run.start);
             let parameters = &conditions.parameters;
             let space = PhaseSpace::without_end(&model, &equations, &system, parameters);
             let outcome = space.map_err(|why| why.to_string()).and_then(|space| {
@@ -155,12 +158,15 @@ impl Instrument for PathsPlot {
                     return Err("not stationary: forces act that have no potential".to_owned());
                 }
                 let lagrangian = Lagrangian::of(&model, &mut own, parameters);
-                let mut lagrangian = lagrangian.map_err(|why| why.to_string())?;
-                let motion = motion(space.system(), (method, &conditions, begin), duration)?;
+                let lagrangian = lagrangian.map_err(|why| why.to_string())?;
+                let lagrangian = lagrangian.beginning_at(begin);
+                let mut lagrangian = lagrangian.with_cancel(progress.token().clone());
+                let start = (begin, model.run.start);
+                let motion = motion(space.system(), (method, &conditions, start), duration)?;
                 Ok(Way { motion, coordinate, reach, begin, duration }.paths(&mut lagrangian))
             });
             let conditions = conditions.clone();
-            Answer::new(ComputedPaths { conditions, coordinate, duration, outcome })
+            Answer::new(ComputedPaths { conditions, coordinate, begin, duration, outcome })
         }))
     }
 
@@ -206,6 +212,9 @@ impl Way {
         let amplitudes = FAR.into_iter().flat_map(|far| [far, -far]);
         let waves = HALF_WAVES.into_iter().flat_map(|k| amplitudes.clone().map(move |a| (k, a)));
         for (k, amplitude) in std::iter::once((1.0, 0.0)).chain(waves) {
+            if lagrangian.is_cancelled() {
+                break;
+            }
             let guess = |t: f64| -> Vec<f64> {
                 let s = t / self.duration;
                 let straight = |(a, b): (&f64, &f64)| if s == 1.0 { *b } else { a + s * (b - a) };
@@ -248,19 +257,18 @@ impl Way {
 /// The coordinates of the motion at evenly spaced times up to a duration.
 fn motion(
     system: &System,
-    (method, conditions, begin): (&'static Method, &PlotConditions, f64),
+    (method, conditions, (begin, start)): (&'static Method, &PlotConditions, (f64, f64)),
     duration: f64,
 ) -> Result<Vec<Vec<f64>>, String> {
-    let start = conditions.state(system, begin).map_err(|fault| fault.to_string())?;
+    let first = conditions.state(system, begin).map_err(|fault| fault.to_string())?;
     let (parameters, method) = (conditions.parameters.clone(), (method, conditions.settings));
-    let flow =
-        SystemFlow { system: system.clone(), method, parameters, start: begin, effort: None };
+    let flow = SystemFlow { system: system.clone(), method, parameters, start, effort: None };
     let position = |i| system.channels().iter().position(|c| c.kind == ChannelKind::Position(i));
     let channels: Option<Vec<usize>> = (0..system.degrees()).map(position).collect();
     let channels = channels.ok_or("the motion has no coordinates")?;
     let time = |k: usize| begin + duration * k as f64 / (POINTS - 1) as f64;
     let times: Vec<f64> = (0..POINTS).map(time).collect();
-    let carried = flow.carry(&start, &times, &channels);
+    let carried = flow.carry(&first, &times, &channels);
     let whole = carried.end.map(|_| carried.seen);
     whole.ok_or_else(|| "the motion cannot be followed up to now".to_owned())
 }
@@ -291,6 +299,7 @@ fn lines(answer: Option<&Answer>) -> Vec<String> {
         Some(Ok(all)) if all.is_empty() => return vec!["no true path was found".to_owned()],
         Some(Ok(all)) => all,
     };
+    let since = computed(answer).and_then(|known| known.conditions.since());
     let mut lines: Vec<(String, usize)> = Vec::new();
     for path in all {
         let action = significant(path.action, 5, 1e-3..1e5).replace('-', "−");
@@ -312,5 +321,5 @@ fn lines(answer: Option<&Answer>) -> Vec<String> {
         1 => line,
         count => format!("{line} ({count} paths)"),
     });
-    named.chain((more > 0).then(|| format!("and {more} more"))).collect()
+    named.chain((more > 0).then(|| format!("and {more} more"))).chain(since).collect()
 }

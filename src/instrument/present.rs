@@ -31,8 +31,8 @@ pub struct Present<'a> {
     pub time: f64,
     /// The time up to which everything is known that is carried along beside the motion, such as a cloud; at most the time.
     pub carried: f64,
-    /// When a parameter was changed last, if one was since the start.
-    pub changed: Option<f64>,
+    /// What of the law was changed last, and the state from which the motion went on, if it was since the start.
+    pub changed: Option<(&'a str, &'a Arc<State>)>,
     /// The parameters.
     pub parameters: &'a [f64],
     /// The initial values: coordinates, then velocities or momenta.
@@ -98,6 +98,16 @@ impl<'a> Physics<'a> {
 }
 
 impl Present<'_> {
+    /// When the recorded motion began, under the law of now.
+    pub fn began(&self) -> f64 {
+        self.changed_at().unwrap_or(self.physics.model.run.start)
+    }
+
+    /// When the law was changed last, if it was since the start.
+    pub fn changed_at(&self) -> Option<f64> {
+        self.changed.map(|(_, state)| state.time)
+    }
+
     /// The value of a channel.
     pub fn value(&self, channel: usize) -> f64 {
         self.values.get(channel).copied().unwrap_or(f64::NAN)

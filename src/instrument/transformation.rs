@@ -167,7 +167,7 @@ impl Instrument for TransformationPlot {
         }
         layers.extend([
             (TRAIL, Layer::Companions([x, y])),
-            (TRAIL, Layer::RecentTrail([x, y], present.changed)),
+            (TRAIL, Layer::RecentTrail([x, y], present.changed_at())),
             (NOW, Layer::Point([x, y].map(|k| present.value(k)), MarkerShape::Disc, Ink::Accent)),
         ]);
         let mut lines = match mapped {
@@ -366,7 +366,7 @@ fn active(
     let layers = vec![
         (TRAIL, Layer::Companions(new)),
         (TRAIL, Layer::Companions(old)),
-        (TRAIL, Layer::RecentTrail(new, present.changed)),
+        (TRAIL, Layer::RecentTrail(new, present.changed_at())),
         (TRAIL, Layer::Trail(old)),
         (GRID, Layer::Line(vec![point, image], faint)),
         (NOW, Layer::Point(image, MarkerShape::Ring, Ink::Warn)),

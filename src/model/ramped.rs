@@ -163,13 +163,22 @@ impl Ramped {
         let time = pool.variable(time);
         let mut value = own;
         let one = pool.number(Number::ONE);
-        for RampStage { part, change, limit, .. } in stages(pool, own, parts) {
+        for (k, RampStage { part, change, limit, .. }) in
+            stages(pool, own, parts).into_iter().enumerate()
+        {
             let passed = pool.sub(time, part.start);
             let passed = pool.div(passed, part.duration);
             let passed = pool.call(FunctionId::Max, &[passed, Expr::ZERO]);
             let u = pool.call(FunctionId::Min, &[passed, limit.unwrap_or(one)]);
             let share = part.form.share(pool, u);
-            let change = pool.mul(change, share);
+            let change = if k == 0 {
+                pool.mul(change, share)
+            } else {
+                // what is left of those before vanishes exactly at its end, which their sum would not to the last bit
+                let left = pool.sub(one, share);
+                value = pool.mul(value, left);
+                pool.mul(part.to, share)
+            };
             value = pool.linear(Number::ZERO, &[(Number::ONE, value), (Number::ONE, change)]);
         }
         self.functions.insert(parameter, value);

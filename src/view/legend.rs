@@ -91,8 +91,18 @@ fn rows(area: Rect, (lines, few): (&[String], bool), look: &RenderStyle) -> Vec<
     vec![first, second]
 }
 
-/// The beginning of a line that is too long, up to an equals sign or a word and never inside a parenthesis.
+/// The beginning of a line that is too long, up to an equals sign or a word and never inside a parenthesis. What it says that
+/// a formula is not stays at its end: the beginning alone would read like a value.
 fn beginning(line: &str, room: usize, mark: &str) -> String {
+    let unequal = [" ≠ ", " != "].into_iter().filter_map(|sign| line.rfind(sign)).max();
+    let (line, end) = line.split_at(unequal.unwrap_or(line.len()));
+    match room.checked_sub(end.width()) {
+        Some(left) if left > mark.width() => format!("{}{end}", whole_words(line, left, mark)),
+        _ => whole_words(line, room, mark),
+    }
+}
+
+fn whole_words(line: &str, room: usize, mark: &str) -> String {
     let (mut open, mut end) = (0_usize, 0);
     for (at, character) in line.char_indices() {
         match character {
@@ -185,8 +195,14 @@ mod tests {
             written(&least, true),
             lines_of("S = 1.7555|least of all paths nearby   z: more")
         );
-        let long = "not canonical: [Q, P] = (√(p_q² + m² ω² q²)/c)^(1/s − 1)/(c s √(p_q² + m² ω² q²)), not 1";
-        assert_eq!(written(&[long, k], true), lines_of("not canonical: [Q, P] = …|z shows more"));
+        let long =
+            "not canonical: [Q, P] = (√(p_q² + m² ω² q²)/c)^(1/s − 1)/(c s √(p_q² + m² ω² q²)) ≠ 1";
+        let cut = "not canonical: [Q, P] = … ≠ 1|z shows more";
+        assert_eq!(written(&[long, k], true), lines_of(cut));
+        // a formula whose beginning is a value by itself
+        let long = "not canonical: [Q, P] = m ω + (p_q² + m² ω² q²)/c ≠ 1";
+        let cut = "not canonical: [Q, P] = m ω … ≠ 1|z shows more";
+        assert_eq!(written(&[long, k], true), lines_of(cut));
         let layers = [(0, Layer::Legend(lines.map(str::to_owned).to_vec()))];
         let heights = |height, zoomable| {
             let (axes, words) = beside(Rect::new(0, 0, 38, height), (&layers, zoomable), &look);

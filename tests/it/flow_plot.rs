@@ -1,6 +1,14 @@
 //! The pane with the flow map: symplectic to rounding for the exact flow and a symplectic method, not for another one; and the
 //! decay of its determinant under friction.
 
+use std::sync::Arc;
+
+use phaselab::app::{App, Event};
+use phaselab::diagnostic::Document;
+use phaselab::experiment::{Checkpoint, Command, Experiment, Prepared};
+use phaselab::instrument::{Ink, Layer, Picture, Plot};
+
+use crate::hand::{begun, press};
 use crate::record::played;
 
 #[test]
@@ -25,4 +33,206 @@ fn under_friction_the_determinant_decays() {
          Assert flow.determinant > 0.300\nAssert flow.determinant < 0.312\n\
          Assert flow.expected > 0.300\nAssert flow.expected < 0.312\n",
     );
+}
+
+/// A lab with a motion and a pane of this kind.
+struct Course {
+    app: App,
+    experiment: Experiment,
+    kind: &'static str,
+}
+
+impl Course {
+    fn showing(kind: &'static str, text: &str) -> Course {
+        let axis = if kind == "flow" { "" } else { "x = \"q\"\n" };
+        let text = format!("{text}\n[[views]]\nkind = \"{kind}\"\n{axis}");
+        let app = begun(&text);
+        let ready =
+            Prepared::of(&Document::new("test", &text)).unwrap_or_else(|why| panic!("{why}"));
+        let mut experiment = ready.experiment;
+        experiment.set_epoch(1);
+        Course { app, experiment, kind }
+    }
+
+    fn go(&mut self, time: f64) {
+        self.experiment.advance(time, 1_000_000);
+        self.app.update(Event::Snapshot(Arc::new(self.experiment.snapshot())));
+        press(&mut self.app, "Wait");
+    }
+
+    fn set(&mut self, index: usize, value: f64) {
+        self.experiment.execute(Command::Parameter { index, value });
+    }
+
+    fn plot(&self) -> Plot {
+        let plots = &self.app.lab.as_ref().unwrap().plots;
+        plots.iter().find(|plot| plot.kind.name() == self.kind).expect("a picture").clone()
+    }
+
+    fn measure(&self, word: &str) -> Option<f64> {
+        let (lab, plot) = (self.app.lab.as_ref().unwrap(), self.plot());
+        let measure = plot.kind.measures().iter().find(|measure| measure.word == word);
+        let value = measure.expect("it is measured").value;
+        value(&plot, &lab.present().expect("a motion"), lab.answer(&plot))
+    }
+
+    fn layers(&self) -> Vec<Layer> {
+        let (lab, plot) = (self.app.lab.as_ref().unwrap(), self.plot());
+        let present = lab.present().expect("a motion");
+        let picture = plot.kind.picture(&plot, &present, [0.0, 1.0], lab.answer(&plot));
+        let Some(Picture::Axes { layers, .. }) = picture else { panic!("no axes") };
+        layers.into_iter().map(|(_, layer)| layer).collect()
+    }
+
+    fn told(&self) -> String {
+        let legend = self.layers().into_iter().find_map(|layer| match layer {
+            Layer::Legend(lines) => Some(lines.join("\n")),
+            _ => None,
+        });
+        legend.expect("words")
+    }
+}
+
+const OSCILLATOR: &str = "title = \"t\"\n[coordinates]\nq = { initial = 1.0, momentum = 0.0 }\n[parameters]\n\
+                          w = { value = 1.0, min = 0.5, max = 5.0 }\n[hamiltonian]\nH = \"p_q^2/2 + w^2*q^2/2\"\n";
+
+#[track_caller]
+fn near(found: Option<f64>, expected: f64, within: f64) {
+    let found = found.expect("a value");
+    assert!((found - expected).abs() <= within, "{found} is not {expected} within {within}");
+}
+
+/// ω goes from 1 to 2 at t = 1: M of the recorded motion from there on is the closed form with ω = 2, over the time since then.
+#[test]
+fn after_a_change_the_map_is_that_of_the_motion_since_then() {
+    let mut course = Course::showing("flow", OSCILLATOR);
+    course.go(1.0);
+    assert!(!course.told().contains("since"), "{}", course.told());
+    course.set(0, 2.0);
+    course.go(2.0001);
+    let told = course.told();
+    assert!(told.contains("since t = 1, where w was changed"), "{told}");
+    assert!(told.contains("M = (−0.4161 0.4546 | −1.819 −0.4161)"), "{told}");
+    // also in a session that is resumed
+    let snapshot = course.experiment.snapshot();
+    let (model, system) = (course.experiment.model(), course.experiment.system());
+    let left = Checkpoint::of(model, system, &snapshot);
+    let text = serde_json::to_string(&left).expect("text");
+    let left: Checkpoint = serde_json::from_str(&text).expect("a checkpoint");
+    let mut later = Course::showing("flow", OSCILLATOR);
+    later.experiment.execute(Command::Restore(Box::new(left)));
+    later.go(2.0002);
+    assert_eq!(later.told(), told);
+    // begun again it is one motion
+    later.experiment.execute(Command::Reset);
+    later.go(0.5);
+    assert!(!later.told().contains("since"), "{}", later.told());
+}
+
+/// S = ½ (q p at the end − q p at the beginning) where L is quadratic; there is one path, the motion, in less than half a period.
+#[test]
+fn after_a_change_the_action_is_that_of_the_motion_since_then() {
+    let (sin, cos) = (1.0_f64.sin(), 1.0_f64.cos());
+    let (sin2, cos2) = (2.0_f64.sin(), 2.0_f64.cos());
+    let (q, p) = (cos * cos2 - 0.5 * sin * sin2, -2.0 * cos * sin2 - sin * cos2);
+    let action = 0.5 * (q * p + cos * sin);
+    for (kind, word) in [("action", "value"), ("paths", "least"), ("paths", "greatest")] {
+        let mut course = Course::showing(kind, OSCILLATOR);
+        course.go(1.0);
+        course.set(0, 2.0);
+        course.go(2.01);
+        near(course.measure(word), action, 1e-11);
+        assert!(course.told().contains("since t = 1, where w was changed"), "{}", course.told());
+        assert!(kind != "paths" || course.told().contains("the motion"), "{}", course.told());
+    }
+    let mut course = Course::showing("action", OSCILLATOR);
+    course.go(1.0);
+    course.set(0, 2.0);
+    course.go(2.01);
+    near(course.measure("by_place"), p, 1e-11);
+    near(course.measure("by_time"), -0.5 * p * p - 2.0 * q * q, 1e-11);
+    assert!(course.told().contains("= p, ∂S/∂t") && course.told().contains("= −H"));
+}
+
+/// H = ½ p² − a t q from (0, 0) at t = 0, a = 1, and a = 2 from t = 1 on: q = 2, p = 7/2 at t = 2.
+#[test]
+fn after_a_change_a_law_with_the_time_has_the_time_of_the_motion() {
+    let text = "title = \"t\"\n[coordinates]\nq = { initial = 0.0, momentum = 0.0 }\n[parameters]\na = 1\n\
+                [hamiltonian]\nH = \"p_q^2/2 - a*t*q\"\n";
+    let mut course = Course::showing("action", text);
+    course.go(1.0);
+    course.set(0, 2.0);
+    course.go(2.01);
+    near(course.measure("by_place"), 3.5, 1e-11);
+    near(course.measure("by_time"), 1.875, 1e-11);
+}
+
+/// A parameter that is set before anything has moved changes nothing on the way; one that changes what the file starts with does.
+#[test]
+fn a_change_at_the_start_is_none() {
+    let mut course = Course::showing("flow", OSCILLATOR);
+    course.set(0, 2.0);
+    course.go(1.0);
+    assert!(!course.told().contains("since"), "{}", course.told());
+    let text = OSCILLATOR.replace("initial = 1.0", "initial = \"w\"");
+    let mut course = Course::showing("flow", &text);
+    course.set(0, 2.0);
+    course.go(1.0);
+    assert!(course.told().contains("since t = 0, where w was changed"), "{}", course.told());
+}
+
+/// ẍ = 2 x³ from x = ẋ = 1 is x = 1/(1 − t), and ends at t = 1: not before.
+#[test]
+fn why_a_map_ends_is_said_once_the_motion_is_there() {
+    let text = "title = \"t\"\n[coordinates]\nq = { initial = 1, momentum = 1 }\n[hamiltonian]\nH = \"p_q^2/2 - q^4/2\"\n";
+    let mut course = Course::showing("flow", text);
+    course.go(0.5);
+    let words = course.told();
+    assert_eq!(words.lines().count(), 3, "{words}");
+    course.go(2.0);
+    let words = course.told();
+    assert!(words.lines().count() > 3, "{words} at {}", course.experiment.time());
+}
+
+/// Under friction nothing of the exact flow is drawn, so that it is not computed.
+#[test]
+fn the_exact_flow_is_followed_where_it_is_drawn() {
+    let mut course = Course::showing("flow", OSCILLATOR);
+    course.experiment.execute(Command::Method("rk4".to_owned()));
+    course.go(1.0);
+    assert!(course.measure("exact_residual").is_some());
+    let text = "title = \"t\"\n[coordinates]\nq = { initial = 1 }\n[lagrangian]\nL = \"q'^2/2 - q^2/2\"\n\
+                dissipation = \"q'^2/10\"\n";
+    let mut course = Course::showing("flow", text);
+    course.experiment.execute(Command::Method("rk4".to_owned()));
+    course.go(1.0);
+    assert!(course.measure("determinant").is_some() && course.measure("exact_residual").is_none());
+}
+
+/// What only rounding leaves of ‖M𝕁Mᵀ − 𝕁‖ is said to be that, and drawn as a floor, not as a fence.
+#[test]
+fn rounding_is_a_floor() {
+    let mut course = Course::showing("flow", OSCILLATOR);
+    course.experiment.execute(Command::Method("leapfrog".to_owned()));
+    course.go(3.0);
+    let told = course.told();
+    assert_eq!(told.matches("at rounding (").count(), 2, "{told}");
+    assert!(told.contains("of |M|²) by leapfrog"), "{told}");
+    let curves: Vec<Vec<[f64; 2]>> = (course.layers().into_iter())
+        .filter_map(|layer| match layer {
+            Layer::Line(points, stroke) if matches!(stroke.ink, Ink::Curve(_)) => Some(points),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(curves.len(), 2);
+    for curve in &curves {
+        assert!(curve.len() > 100);
+        let jump = curve.windows(2).map(|pair| (pair[1][1] - pair[0][1]).abs()).fold(0.0, f64::max);
+        assert!(jump < 0.8, "{jump}");
+        assert!(curve.iter().all(|at| at[1] > -16.0 && at[1] < -12.0), "{curve:?}");
+    }
+    course.experiment.execute(Command::Method("rk4".to_owned()));
+    course.go(4.0);
+    let told = course.told();
+    assert!(told.contains("by rk4, at rounding ("), "{told}");
 }

@@ -78,7 +78,7 @@ fn the_oscillator_by_its_angle_has_the_grid_of_q_and_p() {
     // the same without its scale is not canonical
     let (grid, words) = shown(&app, polar);
     assert!(!grid.is_empty());
-    assert_eq!(words[0], "not canonical: [θ, r] = 1/√(p_q² + q²), not 1");
+    assert_eq!(words[0], "not canonical: [θ, r] = 1/√(p_q² + q²) ≠ 1");
     assert_eq!(measure(&app, polar, "canonical"), 0.0);
 }
 
@@ -331,12 +331,16 @@ fn the_trail_in_new_variables_is_that_of_the_present_map() {
         let pane = all.iter().skip(1).take(20).map(|row| row.chars().take(40).collect());
         pane.collect::<Vec<String>>()
     };
-    let with = |changed, from: f64| {
+    let with = |changed: Option<f64>, from: f64| {
         let mut seen = (*whole).clone();
         let rows: Vec<Vec<f64>> =
             seen.trail.rows().filter(|row| row[0] >= from).map(<[f64]>::to_vec).collect();
         seen.trail = phaselab::experiment::Trail::from_rows(seen.values.len() + 1, &rows);
-        seen.recorded.changed = changed;
+        seen.recorded.changed = changed.map(|time| {
+            let state = phaselab::system::State { time, ..(*seen.state).clone() };
+            let (what, state) = ("l".to_owned(), std::sync::Arc::new(state));
+            std::sync::Arc::new(phaselab::experiment::LastChange { what, state })
+        });
         drawn(seen)
     };
     let all = with(None, 0.0);
@@ -346,7 +350,8 @@ fn the_trail_in_new_variables_is_that_of_the_present_map() {
     assert_eq!(experiment.snapshot().recorded.changed, None);
     experiment.execute(phaselab::experiment::Command::Parameter { index: 0, value: 3.0 });
     let seen = experiment.snapshot();
-    assert_eq!(seen.recorded.changed, Some(seen.time));
+    let changed = seen.recorded.changed.expect("a change");
+    assert_eq!((changed.what.as_str(), changed.state.time), ("l", seen.time));
     experiment.execute(phaselab::experiment::Command::Reset);
     assert_eq!(experiment.snapshot().recorded.changed, None);
 }

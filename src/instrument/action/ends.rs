@@ -6,28 +6,64 @@
 use crate::dynamics::EndSlope;
 use crate::num::significant;
 
-/// The slopes of the action at the start and now agree with p and H if they are apart by less than this part of the size of
-/// what is added up to them.
-const AGREES: f64 = 1e-6;
+/// The slopes of the action at the start and now are p and H if they are apart by no more than so many times what is known
+/// of their integrals, …
+const TIMES: f64 = 16.0;
+
+/// … and nearly so by less than this part of the size of what is added up: a method that is not exact leaves more.
+const NEAR: f64 = 1e-6;
+
+/// How a slope and what it should be compare: the sizes of its terms, the error of its integral.
+fn sign([slope, expected]: [f64; 2], size: f64, error: f64) -> &'static str {
+    let off = (slope - expected).abs();
+    if off <= TIMES * error {
+        "="
+    } else if off <= NEAR * size.max(expected.abs()) {
+        "≈"
+    } else {
+        "≠"
+    }
+}
 
 /// How the action changes with its ends: now with the numbers, at the start whether it is as it should be.
 pub(super) fn by_its_ends([start, now]: &[EndSlope; 2], name: &str) -> Vec<String> {
     let short = |x: f64| significant(x, 3, 1e-3..1e5).replace('-', "−");
-    let sign = |slope: f64, expected: f64, size: f64| {
-        if (slope - expected).abs() <= AGREES * size.max(expected.abs()) { "=" } else { "≠" }
-    };
     vec![
         format!(
             "∂S/∂{name} = {} {} p, ∂S/∂t = {} {} −H",
             short(now.by_position),
-            sign(now.by_position, now.momentum, now.sizes[0]),
+            sign([now.by_position, now.momentum], now.sizes[0], now.errors[0]),
             short(now.by_time),
-            sign(now.by_time, -now.energy, now.sizes[1])
+            sign([now.by_time, -now.energy], now.sizes[1], now.errors[1])
         ),
         format!(
             "at the start {} −p, {} H",
-            sign(start.by_position, -start.momentum, start.sizes[0]),
-            sign(start.by_time, start.energy, start.sizes[1])
+            sign([start.by_position, -start.momentum], start.sizes[0], start.errors[0]),
+            sign([start.by_time, start.energy], start.sizes[1], start.errors[1])
         ),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of terms of size 2 whose integral is known to 1e-12: a momentum that is off by 1e-7 is not said to be equal.
+    #[test]
+    fn what_is_equal_follows_what_the_integral_reaches() {
+        let of = |off: f64, error| sign([1.0 + off, 1.0], 2.0, error);
+        for (off, error, word) in [
+            (1.5e-11, 1e-12, "="),
+            (1.7e-11, 1e-12, "≈"),
+            (1e-7, 1e-12, "≈"),
+            (1.9e-6, 1e-12, "≈"),
+            (2.1e-6, 1e-12, "≠"),
+            (1.5e-8, 1e-9, "="),
+            (1.7e-8, 1e-9, "≈"),
+            (f64::NAN, 1e-12, "≠"),
+        ] {
+            assert_eq!(of(off, error), word, "{off} {error}");
+            assert_eq!(of(-off, error), word, "{off} {error}");
+        }
+    }
 }

@@ -117,7 +117,7 @@ fn lines(pool: &Pool, report: &TransformationReport) -> Vec<String> {
     }];
     let mut failing = verdict.failing.iter().map(|bracket| {
         let [a, b] = bracket.pair.map(|s| pool.symbol_info(s).unicode.clone());
-        format!("[{a}, {b}] = {}, not {}", pool.unicode(bracket.is), pool.unicode(bracket.expected))
+        format!("[{a}, {b}] = {} ≠ {}", pool.unicode(bracket.is), pool.unicode(bracket.expected))
     });
     // the first of them beside the verdict, so that a low plot has it too
     if let Some((line, first)) = lines.first_mut().zip(failing.next()) {

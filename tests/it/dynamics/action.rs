@@ -4,7 +4,11 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use phaselab::app::{App, Event};
-use phaselab::dynamics::{DynamicsError, Lagrangian, VARIATIONS, VariedAction, varied_action};
+use phaselab::cancel::Cancel;
+use phaselab::dynamics::{
+    DynamicsError, Lagrangian, VARIATIONS, VariedAction, nearest_stationary_path, stationary_path,
+    varied_action,
+};
 use phaselab::instrument::{Plot, named};
 
 use crate::hand::{catalog, lowered, snapshot};
@@ -197,4 +201,45 @@ fn the_lab_says_where_the_action_means_nothing() {
            [[events]]\nname = \"wall\"\nwhen = \"x\"\naction = \"impulse:stroke\"\n";
     let (shown, measure) = picture(&wall, 3.1);
     assert!(shown.contains("events act on the motion") && measure("value").is_none(), "{shown}");
+}
+
+/// A search that is cancelled while it looks at the path to begin with ends before it looks at another.
+#[test]
+fn a_search_for_a_path_ends_once_it_is_cancelled() {
+    let loaded = lowered(&OSCILLATOR.replace("1/2*x'^2 - 1/2*x^2", "1/2*x'^2 + cos(x)"));
+    let mut equations = (*loaded.equations).clone();
+    let mut of = |cancel: &Cancel| {
+        let lagrangian = Lagrangian::of(&loaded.model, &mut equations, &[]).unwrap();
+        lagrangian.with_cancel(cancel.clone())
+    };
+    let looks = std::cell::Cell::new(0);
+    for nearest in [false, true] {
+        for cancelled in [false, true] {
+            let cancel = Cancel::new();
+            let mut lagrangian = of(&cancel);
+            looks.set(0);
+            let guess = |t: f64| {
+                looks.set(looks.get() + 1);
+                if cancelled {
+                    cancel.cancel();
+                }
+                vec![(PI * t / 4.0).sin()]
+            };
+            let found = if nearest {
+                nearest_stationary_path(&mut lagrangian, &guess, 4.0)
+            } else {
+                stationary_path(&mut lagrangian, &guess, 4.0)
+            };
+            if cancelled {
+                let why = found.expect_err("it is cancelled").to_string();
+                assert_eq!(why, "the search was cancelled");
+                assert!(looks.get() <= 15, "{}", looks.get());
+            } else {
+                // the swing, or rest
+                let action = found.unwrap().action;
+                assert!([3.344_291_248_262_989_3, 4.0].iter().any(|s| (action - s).abs() < 1e-10));
+                assert!(looks.get() > 15);
+            }
+        }
+    }
 }
