@@ -1,0 +1,66 @@
+//! The logarithms of a law, whose rates of change go on where they have no value.
+//!
+//! In: states. Out: whether every logarithm of the energy has a positive argument. The derivative of ln u, u'/u, is
+//! finite below zero too, so that a step of any method may end there. Other functions have no derivative where they
+//! have no value. Never here: where within a step the domain was left.
+
+use std::sync::Arc;
+
+use super::program::{Op, Program, Register};
+use super::value::Evaluator;
+use super::{State, System};
+use crate::expr::FunctionId;
+
+/// The logarithms of one system. It owns its registers.
+#[derive(Clone, Debug)]
+pub struct Logarithms {
+    system: System,
+    parameters: Vec<f64>,
+    energy: Evaluator<f64>,
+    arguments: Vec<Register>,
+    numbers: Vec<f64>,
+}
+
+impl System {
+    /// Whether the energy contains logarithms of what moves.
+    pub(super) fn has_logarithms(&self) -> bool {
+        arguments(&self.energy_program()).next().is_some()
+    }
+
+    /// The logarithms of the energy, or `None` if there are none.
+    pub fn logarithms(&self, parameters: &[f64]) -> Option<Logarithms> {
+        let program = self.energy_program();
+        let arguments: Vec<Register> = arguments(&program).collect();
+        if arguments.is_empty() {
+            return None;
+        }
+        let mut energy = Evaluator::new(Arc::clone(&program));
+        energy.set_parameters(&self.inputs(parameters));
+        let numbers = vec![0.0; self.moving()];
+        let (system, parameters) = (self.clone(), parameters.to_vec());
+        Some(Logarithms { system, parameters, energy, arguments, numbers })
+    }
+}
+
+fn arguments(program: &Program) -> impl Iterator<Item = Register> {
+    program.body.iter().filter_map(|&register| match program.ops[register as usize] {
+        Op::Call(FunctionId::Ln, [argument, _]) => Some(argument),
+        _ => None,
+    })
+}
+
+impl Logarithms {
+    /// Whether none has a negative argument in a state. Always true for a state whose velocities cannot be found, of
+    /// which its own error tells.
+    pub fn have_values(&mut self, state: &State) -> bool {
+        let Ok(native) = self.system.convert(state, self.system.form(), &self.parameters) else {
+            return true;
+        };
+        self.numbers.copy_from_slice(&native.values[..self.system.moving()]);
+        if self.energy.evaluate(native.time, &self.numbers).is_err() {
+            return true;
+        }
+        // what is not a number is found elsewhere
+        !self.arguments.iter().any(|&argument| self.energy.register(argument) < 0.0)
+    }
+}
