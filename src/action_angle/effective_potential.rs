@@ -349,6 +349,12 @@ impl<'a> EffectivePotential<'a> {
         self.nodes.iter().map(|node| node[1]).fold(f64::INFINITY, f64::min)
     }
 
+    /// The least energy of the places looked at between two, if any lies there.
+    pub fn bottom_between(&self, [from, to]: [f64; 2]) -> Option<f64> {
+        let inside = self.nodes.iter().filter(|node| from <= node[0] && node[0] <= to);
+        inside.map(|node| node[1]).reduce(f64::min)
+    }
+
     /// The place between two at which the potential is the energy; `inside` has less, `outside` has not.
     fn crossing(&mut self, mut inside: f64, mut outside: f64, energy: f64) -> f64 {
         for _ in 0..HALVINGS {

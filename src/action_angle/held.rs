@@ -255,9 +255,15 @@ impl HeldMotion<'_> {
         Ok(Separatrix::all(&mut self.potential, || false)?)
     }
 
-    /// The least energy of the coordinate.
-    pub fn bottom(&self) -> f64 {
-        self.potential.bottom()
+    /// The least energy of the coordinate between the points where a motion turns; of one that does not turn, the least at
+    /// all.
+    pub fn bottom(&self, motion: &OwnMotion) -> f64 {
+        let turns = motion.row.as_ref().map_or(&[][..], |row| &row.turning_points[..]);
+        let between = match turns {
+            [from, .., to] => self.potential.bottom_between([*from, *to]),
+            _ => None,
+        };
+        between.unwrap_or_else(|| self.potential.bottom())
     }
 }
 

@@ -389,7 +389,8 @@ fn written(
     let lead = if csv { "# " } else { "" };
     let shown = |x: f64| if csv { printable::number(x) } else { legibly(x) };
     let line = |s: &Separatrix| {
-        let actions: Vec<String> = s.actions.iter().map(|&x| shown(x)).collect();
+        let lobe = |&x: &f64| if x.is_finite() { shown(x) } else { "unbounded".to_owned() };
+        let actions: Vec<String> = s.actions.iter().map(lobe).collect();
         let (energy, actions) = (shown(s.energy), actions.join(", "));
         let turn = s.turn.map_or_else(String::new, |turn| {
             format!(" of libration, {} a turn of rotation", shown(turn))

@@ -44,8 +44,8 @@ const BEING_COMPUTED: &str = "being computed";
 /// Beyond this energy, relative to the motion's, a top is out of the picture.
 const FAR: f64 = 20.0;
 
-/// An instant this part of the time after the start is called the start.
-const AT_START: f64 = 1e-3;
+/// A change of the energy by more than this part of its height is no rounding: the motion is another one.
+const ANOTHER_ENERGY: f64 = 1e-4;
 
 /// The part of the time since the start, and of the period, after which a moving law is looked at again.
 const LATER: f64 = 0.01;
@@ -78,6 +78,8 @@ struct Found {
     curves: Vec<Vec<[f64; 2]>>,
     separatrices: Vec<Separatrix>,
     own: OwnMotion,
+    /// Its energy above the least one of the coordinate where it moves.
+    height: f64,
 }
 
 impl Instrument for ActionsPlot {
@@ -161,7 +163,7 @@ impl Instrument for ActionsPlot {
         let Some(state) = CoordinateState::of(plot, present) else { return Need::Nothing };
         let known = computed(answer);
         let leads = known.is_some_and(|known| known.course.leads_to(&state));
-        if leads && known.is_some_and(|known| known.holds_at(state.time)) {
+        if leads && known.is_some_and(|known| known.holds_at(&state)) {
             return Need::Held;
         }
         let replaced = known.filter(|_| leads).map_or(&[][..], |known| &known.replaced);
@@ -169,25 +171,29 @@ impl Instrument for ActionsPlot {
         let before = |instant: &&Moment| instant.time <= state.time;
         let replaced: Vec<Moment> = replaced.iter().filter(before).copied().collect();
         let known = known.map(|known| known.course.clone());
-        let model = Arc::clone(present.physics.model);
+        let (model, system) =
+            (Arc::clone(present.physics.model), Arc::clone(present.physics.system));
         Need::Job(Job::new("actions", move |progress: &Progress| {
             let known = known.as_ref();
             let mut course = HeldCourse::continued(known, &state, &model, progress, |m| m.time);
-            let CoordinateState { time, parameters, positions, momenta, .. } = &state;
-            let motion = course.held.as_ref().map_err(Clone::clone).and_then(|held| {
-                held.at(*time, parameters, [positions, momenta]).map_err(|why| why.to_string())
-            });
-            let found =
-                motion.and_then(|mut motion| Ok((Found::of(&mut motion)?, motion.bottom())));
-            if let (true, Ok((Found { own, .. }, bottom))) = (course.moves(), &found)
-                && let Ok(row) = &own.row
-                && row.kind != RegionKind::Unbounded
-            {
-                let height = own.energy - bottom;
-                let (energy, action) = (own.energy, row.action);
-                course.past.push(Moment { time: *time, energy, height, action });
+            let held = course.held.clone();
+            let motion = held.as_ref().map_err(Clone::clone).and_then(|held| state.held(held));
+            let found = motion.and_then(|mut motion| Found::of(&mut motion));
+            if course.moves() {
+                // however late one looks, the change is that since the motion began
+                if course.past.is_empty()
+                    && let Ok(held) = &held
+                    && let Ok(first) = state.beginning(&system, model.run.start)
+                    && let Ok(mut motion) = first.held(held)
+                {
+                    let own = motion.own().ok();
+                    course.past.extend(own.and_then(|own| Moment::of(&motion, &own, first.time)));
+                }
+                let now = found.as_ref().ok().and_then(|found| found.moment(state.time));
+                course.past.extend(
+                    now.filter(|now| course.past.last().is_none_or(|last| last.time < now.time)),
+                );
             }
-            let found = found.map(|(found, _)| found);
             Answer::new(ComputedActions { course, found, replaced: replaced.clone() })
         }))
     }
@@ -239,6 +245,13 @@ impl Instrument for ActionsPlot {
 }
 
 impl Moment {
+    /// That of a motion which returns.
+    fn of(motion: &HeldMotion<'_>, own: &OwnMotion, time: f64) -> Option<Moment> {
+        let row = own.row.as_ref().ok().filter(|row| row.kind != RegionKind::Unbounded)?;
+        let height = own.energy - motion.bottom(own);
+        Some(Moment { time, energy: own.energy, height, action: row.action })
+    }
+
     /// By which part action and height have changed since another moment; `None` where there was nothing to have parts.
     fn changes_since(&self, first: &Moment) -> Option<[f64; 2]> {
         let part = |from: f64, to: f64| (from > 0.0).then(|| (to - from) / from);
@@ -247,15 +260,18 @@ impl Moment {
 }
 
 impl ComputedActions {
-    /// Whether it is still what is to be seen at a time.
-    fn holds_at(&self, time: f64) -> bool {
+    /// Whether it is still what is to be seen in a state of the motion.
+    fn holds_at(&self, now: &CoordinateState) -> bool {
         let HeldCourse { state, past, .. } = &self.course;
         if !self.course.is_of_this_law() {
             return false;
         }
         if !self.course.moves() {
-            return true;
+            // an impulse or friction changes it
+            let height = self.found.as_ref().map_or(f64::INFINITY, |found| found.height);
+            return now.has_energy_of(state, (ANOTHER_ENERGY, height));
         }
+        let time = now.time;
         let period = self.found.as_ref().ok().and_then(|found| found.own.row.as_ref().ok());
         let period = period.map(|row| row.period).filter(|period| period.is_finite());
         let since = past.first().map_or(0.0, |first| (time - first.time).abs());
@@ -278,7 +294,7 @@ impl Found {
     fn of(motion: &mut HeldMotion<'_>) -> Result<Found, String> {
         let own = motion.own().map_err(|why| why.to_string())?;
         let separatrices = motion.separatrices().map_err(|why| why.to_string())?;
-        let bottom = motion.bottom();
+        let bottom = motion.bottom(&own);
         let reach = (own.energy - bottom).max(f64::MIN_POSITIVE);
         let separatrices: Vec<Separatrix> = separatrices
             .into_iter()
@@ -317,7 +333,13 @@ impl Found {
             }
             before = energy;
         }
-        Ok(Found { curves, separatrices, own })
+        Ok(Found { curves, separatrices, height: own.energy - bottom, own })
+    }
+
+    /// The motion at a time, if it returns.
+    fn moment(&self, time: f64) -> Option<Moment> {
+        let row = self.own.row.as_ref().ok().filter(|row| row.kind != RegionKind::Unbounded)?;
+        Some(Moment { time, energy: self.own.energy, height: self.height, action: row.action })
     }
 }
 
@@ -375,7 +397,9 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
         }
     }
     for separatrix in &found.separatrices {
-        let actions: Vec<String> = separatrix.actions.iter().map(|&x| short(x)).collect();
+        // a lobe without end has no action
+        let lobes = separatrix.actions.iter().filter(|action| action.is_finite());
+        let actions: Vec<String> = lobes.map(|&x| short(x)).collect();
         let (energy, actions) = (short(separatrix.energy), actions.join(" and "));
         let turn = separatrix.turn.map_or_else(String::new, |x| format!(", {} a turn", short(x)));
         lines.push(format!("separatrix at E = {energy}: J = {actions}{turn}"));
@@ -388,13 +412,6 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
             "undecided so far"
         } else {
             "not adiabatic"
-        };
-        // the first instant looked at may lie a little behind the start
-        let start = present.physics.model.run.start;
-        let since = if (since - start).abs() <= AT_START * (present.time - start).abs() {
-            start
-        } else {
-            since
         };
         lines.push(format!("since t = {}: {verdict}", short(since)));
         lines.push(changes_in_words([action, height]));

@@ -39,6 +39,16 @@ impl PlotConditions {
         Self { changed, ..Self::of(present, seeds) }
     }
 
+    /// Whether parameters and initial values are the same.
+    pub(super) fn begin_alike(&self, other: &Self) -> bool {
+        self.parameters == other.parameters && self.initial == other.initial
+    }
+
+    /// Whether the law was changed last at the same state, or never.
+    pub(super) fn are_of_one_motion(&self, other: &Self) -> bool {
+        self.changed == other.changed
+    }
+
     /// When the motion begins that is followed: `start`, or where the law was changed last.
     pub(super) fn begin(&self, start: f64) -> f64 {
         self.changed.as_ref().map_or(start, |(_, state)| state.time)

@@ -5,11 +5,12 @@
 
 use std::sync::Arc;
 
+use super::conditions::PlotConditions;
 use super::{Offer, Physics, Plot, Present};
-use crate::action_angle::HeldSystem;
+use crate::action_angle::{HeldMotion, HeldSystem};
 use crate::job::Progress;
 use crate::model::Model;
-use crate::system::ChannelKind;
+use crate::system::{ChannelKind, Form, MotionError, System};
 
 /// The coordinates that have an action and an angle variable, if the system has them.
 pub(super) fn offers(physics: Physics<'_>, what: &str, about: &str) -> Vec<Offer> {
@@ -33,7 +34,9 @@ pub(super) struct CoordinateState {
     pub(super) coordinate: usize,
     pub(super) time: f64,
     pub(super) parameters: Vec<f64>,
-    pub(super) initial: Vec<f64>,
+    /// Where the recorded motion began.
+    conditions: PlotConditions,
+    energy: f64,
     pub(super) positions: Vec<f64>,
     pub(super) momenta: Vec<f64>,
 }
@@ -55,10 +58,40 @@ impl CoordinateState {
             coordinate,
             time: present.time,
             parameters: present.parameters.to_vec(),
-            initial: present.initial.to_vec(),
+            conditions: PlotConditions::of_recorded(present, &[]),
+            energy: physics.channel(ChannelKind::Energy).map_or(f64::NAN, |c| present.value(c)),
             positions: values(ChannelKind::Position),
             momenta: values(ChannelKind::Momentum),
         })
+    }
+
+    /// The state at which the recorded motion began, under the law of now.
+    pub(super) fn beginning(
+        &self,
+        system: &System,
+        start: f64,
+    ) -> Result<CoordinateState, MotionError> {
+        let state = self.conditions.state(system, start)?;
+        let state = system.convert(&state, Form::Momentum, &self.parameters)?;
+        let (positions, momenta) = state.values.split_at(self.positions.len());
+        let momenta = &momenta[..self.momenta.len()];
+        Ok(CoordinateState {
+            time: state.time,
+            positions: positions.to_vec(),
+            momenta: momenta.to_vec(),
+            ..self.clone()
+        })
+    }
+
+    /// The motion of the system held at this instant.
+    pub(super) fn held<'a>(&self, system: &'a HeldSystem) -> Result<HeldMotion<'a>, String> {
+        let place = [&self.positions[..], &self.momenta[..]];
+        system.at(self.time, &self.parameters, place).map_err(|why| why.to_string())
+    }
+
+    /// Whether the energy is that of another state, up to a part of it.
+    pub(super) fn has_energy_of(&self, other: &CoordinateState, (part, of): (f64, f64)) -> bool {
+        (self.energy - other.energy).abs() <= part * of
     }
 }
 
@@ -77,9 +110,10 @@ pub(super) struct HeldCourse<M> {
 impl<M: Clone> HeldCourse<M> {
     /// Whether these are instants of the motion on which a state lies.
     pub(super) fn leads_to(&self, state: &CoordinateState) -> bool {
-        let conditions =
-            |s: &CoordinateState| (s.coordinate, s.parameters.clone(), s.initial.clone());
-        conditions(&self.state) == conditions(state)
+        let (here, there) = (&self.state.conditions, &state.conditions);
+        self.state.coordinate == state.coordinate
+            && here.begin_alike(there)
+            && (self.replaced || here.are_of_one_motion(there))
     }
 
     /// Whether it is still what is known of the law.

@@ -209,17 +209,20 @@ impl Expansion {
         if !self.may_go_on() {
             return reach;
         }
-        // the last terms show nothing here, but those about a time ahead do, if they also hold back to here
+        // the last terms show nothing here, but those about a time ahead do, if they also hold back to here; the same
+        // number of terms about here holds no farther
         let mut ahead = if reach.is_finite() { 0.5 * reach } else { 1.0 };
+        let mut least = 0.0;
         for _ in 0..MOST_LOOKS {
             let there =
                 if self.about(series, x + ahead) { self.reach(cut_off, whole) } else { 0.0 };
             if there >= ahead {
+                least = there.min(2.0 * ahead);
                 break;
             }
             ahead *= if there > 0.0 { 0.5 * (there / ahead) } else { 0.1 };
         }
-        if self.about(series, x) { reach.min(2.0 * ahead) } else { f64::NAN }
+        if self.about(series, x) { reach.min(least) } else { f64::NAN }
     }
 
     /// How far the series represent their functions up to a part `cut_off` of them, in their unit,

@@ -8,9 +8,10 @@ use super::program::{Op, PARAMETRIC_POWER_BITS, Register};
 use crate::expr::{Expr, FunctionId, KinkBranches, Node, Pool, Rule};
 use crate::num::{DoubleDouble, Number};
 
-/// A product of this degree may, at a zero of its factors and multiplied by others, have its first term
-/// beyond the order of a series, which is twelve at least.
-const STEEP: i64 = 8;
+/// At a zero of its factors, a function of a product of this degree may have so many orders without a term between two
+/// with one that the last orders of a series, by which it is judged, show nothing: an even one twice the degree, the next
+/// term lying ten orders or more behind, or beyond the order of a series, which is twelve at least.
+const STEEP: i64 = 6;
 
 impl Lowering<'_> {
     pub(super) fn lower_node(&mut self, e: Expr) -> Register {

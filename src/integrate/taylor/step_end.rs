@@ -214,18 +214,22 @@ impl Taylor {
         Err(self.system.fault(kind, self.state.time, &self.state.values))
     }
 
-    /// Whether the rates near the end of a step, where kinks are, are not those of the series.
+    /// Whether the rates within a step, up to near its end, where kinks are, are not those of the series.
     fn misses_a_steep_power(&mut self, after: DoubleDouble) -> Result<bool, MotionError> {
-        let near = after * steep::NEAR_THE_END;
-        self.series.state_after(near, &mut self.state);
-        match self.evaluate_rates() {
-            Err(fault) if fault.kind == MotionErrorKind::Cancelled => Err(fault),
-            Err(_) => Ok(true),
-            Ok(()) => {
-                let x = near.high / self.series.scale();
-                Ok(steep::missed(&self.series, x, &self.rates, self.tolerance))
+        for part in steep::parts(&self.series) {
+            let within = after * part;
+            self.series.state_after(within, &mut self.state);
+            match self.evaluate_rates() {
+                Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault),
+                Err(_) => return Ok(true),
+                Ok(()) => {}
+            }
+            let x = within.high / self.series.scale();
+            if steep::missed(&self.series, x, &self.rates, self.tolerance) {
+                return Ok(true);
             }
         }
+        Ok(false)
     }
 
     /// Sets numbers that have reached zero to exactly zero.

@@ -190,3 +190,29 @@ fn what_is_small_beside_other_numbers_grows_and_decays_as_it_should() {
     assert!(run.to(2000.0)[0].abs() < 1e-300);
     assert!(run.steps < 2000, "{} steps", run.steps);
 }
+
+/// About x = 0 the series of x³⁰ has no term below the thirtieth, and the force of 1/(1 + x³⁰) vanishes on both sides of
+/// x = 1: nothing in the series shows it, and a step must not pass over it.
+#[test]
+fn forces_whose_series_begin_beyond_its_order_are_not_passed_over() {
+    // each falls by its height from about 0 to far away; beyond the time given there numbers overflow
+    let falls: [(fn(u32) -> String, f64, f64); 4] = [
+        (|n| format!("1/(1 + x^{n})"), 1.0, 1e4),
+        (|n| format!("exp(-x^{n})"), 1.0, 1e4),
+        (|n| format!("-tanh(x^{n})"), 1.0, 3.0),
+        (|n| format!("-atan(x^{n})"), std::f64::consts::FRAC_PI_2, 1e4),
+    ];
+    for (potential_of, height, end) in falls {
+        for n in [6, 7, 8, 12, 29, 30, 41] {
+            for start in ["0.0", "1e-6"] {
+                let v = potential_of(n);
+                let mut run = potential(start, "1.2", &v);
+                let state = run.to(end);
+                let speed = (1.44_f64 + 2.0 * height).sqrt();
+                let off = state[1] / speed - 1.0;
+                assert!(off.abs() < 2e-15, "{v} from {start}: {state:?} {speed} {off:e}");
+                assert!(run.steps < 1000, "{v} from {start}: {} steps", run.steps);
+            }
+        }
+    }
+}
