@@ -9,7 +9,7 @@ use super::System;
 use super::batch_series::BatchSeries;
 use super::jet::Jet;
 use super::program::{Op, Program};
-use super::sign_bound::{last_terms_count, signs_kept, stay};
+use super::sign_bound::{shows_end, signs_kept, stay};
 use crate::num::{Analytic, Batch, DoubleDouble, Kernel, vectorized};
 
 /// The functions of one system.
@@ -138,7 +138,7 @@ impl Kernel for KeepSigns<'_> {
             };
             all = all * (c[0] * sign).is_above(Batch::ZERO) * signs_kept(c, cut_off, time);
             if !is_whole {
-                all = all * last_terms_count(c);
+                all = all * shows_end(c, time);
             }
         }
         if let Functions::Program { jet, outputs, .. } = &functions.functions {

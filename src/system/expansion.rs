@@ -11,7 +11,7 @@ use std::sync::Arc;
 use super::System;
 use super::jet::{Jet, Side};
 use super::program::Program;
-use super::sign_bound::{LAST, bound, ends_in_zeros, keeps_sign, stays};
+use super::sign_bound::{LAST, bound, keeps_sign, shows_no_end, stays};
 use super::step_series::StepSeries;
 use crate::num::{DoubleDouble, math};
 
@@ -155,7 +155,7 @@ impl Expansion {
         let arguments = self.functions..self.outputs;
         self.jet.switches() == 0
             && self.about(series, 0.0)
-            && !self.may_go_on()
+            && !self.may_go_on(time)
             && signs.iter().enumerate().all(|(i, &sign)| keeps(self.function(i), sign))
             && arguments.into_iter().all(|i| stays(self.jet.output_series(i), time))
     }
@@ -183,11 +183,11 @@ impl Expansion {
         self.degree.is_some_and(|degree| degree.saturating_mul(self.taken_degree) <= self.order())
     }
 
-    /// Whether a series ends in zeros and its function may go on beyond: the next term of cos t⁴ at 0 comes eight orders
-    /// after the last.
-    fn may_go_on(&self) -> bool {
+    /// Whether the last terms of a series at a time show nothing of how its function goes on: the next term of cos t⁴ at 0
+    /// comes eight orders after the last.
+    fn may_go_on(&self, time: f64) -> bool {
         let functions = (0..self.functions).map(|i| self.function(i));
-        !self.is_whole() && functions.chain(self.switches()).any(ends_in_zeros)
+        !self.is_whole() && functions.chain(self.switches()).any(|c| shows_no_end(c, time))
     }
 
     /// Expands the functions about a time `x` after the origin of the motion's series, in its unit, and returns how far
@@ -206,7 +206,7 @@ impl Expansion {
             return whole;
         }
         let reach = self.reach(cut_off, whole);
-        if !self.may_go_on() {
+        if !self.may_go_on(reach) {
             return reach;
         }
         // the last terms show nothing here, but those about a time ahead do, if they also hold back to here; the same
@@ -220,7 +220,7 @@ impl Expansion {
                 least = there.min(2.0 * ahead);
                 break;
             }
-            ahead *= if there > 0.0 { 0.5 * (there / ahead) } else { 0.1 };
+            ahead *= if there > 0.0 { 0.5 * (there / ahead) } else { 1e-4 };
         }
         if self.about(series, x) { reach.min(least) } else { f64::NAN }
     }

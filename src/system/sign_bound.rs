@@ -4,7 +4,7 @@
 //! the opposite sign together, and the truncated series represents the function. Never here: where a function changes its
 //! sign.
 
-use crate::num::{Analytic, BATCH, Batch};
+use crate::num::{Analytic, BATCH, Batch, math};
 
 /// The number of last orders that enter the estimate: those of even and of odd functions vanish in
 /// turn.
@@ -40,16 +40,40 @@ pub(super) fn keeps_sign(c: &[f64], cut_off: f64, time: f64) -> bool {
     represented && 0.5 * against < (1.0 - MARGIN) * first && LEAST * all < first
 }
 
-/// Whether the last terms of a series vanish, by which it is judged how far it represents its function.
-pub(super) fn ends_in_zeros(c: &[f64]) -> bool {
-    c[c.len() - LAST..].iter().all(|x| *x == 0.0)
+/// Terms that grow by more than this factor up to the last are the tail of what comes after them.
+const GROWING: f64 = 10.0;
+
+/// Whether the last terms of a series at a time, in its unit, by which it is judged how far it represents its function, show
+/// nothing of what comes after them: they vanish, or grow, as about a time near zero those of cos t⁴ do.
+pub(super) fn shows_no_end(c: &[f64], time: f64) -> bool {
+    let end = c.len();
+    if c[end - LAST..].iter().all(|x| *x == 0.0) {
+        return true;
+    }
+    // in units of the last power
+    let largest = |orders: std::ops::Range<usize>| {
+        let term = |k: usize| c[k].abs() / math::powi(time, (end - 1 - k) as i32);
+        orders.map(term).fold(0.0, f64::max)
+    };
+    time.is_finite() && largest(end - 2..end) > GROWING * largest(end - 2 - LAST..end - 2)
 }
 
-/// The opposite of [`ends_in_zeros`] in each lane: one or zero. To be inlined into a kernel.
+/// The opposite of [`shows_no_end`] in each lane: one or zero. To be inlined into a kernel.
 #[inline(always)]
-pub(super) fn last_terms_count(c: &[Batch]) -> Batch {
-    let last = c[c.len() - LAST..].iter();
-    last.fold(Batch::ZERO, |sum, x| sum + x.abs()).is_above(Batch::ZERO)
+pub(super) fn shows_end(c: &[Batch], time: Batch) -> Batch {
+    let end = c.len();
+    let all = c[end - LAST..].iter().fold(Batch::ZERO, |sum, x| sum + x.abs());
+    // in units of the lowest of these powers
+    let (mut before, mut last, mut power) = (Batch::ZERO, Batch::ZERO, Batch::ONE);
+    for x in &c[end - 2 - LAST..end - 2] {
+        before = before.larger(x.abs() * power);
+        power = power * time;
+    }
+    for x in &c[end - 2..] {
+        last = last.larger(x.abs() * power);
+        power = power * time;
+    }
+    all.is_above(Batch::ZERO) * last.is_at_most(before * GROWING)
 }
 
 /// How far the argument of an exponential may change.
@@ -128,6 +152,26 @@ mod tests {
         assert_eq!(both(&[1.0, -5.0, 9.0, 0.0, 0.0, 0.0], 0.9), [false; 2]);
         assert_eq!(both(&[0.0; 6], 1.0), [false; 2]);
         assert_eq!(both(&[1.0, f64::NAN, 0.0, 0.0, 0.0, 0.0], 0.1), [false; 2]);
+    }
+
+    #[test]
+    fn last_terms_that_vanish_or_grow_show_no_end() {
+        let even = [1.0, 0.0, -0.5, 0.0, 0.04, 0.0, -1e-3, 0.0, 2e-5];
+        let cases = [
+            (even, 1.0, false),
+            // five times as far away its terms do not fall any more
+            (even, 30.0, true),
+            ([1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], 1.0, true),
+            ([1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1e-30, 1e-20], 1.0, true),
+            ([1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0], 9.0, false),
+            ([1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0], 11.0, true),
+        ];
+        for (c, time, none) in cases {
+            let several: Vec<Batch> = c.iter().map(|&x| Batch::splat(x)).collect();
+            assert_eq!(shows_no_end(&c, time), none, "{c:?} at {time}");
+            let ends = shows_end(&several, Batch::splat(time)) == Batch::ONE;
+            assert_eq!(ends, !none, "{c:?} at {time} in lanes");
+        }
     }
 
     #[test]
