@@ -151,6 +151,11 @@ impl<'a> EquilibriumSearch<'a> {
         let canonical = space.form() == Form::Momentum;
         let cyclic = if canonical { space.cyclic().to_vec() } else { Vec::new() };
         if space.is_constrained() {
+            let allowed = space.state(start).and_then(|s| space.allowed_displacements(&s));
+            if matches!(allowed, Ok((_, 0))) {
+                let why = "the constraints leave nothing that could move";
+                return Err(DynamicsError::Unsuited(why.to_owned()));
+            }
             let balance = ConstrainedBalance::new(space, start)?;
             let (middle, unknowns) = (balance.start(), balance.unknowns());
             let mut units = coordinate_units(space, &middle[..degrees]);

@@ -49,6 +49,8 @@ pub enum MotionErrorKind {
     ConstraintLostInStep(String),
     /// The initial values violate this constraint, by this part of the size of its terms.
     ConstraintMissed(String, f64),
+    /// The initial velocities violate this constraint, by this part of the size of its terms.
+    VelocitiesMissed(String, f64),
     /// The given initial velocities and momenta contradict the constraints.
     Contradiction,
     /// The constraints do not determine these initial velocities.
@@ -126,6 +128,10 @@ impl fmt::Display for MotionError {
             MotionErrorKind::ConstraintMissed(name, part) => write!(
                 f,
                 "the values at the start do not keep the constraint `{name}`: it is off by {part:.1e} of its terms"
+            )?,
+            MotionErrorKind::VelocitiesMissed(name, part) => write!(
+                f,
+                "the velocities at the start do not keep the constraint `{name}`: its rate is off by {part:.1e} of its terms"
             )?,
             MotionErrorKind::Contradiction => f.write_str(
                 "the velocities and momenta given at the start contradict the constraints",
@@ -214,6 +220,7 @@ impl fmt::Display for MotionError {
                 ": no configuration near the end of the step meets it; try a smaller step"
             }
             MotionErrorKind::ConstraintMissed(..)
+            | MotionErrorKind::VelocitiesMissed(..)
             | MotionErrorKind::FreeVelocities(_)
             | MotionErrorKind::SeveralStarts(_)
             | MotionErrorKind::Passable(..)

@@ -12,6 +12,14 @@ const ROUNDING: f64 = 1e-13;
 /// The part of a step where they are compared: before the end, which may lie on a kink.
 pub(super) const NEAR_THE_END: f64 = 0.98;
 
+/// A step longer by this factor than the last one is looked at within, too, …
+pub(super) const LONGER: f64 = 2.0;
+
+/// … at so many places in all, each at this part of the time to the one before: what changes like u^n differs from 0 by
+/// rounding where u lies within a factor of e^{30/n} of 1.
+pub(super) const WITHIN: usize = 64;
+pub(super) const NEARER: f64 = 0.7;
+
 /// Whether the rates at a state, a time `after` the origin in the unit of the series, are not those
 /// of the series.
 pub(super) fn missed(series: &Series, after: f64, rates: &ExactRates, tolerance: f64) -> bool {

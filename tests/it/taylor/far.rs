@@ -190,3 +190,27 @@ fn what_is_small_beside_other_numbers_grows_and_decays_as_it_should() {
     assert!(run.to(2000.0)[0].abs() < 1e-300);
     assert!(run.steps < 2000, "{} steps", run.steps);
 }
+
+/// About x = 0 the series of 1/(1 + x^n) begins with as many zeros, and far beyond the wall all is flat again: it is met in a
+/// step of any length, as a potential and as a force of which no energy is known. Beyond it v² = v₀² + 2, and it reflects
+/// what is slower than √2 on its other side.
+#[test]
+fn a_wall_that_no_term_of_the_series_shows_is_met() {
+    for n in [30, 40, 100] {
+        let potential = format!("1/(1 + x^{n})");
+        let hill = format!("x^{n}/(1 + x^{n})");
+        let force = format!("{n}*x^{}/(1 + x^{n})^2", n - 1);
+        let forced = format!(
+            "title = \"F\"\n[coordinates]\nx = {{ initial = 0, velocity = 1.2 }}\n\
+             [lagrangian]\nL = \"1/2*x'^2\"\nforces = {{ x = \"{force}\" }}\n"
+        );
+        for end in [3.0, 4.0, 50.0, 1e3, 1e6] {
+            for mut run in [super::far::potential("0", "1.2", &potential), Run::new(&forced)] {
+                near(&run.to(end)[1..2], &[3.44_f64.sqrt()], 1e-13);
+            }
+            let mut run = super::far::potential("0", "1.2", &hill);
+            let v = run.to(1.5)[1];
+            near(&[v], &[-1.2], 1e-9);
+        }
+    }
+}
