@@ -3,6 +3,7 @@
 //! the rates near the end of a step are compared with the slopes of the series there.
 
 use super::super::roots::value_and_slope;
+use super::last_orders::FAINT;
 use crate::system::{ExactRates, Series};
 
 /// The deviation of a rate over the step, relative to the largest term of its series, that is
@@ -35,8 +36,9 @@ pub(super) fn missed(series: &Series, after: f64, rates: &ExactRates, tolerance:
             .zip(0..)
             .map(|((c, power), k): (_, u32)| (c * power * f64::from(k.max(1))).abs());
         let size = terms.fold(0.0, f64::max);
-        // a NaN is missed
-        let agrees = ((rate - slope) * after).abs() <= allowed * size;
+        // a NaN is missed, and what underflows is not
+        let apart = ((rate - slope) * after).abs();
+        let agrees = apart <= allowed * size || apart * series.unit(i) < FAINT;
         slope.is_finite() && !agrees
     })
 }

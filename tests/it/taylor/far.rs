@@ -214,3 +214,26 @@ fn a_wall_that_no_term_of_the_series_shows_is_met() {
         }
     }
 }
+
+/// One at rest, which a steep power of another begins to move: its rates come out of underflow. p_x + 10 p_y is conserved.
+#[test]
+fn a_steep_power_sets_in_motion_what_is_at_rest() {
+    let file = |v: &str| {
+        format!(
+            "title = \"Two\"\n[coordinates]\nx = {{ initial = 0, velocity = 1.2 }}\ny = {{ initial = 0 }}\n\
+             [lagrangian]\nL = \"1/2*x'^2 + 1/2*y'^2 - {v}\"\n"
+        )
+    };
+    // x'² + (1.2 − x')²/100 = 3.44 beyond the wall, and 1.44 where all of the energy is in the motion again
+    let root = |twice: f64, side: f64| {
+        (0.012 + side * (0.012_f64.powi(2) - 1.01 * (0.0144 - twice)).sqrt()) / 1.01
+    };
+    for n in [40, 50] {
+        let x = root(3.44, 1.0);
+        let mut run = Run::new(&file(&format!("1/(1 + (x - y/10)^{n})")));
+        near(&run.to(3.0)[2..4], &[x, (1.2 - x) / 10.0], 1e-13);
+        let x = root(1.44, -1.0);
+        let mut run = Run::new(&file(&format!("(x - y/10)^{n}")));
+        near(&run.to(1.6)[2..4], &[x, (1.2 - x) / 10.0], 1e-12);
+    }
+}
