@@ -190,7 +190,11 @@ impl fmt::Display for MotionError {
             )?,
             MotionErrorKind::Ended(name) => write!(f, "`{name}` ends the motion at t = {time}")?,
             MotionErrorKind::Sticks => write!(f, "the motion sticks at t = {time}")?,
-            MotionErrorKind::Rough | MotionErrorKind::NoSide => {
+            MotionErrorKind::Rough => write!(
+                f,
+                "the motion comes to a kink or to the end of a function's domain, and cannot be followed through it at t = {time}"
+            )?,
+            MotionErrorKind::NoSide => {
                 write!(
                     f,
                     "the motion comes to a kink that it cannot be followed through at t = {time}"
@@ -252,7 +256,7 @@ impl fmt::Display for MotionError {
             MotionErrorKind::NoInterval(..) => ": its interval must be above zero",
             MotionErrorKind::TooManySteps(..) => ": try a larger step",
             MotionErrorKind::PilesUp(_) => ": give the file an event that stops it before",
-            MotionErrorKind::Rough => ": the rates of change have no limit there",
+            MotionErrorKind::Rough => ": the rates of change have no limit there, or no value beyond",
             MotionErrorKind::NoSide => ": no side of it leads away, and a motion along it cannot be followed",
             MotionErrorKind::Sticks => ": both sides of a kink push towards it",
         })

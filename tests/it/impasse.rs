@@ -234,6 +234,18 @@ fn bars_in_line_are_told_at_every_tolerance() {
     assert!(!message.contains("singular"), "{message}");
 }
 
+/// x^(3/2) ends at 0, where its rate of change has a limit.
+#[test]
+fn the_end_of_a_domain_is_called_so() {
+    let power =
+        "[coordinates]\nx = { initial = 1, velocity = -2 }\n[lagrangian]\nL = \"1/2*x'^2 - x^1.5\"";
+    let message = said(power, &["--until", "9"]);
+    assert!(
+        message.contains("# faulted") && message.contains("the end of a function's domain"),
+        "{message}"
+    );
+}
+
 /// p = v³ − v turns back at v = 1/√3.
 #[test]
 fn a_fixed_step_does_not_jump_to_another_branch() {

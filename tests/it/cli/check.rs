@@ -291,6 +291,18 @@ fn a_claim_that_holds_by_a_short_run_only_is_false() {
     assert_eq!(with_file(&barrier(denied), &["check", "system.toml"]).success(), "");
 }
 
+/// A circle and a parabola touch at the start, and part.
+#[test]
+fn constraints_that_touch_are_said_to_repeat_each_other_at_the_start() {
+    let touch = "y = { initial = 1, velocity = 0 }\n[lagrangian]\nL = \"1/2*(x'^2 + y'^2)\"\n\
+                 [[constraints]]\nname = \"c\"\nexpression = \"x^2 + y^2 - 1\"\n\
+                 [[constraints]]\nname = \"d\"\nexpression = \"y - 1 + x^2/2\"\n";
+    let file = one("x = { initial = 0, velocity = 1 }", touch);
+    let done = with_file(&file, &["check", "system.toml"]);
+    let said = "the constraint `d` repeats at the start what those before it say";
+    assert!(done.stderr.contains(said), "{}", done.stderr);
+}
+
 /// What a law changes along a motion is not conserved, however little of that a run shows: by a force too weak to see, or a
 /// constant that makes the change small beside it. The sentence says which.
 #[test]
