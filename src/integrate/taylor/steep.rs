@@ -1,9 +1,11 @@
 //! Steep powers: about u = 0 the series of u^40 has no term below the fortieth, so that a series of
 //! lower order shows nothing of the force, and nothing limits the step. Where a law has such powers,
-//! the rates near the end of a step are compared with the slopes of the series there.
+//! the rates near the end of a step are compared with the slopes of the series there; and if the last
+//! terms vanish, also at times ever nearer to its beginning, since a force such as u²⁹/(1 + u³⁰)² vanishes
+//! on both sides of where it acts.
 
 use super::super::roots::value_and_slope;
-use super::last_orders::FAINT;
+use super::last_orders::{FAINT, last_orders};
 use crate::system::{ExactRates, Series};
 
 /// The deviation of a rate over the step, relative to the largest term of its series, that is
@@ -11,15 +13,29 @@ use crate::system::{ExactRates, Series};
 const ROUNDING: f64 = 1e-13;
 
 /// The part of a step where they are compared: before the end, which may lie on a kink.
-pub(super) const NEAR_THE_END: f64 = 0.98;
+const NEAR_THE_END: f64 = 0.98;
 
-/// A step longer by this factor than the last one is looked at within, too, …
-pub(super) const LONGER: f64 = 2.0;
+/// The ratio of two times at which they are compared where the last terms vanish, and how many there are: where those of
+/// all numbers do nothing limits the step, and it may be as much longer than what it passes over as these reach; else few
+/// suffice.
+const NEARER: f64 = std::f64::consts::FRAC_1_SQRT_2;
+const LOOKS: usize = 140;
+const FEW_LOOKS: usize = 8;
 
-/// … at so many places in all, each at this part of the time to the one before: what changes like u^n differs from 0 by
-/// rounding where u lies within a factor of e^{30/n} of 1.
-pub(super) const WITHIN: usize = 64;
-pub(super) const NEARER: f64 = 0.7;
+/// The parts of a step where rates and slopes are compared.
+pub(super) fn parts(series: &Series) -> impl Iterator<Item = f64> + use<> {
+    let ends = |i: &usize| {
+        let coefficients = series.coefficients(*i);
+        last_orders(series.order()).all(|k| coefficients[k].abs() < FAINT)
+    };
+    let ending = (0..series.inputs()).filter(ends).count();
+    let count = match ending {
+        0 => 1,
+        _ if ending < series.inputs() => FEW_LOOKS,
+        _ => LOOKS,
+    };
+    std::iter::successors(Some(NEAR_THE_END), |part| Some(part * NEARER)).take(count)
+}
 
 /// Whether the rates at a state, a time `after` the origin in the unit of the series, are not those
 /// of the series.

@@ -214,24 +214,20 @@ impl Taylor {
         Err(self.system.fault(kind, self.state.time, &self.state.values))
     }
 
-    /// Whether the rates near the end of a step, where kinks are, are not those of the series, or within it where it is
-    /// much longer than the last one: what is steep about u = 0 may be flat again beyond, as 1/(1 + u^40) is.
+    /// Whether the rates within a step, up to near its end, where kinks are, are not those of the series.
     fn misses_a_steep_power(&mut self, after: DoubleDouble) -> Result<bool, MotionError> {
-        let longer = after.high.abs() > steep::LONGER * self.last || self.last.is_infinite();
-        let mut near = after * steep::NEAR_THE_END;
-        for _ in 0..if longer { steep::WITHIN } else { 1 } {
-            self.series.state_after(near, &mut self.state);
+        for part in steep::parts(&self.series) {
+            let within = after * part;
+            self.series.state_after(within, &mut self.state);
             match self.evaluate_rates() {
                 Err(fault) if fault.kind == MotionErrorKind::Cancelled => return Err(fault),
                 Err(_) => return Ok(true),
-                Ok(()) => {
-                    let x = near.high / self.series.scale();
-                    if steep::missed(&self.series, x, &self.rates, self.tolerance) {
-                        return Ok(true);
-                    }
-                }
+                Ok(()) => {}
             }
-            near = near * steep::NEARER;
+            let x = within.high / self.series.scale();
+            if steep::missed(&self.series, x, &self.rates, self.tolerance) {
+                return Ok(true);
+            }
         }
         Ok(false)
     }
