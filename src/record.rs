@@ -35,6 +35,8 @@ pub use lesson::Lesson;
 pub use lesson_check::{LessonReport, check_lesson};
 pub use lesson_keys::Pressed;
 pub use plain::plain;
-pub use recording::{ChapterMarker, Recording, RecordingEvent, TranscriptEntry, play, play_while};
+pub use recording::{
+    ChapterMarker, Recording, RecordingEvent, RecordingSoFar, TranscriptEntry, play, play_while,
+};
 pub use script::{Script, ScriptHeader, called};
 pub use script_runner::ScriptRunner;

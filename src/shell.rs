@@ -67,7 +67,7 @@ pub use options::{MOST_FRAMES, Options};
 pub use panic::report_panics;
 pub use progress::{LessonMark, LessonProgress, ProgressError};
 pub use question::Questions;
-pub use recording_ahead::{NotRecorded, RecordingAhead};
+pub use recording_ahead::{LeftRecording, NotRecorded, RecordingAhead};
 pub use request::Request;
 pub use session_file::SessionError;
 pub use terminal::TerminalError;

@@ -52,7 +52,8 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
     }
     for name in system.redundant() {
         let constraint = model.constraints.iter().find(|c| c.name == name);
-        let message = format!("the constraint `{name}` repeats what those before it say");
+        let message =
+            format!("the constraint `{name}` repeats at the start what those before it say");
         let warning = Diagnostic::warning(
             constraint.map_or_else(|| model.law_place.clone(), |c| c.place.clone()),
             message,

@@ -11,6 +11,9 @@ use crate::model::Model;
 /// The tolerated drift of a conserved quantity, relative to the size of its terms.
 const TOLERANCE: f64 = 1e-10;
 
+/// A change above this part of the size of its terms is no rounding.
+const SEEN: f64 = 1e-14;
+
 /// A rate longer than this is not reported.
 const LONGEST: u64 = 60;
 
@@ -24,7 +27,7 @@ pub(super) struct Claim {
     pub(super) name: String,
     pub(super) place: SourceRange,
     pub(super) expression: Expr,
-    /// Its rate of change, if it is known not to vanish but may be too small to detect.
+    /// Its rate of change, if it is known not to vanish.
     pub(super) rate: Option<Expr>,
     /// Whether that rate is nonzero somewhere along the motion.
     pub(super) refuted: bool,
@@ -48,7 +51,7 @@ pub(super) fn open_claims(model: &Model, equations: &mut Equations) -> Vec<Claim
             name: name.clone(),
             place: place.clone(),
             expression,
-            rate: rate.filter(|&rate| equations.pool.may_hide(rate)),
+            rate,
             refuted: false,
             underflows: false,
             first: f64::NAN,
@@ -71,12 +74,14 @@ impl Claim {
     }
 
     /// A quantity that changes by too little to detect, for instance by a distant force, is not
-    /// conserved.
+    /// conserved. One whose rate of change vanishes all along this motion is.
     pub(super) fn unseen(&self, equations: &Equations, end: f64) -> Option<Diagnostic> {
-        let (Claim { name, .. }, Some(rate), true) = (self, self.rate, self.refuted) else {
-            return None;
+        let (name, rate) = (&self.name, self.rate.filter(|_| self.refuted)?);
+        let mut help = if self.farthest > SEEN * self.size {
+            format!("it changes by {:.1e} until t = {end}, small beside its terms", self.farthest)
+        } else {
+            format!("it only keeps its value to rounding until t = {end}")
         };
-        let mut help = format!("it only keeps its value to rounding until t = {end}");
         if equations.pool.weight(rate) <= LONGEST {
             let rate = equations.pool.unicode(rate);
             help.push_str(&format!("; its rate of change is {rate}"));

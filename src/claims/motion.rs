@@ -90,7 +90,7 @@ impl Short {
 /// The place in the file that explains why a start is impossible.
 fn place_of(model: &Model, fault: &MotionError) -> SourceRange {
     let constraint = match &fault.kind {
-        MotionErrorKind::ConstraintMissed(name, _) => {
+        MotionErrorKind::ConstraintMissed(name, _) | MotionErrorKind::VelocitiesMissed(name, _) => {
             model.constraints.iter().find(|c| c.name == *name)
         }
         MotionErrorKind::FreeVelocities(_) => model.constraints.first(),
@@ -127,7 +127,9 @@ impl<'a> ClaimedMotion<'a> {
         };
         let state = system.initial(model.run.start, &parameters, &[]);
         let state = state.map_err(|fault| match &fault.kind {
-            MotionErrorKind::ConstraintMissed(..) | MotionErrorKind::FreeVelocities(_) => {
+            MotionErrorKind::ConstraintMissed(..)
+            | MotionErrorKind::VelocitiesMissed(..)
+            | MotionErrorKind::FreeVelocities(_) => {
                 refused(place_of(model, &fault), fault.to_string())
             }
             _ => motion

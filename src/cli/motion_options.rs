@@ -106,7 +106,9 @@ impl MotionOptions {
         let Derived { model, equations } = derived;
         refuse_twins(&system)?;
         for name in system.redundant() {
-            stderr::tell(&format!("the constraint `{name}` repeats what those before it say"));
+            stderr::tell(&format!(
+                "the constraint `{name}` repeats at the start what those before it say"
+            ));
         }
         let of_file = self.method.is_none() && (self.step, self.tolerance) == (None, None);
         if of_file && let Some(diagnostic) = open::unfit_method(&model, &system) {

@@ -2,16 +2,18 @@
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use super::demo_source::scripted;
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::lab::{self, ReadOptions};
 use super::record;
+use super::stderr;
 use crate::diagnostic::Document;
 use crate::preset::demo;
 use crate::record::RecordedCast;
-use crate::shell::{self, NotRecorded, RecordingAhead, Request};
+use crate::shell::{self, LeftRecording, NotRecorded, RecordingAhead, Request};
 use crate::{file, printable};
 
 /// Play a cast (asciinema's, version 2 or 3) or a script of a demo on the terminal.
@@ -92,8 +94,30 @@ fn play_script(source: &Document, request: &Request) -> Result<(), CommandError>
         Some(Ok(recording)) => record::hold(source, &recording)?,
         Some(Err(NotRecorded::Script(wrong))) => return Err(record::located(source, &wrong)),
         Some(Err(NotRecorded::Failed(why))) => return Err(CommandError::CouldNot(why)),
-        // it was left before all was recorded
+        Some(Err(NotRecorded::Left(left))) => {
+            stderr::tell(&unchecked(&left));
+            let ended = lab::how_it_ended(Ok(ending));
+            if ended.is_ok() && !left.false_claims.is_empty() {
+                return Err(record::located(source, &left.false_claims));
+            }
+            return ended;
+        }
         None => {}
     }
     lab::how_it_ended(Ok(ending))
+}
+
+/// What was not checked of a script that was left before it was recorded to its end.
+fn unchecked(left: &LeftRecording) -> String {
+    let (checked, all) = left.claims;
+    let missing = all.saturating_sub(checked);
+    if missing == 0 {
+        return String::new();
+    }
+    let at = Duration::from_micros(left.reached).as_secs_f64();
+    let (claims, were) = if missing == 1 { ("claim", "was") } else { ("claims", "were") };
+    format!(
+        "left when {at:.1} s of the demo were recorded: {missing} {claims} of {all} {were} not \
+         reached; `phaselab script check` checks all of them"
+    )
 }

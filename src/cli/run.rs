@@ -161,7 +161,9 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let Derived { model, equations } = derived;
     refuse_twins(&system)?;
     for name in system.redundant() {
-        stderr::tell(&format!("the constraint `{name}` repeats what those before it say"));
+        stderr::tell(&format!(
+            "the constraint `{name}` repeats at the start what those before it say"
+        ));
     }
     // if all settings are the file's, an unsuitable method is the file's error
     let of_file =

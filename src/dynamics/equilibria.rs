@@ -18,7 +18,7 @@ use super::equilibrium_units::{coordinate_units, units};
 use super::error::DynamicsError;
 use super::halton::halton;
 use super::linear;
-use super::phase_space::{PhaseSpace, VectorField};
+use super::phase_space::{NOTHING_MOVES, PhaseSpace, VectorField};
 use super::small_oscillation::{Kind, Mode, modes, stable};
 use super::virtual_work::{Balance, virtual_work};
 use crate::mechanics::Equations;
@@ -151,6 +151,10 @@ impl<'a> EquilibriumSearch<'a> {
         let canonical = space.form() == Form::Momentum;
         let cyclic = if canonical { space.cyclic().to_vec() } else { Vec::new() };
         if space.is_constrained() {
+            let allowed = space.state(start).and_then(|s| space.allowed_displacements(&s));
+            if matches!(allowed, Ok((_, 0))) {
+                return Err(DynamicsError::Unsuited(NOTHING_MOVES.to_owned()));
+            }
             let balance = ConstrainedBalance::new(space, start)?;
             let (middle, unknowns) = (balance.start(), balance.unknowns());
             let mut units = coordinate_units(space, &middle[..degrees]);

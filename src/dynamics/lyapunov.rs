@@ -15,7 +15,7 @@ use super::carrier::Carrier;
 use super::direction::{FlowDirection, basis_of_range};
 use super::error::DynamicsError;
 use super::megno::Megno;
-use super::phase_space::PhaseSpace;
+use super::phase_space::{NOTHING_MOVES, PhaseSpace};
 use super::tangent_growth::TangentGrowth;
 use super::transverse::{self, Removed};
 use crate::integrate::{Method, Settings};
@@ -107,6 +107,9 @@ pub fn lyapunov(
     let units = displacement_units(space, start, until - start.time);
     let rates = direction.at(start)?.component_div(&units);
     let (allowed, dimension) = space.allowed_displacements(start)?;
+    if dimension == 0 {
+        return Err(DynamicsError::Unsuited(NOTHING_MOVES.to_owned()));
+    }
     let frame = if space.is_constrained() {
         transverse::frame_within(&basis_of_range(&allowed, dimension), &rates, what)
     } else {

@@ -11,6 +11,9 @@ use crate::model::{EventAction, Mechanics, Model};
 use crate::num::math;
 use crate::system::{Form, MotionError, Rates, State, System};
 
+/// Why nothing is asked of a system whose constraints allow no displacement.
+pub(super) const NOTHING_MOVES: &str = "the constraints leave nothing that could move";
+
 /// A system in canonical variables.
 #[derive(Clone, Debug)]
 pub struct PhaseSpace {

@@ -5,6 +5,7 @@
 
 use super::deviation::Deviation;
 use super::{Gauge, Reference};
+use crate::analysis::Verdict;
 use crate::expr::Expr;
 use crate::mechanics::Equations;
 use crate::model::Model;
@@ -78,11 +79,18 @@ impl ResidualGauge {
         let lambda = values[self.multiplier];
         let reason = if released {
             "released".to_owned()
+        } else if lambda.is_nan() {
+            self.force.clone()
         } else {
             let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
             format!("{} = {}{unit}, {}", self.symbol, short(lambda), self.force)
         };
-        self.deviation.gauge(&self.name, &self.name, reason, self.now(residuals))
+        let gauge = self.deviation.gauge(&self.name, &self.name, reason, self.now(residuals));
+        // a motion that could not begin shows nothing of it
+        if residuals.is_empty() && !released {
+            return Gauge { verdict: Verdict::Open, ..gauge };
+        }
+        gauge
     }
 }
 

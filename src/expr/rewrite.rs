@@ -68,20 +68,25 @@ impl Pool {
         }
     }
 
-    /// Replaces the reals of an expression that are no exponents.
-    pub fn replace_reals(&mut self, e: Expr, of: &mut dyn FnMut(&mut Pool, f64) -> Expr) -> Expr {
+    /// Replaces the [long](Number::is_long) numbers of an expression that are no exponents.
+    pub fn replace_long_numbers(
+        &mut self,
+        e: Expr,
+        of: &mut dyn FnMut(&mut Pool, f64) -> Expr,
+    ) -> Expr {
         let mut done: FxHashMap<Expr, Expr> = FxHashMap::default();
         for part in self.reachable(&[e]) {
             if self.is_stopped() {
                 return e;
             }
             let parts = |done: &FxHashMap<Expr, Expr>, e: Expr| done.get(&e).copied().unwrap_or(e);
-            let mut scaled = |pool: &mut Pool, n: Number, e: Expr| match n {
-                Number::Real(x) => {
-                    let real = of(pool, x);
-                    pool.mul(real, e)
+            let mut scaled = |pool: &mut Pool, n: Number, e: Expr| {
+                if n.is_long() {
+                    let number = of(pool, n.value());
+                    pool.mul(number, e)
+                } else {
+                    pool.scale(n, e)
                 }
-                exact @ Number::Rational(..) => pool.scale(exact, e),
             };
             let replaced = match self.node(part).clone() {
                 Node::Number(n) => scaled(self, n, Expr::ONE),

@@ -27,9 +27,13 @@ fn stand_ins(values: Vec<(Symbol, Number)>) -> Vec<(Symbol, Number)> {
     };
     let placed: Vec<(Symbol, Result<Number, (usize, Number)>)> = values
         .into_iter()
-        .map(|(s, value)| match value {
-            Number::Real(x) => (s, Err(class_of(x, &mut classes))),
-            exact @ Number::Rational(..) => (s, Ok(exact)),
+        .map(|(s, value)| {
+            let known = if value.is_long() {
+                Err(class_of(value.value(), &mut classes))
+            } else {
+                Ok(value)
+            };
+            (s, known)
         })
         .collect();
     // a prime that divides a ratio or an exact value would make relations that the values do not have
@@ -45,7 +49,7 @@ fn stand_ins(values: Vec<(Symbol, Number)>) -> Vec<(Symbol, Number)> {
 /// Whether some of them are stand-ins: what is found for these is claimed only if it is proved with the names of the
 /// parameters.
 pub(super) fn has_stand_ins(model: &Model, equations: &Equations) -> bool {
-    values(model, equations).iter().any(|(_, value)| matches!(value, Number::Real(_)))
+    values(model, equations).iter().any(|(_, value)| value.is_long())
 }
 
 /// The square of a prime, so that roots of quotients are fractions; another one for each class, and none that divides one of
@@ -84,6 +88,16 @@ mod tests {
         let given = vec![(a, Number::ZERO), (b, Number::Real(std::f64::consts::PI))];
         let exact = stand_ins(given);
         assert_eq!((exact[0].1, exact[1].1), (Number::ZERO, Number::integer(4)));
+    }
+
+    /// Products of measured values overflow exact numbers as those of tiny ones do.
+    #[test]
+    fn a_value_with_many_digits_has_a_stand_in_and_one_with_few_has_none() {
+        let mut pool = Pool::new();
+        let (a, b) = (pool.symbol("a"), pool.symbol("b"));
+        let given = [(a, 15.994_914_619_56), (b, 15.9994)];
+        let exact = stand_ins(given.map(|(s, x)| (s, Number::Real(x).canonical())).to_vec());
+        assert_eq!((exact[0].1, exact[1].1.value()), (Number::integer(9), 15.9994));
     }
 
     /// 9/4 is the ratio of the squares of the first two primes.

@@ -13,6 +13,21 @@ use crate::system::{Form, KinkSides, MotionError, MotionErrorKind, State, System
 /// Stability is checked after 1, 2, 4, … steps, and then at intervals of this many steps.
 const STEPS_PER_CHECK: u64 = 256;
 
+/// The longest step: multiples of it and their parts are counted in double-double, whose products do not reach the
+/// end of `f64`.
+const LONGEST: f64 = 1e290;
+
+/// Why a step cannot be counted.
+fn unusable(step: f64) -> Option<String> {
+    if !(step > 0.0 && step.is_finite()) {
+        Some(format!("the step {step} is not above zero"))
+    } else if step > LONGEST {
+        Some(format!("the step {step:e} is longer than {LONGEST:e}"))
+    } else {
+        None
+    }
+}
+
 /// One step of a method.
 pub(super) trait Scheme: Clone + Send {
     /// The form of its states.
@@ -93,11 +108,8 @@ impl<S: Scheme> FixedStep<S> {
         settings: &Settings,
         scheme: S,
     ) -> Result<FixedStep<S>, MethodError> {
-        if let Some(step) = settings.step.filter(|&h| !(h > 0.0 && h.is_finite())) {
-            return Err(MethodError {
-                method,
-                reason: format!("the step {step} is not above zero"),
-            });
+        if let Some(reason) = settings.step.and_then(unusable) {
+            return Err(MethodError { method, reason });
         }
         let state = State::new(0.0, scheme.form(), vec![0.0; system.state_len()]);
         Ok(FixedStep {

@@ -1,4 +1,5 @@
-//! Numbers of a file that are no short fractions, such as those of SI units in an atom or a galaxy, as parameters.
+//! Numbers of a file that are no short fractions, such as those of SI units in an atom or a galaxy, or measured ones
+//! with many digits, as parameters.
 //!
 //! What is derived and searched multiplies and divides them, and in rounded products relations are lost that hold for
 //! every value. In: a model. Out: the same model with such numbers of its law, constraints and observables as symbols
@@ -20,7 +21,7 @@ impl Model {
         all.extend(observables.iter_mut().map(|observable| &mut observable.expression));
         let mut known: Vec<(f64, Symbol)> = Vec::new();
         for e in all {
-            *e = pool.replace_reals(*e, &mut |pool, x| in_terms_of(pool, &mut known, x));
+            *e = pool.replace_long_numbers(*e, &mut |pool, x| in_terms_of(pool, &mut known, x));
         }
         let parameter = |&(value, symbol): &(f64, Symbol)| {
             let info = pool.symbol_info(symbol);
@@ -48,8 +49,14 @@ fn in_terms_of(pool: &mut Pool, known: &mut Vec<(f64, Symbol)>, x: f64) -> Expr 
 
 /// The symbol of a number. Where a power of it is shown the number is in parentheses.
 fn name(pool: &mut Pool, x: f64) -> Symbol {
-    let number = pool.number(Number::Real(x));
-    let (unicode, latex) = (pool.unicode(number), pool.latex(number));
+    let (unicode, latex) = match Number::Real(x).canonical() {
+        // as a decimal, since its fraction says nothing
+        Number::Rational(..) => (x.to_string(), x.to_string()),
+        real @ Number::Real(_) => {
+            let number = pool.number(real);
+            (pool.unicode(number), pool.latex(number))
+        }
+    };
     let symbol = pool.symbol(&format!("{x:?}"));
     pool.describe(symbol, &format!("({unicode})"), &format!("({latex})"), Rank::Constant);
     symbol

@@ -101,6 +101,17 @@ impl Number {
         }
     }
 
+    /// Whether it has so many digits that the products of a few such numbers are no longer exact.
+    pub fn is_long(self) -> bool {
+        const LONGEST: u128 = 1 << 40;
+        match self {
+            Number::Rational(n, d) => {
+                u128::from(n.unsigned_abs()) * u128::from(d.unsigned_abs()) > LONGEST
+            }
+            Number::Real(_) => true,
+        }
+    }
+
     /// The quotient of two reals as a fraction of small numbers, if it is one to rounding.
     pub fn short_ratio(a: f64, b: f64) -> Option<Number> {
         const LARGEST: f64 = 64.0;

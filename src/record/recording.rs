@@ -76,6 +76,19 @@ pub enum TranscriptEntry {
     Marker(usize),
 }
 
+/// What is there of a recording while it is made.
+#[derive(Clone, Copy, Debug)]
+pub struct RecordingSoFar<'a> {
+    /// The events that are new.
+    pub new: &'a [(Micros, RecordingEvent)],
+    /// The time that is reached.
+    pub reached: Micros,
+    /// The number of assertions that were checked.
+    pub claims: usize,
+    /// Those that failed.
+    pub false_claims: &'a [Diagnostic],
+}
+
 /// Plays a script.
 ///
 /// `called` is the system's name on the screen; `size` is the screen size if the script does not give one.
@@ -88,11 +101,11 @@ pub fn play(
     called: &str,
     size: (u16, u16),
 ) -> Result<Recording, Vec<Diagnostic>> {
-    let mut whole = |_: &[(Micros, RecordingEvent)], _| ControlFlow::Continue(());
+    let mut whole = |_: RecordingSoFar<'_>| ControlFlow::Continue(());
     play_while(script, document, (called, size), &mut whole).map(|(recording, _)| recording)
 }
 
-/// Plays a script like [`play`], and hands over what is new as it comes, with the time that is reached, as long as that is
+/// Plays a script like [`play`], and hands over what is new as it comes, as long as that is
 /// wanted. Returns also whether the script was played to its end.
 ///
 /// # Errors
@@ -101,7 +114,7 @@ pub fn play_while(
     script: &Script,
     document: &Document,
     (called, size): (&str, (u16, u16)),
-    wanted: &mut dyn FnMut(&[(Micros, RecordingEvent)], Micros) -> ControlFlow<()>,
+    wanted: &mut dyn FnMut(RecordingSoFar<'_>) -> ControlFlow<()>,
 ) -> Result<(Recording, bool), Vec<Diagnostic>> {
     let size = script.head.size.unwrap_or(size);
     let diagnostics = too_long(script, size.0);
@@ -120,12 +133,19 @@ pub fn play_while(
         events: Vec::new(),
         markers: Vec::new(),
         log: Vec::new(),
+        claims: 0,
         false_claims: Vec::new(),
     };
     let mut whole = true;
     let mut heard = 0;
     while whole && take.advance().map_err(alone)? {
-        whole = wanted(&take.events[heard..], take.performance.now()).is_continue();
+        let so_far = RecordingSoFar {
+            new: &take.events[heard..],
+            reached: take.performance.now(),
+            claims: take.claims,
+            false_claims: &take.false_claims,
+        };
+        whole = wanted(so_far).is_continue();
         heard = take.events.len();
     }
     let Take { performance, screen, look, events, markers, log, false_claims, .. } = take;
@@ -175,6 +195,7 @@ struct Take {
     events: Vec<(Micros, RecordingEvent)>,
     markers: Vec<ChapterMarker>,
     log: Vec<(Micros, TranscriptEntry)>,
+    claims: usize,
     false_claims: Vec<Diagnostic>,
 }
 
@@ -191,6 +212,7 @@ impl Take {
             RunnerEvent::Claim(place, claim) => {
                 let screen = rows(&self.performance.picture(&self.look));
                 let finding = self.performance.find(&claim, &screen)?;
+                self.claims += 1;
                 if !finding.holds {
                     let message = format!("this is false: {}", finding.sentence);
                     self.false_claims.push(Diagnostic::error(place, message));

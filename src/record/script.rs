@@ -286,6 +286,11 @@ impl Script {
         usize::from(width).saturating_sub(4)
     }
 
+    /// The number of its claims.
+    pub fn claims(&self) -> usize {
+        self.steps.iter().filter(|(_, step)| matches!(step, ScriptStep::Assert(_))).count()
+    }
+
     /// The duration, without the time for keys.
     fn length(&self) -> Micros {
         let (mut pace, mut length) = (PACE, 0_u64);

@@ -95,18 +95,18 @@ impl CastPlayer {
         Self { ahead: Some(ahead), ..Self::new(cast, look) }
     }
 
-    /// Returns how the recording of the cast ended, if it was recorded meanwhile and has ended.
+    /// Returns how the recording of the cast ended, or how far it came, if it was recorded meanwhile.
     pub fn recorded(self) -> Option<Result<Recording, NotRecorded>> {
-        self.recorded
+        self.recorded.or_else(|| self.ahead.map(RecordingAhead::left))
     }
 
     /// Takes over what has been recorded since the last frame.
     fn follow(&mut self) {
         let Some(ahead) = &mut self.ahead else { return };
         let (new, ended) = ahead.take();
-        for (events, reached) in new {
-            self.cast.events.extend(events);
-            self.cast.end = reached;
+        for part in new {
+            self.cast.events.extend(part.events);
+            self.cast.end = part.reached;
         }
         if ended.is_some() {
             (self.recorded, self.ahead) = (ended, None);

@@ -1,21 +1,30 @@
 //! A demo that is recorded on a thread of its own while what there is of it is shown.
 //!
 //! In: a script and its system. Out: the events of its recording as they come, then the whole recording, the same as without
-//! anybody watching. Never here: how it is shown, or what a script does.
+//! anybody watching, or what was not checked because it was left before. Never here: how it is shown, or what a script does.
 
 use std::ops::ControlFlow;
 use std::sync::mpsc::{Receiver, channel};
 
 use crate::diagnostic::{Diagnostic, Document};
 use crate::job::{Job, Outcome};
-use crate::record::{CastEvent, Recording, RecordingEvent, Script, called, play_while};
+use crate::record::{CastEvent, Recording, RecordingSoFar, Script, called, play_while};
 use crate::worker::SideJob;
 
 /// A time in microseconds.
 type Micros = u64;
 
-/// The events of a recording since the last ones, and the time that is reached.
-type NewEvents = (Vec<(Micros, CastEvent)>, Micros);
+/// What is new of a recording.
+#[derive(Debug)]
+pub(super) struct NewEvents {
+    /// The events since the last ones.
+    pub(super) events: Vec<(Micros, CastEvent)>,
+    /// The time that is reached.
+    pub(super) reached: Micros,
+    /// The number of claims that were checked, and those of them that are false.
+    claims: usize,
+    false_claims: Vec<Diagnostic>,
+}
 
 /// Why there is no recording.
 #[derive(Debug)]
@@ -24,6 +33,19 @@ pub enum NotRecorded {
     Script(Vec<Diagnostic>),
     /// It could not be made, for the reason given in a sentence.
     Failed(String),
+    /// It was left before it was complete.
+    Left(LeftRecording),
+}
+
+/// How far a recording came that was left before it was complete.
+#[derive(Clone, Debug)]
+pub struct LeftRecording {
+    /// The time that was reached, in microseconds.
+    pub reached: Micros,
+    /// The number of claims that were checked, and of all that the script makes.
+    pub claims: (usize, usize),
+    /// The claims that are false.
+    pub false_claims: Vec<Diagnostic>,
 }
 
 /// A recording in progress. It ends when it is dropped.
@@ -33,6 +55,7 @@ pub struct RecordingAhead {
     pub(super) size: (u16, u16),
     side: SideJob<Result<Recording, Vec<Diagnostic>>>,
     new: Receiver<NewEvents>,
+    so_far: LeftRecording,
 }
 
 impl RecordingAhead {
@@ -42,10 +65,14 @@ impl RecordingAhead {
         let (sender, new) = channel();
         let name = called(name).to_owned();
         let shown = script.head.size.unwrap_or(size);
+        let claims = (0, script.claims());
         let job = Job::new(format!("the recording of {name}"), move |progress| {
-            let mut wanted = |events: &[(Micros, RecordingEvent)], reached| {
-                let events = events.iter().cloned().map(|(time, event)| (time, event.into()));
-                let heard = sender.send((events.collect(), reached)).is_ok();
+            let mut wanted = |so_far: RecordingSoFar<'_>| {
+                let RecordingSoFar { new, reached, claims, false_claims } = so_far;
+                let events = new.iter().cloned().map(|(time, event)| (time, event.into()));
+                let (events, false_claims) = (events.collect(), false_claims.to_vec());
+                let heard =
+                    sender.send(NewEvents { events, reached, claims, false_claims }).is_ok();
                 let on = heard && !progress.is_cancelled();
                 if on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             };
@@ -54,7 +81,8 @@ impl RecordingAhead {
         });
         let mut side = SideJob::new("recorder");
         side.begin(0, job);
-        Self { size: shown, side, new }
+        let so_far = LeftRecording { reached: 0, claims, false_claims: Vec::new() };
+        Self { size: shown, side, new, so_far }
     }
 
     /// The events that are new, with the time that is reached, and how it ended once it has; then nothing is to come.
@@ -65,6 +93,19 @@ impl RecordingAhead {
             Outcome::Failed(sentence) => Some(Err(NotRecorded::Failed(sentence))),
             Outcome::Cancelled => None,
         });
-        (self.new.try_iter().collect(), ended)
+        let new: Vec<NewEvents> = self.new.try_iter().collect();
+        if let Some(last) = new.last() {
+            (self.so_far.reached, self.so_far.claims.0) = (last.reached, last.claims);
+            self.so_far.false_claims.clone_from(&last.false_claims);
+        }
+        (new, ended)
+    }
+
+    /// How far it came, where nobody waits for its end: what is shown last was handed over before.
+    pub(super) fn left(mut self) -> Result<Recording, NotRecorded> {
+        match self.take() {
+            (_, Some(ended)) => ended,
+            (_, None) => Err(NotRecorded::Left(self.so_far)),
+        }
     }
 }

@@ -162,7 +162,13 @@ impl System {
         let found =
             consistent_initial::begin(&conditions, &mut momenta, time, &mut numbers, &known);
         found.map_err(|why| match why {
-            InconsistentStart::Missed(k, part) => missed(k, part),
+            InconsistentStart::Missed(k, part) => {
+                let n = self.degrees();
+                let kind = MotionErrorKind::VelocitiesMissed(constrained.names[k].clone(), part);
+                let named = self.channels()[n..2 * n].iter().zip(&numbers[n..]);
+                let place = named.map(|(c, x)| (c.shown.clone(), x.high)).take(4).collect();
+                MotionError { time: state.time, kind, place }
+            }
             InconsistentStart::Free(free) => {
                 let n = self.degrees();
                 let names = free.iter().map(|i| self.channels()[n + i].name.clone()).collect();

@@ -49,6 +49,8 @@ pub enum MotionErrorKind {
     ConstraintLostInStep(String),
     /// The initial values violate this constraint, by this part of the size of its terms.
     ConstraintMissed(String, f64),
+    /// The initial velocities violate this constraint, by this part of the size of its terms.
+    VelocitiesMissed(String, f64),
     /// The given initial velocities and momenta contradict the constraints.
     Contradiction,
     /// The constraints do not determine these initial velocities.
@@ -129,6 +131,10 @@ impl fmt::Display for MotionError {
                 f,
                 "the values at the start do not keep the constraint `{name}`: it is off by {part:.1e} of its terms"
             )?,
+            MotionErrorKind::VelocitiesMissed(name, part) => write!(
+                f,
+                "the velocities at the start do not keep the constraint `{name}`: its rate is off by {part:.1e} of its terms"
+            )?,
             MotionErrorKind::Contradiction => f.write_str(
                 "the velocities and momenta given at the start contradict the constraints",
             )?,
@@ -189,7 +195,11 @@ impl fmt::Display for MotionError {
             )?,
             MotionErrorKind::Ended(name) => write!(f, "`{name}` ends the motion at t = {time}")?,
             MotionErrorKind::Sticks => write!(f, "the motion sticks at t = {time}")?,
-            MotionErrorKind::Rough | MotionErrorKind::NoSide => {
+            MotionErrorKind::Rough => write!(
+                f,
+                "the motion comes to a kink or to the end of a function's domain, and cannot be followed through it at t = {time}"
+            )?,
+            MotionErrorKind::NoSide => {
                 write!(
                     f,
                     "the motion comes to a kink that it cannot be followed through at t = {time}"
@@ -219,6 +229,7 @@ impl fmt::Display for MotionError {
                 ": no configuration near the end of the step meets it; try a smaller step"
             }
             MotionErrorKind::ConstraintMissed(..)
+            | MotionErrorKind::VelocitiesMissed(..)
             | MotionErrorKind::FreeVelocities(_)
             | MotionErrorKind::SeveralStarts(_)
             | MotionErrorKind::Passable(..)
@@ -254,7 +265,7 @@ impl fmt::Display for MotionError {
             MotionErrorKind::NoInterval(..) => ": its interval must be above zero",
             MotionErrorKind::TooManySteps(..) => ": try a larger step",
             MotionErrorKind::PilesUp(_) => ": give the file an event that stops it before",
-            MotionErrorKind::Rough => ": the rates of change have no limit there",
+            MotionErrorKind::Rough => ": the rates of change have no limit there, or no value beyond",
             MotionErrorKind::NoSide => ": no side of it leads away, and a motion along it cannot be followed",
             MotionErrorKind::Sticks => ": both sides of a kink push towards it",
         })

@@ -218,6 +218,34 @@ fn bars_in_line_are_told_whether_they_are_passed_or_not() {
     }
 }
 
+/// The dense output of a method keeps the constraints to its tolerance only, and seems to turn their directions fast where they
+/// are reversed.
+#[test]
+fn bars_in_line_are_told_at_every_tolerance() {
+    for tolerance in ["1e-4", "1e-6", "1e-9", "1e-13"] {
+        let words = ["--until", "3", "--method", "dop853", "--tolerance", tolerance];
+        let message = said(PARALLELOGRAM, &words);
+        let told = "passed a singular configuration of the constraints at t = 1.37";
+        assert!(message.contains(told), "{tolerance}: {message}");
+    }
+    // a coupler that is a little longer passes its narrow place without one
+    let near = PARALLELOGRAM.replace("cos(p) - 1", "1.05*cos(p) - 1.05");
+    let message = said(&near, &["--until", "1", "--method", "dop853"]);
+    assert!(!message.contains("singular"), "{message}");
+}
+
+/// x^(3/2) ends at 0, where its rate of change has a limit.
+#[test]
+fn the_end_of_a_domain_is_called_so() {
+    let power =
+        "[coordinates]\nx = { initial = 1, velocity = -2 }\n[lagrangian]\nL = \"1/2*x'^2 - x^1.5\"";
+    let message = said(power, &["--until", "9"]);
+    assert!(
+        message.contains("# faulted") && message.contains("the end of a function's domain"),
+        "{message}"
+    );
+}
+
 /// p = v³ − v turns back at v = 1/√3.
 #[test]
 fn a_fixed_step_does_not_jump_to_another_branch() {

@@ -317,11 +317,14 @@ impl TextReport<'_> {
         if !report.model.is_poisson() {
             self.heading(&format!("Cyclic coordinates: {cyclic}"));
         }
-        if report.conserved.is_empty() {
+        // what is only declared is told of where it is judged
+        let known = report.conserved.iter().filter(|kept| !kept.reason.is_declared());
+        let known: Vec<_> = known.collect();
+        if known.is_empty() {
             return self.heading("Conserved: nothing that is known");
         }
         self.heading("Conserved");
-        for kept in &report.conserved {
+        for kept in known {
             let reason = self.words(&kept.reason.to_string());
             // a formula shown above needs no repetition
             let what = match kept.constant {

@@ -21,6 +21,10 @@ const CLOSE: f64 = 0.5;
 /// fast rotation.
 const HALVINGS: u32 = 60;
 
+/// … and a rotation within a part of the step that is as small as this multiple of the tolerance counts as a passage: the
+/// states in between keep the constraints no better than that.
+const BLURRED: f64 = 100.0;
+
 /// A step shorter than this part of the regular ones does not count as regular, …
 const REGULAR: f64 = 0.1;
 
@@ -94,12 +98,17 @@ impl Propagator {
         let like = seen.as_ref().map(|(_, directions)| directions);
         let Some(here) = projector.directions(state, like) else { return };
         if let Some((_, before)) = seen {
+            let resolved =
+                |tolerance: f64| -math::log10(BLURRED * tolerance) / std::f64::consts::LOG10_2;
+            let halvings = self.stepper.tolerance().map_or(f64::INFINITY, resolved);
+            let most = halvings.clamp(1.0, HALVINGS.into()) as u32;
             let mut sampler = DirectionSampler {
                 projector,
                 stepper: self.stepper.as_mut(),
                 scratch: &mut self.before,
+                most,
             };
-            sampler.passages((begin, before), (end, &here), HALVINGS, ahead);
+            sampler.passages((begin, before), (end, &here), most, ahead);
         }
         *seen = Some((end, here));
     }
@@ -330,6 +339,8 @@ struct DirectionSampler<'a> {
     projector: &'a mut ConstraintProjector,
     stepper: &'a mut dyn Stepper,
     scratch: &'a mut State,
+    /// The number of halvings of the whole interval.
+    most: u32,
 }
 
 impl DirectionSampler<'_> {
@@ -343,7 +354,7 @@ impl DirectionSampler<'_> {
         found: &mut Vec<f64>,
     ) {
         let cosine = before.cosine(after);
-        if cosine > CLOSE && halvings < HALVINGS {
+        if cosine > CLOSE && halvings < self.most {
             return;
         }
         let middle = 0.5 * (begin + end);

@@ -7,8 +7,8 @@
 //! τ = h (1 − cos(iπ/s))/2, i = 1 … s, is as close to that series as anything is. Its equations are
 //! solved by Newton's method, because friction is too stiff for iterating.
 //!
-//! In: the state at rest in which static friction is just exceeded, a step, the accelerations of a
-//! motion that begins at each of the points. Out: the polynomial, or nothing if it was not found.
+//! In: the state at rest in which static friction is just exceeded, or one before a motion touches rest, a step, the
+//! accelerations of a motion that begins at each of the points. Out: the polynomial, or nothing if it was not found.
 //! What rest is, and when it ends, is never asked here. Source: E. Hairer, G. Wanner, Solving
 //! Ordinary Differential Equations II, IV.8; the points: L. N. Trefethen, Spectral Methods in MATLAB, ch. 6.
 
@@ -52,6 +52,8 @@ pub(super) const POINTS: [(f64, f64); 5] = [
 #[derive(Debug)]
 pub(super) struct Onset {
     from: State,
+    /// What the velocities or momenta are at rest, from which small ones are measured.
+    rest: Vec<DoubleDouble>,
     step: f64,
     /// The rates of all numbers at the points, one row for each point.
     rates: Vec<Vec<f64>>,
@@ -81,11 +83,11 @@ fn weights(end: f64) -> [f64; STAGES] {
 }
 
 impl Onset {
-    /// Finds the polynomial over a step from the state at rest; `degrees` is the number of its
-    /// coordinates. `accelerations` are those with which a motion would begin at each of the points.
+    /// Finds the polynomial over a step from a state; `still` is the one at rest, with as many velocities or momenta
+    /// as `degrees`. `accelerations` are those with which a motion would begin at each of the points.
     pub(super) fn new(
         rates: &mut ExactRates,
-        from: &State,
+        (from, still): (&State, &State),
         degrees: usize,
         step: f64,
         accelerations: &[Vec<f64>],
@@ -95,7 +97,8 @@ impl Onset {
         for (stage, found) in stages.iter_mut().zip(accelerations) {
             stage[degrees..2 * degrees].copy_from_slice(found);
         }
-        let mut onset = Onset { from: from.clone(), step, rates: stages };
+        let rest = (degrees..2 * degrees).map(|i| still.exact(i)).collect();
+        let mut onset = Onset { from: from.clone(), rest, step, rates: stages };
         let inner = points().map(weights);
         let mut before = f64::INFINITY;
         for _ in 0..ITERATIONS {
@@ -133,7 +136,7 @@ impl Onset {
                 let slope = self.rates[s][degrees + i];
                 defect[s * degrees + i] = (rate - DoubleDouble::from(slope)).high;
             }
-            let velocity = |i: usize| (numbers[degrees + i] - self.from.exact(degrees + i)).high;
+            let velocity = |i: usize| (numbers[degrees + i] - self.rest[i]).high;
             let fastest = (0..degrees).fold(0.0_f64, |m, i| m.max(velocity(i).abs()));
             for j in 0..degrees {
                 let varied = VARIED * velocity(j).abs().max(LEAST * fastest);
@@ -275,6 +278,7 @@ mod tests {
         // x'' = 1, and so much more over the first half: the velocities at its end differ by half of that
         let onset = |step: f64, acceleration: f64| Onset {
             from: State::new(0.0, crate::system::Form::Velocity, vec![0.0; 2]),
+            rest: vec![DoubleDouble::ZERO],
             step,
             rates: vec![vec![0.0, acceleration]; STAGES],
         };

@@ -52,8 +52,9 @@ pub(super) fn missed(series: &Series, after: f64, rates: &ExactRates, tolerance:
             .zip(0..)
             .map(|((c, power), k): (_, u32)| (c * power * f64::from(k.max(1))).abs());
         let size = terms.fold(0.0, f64::max);
-        // a NaN is missed
-        let agrees = ((rate - slope) * after).abs() <= allowed * size;
+        // a NaN is missed, and what underflows is not
+        let apart = ((rate - slope) * after).abs();
+        let agrees = apart <= allowed * size || apart * series.unit(i) < FAINT;
         slope.is_finite() && !agrees
     })
 }

@@ -13,7 +13,7 @@ use super::onset::{Onset, points};
 use super::still::Still;
 use super::trial_velocities::TrialVelocities;
 use crate::num::DoubleDouble;
-use crate::system::{Form, MotionError};
+use crate::system::{Form, MotionError, State};
 
 /// A step shorter than this part of those before it may approach rest.
 const SHORT: f64 = 1e-2;
@@ -43,12 +43,26 @@ impl Taylor {
         for i in n..2 * n {
             still.set(i, DoubleDouble::ZERO);
         }
+        if still.form == Form::Momentum {
+            // the momenta that belong to zero velocity
+            let resting = State { form: Form::Velocity, ..still };
+            let Ok(found) = self.system.convert(&resting, Form::Momentum, &self.parameters) else {
+                return Ok(false);
+            };
+            still = found;
+        }
         let size = (n..2 * n).fold(0.0_f64, |m, i| m.max(self.state.values[i].abs()));
         let (system, parameters) = (&self.system, &self.parameters);
         let rates = &mut self.rates;
-        let has_friction =
-            TrialVelocities { system, rates: &mut *rates, parameters, still, n, size }
-                .has_friction()?;
+        let has_friction = TrialVelocities {
+            system,
+            rates: &mut *rates,
+            parameters,
+            still: still.clone(),
+            n,
+            size,
+        }
+        .has_friction()?;
         if !has_friction {
             return Ok(false);
         }
@@ -62,8 +76,8 @@ impl Taylor {
             points().map(|point| (n..2 * n).map(|i| slope(i, place(point))).collect()).to_vec()
         };
         let [whole, half] = [ACROSS, 0.5 * ACROSS].map(|part| (part * time, across(part)));
-        let whole = Onset::new(rates, &self.state, n, whole.0, &whole.1)?;
-        let half = Onset::new(rates, &self.state, n, half.0, &half.1)?;
+        let whole = Onset::new(rates, (&self.state, &still), n, whole.0, &whole.1)?;
+        let half = Onset::new(rates, (&self.state, &still), n, half.0, &half.1)?;
         let (Some(whole), Some(half)) = (whole, half) else { return Ok(false) };
         if !whole.agrees(&half, n) {
             return Ok(false);

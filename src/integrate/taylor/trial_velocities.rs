@@ -296,7 +296,7 @@ impl TrialVelocities<'_> {
             let Some((_, accelerations)) = self.direction()? else { return Ok(None) };
             found.push(accelerations.iter().map(|a| a.high).collect());
         }
-        Onset::new(self.rates, from, self.n, step, &found)
+        Onset::new(self.rates, (from, from), self.n, step, &found)
     }
 
     /// The momenta of a velocity in a direction, less those at rest. They have the direction of a

@@ -291,6 +291,45 @@ fn a_claim_that_holds_by_a_short_run_only_is_false() {
     assert_eq!(with_file(&barrier(denied), &["check", "system.toml"]).success(), "");
 }
 
+/// A circle and a parabola touch at the start, and part.
+#[test]
+fn constraints_that_touch_are_said_to_repeat_each_other_at_the_start() {
+    let touch = "y = { initial = 1, velocity = 0 }\n[lagrangian]\nL = \"1/2*(x'^2 + y'^2)\"\n\
+                 [[constraints]]\nname = \"c\"\nexpression = \"x^2 + y^2 - 1\"\n\
+                 [[constraints]]\nname = \"d\"\nexpression = \"y - 1 + x^2/2\"\n";
+    let file = one("x = { initial = 0, velocity = 1 }", touch);
+    let done = with_file(&file, &["check", "system.toml"]);
+    let said = "the constraint `d` repeats at the start what those before it say";
+    assert!(done.stderr.contains(said), "{}", done.stderr);
+}
+
+/// What a law changes along a motion is not conserved, however little of that a run shows: by a force too weak to see, or a
+/// constant that makes the change small beside it. The sentence says which.
+#[test]
+fn what_a_law_changes_is_not_conserved_however_little_is_seen() {
+    let weak = ("1/2*x'^2 - 1e-30*x", "", "p_x");
+    let offset =
+        ("1/2*x'^2 - 1/2*x^2", "dissipation = \"0.05*x'^2\"\n", "1/2*x'^2 + 1/2*x^2 - 1e12");
+    for ((law, rest, quantity), seen) in [
+        (weak, "it only keeps its value to rounding until t = 3; its rate of change is"),
+        (offset, "until t = 3, small beside its terms; its rate of change is"),
+    ] {
+        let file = |claim: &str| {
+            let law = format!("[lagrangian]\nL = \"{law}\"\n{rest}[run]\nuntil = 3\n");
+            let observable = format!(
+                "[[observables]]\nname = \"G\"\nexpression = \"{quantity}\"\nconserved = {claim}\n"
+            );
+            one("x = { initial = 0.2, velocity = 1 }", &format!("{law}{observable}"))
+        };
+        with_file(&file("true"), &["check", "system.toml"])
+            .fails(65, &["`G` is claimed to be conserved, but it is not", seen]);
+        assert_eq!(with_file(&file("false"), &["check", "system.toml"]).success(), "");
+        // and it stands in one place only
+        let told = with_file(&file("true"), &["derive", "system.toml"]).success();
+        assert!(!told.contains("(declared)") && told.contains("d(G)/dt"), "{told}");
+    }
+}
+
 /// A claim of what is conserved holds until an event ends the motion, and is checked until there.
 #[test]
 fn what_is_conserved_is_checked_until_an_event_ends_the_motion() {

@@ -336,3 +336,14 @@ fn a_residual_of_nothing_is_zero() {
     let text = run.text();
     assert!(text.contains("𝕁|: 0, of which"), "{text}");
 }
+
+#[test]
+fn what_cannot_move_has_neither_equilibria_nor_exponents() {
+    let file = "title = \"held\"\n[coordinates]\nx = { initial = 1.0 }\n\
+                [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n\
+                [[constraints]]\nname = \"c\"\nexpression = \"x - 1\"\n";
+    for words in [&["equilibria", "system.toml"][..], &["lyapunov", "system.toml", "--until", "3"]]
+    {
+        with_file(file, words).fails(1, &["the constraints leave nothing that could move"]);
+    }
+}

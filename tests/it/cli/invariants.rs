@@ -234,3 +234,43 @@ fn symmetries_of_a_law_with_long_numbers_are_searched() {
     let out = with_file(literal, &["symmetries", "system.toml"]).success();
     assert!(out.contains("time shift") && out.contains("1 found among"), "{out}");
 }
+
+/// Measured values have so many digits that exact products of them overflow. As literals or as parameters they are as good as
+/// short ones: the same constants are found, as many of them independent, and the same brackets vanish.
+#[test]
+fn numbers_with_many_digits_find_what_short_ones_find() {
+    let kepler = "1/2*M*(x'^2 + y'^2 + z'^2) + K/sqrt(x^2 + y^2 + z^2)";
+    let springs = "1/2*M*(x'^2 + z'^2) + 1/2*K*y'^2 - 1/2*C*((x - y)^2 + (y - z)^2)";
+    let plane = "1/2*M*(x'^2 + y'^2) - 1/2*C*(x^2 + y^2) - K*(x^2 + y^2)^2";
+    let quartic = "1/2*M*x'^2 + 1/2*K*y'^2 - 1/4*C*(x - y)^4";
+    for (law, degrees) in [(kepler, 3), (springs, 3), (plane, 2), (quartic, 2)] {
+        let told = |numbers: [&str; 3], named: bool| {
+            let values = ["M", "K", "C"].iter().zip(numbers);
+            let mut text = "title = \"Digits\"\n".to_owned();
+            let mut law = law.to_owned();
+            if named {
+                text.push_str("[parameters]\n");
+                values.for_each(|(name, value)| text.push_str(&format!("{name} = {value}\n")));
+            } else {
+                values.for_each(|(name, value)| law = law.replace(name, value));
+            }
+            text.push_str("[coordinates]\n");
+            for (name, place) in ["x", "y", "z"].iter().zip([1.0, 0.3, 0.1]).take(degrees) {
+                text.push_str(&format!("{name} = {{ initial = {place}, velocity = 0.2 }}\n"));
+            }
+            text.push_str(&format!("[lagrangian]\nL = \"{law}\"\n"));
+            let words = ["invariants", "system.toml", "--degree", "2", "--format", "json"];
+            let answer: serde_json::Value =
+                serde_json::from_str(&with_file(&text, &words).success()).expect("JSON");
+            let found = answer["found"].as_array().expect("a list");
+            let found: Vec<_> =
+                found.iter().map(|c| (c["degree"].clone(), c["independent"].clone())).collect();
+            (answer["independent"].clone(), found, answer["in_involution"].clone())
+        };
+        let short = told(["1", "16", "5"], false);
+        let long = ["1.00794123457", "15.99491461956", "5.1234567891234"];
+        for named in [false, true] {
+            assert_eq!(told(long, named), short, "{law}, named: {named}");
+        }
+    }
+}

@@ -641,3 +641,28 @@ fn a_run_from_kink_to_kink_that_has_no_end_is_given_up_with_its_rows() {
         assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{velocity}");
     }
 }
+
+/// A start whose velocities alone violate a constraint is told so, with these velocities, and shows nothing of what the
+/// constraint would be.
+#[test]
+fn velocities_that_do_not_fit_are_named() {
+    for (law, place) in [("x^2 - y^2", "x' = 0, y' = 1"), ("x - tan(y - 1) - 1", "x' = 0, y' = 1")]
+    {
+        let text = format!(
+            "title = \"a\"\n[coordinates]\nx = {{ initial = 1, velocity = 0 }}\n\
+             y = {{ initial = 1, velocity = 1 }}\n[lagrangian]\nL = \"1/2*(x'^2 + y'^2)\"\n\
+             [[constraints]]\nname = \"c\"\nexpression = \"{law}\"\n"
+        );
+        let done = with_file(&text, &["run", "system.toml", "--format", "json"]);
+        let expected =
+            "the velocities at the start do not keep the constraint `c`: its rate is off by";
+        assert!(done.stderr.contains(expected), "{}", done.stderr);
+        let shown = done.stderr.replace('ẋ', "x'").replace('ẏ', "y'");
+        assert!(shown.contains(place), "{}", done.stderr);
+        let answer: Value = serde_json::from_str(&done.stdout).expect("JSON");
+        let gauges = answer["invariants"].as_array().expect("a list");
+        let gauge = gauges.iter().find(|gauge| gauge["name"] == "c").expect("its gauge");
+        assert_eq!(gauge["verdict"], "open");
+        assert!(!gauge["reason"].as_str().expect("text").contains("NaN"), "{gauge}");
+    }
+}

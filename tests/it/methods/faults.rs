@@ -65,6 +65,22 @@ fn settings_without_sense_are_refused() {
             );
         }
     }
+    // beyond which times cannot be counted
+    for (step, shown) in [(1.1e290, "1.1e290"), (1e307, "1e307")] {
+        for method in fixed() {
+            assert_eq!(
+                message(method.name, Settings { step: Some(step), tolerance: None }),
+                format!(
+                    "{} cannot be used here: the step {shown} is longer than 1e290",
+                    method.name
+                )
+            );
+        }
+    }
+    for method in fixed() {
+        let settings = Settings { step: Some(1e290), tolerance: None };
+        assert!((method.make)(&pendulum().system, &settings).is_ok(), "{}", method.name);
+    }
     assert_eq!(
         message("dop853", Settings { step: None, tolerance: Some(1e-18) }),
         "dop853 cannot be used here: the tolerance 1e-18 is not between 1e-15 and 1"

@@ -249,8 +249,8 @@ const SCRIPT: &str = "Size 60x20\nCaption \"One\"\nWait 1s\nMarker \"Middle\"\nW
 fn a_demo_is_there_from_its_first_frame_on_and_not_only_when_all_is_computed() {
     let (script, system) = (script(SCRIPT), system("pendulum"));
     let mut heard = Vec::new();
-    let first = play_while(&script, &system, ("pendulum", (80, 24)), &mut |events, _| {
-        heard.extend(events.to_vec());
+    let first = play_while(&script, &system, ("pendulum", (80, 24)), &mut |so_far| {
+        heard.extend(so_far.new.to_vec());
         if heard.is_empty() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
     let (recording, whole) = first.expect("a good script");
@@ -292,6 +292,25 @@ fn a_script_that_proves_wrong_while_it_is_shown_ends_the_show() {
     }
     match it.recorded() {
         Some(Err(NotRecorded::Script(wrong))) => assert_eq!(wrong.len(), 1, "{wrong:?}"),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_script_that_is_left_early_says_how_many_of_its_claims_were_not_reached() {
+    // an hour, so that it is left on its way; the first claim is false, the other one is never reached
+    let long = "Wait 100ms\nAssert t > 1e9\nWait 3500s\nAssert t > 0";
+    let ahead = RecordingAhead::begin(script(long), system("pendulum"), "pendulum", (80, 24));
+    let mut it = CastPlayer::following(ahead, look());
+    while !shown(&mut it, (80, 25)).contains(" of 0:01") {
+        it.advance(Duration::from_millis(20));
+        std::thread::yield_now();
+    }
+    match it.recorded() {
+        Some(Err(NotRecorded::Left(left))) => {
+            assert_eq!((left.claims, left.false_claims.len()), ((1, 2), 1));
+            assert!((100_000..3_500_000_000).contains(&left.reached), "{}", left.reached);
+        }
         other => panic!("{other:?}"),
     }
 }

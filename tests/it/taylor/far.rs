@@ -132,6 +132,53 @@ fn powers_that_leave_the_range_of_numbers_have_the_motion_of_their_units() {
     assert!(expected[0] > 746.0);
 }
 
+/// About x = 0 the series of 1/(1 + x^n) begins with as many zeros, and far beyond the wall all is flat again: it is met in a
+/// step of any length, as a potential and as a force of which no energy is known. Beyond it v² = v₀² + 2, and it reflects
+/// what is slower than √2 on its other side.
+#[test]
+fn a_wall_that_no_term_of_the_series_shows_is_met() {
+    for n in [30, 40, 100] {
+        let potential = format!("1/(1 + x^{n})");
+        let hill = format!("x^{n}/(1 + x^{n})");
+        let force = format!("{n}*x^{}/(1 + x^{n})^2", n - 1);
+        let forced = format!(
+            "title = \"F\"\n[coordinates]\nx = {{ initial = 0, velocity = 1.2 }}\n\
+             [lagrangian]\nL = \"1/2*x'^2\"\nforces = {{ x = \"{force}\" }}\n"
+        );
+        for end in [3.0, 4.0, 50.0, 1e3, 1e6] {
+            for mut run in [super::far::potential("0", "1.2", &potential), Run::new(&forced)] {
+                near(&run.to(end)[1..2], &[3.44_f64.sqrt()], 1e-13);
+            }
+            let mut run = super::far::potential("0", "1.2", &hill);
+            let v = run.to(1.5)[1];
+            near(&[v], &[-1.2], 1e-9);
+        }
+    }
+}
+
+/// One at rest, which a steep power of another begins to move: its rates come out of underflow. p_x + 10 p_y is conserved.
+#[test]
+fn a_steep_power_sets_in_motion_what_is_at_rest() {
+    let file = |v: &str| {
+        format!(
+            "title = \"Two\"\n[coordinates]\nx = {{ initial = 0, velocity = 1.2 }}\ny = {{ initial = 0 }}\n\
+             [lagrangian]\nL = \"1/2*x'^2 + 1/2*y'^2 - {v}\"\n"
+        )
+    };
+    // x'² + (1.2 − x')²/100 = 3.44 beyond the wall, and 1.44 where all of the energy is in the motion again
+    let root = |twice: f64, side: f64| {
+        (0.012 + side * (0.012_f64.powi(2) - 1.01 * (0.0144 - twice)).sqrt()) / 1.01
+    };
+    for n in [40, 50] {
+        let x = root(3.44, 1.0);
+        let mut run = Run::new(&file(&format!("1/(1 + (x - y/10)^{n})")));
+        near(&run.to(3.0)[2..4], &[x, (1.2 - x) / 10.0], 1e-13);
+        let x = root(1.44, -1.0);
+        let mut run = Run::new(&file(&format!("(x - y/10)^{n}")));
+        near(&run.to(1.6)[2..4], &[x, (1.2 - x) / 10.0], 1e-12);
+    }
+}
+
 #[test]
 fn a_step_ends_when_it_is_asked_to() {
     let mut run = potential("1.0", "0.0", "x^2/2 + sin(x)");

@@ -295,9 +295,10 @@ fn a_block_that_is_dragged_sets_out_as_on_a_line() {
 #[test]
 fn a_block_dragged_diagonally_touches_rest_and_goes_on() {
     let pi = std::f64::consts::PI;
-    for (a, b) in [(0.2_f64, 0.1_f64), (0.1, -0.2)] {
+    // exactly diagonal too, where the velocities are the same number
+    for (a, b) in [(0.2_f64, 0.1_f64), (0.1, -0.2), (0.17, 0.17), (-0.3, 0.3)] {
         let begin = 0.3 / 4.0 / a.hypot(b);
-        for tau in [1.0, 3.0, 3.13, pi, 3.15, 3.2, 4.0, 6.0, 2.0 * pi, 7.0, 20.0] {
+        for tau in [1.0, 3.0, 3.13, pi, 3.15, 3.2, 4.0, 6.0, 2.0 * pi, 7.0, 20.0, 60.0] {
             let mut run = Run::new(&format!(
                 "title = \"Dragged\"\n[coordinates]\nx = {{ initial = 0 }}\ny = {{ initial = 0 }}\n\
                  [lagrangian]\nL = \"1/2*(x'^2 + y'^2) - 2*((x - ({a})*t)^2 + (y - ({b})*t)^2)\"\n\

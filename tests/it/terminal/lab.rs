@@ -481,6 +481,26 @@ fn a_cast_is_played_on_the_terminal() {
     player.assert_restored();
 }
 
+/// A claim that would be false later is not taken for checked where the script is left before, by a key or by a signal.
+#[test]
+fn a_script_that_is_left_before_its_end_says_what_was_not_checked() {
+    let script = "Open pendulum\nCaption \"Begun\"\nWait 3500s\nAssert t < 0\nAssert t < 1\n";
+    for (key, code) in [(Some("q"), 0), (None, 143)] {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::write(folder.path().join("long.demo"), script).expect("a file");
+        let mut player = lab(&["play", "./long.demo"]).folder(folder.path()).start();
+        player.shows("Begun");
+        match key {
+            Some(key) => player.press(key),
+            None => player.signal(Signal::TERM),
+        }
+        assert_eq!(player.ends().0, code);
+        player.assert_restored();
+        let left = player.text().split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(left.contains("2 claims of 2 were not reached"), "{left}");
+    }
+}
+
 #[test]
 fn a_demo_ends_by_itself_and_its_last_picture_stays() {
     let mut demo = Setup::new(PROGRAM, &["--demo"]).start();

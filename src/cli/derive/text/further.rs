@@ -14,10 +14,13 @@ impl TextReport<'_> {
         let unknown: Vec<String> = unknown
             .map(|c| {
                 let name = self.words(&c.name);
-                match &c.rate {
+                let row = match &c.rate {
                     Ok(rate) => format!("  d({name})/dt = {}", self.math(*rate)),
                     Err(why) => format!("  {name}   ({})", self.words(&why.0)),
-                }
+                };
+                let mut own = self.report.equations.conserved.iter();
+                let declared = own.any(|kept| kept.name == c.name && kept.reason.is_declared());
+                if declared { format!("{row}   (declared conserved)") } else { row }
             })
             .collect();
         let here = classes.iter().filter(|c| c.class == Class::AtTheseParameters);
