@@ -36,6 +36,9 @@ const MOTION: Level = 2;
 const GRID: f64 = 0.25;
 const MOST: f64 = 240.0;
 
+/// What is less than this part of the greatest of some actions is rounding of the others.
+const ROUNDING: f64 = 1e-13;
+
 /// The row of a principle.
 pub(super) struct ActionPlot(pub(super) Principle);
 
@@ -347,11 +350,15 @@ fn beside(
     Ok(Beside { varied, foci, degrees: n })
 }
 
-/// How long the path is: up to now, on a grid.
+/// How long the path is: up to now, while the motion runs on a grid.
 pub(super) fn duration(present: &Present<'_>) -> f64 {
     let run = &present.physics.model.run;
+    let passed = present.time - present.began();
     let grid = if run.speed.is_normal() { GRID * run.speed.abs() } else { GRID };
-    grid * ((present.time - present.began()) / grid).floor().clamp(1.0, MOST)
+    if !present.running && passed > 0.0 {
+        return passed.min(MOST * grid);
+    }
+    grid * (passed / grid).floor().clamp(1.0, MOST)
 }
 
 fn computed(answer: Option<&Answer>) -> Option<&ComputedAction> {
@@ -424,7 +431,10 @@ fn beside_by(varied: &VariedAction, name: &str) -> Vec<String> {
     let ends: Vec<[f64; 2]> =
         varied.curves.iter().filter_map(|curve| curve.last().copied()).collect();
     let [q, p, both] = ends[..] else { return Vec::new() };
-    let [q, p, both, epsilon] = [q[1], p[1], both[1], q[0]].map(short);
+    let largest = ends.iter().map(|end| end[1].abs()).fold(0.0, f64::max);
+    // linear in what is varied: rounding of the others is no value
+    let known = |rise: f64| if rise.abs() <= ROUNDING * largest { 0.0 } else { rise };
+    let [q, p, both, epsilon] = [known(q[1]), known(p[1]), known(both[1]), q[0]].map(short);
     vec![format!("ε = {epsilon}: {name} {q}, p {p}, both {both}")]
 }
 

@@ -63,6 +63,8 @@ pub struct CanonicalVerdict {
     pub valence: Option<Expr>,
     /// The brackets that are not what they should be.
     pub failing: Vec<FailingBracket>,
+    /// The brackets that are what they should be at these values of the parameters, and not at others.
+    pub only_here: Vec<FailingBracket>,
     /// Why it is not canonical, or no map.
     pub why: Option<String>,
 }
@@ -333,6 +335,7 @@ impl PhaseMap {
             residual,
             valence: None,
             failing: Vec::new(),
+            only_here: Vec::new(),
             why: None,
         };
         if self.is_explicit() {
@@ -390,7 +393,9 @@ impl PhaseMap {
         }
         verdict.valence = self.valence(pool, &all);
         if verdict.canonical {
-            // at the file's values of the parameters
+            // at these values of the parameters
+            let other = all.into_iter().filter(|(_, zero)| *zero == Zero::No);
+            verdict.only_here = other.map(|(bracket, _)| bracket).collect();
             return;
         }
         verdict.proved = refuted;

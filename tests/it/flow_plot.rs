@@ -236,3 +236,16 @@ fn rounding_is_a_floor() {
     let told = course.told();
     assert!(told.contains("by rk4, at rounding ("), "{told}");
 }
+
+/// While it is paused a motion is varied, and true paths are searched for, up to the very time that is seen.
+#[test]
+fn a_paused_motion_is_varied_up_to_now() {
+    for kind in ["action", "paths"] {
+        let mut course = Course::showing(kind, OSCILLATOR);
+        course.go(2.1234);
+        assert!(format!("{}\n", course.told()).contains("up to t = 2\n"), "{}", course.told());
+        course.experiment.execute(Command::Pause);
+        course.go(2.1234);
+        assert!(course.told().contains("up to t = 2.1234"), "{}", course.told());
+    }
+}
