@@ -40,6 +40,7 @@ fn a_mass_that_changes_keeps_the_momentum() {
         ("m=2:6:1:4", 4.5, smooth(0.875)),
         ("m=2:6:1:4", 7.0, 6.0),
         ("m=2:6:1:4:linear", 2.0, 3.0),
+        ("m=2:6:1:4:cubic", 2.0, 2.0 + 4.0 * (3.0 / 16.0 - 2.0 / 64.0)),
         ("m=6:2:-1:4", 1.0, 4.0),
     ] {
         let (ramp, at) = (format!("--ramp={ramp}"), format!("--at={time}"));
@@ -113,7 +114,7 @@ fn what_cannot_be_ramped_is_refused() {
 fn a_file_may_have_its_ramps() {
     let plain = "title = \"t\"\n[coordinates]\nq = { initial = 1.0, momentum = \"w/4\" }\n[parameters]\nw = 1.0\nT = 20\n\
                  [hamiltonian]\nH = \"p_q^2/2 + w^2*q^2/2\"\n[[observables]]\nname = \"J\"\nexpression = \"energy/w\"\n";
-    let forms = [("", "smooth"), (":linear", "linear")];
+    let forms = [("", "smooth"), (":linear", "linear"), (":cubic", "cubic")];
     for (option, form) in forms {
         let ramped = format!(
             "{plain}[[ramps]]\nparameter = \"w\"\nto = 2\nstart = \"T/4\"\nduration = \"T\"\nform = \"{form}\"\n"
