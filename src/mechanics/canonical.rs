@@ -11,7 +11,7 @@ use std::collections::HashMap;
 use nalgebra::DMatrix;
 
 use super::equations::{Equations, ImplicitMap};
-use super::implicit_map::{guesses, matrix_at};
+use super::implicit_map::{departure, guesses, matrix_at};
 use super::isolate::{self, Solution, tidy};
 use super::sampling::{POINTS, TRIES};
 use super::slope::relations_with_common_roots;
@@ -430,15 +430,6 @@ impl PhaseMap {
         }
         valence.filter(|&c| pool.is_zero(c) == Zero::No)
     }
-}
-
-/// The largest entry of |M 𝕁 Mᵀ − 𝕁|.
-fn departure(matrix: &DMatrix<f64>) -> f64 {
-    let size = matrix.nrows();
-    let n = size / 2;
-    let unit =
-        DMatrix::from_fn(size, size, |i, j| f64::from(i8::from(j == i + n) - i8::from(i == j + n)));
-    (matrix * &unit * matrix.transpose() - unit).amax()
 }
 
 /// Values put into an expression, which must leave none of these symbols.

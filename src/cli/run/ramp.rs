@@ -28,7 +28,7 @@ impl FromStr for RampArgument {
         let parts: Vec<&str> = rest.split(':').map(str::trim).collect();
         let named = |last: &&str| RampForm::NAMED.into_iter().find(|(name, _)| name == last);
         let (numbers, shape) = match parts.split_last() {
-            Some((last, numbers)) if named(&last).is_some() => (numbers, named(&last)),
+            Some((last, numbers)) if named(last).is_some() => (numbers, named(last)),
             _ => (&parts[..], None),
         };
         let shape = shape.map_or_else(RampForm::default, |(_, shape)| shape);
