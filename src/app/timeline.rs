@@ -41,9 +41,15 @@ impl App {
     /// Looks at another time of the recorded past, so many fiftieths of it later.
     pub(super) fn look_along(&mut self, by: f64) -> Vec<Effect> {
         let Some(seen) = self.lab.as_ref().and_then(Lab::seen) else { return Vec::new() };
-        let Recorded { from, to, .. } = seen.recorded;
+        let Recorded { from, to, .. } = seen.recorded.clone();
         if from == to {
-            return self.notify("Nothing has been recorded yet.");
+            return match &seen.recorded.changed {
+                Some(last) => {
+                    let why = format!("Nothing has been recorded since {} was changed.", last.what);
+                    self.notify(why)
+                }
+                None => self.notify("Nothing has been recorded yet."),
+            };
         }
         let time = seen.time + by * (to - from) / STEPS;
         let (low, high) = (from.min(to), from.max(to));

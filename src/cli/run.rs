@@ -57,8 +57,8 @@ pub(super) struct Arguments {
     /// Sets an initial value: a coordinate `x`, a velocity `x'` or a momentum `p_x`.
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
     init: Vec<Assignment>,
-    /// Changes a parameter with the time, smoothly by 10u³ − 15u⁴ + 6u⁵ or evenly; it becomes a column.
-    #[arg(long, value_name = "NAME=FROM:TO:START:DURATION[:linear]", allow_hyphen_values = true)]
+    /// Changes a parameter with the time: by 10u³ − 15u⁴ + 6u⁵, or as FORM says, `cubic` or `linear`; it becomes a column.
+    #[arg(long, value_name = "NAME=FROM:TO:START:DURATION[:FORM]", allow_hyphen_values = true)]
     ramp: Vec<ramp::RampArgument>,
     /// Carries the state along the flow of a generator in place of the motion: one of the file, by its name, or an
     /// expression G of q and p. The column t is then ε, from 0; dq/dε = ∂G/∂p, dp/dε = −∂G/∂q.

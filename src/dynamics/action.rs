@@ -24,6 +24,8 @@ pub struct Lagrangian {
     /// Whether it depends on the time.
     pub(super) timed: bool,
     start: f64,
+    /// The number of kinks of its values.
+    switches: usize,
     cancel: Cancel,
 }
 
@@ -108,9 +110,11 @@ impl Lagrangian {
         }
         slopes.push(pool.derivative(lagrangian, model.symbols.time));
         let mut program = |outputs: &[Expr]| compiled(pool, (model, parameters), &inputs, outputs);
+        let values = program(&[lagrangian])?;
         Ok(Lagrangian {
             degrees: n,
-            values: program(&[lagrangian])?,
+            switches: values.switches(),
+            values,
             first: program(&slopes)?,
             second: program(&curvatures)?,
             timed,
@@ -139,6 +143,18 @@ impl Lagrangian {
     /// The number of coordinates.
     pub fn degrees(&self) -> usize {
         self.degrees
+    }
+
+    /// Whether it has kinks.
+    pub(super) fn has_switches(&self) -> bool {
+        self.switches > 0
+    }
+
+    /// On which side of each kink it is at a time from the beginning of a path.
+    pub(super) fn switches(&mut self, time: f64, state: &[f64]) -> Vec<bool> {
+        // where L has no value there is no side
+        let known = self.values.evaluate(self.start + time, state).is_ok();
+        (0..self.switches).map(|i| known && self.values.switch(i) > 0.0).collect()
     }
 
     /// L at a time from the beginning of a path.

@@ -333,7 +333,7 @@ fn in_a_constraint(equations: &Equations, coordinate: usize) -> bool {
 /// Refuses what has no derivative at some places, where nothing here would notice.
 fn refuse(system: &System) -> Result<(), DynamicsError> {
     let unsuited = |why: &str| Err(DynamicsError::Unsuited(why.to_owned()));
-    if system.has_kinks() {
+    if system.has_kinks_of_states() {
         return unsuited(
             "the forces have kinks or jumps (abs, sign, min, max, or a cut of atan2), across which \
              derivatives of the motion are not computed",

@@ -33,6 +33,9 @@ const SIZE_SETTLED: f64 = 1e-3;
 const SLOPES_SETTLED: f64 = 1e-9;
 const SLOPES_ROUNDING: f64 = 1e-14;
 
+/// Kinks of the law by the time are searched for between so many times.
+const LOOKS: usize = 128;
+
 /// The least number of parts where the paths beside the motion have corners: roots of what may vanish.
 const WITH_CORNERS: usize = 16;
 
@@ -80,12 +83,13 @@ pub fn varied_action(
     coordinate: usize,
     duration: f64,
 ) -> Result<VariedAction, DynamicsError> {
+    let breaks = breaks(lagrangian, motion, duration);
     let mut value = |time: f64, state: &[f64]| lagrangian.value(time, state);
-    let followed = SampledMotion::of(motion, duration, 0, &mut value)?;
+    let followed = SampledMotion::of(motion, (duration, &breaks), 0, &mut value)?;
     let variation = |k| SineVariation { coordinate, k };
     let curve = |k| followed.curve(variation(k), &mut value);
     let curves = (1..=VARIATIONS).map(curve).collect();
-    let slopes = settled_slopes(&followed, motion, coordinate, lagrangian);
+    let slopes = settled_slopes(&followed, motion, (coordinate, &breaks), lagrangian);
     let ends = motion(&[0.0, duration]).filter(|ends| ends.len() == 2);
     let ends = ends.zip(slopes).map(|(ends, slopes)| {
         [0, 1].map(|end| {
@@ -118,13 +122,13 @@ struct EndIntegral {
 fn settled_slopes(
     followed: &SampledMotion,
     motion: Motion<'_>,
-    coordinate: usize,
+    (coordinate, breaks): (usize, &[f64]),
     lagrangian: &mut Lagrangian,
 ) -> Option<[[EndIntegral; 2]; 2]> {
-    let known = followed.nodes.len() / NODES;
+    let known = followed.parts;
     let mut sampled = |parts: usize| {
         Some(
-            SampledMotion::sampled(motion, followed.duration, parts)
+            SampledMotion::sampled(motion, (followed.duration, breaks), parts)
                 .ok()?
                 .end_slopes(coordinate, lagrangian),
         )
@@ -169,7 +173,7 @@ pub fn varied_abbreviated_action(
         let momenta = lagrangian.momenta(time, state);
         product(&momenta, state)
     };
-    let followed = SampledMotion::of(motion, duration, WITH_CORNERS, &mut own)?;
+    let followed = SampledMotion::of(motion, (duration, &[]), WITH_CORNERS, &mut own)?;
     let Some(((time, _), state)) = followed.nodes.first().zip(followed.path.first()) else {
         return Err(unsuited("the motion cannot be followed so far"));
     };
@@ -204,6 +208,7 @@ pub fn varied_phase_action(
     coordinate: usize,
     duration: f64,
 ) -> Result<VariedAction, DynamicsError> {
+    let breaks = breaks(lagrangian, motion, duration);
     let mut at = |time: f64, state: &[f64], momenta: &[f64]| {
         let product = product(momenta, state);
         product - hamiltonian.value(time, &[&state[..momenta.len()], momenta].concat())
@@ -212,7 +217,7 @@ pub fn varied_phase_action(
         let momenta = lagrangian.momenta(time, state);
         at(time, state, &momenta)
     };
-    let followed = SampledMotion::of(motion, duration, 0, &mut own)?;
+    let followed = SampledMotion::of(motion, (duration, &breaks), 0, &mut own)?;
     let nodes = followed.nodes.iter().zip(&followed.path);
     let momenta: Vec<Vec<f64>> =
         nodes.map(|(&(time, _), state)| lagrangian.momenta(time, state)).collect();
@@ -295,6 +300,8 @@ impl SineVariation {
 /// A motion at the nodes of a rule by which the integral of its action settles.
 struct SampledMotion {
     duration: f64,
+    /// The number of even parts of the path; kinks of the law by the time divide them.
+    parts: usize,
     /// Times and weights.
     nodes: Vec<(f64, f64)>,
     /// q and q̇ at each.
@@ -306,25 +313,25 @@ impl SampledMotion {
     /// At the nodes of so many parts; nothing is integrated yet.
     fn sampled(
         motion: Motion<'_>,
-        duration: f64,
+        (duration, breaks): (f64, &[f64]),
         parts: usize,
     ) -> Result<SampledMotion, DynamicsError> {
-        let nodes = nodes(parts, duration);
+        let nodes = nodes(parts, (duration, breaks));
         let times: Vec<f64> = nodes.iter().map(|&(time, _)| time).collect();
         let path = motion(&times).filter(|path| path.len() == nodes.len());
         let path = path.ok_or_else(|| unsuited("the motion cannot be followed so far"))?;
-        Ok(SampledMotion { duration, nodes, path, integral: f64::NAN })
+        Ok(SampledMotion { duration, parts, nodes, path, integral: f64::NAN })
     }
 
     fn of(
         motion: Motion<'_>,
-        duration: f64,
+        (duration, breaks): (f64, &[f64]),
         fewest: usize,
         integrand: &mut dyn FnMut(f64, &[f64]) -> f64,
     ) -> Result<SampledMotion, DynamicsError> {
         let (mut before, mut size_before) = (f64::NAN, f64::NAN);
         for parts in PARTS.into_iter().filter(|&parts| parts >= fewest) {
-            let sampled = SampledMotion::sampled(motion, duration, parts)?;
+            let sampled = SampledMotion::sampled(motion, (duration, breaks), parts)?;
             let terms: Vec<f64> = (sampled.nodes.iter().zip(&sampled.path))
                 .map(|(&(time, weight), state)| weight * integrand(time, state))
                 .collect();
@@ -391,12 +398,44 @@ impl SampledMotion {
     }
 }
 
-/// The times and weights of the rule on so many parts of a duration.
-fn nodes(parts: usize, duration: f64) -> Vec<(f64, f64)> {
+/// The times and weights of the rule on so many parts of a duration, which are divided at these times.
+fn nodes(parts: usize, (duration, breaks): (f64, &[f64])) -> Vec<(f64, f64)> {
     let mut rule = gauss(NODES);
     rule.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let width = duration / parts as f64;
-    let part =
-        |part| rule.iter().map(move |&(x, weight)| (width * (part as f64 + x), width * weight));
-    (0..parts).flat_map(part).collect()
+    let even = (0..=parts).map(|k| duration * (k as f64 / parts as f64));
+    let mut edges: Vec<f64> = even.chain(breaks.iter().copied()).collect();
+    edges.sort_by(f64::total_cmp);
+    let part = |edges: &[f64]| {
+        let (begin, width) = (edges[0], edges[1] - edges[0]);
+        rule.iter().map(|&(x, weight)| (begin + width * x, width * weight)).collect::<Vec<_>>()
+    };
+    edges.windows(2).filter(|edges| edges[0] < edges[1]).flat_map(part).collect()
+}
+
+/// The times at which the law has a kink by the time, as a ramp has at its ends: between them alone an integral along the motion
+/// converges fast.
+fn breaks(lagrangian: &mut Lagrangian, motion: Motion<'_>, duration: f64) -> Vec<f64> {
+    let mut found = Vec::new();
+    if !lagrangian.has_switches() {
+        return found;
+    }
+    let times: Vec<f64> = (0..=LOOKS).map(|k| duration * (k as f64 / LOOKS as f64)).collect();
+    let states = motion(&times).unwrap_or_default();
+    for (pair, state) in times.windows(2).zip(&states) {
+        let mut sides = |time: f64| lagrangian.switches(time, state);
+        let (before, after) = (sides(pair[0]), sides(pair[1]));
+        for switch in (0..before.len()).filter(|&i| before[i] != after[i]) {
+            let [mut low, mut high] = [pair[0], pair[1]];
+            loop {
+                let middle = f64::midpoint(low, high);
+                if middle <= low || middle >= high {
+                    break;
+                }
+                let side = sides(middle)[switch];
+                *(if side == before[switch] { &mut low } else { &mut high }) = middle;
+            }
+            found.push(high);
+        }
+    }
+    found
 }

@@ -8,8 +8,10 @@
 //! Source: *The Principles of Dynamics*, §§ 0, 1.4.1, 3.1.3.
 
 mod ends;
+mod in_phase_space;
 
 use self::ends::by_its_ends;
+use self::in_phase_space::{beside_by, nature};
 use super::conditions::PlotConditions;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
@@ -347,11 +349,15 @@ fn beside(
     Ok(Beside { varied, foci, degrees: n })
 }
 
-/// How long the path is: up to now, on a grid.
+/// How long the path is: up to now, while the motion runs on a grid.
 pub(super) fn duration(present: &Present<'_>) -> f64 {
     let run = &present.physics.model.run;
+    let passed = present.time - present.began();
     let grid = if run.speed.is_normal() { GRID * run.speed.abs() } else { GRID };
-    grid * ((present.time - present.began()) / grid).floor().clamp(1.0, MOST)
+    if !present.running && passed > 0.0 {
+        return passed.min(MOST * grid);
+    }
+    grid * (passed / grid).floor().clamp(1.0, MOST)
 }
 
 fn computed(answer: Option<&Answer>) -> Option<&ComputedAction> {
@@ -416,28 +422,4 @@ fn sentences(answer: Option<&Answer>, coordinate: Option<&str>) -> Vec<String> {
     let ends = ends.map_or_else(Vec::new, |ends| by_its_ends(&ends, coordinate.unwrap_or("q")));
     let since = computed.conditions.since().into_iter().collect();
     [vec![action], rest, ends, since].concat()
-}
-
-/// By how much the action in phase space is greater on the last curve of each kind, so that they are known without colours.
-fn beside_by(varied: &VariedAction, name: &str) -> Vec<String> {
-    let short = |x: f64| significant(x, 2, 1e-3..1e5).replace('-', "−");
-    let ends: Vec<[f64; 2]> =
-        varied.curves.iter().filter_map(|curve| curve.last().copied()).collect();
-    let [q, p, both] = ends[..] else { return Vec::new() };
-    let [q, p, both, epsilon] = [q[1], p[1], both[1], q[0]].map(short);
-    vec![format!("ε = {epsilon}: {name} {q}, p {p}, both {both}")]
-}
-
-/// Whether an action in phase space is greater or less on the curves beside the motion.
-fn nature(varied: &VariedAction) -> String {
-    let rises = varied.curves.iter().flatten().map(|at| at[1]);
-    let (least, greatest) =
-        rises.fold((0.0_f64, 0.0_f64), |(lo, hi), rise| (lo.min(rise), hi.max(rise)));
-    let word = match (least < 0.0, greatest > 0.0) {
-        (true, true) => "neither least nor greatest",
-        (true, false) => "greater than on these curves",
-        (false, true) => "less than on these curves",
-        (false, false) => "the same on these curves",
-    };
-    word.to_owned()
 }

@@ -27,6 +27,7 @@ use crate::system::InitialOverride;
 /// The levels of the picture.
 const NOW: Level = 0;
 const POINTS: Level = 1;
+const FITTED: Level = 2;
 
 /// The parts that are waited for where there is no background.
 const AT_ONCE: usize = 2;
@@ -157,7 +158,7 @@ impl Instrument for Diagram {
         if let Some(line) = straight_line(plot, present.physics, found) {
             let [from, to] = varied::range(plot, present, 0)?;
             let ends = [from, to].map(|x| [x, line.at(x)]);
-            layers.push((NOW, Layer::Line(ends.to_vec(), Ink::Curve(1).into())));
+            layers.push((FITTED, Layer::Line(ends.to_vec(), Ink::Plain.into())));
             layers.push((POINTS, Layer::Legend(vec![line.in_words()])));
         }
         if let Some(why) = found.and_then(|found| found.refused.as_ref()) {

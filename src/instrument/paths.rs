@@ -299,6 +299,10 @@ fn lines(answer: Option<&Answer>) -> Vec<String> {
         Some(Ok(all)) if all.is_empty() => return vec!["no true path was found".to_owned()],
         Some(Ok(all)) => all,
     };
+    let until = computed(answer).map(|known| {
+        let end = significant(known.begin + known.duration, 5, 1e-3..1e5).replace('-', "−");
+        format!("up to t = {end}")
+    });
     let since = computed(answer).and_then(|known| known.conditions.since());
     let mut lines: Vec<(String, usize)> = Vec::new();
     for path in all {
@@ -321,5 +325,5 @@ fn lines(answer: Option<&Answer>) -> Vec<String> {
         1 => line,
         count => format!("{line} ({count} paths)"),
     });
-    named.chain((more > 0).then(|| format!("and {more} more"))).chain(since).collect()
+    named.chain((more > 0).then(|| format!("and {more} more"))).chain(until).chain(since).collect()
 }

@@ -29,6 +29,8 @@ pub struct Present<'a> {
     pub physics: Physics<'a>,
     /// The time.
     pub time: f64,
+    /// Whether it runs on.
+    pub running: bool,
     /// The time up to which everything is known that is carried along beside the motion, such as a cloud; at most the time.
     pub carried: f64,
     /// What of the law was changed last, and the state from which the motion went on, if it was since the start.

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 use nalgebra::DMatrix;
 
 use super::equations::{Equations, ImplicitMap};
-use super::implicit_map::{guesses, matrix_at};
+use super::implicit_map::{departure, guesses, matrix_at};
 use super::isolate::{self, Solution, tidy};
 use super::sampling::{POINTS, TRIES};
 use super::slope::relations_with_common_roots;
@@ -63,6 +63,8 @@ pub struct CanonicalVerdict {
     pub valence: Option<Expr>,
     /// The brackets that are not what they should be.
     pub failing: Vec<FailingBracket>,
+    /// The brackets that are what they should be at these values of the parameters, and not at others.
+    pub only_here: Vec<FailingBracket>,
     /// Why it is not canonical, or no map.
     pub why: Option<String>,
 }
@@ -333,6 +335,7 @@ impl PhaseMap {
             residual,
             valence: None,
             failing: Vec::new(),
+            only_here: Vec::new(),
             why: None,
         };
         if self.is_explicit() {
@@ -390,7 +393,9 @@ impl PhaseMap {
         }
         verdict.valence = self.valence(pool, &all);
         if verdict.canonical {
-            // at the file's values of the parameters
+            // at these values of the parameters
+            let other = all.into_iter().filter(|(_, zero)| *zero == Zero::No);
+            verdict.only_here = other.map(|(bracket, _)| bracket).collect();
             return;
         }
         verdict.proved = refuted;
@@ -425,15 +430,6 @@ impl PhaseMap {
         }
         valence.filter(|&c| pool.is_zero(c) == Zero::No)
     }
-}
-
-/// The largest entry of |M 𝕁 Mᵀ − 𝕁|.
-fn departure(matrix: &DMatrix<f64>) -> f64 {
-    let size = matrix.nrows();
-    let n = size / 2;
-    let unit =
-        DMatrix::from_fn(size, size, |i, j| f64::from(i8::from(j == i + n) - i8::from(i == j + n)));
-    (matrix * &unit * matrix.transpose() - unit).amax()
 }
 
 /// Values put into an expression, which must leave none of these symbols.

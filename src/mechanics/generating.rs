@@ -277,7 +277,7 @@ impl PhaseMap {
         }
         match best {
             Some((function, proved)) => (Ok(function), proved),
-            None => no("its variables cannot be solved for the others".to_owned()),
+            None => no("its variables cannot be solved for the others in closed form".to_owned()),
         }
     }
 

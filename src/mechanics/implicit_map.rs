@@ -200,3 +200,12 @@ impl ImplicitMap {
 pub(super) fn matrix_at(pool: &Pool, of: &[Vec<Expr>], at: &Valuation) -> DMatrix<f64> {
     DMatrix::from_fn(of.len(), of.len(), |i, j| at.value(pool, of[i][j]))
 }
+
+/// The largest entry of |M 𝕁 Mᵀ − 𝕁|.
+pub(super) fn departure(matrix: &DMatrix<f64>) -> f64 {
+    let size = matrix.nrows();
+    let n = size / 2;
+    let unit =
+        DMatrix::from_fn(size, size, |i, j| f64::from(i8::from(j == i + n) - i8::from(i == j + n)));
+    (matrix * &unit * matrix.transpose() - unit).amax()
+}

@@ -4,7 +4,7 @@
 //! In: a model, a ramp. Out: the model with the parameter replaced in its law, constraints, impulses, events and
 //! observables. Initial values keep the number that the parameter has at the start. Never here: motions.
 
-use super::ramped::Ramped;
+use super::ramped::{RampForm, Ramped};
 use super::{Allowed, Model, Scope};
 use crate::expr::Expr;
 
@@ -19,8 +19,8 @@ pub struct Ramp {
     pub start: f64,
     /// How long it changes, above zero.
     pub duration: f64,
-    /// Whether it changes evenly, with corners, in place of 10u³ − 15u⁴ + 6u⁵.
-    pub linear: bool,
+    /// How it goes.
+    pub form: RampForm,
 }
 
 /// Why a parameter cannot change with the time.
@@ -41,7 +41,11 @@ impl Ramp {
     /// The value at a time.
     pub fn at(&self, time: f64) -> f64 {
         let u = ((time - self.start) / self.duration).clamp(0.0, 1.0);
-        let part = if self.linear { u } else { u * u * u * (10.0 - u * (15.0 - 6.0 * u)) };
+        let part = match self.form {
+            RampForm::Linear => u,
+            RampForm::Cubic => u * u * (3.0 - 2.0 * u),
+            RampForm::Smooth => u * u * u * (10.0 - u * (15.0 - 6.0 * u)),
+        };
         let [from, to] = self.values;
         if u == 1.0 { to } else { from + (to - from) * part }
     }
@@ -50,7 +54,11 @@ impl Ramp {
     fn written(&self) -> String {
         let [from, to] = self.values;
         let u = format!("min(max((t - ({:?}))/({:?}), 0), 1)", self.start, self.duration);
-        let part = if self.linear { u } else { format!("(10*{u}^3 - 15*{u}^4 + 6*{u}^5)") };
+        let part = match self.form {
+            RampForm::Linear => u,
+            RampForm::Cubic => format!("(3*{u}^2 - 2*{u}^3)"),
+            RampForm::Smooth => format!("(10*{u}^3 - 15*{u}^4 + 6*{u}^5)"),
+        };
         format!("({from:?}) + (({to:?}) - ({from:?}))*{part}")
     }
 }

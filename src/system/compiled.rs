@@ -249,6 +249,11 @@ impl System {
         self.shared.motion.native.switches() > 0
     }
 
+    /// Whether it has kinks at places that depend on the state: those of a ramp come at their times, whatever the state.
+    pub fn has_kinks_of_states(&self) -> bool {
+        self.shared.motion.native.has_switches_of_inputs()
+    }
+
     /// The native form of its states: velocities for a Lagrangian, momenta for a Hamiltonian.
     pub fn form(&self) -> Form {
         self.shared.native

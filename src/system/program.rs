@@ -158,6 +158,17 @@ impl Program {
         self.outputs.iter().any(|&r| timed[r as usize])
     }
 
+    /// Whether a switch depends on an input, and not on the time and the parameters alone.
+    pub(super) fn has_switches_of_inputs(&self) -> bool {
+        let mut of_inputs = vec![false; self.ops.len()];
+        for r in 0..self.ops.len() {
+            let mut own = matches!(self.ops[r], Op::Input(_));
+            self.each_operand(r as Register, &mut |operand| own |= of_inputs[operand as usize]);
+            of_inputs[r] = own;
+        }
+        self.switches.iter().any(|&r| of_inputs[r as usize])
+    }
+
     /// Whether an output or a switch depends on each operation; the others need not be evaluated.
     pub(super) fn live(&self) -> Vec<bool> {
         let mut live = vec![false; self.ops.len()];

@@ -130,6 +130,11 @@ impl<R: Real> Evaluator<R> {
         self.program.outputs.iter().map(|&r| self.registers[r as usize])
     }
 
+    /// The number of switches.
+    pub fn switches(&self) -> usize {
+        self.program.switches()
+    }
+
     /// The value of a switch.
     pub fn switch(&self, i: usize) -> R {
         self.registers[self.program.switches[i] as usize]

@@ -58,7 +58,13 @@ impl FurtherRows<'_> {
             let verdict = &known.verdict;
             let judged = match (verdict.canonical, verdict.proved) {
                 (true, true) => "canonical, proved",
+                (true, false) if !verdict.only_here.is_empty() => {
+                    "canonical at the values of the file"
+                }
                 (true, false) => "canonical to rounding",
+                (false, _) if verdict.residual.is_none() && verdict.failing.is_empty() => {
+                    "no map is known"
+                }
                 (false, _) => "not canonical",
             };
             self.page.heading(&format!("Transformation {}: {judged}", known.map.name));
@@ -68,6 +74,11 @@ impl FurtherRows<'_> {
             if known.map.forwards.is_none() {
                 let words = "The new variables are not known in closed form.";
                 self.page.words(Role::Dim, words);
+            }
+            for bracket in &verdict.only_here {
+                let [a, b] = bracket.pair.map(|s| self.symbol(s));
+                let here = format!("which is {} there", self.write(bracket.expected));
+                self.put(&format!("[{a}, {b}]"), bracket.is, &here);
             }
             for failing in &verdict.failing {
                 let [a, b] = failing.pair.map(|s| self.symbol(s));

@@ -198,6 +198,7 @@ fn superscript(character: char) -> Option<char> {
         '⁴'..='⁹' => char::from(b'4' + (character as u32 - '⁴' as u32) as u8),
         '⁺' => '+',
         '⁻' => '-',
+        'ⁿ' => 'n',
         _ => return None,
     })
 }
@@ -285,7 +286,6 @@ fn spelling(character: char) -> &'static str {
         '≤' => "<=",
         '≥' => ">=",
         '∝' => "~",
-        'ⁿ' => "^n",
         'ᵏ' => "^k",
         '≠' => "!=",
         '→' => "->",

@@ -334,6 +334,17 @@ fn the_lab_carries_a_cloud_with_the_motion_and_begins_it_anew_where_it_must() {
     assert!((measure(&app, "action").unwrap() - PI * 0.09).abs() < 1e-2 * begun);
 }
 
+/// A cloud that is begun anew where the motion passes q = 0 has the size of one that is begun elsewhere: π (0.3)², by the amplitude.
+#[test]
+fn a_cloud_begun_anew_at_zero_keeps_its_size() {
+    let (mut app, _, mut experiment) = opened(oscillator("1/2*q^2", "0*q'"));
+    see(&mut app, &mut experiment, 4.712);
+    experiment.execute(Command::Method("leapfrog".to_owned()));
+    see(&mut app, &mut experiment, 4.713);
+    let action = measure(&app, "action").unwrap();
+    assert!((action - PI * 0.09).abs() < 1e-2 * action, "{action}");
+}
+
 /// Seen in its initial values a cloud stands still, point by point; seen in others it does not.
 #[test]
 fn in_the_initial_values_the_cloud_stands_still() {

@@ -236,3 +236,48 @@ fn rounding_is_a_floor() {
     let told = course.told();
     assert!(told.contains("by rk4, at rounding ("), "{told}");
 }
+
+/// While it is paused a motion is varied, and true paths are searched for, up to the very time that is seen.
+#[test]
+fn a_paused_motion_is_varied_up_to_now() {
+    for kind in ["action", "paths"] {
+        let mut course = Course::showing(kind, OSCILLATOR);
+        course.go(2.1234);
+        assert!(format!("{}\n", course.told()).contains("up to t = 2\n"), "{}", course.told());
+        course.experiment.execute(Command::Pause);
+        course.go(2.1234);
+        assert!(course.told().contains("up to t = 2.1234"), "{}", course.told());
+    }
+}
+
+/// A ramp has its kinks at its times, whatever the state: M(30) of the slow oscillator as SciPy has it (DOP853, rtol 1e-13), and the
+/// slopes of the action.
+#[test]
+fn a_law_with_a_ramp_has_its_flow_and_its_action() {
+    let file = include_str!("../../presets/adiabatic/slow-oscillator.toml");
+    let asked = ["flow", "system.toml", "--until=30", "--format=json"];
+    let found = crate::cli::with_file(file, &asked).json();
+    let text = found.to_string();
+    let rows = found["matrix"].as_array().unwrap_or_else(|| panic!("{text}"));
+    let entries: Vec<f64> = (rows.iter().flat_map(|row| row.as_array().expect("a row")))
+        .map(|x| x.as_f64().expect("a number"))
+        .collect();
+    let known = [0.885851271751, -0.204651706579, 0.238526812879, 1.073752571128];
+    assert_eq!(entries.len(), 4);
+    for (found, known) in entries.iter().zip(known) {
+        assert!((found - known).abs() < 1e-10, "{found} is not {known}");
+    }
+    let text = OSCILLATOR.to_owned()
+        + "[[ramps]]\nparameter = \"w\"\nto = 2\nstart = 0.3\nduration = 1.1\nform = \"linear\"\n";
+    let mut course = Course::showing("action", &text);
+    course.go(2.01);
+    let told = course.told();
+    assert!(told.contains("= p, ∂S/∂t") && told.contains("= −H"), "{told}");
+    let mut course = Course::showing("flow", &text);
+    course.go(2.01);
+    near(course.measure("determinant"), 1.0, 1e-13);
+    // a kink at a place of the state has no derivative there
+    let mut course = Course::showing("flow", &OSCILLATOR.replace("w^2*q^2/2", "w*abs(q)"));
+    course.go(0.5);
+    assert!(course.told().contains("kinks or jumps"), "{}", course.told());
+}

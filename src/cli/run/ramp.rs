@@ -1,4 +1,4 @@
-//! `--ramp NAME=FROM:TO:START:DURATION[:linear]`.
+//! `--ramp NAME=FROM:TO:START:DURATION[:FORM]`.
 //!
 //! In: the option. Out: a [`Ramp`] of a model. Never here: what it does to the model.
 
@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use crate::cli::assignment::{self, Assignment, number};
 use crate::cli::failure::CommandError;
-use crate::model::{Model, Ramp};
+use crate::model::{Model, Ramp, RampForm};
 use crate::printable;
 
 /// A ramp under the name of its parameter.
@@ -16,20 +16,22 @@ pub(super) struct RampArgument {
     values: [f64; 2],
     start: f64,
     duration: f64,
-    linear: bool,
+    form: RampForm,
 }
 
 impl FromStr for RampArgument {
     type Err = String;
 
     fn from_str(text: &str) -> Result<RampArgument, String> {
-        let form = "write it as name=from:to:start:duration, or with :linear behind";
+        let form = "write it as name=from:to:start:duration, or with :cubic or :linear behind";
         let (name, rest) = text.split_once('=').ok_or(form)?;
         let parts: Vec<&str> = rest.split(':').map(str::trim).collect();
-        let (numbers, linear) = match parts.as_slice() {
-            [numbers @ .., "linear"] => (numbers, true),
-            numbers => (numbers, false),
+        let named = |last: &&str| RampForm::NAMED.into_iter().find(|(name, _)| name == last);
+        let (numbers, shape) = match parts.split_last() {
+            Some((last, numbers)) if named(last).is_some() => (numbers, named(last)),
+            _ => (&parts[..], None),
         };
+        let shape = shape.map_or_else(RampForm::default, |(_, shape)| shape);
         let &[from, to, start, duration] = numbers else { return Err(form.to_owned()) };
         let duration = number(duration)?;
         if duration <= 0.0 {
@@ -40,7 +42,7 @@ impl FromStr for RampArgument {
             values: [number(from)?, number(to)?],
             start: number(start)?,
             duration,
-            linear,
+            form: shape,
         })
     }
 }
@@ -63,8 +65,8 @@ pub(super) fn of(
             let message = format!("--set and --ramp both give {name}: keep one of them");
             return Err(CommandError::WrongUse(message));
         }
-        let RampArgument { values, start, duration, linear, .. } = *ramp;
-        ramps.push(Ramp { parameter, values, start, duration, linear });
+        let RampArgument { values, start, duration, form, .. } = *ramp;
+        ramps.push(Ramp { parameter, values, start, duration, form });
     }
     Ok(ramps)
 }

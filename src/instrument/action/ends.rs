@@ -37,7 +37,7 @@ pub(super) fn by_its_ends([start, now]: &[EndSlope; 2], name: &str) -> Vec<Strin
             sign([now.by_time, -now.energy], now.sizes[1], now.errors[1])
         ),
         format!(
-            "at the start {} −p, {} H",
+            "at the start ∂S/∂{name} {} −p, ∂S/∂t {} H",
             sign([start.by_position, -start.momentum], start.sizes[0], start.errors[0]),
             sign([start.by_time, start.energy], start.sizes[1], start.errors[1])
         ),

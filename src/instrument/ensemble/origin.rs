@@ -235,7 +235,9 @@ fn radii(
         (period.map(|period| OF_TURN * period), range, value)
     };
     let (turn, range, value) = sized(0);
-    let across = turn.or(value).or(range).unwrap_or(OF_VALUE);
+    // where it passes near zero the value is no measure of it
+    let extent = value.into_iter().chain(range).reduce(f64::max);
+    let across = turn.or(extent).unwrap_or(OF_VALUE);
     let energy = |by: [f64; 2]| {
         let at = [0, 1].map(|k| origin.centre[k] + by[k]);
         let state = origin.state(at, plot, physics, present.parameters)?;

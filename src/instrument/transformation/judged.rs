@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 use crate::dynamics::MethodStep;
 use crate::expr::Pool;
 use crate::integrate::method_named;
-use crate::mechanics::{Equations, TransformationReport, Valuation};
+use crate::mechanics::{Equations, FailingBracket, TransformationReport, Valuation};
 use crate::model::{GeneratingType, Model};
 use crate::num::significant;
 use crate::system::System;
@@ -110,20 +110,31 @@ fn break_down(broken: &[(GeneratingType, String)]) -> Option<String> {
 fn lines(pool: &Pool, report: &TransformationReport) -> Vec<String> {
     let verdict = &report.verdict;
     let off = verdict.residual.map_or_else(String::new, |x| significant(x, 1, 1e-3..1e3));
+    let brackets = |all: &[FailingBracket], sign: &str| -> Vec<String> {
+        let written = all.iter().map(|bracket| {
+            let [a, b] = bracket.pair.map(|s| pool.symbol_info(s).unicode.clone());
+            let (is, expected) = (pool.unicode(bracket.is), pool.unicode(bracket.expected));
+            format!("[{a}, {b}] = {is} {sign} {expected}")
+        });
+        written.collect()
+    };
     let mut lines = vec![match (verdict.canonical, verdict.proved) {
         (true, true) => "canonical, proved".to_owned(),
+        (true, false) if !verdict.only_here.is_empty() => "canonical at these values".to_owned(),
         (true, false) => format!("canonical to rounding: |M 𝕁 Mᵀ − 𝕁| = {off}"),
+        // nothing was found of it, neither that it is nor that it is not
+        (false, _) if verdict.residual.is_none() && verdict.failing.is_empty() => {
+            "no map is known here".to_owned()
+        }
         (false, _) => "not canonical".to_owned(),
     }];
-    let mut failing = verdict.failing.iter().map(|bracket| {
-        let [a, b] = bracket.pair.map(|s| pool.symbol_info(s).unicode.clone());
-        format!("[{a}, {b}] = {} ≠ {}", pool.unicode(bracket.is), pool.unicode(bracket.expected))
-    });
+    let mut failing = brackets(&verdict.failing, "≠").into_iter();
     // the first of them beside the verdict, so that a low plot has it too
     if let Some((line, first)) = lines.first_mut().zip(failing.next()) {
         *line = format!("{line}: {first}");
     }
     lines.extend(failing);
+    lines.extend(brackets(&verdict.only_here, "="));
     lines.extend(verdict.valence.map(|c| format!("of valence {}", pool.unicode(c))));
     lines.extend(report.hamiltonian.as_ref().ok().map(|k| format!("K = {}", pool.unicode(*k))));
     let in_old = report.hamiltonian_in_old;

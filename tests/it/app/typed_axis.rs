@@ -84,3 +84,17 @@ fn what_is_no_expression_is_refused_and_the_list_stays() {
     assert!(told.contains("unknown name `thetta1`"), "{told}");
     assert!(matches!(app.overlay, Some(Overlay::Menu(_))));
 }
+
+/// A new variable of a transformation that no view draws has its name already: its observable has another one, and the text runs.
+#[test]
+fn a_new_variable_that_is_typed_leaves_a_text_that_runs() {
+    let mut app = lab("angle-of-the-oscillator", 1.0);
+    ask(&mut app, "X");
+    let text = checked(&mut app);
+    assert!(text.contains("name = \"X of scaled\""), "{text}");
+    assert!(matches!(app.overlay, Some(Overlay::Menu(_))));
+    write(&mut app, "Y");
+    let text = checked(&mut app);
+    assert!(text.contains("name = \"Y of scaled\""), "{text}");
+    assert_eq!(axes(&app), ["X of scaled", "Y of scaled"]);
+}

@@ -430,3 +430,56 @@ fn a_failing_bracket_is_cancelled() {
     assert_eq!((&bracket["f"], &bracket["g"]), (&"A1".into(), &"B2".into()), "{found}");
     assert_eq!(bracket["is"], "1", "{bracket}");
 }
+
+/// λ μ is 1 at the values of the file alone: the bracket is said, and that the map is canonical there only. A map by a generating
+/// function that has no point at these values is not said to be not canonical.
+#[test]
+fn canonical_at_some_values_only_is_not_canonical_to_rounding() {
+    let file = |values: &str, law: &str| {
+        format!(
+            "title = \"t\"\n[coordinates]\nq = {{ initial = 1, momentum = 0.5 }}\n[parameters]\n{values}\n[hamiltonian]\n\
+             H = \"p_q^2/2 + q^2/2\"\n[[transformations]]\nname = \"a\"\n{law}"
+        )
+    };
+    let scaled = "kind = \"explicit\"\nQ = { X = \"lambda*q\" }\nP = { Y = \"mu*p_q\" }\n";
+    let derived = |values: &str, law: &str| {
+        with_file(&file(values, law), &["derive", "system.toml"]).success()
+    };
+    let text = derived("lambda = 2\nmu = 0.5", scaled);
+    assert!(text.contains("canonical at these values of the parameters"), "{text}");
+    assert!(
+        text.contains(", which is 1 at these values") && !text.contains("to rounding"),
+        "{text}"
+    );
+    let text = derived("lambda = 2\nmu = 0.75", scaled);
+    assert!(text.contains("not canonical") && !text.contains("at these values"), "{text}");
+    let turned =
+        "kind = \"F1\"\nnew = [\"Q\", \"P\"]\nF = \"(2*q*Q - (Q^2 + q^2)*cos(a))/(2*sin(a))\"\n";
+    let text = derived("a = 0.5", turned);
+    assert!(text.contains("canonical, proved"), "{text}");
+    let text = derived("a = 0", turned);
+    assert!(text.contains("no map is known") && !text.contains("not canonical"), "{text}");
+}
+
+/// Walls that approach each other meet after infinitely many strokes: the motion ends before. I is the same in flight and after
+/// the last stroke, which leaves the ball moving on.
+#[test]
+fn the_ball_between_walls_ends_and_keeps_its_number() {
+    let meets =
+        phaselab(&["run", "receding-wall", "--set=u=-0.1", "--until=12", "--format=json"]).json();
+    let rows = meets["rows"].as_array().expect("rows");
+    assert!(rows.last().expect("a row")[0].as_f64().expect("a time") < 9.81);
+    assert!(meets.to_string().contains("the walls meet"));
+    let lost = phaselab(&[
+        "run",
+        "receding-wall",
+        "--set=u=0.3",
+        "--at=19,21",
+        "--until=25",
+        "--format=json",
+    ])
+    .json();
+    for number in column(&lost, "I") {
+        close(number, 1.05, 1e-12);
+    }
+}

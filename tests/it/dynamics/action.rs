@@ -162,7 +162,7 @@ fn the_lab_says_when_the_action_is_no_longer_least() {
     let (shown, measure) = picture(OSCILLATOR, 3.1);
     assert!(shown.contains("least of all paths nearby"), "{shown}");
     assert!(
-        shown.contains("= p,") && shown.contains("= −p, = H") && !shown.contains('≠'),
+        shown.contains("= p,") && shown.contains("= −p, ∂S/∂t = H") && !shown.contains('≠'),
         "{shown}"
     );
     // x = cos t up to t = 3
@@ -181,7 +181,7 @@ fn the_lab_says_when_the_action_is_no_longer_least() {
     // in other units, and under a fast drive
     for law in ["1e-9*(1/2*x'^2 - 1/2*x^2)", "1/2*x'^2 - 1/2*x^2 + x*cos(1500*t)"] {
         let (shown, _) = picture(&OSCILLATOR.replace("1/2*x'^2 - 1/2*x^2", law), 2.0);
-        assert!(shown.contains("= p,") && shown.contains("= −p, = H"), "{law}: {shown}");
+        assert!(shown.contains("= p,") && shown.contains("= −p, ∂S/∂t = H"), "{law}: {shown}");
         assert!(!shown.contains('≠'), "{law}: {shown}");
     }
     // at rest on the top of a hill nothing ever meets again

@@ -72,7 +72,13 @@ impl TextReport<'_> {
             });
             let judged = match (verdict.canonical, verdict.proved) {
                 (true, true) => format!("canonical, proved{residual}"),
+                (true, false) if !verdict.only_here.is_empty() => {
+                    format!("canonical at these values of the parameters{residual}")
+                }
                 (true, false) => format!("canonical to rounding{residual}"),
+                (false, _) if verdict.residual.is_none() && verdict.failing.is_empty() => {
+                    "no map is known".to_owned()
+                }
                 (false, _) => format!("not canonical{residual}"),
             };
             self.heading(&format!("Transformation {name}: {}", self.words(&judged)));
@@ -82,6 +88,11 @@ impl TextReport<'_> {
             }
             if known.map.forwards.is_none() {
                 self.line("  the new variables are not known in closed form");
+            }
+            for bracket in &verdict.only_here {
+                let [f, g] = bracket.pair.map(|symbol| self.symbol(symbol));
+                let (is, here) = (self.math(bracket.is), self.math(bracket.expected));
+                self.line(&format!("  [{f}, {g}] = {is}, which is {here} at these values"));
             }
             for bracket in &verdict.failing {
                 let [f, g] = bracket.pair.map(|symbol| self.symbol(symbol));
