@@ -18,4 +18,5 @@ mod search;
 mod surface;
 mod typed_axis;
 mod values;
+mod way_back;
 mod workbench;
