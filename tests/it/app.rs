@@ -18,5 +18,4 @@ mod search;
 mod surface;
 mod typed_axis;
 mod values;
-mod way_back;
 mod workbench;

@@ -119,12 +119,11 @@ pub(super) fn picture(
         let seen = range.unwrap_or([first[1], last[1]]);
         let ends = [first[1], last[1]];
         range = Some([seen[0].min(ends[0]).min(ends[1]), seen[1].max(ends[0]).max(ends[1])]);
-        // of another colour than the curve, which lies near it
-        let stroke = Stroke { ink: Ink::Curve(1), covering: Some(0.5) };
+        let stroke = Stroke { ink: Ink::Accent, covering: Some(0.5) };
         layers.push((LINE, Layer::Line(line, stroke)));
         let now = expected(returned, answer, returned.gone[0]);
         let now = now.map(|value| format!(" = {}", significant(value, 2, 1e-4..1e4)));
-        name = format!("ln d   line: {}{}", law(returned), now.unwrap_or_default());
+        name = format!("ln d   expected {}{}", law(returned), now.unwrap_or_default());
     }
     let upwards = Upwards::Named(name, range.unwrap_or([-40.0, 0.0]));
     Picture::Axes { upwards, layers, occurrences: None }
