@@ -13,8 +13,8 @@ impl Pool {
         self.in_textbook_form(e, |pool, e| Printer { pool, style: &Unicode }.piece(e).text)
     }
 
-    /// A text from a file with its names and powers as they are shown and a minus sign between them, otherwise as it is:
-    /// `theta1 - theta2^2` → `θ₁ − θ₂²`.
+    /// A text from a file with its names and powers as they are shown, a minus sign and a dot between them, otherwise as it
+    /// is: `theta1 - k*theta2^2` → `θ₁ − k·θ₂²`.
     pub fn with_shown_names(&self, text: &str) -> String {
         let of_name = |c: char| c.is_alphanumeric() || c == '_';
         let mut shown = String::new();
@@ -29,6 +29,7 @@ impl Pool {
             let exponent = shown.ends_with(['e', 'E']) && last_is_number(&shown);
             match (first, self.find_symbol(word)) {
                 ('-', _) if !exponent => shown.push('−'),
+                ('*', _) => shown.push('·'),
                 ('^', _) => {
                     let (raised, after) = raised_power(after);
                     shown.push_str(&raised);

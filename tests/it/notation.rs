@@ -328,15 +328,15 @@ fn a_text_of_a_file_is_shown_with_the_names_of_the_screen() {
     for (text, shown) in [
         ("theta - x1", "θ − x₁"),
         ("omega0/m", "φ̇₀/m"),
-        ("theta'*x1'", "θ\u{307}*ẋ₁"),
-        ("1e-3*x1", "1e-3*x₁"),
+        ("theta'*x1'", "θ\u{307}·ẋ₁"),
+        ("1e-3*x1", "1e-3·x₁"),
         ("x1e-3", "x1e−3"),
         ("Vmax - sin(theta)", "Vmax − sin(θ)"),
         ("energy of running", "energy of running"),
         ("theta^2 - x1^-12", "θ² − x₁⁻¹²"),
         ("2^n", "2ⁿ"),
         ("x1^2^3", "x₁^2³"),
-        ("x^(1/2)*2^nu*x^2.5", "x^(1/2)*2^nu*x^2.5"),
+        ("x^(1/2)*2^nu*x^2.5", "x^(1/2)·2^nu·x^2.5"),
         ("ψ'", "ψ'"),
         ("", ""),
     ] {
