@@ -307,11 +307,8 @@ fn crossing(plot: &Plot, physics: Physics<'_>) -> String {
     let axis = |axis: usize| view.axes.get(axis).and_then(|axis| axis.first());
     let Some(written) = axis(0) else { return "?".to_owned() };
     let channel = physics.system.channel_of(written.expression);
-    let shown = match channel {
-        Some(channel) => physics.shown(channel).to_owned(),
-        None => physics.model.pool.with_shown_names(&binary_logarithm(&written.written)),
-    };
-    format!("{shown} where {}", zero(physics, view))
+    let shown = channel.map_or(written.written.as_str(), |channel| physics.shown(channel));
+    format!("{} where {}", binary_logarithm(shown), zero(physics, view))
 }
 
 /// A quantity as it is written, a logarithm over ln 2 as one to that base: `ln(x)/ln(2)` → `log₂ x`.

@@ -372,6 +372,12 @@ fn a_large_drift_is_given_in_per_cent() {
 /// A diagram at a fixed time names the time, and a logarithm over ln 2 is one to that base.
 #[test]
 fn the_axis_of_a_diagram_names_its_quantity_and_time() {
-    let text = rows(&screen(&lab("infinitesimal", 1.0), &rich(), (200, 60)));
-    assert!(text.iter().any(|row| row.contains("log₂ residual where t = 1 ")), "{text:#?}");
+    let app = begun(
+        "title = \"t\"\n[coordinates]\nx = { initial = 1.0, velocity = 0.0 }\n[parameters]\n\
+         n = { value = 1.0, min = 0.0, max = 3.0 }\n[definitions]\nsize = \"x^2 + 1\"\n[lagrangian]\n\
+         L = \"1/2*x'^2 - 1/2*x^2\"\n[[views]]\nkind = \"diagram\"\nover = \"n\"\non = \"t - 40*2^n\"\n\
+         y = \"ln(size)/ln(2)\"\n",
+    );
+    let text = rows(&screen(&app, &rich(), (120, 40)));
+    assert!(text.iter().any(|row| row.contains("log₂ size where t = 40·2ⁿ")), "{text:#?}");
 }
