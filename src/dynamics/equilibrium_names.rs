@@ -7,8 +7,16 @@ use crate::mechanics::Valuation;
 use crate::model::Model;
 use crate::num::math;
 
+/// A place of one name alone is that of an equilibrium up to this part of what is as far as the place or the equilibrium, and of
+/// a period up to half as much.
+const ALONE: f64 = 0.5;
+
+/// Rounding, as a part of where the motion begins.
+const ROUNDING: f64 = 1e-7;
+
 /// Names the equilibria that are nearest to the places of names, each of which is nearest to its own and nearer than halfway to
-/// another place: of those that are missing no other gets the name. Coordinates with a period are compared within it.
+/// another place: of those that are missing no other gets the name. Where a name has no other beside it, the equilibrium must be
+/// nearer than halfway to the next one, and not far away. Coordinates with a period are compared within it.
 pub fn name_equilibria(model: &Model, parameters: &[f64], found: &mut [Equilibrium]) {
     let known = Valuation::of_parameters(model, parameters);
     let value = |e| known.value(&model.pool, e);
@@ -35,15 +43,38 @@ pub fn name_equilibria(model: &Model, parameters: &[f64], found: &mut [Equilibri
         let known = distances.filter(|(_, distance)| distance.is_finite());
         known.min_by(|a, b| a.1.total_cmp(&b.1))
     };
+    let initial: Vec<f64> = model.coordinates.iter().map(|c| value(c.initial)).collect();
+    let is_near = |place: &[(usize, f64)], one: &Equilibrium| {
+        let [mut distance, mut from, mut to, mut begun] = [0.0; 4];
+        for &(i, x) in place {
+            let Some(&at) = one.variables.get(i) else { return false };
+            match periods.get(i).copied().flatten() {
+                Some(period) if apart(i, at, x).abs() > 0.5 * ALONE * period.abs() => return false,
+                Some(_) => {}
+                None => {
+                    distance = math::hypot(distance, at - x);
+                    (from, to) = (math::hypot(from, x), math::hypot(to, at));
+                    begun = math::hypot(begun, initial.get(i).copied().unwrap_or(0.0));
+                }
+            }
+        }
+        distance <= (ALONE * f64::max(from, to)).max(ROUNDING * begun)
+    };
     for (name, place) in places.iter().enumerate() {
         let nearest = least(&mut found.iter().map(|one| away(place, one)).enumerate());
         let Some((nearest, distance)) = nearest else { continue };
         let own = least(&mut places.iter().map(|other| away(other, &found[nearest])).enumerate());
         let others = places.iter().enumerate().filter(|(other, _)| *other != name);
         let halfway = others.map(|(_, other)| 0.5 * between(place, other)).filter(|d| *d > 0.0);
-        if own.is_some_and(|(own, _)| own == name)
-            && halfway.fold(f64::INFINITY, f64::min) > distance
-        {
+        let halfway = halfway.fold(f64::INFINITY, f64::min);
+        let clear = if halfway.is_finite() {
+            halfway > distance
+        } else {
+            let rest = found.iter().enumerate().filter(|(other, _)| *other != nearest);
+            let next = rest.map(|(_, one)| away(place, one)).fold(f64::INFINITY, f64::min);
+            0.5 * next > distance && is_near(place, &found[nearest])
+        };
+        if own.is_some_and(|(own, _)| own == name) && clear {
             found[nearest].name.clone_from(&model.equilibria[name].name);
         }
     }

@@ -13,8 +13,8 @@ impl Pool {
         self.in_textbook_form(e, |pool, e| Printer { pool, style: &Unicode }.piece(e).text)
     }
 
-    /// A text from a file with its names and powers as they are shown and a minus sign between them, otherwise as it is:
-    /// `theta1 - theta2^2` → `θ₁ − θ₂²`.
+    /// A text from a file with its names and powers as they are shown, a minus sign and a dot between them, otherwise as it
+    /// is: `theta1 - k*theta2^2` → `θ₁ − k·θ₂²`.
     pub fn with_shown_names(&self, text: &str) -> String {
         let of_name = |c: char| c.is_alphanumeric() || c == '_';
         let mut shown = String::new();
@@ -29,6 +29,7 @@ impl Pool {
             let exponent = shown.ends_with(['e', 'E']) && last_is_number(&shown);
             match (first, self.find_symbol(word)) {
                 ('-', _) if !exponent => shown.push('−'),
+                ('*', _) => shown.push('·'),
                 ('^', _) => {
                     let (raised, after) = raised_power(after);
                     shown.push_str(&raised);
@@ -106,15 +107,20 @@ impl Style for Unicode {
         format!("({inner})")
     }
 
-    /// One piece over another. A function without parentheses over a number has some around it: (sin θ)/7.
+    /// One piece over another. A function without parentheses over a number or a name has some around it: (sin θ)/7, and
+    /// of several factors over a name the last one alone: (a + b) (sin θ)/l.
     fn fraction(&self, above: &PrintedPiece, below: &PrintedPiece) -> PrintedPiece {
         let wrap = |piece: &PrintedPiece, wrapped| {
             if wrapped { self.parenthesise(&piece.text) } else { piece.text.clone() }
         };
-        let bare = below.level >= BindingStrength::Power
-            && below.text.starts_with(|c: char| c.is_ascii_digit())
-            && ends_bare(&above.text);
-        let above = wrap(above, above.level < BindingStrength::Product || bare);
+        let bare = below.level >= BindingStrength::Power && ends_bare(&above.text);
+        let number = below.text.starts_with(|c: char| c.is_ascii_digit());
+        let above = match last_call(&above.text) {
+            Some((before, call)) if bare && !number && above.level >= BindingStrength::Product => {
+                format!("{before}{}", self.parenthesise(call))
+            }
+            _ => wrap(above, above.level < BindingStrength::Product || bare),
+        };
         let text = format!("{above}/{}", wrap(below, below.level < BindingStrength::Power));
         PrintedPiece { text, level: BindingStrength::Product }
     }
@@ -200,6 +206,12 @@ fn ends_bare(text: &str) -> bool {
     let function = function.trim_end_matches(|c| raised_digit(c).is_some());
     let function = function.trim_start_matches('−');
     !argument.ends_with([')', '|']) && FUNCTIONS.iter().any(|row| row.unicode == function)
+}
+
+/// What stands before the last function of a text that ends in one without parentheses, and the function.
+fn last_call(text: &str) -> Option<(&str, &str)> {
+    let function = text.rmatch_indices(' ').nth(1).map_or(0, |(blank, _)| blank + 1);
+    text.split_at_checked(function)
 }
 
 /// `sin θ`, `sin(2 θ)`.

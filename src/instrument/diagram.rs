@@ -8,6 +8,7 @@
 
 mod task;
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 pub(super) use task::Number;
@@ -308,7 +309,18 @@ fn crossing(plot: &Plot, physics: Physics<'_>) -> String {
     let Some(written) = axis(0) else { return "?".to_owned() };
     let channel = physics.system.channel_of(written.expression);
     let shown = channel.map_or(written.written.as_str(), |channel| physics.shown(channel));
-    format!("{shown} where {}", zero(physics, view))
+    format!("{} where {}", binary_logarithm(shown), zero(physics, view))
+}
+
+/// A quantity as it is written, a logarithm over ln 2 as one to that base: `ln(x)/ln(2)` → `log₂ x`.
+fn binary_logarithm(written: &str) -> Cow<'_, str> {
+    let argument = written.strip_prefix("ln(").and_then(|rest| rest.strip_suffix(")/ln(2)"));
+    match argument {
+        Some(name) if name.chars().all(|c| c.is_alphanumeric() || c == '_') => {
+            Cow::Owned(format!("log₂ {name}"))
+        }
+        _ => Cow::Borrowed(written),
+    }
 }
 
 /// The straight line of least squares through the points, where the file asks for it.

@@ -336,7 +336,10 @@ fn surface(physics: Physics<'_>, view: &View) -> String {
 pub(super) fn zero(physics: Physics<'_>, view: &View) -> String {
     // the last of the axes, as it was read
     let on = view.axes.last().and_then(|axis| axis.first());
-    format!("{} = 0", on.map_or_else(String::new, |on| physics.model.pool.unicode(on.expression)))
+    let on = on.map_or_else(String::new, |on| physics.model.pool.unicode(on.expression));
+    // a time, where there is one term beside it
+    let time = on.strip_prefix("t − ").filter(|rest| !rest.contains([' ', '(']));
+    time.map_or_else(|| format!("{on} = 0"), |time| format!("t = {time}"))
 }
 
 /// The plane of a plot, if its points are starts and its quantities are columns of an orbit.

@@ -192,11 +192,7 @@ pub(super) fn departed(snapshot: &Snapshot, glyphs: Glyphs) -> Option<(Role, Str
         _ => ("off", Role::Bad),
     };
     let name = glyphs.pick(&gauge.shown, &gauge.name);
-    let drift = gauge.max_drift;
-    let drift = match drift {
-        0.01..10.0 => format!("{:.0} %", 100.0 * drift),
-        _ => number::drift(drift, glyphs),
-    };
+    let drift = shown_drift(gauge.max_drift, usize::MAX, glyphs);
     Some((role, format!("! {name} {word} {drift}")))
 }
 
@@ -364,8 +360,16 @@ fn value(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, digits: usize) {
 }
 
 fn drift(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {
-    let text = number::drift_in(gauge.drift, area.width.into(), canvas.look.glyphs);
+    let text = shown_drift(gauge.drift, area.width.into(), canvas.look.glyphs);
     canvas.right(area, drift_role(gauge), &text);
+}
+
+/// A drift in a column: a large one in per cent of what moves.
+fn shown_drift(drift: f64, width: usize, glyphs: Glyphs) -> String {
+    match drift {
+        0.01..10.0 => format!("{:.0} %", 100.0 * drift),
+        _ => number::drift_in(drift, width, glyphs),
+    }
 }
 
 /// The role of a drift: a change with a physical cause is not an error of the method.

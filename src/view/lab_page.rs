@@ -5,7 +5,7 @@
 use ratatui::layout::Rect;
 
 use super::canvas::{Canvas, Span, columns, row, wide};
-use super::layout::{Slot, is_single, panes};
+use super::layout::{Slot, is_single, panes, view_of_motion};
 use super::list_tabs::{ListTabs, add_targets, name};
 use super::number::brief;
 use super::quantity::Quantities;
@@ -70,6 +70,14 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, lab: &Lab) ->
         stopped(canvas, area, fault);
     }
     DrawnPanes { single: is_single(area), law: in_view, plots: PlotsInView::of(shown) }
+}
+
+/// Draws only the view of the motion, or the first view there is; over it the reason why the motion stopped.
+pub(super) fn draw_motion(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab) {
+    plot(canvas, area, lab, (view_of_motion(lab).unwrap_or(0), &[]));
+    if let Some(Status::Failed(fault)) = lab.snapshot.as_ref().map(|s| &s.status) {
+        stopped(canvas, area, fault);
+    }
 }
 
 /// Draws the law of motion, and returns how much of it is in view.

@@ -216,7 +216,7 @@ fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
 }
 
 /// The best view of the motion: a scene, or else a plane of places.
-fn view_of_motion(lab: &Lab) -> Option<usize> {
+pub(super) fn view_of_motion(lab: &Lab) -> Option<usize> {
     let scene = lab.plots.iter().position(|plot| plot.kind.is_scene());
     scene.or_else(|| lab.plots.iter().position(|plot| lab.shows_motion(plot)))
 }

@@ -17,8 +17,12 @@ use crate::app::{
     App, Asking, BufferDiagnostic, BufferState, Caret, Drawn, Notification, SourceBuffer,
 };
 
-/// The width from which the motion is shown beside the text.
+/// The width from which the lab is shown beside the text, and the size from which its motion alone is.
 const WIDE: u16 = 112;
+const NARROW: (u16, u16) = (78, 8);
+
+/// The least width of the text beside the motion: every status fits in it.
+const TEXT: u16 = 56;
 
 /// The rows below the text, for its status and the diagnostic at the cursor.
 const FOOT: u16 = 4;
@@ -30,6 +34,15 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App, sheet: &Sourc
         let (text, beside) = split_columns(area, area.width * 11 / 20);
         canvas.beside = true;
         lab_page::draw(canvas, beside, app, lab);
+        canvas.beside = false;
+        left = text;
+    } else if let Some(lab) = &app.lab
+        && area.width >= NARROW.0
+        && area.height >= NARROW.1
+    {
+        let (text, beside) = split_columns(area, (area.width * 2 / 3).max(TEXT));
+        canvas.beside = true;
+        lab_page::draw_motion(canvas, beside, lab);
         canvas.beside = false;
         left = text;
     }

@@ -291,6 +291,9 @@ L = "1/2*(m + M)*(x1'^2 + x2'^2 + l^2*theta'^2) - m*g*a*cos(theta)"
     };
     // quotients of constants stand before functions, masses and g before lengths
     check("-g*sin(theta)/l", "−(g/l) sin θ", r"-\frac{g}{l} \sin \theta");
+    // over a name a function does not look as if it were the function of a quotient
+    check("sin(theta)/x1", "(sin θ)/x₁", r"\frac{\sin \theta}{x_{1}}");
+    check("x1*sin(theta)/l", "x₁ (sin θ)/l", r"\frac{x_{1} \sin \theta}{l}");
     check("5/7*sin(theta)*g", "(5/7) g sin θ", r"\frac{5}{7} g \sin \theta");
     check("l*m*cos(2*theta)*g", "m g l cos(2 θ)", r"m g l \cos\left(2 \theta\right)");
     check("x1'*(m + M)/2", "½ (m + M) ẋ₁", r"\frac{1}{2} \left(m + M\right) \dot{x_{1}}");
@@ -325,15 +328,15 @@ fn a_text_of_a_file_is_shown_with_the_names_of_the_screen() {
     for (text, shown) in [
         ("theta - x1", "θ − x₁"),
         ("omega0/m", "φ̇₀/m"),
-        ("theta'*x1'", "θ\u{307}*ẋ₁"),
-        ("1e-3*x1", "1e-3*x₁"),
+        ("theta'*x1'", "θ\u{307}·ẋ₁"),
+        ("1e-3*x1", "1e-3·x₁"),
         ("x1e-3", "x1e−3"),
         ("Vmax - sin(theta)", "Vmax − sin(θ)"),
         ("energy of running", "energy of running"),
         ("theta^2 - x1^-12", "θ² − x₁⁻¹²"),
         ("2^n", "2ⁿ"),
         ("x1^2^3", "x₁^2³"),
-        ("x^(1/2)*2^nu*x^2.5", "x^(1/2)*2^nu*x^2.5"),
+        ("x^(1/2)*2^nu*x^2.5", "x^(1/2)·2^nu·x^2.5"),
         ("ψ'", "ψ'"),
         ("", ""),
     ] {

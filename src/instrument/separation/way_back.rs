@@ -123,7 +123,7 @@ pub(super) fn picture(
         layers.push((LINE, Layer::Line(line, stroke)));
         let now = expected(returned, answer, returned.gone[0]);
         let now = now.map(|value| format!(" = {}", significant(value, 2, 1e-4..1e4)));
-        name = format!("ln d   line: {}{}", law(returned), now.unwrap_or_default());
+        name = format!("ln d   expected {}{}", law(returned), now.unwrap_or_default());
     }
     let upwards = Upwards::Named(name, range.unwrap_or([-40.0, 0.0]));
     Picture::Axes { upwards, layers, occurrences: None }

@@ -34,7 +34,7 @@ pub(super) const GENERATOR: SchemaTable = SchemaTable {
 
 pub(super) const EQUILIBRIUM: SchemaTable = SchemaTable {
     head: "[[equilibria]]",
-    about: "The equilibrium that is nearest has the name, in lists and beside its mark on plots.",
+    about: "The equilibrium at this place has the name, in lists and beside its mark on plots; where it is missing, no other gets it.",
     keys: &[
         NAME,
         key("near", Names, "coordinates near which it is, by the parameters")

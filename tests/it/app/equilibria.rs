@@ -234,6 +234,46 @@ fn names_are_near_within_a_period_and_nearer_than_halfway() {
     assert!(!found.is_empty() && found.iter().all(|one| one.name.is_empty()));
 }
 
+/// A name that stands alone is that of the equilibrium at its place, and of no other that is merely the nearest.
+#[test]
+fn a_name_alone_is_not_given_to_what_is_far_away() {
+    let names = |coordinate: &str, potential: &str, near: &str| {
+        let text = format!(
+            "title = \"t\"\n[coordinates]\nx = {{ initial = 0.3, velocity = 0.0{coordinate} }}\n[lagrangian]\n\
+             L = \"1/2*x'^2 - ({potential})\"\n[[equilibria]]\nname = \"here\"\nnear = {{ x = \"{near}\" }}\n"
+        );
+        let case = crate::hand::lowered(&text);
+        let parameters = case.model.parameter_values();
+        let space = phaselab::dynamics::PhaseSpace::of(
+            &case.model,
+            &case.equations,
+            &case.system,
+            &parameters,
+        );
+        let space = space.unwrap();
+        let start = case.system.initial(0.0, &parameters, &[]).unwrap();
+        let state = space.state(&start).unwrap();
+        let mut found = phaselab::dynamics::equilibria(&space, &state).unwrap().found;
+        phaselab::dynamics::name_equilibria(&case.model, &parameters, &mut found);
+        let mut named: Vec<(f64, bool)> =
+            found.iter().map(|one| (one.variables[0], !one.name.is_empty())).collect();
+        named.sort_by(|a, b| a.0.total_cmp(&b.0));
+        named.into_iter().map(|(x, named)| ((x * 10.0).round() / 10.0, named)).collect::<Vec<_>>()
+    };
+    // V' = (x + 0.9)(x − 0.8)
+    let two = "x^3/3 + 0.05*x^2 - 0.72*x";
+    assert_eq!(names("", two, "0"), [(-0.9, false), (0.8, false)]);
+    assert_eq!(names("", two, "0.7"), [(-0.9, false), (0.8, true)]);
+    assert_eq!(names("", two, "-1"), [(-0.9, true), (0.8, false)]);
+    let three = "1/2*(x - 3)^2";
+    assert_eq!(names("", three, "0"), [(3.0, false)]);
+    assert_eq!(names("", three, "2.5"), [(3.0, true)]);
+    assert_eq!(names("", "1/2*x^2", "0"), [(0.0, true)]);
+    let turning = ", period = \"2*pi\"";
+    assert_eq!(names(turning, "-cos(x - 1)", "1.2"), [(-2.1, false), (1.0, true)]);
+    assert_eq!(names(turning, "-cos(x - 1)", "1 + pi/2"), [(-2.1, false), (1.0, false)]);
+}
+
 /// The five points of the restricted problem have their names in the list and on portraits, and those on the axis on the section
 /// y = 0; the names are those that the file gives, at other masses too.
 #[test]

@@ -156,10 +156,12 @@ fn the_motion_is_seen_wherever_there_is_a_view_of_it() {
 /// A body on the far side of a sphere is seen through it, from wherever one looks.
 #[test]
 fn a_body_is_seen_through_its_sphere() {
-    let mut app = opened("neumann");
+    let mut app = opened("smooth-sphere");
     for turn in 0..8 {
         let lab = app.lab.as_mut().unwrap();
         let Sight::Camera(eye) = &mut lab.plots[0].sight else { panic!("no scene") };
+        // From below: the particle is near the top.
+        eye.pitch = -1.0;
         eye.yaw = std::f64::consts::TAU * f64::from(turn) / 8.0;
         let rows = rows(&screen(&app, &rich(), (80, 24)));
         let motion: String = rows[2..13].iter().flat_map(|row| row.chars().take(39)).collect();

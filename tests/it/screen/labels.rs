@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{Event, Notification};
+use phaselab::app::{App, Event, Notification};
 use phaselab::experiment::{Gauge, Growth, Verdict};
 use phaselab::model::{Model, Shape};
 use phaselab::view::RenderStyle;
@@ -13,7 +13,8 @@ use ratatui::buffer::Buffer;
 use ratatui::style::Color;
 
 use super::{rich, rows, screen};
-use crate::hand::{catalog, gauge, in_lab, lab, loaded, press, snapshot};
+use crate::app::real::Real;
+use crate::hand::{begun, catalog, gauge, in_lab, lab, loaded, press, snapshot};
 
 /// The arrows of a picture in space, as their labels.
 fn arrows(model: &Model) -> Vec<&str> {
@@ -247,11 +248,20 @@ fn a_notification_leaves_no_part_of_a_word_in_the_frame() {
     }
 }
 
+/// Neumann's particle on a sphere that is solid.
+fn on_a_solid_sphere() -> App {
+    let text = include_str!("../../../presets/constraints/neumann.toml");
+    let circles = text.find("  { circle").unwrap()..text.find("  { trace").unwrap();
+    let mut text = text.to_owned();
+    text.replace_range(circles, "  { sphere = [\"0\", \"0\", \"0\"], radius = \"1\" },\n");
+    begun(&text)
+}
+
 /// In ASCII a shaded sphere is made of points: a block in each shaded cell would hide the curves on it.
 #[test]
 fn in_ascii_a_sphere_is_shaded_by_points() {
     let look = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
-    let buffer = screen(&lab("neumann", 1e-3), &look, (120, 40));
+    let buffer = screen(&on_a_solid_sphere(), &look, (120, 40));
     let count = |sign: &str| {
         let cells = (2..21).flat_map(|y| (2..38).map(move |x| (x, y)));
         cells.filter(|at| buffer[*at].symbol() == sign).count()
@@ -265,7 +275,7 @@ fn without_colour_a_sphere_leaves_the_curve_on_it_in_sight() {
     let dots = |depth| {
         let look = RenderStyle { theme: Theme::dark(depth), glyphs: Glyphs::Braille };
         // At the start there is hardly a curve yet, and all dots are those of the sphere.
-        let buffer = screen(&lab("neumann", 1e-3), &look, (120, 40));
+        let buffer = screen(&on_a_solid_sphere(), &look, (120, 40));
         let dots = |x: u16, y: u16| {
             let symbol = buffer[(x, y)].symbol().chars().next().map_or(0, u32::from);
             if (0x2800..0x2900).contains(&symbol) { (symbol - 0x2800).count_ones() } else { 0 }
@@ -302,4 +312,72 @@ fn no_line_of_a_formula_hangs_left_of_its_sign() {
         }
     }
     assert!(further > 5, "{further}");
+}
+
+/// Neumann's particle is as bright behind as in front, so that it is never lost in its first seconds.
+#[test]
+fn a_particle_on_a_sphere_is_never_dimmed_by_it() {
+    let mut real = Real::of("neumann");
+    let mut colours = Vec::new();
+    for _ in 0..12 {
+        real.run(30);
+        let buffer = screen(&real.app, &rich(), (80, 24));
+        let cells = (2..13).flat_map(|y| (1..39).map(move |x| (x, y)));
+        let bodies: Vec<Color> = cells
+            .map(|at| &buffer[at])
+            .filter(|cell| cell.symbol() == "●")
+            .map(|cell| cell.fg)
+            .collect();
+        assert_eq!(bodies.len(), 1, "{:#?}", rows(&buffer));
+        colours.extend(bodies);
+    }
+    assert!(colours.iter().all(|colour| *colour == colours[0]), "{colours:?}");
+}
+
+/// Kovalevskaya's top is a body beside the sphere of its vertical.
+#[test]
+fn a_top_without_angles_is_shown_as_a_body() {
+    let mut real = Real::of("kovalevskaya");
+    for _ in 0..6 {
+        real.run(60);
+        let buffer = screen(&real.app, &rich(), (80, 24));
+        let rows = rows(&buffer);
+        assert!(
+            rows[1].contains(" Motion ") && rows[1].contains(" Seen from the body "),
+            "{rows:#?}"
+        );
+        let of_the_body = |at: &(u16, u16)| {
+            let symbol = buffer[*at].symbol().chars().next().map_or(0, u32::from);
+            (0x2801..0x2900).contains(&symbol)
+        };
+        let cells = (2..13).flat_map(|y| (1..39).map(move |x| (x, y)));
+        assert!(cells.filter(of_the_body).count() > 30, "{rows:#?}");
+    }
+}
+
+/// A drift that is seen without a power of ten is given in per cent, in the two-line and in the one-line form.
+#[test]
+fn a_large_drift_is_given_in_per_cent() {
+    let mut app = lab("damped-pendulum", 1.0);
+    let mut seen = snapshot(&app.lab.as_ref().unwrap().loaded, 1.0);
+    let broken = Verdict::Broken("friction".to_owned());
+    for (drift, shown) in [(1.0, " 100 % "), (0.512, " 51 % "), (0.0099, " 9.9×10⁻³ ")] {
+        seen.gauges = [Gauge { drift, ..gauge("energy", "E", 4.0, broken.clone()) }].into();
+        app.update(Event::Snapshot(Arc::new(seen.clone())));
+        let text = rows(&screen(&app, &rich(), (120, 40)));
+        assert!(text.iter().any(|row| row.contains(shown)), "{text:#?}");
+    }
+}
+
+/// A diagram at a fixed time names the time, and a logarithm over ln 2 is one to that base.
+#[test]
+fn the_axis_of_a_diagram_names_its_quantity_and_time() {
+    let app = begun(
+        "title = \"t\"\n[coordinates]\nx = { initial = 1.0, velocity = 0.0 }\n[parameters]\n\
+         n = { value = 1.0, min = 0.0, max = 3.0 }\n[definitions]\nsize = \"x^2 + 1\"\n[lagrangian]\n\
+         L = \"1/2*x'^2 - 1/2*x^2\"\n[[views]]\nkind = \"diagram\"\nover = \"n\"\non = \"t - 40*2^n\"\n\
+         y = \"ln(size)/ln(2)\"\n",
+    );
+    let text = rows(&screen(&app, &rich(), (120, 40)));
+    assert!(text.iter().any(|row| row.contains("log₂ size where t = 40·2ⁿ")), "{text:#?}");
 }

@@ -1,5 +1,7 @@
 //! The workbench on the screen: the cursor always visible, errors marked, any size, ASCII.
 
+use std::sync::Arc;
+
 use phaselab::app::{App, BufferDiagnostic, BufferState, Caret, Event, Notification};
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
@@ -10,7 +12,7 @@ use ratatui::buffer::Buffer;
 use ratatui::style::Modifier;
 
 use super::{drawn, find, rich, rows, screen};
-use crate::hand::{in_lab, press};
+use crate::hand::{in_lab, press, snapshot};
 
 fn edited() -> App {
     let mut app = in_lab();
@@ -111,7 +113,28 @@ fn a_terminal_of_ascii_gets_ascii() {
 fn the_motion_stands_beside_the_text_where_there_is_room() {
     let app = edited();
     let beside = |size| find(&screen(&app, &rich(), size), "Motion").is_some();
-    assert!(beside((120, 40)) && beside((200, 60)) && !beside((80, 24)));
+    assert!(beside((120, 40)) && beside((200, 60)) && beside((80, 24)));
+    assert!(!beside((77, 24)) && !beside((80, 10)));
+}
+
+/// At 80 × 24 a law that is edited and the motion of it are seen together, and nothing else is in the way.
+#[test]
+fn on_a_small_screen_the_motion_is_seen_while_the_law_is_edited() {
+    let mut app = in_lab();
+    let bob = |app: &App| {
+        let buffer = screen(app, &rich(), (80, 24));
+        let cells = (1..22).flat_map(|y| (56..79).map(move |x| (x, y)));
+        let bobs: Vec<(u16, u16)> = cells.filter(|at| buffer[*at].symbol() == "●").collect();
+        assert_eq!(bobs.len(), 1, "{:#?}", rows(&buffer));
+        bobs[0]
+    };
+    press(&mut app, "E");
+    let before = bob(&app);
+    let text = rows(&screen(&app, &rich(), (80, 24)));
+    assert!(text.iter().any(|row| row.contains("L = \"T - V\"")), "{text:#?}");
+    let seen = snapshot(&app.lab.as_ref().unwrap().loaded, 0.4);
+    app.update(Event::Snapshot(Arc::new(seen)));
+    assert_ne!(bob(&app), before);
 }
 
 const ALONG: [&str; 6] = ["Left", "Right", "Home", "End", "Ctrl-Right", "Ctrl-Left"];
