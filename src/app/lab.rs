@@ -175,6 +175,7 @@ impl Lab {
         Present {
             physics: self.loaded.physics(),
             time: snapshot.time,
+            running: snapshot.status == Status::Running,
             carried: self.answers.known_until().min(snapshot.time),
             changed: snapshot.recorded.changed,
             parameters: &snapshot.parameters,

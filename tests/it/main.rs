@@ -36,6 +36,7 @@ mod notation;
 mod occurrences;
 mod orbit;
 mod orbits;
+mod paused_cloud;
 mod plot;
 mod poisson;
 mod preset;
