@@ -185,6 +185,9 @@ impl Instrument for FamilyPlot {
         let (Some(channel), Some(method)) = (plot.column(1), method_named(present.method)) else {
             return Need::Nothing;
         };
+        if !is_followed(plot, present.physics) {
+            return Need::Nothing;
+        }
         let parameter = match plot.over.first() {
             Some(&Variation::Parameter(index)) => match varied::range(plot, present, 0) {
                 Some(range) => Some((index, range)),
@@ -370,6 +373,12 @@ fn count(answer: Option<&Answer>, which: Bifurcation) -> Option<f64> {
     Some(members.filter(|member| member.bifurcation == Some(which)).count() as f64)
 }
 
+/// Whether it is over the energy or a parameter: a view of a file may ask for something else.
+fn is_followed(plot: &Plot, physics: Physics<'_>) -> bool {
+    let across = plot.column(0).and_then(|x| physics.system.channels().get(x));
+    !plot.over.is_empty() || across.is_some_and(|channel| channel.kind == ChannelKind::Energy)
+}
+
 /// What changes along the family, by its name.
 fn along_in_words(plot: &Plot, physics: Physics<'_>) -> String {
     match (plot.over.first(), plot.column(0)) {
@@ -418,8 +427,15 @@ fn curves(members: &[FamilyMember]) -> Vec<Layer> {
 
 /// What is said of the family, or why there is none.
 fn legend(plot: &Plot, physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
+    if !is_followed(plot, physics) {
+        return vec!["a family of a file is drawn over the energy: x = \"energy\"".to_owned()];
+    }
     let found = match answer.and_then(Answer::of::<ComputedFamily>) {
-        None => return vec!["searching for the periodic orbit near the motion".to_owned()],
+        None => {
+            return vec![
+                "searching for the periodic orbit near the motion, and for its family".to_owned(),
+            ];
+        }
         Some(ComputedFamily { outcome: Err(why), .. }) => return vec![why.clone()],
         Some(ComputedFamily { outcome: Ok(found), .. }) => found,
     };

@@ -105,7 +105,7 @@ fn a_pendulum_has_its_amplitudes_and_periods() {
 /// Foundations of Physics 31 (2001) 209), and stable below it.
 #[test]
 fn the_straight_orbit_of_henon_and_heiles_branches_where_it_is_published() {
-    let text = "title = \"A\"\n[coordinates]\nx = { initial = 0.0, momentum = 0.0 }\ny = { initial = 0.0, momentum = 0.55 }\n\
+    let text = "title = \"A\"\n[coordinates]\nx = { initial = 0.0, momentum = 0.0 }\ny = { initial = 0.0, momentum = 0.565 }\n\
                 [hamiltonian]\nH = \"1/2*(p_x^2 + p_y^2 + x^2 + y^2) + x^2*y - 1/3*y^3\"\n[run]\nuntil = 100.0\n";
     let app = opened(text, "family of orbits: y over E");
     let published = 0.969_309 / 6.0;
@@ -142,6 +142,27 @@ fn over_a_parameter_the_energy_stays() {
         let square = -row[0] + (row[0] * row[0] + 4.0 * energy).sqrt();
         assert!((row[1] - square.sqrt()).abs() < 1e-7, "{row:?}");
     }
+}
+
+/// A file may ask for a family over the energy, and for no other.
+#[test]
+fn a_file_has_families_over_the_energy() {
+    let text = |x: &str| {
+        format!(
+            "title = \"one\"\n[coordinates]\nq = {{ initial = 0.0, velocity = 1.0 }}\n[lagrangian]\nL = \"1/2*q'^2\"\n\
+             [[views]]\nkind = \"family\"\nx = \"{x}\"\ny = \"q\"\n[run]\nuntil = 100.0\n"
+        )
+    };
+    let told = |x: &str| {
+        let mut app = opened(&text(x), "family of orbits: q over E");
+        let lab = app.lab.as_mut().unwrap();
+        let views = Plot::opening(lab.loaded.physics());
+        lab.plots = views.into_iter().filter(|plot| plot.kind.name() == "family").collect();
+        assert_eq!(lab.plots.len(), 1);
+        legend(&app)
+    };
+    assert!(told("energy").contains("periodic orbit"), "{}", told("energy"));
+    assert!(told("q").contains("x = \"energy\""), "{}", told("q"));
 }
 
 /// A motion that does not come back has no family, and it is said why.
