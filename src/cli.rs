@@ -37,6 +37,7 @@ mod methods;
 
 mod motion_options;
 mod new;
+mod number_table;
 mod open;
 mod orbit;
 mod output;

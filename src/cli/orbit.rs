@@ -151,14 +151,6 @@ fn along(values: &Values, study: &Study) -> Result<Along, CommandError> {
     }
 }
 
-fn word(bifurcation: Bifurcation) -> &'static str {
-    match bifurcation {
-        Bifurcation::Fold => "fold",
-        Bifurcation::PeriodDoubling => "period doubling",
-        Bifurcation::Branching => "branching",
-    }
-}
-
 fn members(study: &Study, family: &Family) -> Value {
     let member = |member: &crate::dynamics::Member| {
         json!({
@@ -171,7 +163,7 @@ fn members(study: &Study, family: &Family) -> Value {
             "trace": member.orbit.transverse.trace(),
             "stable": member.orbit.is_stable(),
             "stability": member.orbit.stability().word(),
-            "bifurcation": member.bifurcation.map(word),
+            "bifurcation": member.bifurcation.map(Bifurcation::word),
         })
     };
     Value::Array(family.members.iter().map(member).collect())
@@ -189,7 +181,7 @@ fn rows(family: &Family, name: &str) -> String {
             shown(orbit.energy),
             shown(orbit.transverse.trace()),
             orbit.stability().word().to_owned(),
-            member.bifurcation.map_or("", word).to_owned(),
+            member.bifurcation.map_or("", Bifurcation::word).to_owned(),
         ]);
     }
     let mut text = format!("\n{}", table(&rows));

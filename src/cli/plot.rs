@@ -1,30 +1,34 @@
 //! `phaselab plot`: a table of numbers drawn as text.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
+use super::number_table::NumberTable;
 use super::output::{Output, OutputForm};
+use crate::printable;
 use crate::view::glyphs::Glyphs;
 use crate::view::table_plot::{TablePlot, drawn};
-use crate::{file, printable};
 
-/// Draw a table of numbers as text: what D writes in the lab, or run, section and sweep.
+/// Draw a table of numbers as text: what D writes in the lab, or run, section and sweep, and others as JSON.
 ///
 /// Two of its columns are drawn against each other, a third one as shades. By default these are the
-/// first two whose numbers differ, or the three of the table of a map; of a section's the number of the orbit and of the
-/// crossing and its time are left out.
+/// first two whose numbers differ, or the three of the table of a map; of a section's a coordinate and its momentum; of a
+/// sweep's the first measure over the one or two numbers that were set. Of what `lyapunov`, `spectrum` and `orbit --along`
+/// write with `--format json` the exponent is drawn against the time, the amplitudes against the frequencies, and the
+/// family against what it was followed along.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   phaselab plot henon-heiles-section.csv
   phaselab plot pendulum.csv --x theta --y p_theta
   phaselab plot henon-heiles-map.csv --size 120x40
+  phaselab plot henon-heiles-lyapunov.json
   phaselab plot - --x y --y p_y")]
 pub(super) struct Arguments {
-    /// A file of comma-separated values, or `-` for standard input.
-    #[arg(value_name = "TABLE.csv")]
+    /// A file of comma-separated values or of JSON, or `-` for standard input.
+    #[arg(value_name = "TABLE")]
     file: PathBuf,
     /// The column of the horizontal axis.
     #[arg(long, value_name = "NAME")]
@@ -43,11 +47,10 @@ pub(super) struct Arguments {
     ascii: bool,
 }
 
-/// Numbers of a section that differ by no more than this part of its greatest are the same.
+/// Numbers of a column of a section that differ by no more than this part of its greatest are the same.
 const SAME: f64 = 1e-14;
 
-/// The greatest size of a table that is read, and the sizes of a drawing.
-const LIMIT: u64 = 256 << 20;
+/// The sizes of a drawing.
 const LEAST: [u16; 2] = [20, 8];
 const MOST: [u16; 2] = [500, 200];
 
@@ -78,50 +81,17 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     out.finish()
 }
 
-/// Named columns of numbers; where there is none, NaN.
-struct NumberTable {
-    title: String,
-    columns: Vec<String>,
-    rows: Vec<Vec<f64>>,
+/// What a column without a number is worth to be drawn.
+const NOTHING: u8 = 3;
+
+/// The columns that are drawn.
+struct DrawnColumns {
+    x: usize,
+    y: usize,
+    of: Option<usize>,
 }
 
 impl NumberTable {
-    fn read(path: &Path) -> Result<NumberTable, CommandError> {
-        let shown = printable::path(path);
-        let read = if path == Path::new("-") {
-            let mut bytes = Vec::new();
-            let input = std::io::Read::take(std::io::stdin().lock(), LIMIT + 1);
-            let mut input = input;
-            std::io::Read::read_to_end(&mut input, &mut bytes).map(|_| bytes)
-        } else {
-            file::read(path, LIMIT).map(|(bytes, _)| bytes)
-        };
-        let bytes = read.map_err(|why| CommandError::reading(path, &why))?;
-        let wrong = |what: String| CommandError::WrongFile(format!("{shown}: {what}"));
-        if bytes.len() as u64 > LIMIT {
-            return Err(wrong("a table may have 256 MiB; this one has more".to_owned()));
-        }
-        let text =
-            String::from_utf8(bytes).map_err(|_| wrong("it is not a text in UTF-8".to_owned()))?;
-        let first = text.lines().find_map(|line| line.strip_prefix("# phaselab "));
-        let title = first.and_then(|line| line.split_once(": ")).map_or("", |(_, title)| title);
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .from_reader(text.as_bytes());
-        let head = reader.headers().map_err(|why| wrong(why.to_string()))?;
-        let columns: Vec<String> = head.iter().map(str::to_owned).collect();
-        let mut rows = Vec::new();
-        for record in reader.records() {
-            let record = record.map_err(|why| wrong(why.to_string()))?;
-            rows.push(record.iter().map(|cell| cell.parse().unwrap_or(f64::NAN)).collect());
-        }
-        if columns.len() < 2 || rows.is_empty() {
-            return Err(wrong("it has no two columns with rows".to_owned()));
-        }
-        Ok(NumberTable { title: title.to_owned(), columns, rows })
-    }
-
     fn named(&self, name: &str) -> Result<usize, CommandError> {
         self.columns.iter().position(|column| column == name).ok_or_else(|| {
             let known: Vec<String> = self.columns.iter().map(|c| printable::quoted(c)).collect();
@@ -135,13 +105,13 @@ impl NumberTable {
 
     /// What is drawn of it: the columns asked for, or those that follow from its shape.
     fn plot(&self, arguments: &Arguments) -> Result<TablePlot, CommandError> {
-        let numbered = self.columns[0] == "orbit" && self.columns.len() > 2;
-        let (across, upwards) = self.axes(numbered);
+        let shape = self.default_columns();
         let given = |name: &Option<String>| name.as_ref().map(|name| self.named(name)).transpose();
-        let x = given(&arguments.x)?.unwrap_or(across);
-        let y = given(&arguments.y)?.unwrap_or(upwards);
-        let is_map = !numbered && self.columns.len() == 3 && self.is_lattice();
-        let of = given(&arguments.of)?.or(is_map.then_some(2));
+        let [x, y] = [given(&arguments.x)?, given(&arguments.y)?];
+        let of = given(&arguments.of)?;
+        // what is shaded by default belongs to the axes by default
+        let shaded = shape.of.filter(|_| self.is_map() || (x, y) == (None, None));
+        let (x, y, of) = (x.unwrap_or(shape.x), y.unwrap_or(shape.y), of.or(shaded));
         let points: Vec<[f64; 3]> = (self.rows.iter())
             .map(|row| [row[x], row[y], of.map_or(1.0, |of| row[of])])
             .filter(|point| point.iter().all(|x| x.is_finite()))
@@ -159,27 +129,78 @@ impl NumberTable {
         Ok(TablePlot { title, x: name(x), y: name(y), of: of.map(name), points })
     }
 
-    /// The columns that are drawn where none is asked for: the first two that have numbers, in front of those that are the
-    /// same in all rows, as the time at the end of a sweep. Of a section, whose rows begin with the `orbit`, its number and
-    /// the time of a crossing come last as well.
-    fn axes(&self, numbered: bool) -> (usize, usize) {
-        let finite = |k: usize| self.rows.iter().map(move |row| row[k]).filter(|x| x.is_finite());
-        let all = || self.rows.iter().flatten().filter(|x| x.is_finite());
-        // what a section holds is the same but for rounding
-        let greatest = all().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let rounding = if numbered { SAME * greatest } else { 0.0 };
-        let worth = |k: &usize| {
-            let of_crossing = numbered && ["orbit", "n", "t"].contains(&self.columns[*k].as_str());
-            match (finite(*k).next(), of_crossing) {
-                (None, _) => 3,
-                (_, true) => 2,
-                (Some(first), false) => u8::from(finite(*k).all(|x| (x - first).abs() <= rounding)),
+    /// Whether its rows are crossings, which begin with the `orbit`.
+    fn is_of_section(&self) -> bool {
+        self.columns[0] == "orbit" && self.columns.len() > 2
+    }
+
+    /// Whether it has a number at each place of a lattice, and nothing else.
+    fn is_map(&self) -> bool {
+        !self.is_of_section() && self.columns.len() == 3 && self.is_lattice()
+    }
+
+    /// The columns that are drawn where none is asked for.
+    fn default_columns(&self) -> DrawnColumns {
+        let (x, y) = self.axes();
+        if self.is_map() {
+            return DrawnColumns { x, y, of: Some(2) };
+        }
+        let number_of = |name: &str| self.columns.iter().position(|column| column == name);
+        // a sweep has what was set in front of what became of it, and what was measured behind
+        if let Some(set) = number_of("status").filter(|&k| k > 0 && self.worth(k) == NOTHING) {
+            let first = number_of("energy_drift").map_or(set, |drift| drift + 1);
+            let differs = |from: usize| (from..self.columns.len()).find(|&k| self.worth(k) == 0);
+            let measured = differs(first).or_else(|| differs(set));
+            match (set, measured) {
+                (1, Some(y)) => return DrawnColumns { x: 0, y, of: None },
+                (2, Some(of)) => return DrawnColumns { x: 0, y: 1, of: Some(of) },
+                _ => {}
             }
-        };
+        }
+        // of a coordinate and the columns after it its momentum or its rate is drawn
+        let conjugate = self.is_of_section().then(|| {
+            let name = &self.columns[x];
+            let names = [format!("p_{name}"), format!("{name}'")];
+            names.iter().find_map(|name| number_of(name).filter(|&k| self.worth(k) == 0))
+        });
+        DrawnColumns { x, y: conjugate.flatten().unwrap_or(y), of: None }
+    }
+
+    /// The first two columns that have numbers, in front of those that are the same in all rows, as the time at the end of a
+    /// sweep. Of a section its number and the time of a crossing come last as well.
+    fn axes(&self) -> (usize, usize) {
         let mut all: Vec<usize> = (0..self.columns.len()).collect();
         // those of equal worth stay in their order
-        all.sort_by_key(worth);
+        all.sort_by_key(|&k| self.worth(k));
         (all[0].min(all[1]), all[0].max(all[1]))
+    }
+
+    /// How little a column is worth to be drawn: 0 where its numbers differ.
+    fn worth(&self, k: usize) -> u8 {
+        let finite = || self.rows.iter().map(|row| row[k]).filter(|x| x.is_finite());
+        let of_section = self.is_of_section();
+        let of_crossing = of_section && ["orbit", "n", "t"].contains(&self.columns[k].as_str());
+        // what a section holds is the same but for rounding
+        let greatest = finite().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let rounding = if of_section { SAME * greatest } else { 0.0 };
+        match finite().next() {
+            None => NOTHING,
+            Some(_) if of_crossing => 2,
+            Some(first) => {
+                let is_same = finite().all(|x| (x - first).abs() <= rounding);
+                u8::from(is_same || of_section && self.is_held(k))
+            }
+        }
+    }
+
+    /// Whether the surface of a section leaves a column its zeros alone, as it is a function of nothing else: these may be zero
+    /// but for rounding, which nothing in the column itself can be compared with.
+    fn is_held(&self, k: usize) -> bool {
+        let Some(surface) = &self.surface else { return false };
+        let of_name = |c: char| c.is_alphanumeric() || c == '_' || c == '\'';
+        let names: BTreeSet<&str> = surface.split(|c| !of_name(c)).collect();
+        let is_in = |column: &String| names.contains(column.as_str());
+        is_in(&self.columns[k]) && self.columns.iter().filter(|column| is_in(column)).count() == 1
     }
 
     /// Whether the first two columns are places of a lattice: few values, each with many. Where there are only two of

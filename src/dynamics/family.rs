@@ -26,6 +26,17 @@ pub enum Bifurcation {
     Branching,
 }
 
+impl Bifurcation {
+    /// Its name.
+    pub fn word(self) -> &'static str {
+        match self {
+            Bifurcation::Fold => "fold",
+            Bifurcation::PeriodDoubling => "period doubling",
+            Bifurcation::Branching => "branching",
+        }
+    }
+}
+
 /// An orbit of a family.
 #[derive(Clone, Debug)]
 pub struct Member {

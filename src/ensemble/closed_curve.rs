@@ -91,11 +91,26 @@ impl ClosedCurve {
         times: &[f64],
         start: &(dyn Fn(f64) -> Option<State> + Sync),
     ) -> Result<(), super::PoolError> {
+        self.carry_reporting(flow, times, start, &mut |_| ())
+    }
+
+    /// The same. `report` is called with the number of the curve's starts carried so far; with `None` once more starts are
+    /// put between the others, as many as it takes, which is not known beforehand.
+    ///
+    /// # Errors
+    /// Returns an error if there are no threads.
+    pub fn carry_reporting(
+        &mut self,
+        flow: &SystemFlow,
+        times: &[f64],
+        start: &(dyn Fn(f64) -> Option<State> + Sync),
+        report: &mut dyn FnMut(Option<u64>),
+    ) -> Result<(), super::PoolError> {
         let nodes: Vec<CurveNode> = std::mem::take(&mut self.nodes);
         let begun = nodes.iter().any(|node| node.end.is_some());
         let ends =
             |node: &CurveNode| if begun { node.end.clone() } else { Some(node.start.clone()) };
-        self.nodes = self.carried(flow, times, nodes, &ends)?;
+        self.nodes = self.carried(flow, times, nodes, &ends, &mut |done| report(Some(done)))?;
         for _ in 0..ROUNDS {
             let want;
             (want, self.resolved) = self.wanting();
@@ -106,7 +121,9 @@ impl ClosedCurve {
             if added.is_empty() {
                 break;
             }
-            let added = self.carried(flow, times, added, &|node| Some(node.start.clone()))?;
+            report(None);
+            let from = |node: &CurveNode| Some(node.start.clone());
+            let added = self.carried(flow, times, added, &from, &mut |_| ())?;
             self.nodes.extend(added);
             self.nodes.sort_by(|a, b| a.s.total_cmp(&b.s));
         }
@@ -120,10 +137,11 @@ impl ClosedCurve {
         times: &[f64],
         mut nodes: Vec<CurveNode>,
         from: &(dyn Fn(&CurveNode) -> Option<State> + Sync),
+        done: &mut dyn FnMut(u64),
     ) -> Result<Vec<CurveNode>, super::PoolError> {
         let from: Vec<Option<State>> = nodes.iter().map(from).collect();
         let from: Vec<Option<&State>> = from.iter().map(Option::as_ref).collect();
-        let results = flow.carry_all(&from, times, &self.channels, |_| ())?;
+        let results = flow.carry_all(&from, times, &self.channels, done)?;
         for (node, carried) in nodes.iter_mut().zip(results) {
             (node.end, node.seen) = (carried.end, carried.seen);
         }

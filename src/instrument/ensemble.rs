@@ -152,7 +152,8 @@ impl Instrument for Ensemble {
         let conditions = PlotConditions::of(present, &plot.seeds);
         let known = cloud(answer)
             .filter(|known| known.conditions == conditions && known.origin.time <= present.time);
-        if known.is_some_and(|known| known.holds(present.time)) {
+        let is_there = |known: &Cloud| present.running || known.is_at(present.time);
+        if known.is_some_and(|known| known.holds(present.time) && is_there(known)) {
             return Need::Held;
         }
         let origin = match known {
@@ -176,7 +177,7 @@ impl Instrument for Ensemble {
             // what was known beyond the current time is continued from
             known: answer.filter(|_| known.is_some_and(|known| known.began(present.time))).cloned(),
         };
-        let job = Job::new("cloud", move |progress| Answer::new(task.next(progress)));
+        let job = Job::new("cloud", move |progress| Answer::new(task.run(progress)));
         // what a person asks for is computed in any case
         if plot.seeds.is_empty() { Need::Addition(job) } else { Need::Job(job) }
     }
@@ -263,8 +264,7 @@ fn shown<'a>(present: &Present<'_>, answer: Option<&'a Answer>) -> Option<&'a Cl
 /// Whether it is behind a motion that is faster than the cloud can be carried.
 fn is_late(present: &Present<'_>, answer: Option<&Answer>) -> bool {
     let (Some(cloud), Some(frame)) = (cloud(answer), shown(present, answer)) else { return false };
-    let spacing = cloud.frames.windows(2).next().map_or(0.0, |pair| pair[1].time - pair[0].time);
-    present.time - frame.time > 2.0 * spacing
+    present.time - frame.time > 2.0 * cloud.spacing
 }
 
 /// ∮ Σ p dq as it is expected.
@@ -294,7 +294,7 @@ fn sentence(present: &Present<'_>, answer: Option<&Answer>) -> String {
         return format!("energy {}{at}", short(energy));
     }
     let Some(action) = frame.action else {
-        let known = match &cloud.curve {
+        let known = match cloud.curve() {
             None if late => "the cloud",
             None => return String::new(),
             Some(curve) if curve.is_whole() => "action: stretched too far to be known",

@@ -19,6 +19,9 @@ use crate::system::{ChannelKind, ConstraintProjector, Form, InitialOverride, Sta
 /// How far a motion along a mode is displaced at most, in the largest coordinate: as an angle, and as a part of its range so far.
 const AMPLITUDE: f64 = 0.1;
 
+/// An equilibrium lies on a surface up to this part of what the expression that vanishes there is compared with.
+const ON_SURFACE: f64 = 1e-9;
+
 /// The equilibria at certain parameters.
 #[derive(Debug)]
 pub struct FoundEquilibria {
@@ -217,19 +220,40 @@ pub(super) fn marks(
     layers
 }
 
-/// The value of an expression of the state, the parameters and the time at an equilibrium.
-pub(super) fn value_of(present: &Present<'_>, one: &Equilibrium, expression: Expr) -> f64 {
-    let physics = present.physics;
+/// Whether an equilibrium lies on the surface on which an expression of the state, the parameters and the time vanishes: but for
+/// rounding, in whatever units. What the expression is compared with is how much it changes where one of the values that it
+/// is made of is changed by as much as the motion changed it.
+pub(super) fn lies_on(present: &Present<'_>, one: &Equilibrium, when: Expr) -> bool {
+    let Physics { model, equations, system } = present.physics;
+    let law = (model.as_ref(), equations.as_ref());
     let mut values = present.values.to_vec();
     for (channel, value) in values.iter_mut().enumerate() {
-        if let Some(there) = value_at(physics, one, channel) {
+        if let Some(there) = value_at(present.physics, one, channel) {
             *value = there;
         }
     }
-    let Physics { model, equations, system } = physics;
-    let law = (model.as_ref(), equations.as_ref());
-    let known = system.valuation(law, present.time, present.parameters, &values);
-    known.value(&model.pool, expression)
+    let value = |values: &[f64]| {
+        let known = system.valuation(law, present.time, present.parameters, values);
+        known.value(&model.pool, when)
+    };
+    let there = value(&values);
+    let mut scale = 0.0_f64;
+    for channel in 0..values.len() {
+        if value_at(present.physics, one, channel).is_none() {
+            continue;
+        }
+        let (lo, hi) = present.bounds.get(channel).copied().unwrap_or((0.0, 0.0));
+        let own = values[channel];
+        let reach = lo.abs().max(hi.abs()).max(own.abs());
+        // half of it too, as what is periodic may be the same after the whole
+        for by in [reach, 0.5 * reach] {
+            values[channel] = own + by;
+            let change = (value(&values) - there).abs();
+            scale = scale.max(if change.is_finite() { change } else { 0.0 });
+        }
+        values[channel] = own;
+    }
+    there.abs() <= ON_SURFACE * scale
 }
 
 /// The coordinates in which each stands for others, in words.

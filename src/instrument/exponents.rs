@@ -83,7 +83,9 @@ impl Instrument for Exponents {
         let measured = measured(answer);
         let found = match measured.map(|measured| &measured.found) {
             None => return axes("λ   being measured", [0.0, 1.0], Vec::new()),
-            Some(Err(why)) => return axes(&format!("λ   {why}"), [0.0, 1.0], Vec::new()),
+            Some(Err(why)) => {
+                return axes("λ", [0.0, 1.0], vec![(CURVE, Layer::Legend(vec![why.clone()]))]);
+            }
             Some(Ok(found)) => found,
         };
         let start = present.physics.model.run.start;
@@ -98,21 +100,20 @@ impl Instrument for Exponents {
         let (least, greatest) = settled.iter().fold((-off, off + 0.0), |(lo, hi), [_, x]| {
             (x.min(lo.min(largest - off)), x.max(hi.max(largest + off)))
         });
+        let short = |x: f64| significant(x, 3, 1e-4..1e4);
+        let (largest_words, off_words) = (short(*largest), significant(*off, 1, 1e-4..1e4));
+        let legend = vec![
+            format!("{}: λ = {largest_words} ± {off_words}", word(found.verdict)),
+            format!("MEGNO {}", short(found.megno)),
+            found.reason.clone(),
+        ];
         let layers = vec![
             level(largest - off),
             level(largest + off),
             (CURVE, Layer::Line(curve, Ink::Accent.into())),
-            (CURVE, Layer::Legend(vec![found.reason.clone()])),
+            (CURVE, Layer::Legend(legend)),
         ];
-        let short = |x: f64| significant(x, 3, 1e-4..1e4);
-        let name = format!(
-            "λ   {}: {} ± {}, MEGNO {}",
-            word(found.verdict),
-            short(*largest),
-            significant(*off, 1, 1e-4..1e4),
-            short(found.megno)
-        );
-        axes(&name, [least.min(0.0), greatest], layers)
+        axes("λ", [least.min(0.0), greatest], layers)
     }
 
     fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {

@@ -4,21 +4,19 @@
 //! ([`nearest_orbit`]), and follows it once around; where there is none, another job finds out what the motion is instead. It
 //! begins again where a parameter, the method or the initial values change.
 
+use super::closed_orbit::{ClosedOrbit, beginning, closed_orbit};
 use super::conditions::PlotConditions;
 use super::equilibria::given;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
     Need, NoStart, Offer, Physics, Picture, Plot, Present, Seed, Upwards,
 };
-use crate::dynamics::{
-    DynamicsError, Fixed, Orbit as Closed, OrbitStability, PhaseSpace, Removed, explained,
-    nearest_driven_orbit, nearest_orbit,
-};
+use crate::dynamics::{DynamicsError, Orbit as Closed, OrbitStability, Removed, explained};
 use crate::ensemble::{Start, SystemFlow};
 use crate::integrate::{Method, Settings, method_named};
 use crate::job::{Job, Progress};
 use crate::num::{math, significant};
-use crate::system::{ChannelKind, Form, InitialOverride, State, System};
+use crate::system::{ChannelKind, Form, InitialOverride, System};
 
 /// The levels of the picture.
 const TRAIL: Level = 0;
@@ -224,24 +222,6 @@ impl Instrument for OrbitPlot {
     }
 }
 
-/// The space of an orbit, and the state that it is searched near. Impulses that come at their times count from the initial
-/// values; over them the orbit is closed from there.
-fn beginning(
-    physics: Physics<'_>,
-    (start, conditions): (&Start, &PlotConditions),
-) -> Result<(PhaseSpace, State), DynamicsError> {
-    let (system, parameters) = (physics.system, &start.parameters);
-    let (model, equations) = (physics.model, physics.equations);
-    let space = PhaseSpace::on_constraints(model, equations, system, parameters)?;
-    let begun = if space.has_jumps() {
-        conditions.state(system, model.run.start)?
-    } else {
-        start.state(system)?
-    };
-    let state = space.state(&begun)?;
-    Ok((space, state))
-}
-
 /// Why no orbit was found, and what the motion is instead.
 fn character(
     physics: Physics<'_>,
@@ -266,20 +246,8 @@ fn close(
     (channels, progress): ([usize; 2], &Progress),
 ) -> Result<Described, DynamicsError> {
     let (system, parameters) = (physics.system, &start.parameters);
-    let (space, state) = beginning(physics, (start, conditions))?;
-    let look = |done, all| {
-        progress.expect(all);
-        progress.reach(done);
-    };
-    let fixed = if space.is_hamiltonian() && space.is_conservative() {
-        Fixed::Energy(system.energy(&state, parameters)?)
-    } else {
-        Fixed::Nothing
-    };
-    let orbit = match space.drive() {
-        Some(drive) => nearest_driven_orbit(&space, method, &state, drive, &look)?,
-        None => nearest_orbit(&space, method, &state, (None, fixed), &look)?,
-    };
+    let ClosedOrbit { space, orbit, .. } =
+        closed_orbit(physics, method, (start, conditions), progress)?;
     let flow = SystemFlow {
         system: System::clone(system),
         method: (method.0, orbit.settings),

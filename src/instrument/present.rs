@@ -29,7 +29,7 @@ pub struct Present<'a> {
     pub physics: Physics<'a>,
     /// The time.
     pub time: f64,
-    /// Whether it runs on.
+    /// Whether time is running: where it is not, what is carried along beside the motion is wanted at this very time.
     pub running: bool,
     /// The time up to which everything is known that is carried along beside the motion, such as a cloud; at most the time.
     pub carried: f64,

@@ -9,7 +9,7 @@ mod regularity;
 
 use std::sync::Arc;
 
-use super::equilibria::{marks, value_at, value_of};
+use super::equilibria::{lies_on, marks, value_at};
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
     Need, NoStart, Offer, Physics, Picture, Plot, PlotTable, Present, Seed, Upwards,
@@ -31,9 +31,6 @@ const BOUNDARY: Level = 0;
 const ORBITS: Level = 1;
 const OWN: Level = 2;
 const NOW: Level = 3;
-
-/// An equilibrium lies on a surface up to this value of what vanishes there.
-const ON_SURFACE: f64 = 1e-9;
 
 /// The row.
 pub(super) struct SectionPlot;
@@ -144,8 +141,7 @@ impl Instrument for SectionPlot {
         layers.extend(marks(present, NOW, |one| {
             let [x, y] = channels.map(|channel| value_at(present.physics, one, channel));
             let when = present.physics.model.sections.get(section)?.when;
-            let lies_there = value_of(present, one, when).abs() <= ON_SURFACE;
-            if lies_there { Some([x?, y?]) } else { None }
+            if lies_on(present, one, when) { Some([x?, y?]) } else { None }
         }));
         let (channel, range) = (channels[1], range(plot, present, answer, 1));
         let upwards = match portrait(answer).and_then(newest_rotation) {

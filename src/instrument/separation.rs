@@ -54,7 +54,7 @@ impl Instrument for SeparationPlot {
                 vec![Entry::Words(format!("{number}: too short for a slope"))]
             }
             Some((number, _, Some(slope))) => vec![
-                Entry::Number(format!("{number}: λ ≈"), slope.rate),
+                Entry::Number(format!("{number}: slope"), slope.rate),
                 Entry::Words(format!("grown by e^{:.1}", slope.grown)),
             ],
         };
@@ -97,7 +97,7 @@ impl Instrument for SeparationPlot {
         let name = match newest(present) {
             Some((number, _, Some(slope))) => {
                 let rate = significant(slope.rate, 3, 1e-4..1e4);
-                format!("ln d   {number}: λ = {rate}, grown by e^{:.1}", slope.grown)
+                format!("ln d   {number}: slope {rate}, grown by e^{:.1}", slope.grown)
             }
             _ => "ln d".to_owned(),
         };

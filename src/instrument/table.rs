@@ -6,12 +6,12 @@
 use super::kind::{Instrument, Offer};
 use super::present::Physics;
 use super::{
-    action, actions, angle, diagram, ensemble, exponents, flow, legendre, map, orbit, paths, phase,
-    potential, section, separation, space, spectrum, time, transformation,
+    action, actions, angle, diagram, ensemble, exponents, family, flow, legendre, map, orbit,
+    paths, phase, potential, section, separation, space, spectrum, time, transformation,
 };
 
 /// All kinds, in the order in which the lab opens with them.
-pub static INSTRUMENTS: [&dyn Instrument; 23] = [
+pub static INSTRUMENTS: [&dyn Instrument; 24] = [
     &space::Space,
     &phase::Phase,
     &transformation::TransformationPlot,
@@ -23,6 +23,7 @@ pub static INSTRUMENTS: [&dyn Instrument; 23] = [
     &flow::FlowPlot,
     &ensemble::Ensemble,
     &orbit::OrbitPlot,
+    &family::FamilyPlot,
     &spectrum::SpectrumPlot,
     &actions::ActionsPlot,
     &angle::AnglePlot,

@@ -194,7 +194,17 @@ pub(super) fn draw(
     let look = canvas.look;
     let (whole, zoomable) = (area, !q.lab.zoomed);
     let (area, beside) = legend::beside(whole, (&layers, zoomable), canvas.look);
-    let axes = Axes::new(across?, axis_upwards(q, &upwards, viewport));
+    let mut axes = Axes::new(across?, axis_upwards(q, &upwards, viewport));
+    if let Across::Channel(x, None) = plot.kind.across(plot, &present, answer)
+        && let Upwards::Channel(y, None) = upwards
+        && [x, y].iter().all(|&channel| q.period(channel).is_none())
+    {
+        let whole = [x, y].map(|channel| q.axis(channel, None, (Viewport::WHOLE, 0)).scale);
+        if let Some([wide, high]) = names::in_reach(&layers, whole.map(|s| [s.lo, s.hi])) {
+            let axis = |channel, range, k| q.axis(channel, Some(range), (viewport, k));
+            axes = Axes::new(axis(x, wide, 0), axis(y, high, 1));
+        }
+    }
     let mut axes = if viewport.equal { axes.equal() } else { axes };
     if let Across::Time = plot.kind.across(plot, &present, answer) {
         let cells = axes.frame(area, look.glyphs).area.width;

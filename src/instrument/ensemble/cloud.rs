@@ -43,10 +43,10 @@ pub(super) struct Cloud {
     asked: f64,
     pub(super) end: f64,
     pub(super) frames: Vec<CloudFrame>,
-    /// Where the points are at the end, and the motion that they were spread around.
-    points: Vec<Option<State>>,
-    own: Option<State>,
-    pub(super) curve: Option<ClosedCurve>,
+    /// The time between the newest frames.
+    pub(super) spacing: f64,
+    /// The ends of the parts so far, from the last that nothing earlier is shown of: from these it can be carried on.
+    stages: Vec<Arc<CloudStage>>,
     /// ∮ Σ p dq at the beginning.
     pub(super) first: Option<Circulation>,
     /// The rate at which it changes, if that is known.
@@ -54,6 +54,15 @@ pub(super) struct Cloud {
     /// The extent of the bulk in all that was seen.
     pub(super) extent: [[f64; 2]; 2],
     pub(super) failure: Option<String>,
+}
+
+/// Where a cloud is at one time, to be carried on from.
+struct CloudStage {
+    time: f64,
+    points: Vec<Option<State>>,
+    /// The motion that they were spread around.
+    own: Option<State>,
+    curve: Option<ClosedCurve>,
 }
 
 /// What is seen at one time.
@@ -77,6 +86,16 @@ impl Cloud {
     /// Whether it is known from this time on.
     pub(super) fn began(&self, now: f64) -> bool {
         self.frames.first().is_some_and(|frame| frame.time <= now)
+    }
+
+    /// Whether there is a frame at this very time.
+    pub(super) fn is_at(&self, now: f64) -> bool {
+        self.failure.is_some() || self.frames.iter().any(|frame| frame.time == now)
+    }
+
+    /// The closed curve at the end, if there is one.
+    pub(super) fn curve(&self) -> Option<&ClosedCurve> {
+        self.stages.last()?.curve.as_ref()
     }
 }
 
@@ -102,24 +121,35 @@ impl CloudTask {
         Physics { model: &self.model, equations: &self.equations, system: &self.system }
     }
 
-    /// The next part, about twice as long as the motion took since the last was asked for.
-    pub(super) fn next(&self, progress: &Progress) -> Cloud {
-        let parameters = &self.conditions.parameters;
-        let system = self.system.with_cancel(progress.token().clone());
+    /// What is wanted of a cloud: the next part, or the frame of this very time where time does not run.
+    pub(super) fn run(&self, progress: &Progress) -> Cloud {
+        let known = self.known.as_ref().and_then(Answer::of::<Cloud>);
+        match known {
+            Some(known) if known.holds(self.now) => self.exact(known, progress),
+            _ => self.next(known, progress),
+        }
+    }
+
+    /// The flow, and the shortest time of a part.
+    fn flow(&self, progress: &Progress) -> (SystemFlow, f64) {
         let flow = SystemFlow {
-            system,
+            system: self.system.with_cancel(progress.token().clone()),
             method: self.method,
-            parameters: parameters.clone(),
+            parameters: self.conditions.parameters.clone(),
             start: self.model.run.start,
             effort: None,
         };
-        let mut flow = match self.state(self.origin.centre) {
+        let flow = match self.state(self.origin.centre) {
             Some(centre) => flow.settled(&centre).fast(),
             None => flow.fast(),
         };
-        let known = self.known.as_ref().and_then(Answer::of::<Cloud>);
         let speed = Some(self.model.run.speed).filter(|s| s.is_finite() && *s > 0.0);
-        let least = FRAMES as f64 * speed.unwrap_or(1.0) / RATE;
+        (flow, FRAMES as f64 * speed.unwrap_or(1.0) / RATE)
+    }
+
+    /// The next part, about twice as long as the motion took since the last was asked for.
+    fn next(&self, known: Option<&Cloud>, progress: &Progress) -> Cloud {
+        let (flow, least) = self.flow(progress);
         let passed = known.map_or(0.0, |known| self.now - known.asked);
         let spacing = frame_spacing(passed, least);
         // clouds of the same beginning have frames at the same times
@@ -129,33 +159,111 @@ impl CloudTask {
         let first = self.origin.time + place * spacing;
         let frames = if known.is_some() { FRAMES } else { FIRST_FRAMES };
         let times: Vec<f64> = (0..frames).map(|k| first + k as f64 * spacing).collect();
-        let seconds =
-            |from: f64| (times.last().unwrap_or(&from) - from) / least * FRAMES as f64 / RATE;
-        flow.effort = self.effort(seconds(known.map_or(first, |known| known.end)));
-        let points = match known {
-            Some(known) => known.points.clone(),
-            None => self.origin.states(COUNT, &self.starts, self.physics(), parameters),
-        };
-        progress.expect(points.len() as u64);
-        let from: Vec<Option<&State>> = points.iter().map(Option::as_ref).collect();
-        let outcome = flow.carry_all(&from, &times, &self.axes(), |done| progress.reach(done));
+        let mut stages = known.map_or_else(Vec::new, |known| known.stages.clone());
+        let begin = stages.last().map_or_else(|| Arc::new(self.beginning()), Arc::clone);
+        if stages.is_empty() {
+            stages.push(Arc::clone(&begin));
+        }
+        let (end, new, failure) = self.carry(&begin, &times, (flow, least), progress);
+        let known_frames = known.map_or(&[][..], |known| &known.frames);
+        let seen = known_frames.iter().rposition(|frame| frame.time <= self.shown).unwrap_or(0);
+        let old = known_frames.iter().skip(seen).filter(|frame| frame.time < first).cloned();
+        let extent = extent(known.map(|known| known.extent), &new);
+        let frames: Vec<CloudFrame> = old.chain(new).collect();
+        // what was before all that is shown is not begun at again
+        let earliest = frames.first().map_or(first, |frame| frame.time);
+        let needed = stages.iter().rposition(|stage| stage.time <= earliest).unwrap_or(0);
+        stages.drain(..needed);
+        stages.push(Arc::new(end));
+        let start = |s: f64| self.state(self.origin.boundary(s));
+        Cloud {
+            conditions: self.conditions.clone(),
+            origin: self.origin.clone(),
+            asked: self.now,
+            end: times.last().copied().unwrap_or(self.now),
+            frames,
+            spacing,
+            first: match known {
+                Some(known) => known.first,
+                None if !self.origin.has_boundary() => None,
+                None => self.first(&start),
+            },
+            rate: known.map_or_else(|| self.rate(&begin.points), |known| known.rate),
+            stages,
+            extent,
+            failure,
+        }
+    }
+
+    /// The same cloud with a frame at this very time.
+    fn exact(&self, known: &Cloud, progress: &Progress) -> Cloud {
+        let before = known.stages.iter().rfind(|stage| stage.time <= self.now);
+        let begin = before.map_or_else(|| Arc::new(self.beginning()), Arc::clone);
+        let (_, new, failure) = self.carry(&begin, &[self.now], self.flow(progress), progress);
+        let mut frames = known.frames.clone();
+        frames.extend(new);
+        frames.sort_by(|a, b| a.time.total_cmp(&b.time));
+        Cloud {
+            conditions: known.conditions.clone(),
+            origin: known.origin.clone(),
+            asked: known.asked,
+            end: known.end,
+            extent: extent(Some(known.extent), &frames),
+            frames,
+            spacing: known.spacing,
+            stages: known.stages.clone(),
+            first: known.first,
+            rate: known.rate,
+            failure,
+        }
+    }
+
+    /// The cloud where it begins.
+    fn beginning(&self) -> CloudStage {
+        let parameters = &self.conditions.parameters;
+        let start = |s: f64| self.state(self.origin.boundary(s));
+        let curve = || self.channels().and_then(|all| ClosedCurve::new(&start, all, self.scales()));
+        CloudStage {
+            time: self.origin.time,
+            points: self.origin.states(COUNT, &self.starts, self.physics(), parameters),
+            own: self.origin.own(self.physics(), parameters),
+            curve: if self.origin.has_boundary() { curve() } else { None },
+        }
+    }
+
+    /// A cloud carried on through these times: where it is then, what is seen of it, and what failed.
+    fn carry(
+        &self,
+        begin: &CloudStage,
+        times: &[f64],
+        (mut flow, least): (SystemFlow, f64),
+        progress: &Progress,
+    ) -> (CloudStage, Vec<CloudFrame>, Option<String>) {
+        let end = times.last().copied().unwrap_or(begin.time);
+        let seconds = |from: f64| (end - from) / least * FRAMES as f64 / RATE;
+        flow.effort = self.effort(seconds(begin.time));
+        let count = begin.points.len() as u64;
+        let on_curve = begin.curve.as_ref().map_or(0, |curve| curve.len() as u64);
+        // one more for what is left to do at the end
+        progress.expect(count + on_curve + 1);
+        let from: Vec<Option<&State>> = begin.points.iter().map(Option::as_ref).collect();
+        let outcome = flow.carry_all(&from, times, &self.axes(), |done| progress.reach(done));
         let (carried, mut failure) = match outcome {
             Ok(carried) => (carried, None),
             Err(why) => (Vec::new(), Some(why.to_string())),
         };
-        let own = known
-            .map_or_else(|| self.origin.own(self.physics(), parameters), |known| known.own.clone());
-        let own = own.map_or_else(Carried::default, |own| flow.carry(&own, &times, &self.axes()));
+        let own = begin.own.as_ref();
+        let own = own.map_or_else(Carried::default, |own| flow.carry(own, times, &self.axes()));
         let start = |s: f64| self.state(self.origin.boundary(s));
         // starts that are put between others come from the beginning
         flow.effort = self.effort(seconds(self.origin.time));
-        let mut curve = match known {
-            Some(known) => known.curve.clone(),
-            None if !self.origin.has_boundary() => None,
-            None => self.channels().and_then(|all| ClosedCurve::new(&start, all, self.scales())),
+        let mut curve = begin.curve.clone();
+        let mut report = |done: Option<u64>| match done {
+            Some(done) => progress.reach(count + done),
+            None => progress.expect(0),
         };
         if let Some(curve) = &mut curve
-            && let Err(why) = curve.carry(&flow, &times, &start)
+            && let Err(why) = curve.carry_reporting(&flow, times, &start, &mut report)
         {
             failure = Some(why.to_string());
         }
@@ -172,29 +280,9 @@ impl CloudTask {
                 own: at(&own),
             }
         };
-        let new: Vec<CloudFrame> = times.iter().enumerate().map(frame).collect();
-        let extent = extent(known.map(|known| known.extent), &new);
-        let known_frames = known.map_or(&[][..], |known| &known.frames);
-        let seen = known_frames.iter().rposition(|frame| frame.time <= self.shown).unwrap_or(0);
-        let old = known_frames.iter().skip(seen).filter(|frame| frame.time < first).cloned();
-        Cloud {
-            conditions: self.conditions.clone(),
-            origin: self.origin.clone(),
-            asked: self.now,
-            end: times.last().copied().unwrap_or(self.now),
-            frames: old.chain(new).collect(),
-            points: carried.into_iter().map(|one| one.end).collect(),
-            own: own.end,
-            first: match known {
-                Some(known) => known.first,
-                None if !self.origin.has_boundary() => None,
-                None => self.first(&start),
-            },
-            rate: known.map_or_else(|| self.rate(&points), |known| known.rate),
-            curve,
-            extent,
-            failure,
-        }
+        let frames = times.iter().enumerate().map(frame).collect();
+        let points = carried.into_iter().map(|one| one.end).collect();
+        (CloudStage { time: end, points, own: own.end, curve }, frames, failure)
     }
 
     /// The most steps of a point in so many seconds of the wall clock; those of a fixed step are known beforehand.

@@ -35,7 +35,7 @@ pub(super) const VIEW: SchemaTable = SchemaTable {
         key(
             "kind",
             Text,
-            "`phase`, `space`, `time`, `potential`, `section`, `diagram`, `frequency`, `period`, `map`, `transformation`, `ensemble`, `orbit`, `spectrum`, `actions`, `angle`, `action`, `abbreviated`, `phase-action`, `paths`, `legendre` or `flow`",
+            "`phase`, `space`, `time`, `potential`, `section`, `diagram`, `frequency`, `period`, `map`, `transformation`, `ensemble`, `orbit`, `family`, `spectrum`, `actions`, `angle`, `action`, `abbreviated`, `phase-action`, `paths`, `legendre` or `flow`",
         )
         .needed("write kind = \"phase\", \"space\", \"time\", \"potential\" or \"section\""),
         key("title", Text, "what it is called"),
@@ -47,6 +47,7 @@ pub(super) const VIEW: SchemaTable = SchemaTable {
             "transformation",
             "ensemble",
             "orbit",
+            "family",
             "actions",
             "angle",
             "action",
@@ -65,6 +66,7 @@ pub(super) const VIEW: SchemaTable = SchemaTable {
             "transformation",
             "ensemble",
             "orbit",
+            "family",
             "spectrum",
         ]),
         key("over", Text, "the parameter over whose range it runs")

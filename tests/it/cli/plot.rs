@@ -83,14 +83,28 @@ fn the_columns_of_other_commands_are_found() {
     let axes = |table: &str| {
         let text = plotted(table, &["--ascii", "--size", "40x12"]).success();
         let across = text.lines().find(|line| line.trim_start().starts_with('+')).unwrap();
-        let across = across.rsplit(' ').next().unwrap().to_owned();
-        [across, text.lines().next().unwrap().trim().to_owned()]
+        // a power of ten stands behind the name
+        let bare = |line: &str| line.split(" x1e").next().unwrap().trim().to_owned();
+        let across = bare(across).rsplit(' ').next().unwrap().to_owned();
+        [across, bare(text.lines().next().unwrap())]
     };
     assert_eq!(axes("orbit,n,t,y,p_y\n1,1,0.5,1,2\n1,2,0.7,1.5,3\n"), ["y", "p_y"]);
-    let section = "orbit,n,t,x,y,p_y\n1,1,0.5,0,1,2\n1,2,0.7,1e-30,1.5,3\n";
+    let section = "# section: 2*x rising\norbit,n,t,x,y,p_y\n1,1,0.5,0,1,2\n1,2,0.7,1e-30,1.5,3\n";
     assert_eq!(axes(section), ["y", "p_y"]);
     let sweep = "x0,status,t,x,energy_drift\n0.1,completed,10,1,0\n0.2,completed,10,2,0\n";
     assert_eq!(axes(sweep), ["x0", "x"]);
+    // whatever the units of a column are, and of the one beside it; the energy is the same
+    let small =
+        "orbit,n,t,energy,y,p_y\n1,1,0.5,7,1e-20,2e9\n1,2,0.7,7.000000000000001,1.5e-20,3e9\n";
+    assert_eq!(axes(small), ["y", "p_y"]);
+    // a coordinate against its momentum, though its rate and another coordinate stand before it
+    let lagrangian = "orbit,n,t,y,z,y',z',p_y\n1,1,0.5,1,5,2,3,4\n1,2,0.7,1.5,6,3,4,5\n";
+    assert_eq!(axes(lagrangian), ["y", "p_y"]);
+    let rates = "orbit,n,t,y,z,y',z'\n1,1,0.5,1,5,2,3\n1,2,0.7,1.5,6,3,4\n";
+    assert_eq!(axes(rates), ["y", "y'"]);
+    // what was measured over what was set
+    let measured = "g,status,t,x,energy_drift,period\n1,completed,10,1,0,4\n2,completed,10,2,0,5\n";
+    assert_eq!(axes(measured), ["g", "period"]);
     // nothing but what is the same
     assert_eq!(axes("a,b\n1,2\n1,2\n"), ["a", "b"]);
 }
@@ -104,4 +118,59 @@ fn what_is_no_table_is_refused() {
     plotted(DIAGONAL, &["--size", "9x9"]).fails(2, &["COLUMNSxROWS"]);
     plotted("a,b\none,two\n", &[]).fails(2, &["no row has numbers for both `a` and `b`"]);
     plotted("a\n", &[]).fails(65, &["no two columns with rows"]);
+}
+
+/// A sweep over two numbers is a map of what was measured.
+#[test]
+fn a_sweep_over_two_numbers_is_shaded() {
+    let table = "g,l,status,t,x,energy_drift,period\n1,1,completed,10,1,0,4\n2,1,completed,10,2,0,5\n\
+                 1,2,completed,10,2,0,6\n2,2,completed,10,2,0,7\n";
+    let text = plotted(table, &["--ascii"]).success();
+    assert!(text.starts_with("period: . 4 to # 7"), "{text}");
+    // other axes are points
+    let text = plotted(table, &["--ascii", "--x", "period", "--y", "x"]).success();
+    assert!(!text.contains(" to # "), "{text}");
+}
+
+/// What commands write as JSON is drawn where there is a table in it.
+#[test]
+fn what_commands_write_as_json_is_drawn() {
+    let written = |arguments: &[&str]| {
+        let all = [arguments, &["--format", "json"]].concat();
+        super::phaselab(&all).success()
+    };
+    let axes = |json: &str| {
+        let text = plotted(json, &["--ascii", "--size", "40x12"]).success();
+        let across = text.lines().find(|line| line.trim_start().starts_with('+')).unwrap();
+        let across = across.trim_end().rsplit(' ').next().unwrap().to_owned();
+        let mut lines = text.lines();
+        let title = lines.next().unwrap().trim().to_owned();
+        [title, across, lines.next().unwrap().trim().to_owned()]
+    };
+    let section = written(&["section", "henon-heiles", "--on", "x", "--count", "3"]);
+    assert_eq!(axes(&section), ["Henon-Heiles", "y", "p_y"]);
+    let lyapunov = written(&["lyapunov", "pendulum", "--until", "10"]);
+    assert_eq!(axes(&lyapunov), ["Simple pendulum", "t", "exponent"]);
+    let spectrum = written(&["spectrum", "pendulum", "--lines", "3", "--count", "512"]);
+    assert_eq!(axes(&spectrum), ["Simple pendulum", "frequency", "log10 amplitude"]);
+    let family = written(&["orbit", "pendulum", "--along", "energy=-1:1:3"]);
+    assert_eq!(axes(&family), ["Simple pendulum", "energy", "period"]);
+    let sweep = written(&["sweep", "pendulum", "--grid", "g=1:2:3", "--until", "1"]);
+    assert_eq!(axes(&sweep), ["Simple pendulum", "g", "theta"]);
+}
+
+/// What has no table is refused with what does.
+#[test]
+fn what_has_no_table_says_what_has_one() {
+    let advice = "`lyapunov`, `spectrum` and `orbit --along` with `--format json`";
+    let orbit = super::phaselab(&["orbit", "pendulum", "--format", "json"]).success();
+    plotted(&orbit, &[]).fails(65, &["it has no table", advice]);
+    for arguments in [&["orbit", "pendulum"], &["lyapunov", "pendulum"]] {
+        let report = super::phaselab(arguments).success();
+        plotted(&report, &[]).fails(65, &[advice]);
+    }
+    let text = ["sweep", "pendulum", "--grid", "g=1:2:2", "--until", "1", "--format", "text"];
+    plotted(&super::phaselab(&text).success(), &[]).fails(65, &["no two columns", advice]);
+    plotted("{\"columns\": [\"a\", \"b\"], \"rows\": [[1]]}", &[]).fails(65, &["as many numbers"]);
+    plotted("{\"columns\": ", &[]).fails(65, &["it is no JSON"]);
 }

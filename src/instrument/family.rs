@@ -1,0 +1,462 @@
+//! `family`: the family of the periodic orbit near the motion over the energy or a parameter: how far each orbit goes in a
+//! coordinate, stable and unstable ones drawn in two styles, folds, period doublings and branchings marked by their names.
+//!
+//! The job closes the orbit near the state at which the picture was begun, or was asked for again, and follows its family in
+//! both directions by pseudo-arclength ([`family`]). It begins again where a parameter, the method or the initial values
+//! change.
+
+use super::closed_orbit::{ClosedOrbit, closed_orbit};
+use super::conditions::PlotConditions;
+use super::equilibria::given;
+use super::{
+    Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
+    Need, Offer, Physics, Picture, Plot, PlotTable, Present, Seed, Stroke, Upwards, varied,
+};
+use crate::dynamics::{Along, Bifurcation, Member, drive_period, driven_family, family};
+use crate::ensemble::{Start, SystemFlow};
+use crate::expr::Expr;
+use crate::integrate::{Method, Settings, method_named};
+use crate::job::{Job, Progress};
+use crate::model::Variation;
+use crate::num::significant;
+use crate::system::{ChannelKind, Form, System};
+
+/// The levels of the picture.
+const CURVE: Level = 2;
+const NOW: Level = 4;
+
+/// The intervals of the range at whose ends orbits are asked for.
+const INTERVALS: usize = 40;
+
+/// A family over the energy is followed from this part of its distance from the bottom, taken off and put on.
+const BELOW: f64 = 0.9;
+const ABOVE: f64 = 1.0;
+
+/// The points of an orbit of which the greatest is taken.
+const POINTS: usize = 512;
+
+/// Of so many parameters families are offered.
+const OFFERED: usize = 3;
+
+/// The most bifurcations that are listed.
+const LISTED: usize = 6;
+
+/// The part of the dots that is drawn of unstable orbits.
+const SPARSE: f64 = 0.35;
+
+/// What is beyond the extent of a family is this part of it.
+const MARGIN: f64 = 0.1;
+
+/// The row.
+pub(super) struct FamilyPlot;
+
+/// What was found, and of which motion.
+struct ComputedFamily {
+    conditions: PlotConditions,
+    /// The time of the motion when it was asked for.
+    asked: f64,
+    outcome: Result<FollowedFamily, String>,
+}
+
+/// A family, in the order along it.
+struct FollowedFamily {
+    range: [f64; 2],
+    members: Vec<FamilyMember>,
+    /// Why it does not go on, at either end.
+    ended: Vec<String>,
+}
+
+/// What is drawn and written of an orbit.
+struct FamilyMember {
+    value: f64,
+    /// The greatest value of the coordinate.
+    greatest: f64,
+    period: f64,
+    energy: f64,
+    trace: f64,
+    /// Whether it is stable; `None` where that is not known.
+    stable: Option<bool>,
+    bifurcation: Option<Bifurcation>,
+}
+
+impl Instrument for FamilyPlot {
+    fn name(&self) -> &'static str {
+        "family"
+    }
+
+    fn written(&self) -> &'static [Axis] {
+        &[Axis::ACROSS, Axis::UPWARDS]
+    }
+
+    fn takes_seeds(&self) -> bool {
+        true
+    }
+
+    fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
+        let Some(energy) = physics.channel(ChannelKind::Energy) else { return Vec::new() };
+        if physics.system.form() == Form::Variables {
+            return Vec::new();
+        }
+        let offer = |x: usize, over: Option<Variation>| {
+            let along = over.map_or_else(
+                || physics.shown(energy).to_owned(),
+                |over| varied::names(physics, &[over]),
+            );
+            Offer {
+                label: format!("family of orbits: {} over {along}", physics.shown(x)),
+                about: "the family of the periodic orbit near the motion, with its bifurcations"
+                    .to_owned(),
+                columns: vec![vec![energy], vec![x]],
+                view: None,
+                over: over.into_iter().collect(),
+            }
+        };
+        let places: Vec<usize> = physics.positions().map(|(_, x)| x).collect();
+        let conserved = physics.equations.energy_rate == Expr::ZERO;
+        let of_energy = places.iter().filter(|_| conserved).map(|&x| offer(x, None));
+        let parameters = (0..physics.model.parameters.len()).take(OFFERED);
+        let of_parameters = parameters
+            .filter_map(|index| Some(offer(*places.first()?, Some(Variation::Parameter(index)))));
+        of_energy.chain(of_parameters).collect()
+    }
+
+    fn words(&self, plot: &Plot, physics: Physics<'_>) -> String {
+        let x = plot.column(1).map_or("?", |x| physics.shown(x));
+        format!("family of orbits, {x} over {}", along_in_words(plot, physics))
+    }
+
+    fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
+        let entry = Entry::Number(along_in_words(plot, present.physics), now(plot, present)?);
+        Some(plot.heading(present.physics, "Family", vec![entry]))
+    }
+
+    fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
+        let range = followed(answer).map(|found| found.range);
+        match (plot.over.first(), plot.column(0)) {
+            (Some(&over), _) => {
+                let range = range.or_else(|| varied::range(plot, present, 0));
+                let name = varied::with_unit(present.physics, over);
+                range.map_or(Across::Nothing, |range| Across::Named(name, range))
+            }
+            (None, Some(energy)) => Across::Channel(energy, range),
+            (None, None) => Across::Nothing,
+        }
+    }
+
+    fn picture(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        _seen: [f64; 2],
+        answer: Option<&Answer>,
+    ) -> Option<Picture> {
+        let x = plot.column(1)?;
+        let now = now(plot, present)?;
+        let members = followed(answer).map_or(&[][..], |found| &found.members);
+        let [low, high] = heights(members).unwrap_or([-1.0, 1.0]);
+        let mut layers = vec![(NOW, Layer::Line(vec![[now, low], [now, high]], Ink::Level.into()))];
+        layers.extend(curves(members).into_iter().map(|curve| (CURVE, curve)));
+        for member in members {
+            let Some(bifurcation) = member.bifurcation else { continue };
+            let at = [member.value, member.greatest];
+            let ink = Ink::Accent;
+            layers.push((NOW, Layer::Point(at, MarkerShape::Ring, ink)));
+            layers.push((NOW, Layer::Name(at, bifurcation.word().to_owned(), ink)));
+        }
+        layers.push((NOW, Layer::Legend(legend(plot, present.physics, answer))));
+        let name = format!("greatest {}", present.physics.shown(x));
+        let upwards = Upwards::Named(name, [low, high]);
+        Some(Picture::Axes { upwards, layers, occurrences: None })
+    }
+
+    /// The time at which the family is asked for again.
+    fn seed(&self, _plot: &Plot, present: &Present<'_>, _answer: Option<&Answer>) -> Option<Seed> {
+        Some(Seed::Through([present.time, 0.0]))
+    }
+
+    fn job(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Need {
+        let conditions = PlotConditions::of(present, &plot.seeds);
+        let known = answer.and_then(Answer::of::<ComputedFamily>);
+        let holds =
+            |known: &&ComputedFamily| known.conditions == conditions && known.asked <= present.time;
+        if known.filter(holds).is_some() {
+            return Need::Held;
+        }
+        let (Some(channel), Some(method)) = (plot.column(1), method_named(present.method)) else {
+            return Need::Nothing;
+        };
+        if !is_followed(plot, present.physics) {
+            return Need::Nothing;
+        }
+        let parameter = match plot.over.first() {
+            Some(&Variation::Parameter(index)) => match varied::range(plot, present, 0) {
+                Some(range) => Some((index, range)),
+                None => return Need::Nothing,
+            },
+            Some(Variation::Initial(_)) => return Need::Nothing,
+            None => None,
+        };
+        let Physics { model, equations, system } = present.physics;
+        let (model, equations, system) = (model.clone(), equations.clone(), system.clone());
+        // a picture shows no more, and a family has many orbits
+        let settings = method.fast(present.settings);
+        let start = Start {
+            time: present.time,
+            parameters: present.parameters.to_vec(),
+            overrides: given(present.physics, |channel| present.value(channel)),
+        };
+        let job = Job::new("family of orbits", move |progress: &Progress| {
+            let system = system.with_cancel(progress.token().clone());
+            let physics = Physics { model: &model, equations: &equations, system: &system.into() };
+            let of = (&start, &conditions);
+            let outcome = follow(physics, (method, settings), of, (parameter, channel), progress);
+            let (conditions, asked) = (conditions.clone(), start.time);
+            Answer::new(ComputedFamily { conditions, asked, outcome })
+        });
+        // what a person asks for is computed in any case
+        if plot.seeds.is_empty() { Need::Addition(job) } else { Need::Job(job) }
+    }
+
+    fn table(
+        &self,
+        plot: &Plot,
+        present: &Present<'_>,
+        answer: Option<&Answer>,
+    ) -> Option<PlotTable> {
+        let physics = present.physics;
+        let along = match plot.over.first() {
+            Some(&over) => varied::written(physics, over).to_owned(),
+            None => "energy".to_owned(),
+        };
+        let greatest = &physics.system.channels().get(plot.column(1)?)?.name;
+        let mut columns = vec![along, format!("greatest {greatest}"), "period".to_owned()];
+        let over_energy = plot.over.is_empty();
+        columns.extend((!over_energy).then(|| "energy".to_owned()));
+        columns.push("trace".to_owned());
+        let row = |member: &FamilyMember| {
+            let mut row = vec![member.value, member.greatest, member.period];
+            row.extend((!over_energy).then_some(member.energy));
+            row.push(member.trace);
+            row
+        };
+        let rows = followed(answer)?.members.iter().map(row).collect();
+        Some(PlotTable { columns, counts: 0, rows })
+    }
+
+    fn measures(&self) -> &'static [Measure] {
+        &[
+            Measure {
+                word: "members",
+                about: "how many orbits of the family were found",
+                value: |_, _, answer| Some(followed(answer)?.members.len() as f64),
+            },
+            Measure {
+                word: "folds",
+                about: "how often the family turns back",
+                value: |_, _, answer| count(answer, Bifurcation::Fold),
+            },
+            Measure {
+                word: "doublings",
+                about: "how often a multiplier passes −1, where orbits of twice the period branch off",
+                value: |_, _, answer| count(answer, Bifurcation::PeriodDoubling),
+            },
+            Measure {
+                word: "branchings",
+                about: "how often a multiplier passes 1 without a fold",
+                value: |_, _, answer| count(answer, Bifurcation::Branching),
+            },
+            Measure {
+                word: "first",
+                about: "the value at the bifurcation of the family next to the motion",
+                value: |plot, present, answer| {
+                    let now = now(plot, present)?;
+                    let all = followed(answer)?.members.iter();
+                    let all = all.filter(|member| member.bifurcation.is_some());
+                    let all = all.map(|member| member.value);
+                    all.min_by(|a, b| (a - now).abs().total_cmp(&(b - now).abs()))
+                },
+            },
+        ]
+    }
+}
+
+/// Closes the orbit near a start, and follows its family.
+fn follow(
+    physics: Physics<'_>,
+    method: (&'static Method, Settings),
+    (start, conditions): (&Start, &PlotConditions),
+    (parameter, channel): (Option<(usize, [f64; 2])>, usize),
+    progress: &Progress,
+) -> Result<FollowedFamily, String> {
+    let found = closed_orbit(physics, method, (start, conditions), progress);
+    let ClosedOrbit { space, orbit, fixed } = found.map_err(|why| why.to_string())?;
+    // how many steps a family takes is not known beforehand
+    progress.expect(0);
+    let (along, range) = match parameter {
+        Some((index, range)) => (Along::Parameter(index), range),
+        None => {
+            // of a small oscillation this is its energy above the bottom
+            let height = orbit.action.map(|action| (action / orbit.period).abs());
+            let height = height.filter(|height| height.is_normal());
+            let height = height.ok_or("without the action of the orbit no range of E is known")?;
+            (Along::Energy, [orbit.energy - BELOW * height, orbit.energy + ABOVE * height])
+        }
+    };
+    let [from, to] = range;
+    let value = |k: usize| from + (to - from) * k as f64 / INTERVALS as f64;
+    let values: Vec<f64> = (0..=INTERVALS).map(value).collect();
+    let drive = |parameters: &[f64]| {
+        drive_period(physics.model, physics.equations, space.system(), parameters)
+    };
+    let found = if space.is_autonomous() {
+        family(&space, method, &orbit, (along, fixed), &values)
+    } else {
+        driven_family(&space, method, &orbit, (along, &drive), &values)
+    };
+    let found = found.map_err(|why| why.to_string())?;
+    let seen = |member: &Member| {
+        let mut parameters = start.parameters.clone();
+        if let Along::Parameter(index) = along {
+            parameters[index] = member.value;
+        }
+        FamilyMember {
+            value: member.value,
+            greatest: greatest(physics.system, (method.0, parameters), member, channel),
+            period: member.orbit.period,
+            energy: member.orbit.energy,
+            trace: member.orbit.transverse.trace(),
+            stable: member.orbit.is_stable(),
+            bifurcation: member.bifurcation,
+        }
+    };
+    let members = found.members.iter().map(seen).collect();
+    Ok(FollowedFamily { range, members, ended: found.ended })
+}
+
+/// The greatest value of a channel along an orbit, by the parabola through the greatest of many and its neighbours.
+fn greatest(
+    system: &System,
+    (method, parameters): (&'static Method, Vec<f64>),
+    member: &Member,
+    channel: usize,
+) -> f64 {
+    let orbit = &member.orbit;
+    let flow = SystemFlow {
+        system: System::clone(system),
+        method: (method, orbit.settings),
+        parameters,
+        start: orbit.state.time,
+        effort: None,
+    };
+    let time = |k: usize| orbit.state.time + orbit.period * k as f64 / POINTS as f64;
+    let times: Vec<f64> = (0..POINTS).map(time).collect();
+    let all: Vec<f64> =
+        flow.carry(&orbit.state, &times, &[channel]).seen.iter().map(|row| row[0]).collect();
+    let Some(top) = (0..all.len()).max_by(|a, b| all[*a].total_cmp(&all[*b])) else {
+        return f64::NAN;
+    };
+    let beside = |by: usize| all[(top + by) % all.len()];
+    let [before, here, after] = [beside(all.len() - 1), all[top], beside(1)];
+    let bend = before - 2.0 * here + after;
+    let rise = (after - before) * (after - before) / (8.0 * bend);
+    // an angle that turns has no greatest value: the orbit does not close in it
+    let is_top = bend < 0.0 && before <= here && after <= here;
+    if is_top { here - rise } else { here }
+}
+
+fn followed(answer: Option<&Answer>) -> Option<&FollowedFamily> {
+    answer?.of::<ComputedFamily>()?.outcome.as_ref().ok()
+}
+
+fn count(answer: Option<&Answer>, which: Bifurcation) -> Option<f64> {
+    let members = followed(answer)?.members.iter();
+    Some(members.filter(|member| member.bifurcation == Some(which)).count() as f64)
+}
+
+/// Whether it is over the energy or a parameter: a view of a file may ask for something else.
+fn is_followed(plot: &Plot, physics: Physics<'_>) -> bool {
+    let across = plot.column(0).and_then(|x| physics.system.channels().get(x));
+    !plot.over.is_empty() || across.is_some_and(|channel| channel.kind == ChannelKind::Energy)
+}
+
+/// What changes along the family, by its name.
+fn along_in_words(plot: &Plot, physics: Physics<'_>) -> String {
+    match (plot.over.first(), plot.column(0)) {
+        (Some(_), _) => varied::names(physics, &plot.over),
+        (None, Some(energy)) => physics.shown(energy).to_owned(),
+        (None, None) => "?".to_owned(),
+    }
+}
+
+/// What it is for the motion.
+fn now(plot: &Plot, present: &Present<'_>) -> Option<f64> {
+    match plot.over.first() {
+        Some(&over) => varied::now(present, over),
+        None => Some(present.value(plot.column(0)?)),
+    }
+}
+
+/// The vertical range, with a margin.
+fn heights(members: &[FamilyMember]) -> Option<[f64; 2]> {
+    let finite = members.iter().map(|member| member.greatest).filter(|x| x.is_finite());
+    let (low, high) =
+        finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), x| (lo.min(x), hi.max(x)));
+    let margin = MARGIN * (high - low);
+    (low < high).then_some([low - margin, high + margin])
+}
+
+/// The family as curves, one for each part of the same stability. Between two orbits it is that of the one at which nothing
+/// happens.
+fn curves(members: &[FamilyMember]) -> Vec<Layer> {
+    let style = |stable: Option<bool>| match stable {
+        Some(true) => Stroke::from(Ink::Curve(0)),
+        Some(false) => Stroke { ink: Ink::Separatrix, covering: Some(SPARSE) },
+        None => Stroke::from(Ink::Curve(2)),
+    };
+    let mut parts: Vec<(Option<bool>, Vec<[f64; 2]>)> = Vec::new();
+    for pair in members.windows(2) {
+        let of = if pair[1].bifurcation.is_some() { &pair[0] } else { &pair[1] };
+        let ends = [&pair[0], &pair[1]].map(|member| [member.value, member.greatest]);
+        match parts.last_mut() {
+            Some((stable, points)) if *stable == of.stable => points.push(ends[1]),
+            _ => parts.push((of.stable, ends.to_vec())),
+        }
+    }
+    parts.into_iter().map(|(stable, points)| Layer::Line(points, style(stable))).collect()
+}
+
+/// What is said of the family, or why there is none.
+fn legend(plot: &Plot, physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
+    if !is_followed(plot, physics) {
+        return vec!["a family of a file is drawn over the energy: x = \"energy\"".to_owned()];
+    }
+    let found = match answer.and_then(Answer::of::<ComputedFamily>) {
+        None => {
+            return vec![
+                "searching for the periodic orbit near the motion, and for its family".to_owned(),
+            ];
+        }
+        Some(ComputedFamily { outcome: Err(why), .. }) => return vec![why.clone()],
+        Some(ComputedFamily { outcome: Ok(found), .. }) => found,
+    };
+    let short = |x: f64| significant(x, 6, 1e-4..1e6).replace('-', "−");
+    let along = along_in_words(plot, physics);
+    let members = &found.members;
+    let has = |stable: bool| members.iter().any(|member| member.stable == Some(stable));
+    let mut lines = match (members.is_empty(), has(true), has(false)) {
+        (true, _, _) => vec!["no orbit of the family lies in this range".to_owned()],
+        (_, true, true) => vec!["stable where drawn through, unstable where dotted".to_owned()],
+        (_, true, false) => vec!["stable".to_owned()],
+        (_, false, true) => vec!["unstable".to_owned()],
+        (_, false, false) => vec!["neither stable nor unstable to first order".to_owned()],
+    };
+    let all = members.iter().filter_map(|member| Some((member.bifurcation?, member.value)));
+    let all: Vec<String> =
+        all.map(|(what, value)| format!("{} at {along} = {}", what.word(), short(value))).collect();
+    lines.extend(all.iter().take(LISTED).cloned());
+    if all.len() > LISTED {
+        lines.push(format!("and {} more", all.len() - LISTED));
+    }
+    lines.extend(found.ended.iter().cloned());
+    lines
+}

@@ -1,0 +1,176 @@
+//! Families of periodic orbits in the lab: held against the closed form of the pendulum's amplitude, and the published
+//! bifurcations of the straight orbit of Hénon and Heiles.
+
+use std::sync::Arc;
+
+use phaselab::app::{App, Computation, Effect, Event, Loaded};
+use phaselab::diagnostic::Document;
+use phaselab::experiment::Prepared;
+use phaselab::instrument::{Layer, Picture, Plot, PlotTable, named};
+use phaselab::job::Progress;
+
+use crate::hand::catalog;
+
+fn finish(app: &mut App, mut effects: Vec<Effect>) {
+    while let Some(effect) = effects.pop() {
+        if let Effect::Compute(Computation { ticket, job, .. }) = effect {
+            let outcome = job.run(&Progress::new());
+            effects.extend(app.update(Event::Computed { ticket, outcome }));
+        }
+    }
+}
+
+/// The lab with the family that is offered with these words.
+fn opened(text: &str, label: &str) -> App {
+    let ready =
+        Prepared::of(&Document::new("test", text)).unwrap_or_else(|error| panic!("{error}"));
+    let Prepared { document, model, equations, system, mut experiment } = ready;
+    experiment.set_epoch(1);
+    let (mut app, _) = App::new(catalog(), Some("test"));
+    app.aside = true;
+    let name = "test".to_owned();
+    let loaded = Loaded { name, epoch: 1, document, model, equations, system };
+    let effects = app.update(Event::Loaded(Ok(loaded)));
+    finish(&mut app, effects);
+    let lab = app.lab.as_mut().unwrap();
+    let kind = named("family").unwrap();
+    let offers = kind.offers(lab.loaded.physics());
+    let known: Vec<String> = offers.iter().map(|offer| offer.label.clone()).collect();
+    let found = offers.into_iter().find(|offer| offer.label == label);
+    let offer = found.unwrap_or_else(|| panic!("{label} is not among {known:?}"));
+    let mut plot = Plot::new(kind, (offer.columns, None), &lab.loaded.model);
+    plot.over = offer.over;
+    lab.plots = vec![plot];
+    experiment.advance(0.01, u64::MAX);
+    let effects = app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
+    finish(&mut app, effects);
+    app
+}
+
+fn table(app: &App) -> PlotTable {
+    let lab = app.lab.as_ref().unwrap();
+    let plot = &lab.plots[0];
+    let table = plot.kind.table(plot, &lab.present().unwrap(), lab.answer(plot));
+    table.unwrap_or_else(|| panic!("{:?}", legend(app)))
+}
+
+fn measure(app: &App, word: &str) -> Option<f64> {
+    let lab = app.lab.as_ref().unwrap();
+    let plot = &lab.plots[0];
+    let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
+    (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot))
+}
+
+fn layers(app: &App) -> Vec<Layer> {
+    let lab = app.lab.as_ref().unwrap();
+    let plot = &lab.plots[0];
+    match plot.kind.picture(plot, &lab.present().unwrap(), [f64::NAN; 2], lab.answer(plot)) {
+        Some(Picture::Axes { layers, .. }) => layers.into_iter().map(|(_, layer)| layer).collect(),
+        other => panic!("{other:?}"),
+    }
+}
+
+fn legend(app: &App) -> String {
+    let lines = layers(app).into_iter().find_map(|layer| match layer {
+        Layer::Legend(lines) => Some(lines),
+        _ => None,
+    });
+    lines.unwrap().join("\n")
+}
+
+/// E = −cos of the amplitude, and T = 2π/agm(1, cos of half of it).
+#[test]
+fn a_pendulum_has_its_amplitudes_and_periods() {
+    let text = "title = \"one\"\n[coordinates]\nq = { initial = 1.2, velocity = 0.0 }\n[lagrangian]\n\
+                L = \"1/2*q'^2 + cos(q)\"\n[run]\nuntil = 100.0\n";
+    let app = opened(text, "family of orbits: q over E");
+    let table = table(&app);
+    assert_eq!(table.columns, ["energy", "greatest q", "period", "trace"]);
+    assert!(table.rows.len() > 30, "{}", table.rows.len());
+    for row in &table.rows {
+        let amplitude = (-row[0]).acos();
+        assert!((row[1] - amplitude).abs() < 1e-7, "{row:?} {amplitude}");
+        let (mut a, mut b) = (1.0_f64, (amplitude / 2.0).cos());
+        for _ in 0..8 {
+            (a, b) = (0.5 * (a + b), (a * b).sqrt());
+        }
+        let period = std::f64::consts::TAU / a;
+        assert!((row[2] / period - 1.0).abs() < 1e-9, "{row:?} {period}");
+    }
+    assert_eq!(measure(&app, "folds"), Some(0.0));
+    assert_eq!(measure(&app, "doublings"), Some(0.0));
+}
+
+/// The orbit along an axis of symmetry: the isochronous bifurcation at 0.969309 of the energy of the saddles, 1/6 (M. Brack,
+/// Foundations of Physics 31 (2001) 209), and stable below it.
+#[test]
+fn the_straight_orbit_of_henon_and_heiles_branches_where_it_is_published() {
+    let text = "title = \"A\"\n[coordinates]\nx = { initial = 0.0, momentum = 0.0 }\ny = { initial = 0.0, momentum = 0.565 }\n\
+                [hamiltonian]\nH = \"1/2*(p_x^2 + p_y^2 + x^2 + y^2) + x^2*y - 1/3*y^3\"\n[run]\nuntil = 100.0\n";
+    let app = opened(text, "family of orbits: y over E");
+    let published = 0.969_309 / 6.0;
+    let first = measure(&app, "first").unwrap_or_else(|| panic!("{}", legend(&app)));
+    assert!((first - published).abs() < 1e-6, "{first} {published}\n{}", legend(&app));
+    assert!(measure(&app, "branchings").unwrap() >= 1.0, "{}", legend(&app));
+    assert!(legend(&app).contains("branching at E = 0.16155"), "{}", legend(&app));
+    // its name stands at its place in the picture
+    let named = layers(&app).into_iter().any(|layer| match layer {
+        Layer::Name(at, name, _) => name == "branching" && (at[0] - published).abs() < 1e-6,
+        _ => false,
+    });
+    assert!(named);
+    // E = ½ y² − ⅓ y³ at its farther end
+    for row in table(&app).rows {
+        let ends = row[1] * row[1] * (0.5 - row[1] / 3.0);
+        assert!((ends - row[0]).abs() < 1e-7, "{row:?} {ends}");
+    }
+}
+
+/// At the same energy the amplitude q is that of ½ k q² + ¼ q⁴ = E.
+#[test]
+fn over_a_parameter_the_energy_stays() {
+    let text = "title = \"one\"\n[coordinates]\nq = { initial = 0.5, velocity = 0.0 }\n[parameters]\n\
+                k = { value = 2.0, min = 1.0, max = 3.0 }\n[lagrangian]\nL = \"1/2*q'^2 - 1/2*k*q^2 - 1/4*q^4\"\n\
+                [run]\nuntil = 100.0\n";
+    let app = opened(text, "family of orbits: q over k");
+    let table = table(&app);
+    assert_eq!(table.columns, ["k", "greatest q", "period", "energy", "trace"]);
+    let energy = 0.25 + 0.5_f64.powi(4) / 4.0;
+    assert!(table.rows.len() > 30, "{}", table.rows.len());
+    for row in &table.rows {
+        assert!((row[3] - energy).abs() < 1e-9, "{row:?}");
+        let square = -row[0] + (row[0] * row[0] + 4.0 * energy).sqrt();
+        assert!((row[1] - square.sqrt()).abs() < 1e-7, "{row:?}");
+    }
+}
+
+/// A file may ask for a family over the energy, and for no other.
+#[test]
+fn a_file_has_families_over_the_energy() {
+    let text = |x: &str| {
+        format!(
+            "title = \"one\"\n[coordinates]\nq = {{ initial = 0.0, velocity = 1.0 }}\n[lagrangian]\nL = \"1/2*q'^2\"\n\
+             [[views]]\nkind = \"family\"\nx = \"{x}\"\ny = \"q\"\n[run]\nuntil = 100.0\n"
+        )
+    };
+    let told = |x: &str| {
+        let mut app = opened(&text(x), "family of orbits: q over E");
+        let lab = app.lab.as_mut().unwrap();
+        let views = Plot::opening(lab.loaded.physics());
+        lab.plots = views.into_iter().filter(|plot| plot.kind.name() == "family").collect();
+        assert_eq!(lab.plots.len(), 1);
+        legend(&app)
+    };
+    assert!(told("energy").contains("periodic orbit"), "{}", told("energy"));
+    assert!(told("q").contains("x = \"energy\""), "{}", told("q"));
+}
+
+/// A motion that does not come back has no family, and it is said why.
+#[test]
+fn where_there_is_no_orbit_there_is_no_family() {
+    let text = "title = \"one\"\n[coordinates]\nq = { initial = 0.0, velocity = 1.0 }\n[lagrangian]\nL = \"1/2*q'^2\"\n\
+                [run]\nuntil = 100.0\n";
+    let app = opened(text, "family of orbits: q over E");
+    assert_eq!(measure(&app, "members"), None);
+    assert!(legend(&app).contains("no periodic orbit was found"), "{}", legend(&app));
+}
