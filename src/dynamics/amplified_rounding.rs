@@ -84,7 +84,7 @@ impl AmplifiedRounding {
         for steps in &self.steps {
             let Some(inverse) = inverse(&steps.end) else { continue };
             let flow = (&self.last * inverse).abs();
-            let left = known(flow * (&steps.added * (0.5 * f64::EPSILON)));
+            let left = known(&(flow * (&steps.added * (0.5 * f64::EPSILON))));
             if left.amax() > most {
                 (worst, most) = (steps.time, left.amax());
             }
@@ -108,7 +108,7 @@ impl AmplifiedRounding {
             let Some(inverse) = inverse(&steps.end) else { continue };
             let flow = (&self.last * inverse).abs();
             let left = flow * &steps.added * &after;
-            error = both(&error, &known(&left + left.transpose()));
+            error = both(&error, &known(&(&left + left.transpose())));
         }
         error
     }
@@ -120,7 +120,7 @@ fn both(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
 }
 
 /// An error whose entries are infinite where nothing is known of them.
-fn known(error: DMatrix<f64>) -> DMatrix<f64> {
+fn known(error: &DMatrix<f64>) -> DMatrix<f64> {
     error.map(|x| if x.is_finite() { x } else { f64::INFINITY })
 }
 

@@ -224,8 +224,11 @@ impl Instrument for ActionsPlot {
             },
             Measure {
                 word: "separatrix",
-                about: "∮ p dq of the first lobe of the first separatrix",
-                value: |_, _, answer| found(answer)?.separatrices.first()?.actions.first().copied(),
+                about: "∮ p dq of the first lobe of the first separatrix that has an end",
+                value: |_, _, answer| {
+                    let mut actions = found(answer)?.separatrices.first()?.actions.iter();
+                    actions.find(|action| action.is_finite()).copied()
+                },
             },
             Measure {
                 word: "last_change",

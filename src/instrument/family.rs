@@ -179,7 +179,7 @@ impl Instrument for FamilyPlot {
         let known = answer.and_then(Answer::of::<ComputedFamily>);
         let holds =
             |known: &&ComputedFamily| known.conditions == conditions && known.asked <= present.time;
-        if known.filter(holds).is_some() {
+        if known.as_ref().is_some_and(holds) {
             return Need::Held;
         }
         let (Some(channel), Some(method)) = (plot.column(1), method_named(present.method)) else {

@@ -90,7 +90,7 @@ mod tests {
         };
         let shown = [[0.0, 1.0], [0.0, 10.0]];
         assert_eq!(in_reach(&names(&[[0.5, 5.0], [1.0, 0.0]]), shown), None);
-        let longer = in_reach(&names(&[[0.5, -9.0], [0.5, 5.0]]), shown).unwrap();
+        let longer = in_reach(&names(&[[0.5, -9.0], [0.5, 5.0]]), shown).expect("one is in reach");
         assert_eq!(longer, [[0.0, 1.0], [-9.6, 10.0]]);
         // far away in either direction, or nowhere
         for far in [[0.5, -11.0], [2.5, -9.0], [f64::NAN, -9.0], [0.5, f64::INFINITY]] {

@@ -7,7 +7,7 @@ use phaselab::action_angle::{HeldSystem, NotHeld};
 use phaselab::app::{App, Event};
 use phaselab::cancel::Cancel;
 use phaselab::diagnostic::Document;
-use phaselab::experiment::{Experiment, Prepared};
+use phaselab::experiment::{Command, Experiment, Prepared};
 use phaselab::instrument::{Ink, Layer, Picture, Plot};
 use phaselab::integrate::Settings;
 
@@ -175,6 +175,66 @@ fn a_slow_change_leaves_the_action_and_a_fast_one_does_not() {
     let energy = |w: f64| 0.5 * (2.0_f64.sin().powi(2) + (w * 2.0_f64.cos()).powi(2));
     near(fast.measure("action"), PI * energy(2.0), 2e-2);
     assert!(fast.told().contains("not adiabatic"), "{}", fast.told());
+}
+
+/// A parameter that enters by the initial values alone changes the motion at the reset, not before; the answer follows.
+#[test]
+fn a_reset_and_a_stroke_have_their_own_action() {
+    let text = "title = \"t\"\n[coordinates]\nq = { initial = \"a\", momentum = 0.0 }\n[parameters]\na = 1.0\n\
+                [hamiltonian]\nH = \"p_q^2/2 + 1/2*q^2\"\n\
+                [[impulses]]\nname = \"stroke\"\nchange = { p_q = 1.0 }\n";
+    let mut course = Course::of(text);
+    course.go(3.0);
+    near(course.measure("action"), PI, 1e-12);
+    course.experiment.execute(Command::Parameter { index: 0, value: 0.5 });
+    course.go(4.0);
+    near(course.measure("action"), PI, 1e-12);
+    course.experiment.execute(Command::Reset);
+    course.go(5.0);
+    near(course.measure("action"), PI / 4.0, 1e-12);
+    // J = 2π E, after p grows by one at t = 10
+    course.go(10.0);
+    course.experiment.execute(Command::ApplyImpulse(0));
+    course.go(12.0);
+    let energy = 0.5 * ((0.5 * 10.0_f64.cos()).powi(2) + (1.0 - 0.5 * 10.0_f64.sin()).powi(2));
+    near(course.measure("action"), 2.0 * PI * energy, 1e-12);
+}
+
+/// However late one looks for the first time, the change is that since the start.
+#[test]
+fn a_change_is_counted_from_the_start_however_late_one_looks() {
+    let mut late = Course::of(&tightened("60", RAMP));
+    late.go(65.0);
+    assert!(late.told().contains("since t = 0: adiabatic"), "{}", late.told());
+    near(late.measure("change"), 0.0, 1e-4);
+    late.experiment.execute(Command::Reset);
+    late.go(70.0);
+    assert!(late.told().contains("since t = 0: adiabatic"), "{}", late.told());
+}
+
+/// Beside an abyss a well has its curve up to its edge: V = ½q² − 0.075 q⁴ is highest at 5/6.
+#[test]
+fn a_well_beside_an_abyss_has_its_curve() {
+    let course = {
+        let text = "title = \"t\"\n[coordinates]\nq = { initial = 0.3, momentum = 0.8 }\n\
+                    [hamiltonian]\nH = \"p_q^2/2 + 1/2*q^2 - 0.075*q^4\"\n";
+        let mut course = Course::of(text);
+        course.go(1.0);
+        course
+    };
+    let curves = course.curves();
+    assert!(!curves.is_empty(), "{}", course.told());
+    let highest =
+        curves.iter().flatten().fold([0.0, 0.0], |a: [f64; 2], b| if b[1] > a[1] { *b } else { a });
+    assert!((0.8..5.0 / 6.0).contains(&highest[0]), "{highest:?}");
+    // there p = √0.15 (10/3 − q²)
+    let lobe = 8.0 / 3.0 * 0.15_f64.sqrt() * (10.0_f64 / 3.0).powf(1.5);
+    near(course.measure("separatrix"), lobe, 1e-9);
+    assert!(
+        course.told().contains("J = 6.2854") && !course.told().contains("inf"),
+        "{}",
+        course.told()
+    );
 }
 
 #[test]
