@@ -5,6 +5,8 @@
 //! found of earlier instants is kept. Never here: how an action is computed (`action_angle`).
 //! Source: *The Principles of Dynamics*, §§ 4.2, 4.3.
 
+mod moment;
+
 use std::sync::Arc;
 
 use super::motion_state::{self, CoordinateState, HeldCourse};
@@ -16,6 +18,7 @@ use crate::action_angle::{HeldMotion, OwnMotion, RegionKind, Separatrix};
 use crate::job::{Job, Progress};
 use crate::num::{math, significant};
 use crate::system::ChannelKind;
+use moment::{Moment, changes_in_words};
 
 /// The levels of the picture.
 const SEPARATRIX: Level = 0;
@@ -53,16 +56,6 @@ const OF_A_PERIOD: f64 = 0.25;
 
 /// The row.
 pub(super) struct ActionsPlot;
-
-/// An instant of the motion.
-#[derive(Clone, Copy, PartialEq, Debug)]
-struct Moment {
-    time: f64,
-    energy: f64,
-    /// The energy above the least one of the coordinate.
-    height: f64,
-    action: f64,
-}
 
 /// What was found, and of what.
 struct ComputedActions {
@@ -247,21 +240,6 @@ impl Instrument for ActionsPlot {
     }
 }
 
-impl Moment {
-    /// That of a motion which returns.
-    fn of(motion: &HeldMotion<'_>, own: &OwnMotion, time: f64) -> Option<Moment> {
-        let row = own.row.as_ref().ok().filter(|row| row.kind != RegionKind::Unbounded)?;
-        let height = own.energy - motion.bottom(own);
-        Some(Moment { time, energy: own.energy, height, action: row.action })
-    }
-
-    /// By which part action and height have changed since another moment; `None` where there was nothing to have parts.
-    fn changes_since(&self, first: &Moment) -> Option<[f64; 2]> {
-        let part = |from: f64, to: f64| (from > 0.0).then(|| (to - from) / from);
-        Some([part(first.action, self.action)?, part(first.height, self.height)?])
-    }
-}
-
 impl ComputedActions {
     /// Whether it is still what is to be seen in a state of the motion.
     fn holds_at(&self, now: &CoordinateState) -> bool {
@@ -426,27 +404,4 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
         lines.push(changes_in_words(changes));
     }
     lines
-}
-
-/// The relative changes of the action and of the energy above its least value.
-fn changes_in_words([action, height]: [f64; 2]) -> String {
-    let signed = |x: f64| {
-        let size = significant(x.abs(), 2, 1e-3..1e5);
-        if x < 0.0 { format!("−{size}") } else { format!("+{size}") }
-    };
-    format!("ΔJ/J = {}, ΔE/(E − V₀) = {}", signed(action), signed(height))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Moment;
-
-    /// A motion that began at rest has no action of which a part could be changed.
-    #[test]
-    fn of_no_action_there_is_no_part() {
-        let moment = |action, height| Moment { time: 0.0, energy: 0.0, height, action };
-        let (rest, later) = (moment(0.0, 0.0), moment(2.0, 1.0));
-        assert_eq!(later.changes_since(&rest), None);
-        assert_eq!(moment(3.0, 3.0).changes_since(&later), Some([0.5, 2.0]));
-    }
 }

@@ -1,0 +1,55 @@
+//! An instant of a motion of which the action is known, and what has changed since another.
+//!
+//! In: the motion of the held system at a time. Out: its action and energy, their relative changes, in words. Never here:
+//! whether a change is slow.
+
+use crate::action_angle::{HeldMotion, OwnMotion, RegionKind};
+use crate::num::significant;
+
+/// An instant of the motion.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Moment {
+    pub(super) time: f64,
+    pub(super) energy: f64,
+    /// The energy above the least one of the coordinate.
+    pub(super) height: f64,
+    pub(super) action: f64,
+}
+
+impl Moment {
+    /// That of a motion which returns.
+    pub(super) fn of(motion: &HeldMotion<'_>, own: &OwnMotion, time: f64) -> Option<Moment> {
+        let row = own.row.as_ref().ok().filter(|row| row.kind != RegionKind::Unbounded)?;
+        let height = own.energy - motion.bottom(own);
+        Some(Moment { time, energy: own.energy, height, action: row.action })
+    }
+
+    /// By which part action and height have changed since another moment; `None` where there was nothing to have parts.
+    pub(super) fn changes_since(&self, first: &Moment) -> Option<[f64; 2]> {
+        let part = |from: f64, to: f64| (from > 0.0).then(|| (to - from) / from);
+        Some([part(first.action, self.action)?, part(first.height, self.height)?])
+    }
+}
+
+/// The relative changes of the action and of the energy above its least value.
+pub(super) fn changes_in_words([action, height]: [f64; 2]) -> String {
+    let signed = |x: f64| {
+        let size = significant(x.abs(), 2, 1e-3..1e5);
+        if x < 0.0 { format!("−{size}") } else { format!("+{size}") }
+    };
+    format!("ΔJ/J = {}, ΔE/(E − V₀) = {}", signed(action), signed(height))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Moment;
+
+    /// A motion that began at rest has no action of which a part could be changed.
+    #[test]
+    fn of_no_action_there_is_no_part() {
+        let moment = |action, height| Moment { time: 0.0, energy: 0.0, height, action };
+        let (rest, later) = (moment(0.0, 0.0), moment(2.0, 1.0));
+        assert_eq!(later.changes_since(&rest), None);
+        assert_eq!(moment(3.0, 3.0).changes_since(&later), Some([0.5, 2.0]));
+    }
+}
