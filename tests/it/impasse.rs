@@ -581,6 +581,25 @@ fn a_motion_ends_where_a_logarithm_of_its_energy_does() {
     }
 }
 
+/// A step that ends beyond it has not led there if an event or the end of the run comes before.
+#[test]
+fn a_step_beyond_a_logarithm_counts_up_to_what_comes_before() {
+    let law = "[coordinates]\nx = { initial = 1.0, velocity = -0.5 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*ln(x)\"\n";
+    let wall = "[[events]]\nname = \"wall\"\nwhen = \"x - 0.05\"\n";
+    let mut free = by("rk4", Some(0.1), law);
+    // the step from 1 ends at 1.1, beyond 0
+    let mut fine = file(law);
+    run(&mut free, 1.02);
+    run(&mut fine, 1.02);
+    assert!((value(&free, "x") - value(&fine, "x")).abs() < 1e-2, "{}", value(&free, "x"));
+    assert_ne!(free.advance(3.0, PLENTY), AdvanceOutcome::Arrived);
+    assert!(value(&free, "x") > 0.0 && free.time() >= 1.0, "{}", free.time());
+    let stop = format!("{law}{wall}action = \"stop\"\n");
+    let mut stopped = by("rk4", Some(0.1), &stop);
+    stopped.advance(3.0, PLENTY);
+    assert!(matches!(stopped.status(), Status::Ended(_)), "{:?}", stopped.status());
+}
+
 /// A logarithm that keeps its value stops nothing: the logarithmic potential of a galaxy.
 #[test]
 fn a_logarithm_of_what_stays_positive_stops_nothing() {

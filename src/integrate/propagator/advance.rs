@@ -61,7 +61,11 @@ impl Propagator {
                 }
             }
             if self.clear >= time {
+                let before = self.state.time;
                 self.move_to(time)?;
+                if !self.has_logarithms(false) {
+                    return Err(self.left_domain(before));
+                }
                 self.note_passages(time);
                 return Ok(Reached::There);
             }
@@ -134,6 +138,10 @@ impl Propagator {
         if self.impulse_schedule.stands_still(before.high) {
             return Err(no_digits_left(before.high));
         }
+        // only a motion that goes on from the end of a step has been there: an event may lie before
+        if !self.has_logarithms(true) {
+            return Err(self.left_domain(self.state.time));
+        }
         self.note_regular();
         self.choose_enforced()?;
         self.stepper.step(limit)?;
@@ -144,7 +152,6 @@ impl Propagator {
         }
         self.steps += 1;
         self.check_branch()?;
-        self.check_logarithms()?;
         if self.projector.is_some() || self.system.attitude_place().is_some() {
             self.before.copy_from(self.stepper.state());
             if let Some(projector) = &mut self.projector {
@@ -211,15 +218,18 @@ impl Propagator {
         Err(self.system.fault(MotionErrorKind::BranchLeft, begin, &state.values))
     }
 
-    /// Returns an error if a step has led to where a logarithm of the energy has no value.
-    fn check_logarithms(&mut self) -> Result<(), MotionError> {
-        let Some(logarithms) = &mut self.logarithms else { return Ok(()) };
-        if logarithms.have_values(self.stepper.state()) {
-            return Ok(());
-        }
+    /// Whether the logarithms of the energy have values at the end of the last step, or in the current state.
+    fn has_logarithms(&mut self, at_end: bool) -> bool {
+        let Some(logarithms) = &mut self.logarithms else { return true };
+        logarithms.have_values(if at_end { self.stepper.state() } else { &self.state })
+    }
+
+    /// The error for a step that has led to where they have none; what lies before the step, and what was reached, stays.
+    fn left_domain(&mut self, reached: f64) -> MotionError {
         let (begin, _) = self.stepper.interval();
+        self.clear = begin.max(reached);
         let state = self.stepper.state();
-        Err(self.system.fault(MotionErrorKind::LogarithmLeft, begin, &state.values))
+        self.system.fault(MotionErrorKind::LogarithmLeft, begin, &state.values)
     }
 
     /// Enforces those of redundant constraints that are most independent.
