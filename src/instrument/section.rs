@@ -82,8 +82,9 @@ impl Instrument for SectionPlot {
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
         let view = view(plot, present.physics)?;
-        let count = present.crossings.counts().get(view.section?).copied().unwrap_or(0);
-        let own = own_rotation(plot, present);
+        let section = view.section?;
+        let count = present.crossings.counts().get(section).copied().unwrap_or(0);
+        let own = own_rotation(plot, present, section);
         let rotation = own.map(|own| format!("rotation {}", to_its_error(own.number, own.error)));
         let (words, zero) = (surface(present.physics, view), zero(present.physics, view));
         // the title may say it
@@ -257,7 +258,10 @@ impl Instrument for SectionPlot {
             Measure {
                 word: "own_rotation",
                 about: "the rotation number of the running motion",
-                value: |plot, present, _| own_rotation(plot, present).map(|found| found.number),
+                value: |plot, present, _| {
+                    let section = view(plot, present.physics)?.section?;
+                    own_rotation(plot, present, section).map(|found| found.number)
+                },
             },
             Measure {
                 word: "orbits",

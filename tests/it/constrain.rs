@@ -320,7 +320,7 @@ fn velocities_left_out_follow_from_the_constraints() {
     // both are given, and inconsistent
     let apart = initial(&model, &[InitialOverride::Velocity(1, 2.0)]).unwrap_err();
     assert!(
-        matches!(&apart, MotionErrorKind::ConstraintMissed(name, _) if name == "no slip"),
+        matches!(&apart, MotionErrorKind::VelocitiesMissed(name, _) if name == "no slip"),
         "{apart:?}"
     );
     start(&mut model, &[("0", None), ("0", None)]);

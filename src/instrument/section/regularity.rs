@@ -4,18 +4,16 @@
 
 use super::super::{Ink, Physics, Plot, Present, Seed};
 use super::portrait::Portrait;
-use super::view;
 use crate::dynamics::{Rotation, rotation};
 use crate::num::math;
 
 /// The newest crossings of the running motion by which its rotation number is measured.
 const COUNT_OWN: usize = 1000;
 
-/// The rotation number of the running motion, if it has one, by its newest crossings.
-pub(super) fn own_rotation(plot: &Plot, present: &Present<'_>) -> Option<Rotation> {
+/// The rotation number of the running motion on a surface, if it has one, by its newest crossings.
+pub(super) fn own_rotation(plot: &Plot, present: &Present<'_>, section: usize) -> Option<Rotation> {
     let Physics { system, .. } = present.physics;
     let axes = [plot.column(0)?, plot.column(1)?];
-    let section = view(plot, present.physics)?.section?;
     let rows = present.crossings.rows(section, present.values.len());
     let newest = rows.rev().take(COUNT_OWN).map(|row| axes.map(|axis| row[1 + axis]));
     let mut points: Vec<[f64; 2]> = newest.collect();

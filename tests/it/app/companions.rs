@@ -135,7 +135,7 @@ fn the_exponent_of_the_motion_is_measured_with_its_verdict() {
                   Assert exponents.chaotic = 1 within 0\n\
                   Assert exponents.largest > 0.1\nAssert exponents.largest < 0.192\n\
                   Assert exponents.uncertainty < 0.05\n\
-                  Assert screen \"chaotic: 0.1\"\n";
+                  Assert screen \"chaotic: λ = 0.1\"\n";
     drop(played("henon-heiles", &script.replace("Set px", "Set p_x")));
     let regular = "Open henon-heiles\nSize 120x40\nSet y = 0.483\nSet p_x = 0.27898039\nPress V\n\
                    Wait 0.1s\nAssert exponents.chaotic = 0 within 0\n\
