@@ -23,6 +23,7 @@ use super::orbit::Orbit;
 use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings};
+use crate::num::significant;
 use crate::system::State;
 use equations::FamilyEquations;
 use point::FamilyPoint;
@@ -39,6 +40,9 @@ const CORRECTIONS: usize = 8;
 
 /// A point counts as on the family when it closes up to this part of its size.
 const CLOSED: f64 = 1e-11;
+
+/// A period grows where it is so many times that of the orbit begun with.
+const LONG: f64 = 3.0;
 
 /// A change of a parameter for its difference.
 const DIFFERENCE: f64 = 1e-5;
@@ -390,7 +394,7 @@ impl Continuation<'_> {
             let Some((next, count)) = self.onwards(&here, step)? else {
                 step *= 0.5;
                 if step < LEAST * size {
-                    return Ok(Some(format!("the family was lost at {}", here.value)));
+                    return Ok(Some(lost(&here, begin.period)));
                 }
                 continue;
             };
@@ -400,6 +404,17 @@ impl Continuation<'_> {
             }
             here = next;
         }
-        Ok(Some(format!("the family continues beyond {}, after {STEPS} steps", here.value)))
+        let value = significant(here.value, 6, 1e-4..1e6);
+        Ok(Some(format!("the family continues beyond {value}, after {STEPS} steps")))
     }
+}
+
+/// Why a family ends at a point: as its period grows without bound, as towards a separatrix, where that is seen.
+fn lost(here: &FamilyPoint, first: f64) -> String {
+    let (value, period) =
+        (significant(here.value, 6, 1e-4..1e6), significant(here.period, 3, 1e-4..1e6));
+    if here.period.abs() > LONG * first.abs() {
+        return format!("the family ends near {value}: its period grows, to {period} so far");
+    }
+    format!("the family was lost at {value}")
 }

@@ -97,7 +97,10 @@ impl Experiment {
             return;
         }
         match self.motion.apply_impulse(index).and_then(|occurrence| self.note(occurrence)) {
-            Ok(sentence) => self.tell(sentence),
+            Ok(sentence) => {
+                self.changed_here("the momentum".to_owned());
+                self.tell(sentence);
+            }
             Err(fault) => self.fault = Some(self.motion.dated(fault).into()),
         }
     }
@@ -149,7 +152,7 @@ impl Experiment {
         }
     }
 
-    /// From its current state on the motion follows another law.
+    /// From its current state on the motion follows another law, or goes on from another state.
     pub(super) fn changed_here(&mut self, what: String) {
         let state = Arc::new(self.motion.dated_state());
         self.changed = Some(Arc::new(LastChange { what, state }));

@@ -47,8 +47,9 @@ const BEING_COMPUTED: &str = "being computed";
 /// Beyond this energy, relative to the motion's, a top is out of the picture.
 const FAR: f64 = 20.0;
 
-/// A change of the energy by more than this part of its height is no rounding: the motion is another one.
-const ANOTHER_ENERGY: f64 = 1e-4;
+/// A change of the energy by more than this part of its height is no swing within the steps of a method: the motion is
+/// another one.
+const ANOTHER_ENERGY: f64 = 0.02;
 
 /// The part of the time since the start, and of the period, after which a moving law is looked at again.
 const LATER: f64 = 0.01;

@@ -16,7 +16,7 @@ use super::isolate::{self, Solution, tidy};
 use super::sampling::{POINTS, TRIES};
 use super::slope::relations_with_common_roots;
 use super::valuation::Valuation;
-use crate::expr::{Expr, Pool, Symbol, Zero};
+use crate::expr::{Expr, Node, Pool, Symbol, Zero};
 use crate::model::{Model, Transformation, TransformationLaw};
 use crate::num::Number;
 
@@ -393,8 +393,10 @@ impl PhaseMap {
         }
         verdict.valence = self.valence(pool, &all);
         if verdict.canonical {
-            // at these values of the parameters
-            let other = all.into_iter().filter(|(_, zero)| *zero == Zero::No);
+            // at these values of the parameters; a number that is nearly one has no others
+            let other = all.into_iter().filter(|(bracket, zero)| {
+                *zero == Zero::No && !matches!(pool.node(bracket.is), Node::Number(_))
+            });
             verdict.only_here = other.map(|(bracket, _)| bracket).collect();
             return;
         }

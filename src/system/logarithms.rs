@@ -42,11 +42,31 @@ impl System {
     }
 }
 
+/// The arguments that may be negative.
 fn arguments(program: &Program) -> impl Iterator<Item = Register> {
     program.body.iter().filter_map(|&register| match program.ops[register as usize] {
-        Op::Call(FunctionId::Ln, [argument, _]) => Some(argument),
+        Op::Call(FunctionId::Ln, [argument, _]) if !is_never_negative(program, argument) => {
+            Some(argument)
+        }
         _ => None,
     })
+}
+
+/// Whether a value is shown by its form not to be negative, such as 0.1 + x² + y²/q².
+fn is_never_negative(program: &Program, register: Register) -> bool {
+    let all = |registers: &[Register]| registers.iter().all(|&r| is_never_negative(program, r));
+    match program.ops[register as usize] {
+        Op::Constant(index) => program.constants[index as usize].high >= 0.0,
+        Op::Linear { constant, first, count } => {
+            let terms = &program.terms[first as usize..(first + count) as usize];
+            program.constants[constant as usize].high >= 0.0
+                && terms.iter().all(|term| term.coefficient.high >= 0.0 && all(&[term.register]))
+        }
+        Op::Scale(a, b) | Op::Multiply(a, b) | Op::Divide(a, b) => all(&[a, b]),
+        Op::Square(_) | Op::Root(_) => true,
+        Op::Call(FunctionId::Exp | FunctionId::Abs, _) => true,
+        _ => false,
+    }
 }
 
 impl Logarithms {
