@@ -44,29 +44,34 @@ impl System {
 
 /// The arguments that may be negative.
 fn arguments(program: &Program) -> impl Iterator<Item = Register> {
-    program.body.iter().filter_map(|&register| match program.ops[register as usize] {
-        Op::Call(FunctionId::Ln, [argument, _]) if !is_never_negative(program, argument) => {
+    let never_negative = never_negative(program);
+    program.body.iter().filter_map(move |&register| match program.ops[register as usize] {
+        Op::Call(FunctionId::Ln, [argument, _]) if !never_negative[argument as usize] => {
             Some(argument)
         }
         _ => None,
     })
 }
 
-/// Whether a value is shown by its form not to be negative, such as 0.1 + x² + y²/q².
-fn is_never_negative(program: &Program, register: Register) -> bool {
-    let all = |registers: &[Register]| registers.iter().all(|&r| is_never_negative(program, r));
-    match program.ops[register as usize] {
-        Op::Constant(index) => program.constants[index as usize].high >= 0.0,
-        Op::Linear { constant, first, count } => {
-            let terms = &program.terms[first as usize..(first + count) as usize];
-            program.constants[constant as usize].high >= 0.0
-                && terms.iter().all(|term| term.coefficient.high >= 0.0 && all(&[term.register]))
-        }
-        Op::Scale(a, b) | Op::Multiply(a, b) | Op::Divide(a, b) => all(&[a, b]),
-        Op::Square(_) | Op::Root(_) => true,
-        Op::Call(FunctionId::Exp | FunctionId::Abs, _) => true,
-        _ => false,
+/// Which values are shown by their form not to be negative, such as 0.1 + x² + y²/q².
+fn never_negative(program: &Program) -> Vec<bool> {
+    let mut known: Vec<bool> = Vec::with_capacity(program.ops.len());
+    for op in &program.ops {
+        let of = |register: Register| known[register as usize];
+        let found = match *op {
+            Op::Constant(index) => program.constants[index as usize].high >= 0.0,
+            Op::Linear { constant, first, count } => {
+                let terms = &program.terms[first as usize..(first + count) as usize];
+                program.constants[constant as usize].high >= 0.0
+                    && terms.iter().all(|term| term.coefficient.high >= 0.0 && of(term.register))
+            }
+            Op::Scale(a, b) | Op::Multiply(a, b) | Op::Divide(a, b) => of(a) && of(b),
+            Op::Square(_) | Op::Root(_) | Op::Call(FunctionId::Exp | FunctionId::Abs, _) => true,
+            _ => false,
+        };
+        known.push(found);
     }
+    known
 }
 
 impl Logarithms {
