@@ -399,6 +399,13 @@ impl Continuation<'_> {
                 continue;
             };
             self.between(&here, &next, step, members)?;
+            if begin.unit().is_some() && here.unit().is_none() && next.unit().is_none() {
+                let value = significant(next.value, 6, 1e-4..1e6);
+                return Ok(Some(format!(
+                    "from {value} on the family is not told from the orbits beside it: its multipliers are 1 within \
+                     rounding"
+                )));
+            }
             if count <= 3 {
                 step = (1.5 * step).min(LARGEST * size);
             }

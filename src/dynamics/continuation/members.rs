@@ -29,15 +29,16 @@ impl Continuation<'_> {
         if folds {
             specials.push((Bifurcation::Fold, Box::new(|point: &FamilyPoint| self.slope(point))));
         }
-        if (from.doubling() < 0.0) != (to.doubling() < 0.0) {
-            specials.push((
-                Bifurcation::PeriodDoubling,
-                Box::new(|point: &FamilyPoint| Ok(point.doubling())),
-            ));
+        // what is rounding at either end has no sign
+        let changes =
+            |ends: [Option<f64>; 2]| matches!(ends, [Some(a), Some(b)] if (a < 0.0) != (b < 0.0));
+        if changes([from.doubling(), to.doubling()]) {
+            let test = |point: &FamilyPoint| Ok(point.doubling().unwrap_or(0.0));
+            specials.push((Bifurcation::PeriodDoubling, Box::new(test)));
         }
-        if !folds && (from.unit() < 0.0) != (to.unit() < 0.0) {
-            specials
-                .push((Bifurcation::Branching, Box::new(|point: &FamilyPoint| Ok(point.unit()))));
+        if !folds && changes([from.unit(), to.unit()]) {
+            let test = |point: &FamilyPoint| Ok(point.unit().unwrap_or(0.0));
+            specials.push((Bifurcation::Branching, Box::new(test)));
         }
         for (kind, test) in specials {
             let (mut a, mut b) = (0.0, step);

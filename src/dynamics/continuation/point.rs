@@ -8,6 +8,9 @@ use nalgebra::{DMatrix, DVector};
 use super::super::orbit::Orbit;
 use crate::system::State;
 
+/// An orbit closes up to 1e-11 of its size; the matrix may be off by so much, growing over a period.
+const CLOSING: f64 = 1e-9;
+
 /// A point of a family.
 #[derive(Clone)]
 pub(super) struct FamilyPoint {
@@ -21,15 +24,30 @@ pub(super) struct FamilyPoint {
 }
 
 impl FamilyPoint {
-    /// What changes its sign at a period doubling: Π (μᵢ + 1) of the transverse multipliers.
-    pub(super) fn doubling(&self) -> f64 {
-        let n = self.orbit.transverse.nrows();
-        (&self.orbit.transverse + DMatrix::identity(n, n)).determinant()
+    /// What changes its sign at a period doubling: Π (μᵢ + 1) of the transverse multipliers; `None` where it is rounding.
+    pub(super) fn doubling(&self) -> Option<f64> {
+        self.determinant(1.0)
     }
 
-    /// What changes its sign where a multiplier passes 1: Π (μᵢ − 1).
-    pub(super) fn unit(&self) -> f64 {
-        let n = self.orbit.transverse.nrows();
-        (&self.orbit.transverse - DMatrix::identity(n, n)).determinant()
+    /// What changes its sign where a multiplier passes 1: Π (μᵢ − 1); `None` where it is rounding.
+    pub(super) fn unit(&self) -> Option<f64> {
+        self.determinant(-1.0)
+    }
+
+    /// det (M + x) of the transverse matrix, unless its sign is not known: an error ε of the matrix changes it by ε times
+    /// the product of all its singular values but the least, at most, and for each of them.
+    fn determinant(&self, x: f64) -> Option<f64> {
+        let matrix = &self.orbit.transverse;
+        let n = matrix.nrows();
+        if n == 0 {
+            // without directions across there is nothing to change
+            return Some(1.0);
+        }
+        let shifted = matrix + DMatrix::identity(n, n) * x;
+        let determinant = shifted.determinant();
+        let values = shifted.singular_values();
+        let others: f64 = values.iter().take(n - 1).product();
+        let error = self.orbit.rounding.unwrap_or(0.0).max(CLOSING) * n as f64 * others;
+        (determinant.abs() > error).then_some(determinant)
     }
 }
