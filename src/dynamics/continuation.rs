@@ -402,8 +402,8 @@ impl Continuation<'_> {
             if begin.unit().is_some() && here.unit().is_none() && next.unit().is_none() {
                 let value = significant(next.value, 6, 1e-4..1e6);
                 return Ok(Some(format!(
-                    "from {value} on the family is not told from the orbits beside it: its multipliers are 1 within \
-                     rounding"
+                    "from {value} on the family cannot be distinguished from the orbits beside it: its multipliers are \
+                     1 within rounding"
                 )));
             }
             if count <= 3 {

@@ -15,7 +15,7 @@ use super::sign_bound::{LAST, bound, keeps_sign, shows_no_end, stays};
 use super::step_series::StepSeries;
 use crate::num::{DoubleDouble, math};
 
-/// The most times ahead from which functions are looked at whose series end in zeros.
+/// The most times ahead from which functions are looked at whose last terms show nothing.
 const MOST_LOOKS: u32 = 100;
 
 /// The series of the functions, up to one order.

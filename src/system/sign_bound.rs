@@ -159,7 +159,7 @@ mod tests {
         let even = [1.0, 0.0, -0.5, 0.0, 0.04, 0.0, -1e-3, 0.0, 2e-5];
         let cases = [
             (even, 1.0, false),
-            // five times as far away its terms do not fall any more
+            // so far away its terms do not fall any more
             (even, 30.0, true),
             ([1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], 1.0, true),
             ([1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1e-30, 1e-20], 1.0, true),

@@ -1,82 +1,16 @@
 //! The picture of the action variable: closed forms, separatrices, what a slow and a fast change leave, and what has none.
 
-use std::f64::consts::PI;
-use std::sync::Arc;
-
 use phaselab::action_angle::{HeldSystem, NotHeld};
-use phaselab::app::{App, Event};
 use phaselab::cancel::Cancel;
 use phaselab::diagnostic::Document;
-use phaselab::experiment::{Command, Experiment, Prepared};
-use phaselab::instrument::{Ink, Layer, Picture, Plot};
+use phaselab::experiment::Command;
+use phaselab::instrument::{Ink, Layer};
 use phaselab::integrate::Settings;
+use std::f64::consts::PI;
 
-use crate::hand::{begun, press};
-use crate::section::measure;
+use crate::course::Course;
 
-/// A lab with a motion.
-struct Course {
-    app: App,
-    experiment: Experiment,
-    kind: &'static str,
-}
-
-impl Course {
-    fn of(text: &str) -> Course {
-        Course::showing("actions", text)
-    }
-
-    fn showing(kind: &'static str, text: &str) -> Course {
-        let text = format!("{text}\n[[views]]\nkind = \"{kind}\"\nx = \"q\"\n");
-        let app = begun(&text);
-        let ready =
-            Prepared::of(&Document::new("test", &text)).unwrap_or_else(|why| panic!("{why}"));
-        let mut experiment = ready.experiment;
-        experiment.set_epoch(1);
-        Course { app, experiment, kind }
-    }
-
-    fn go(&mut self, time: f64) {
-        self.experiment.advance(time, 1_000_000);
-        self.app.update(Event::Snapshot(Arc::new(self.experiment.snapshot())));
-        press(&mut self.app, "Wait");
-    }
-
-    fn plot(&self) -> Plot {
-        let plots = &self.app.lab.as_ref().unwrap().plots;
-        plots.iter().find(|plot| plot.kind.name() == self.kind).expect("a picture").clone()
-    }
-
-    fn measure(&self, word: &str) -> f64 {
-        measure(&self.app, &self.plot(), word)
-    }
-
-    fn layers(&self) -> Vec<Layer> {
-        let (lab, plot) = (self.app.lab.as_ref().unwrap(), self.plot());
-        let present = lab.present().expect("a motion");
-        let picture = plot.kind.picture(&plot, &present, [0.0, 1.0], lab.answer(&plot));
-        let Some(Picture::Axes { layers, .. }) = picture else { panic!("no axes") };
-        layers.into_iter().map(|(_, layer)| layer).collect()
-    }
-
-    fn told(&self) -> String {
-        let legend = self.layers().into_iter().find_map(|layer| match layer {
-            Layer::Legend(lines) => Some(lines.join("\n")),
-            _ => None,
-        });
-        legend.expect("words")
-    }
-
-    /// The curves J(E).
-    fn curves(&self) -> Vec<Vec<[f64; 2]>> {
-        let line = |layer| match layer {
-            Layer::Line(points, stroke) if stroke.ink == Ink::Curve(0) => Some(points),
-            _ => None,
-        };
-        self.layers().into_iter().filter_map(line).collect()
-    }
-}
-
+#[track_caller]
 fn near(found: f64, wanted: f64, within: f64) {
     assert!((found - wanted).abs() <= within, "{found} is not {wanted} within {within}");
 }
@@ -88,13 +22,17 @@ const PENDULUM: &str = "title = \"Pendulum\"\n[coordinates]\n\
 /// θ₀ = 2: J = 16 (E(k) − k′² K(k)), T = 4 K(k), k = sin 1; the separatrix has 16, a turn 8.
 #[test]
 fn the_pendulum_has_its_action_and_its_separatrix() {
-    let mut course = Course::of(PENDULUM);
+    let mut course = Course::showing("actions", PENDULUM);
     course.go(0.3);
-    near(course.measure("action"), 10.039416280433402, 1e-12);
-    near(course.measure("period"), 8.349752926918494, 1e-12);
-    near(course.measure("separatrix"), 16.0, 1e-11);
-    assert!(course.told().contains("libration: J = 10.039"), "{}", course.told());
-    assert!(course.told().contains("separatrix at E = 1: J = 16, 8 a turn"), "{}", course.told());
+    near(course.value("action"), 10.039416280433402, 1e-12);
+    near(course.value("period"), 8.349752926918494, 1e-12);
+    near(course.value("separatrix"), 16.0, 1e-11);
+    assert!(course.legend().contains("libration: J = 10.039"), "{}", course.legend());
+    assert!(
+        course.legend().contains("separatrix at E = 1: J = 16, 8 a turn"),
+        "{}",
+        course.legend()
+    );
     // below the separatrix the curve climbs to 16, above it begins at 8
     let curves = course.curves();
     let [libration, rotation] = &curves[..] else { panic!("{}", curves.len()) };
@@ -102,25 +40,26 @@ fn the_pendulum_has_its_action_and_its_separatrix() {
     let (top, bottom) = (libration.last().unwrap()[1], rotation[0][1]);
     assert!(top < 16.0 && top > 15.9 && bottom > 8.0 && bottom < 8.05, "{top} {bottom}");
     // a motion that goes round has half
-    let mut round = Course::of(&PENDULUM.replace("v = 0.0", "v = 3.0"));
+    let mut round = Course::showing("actions", &PENDULUM.replace("v = 0.0", "v = 3.0"));
     round.go(0.3);
-    assert!(round.told().contains("rotation: J = "), "{}", round.told());
-    assert!(round.measure("action") > 8.0);
+    assert!(round.legend().contains("rotation: J = "), "{}", round.legend());
+    assert!(round.value("action") > 8.0);
 }
 
 #[test]
 fn an_oscillator_has_a_straight_line() {
-    let mut course = Course::of(
+    let mut course = Course::showing(
+        "actions",
         "title = \"t\"\n[coordinates]\nq = { initial = 1.0, momentum = 0.5 }\n[hamiltonian]\nH = \"p_q^2/2 + 2*q^2\"\n",
     );
     course.go(1.0);
-    near(course.measure("action"), PI * 2.125, 1e-12);
+    near(course.value("action"), PI * 2.125, 1e-12);
     let [line] = &course.curves()[..] else { panic!("one curve") };
     assert!(line.len() > 20);
     for [energy, action] in line {
         near(*action, PI * energy, 1e-12 * energy);
     }
-    assert!(!course.told().contains("separatrix"), "{}", course.told());
+    assert!(!course.legend().contains("separatrix"), "{}", course.legend());
 }
 
 /// An oscillator whose frequency is doubled in the time `T`.
@@ -137,13 +76,13 @@ const RAMP: &str = "[[ramps]]\nparameter = \"w\"\nto = 2\nstart = 2\nduration = 
 /// E doubles with ω, J stays; after a fast change it does not.
 #[test]
 fn a_slow_change_leaves_the_action_and_a_fast_one_does_not() {
-    let mut slow = Course::of(&tightened("60", RAMP));
+    let mut slow = Course::showing("actions", &tightened("60", RAMP));
     for time in [0.0, 20.0, 40.0, 65.0] {
         slow.go(time);
     }
-    near(slow.measure("action"), PI, 1e-4);
-    assert!(slow.measure("change").abs() < 1e-4);
-    assert!(slow.told().contains("since t = 0: adiabatic"), "{}", slow.told());
+    near(slow.value("action"), PI, 1e-4);
+    assert!(slow.value("change").abs() < 1e-4);
+    assert!(slow.legend().contains("since t = 0: adiabatic"), "{}", slow.legend());
     // the curve is that of the law held at this instant, J = 2π E/ω with ω = 2
     let [line] = &slow.curves()[..] else { panic!("one curve") };
     for [energy, action] in line {
@@ -158,23 +97,23 @@ fn a_slow_change_leaves_the_action_and_a_fast_one_does_not() {
     near(way[3][0], 2.0 * way[0][0], 1e-4);
     near(way[3][1], way[0][1], 1e-4);
     // while hardly anything has changed, J and E swing alike, and neither word is true
-    let mut begun = Course::of(&tightened("60", RAMP));
+    let mut begun = Course::showing("actions", &tightened("60", RAMP));
     begun.go(0.0);
     begun.go(4.0);
-    assert!(begun.told().contains("since t = 0: undecided so far"), "{}", begun.told());
+    assert!(begun.legend().contains("since t = 0: undecided so far"), "{}", begun.legend());
     // nor is the other word true at any time of a slow ramp: J swings at its beginning, by the rate of ω
     for time in [9.0, 10.0, 11.5, 12.0, 14.0, 20.0, 35.0, 65.0] {
         begun.go(time);
-        assert!(!begun.told().contains("not adiabatic"), "at {time}: {}", begun.told());
+        assert!(!begun.legend().contains("not adiabatic"), "at {time}: {}", begun.legend());
     }
-    assert!(begun.told().contains("adiabatic"), "{}", begun.told());
-    let mut fast = Course::of(&tightened("0.01", RAMP));
+    assert!(begun.legend().contains("adiabatic"), "{}", begun.legend());
+    let mut fast = Course::showing("actions", &tightened("0.01", RAMP));
     fast.go(0.0);
     fast.go(5.0);
     // q and p stay: E = 2 at ω = 2 where the ramp began at cos² 2
     let energy = |w: f64| 0.5 * (2.0_f64.sin().powi(2) + (w * 2.0_f64.cos()).powi(2));
-    near(fast.measure("action"), PI * energy(2.0), 2e-2);
-    assert!(fast.told().contains("not adiabatic"), "{}", fast.told());
+    near(fast.value("action"), PI * energy(2.0), 2e-2);
+    assert!(fast.legend().contains("not adiabatic"), "{}", fast.legend());
 }
 
 /// A parameter that enters by the initial values alone changes the motion at the reset, not before; the answer follows.
@@ -183,33 +122,33 @@ fn a_reset_and_a_stroke_have_their_own_action() {
     let text = "title = \"t\"\n[coordinates]\nq = { initial = \"a\", momentum = 0.0 }\n[parameters]\na = 1.0\n\
                 [hamiltonian]\nH = \"p_q^2/2 + 1/2*q^2\"\n\
                 [[impulses]]\nname = \"stroke\"\nchange = { p_q = 1.0 }\n";
-    let mut course = Course::of(text);
+    let mut course = Course::showing("actions", text);
     course.go(3.0);
-    near(course.measure("action"), PI, 1e-12);
+    near(course.value("action"), PI, 1e-12);
     course.experiment.execute(Command::Parameter { index: 0, value: 0.5 });
     course.go(4.0);
-    near(course.measure("action"), PI, 1e-12);
+    near(course.value("action"), PI, 1e-12);
     course.experiment.execute(Command::Reset);
     course.go(5.0);
-    near(course.measure("action"), PI / 4.0, 1e-12);
+    near(course.value("action"), PI / 4.0, 1e-12);
     // J = 2π E, after p grows by one at t = 10
     course.go(10.0);
     course.experiment.execute(Command::ApplyImpulse(0));
     course.go(12.0);
     let energy = 0.5 * ((0.5 * 10.0_f64.cos()).powi(2) + (1.0 - 0.5 * 10.0_f64.sin()).powi(2));
-    near(course.measure("action"), 2.0 * PI * energy, 1e-12);
+    near(course.value("action"), 2.0 * PI * energy, 1e-12);
 }
 
 /// However late one looks for the first time, the change is that since the start.
 #[test]
 fn a_change_is_counted_from_the_start_however_late_one_looks() {
-    let mut late = Course::of(&tightened("60", RAMP));
+    let mut late = Course::showing("actions", &tightened("60", RAMP));
     late.go(65.0);
-    assert!(late.told().contains("since t = 0: adiabatic"), "{}", late.told());
-    near(late.measure("change"), 0.0, 1e-4);
+    assert!(late.legend().contains("since t = 0: adiabatic"), "{}", late.legend());
+    near(late.value("change"), 0.0, 1e-4);
     late.experiment.execute(Command::Reset);
     late.go(70.0);
-    assert!(late.told().contains("since t = 0: adiabatic"), "{}", late.told());
+    assert!(late.legend().contains("since t = 0: adiabatic"), "{}", late.legend());
 }
 
 /// Beside an abyss a well has its curve up to its edge: V = ½q² − 0.075 q⁴ is highest at 5/6.
@@ -218,22 +157,22 @@ fn a_well_beside_an_abyss_has_its_curve() {
     let course = {
         let text = "title = \"t\"\n[coordinates]\nq = { initial = 0.3, momentum = 0.8 }\n\
                     [hamiltonian]\nH = \"p_q^2/2 + 1/2*q^2 - 0.075*q^4\"\n";
-        let mut course = Course::of(text);
+        let mut course = Course::showing("actions", text);
         course.go(1.0);
         course
     };
     let curves = course.curves();
-    assert!(!curves.is_empty(), "{}", course.told());
+    assert!(!curves.is_empty(), "{}", course.legend());
     let highest =
         curves.iter().flatten().fold([0.0, 0.0], |a: [f64; 2], b| if b[1] > a[1] { *b } else { a });
     assert!((0.8..5.0 / 6.0).contains(&highest[0]), "{highest:?}");
     // there p = √0.15 (10/3 − q²)
     let lobe = 8.0 / 3.0 * 0.15_f64.sqrt() * (10.0_f64 / 3.0).powf(1.5);
-    near(course.measure("separatrix"), lobe, 1e-9);
+    near(course.value("separatrix"), lobe, 1e-9);
     assert!(
-        course.told().contains("J = 6.2854") && !course.told().contains("inf"),
+        course.legend().contains("J = 6.2854") && !course.legend().contains("inf"),
         "{}",
-        course.told()
+        course.legend()
     );
 }
 
@@ -255,11 +194,12 @@ fn what_has_no_action_is_told_why() {
         let found = HeldSystem::of(&model, 0, settings, &Cancel::new()).err();
         assert_eq!(found, Some(why));
     }
-    let mut course = Course::of(
+    let mut course = Course::showing(
+        "actions",
         "title = \"t\"\n[coordinates]\nq = { initial = 1.0 }\n[hamiltonian]\nH = \"p_q^2/2 + q^2/2\"\nforces = { q = \"-p_q/10\" }\n",
     );
     course.go(1.0);
-    assert!(course.told().contains("forces change the energy"), "{}", course.told());
+    assert!(course.legend().contains("forces change the energy"), "{}", course.legend());
 }
 
 /// Of an oscillator w is the polar angle of (−ω q, p) over a whole turn, and grows by ω/2π.
@@ -274,11 +214,11 @@ fn the_angle_of_an_oscillator_is_that_of_its_ellipse() {
         course.go(time);
         // q = A sin(2t + φ), p = 2 A cos(2t + φ), tan φ = 2 q₀/p₀
         let (q, p) = (2.0 * time + phase).sin_cos();
-        near(course.measure("angle"), p.atan2(-q).rem_euclid(2.0 * PI) / (2.0 * PI), 1e-12);
-        near(course.measure("frequency"), 1.0 / PI, 1e-13);
-        near(course.measure("action"), PI * 2.125, 1e-12);
+        near(course.value("angle"), p.atan2(-q).rem_euclid(2.0 * PI) / (2.0 * PI), 1e-12);
+        near(course.value("frequency"), 1.0 / PI, 1e-13);
+        near(course.value("action"), PI * 2.125, 1e-12);
     }
-    assert!(course.measure("residual") < 1e-12);
+    assert!(course.value("residual") < 1e-12);
 }
 
 /// From rest at 2 rad, on the right, w begins at ½ and grows by t/(4 K(sin 1)), through many turning points.
@@ -289,17 +229,17 @@ fn the_angle_of_a_pendulum_grows_evenly() {
     for i in 0..12 {
         let time = 2.37 * f64::from(i);
         course.go(time);
-        let off = course.measure("angle") - (0.5 + time / period);
+        let off = course.value("angle") - (0.5 + time / period);
         near(off - off.round(), 0.0, 1e-10);
     }
-    assert!(course.measure("residual") < 1e-10);
-    assert!(course.told().contains("ν = dE/dJ = 0.11976"), "{}", course.told());
+    assert!(course.value("residual") < 1e-10);
+    assert!(course.legend().contains("ν = dE/dJ = 0.11976"), "{}", course.legend());
     let mut round = Course::showing("angle", &PENDULUM.replace("v = 0.0", "v = -3.0"));
     for i in 0..8 {
         round.go(1.21 * f64::from(i));
     }
-    assert!(round.measure("residual") < 1e-11, "{}", round.measure("residual"));
-    assert!(round.measure("frequency") > 1.0 / period);
+    assert!(round.value("residual") < 1e-11, "{}", round.value("residual"));
+    assert!(round.value("frequency") > 1.0 / period);
 }
 
 /// Of what separates the angle grows evenly, of what does not it does not, or has no action at all.
@@ -312,20 +252,20 @@ fn the_angle_of_what_separates() {
         course.go(5.3 * f64::from(i));
     }
     let energy = 0.02 + 0.125 - 1.0 / (1.0 + 2.0_f64.sqrt());
-    near(course.measure("frequency"), (-2.0 * energy).powf(1.5) / (2.0 * PI), 1e-12);
-    assert!(course.measure("residual") < 1e-10, "{}", course.measure("residual"));
+    near(course.value("frequency"), (-2.0 * energy).powf(1.5) / (2.0 * PI), 1e-12);
+    assert!(course.value("residual") < 1e-10, "{}", course.value("residual"));
     let coupled = "title = \"t\"\n[coordinates]\nq = { initial = 0.3, momentum = 0.1 }\ny = { initial = 0.2, momentum = 0.1 }\n\
                    [hamiltonian]\nH = \"p_q^2/2 + p_y^2/2 + q^2/2 + y^2/2 + q^2*y - y^3/3\"\n";
     let mut course = Course::showing("angle", coupled);
     course.go(0.0);
-    assert!(course.told().contains("does not separate"), "{}", course.told());
+    assert!(course.legend().contains("does not separate"), "{}", course.legend());
     // a law that depends on the time has the angle of the instant, and no line
     let mut slow = Course::showing("angle", &tightened("60", RAMP));
     for i in 0..4 {
         slow.go(2.5 * f64::from(i));
     }
-    assert!(slow.told().contains("depends on the time"), "{}", slow.told());
-    assert!(!slow.told().contains("of a turn"), "{}", slow.told());
+    assert!(slow.legend().contains("depends on the time"), "{}", slow.legend());
+    assert!(!slow.legend().contains("of a turn"), "{}", slow.legend());
 }
 
 /// A form that the whole of a time-dependent law has: the same motion by `[[ramps]]` and written out.
@@ -334,12 +274,12 @@ fn a_law_with_the_time_in_it_is_held_at_the_instant() {
     let written = "[definitions]\nu = \"min(max((t - 2)/60, 0), 1)\"\nww = \"1 + 3*u^2 - 2*u^3\"";
     let by_hand = tightened("60", written).replace("1/2*w^2*q^2", "1/2*ww^2*q^2 + 0*w");
     let by_ramp = tightened("60", &format!("{RAMP}\nform = \"cubic\""));
-    let mut both = [by_hand, by_ramp].map(|text| Course::of(&text));
+    let mut both = [by_hand, by_ramp].map(|text| Course::showing("actions", &text));
     for course in &mut both {
         course.go(0.0);
         course.go(33.0);
     }
-    let [a, b] = both.map(|course| course.measure("action"));
+    let [a, b] = both.map(|course| course.value("action"));
     near(a, b, 1e-12);
     assert!((a - PI).abs() > 1e-9 && (a - PI).abs() < 0.1, "{a}");
 }

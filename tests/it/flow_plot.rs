@@ -1,14 +1,10 @@
 //! The pane with the flow map: symplectic to rounding for the exact flow and a symplectic method, not for another one; and the
 //! decay of its determinant under friction.
 
-use std::sync::Arc;
+use phaselab::experiment::{Checkpoint, Command};
+use phaselab::instrument::{Ink, Layer};
 
-use phaselab::app::{App, Event};
-use phaselab::diagnostic::Document;
-use phaselab::experiment::{Checkpoint, Command, Experiment, Prepared};
-use phaselab::instrument::{Ink, Layer, Picture, Plot};
-
-use crate::hand::{begun, press};
+use crate::course::Course;
 use crate::record::played;
 
 #[test]
@@ -35,64 +31,6 @@ fn under_friction_the_determinant_decays() {
     );
 }
 
-/// A lab with a motion and a pane of this kind.
-struct Course {
-    app: App,
-    experiment: Experiment,
-    kind: &'static str,
-}
-
-impl Course {
-    fn showing(kind: &'static str, text: &str) -> Course {
-        let axis = if kind == "flow" { "" } else { "x = \"q\"\n" };
-        let text = format!("{text}\n[[views]]\nkind = \"{kind}\"\n{axis}");
-        let app = begun(&text);
-        let ready =
-            Prepared::of(&Document::new("test", &text)).unwrap_or_else(|why| panic!("{why}"));
-        let mut experiment = ready.experiment;
-        experiment.set_epoch(1);
-        Course { app, experiment, kind }
-    }
-
-    fn go(&mut self, time: f64) {
-        self.experiment.advance(time, 1_000_000);
-        self.app.update(Event::Snapshot(Arc::new(self.experiment.snapshot())));
-        press(&mut self.app, "Wait");
-    }
-
-    fn set(&mut self, index: usize, value: f64) {
-        self.experiment.execute(Command::Parameter { index, value });
-    }
-
-    fn plot(&self) -> Plot {
-        let plots = &self.app.lab.as_ref().unwrap().plots;
-        plots.iter().find(|plot| plot.kind.name() == self.kind).expect("a picture").clone()
-    }
-
-    fn measure(&self, word: &str) -> Option<f64> {
-        let (lab, plot) = (self.app.lab.as_ref().unwrap(), self.plot());
-        let measure = plot.kind.measures().iter().find(|measure| measure.word == word);
-        let value = measure.expect("it is measured").value;
-        value(&plot, &lab.present().expect("a motion"), lab.answer(&plot))
-    }
-
-    fn layers(&self) -> Vec<Layer> {
-        let (lab, plot) = (self.app.lab.as_ref().unwrap(), self.plot());
-        let present = lab.present().expect("a motion");
-        let picture = plot.kind.picture(&plot, &present, [0.0, 1.0], lab.answer(&plot));
-        let Some(Picture::Axes { layers, .. }) = picture else { panic!("no axes") };
-        layers.into_iter().map(|(_, layer)| layer).collect()
-    }
-
-    fn told(&self) -> String {
-        let legend = self.layers().into_iter().find_map(|layer| match layer {
-            Layer::Legend(lines) => Some(lines.join("\n")),
-            _ => None,
-        });
-        legend.expect("words")
-    }
-}
-
 const OSCILLATOR: &str = "title = \"t\"\n[coordinates]\nq = { initial = 1.0, momentum = 0.0 }\n[parameters]\n\
                           w = { value = 1.0, min = 0.5, max = 5.0 }\n[hamiltonian]\nH = \"p_q^2/2 + w^2*q^2/2\"\n";
 
@@ -107,10 +45,10 @@ fn near(found: Option<f64>, expected: f64, within: f64) {
 fn after_a_change_the_map_is_that_of_the_motion_since_then() {
     let mut course = Course::showing("flow", OSCILLATOR);
     course.go(1.0);
-    assert!(!course.told().contains("since"), "{}", course.told());
+    assert!(!course.legend().contains("since"), "{}", course.legend());
     course.set(0, 2.0);
     course.go(2.0001);
-    let told = course.told();
+    let told = course.legend();
     assert!(told.contains("since t = 1, where w was changed"), "{told}");
     assert!(told.contains("M = (−0.4161 0.4546 | −1.819 −0.4161)"), "{told}");
     // also in a session that is resumed
@@ -122,11 +60,11 @@ fn after_a_change_the_map_is_that_of_the_motion_since_then() {
     let mut later = Course::showing("flow", OSCILLATOR);
     later.experiment.execute(Command::Restore(Box::new(left)));
     later.go(2.0002);
-    assert_eq!(later.told(), told);
+    assert_eq!(later.legend(), told);
     // begun again it is one motion
     later.experiment.execute(Command::Reset);
     later.go(0.5);
-    assert!(!later.told().contains("since"), "{}", later.told());
+    assert!(!later.legend().contains("since"), "{}", later.legend());
 }
 
 /// S = ½ (q p at the end − q p at the beginning) where L is quadratic; there is one path, the motion, in less than half a period.
@@ -142,8 +80,12 @@ fn after_a_change_the_action_is_that_of_the_motion_since_then() {
         course.set(0, 2.0);
         course.go(2.01);
         near(course.measure(word), action, 1e-11);
-        assert!(course.told().contains("since t = 1, where w was changed"), "{}", course.told());
-        assert!(kind != "paths" || course.told().contains("the motion"), "{}", course.told());
+        assert!(
+            course.legend().contains("since t = 1, where w was changed"),
+            "{}",
+            course.legend()
+        );
+        assert!(kind != "paths" || course.legend().contains("the motion"), "{}", course.legend());
     }
     let mut course = Course::showing("action", OSCILLATOR);
     course.go(1.0);
@@ -151,7 +93,7 @@ fn after_a_change_the_action_is_that_of_the_motion_since_then() {
     course.go(2.01);
     near(course.measure("by_place"), p, 1e-11);
     near(course.measure("by_time"), -0.5 * p * p - 2.0 * q * q, 1e-11);
-    assert!(course.told().contains("= p, ∂S/∂t") && course.told().contains("= −H"));
+    assert!(course.legend().contains("= p, ∂S/∂t") && course.legend().contains("= −H"));
 }
 
 /// H = ½ p² − a t q from (0, 0) at t = 0, a = 1, and a = 2 from t = 1 on: q = 2, p = 7/2 at t = 2.
@@ -173,12 +115,12 @@ fn a_change_at_the_start_is_none() {
     let mut course = Course::showing("flow", OSCILLATOR);
     course.set(0, 2.0);
     course.go(1.0);
-    assert!(!course.told().contains("since"), "{}", course.told());
+    assert!(!course.legend().contains("since"), "{}", course.legend());
     let text = OSCILLATOR.replace("initial = 1.0", "initial = \"w\"");
     let mut course = Course::showing("flow", &text);
     course.set(0, 2.0);
     course.go(1.0);
-    assert!(course.told().contains("since t = 0, where w was changed"), "{}", course.told());
+    assert!(course.legend().contains("since t = 0, where w was changed"), "{}", course.legend());
 }
 
 /// ẍ = 2 x³ from x = ẋ = 1 is x = 1/(1 − t), and ends at t = 1: not before.
@@ -187,10 +129,10 @@ fn why_a_map_ends_is_said_once_the_motion_is_there() {
     let text = "title = \"t\"\n[coordinates]\nq = { initial = 1, momentum = 1 }\n[hamiltonian]\nH = \"p_q^2/2 - q^4/2\"\n";
     let mut course = Course::showing("flow", text);
     course.go(0.5);
-    let words = course.told();
+    let words = course.legend();
     assert_eq!(words.lines().count(), 3, "{words}");
     course.go(2.0);
-    let words = course.told();
+    let words = course.legend();
     assert!(words.lines().count() > 3, "{words} at {}", course.experiment.time());
 }
 
@@ -215,7 +157,7 @@ fn rounding_is_a_floor() {
     let mut course = Course::showing("flow", OSCILLATOR);
     course.experiment.execute(Command::Method("leapfrog".to_owned()));
     course.go(3.0);
-    let told = course.told();
+    let told = course.legend();
     assert_eq!(told.matches("at rounding (").count(), 2, "{told}");
     assert!(told.contains("of |M|²) by leapfrog"), "{told}");
     let curves: Vec<Vec<[f64; 2]>> = (course.layers().into_iter())
@@ -233,7 +175,7 @@ fn rounding_is_a_floor() {
     }
     course.experiment.execute(Command::Method("rk4".to_owned()));
     course.go(4.0);
-    let told = course.told();
+    let told = course.legend();
     assert!(told.contains("by rk4, at rounding ("), "{told}");
 }
 
@@ -243,10 +185,10 @@ fn a_paused_motion_is_varied_up_to_now() {
     for kind in ["action", "paths"] {
         let mut course = Course::showing(kind, OSCILLATOR);
         course.go(2.1234);
-        assert!(format!("{}\n", course.told()).contains("up to t = 2\n"), "{}", course.told());
+        assert!(format!("{}\n", course.legend()).contains("up to t = 2\n"), "{}", course.legend());
         course.experiment.execute(Command::Pause);
         course.go(2.1234);
-        assert!(course.told().contains("up to t = 2.1234"), "{}", course.told());
+        assert!(course.legend().contains("up to t = 2.1234"), "{}", course.legend());
     }
 }
 
@@ -271,7 +213,7 @@ fn a_law_with_a_ramp_has_its_flow_and_its_action() {
         + "[[ramps]]\nparameter = \"w\"\nto = 2\nstart = 0.3\nduration = 1.1\nform = \"linear\"\n";
     let mut course = Course::showing("action", &text);
     course.go(2.01);
-    let told = course.told();
+    let told = course.legend();
     assert!(told.contains("= p, ∂S/∂t") && told.contains("= −H"), "{told}");
     let mut course = Course::showing("flow", &text);
     course.go(2.01);
@@ -279,5 +221,5 @@ fn a_law_with_a_ramp_has_its_flow_and_its_action() {
     // a kink at a place of the state has no derivative there
     let mut course = Course::showing("flow", &OSCILLATOR.replace("w^2*q^2/2", "w*abs(q)"));
     course.go(0.5);
-    assert!(course.told().contains("kinks or jumps"), "{}", course.told());
+    assert!(course.legend().contains("kinks or jumps"), "{}", course.legend());
 }

@@ -317,7 +317,7 @@ impl TextReport<'_> {
         if !report.model.is_poisson() {
             self.heading(&format!("Cyclic coordinates: {cyclic}"));
         }
-        // what is only declared is told of where it is judged
+        // what is only declared is listed where it is judged
         let known = report.conserved.iter().filter(|kept| !kept.reason.is_declared());
         let known: Vec<_> = known.collect();
         if known.is_empty() {

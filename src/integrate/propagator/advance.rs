@@ -63,7 +63,7 @@ impl Propagator {
             if self.clear >= time {
                 let before = self.state.time;
                 self.move_to(time)?;
-                if !self.has_logarithms(false) {
+                if !self.energy_has_a_value(false) {
                     return Err(self.left_domain(before));
                 }
                 self.note_passages(time);
@@ -139,7 +139,7 @@ impl Propagator {
             return Err(no_digits_left(before.high));
         }
         // only a motion that goes on from the end of a step has been there: an event may lie before
-        if !self.has_logarithms(true) {
+        if !self.energy_has_a_value(true) {
             return Err(self.left_domain(self.state.time));
         }
         self.note_regular();
@@ -218,8 +218,8 @@ impl Propagator {
         Err(self.system.fault(MotionErrorKind::BranchLeft, begin, &state.values))
     }
 
-    /// Whether the logarithms of the energy have values at the end of the last step, or in the current state.
-    fn has_logarithms(&mut self, at_end: bool) -> bool {
+    /// Whether the logarithms of the energy have values in the current state, or at the end of the last step.
+    fn energy_has_a_value(&mut self, at_end: bool) -> bool {
         let Some(logarithms) = &mut self.logarithms else { return true };
         logarithms.have_values(if at_end { self.stepper.state() } else { &self.state })
     }

@@ -1,12 +1,24 @@
 //! Equilibria in the lab: found by a job, listed, marked on portraits, and begun at.
 
 use phaselab::app::{Asker, Choice, Computation, Effect, Event, Overlay};
+use phaselab::dynamics::{Equilibrium, PhaseSpace, equilibria, name_equilibria};
 use phaselab::job::{Progress, Share};
 use phaselab::model::Model;
 
 use super::real::Real;
-use crate::hand::key;
+use crate::hand::{key, lowered};
 use crate::record::played;
+
+/// The equilibria of a file, with the names that it gives.
+fn named(text: &str) -> Vec<Equilibrium> {
+    let case = lowered(text);
+    let parameters = case.model.parameter_values();
+    let space = PhaseSpace::of(&case.model, &case.equations, &case.system, &parameters).unwrap();
+    let start = case.system.initial(0.0, &parameters, &[]).unwrap();
+    let mut found = equilibria(&space, &space.state(&start).unwrap()).unwrap().found;
+    name_equilibria(&case.model, &parameters, &mut found);
+    found
+}
 
 /// Presses F, and computes what it asks for.
 fn found(real: &mut Real) -> Vec<(String, Choice)> {
@@ -187,22 +199,6 @@ fn a_mode_under_constraints_begins_on_their_surface() {
 /// Places of a coordinate with a period are near across its ends, and what is as far from one name as from another has none.
 #[test]
 fn names_are_near_within_a_period_and_nearer_than_halfway() {
-    let named = |text: &str| {
-        let case = crate::hand::lowered(text);
-        let parameters = case.model.parameter_values();
-        let space = phaselab::dynamics::PhaseSpace::of(
-            &case.model,
-            &case.equations,
-            &case.system,
-            &parameters,
-        );
-        let space = space.unwrap();
-        let start = case.system.initial(0.0, &parameters, &[]).unwrap();
-        let state = space.state(&start).unwrap();
-        let mut found = phaselab::dynamics::equilibria(&space, &state).unwrap().found;
-        phaselab::dynamics::name_equilibria(&case.model, &parameters, &mut found);
-        found
-    };
     let found = named(
         "title = \"t\"\n[coordinates]\na = { initial = 1.0, velocity = 0.0, period = \"2*pi\" }\n[lagrangian]\n\
          L = \"1/2*a'^2 + cos(a)\"\n[[equilibria]]\nname = \"up\"\nnear = { a = \"-pi\" }\n[[equilibria]]\n\
@@ -242,19 +238,7 @@ fn a_name_alone_is_not_given_to_what_is_far_away() {
             "title = \"t\"\n[coordinates]\nx = {{ initial = 0.3, velocity = 0.0{coordinate} }}\n[lagrangian]\n\
              L = \"1/2*x'^2 - ({potential})\"\n[[equilibria]]\nname = \"here\"\nnear = {{ x = \"{near}\" }}\n"
         );
-        let case = crate::hand::lowered(&text);
-        let parameters = case.model.parameter_values();
-        let space = phaselab::dynamics::PhaseSpace::of(
-            &case.model,
-            &case.equations,
-            &case.system,
-            &parameters,
-        );
-        let space = space.unwrap();
-        let start = case.system.initial(0.0, &parameters, &[]).unwrap();
-        let state = space.state(&start).unwrap();
-        let mut found = phaselab::dynamics::equilibria(&space, &state).unwrap().found;
-        phaselab::dynamics::name_equilibria(&case.model, &parameters, &mut found);
+        let found = named(&text);
         let mut named: Vec<(f64, bool)> =
             found.iter().map(|one| (one.variables[0], !one.name.is_empty())).collect();
         named.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -281,19 +265,8 @@ fn lagranges_points_have_their_names() {
     for mu in ["0.012277471", "0.2"] {
         let text = include_str!("../../../presets/gravity/restricted-three-body.toml");
         let text = text.replace("mu = { value = 0.012277471", &format!("mu = {{ value = {mu}"));
-        let case = crate::hand::lowered(&text);
-        let parameters = case.model.parameter_values();
-        let space = phaselab::dynamics::PhaseSpace::of(
-            &case.model,
-            &case.equations,
-            &case.system,
-            &parameters,
-        );
-        let space = space.unwrap();
-        let start = case.system.initial(0.0, &parameters, &[]).unwrap();
-        let state = space.state(&start).unwrap();
-        let mut found = phaselab::dynamics::equilibria(&space, &state).unwrap().found;
-        phaselab::dynamics::name_equilibria(&case.model, &parameters, &mut found);
+        let case = lowered(&text);
+        let found = named(&text);
         let mu: f64 = mu.parse().unwrap();
         let mut named = 0;
         for one in &found {
@@ -314,7 +287,7 @@ fn lagranges_points_have_their_names() {
         for one in &mut some {
             one.name.clear();
         }
-        phaselab::dynamics::name_equilibria(&case.model, &parameters, &mut some);
+        name_equilibria(&case.model, &case.model.parameter_values(), &mut some);
         assert!(some.iter().all(|one| one.name != "L₁" && !one.name.is_empty()));
     }
 }
