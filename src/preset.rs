@@ -8,6 +8,7 @@
 mod catalog;
 mod check;
 mod draft;
+mod law_digest;
 mod new_surface;
 mod read;
 mod rewrite;
@@ -20,6 +21,7 @@ pub use catalog::{
     Catalog, CatalogEntry, NotFound, PresetOrigin, demo, demos, find, find_beside, is_path, lesson,
     lessons,
 };
+pub use law_digest::law_digest;
 pub use new_surface::{NewSurface, NewZero, SurfaceView};
 pub use read::{Checked, UNTITLED, read, read_with};
 pub use rewrite::{Beginning, NewObservable, NewRamp, Rewrite};

@@ -233,7 +233,7 @@ impl Lab {
                 ChangeSide::Before => {
                     // what waits for a text waits no longer
                     self.held = None;
-                    self.awaited = Some((*before).clone());
+                    (self.awaited, self.awaited_law) = (Some((*before).clone()), None);
                     vec![Effect::Tell(Command::Restore(before))]
                 }
             },

@@ -64,6 +64,8 @@ pub struct Lab {
     pub marks: Vec<f64>,
     /// The checkpoint that the experiment is to restore, until it has.
     pub(super) awaited: Option<Checkpoint>,
+    /// A digest of the law of motion under which that checkpoint was made; `None` for that of the text.
+    pub(super) awaited_law: Option<String>,
     /// Where the motion is to continue once the text is rebuilt; until then nothing later is seen.
     pub(super) held: Option<Checkpoint>,
 }
@@ -136,6 +138,7 @@ impl Lab {
             prediction: None,
             marks: Vec::new(),
             awaited: None,
+            awaited_law: None,
             held: None,
         }
     }
@@ -153,7 +156,7 @@ impl Lab {
             return false;
         }
         if snapshot.restored {
-            self.awaited = None;
+            (self.awaited, self.awaited_law) = (None, None);
         }
         self.speed_wish = self.speed_wish.filter(|requested| *requested != snapshot.speed);
         self.asked.see(&snapshot);

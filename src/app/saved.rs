@@ -28,6 +28,9 @@ pub struct Saved {
     /// Whether the system came from an unsaved text instead of the file.
     #[serde(default)]
     pub edited: bool,
+    /// A digest of what its text said of the law of motion.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub law: Option<String>,
     /// The unit of its time; empty where it has none.
     #[serde(default)]
     pub time_unit: String,

@@ -9,6 +9,7 @@
 use super::{App, BufferState, Effect, Lab, Loaded, Overlay, Page, Saved, SourceBuffer};
 use crate::experiment::{Checkpoint, Command};
 use crate::instrument::{Plot, SavedPlot};
+use crate::preset::law_digest;
 
 /// The name of a system that has no file yet.
 pub(super) const NEW_SYSTEM: &str = "system";
@@ -16,7 +17,8 @@ pub(super) const NEW_SYSTEM: &str = "system";
 impl Saved {
     /// Returns the session of a lab on a page, or `None` before the first snapshot.
     fn of(lab: &Lab, page: Page) -> Option<Self> {
-        let Loaded { name, model, system, .. } = &lab.loaded;
+        let Loaded { name, document, model, system, .. } = &lab.loaded;
+        let awaited_law = lab.awaited_law.clone().filter(|_| lab.awaited.is_some());
         let checkpoint = match lab.held.as_ref().or(lab.awaited.as_ref()) {
             Some(checkpoint) => checkpoint.clone(),
             None => Checkpoint::of(model, system, lab.seen()?),
@@ -30,6 +32,7 @@ impl Saved {
             zoomed: lab.zoomed,
             selection: lab.selection,
             edited: false,
+            law: awaited_law.or_else(|| law_digest(&document.text)),
             plots: lab.plots.iter().map(|plot| SavedPlot::of(plot, lab.loaded.physics())).collect(),
             time_unit: model.time_unit().to_owned(),
             marks: lab.marks.clone(),
@@ -54,6 +57,14 @@ impl Lab {
         self.marks = saved.marks.iter().copied().filter(|mark| mark.is_finite()).collect();
         self.selection = saved.selection;
         self.select(|place| place);
+    }
+
+    /// Returns the awaited checkpoint; if it was made under another law of motion, it says so.
+    fn awaited_under_its_law(&self) -> Option<Checkpoint> {
+        let awaited = self.awaited.clone()?;
+        let known = self.awaited_law.is_none() || awaited.changed.is_some();
+        let same = known || self.awaited_law == law_digest(&self.loaded.document.text);
+        Some(if same { awaited } else { awaited.with_another_law("the text") })
     }
 }
 
@@ -102,7 +113,7 @@ impl App {
             return vec![Effect::Tell(Command::Play)];
         };
         lab.restore_view(&saved);
-        lab.awaited = Some(saved.moment);
+        (lab.awaited, lab.awaited_law) = (Some(saved.moment), saved.law);
         self.page = saved.page;
         self.remind();
         // The motion belongs to the unsaved text, and waits until that is checked.
@@ -117,7 +128,7 @@ impl App {
         {
             lab.awaited = Some(held);
         }
-        let awaited = self.lab.as_ref().and_then(|lab| lab.awaited.clone());
+        let awaited = self.lab.as_ref().and_then(Lab::awaited_under_its_law);
         let command = |checkpoint| Effect::Tell(Command::Restore(Box::new(checkpoint)));
         awaited.map(command).into_iter().collect()
     }
@@ -133,8 +144,7 @@ impl App {
         if let (Some(saved), None, Some(seen)) = (&mut saved, waits, old.seen()) {
             // The recorded trail continues too.
             let checkpoint = std::mem::take(&mut saved.moment);
-            let checkpoint = checkpoint.with_past(&old.loaded.system, seen);
-            saved.moment = checkpoint.with_another_law("the text");
+            saved.moment = checkpoint.with_past(&old.loaded.system, seen);
         }
         let mut lab = Lab::new(loaded);
         // A history refers to values, channels, views and frames by index.
@@ -168,7 +178,7 @@ impl App {
             let name = &known.get(column)?.name;
             now.iter().position(|channel| channel.name == *name)
         });
-        lab.awaited = Some(saved.moment);
+        (lab.awaited, lab.awaited_law) = (Some(saved.moment), saved.law);
         self.lab = Some(lab);
         self.take_new_section();
         let mut effects = self.restore();

@@ -54,14 +54,15 @@ pub struct Checkpoint {
     /// The recorded past. It is never saved, because it is far longer than the rest and can be recomputed.
     #[serde(skip)]
     pub past: Option<Past>,
+    /// What of the law is another one from here on, if anything is.
+    #[serde(skip)]
+    pub changed: Option<String>,
 }
 
 /// Recorded rows of a motion and the names of their channels.
 #[derive(Clone, PartialEq)]
 pub struct Past {
     names: Vec<String>,
-    /// What of the law is another one from the checkpoint on, if anything is.
-    changed: Option<String>,
     trail: Trail,
 }
 
@@ -135,6 +136,7 @@ impl Checkpoint {
                 .filter_map(|one| SavedCompanion::of(model, one))
                 .collect(),
             past: None,
+            changed: None,
         }
     }
 
@@ -143,16 +145,13 @@ impl Checkpoint {
     pub fn with_past(self, system: &System, snapshot: &Snapshot) -> Checkpoint {
         let names = system.channels().iter().map(|channel| channel.name.clone()).collect();
         let trail = snapshot.trail.clone();
-        Checkpoint { past: Some(Past { names, changed: None, trail }), ..self }
+        Checkpoint { past: Some(Past { names, trail }), ..self }
     }
 
-    /// Lets the law be another one from here on than in the recorded past, because this was changed.
+    /// Lets the law be another one from here on, because this was changed.
     #[must_use]
-    pub fn with_another_law(mut self, what: &str) -> Checkpoint {
-        if let Some(past) = &mut self.past {
-            past.changed = Some(what.to_owned());
-        }
-        self
+    pub fn with_another_law(self, what: &str) -> Checkpoint {
+        Checkpoint { changed: Some(what.to_owned()), ..self }
     }
 }
 
@@ -277,7 +276,7 @@ impl Experiment {
             );
             match self.restore_state(present) {
                 Ok(()) => {
-                    self.restore_change(checkpoint.past.as_ref(), present);
+                    self.restore_change(checkpoint.changed.clone(), present);
                     if checkpoint.backwards {
                         self.go_on_backwards();
                     } else {
@@ -307,8 +306,8 @@ impl Experiment {
     }
 
     /// Restores where the law was changed last: here, if it is another one than before.
-    fn restore_change(&mut self, past: Option<&Past>, present: &MotionState) {
-        match past.and_then(|past| past.changed.clone()) {
+    fn restore_change(&mut self, here: Option<String>, present: &MotionState) {
+        match here {
             Some(what) => self.changed_here(what),
             None => {
                 let saved = present.changed.as_ref();

@@ -251,6 +251,7 @@ mod tests {
             zoomed: true,
             selection: Selection::default(),
             edited: true,
+            law: Some("0123456789abcdef".to_owned()),
             time_unit: "s".to_owned(),
             marks: vec![0.5],
             plots: Vec::new(),

@@ -118,6 +118,46 @@ fn a_system_that_lost_what_was_shown_opens_its_own_views() {
     }
 }
 
+/// What of the law is said to be another one, where the motion is restored.
+fn changed(effects: &[Effect]) -> Option<String> {
+    let restored = effects.iter().find_map(|effect| match effect {
+        Effect::Tell(Command::Restore(checkpoint)) => Some(checkpoint.changed.clone()),
+        _ => None,
+    });
+    restored.expect("the motion is restored")
+}
+
+/// A text that says the same of the motion: other words, initial values, observables, another layout.
+fn with_the_same_law() -> String {
+    let text = FILE.replace("Two masses", "A pair").replace("x = { initial = 1.0 }", "x = 2.5");
+    let (coordinates, rest) = text.split_once("[parameters]").unwrap();
+    let (parameters, law) = rest.split_once("[lagrangian]").unwrap();
+    format!(
+        "{coordinates}[lagrangian]  # the law\n{law}[parameters]{parameters}\n\
+         [[observables]]\nname = \"r\"\nexpression = \"sqrt(x^2 + y^2)\"\n"
+    )
+}
+
+/// A flow map, an action since the last change begin where the law became another one, and nowhere else.
+#[test]
+fn only_a_change_of_the_law_is_one() {
+    let same = with_the_same_law();
+    let other_law = FILE.replace("1/2*k", "1/3*k");
+    let other_value = FILE.replace("k = 4.0", "k = 5.0");
+    let cases = [(&same, None), (&other_law, Some("the text")), (&other_value, Some("the text"))];
+    for (text, what) in cases {
+        let mut app = opened(FILE);
+        let effects = app.update(Event::Rebuilt(lowered(text)));
+        assert_eq!(changed(&effects).as_deref(), what, "rebuilt from {text}");
+        // the same file changed by another program between two sessions
+        let saved = kept(&opened(FILE));
+        let (mut app, _) = App::new(catalog(), Some(&saved.open));
+        app.resume(saved);
+        let effects = app.update(Event::Loaded(Ok(lowered(text))));
+        assert_eq!(changed(&effects).as_deref(), what, "resumed with {text}");
+    }
+}
+
 fn offered(saved: Saved) -> App {
     let (mut app, _) = App::new(catalog(), None);
     app.offer_session(saved);
