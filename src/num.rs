@@ -25,6 +25,7 @@ mod polytope;
 mod prime_field;
 mod quadrature;
 mod real;
+mod square_root;
 
 pub use batch::{BATCH, Batch};
 pub use batch_double::BatchDouble;
@@ -42,3 +43,4 @@ pub use polytope::OrientationPolytope;
 pub use prime_field::{PRIMES, PrimeField, Residue, Unreduced, rational};
 pub use quadrature::gauss;
 pub use real::{Analytic, Real};
+pub use square_root::square_root;

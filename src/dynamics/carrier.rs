@@ -113,8 +113,8 @@ impl Carrier {
         let Some(jumping) = &mut self.jumping else {
             return Ok(self.stepper.start(&full, self.space.parameters())?);
         };
-        if jumping.begun && full.time == jumping.motion.computed().time {
-            // the events of before stay known
+        if jumping.begun && full.time == jumping.span.1 {
+            // the events of before stay known, and the impulses keep their times
             return Ok(jumping.motion.go_on(&full, self.space.parameters())?);
         }
         if let Some(step) = self.settings.step {
@@ -152,8 +152,8 @@ impl Carrier {
                     jumping.jump(&self.space, &self.system, &found.name)?;
                 }
                 OccurrenceKind::Stop | OccurrenceKind::Release(_) => {
-                    let state = jumping.motion.computed();
                     let kind = MotionErrorKind::Ended(found.name);
+                    let state = jumping.motion.state();
                     return Err(self.system.fault(kind, found.time, &state.values));
                 }
             },
@@ -199,6 +199,12 @@ impl Carrier {
             return self.jumping.as_ref().is_some_and(|jumping| jumping.pending);
         }
         (time < until) == forwards
+    }
+
+    /// Whether an event or an impulse is to happen where the last step ended, so that the motion cannot be started again from
+    /// there.
+    pub fn awaits_occurrence(&self) -> bool {
+        self.jumping.as_ref().is_some_and(|jumping| jumping.motion.awaits_occurrence())
     }
 
     /// The times at which the last step began and ended.

@@ -82,7 +82,7 @@ pub fn gali(
     let mut diagonal = vec![0.0; count];
     let mut found = Gali { times: Vec::new(), logarithms: Vec::new(), failure: None };
     let (round, mut last) = ((until - start.time) / LEAST_ROUNDS, start.time);
-    while carrier.time() < until {
+    while carrier.is_before(until, true) {
         if let Err(fault) = carrier.step(until) {
             found.failure = Some(DynamicsError::Motion(fault));
             break;
@@ -92,7 +92,8 @@ pub fn gali(
         look(end);
         vectors = scaled(&now, &in_units);
         let grown = vectors.column_iter().any(|v| !(1.0 / GROWN..GROWN).contains(&v.norm()));
-        if !(grown || end - last >= round || end >= until) {
+        let due = grown || end - last >= round || end >= until;
+        if !due || carrier.awaits_occurrence() {
             continue;
         }
         if space.is_constrained() {

@@ -129,7 +129,7 @@ pub fn lyapunov(
     let mut megno = Megno::new(start.time);
     let mut failure = None;
     let round = (until - start.time) / LEAST_ROUNDS;
-    while carrier.time() < until {
+    while carrier.is_before(until, true) {
         if let Err(fault) = carrier.step(until) {
             failure = Some(DynamicsError::Motion(fault));
             break;
@@ -145,7 +145,8 @@ pub fn lyapunov(
         look(end);
         let due = end - growth.times[growth.times.len() - 1] >= round || end >= until;
         let sizes = vectors.column_iter().map(|v| v.norm());
-        if due || sizes.into_iter().any(|size| !(1.0 / GROWN..GROWN).contains(&size)) {
+        let due = due || sizes.into_iter().any(|size| !(1.0 / GROWN..GROWN).contains(&size));
+        if due && !carrier.awaits_occurrence() {
             let rates = direction.at(&state)?.component_div(&units);
             let free = vectors.column(count).into_owned();
             megno.rescale(free.norm());
@@ -240,7 +241,16 @@ fn result(
     let largest = |time| if count > 0 { growth.plain(0, begin, time) } else { 0.0 };
     let curve: Vec<(f64, f64)> = curve.map(|time| (time, largest(time))).collect();
     let mean = megno.mean();
-    let (verdict, reason) = judged(carrier, growth, (&exponents, &uncertainty), mean);
+    let judged = judged(carrier, growth, (&exponents, &uncertainty), mean);
+    // what ends is not followed for as long as one wishes
+    let (verdict, reason) = match (&failure, judged) {
+        (Some(why), (Chaos::Regular, _)) if !why.is_cancelled() => {
+            let reason =
+                format!("the motion ends after {}, which is too short to tell", short(end - begin));
+            (Chaos::Undecided, reason)
+        }
+        (_, judged) => judged,
+    };
     Lyapunov {
         time: end,
         sum: exponents.iter().sum(),

@@ -27,6 +27,9 @@ use crate::system::State;
 /// The returns at which a search begins, one after the other.
 const RETURNS: usize = 5;
 
+/// How often an orbit that was found may have been followed, or a factor of that: the shortest parts cost least.
+const TURNS: [f64; 11] = [31.0, 29.0, 23.0, 19.0, 17.0, 13.0, 11.0, 7.0, 5.0, 3.0, 2.0];
+
 /// What moves less than this part of its size in a period rests.
 const STILL: f64 = 1e-6;
 
@@ -285,7 +288,7 @@ fn closed_near(
     };
     // the same orbit may have been followed several times
     if !matches!(fixed, Fixed::Period(_)) {
-        for parts in [5.0, 3.0, 2.0] {
+        for parts in TURNS {
             while let Some(shorter) = part(&newton, &closed, parts)? {
                 closed = shorter;
             }

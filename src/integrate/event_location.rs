@@ -235,8 +235,8 @@ impl EventLocator {
         let event_functions = self.probe.event_functions();
         let valid = event_functions.expand(series, x, (CUT_OFF, whole))?;
         let mut length = valid;
-        for switch in event_functions.expanded_switches() {
-            if let Some(change) = sign_changes(switch, length).next() {
+        for sign in event_functions.expanded_branch_signs() {
+            if let Some(change) = sign_changes(&sign, length).next() {
                 length = (change.x - 0.5 * DIGITS * spacing(to) / unit).max(0.0);
             }
         }

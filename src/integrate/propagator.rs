@@ -334,6 +334,11 @@ impl Propagator {
         (begin, end.min(self.clear))
     }
 
+    /// Whether an event or an impulse is to happen at the end of the part of the last step that is free of occurrences.
+    pub fn awaits_occurrence(&self) -> bool {
+        self.waiting.is_some() || self.impulse_schedule.due(self.clear).is_some()
+    }
+
     /// Writes the state at a time within the last step into `out`, as the method gives it, that is
     /// not projected onto the constraints.
     ///

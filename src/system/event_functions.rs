@@ -3,6 +3,7 @@
 //! In: states of one system, or the series of a step. Out: values of `when`, and coefficients. Never here: how zeros are
 //! found, and what follows from them.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::discontinuities::CompiledEvent;
@@ -78,9 +79,9 @@ impl EventFunctions {
         self.expansion.as_ref().map_or_else(Vec::new, |known| known.function(event).to_vec())
     }
 
-    /// The coefficients of the switches of the expanded functions.
-    pub fn expanded_switches(&self) -> impl Iterator<Item = &[f64]> {
-        self.expansion.iter().flat_map(Expansion::switches)
+    /// Series beyond whose first zero the expanded functions are others.
+    pub fn expanded_branch_signs(&self) -> impl Iterator<Item = Cow<'_, [f64]>> {
+        self.expansion.iter().flat_map(Expansion::branch_signs)
     }
 
     /// The time after a state over which the functions are simple enough that samples at the ends,

@@ -6,14 +6,15 @@
 //! The estimate is that of a step by Taylor series: À. Jorba, M. Zou, Experimental Mathematics 14
 //! (2005) 99, section 3.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::System;
 use super::jet::{Jet, Side};
-use super::program::Program;
+use super::program::{Guard, Program};
 use super::sign_bound::{LAST, bound, keeps_sign, shows_no_end, stays};
 use super::step_series::StepSeries;
-use crate::num::{DoubleDouble, math};
+use crate::num::{DoubleDouble, math, square_root};
 
 /// The most times ahead from which functions are looked at whose last terms show nothing.
 const MOST_LOOKS: u32 = 100;
@@ -23,6 +24,8 @@ const MOST_LOOKS: u32 = 100;
 pub(super) struct Expansion {
     system: System,
     jet: Jet<f64>,
+    /// The roots in the functions, whose series go on to another branch where they pass zero.
+    guards: Vec<Guard>,
     /// The number of outputs that are functions of events; the others are arguments.
     functions: usize,
     outputs: usize,
@@ -55,6 +58,7 @@ impl Expansion {
                 program.switches() == 0 && numbers.iter().all(|&i| i < system.motion_len())
             }),
             degree: program.degree(),
+            guards: program.guards.clone(),
             taken_degree: 1,
             jet: Jet::new(program, order),
             functions,
@@ -154,6 +158,7 @@ impl Expansion {
         let keeps = |c: &[f64], sign: f64| c[0] * sign > 0.0 && keeps_sign(c, cut_off, time);
         let arguments = self.functions..self.outputs;
         self.jet.switches() == 0
+            && self.guards.is_empty()
             && self.about(series, 0.0)
             && !self.may_go_on(time)
             && signs.iter().enumerate().all(|(i, &sign)| keeps(self.function(i), sign))
@@ -168,9 +173,20 @@ impl Expansion {
         self.jet.output_series(event)
     }
 
-    /// The series of the switches: beyond a zero of one, other branches of the functions apply.
-    pub(super) fn switches(&self) -> impl Iterator<Item = &[f64]> {
-        (0..self.jet.switches()).map(|i| self.jet.switch(i))
+    /// Series beyond whose first zero other branches of the functions apply: those of the switches, and of the roots, of which
+    /// √(y²) goes on as y where y changes its sign.
+    pub(super) fn branch_signs(&self) -> impl Iterator<Item = Cow<'_, [f64]>> {
+        let switches = (0..self.jet.switches()).map(|i| Cow::Borrowed(self.jet.switch(i)));
+        switches.chain(self.guards.iter().filter_map(|guard| self.root(guard)))
+    }
+
+    /// The series of a root that is positive on its branch, or of the root of the argument of a power that is none itself.
+    fn root(&self, guard: &Guard) -> Option<Cow<'_, [f64]>> {
+        match (guard.passes, guard.under) {
+            (true, _) => Some(Cow::Borrowed(self.jet.series(guard.value))),
+            (false, Some(under)) => Some(Cow::Owned(square_root(self.jet.series(under)))),
+            (false, None) => None,
+        }
     }
 
     /// Whether the functions are numbers of the motion, whose polynomials in a step are all that there is of them.
@@ -187,7 +203,11 @@ impl Expansion {
     /// comes eight orders after the last.
     fn may_go_on(&self, time: f64) -> bool {
         let functions = (0..self.functions).map(|i| self.function(i));
-        !self.is_whole() && functions.chain(self.switches()).any(|c| shows_no_end(c, time))
+        !self.is_whole()
+            && functions
+                .map(Cow::Borrowed)
+                .chain(self.branch_signs())
+                .any(|c| shows_no_end(&c, time))
     }
 
     /// Expands the functions about a time `x` after the origin of the motion's series, in its unit, and returns how far
@@ -233,16 +253,16 @@ impl Expansion {
         let series = |i: usize| self.jet.output_series(i);
         if functions.clone().all(|i| is_valid(self.function(i), cut_off, whole))
             && arguments.clone().all(|i| stays(series(i), whole))
-            && self.switches().all(|c| is_valid(c, cut_off, whole))
+            && self.branch_signs().all(|c| is_valid(&c, cut_off, whole))
         {
             return whole;
         }
         let functions = functions.map(|i| validity(self.function(i), cut_off));
         let arguments = arguments.map(|i| moving(series(i)));
-        let switches = self.switches().map(|c| validity(c, cut_off));
+        let branches = self.branch_signs().map(|c| validity(&c, cut_off));
         // a NaN must not be lost
         let least = |reach: f64, own: f64| if own < reach || own.is_nan() { own } else { reach };
-        functions.chain(arguments).chain(switches).fold(whole, least)
+        functions.chain(arguments).chain(branches).fold(whole, least)
     }
 }
 

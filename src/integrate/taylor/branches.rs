@@ -3,7 +3,7 @@
 //! the intended branch.
 
 use super::super::roots::{first_crossing, value_and_slope};
-use crate::num::DoubleDouble;
+use crate::num::{DoubleDouble, square_root};
 use crate::system::{ExactRates, Series};
 
 /// A root this small relative to the terms of its series is zero; the rest is rounding.
@@ -42,15 +42,8 @@ pub(super) fn predicted(series: &Series, end: f64) -> Option<f64> {
     let mut first: Option<f64> = None;
     let powers = (0..series.guards()).filter(|&i| !series.guard_passes(i));
     for under in powers.filter_map(|i| series.guard_under(i)) {
-        let mut root = [0.0; 64];
-        let root = &mut root[..under.len()];
-        root[0] = under[0].sqrt();
-        for k in 1..under.len() {
-            let inner: f64 = (1..k).map(|j| root[j] * root[k - j]).sum();
-            root[k] = (under[k] - inner) / (2.0 * root[0]);
-        }
         let end = first.unwrap_or(end);
-        if let Some(x) = passes(root, end) {
+        if let Some(x) = passes(&square_root(under), end) {
             first = Some(x);
         }
     }

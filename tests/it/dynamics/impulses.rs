@@ -3,7 +3,8 @@
 use nalgebra::DMatrix;
 use phaselab::app::Loaded;
 use phaselab::dynamics::{
-    DynamicsError, Fixed, FlowMap, PhaseSpace, driven_orbit, flow_map, lyapunov, periodic_orbit,
+    Chaos, DynamicsError, Fixed, FlowMap, PhaseSpace, driven_orbit, flow_map, gali, lyapunov,
+    periodic_orbit,
 };
 use phaselab::integrate::{Propagator, Reached};
 use phaselab::system::MotionErrorKind;
@@ -227,6 +228,34 @@ fn linear_kicks_have_the_exponents_of_their_matrix() {
     for (found, wanted) in found.exponents.iter().zip([exact, -exact]) {
         assert!((found - wanted).abs() < 0.01, "{found} is not {wanted}");
     }
+}
+
+/// An event is not lost where tangent vectors are made orthonormal: a stone thrown up lands, a ball bounces until it rests. What
+/// ends so is not called regular.
+#[test]
+fn exponents_are_those_of_the_motion_with_its_events() {
+    let landing = "title = \"t\"\n[coordinates]\ny = { initial = 0, velocity = 20 }\n[lagrangian]\n\
+        L = \"y'^2/2 - 10*y\"\n[[events]]\nname = \"landing\"\nwhen = \"y\"\ndirection = \"falling\"\n\
+        action = \"stop\"\n";
+    // t₁ as above, and the sum of the times 2 eⁿ u/g of all further flights
+    let (e, u) = (0.8, (0.5_f64 * 0.5 + 20.0).sqrt());
+    let rests = (0.5 + u) / 10.0 + 2.0 * u / 10.0 * e / (1.0 - e);
+    for (text, end, within) in [(landing, 4.0, 1e-12), (BALL, rests, 1e-3)] {
+        let case = file(text);
+        let found = lyapunov(&case.space, taylor(), &case.start, 50.0, &mut |_| {});
+        let failure = match found {
+            Ok(found) => {
+                assert_eq!(found.verdict, Chaos::Undecided, "{}", found.reason);
+                found.failure.unwrap_or_else(|| panic!("{text}\ngoes on to {}", found.time))
+            }
+            // the stone is followed in one step, which is too short for any exponent
+            Err(failure) => failure,
+        };
+        let DynamicsError::Motion(failure) = failure else { panic!("{failure}") };
+        assert!((failure.time - end).abs() < within, "{failure} is not {end}");
+    }
+    let found = gali(&file(landing).space, taylor(), (&file(landing).start, 50.0), 2, &mut |_| {});
+    assert!(found.unwrap().failure.is_some());
 }
 
 /// For strong kicks λ ≈ ln(K/2) (B. V. Chirikov, Physics Reports 52, 263 (1979)); what the map itself has by 10⁷ kicks is

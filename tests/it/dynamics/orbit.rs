@@ -308,6 +308,21 @@ fn an_orbit_through_a_singularity_of_its_law_has_no_multipliers() {
     }
 }
 
+/// From far inside, the first state that comes back near the start has gone round many times; the period is that of once.
+#[test]
+fn a_limit_cycle_that_was_followed_eleven_times_has_its_least_period() {
+    for start in [0.3, 0.5] {
+        let text = format!(
+            "title = 't'\n[coordinates]\nx = {{ initial = {start} }}\n[lagrangian]\n\
+             L = \"1/2*x'^2 - 1/2*x^2\"\nforces = {{ x = \"2*(1 - x^2)*x'\" }}\n"
+        );
+        let found = of(&file(&text, &[]), None, Fixed::Nothing);
+        // T and μ by DOP853 at 1e-13
+        close(found.period, 7.629_874_479_674, 1e-11);
+        close(found.multipliers[0][0], 1.273_849e-8, 1e-12);
+    }
+}
+
 /// The multiplier of van der Pol's limit cycle is exp ∮ μ(1 − x²) dt: at μ = 1 it has digits (the logarithm as well by DOP853), at μ = 5 it is e^−85.4, of which a matrix in `f64` knows none.
 #[test]
 fn a_multiplier_below_rounding_has_no_exponent() {
