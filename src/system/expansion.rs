@@ -83,16 +83,22 @@ impl Expansion {
         }
         self.take_in(series, x);
         let time = (series.time() + DoubleDouble::from(x) * series.scale()).high;
-        if !self.grow(time, series.scale()) {
-            return false;
+        // a switch may be within another one, as in max(|x| − 1, 0): each pass settles those that depend on none unsettled
+        for _ in 0..=self.jet.switches() {
+            if !self.grow(time, series.scale()) {
+                return false;
+            }
+            let mut turned = false;
+            for i in 0..self.jet.switches() {
+                let side = side(self.jet.switch(i));
+                turned |= side != self.jet.side(i);
+                self.jet.set_side(i, side);
+            }
+            if !turned {
+                return true;
+            }
         }
-        let mut turned = false;
-        for i in 0..self.jet.switches() {
-            let side = side(self.jet.switch(i));
-            turned |= side != self.jet.side(i);
-            self.jet.set_side(i, side);
-        }
-        !turned || self.grow(time, series.scale())
+        false
     }
 
     /// The same where the functions are numbers of the motion.

@@ -763,3 +763,27 @@ fn a_ball_does_not_leave_the_stadium() {
     }
     assert!((value(&ball, "y") - 0.04).abs() < 1e-13, "{}", value(&ball, "y"));
 }
+
+/// One kink within another one, max(|x| − 1, 0), over steps of free motion that are longer than the whole flight: no ball leaves
+/// the stadium, wherever the output stands.
+#[test]
+fn no_wall_is_missed_behind_a_kink_within_a_kink() {
+    let text = "title = 'a stadium'\n[coordinates]\nx = { initial = 0.3, velocity = -0.28 }\n\
+        y = { initial = 0.2, velocity = 0.96 }\n[lagrangian]\nL = \"1/2*(x'^2 + y'^2)\"\n[definitions]\n\
+        d = \"max(abs(x) - 1, 0)*sign(x)\"\nv = \"2*(d*x' + y*y')/(d^2 + y^2)\"\n[[events]]\nname = 'wall'\n\
+        when = \"d^2 + y^2 - 1\"\ndirection = 'rising'\naction = 'impulse:mirror'\n[[impulses]]\n\
+        name = 'mirror'\nchange = { p_x = \"-d*v\", p_y = \"-y*v\" }\n";
+    let end = 60.0;
+    let mut places = Vec::new();
+    for spacing in [0.5, end] {
+        let mut ball = build(text, |setup| (setup.end, setup.spacing) = (Some(end), spacing));
+        run(&mut ball, end);
+        let (x, y) = (value(&ball, "x"), value(&ball, "y"));
+        let from_segment = (x.abs() - 1.0).max(0.0).hypot(y);
+        assert!(from_segment <= 1.0, "outside at ({x}, {y}) with rows every {spacing}");
+        places.push(times(&ball, "wall").len());
+    }
+    // the mean free path of a plane billiard is π A/P, here π (4 + π)/(4 + 2π) = 2.18
+    assert_eq!(places[0], places[1]);
+    assert!((20..40).contains(&places[0]), "{places:?} impacts");
+}
