@@ -302,9 +302,17 @@ fn judged(
         );
         return (Chaos::Regular, reason);
     }
-    let reason = format!(
-        "neighbouring motions part by e^{grown:.1} in a time of {time} and MEGNO is {megno:.1}, between regular (up to \
-         {REGULAR}) and chaotic (from {CHAOTIC}): a longer time may tell"
-    );
+    let between = megno > REGULAR && megno < CHAOTIC;
+    let reason = if between {
+        format!(
+            "neighbouring motions part by e^{grown:.1} in a time of {time} and MEGNO is {megno:.1}, between regular (up to \
+             {REGULAR}) and chaotic (from {CHAOTIC}): a longer time may tell"
+        )
+    } else {
+        format!(
+            "MEGNO is {megno:.1} (regular up to {REGULAR}, chaotic from {CHAOTIC}), but neighbouring motions part by \
+             e^{grown:.1} in a time of {time}, and λ is known to ± {off:.1e}: a longer time may tell"
+        )
+    };
     (Chaos::Undecided, reason)
 }

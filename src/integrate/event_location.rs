@@ -237,7 +237,9 @@ impl EventLocator {
         let mut length = valid;
         for sign in event_functions.expanded_branch_signs() {
             if let Some(change) = sign_changes(&sign, length).next() {
-                length = (change.x - 0.5 * DIGITS * spacing(to) / unit).max(0.0);
+                // digits there, not at the end of the step, which may be much later
+                let there = (from + DoubleDouble::from(change.x) * unit).high;
+                length = (change.x - 0.5 * DIGITS * spacing(there) / unit).max(0.0);
             }
         }
         Some((SeriesPiece { from, unit, length }, valid * unit))

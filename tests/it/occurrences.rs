@@ -775,8 +775,9 @@ fn no_wall_is_missed_behind_a_kink_within_a_kink() {
         name = 'mirror'\nchange = { p_x = \"-d*v\", p_y = \"-y*v\" }\n";
     let end = 60.0;
     let mut places = Vec::new();
-    for spacing in [0.5, end] {
-        let mut ball = build(text, |setup| (setup.end, setup.spacing) = (Some(end), spacing));
+    // without an end a step of free flight reaches as far as numbers do
+    for (end_of_run, spacing) in [(Some(end), 0.5), (Some(end), end), (None, 0.5)] {
+        let mut ball = build(text, |setup| (setup.end, setup.spacing) = (end_of_run, spacing));
         run(&mut ball, end);
         let (x, y) = (value(&ball, "x"), value(&ball, "y"));
         let from_segment = (x.abs() - 1.0).max(0.0).hypot(y);
@@ -784,6 +785,6 @@ fn no_wall_is_missed_behind_a_kink_within_a_kink() {
         places.push(times(&ball, "wall").len());
     }
     // the mean free path of a plane billiard is π A/P, here π (4 + π)/(4 + 2π) = 2.18
-    assert_eq!(places[0], places[1]);
+    assert!(places.iter().all(|count| *count == places[0]), "{places:?}");
     assert!((20..40).contains(&places[0]), "{places:?} impacts");
 }
