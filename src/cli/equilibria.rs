@@ -118,7 +118,11 @@ fn text(study: &Study, found: &Equilibria) -> String {
             None => "neutral in a direction",
         };
         let name = if one.name.is_empty() { String::new() } else { format!("{}: ", one.name) };
-        text.push_str(&format!("{name}{kind}, {stable}, energy {}\n", shown(one.energy)));
+        let energy = match one.energy {
+            energy if energy.is_finite() => format!("energy {}", shown(energy)),
+            _ => "where the energy has no value".to_owned(),
+        };
+        text.push_str(&format!("{name}{kind}, {stable}, {energy}\n"));
         let places = names.iter().zip(&one.variables);
         let places: Vec<String> =
             places.map(|(name, &x)| format!("{name} = {}", shown(x))).collect();

@@ -300,7 +300,8 @@ fn multiplier_rows(orbit: &Orbit) -> Vec<(String, String)> {
     }
     if !ones.is_empty() {
         let spread = ones.iter().map(|z| off_one(z)).fold(0.0, f64::max);
-        rows.push(("1".to_owned(), format!("{} times, to {spread:.0e}", ones.len())));
+        let times = if ones.len() > 1 { format!("{} times, ", ones.len()) } else { String::new() };
+        rows.push(("1".to_owned(), format!("{times}to {spread:.0e}")));
     }
     if orbit.trivial.count() > 0 {
         let names = trivial(orbit.trivial).join(" and of the ");

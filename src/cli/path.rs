@@ -130,6 +130,13 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let reading = arguments.motion.read()?;
     let laid = arguments.motion.compile(reading, &[], "--observe", interrupt)?;
     let model = &*laid.model;
+    let mechanics = &model.mechanics;
+    let acts = |force: &&Expr| **force != Expr::ZERO;
+    if [mechanics.dissipation()].iter().chain(mechanics.forces()).find(acts).is_some() {
+        stderr::tell(
+            "friction or forces act beside L: where ∫ L dt is stationary is no motion of this file, but of L alone",
+        );
+    }
     let mut equations = (*laid.equations).clone();
     let parameters = laid.start.parameters.clone();
     let constants =

@@ -119,6 +119,12 @@ fn text(model: &Model, equations: &Equations, found: &Symmetries, script: MathSc
     let count = found.found.len();
     let complete = if found.complete { ", and there are no others (proved)" } else { "" };
     text.push_str(&format!("\n{count} found{complete} among\n  {}\n", found.searched));
+    if found.unwritten > 0 {
+        text.push_str(&format!(
+            "{} more there are not written: their coefficients are no short fractions\n",
+            found.unwritten
+        ));
+    }
     text
 }
 
@@ -162,6 +168,7 @@ fn json(model: &Model, equations: &Equations, found: &Result<Symmetries, Unsuppo
         "symmetries": found.iter().flat_map(|f| &f.found).map(one).collect::<Vec<_>>(),
         "searched": found.as_ref().ok().map(|f| f.searched.as_str()),
         "complete": found.as_ref().is_ok_and(|f| f.complete),
+        "unwritten": found.as_ref().ok().map(|f| f.unwritten),
     });
     if let Err(why) = found {
         object["why"] = Value::String(why.to_string());

@@ -66,6 +66,8 @@ pub struct Symmetries {
     /// Whether their number is proved: the ansatz has no others, but for a chance far below 2⁻⁵⁰⁰ that a dependence of
     /// monomials is seen at random points and does not hold.
     pub complete: bool,
+    /// How many more there are whose coefficients are no short fractions, so that they are not written.
+    pub unwritten: usize,
 }
 
 /// Searches for Noether's symmetries of a Lagrangian, at the parameters' values.
@@ -107,6 +109,7 @@ pub fn symmetries(
     let generic = stand_in::has_stand_ins(model, equations);
     let pool = &mut equations.pool;
     let mut complete = !problem.overgeneral && !generic;
+    let mut unwritten = 0;
     // the same changes with the parameters' names, where they are symmetries for all their values
     let named = (symbolic != lagrangian).then(|| problem.with(pool, symbolic));
     for vector in vectors {
@@ -119,7 +122,7 @@ pub fn symmetries(
         };
         match by_name.or_else(|| here(pool)) {
             Some(symmetry) => found.push(symmetry),
-            None => complete = false,
+            None => (complete, unwritten) = (false, unwritten + usize::from(!generic)),
         }
     }
     complete &= found.iter().all(|s| s.proved);
@@ -137,7 +140,7 @@ pub fn symmetries(
     for symmetry in &mut found {
         symmetry.between_impulses = is_changed_by_impulse(equations, model, symmetry.conserved);
     }
-    Ok(Symmetries { found, searched, complete })
+    Ok(Symmetries { found, searched, complete, unwritten })
 }
 
 /// The condition on the coefficients of ξ, η and f.
@@ -219,7 +222,7 @@ impl NoetherProblem {
             (0..40).any(|_| self.row(&evaluator, PrimeField::nth(*k), &mut random).is_some())
         };
         let Some(k) = (0..PRIMES.len()).find(works) else {
-            let why = "no point was found at which the Lagrangian has a value modulo a prime";
+            let why = "no search was made: at none of the points that were tried has the Lagrangian an exact value";
             return Err(Unsupported(why.to_owned()));
         };
         self.field = PrimeField::nth(k);

@@ -62,7 +62,7 @@ pub fn invariants(
             answer.ended.get_or_insert_with(|| "the time allowed ran out".to_owned());
         }
         Err(Broken::NoPoint) => {
-            let why = "no point was found at which everything has a value modulo a prime";
+            let why = "at none of the points that were tried has everything an exact value";
             answer.ended = Some(why.to_owned());
             answer.none_up_to = None;
         }
@@ -123,7 +123,7 @@ impl<'a> Search<'a> {
         };
         let field = (0..PRIMES.len()).find(|n| works(n)).map(PrimeField::nth);
         let Some(field) = field else {
-            let why = "no point was found at which the law has a value modulo a prime";
+            let why = "no search was made: at none of the points that were tried has the law, with its constraints, an exact value";
             return Err(Unsupported(why.to_owned()));
         };
         let parameters = constants.iter().map(|(s, _)| *s).collect();

@@ -91,11 +91,11 @@ impl Others {
             let time = match period {
                 Expr::ZERO => "as long".to_owned(),
                 Expr::ONE => "l times as long".to_owned(),
-                power => format!("l^({}) times as long", script.math(&pool, power)),
+                power => format!("l^{} times as long", enclosed(&script.math(&pool, power))),
             };
             let virial = match virial {
                 Expr::ONE => String::new(),
-                factor => format!("({}) ", script.math(&pool, factor)),
+                factor => format!("{} ", enclosed(&script.math(&pool, factor))),
             };
             text.push_str(&format!(
                 "\nSimilarity\n  T is of degree 2 and V of degree {} in {} (proved)\n  a motion l times as large \
@@ -189,4 +189,9 @@ impl Others {
 fn exponents(pool: &mut Pool, known: &Similarity) -> (Expr, Expr) {
     let half = pool.scale(Number::HALF, known.degree);
     (pool.sub(Expr::ONE, half), half)
+}
+
+/// A factor or a power in brackets, but for a single letter or fraction.
+fn enclosed(written: &str) -> String {
+    if written.chars().count() == 1 { written.to_owned() } else { format!("({written})") }
 }

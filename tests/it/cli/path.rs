@@ -167,6 +167,17 @@ fn what_cannot_be_asked_of_a_path() {
     assert!(text.starts_with(lead), "{text}");
 }
 
+/// Friction and forces are no part of ∫ L dt: a path that makes it stationary is no motion of such a file.
+#[test]
+fn a_path_says_that_friction_is_left_out() {
+    let words = ["path", "system.toml", "--in", "1", "--to", "theta=1"];
+    for more in ["dissipation = \"0.1*theta'^2\"\n", "forces = { theta = \"-theta'\" }\n"] {
+        let left_out = with_file(&format!("{PENDULUM}{more}"), &words);
+        left_out.says("no motion of this file, but of L alone");
+    }
+    assert!(!with_file(PENDULUM, &words).success().contains("no motion"));
+}
+
 /// Among the ways from one place to another a motion of an energy makes ∫ p dq stationary (Maupertuis); a free particle's
 /// is v times the length.
 #[test]
