@@ -552,6 +552,25 @@ fn a_method_that_passes_over_kinks_says_which_one_does_not() {
     run("taylor").success();
 }
 
+/// cosh t overflows at t = 710.5, far from all singularities.
+#[test]
+fn what_grows_beyond_the_range_of_numbers_is_not_called_a_collision() {
+    let growing = r#"
+        title = "Upside down"
+        [coordinates]
+        x = { initial = 1 }
+        [lagrangian]
+        L = "1/2*x'^2 + 1/2*x^2"
+    "#;
+    for method in [&["taylor"][..], &["dop853"], &["rk4", "--step=0.1"]] {
+        let until = ["run", "system.toml", "--until=1000", "--method"];
+        let done = with_file(growing, &[&until[..], method].concat());
+        assert_eq!(done.code, 1);
+        let said = "x grows beyond the range of numbers, 1.8e308, after t = 7";
+        assert!(done.stderr.contains(said), "{}", done.stderr);
+    }
+}
+
 #[test]
 fn a_step_beyond_what_is_stable_is_reported() {
     // small oscillations of frequency 1: the leapfrog's limit is 2
