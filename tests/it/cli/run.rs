@@ -571,6 +571,35 @@ fn what_grows_beyond_the_range_of_numbers_is_not_called_a_collision() {
     }
 }
 
+/// Dry friction of 0.8 holds an oscillator that comes to rest within |x| ≤ 0.8.
+#[test]
+fn a_method_that_cannot_stick_says_that_the_motion_sticks() {
+    let friction = r#"
+        title = "Dry friction"
+        [coordinates]
+        x = { initial = 1, velocity = 1 }
+        [lagrangian]
+        L = "1/2*x'^2 - 1/2*x^2"
+        forces = { x = "-0.8*sign(x')" }
+    "#;
+    let run =
+        |method: &str| with_file(friction, &["run", "system.toml", "--at=5", "--method", method]);
+    let stopped = run("dop853");
+    assert_eq!(stopped.code, 1);
+    for words in ["the motion sticks at t = ", "both sides of a kink", "taylor passes it"] {
+        assert!(stopped.stderr.contains(words), "{}", stopped.stderr);
+    }
+    run("taylor").success();
+    // on a belt it sticks while it moves
+    let belt = friction.replace("= 1", "= 0").replace("sign(x')", "sign(x' - 0.3)");
+    let stopped = with_file(&belt, &["run", "system.toml", "--at=5", "--method=dop853"]);
+    assert!(
+        stopped.code == 1 && stopped.stderr.contains("the motion sticks"),
+        "{}",
+        stopped.stderr
+    );
+}
+
 #[test]
 fn a_step_beyond_what_is_stable_is_reported() {
     // small oscillations of frequency 1: the leapfrog's limit is 2

@@ -240,3 +240,13 @@ fn an_equilibrium_is_exact() {
         );
     }
 }
+
+/// A ball whose every step of dop853 ends at the floor: at the top of its path nothing moves, but what moves is known.
+#[test]
+fn a_motion_of_impulses_alone_is_judged_by_what_moves_between_them() {
+    let text = "title = \"Ball\"\n[coordinates]\nx = { initial = 1e-3 }\n[lagrangian]\nL = \"1/2*x'^2 - 9.8*x\"\n\
+                [[impulses]]\nname = \"bounce\"\nchange = { p_x = \"-2*x'\" }\n[[events]]\nname = \"floor\"\n\
+                when = \"x\"\ndirection = \"falling\"\naction = \"impulse:bounce\"\n";
+    let energy = gauge(&carried(text, "dop853", None, 0.2).snapshot(), "energy");
+    assert!(energy.max_drift < 1e-11 && energy.left.is_none(), "{energy:?}");
+}
