@@ -52,6 +52,7 @@ mod rows;
 mod run;
 mod script;
 mod section;
+mod slow_notice;
 mod spectrum;
 mod starts;
 mod stderr;

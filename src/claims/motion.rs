@@ -90,7 +90,9 @@ impl Short {
 /// The place in the file that explains why a start is impossible.
 fn place_of(model: &Model, fault: &MotionError) -> SourceRange {
     let constraint = match &fault.kind {
-        MotionErrorKind::ConstraintMissed(name, _) | MotionErrorKind::VelocitiesMissed(name, _) => {
+        MotionErrorKind::ConstraintMissed(name, _)
+        | MotionErrorKind::VelocitiesMissed(name, _)
+        | MotionErrorKind::ConstraintParted(name) => {
             model.constraints.iter().find(|c| c.name == *name)
         }
         MotionErrorKind::FreeVelocities(_) => model.constraints.first(),
@@ -149,6 +151,10 @@ impl<'a> ClaimedMotion<'a> {
         let fault = stepped.err().filter(|fault| fault.time == model.run.start);
         let own = || own_method::first_step(model, system, &state, &parameters);
         let fault = fault.filter(|_| !matches!(own(), Some(Ok(()))));
+        if let Some(fault @ MotionError { kind: MotionErrorKind::ConstraintParted(_), .. }) = &fault
+        {
+            return Err(refused(place_of(model, fault), fault.to_string()));
+        }
         match motion.at_the_start(model, equations, fault.as_ref()) {
             Some(diagnostic) => Err(diagnostic),
             None => {

@@ -5,13 +5,23 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::diagnostic::SourceRange;
-use crate::expr::{Expr, Node, Pool, Symbol};
+use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
 use crate::mechanics::{Equations, Flow};
 use crate::model::{Coordinate, Model};
 use crate::system::{MotionError, MotionErrorKind};
 
 /// A term of the law longer than this is not reported.
 const LONGEST: u64 = 60;
+
+/// The rounding of a value at the start, relative to it; …
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// … what changes by more than this part within it has no digits, …
+const UNKNOWN: f64 = 0.1;
+
+/// … and what is larger by this factor than at this relative distance is large by a pole.
+const BESIDE_A_POLE: f64 = 1e8;
+const BESIDE: f64 = 1e-3;
 
 /// Returns why nothing can start with this energy, or with the error of the first step, or `None`
 /// if it can.
@@ -24,7 +34,7 @@ pub(super) fn diagnostic(
 ) -> Option<Diagnostic> {
     let law = model.law_place.clone();
     if fault.is_none() && energy.is_finite() {
-        return None;
+        return on_a_pole(model, equations, at);
     }
     if let Some(MotionError { kind: MotionErrorKind::SingularMass, .. }) = fault
         && let Some((place, message, help)) = without_inertia(model, equations)
@@ -78,12 +88,10 @@ fn without_inertia(model: &Model, equations: &Equations) -> Option<(SourceRange,
     Some((model.coordinates[first].place.clone(), message, help))
 }
 
-/// The first term of the law, or of what follows from it, that has no value although its own parts
-/// have.
-fn undefined(equations: &Equations, at: &dyn Fn(Symbol) -> f64) -> Option<Expr> {
-    let pool = &equations.pool;
-    let first: Vec<Expr> = equations.lagrangian.iter().copied().chain([equations.energy]).collect();
-    let second: Vec<Expr> = match &equations.flow {
+/// The law and its energy, and what follows from them.
+fn law_and_rates(equations: &Equations) -> [Vec<Expr>; 2] {
+    let law = equations.lagrangian.iter().copied().chain([equations.energy]).collect();
+    let rates = match &equations.flow {
         Flow::Lagrange { mass, force, .. } => {
             mass.concat().into_iter().chain(force.clone()).collect()
         }
@@ -92,7 +100,60 @@ fn undefined(equations: &Equations, at: &dyn Fn(Symbol) -> f64) -> Option<Expr> 
         }
         Flow::Poisson { rates } => rates.clone(),
     };
-    [first, second].into_iter().find_map(|roots| {
+    [law, rates]
+}
+
+/// A law that has a value at the start by rounding alone, as tan(x) has at π/2.
+fn on_a_pole(
+    model: &Model,
+    equations: &Equations,
+    at: &dyn Fn(Symbol) -> f64,
+) -> Option<Diagnostic> {
+    let pool = &equations.pool;
+    let roots = law_and_rates(equations).concat();
+    let reachable = pool.reachable(&roots);
+    let has_poles = |e: Expr| match pool.node(e) {
+        Node::Call(FunctionId::Tan | FunctionId::Cot, _) => true,
+        Node::Product(_, factors) => factors.iter().any(|(_, power)| power.is_negative()),
+        _ => false,
+    };
+    let poles: Vec<Expr> = reachable.iter().copied().filter(|&e| has_poles(e)).collect();
+    for (i, c) in model.coordinates.iter().enumerate() {
+        let symbol = c.position;
+        let value = at(symbol);
+        let of_it: Vec<Expr> = poles.iter().copied().filter(|&e| pool.depends(e, symbol)).collect();
+        if value == 0.0 || of_it.is_empty() {
+            continue;
+        }
+        let is_on_a_pole = |e: Expr| {
+            let with = |x: f64| pool.evaluate(e, &|s| if s == symbol { x } else { at(s) });
+            let here = with(value);
+            let beside = with(value * (1.0 + BESIDE)).abs().max(with(value * (1.0 - BESIDE)).abs());
+            beside > 0.0
+                && here.abs() > BESIDE_A_POLE * beside
+                && (with(value * (1.0 + ROUNDING)) - here).abs() > UNKNOWN * here.abs()
+        };
+        let Some(&pole) = of_it.iter().find(|&&e| is_on_a_pole(e)) else { continue };
+        // a factor that is 0 may take the pole away
+        if roots.iter().any(|&root| is_on_a_pole(root)) {
+            let what = if pool.weight(pole) <= LONGEST {
+                format!("`{}` has a pole", pool.text(pole))
+            } else {
+                "a part of the law has a pole".to_owned()
+            };
+            let message =
+                format!("the motion cannot start: {what} at {} = {value}, up to rounding", c.name);
+            return Some(Diagnostic::error(model.coordinates[i].place.clone(), message));
+        }
+    }
+    None
+}
+
+/// The first term of the law, or of what follows from it, that has no value although its own parts
+/// have.
+fn undefined(equations: &Equations, at: &dyn Fn(Symbol) -> f64) -> Option<Expr> {
+    let pool = &equations.pool;
+    law_and_rates(equations).into_iter().find_map(|roots| {
         pool.reachable(&roots).into_iter().find(|&e| {
             !pool.evaluate(e, at).is_finite()
                 && pool.node(e).parts().iter().all(|&part| pool.evaluate(part, at).is_finite())

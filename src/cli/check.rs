@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 
 use super::failure::CommandError;
 use super::output::{Output, OutputForm};
+use super::slow_notice::with_notice;
 use super::{open, stderr};
 use crate::claims::false_claims;
 use crate::diagnostic::{Diagnostic, Document, Severity};
@@ -94,7 +95,9 @@ fn findings(document: &Document) -> (Vec<Diagnostic>, Option<String>) {
     match Derived::of(checked.model) {
         Ok(derived) => {
             found = Some(description(&derived));
-            diagnostics.extend(false_claims(&derived.model, &derived.equations));
+            let claims = || false_claims(&derived.model, &derived.equations);
+            let what = format!("following the motion of {} for what it claims", document.path);
+            diagnostics.extend(with_notice(&what, claims));
             if is_known && let Ok(system) = derived.compile(&[]) {
                 diagnostics.extend(open::unfit_method(&derived.model, &system));
             }

@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::output::{Output, OutputForm};
+use super::slow_notice::with_notice;
 use super::{record, script, stderr};
 use crate::diagnostic::{Document, nearest};
 use crate::preset::{self, is_path};
@@ -138,7 +139,8 @@ pub(super) fn check(arguments: &Check, shared: &LessonHost<'_>) -> Result<(), Co
 
 fn check_one(source: &Document, shared: &LessonHost<'_>) -> Result<(), CommandError> {
     let (script, system, name) = (shared.scripted)(source)?;
-    let report = check_lesson(&script, &system, &name);
+    let what = format!("taking {} with every answer", source.path);
+    let report = with_notice(&what, || check_lesson(&script, &system, &name));
     let report = report.map_err(|diagnostics| record::located(source, &diagnostics))?;
     let counted = |count: usize, one: &str, many: &str| {
         format!("{count} {}", if count == 1 { one } else { many })

@@ -9,6 +9,7 @@ use clap::ValueEnum;
 use super::failure::CommandError;
 use super::open;
 use super::output::{Output, OutputForm};
+use super::slow_notice::with_notice;
 use crate::diagnostic::nearest;
 use crate::diagnostic::{Diagnostic, Document};
 use crate::preset::{demo, demos};
@@ -153,7 +154,9 @@ pub(super) fn recorded(
     // the errors of the system are reported for the system's own file
     open::read(system)?;
     let size = size.unwrap_or(DEFAULT_SIZE);
-    play(script, system, called(name), size).map_err(|diagnostics| located(source, &diagnostics))
+    let played = || play(script, system, called(name), size);
+    with_notice(&format!("playing {}", source.path), played)
+        .map_err(|diagnostics| located(source, &diagnostics))
 }
 
 /// Reports the claims that are false.

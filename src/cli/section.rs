@@ -201,7 +201,8 @@ pub(super) fn surface(
         let message = format!("{called}: `{written}` is not an expression of this system");
         return Err(CommandError::WrongUse(message));
     };
-    if pool.symbols_of(e).is_empty() {
+    let is_parameter = |symbol| model.parameters.iter().any(|p| p.symbol == symbol);
+    if pool.symbols_of(e).into_iter().all(is_parameter) {
         let written = printable::quoted(written);
         let message = format!("{called}: `{written}` is a constant, which is never crossed");
         return Err(CommandError::WrongUse(message));

@@ -6,6 +6,7 @@
 
 mod followed;
 mod invariant_monitor;
+mod mean;
 
 use std::collections::HashMap;
 use std::sync::Arc;

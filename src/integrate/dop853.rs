@@ -10,6 +10,7 @@
 //! Source: E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, second
 //! edition, II.4 (step control), II.5 (method), II.6 (interpolant).
 
+mod kinks;
 mod tableau;
 
 use self::tableau::{DENSE, FIFTH, METHOD_STAGES, STAGES, THIRD, WeightedStage};
@@ -90,6 +91,10 @@ struct DormandPrince {
     stale: bool,
     /// The longest step since the start.
     longest: f64,
+    /// When a kink was last passed by the shortest of steps.
+    kink: Option<f64>,
+    /// The number of short steps in a row that have crossed a kink.
+    crossings: u32,
 }
 
 impl DormandPrince {
@@ -119,6 +124,8 @@ impl DormandPrince {
             sizes: zeros,
             stale: false,
             longest: 0.0,
+            kink: None,
+            crossings: 0,
         })
     }
 
@@ -226,9 +233,12 @@ impl DormandPrince {
             MotionErrorKind::Cancelled
         } else if size <= 1e-16 * self.state.time.abs()
             || size < 1e-290
-            || (size < SHORTEST * self.longest && !last)
+            || (size < self.shortest() && !last)
         {
-            MotionErrorKind::StepUnderflow(step)
+            match self.is_beside_a_kink() {
+                true => MotionErrorKind::Sticks,
+                false => MotionErrorKind::StepUnderflow(step),
+            }
         } else {
             return Ok(());
         };
@@ -281,6 +291,8 @@ impl Stepper for DormandPrince {
         self.exact.set_parameters(&self.system.inputs(parameters));
         self.size = initial_step::of(&self.system, state, parameters) * FIRST;
         self.longest = 0.0;
+        self.kink = None;
+        self.crossings = 0;
         self.noise.fill(0.0);
         self.stale = false;
         self.rates.evaluate(self.state.time, &self.state.values, &mut self.slopes[0])
@@ -320,9 +332,15 @@ impl Stepper for DormandPrince {
                 self.estimate_roundoff(step);
                 error = self.error(step);
             }
+            let passes_kink = error > 1.0 && self.passes_kink(step)?;
+            if passes_kink {
+                self.kink = Some(time.high);
+                error = 1.0;
+            }
             let most = if failures > 0 { 1.0 } else { LONGER };
             let factor = (SAFETY * math::powf(error, -1.0 / 8.0)).clamp(SHORTER, most);
             if error <= 1.0 {
+                self.count_crossings(step)?;
                 let end =
                     if last { DoubleDouble::from(limit) } else { time + DoubleDouble::from(step) };
                 (self.next.time, self.next.time_carry) = (end.high, end.low);
@@ -332,6 +350,10 @@ impl Stepper for DormandPrince {
                 // a step cut short is no measure of the next one
                 self.size =
                     if last { self.size.max(step.abs() * factor) } else { self.size * factor };
+                if passes_kink {
+                    // the clock has too few digits for steps that grow slowly from there
+                    self.size = self.size.max(self.longest);
+                }
                 break;
             }
             self.size = step.abs() * factor;

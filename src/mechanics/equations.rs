@@ -291,6 +291,8 @@ pub enum Reason {
     Numerically,
     /// The file declares it; the numerical drift shows how well it holds.
     Declared,
+    /// The file declares it of its own motion: its rate is known not to vanish elsewhere.
+    OfThisMotion,
     /// Conserved for this reason, except that an impulse of the file changes it.
     BetweenImpulses(Box<Reason>),
 }
@@ -358,7 +360,7 @@ impl Reason {
     /// Returns whether it is proved, not merely declared or found numerically.
     pub fn is_proved(&self) -> bool {
         match self {
-            Reason::Declared | Reason::Numerically => false,
+            Reason::Declared | Reason::OfThisMotion | Reason::Numerically => false,
             Reason::BetweenImpulses(reason) => reason.is_proved(),
             _ => true,
         }
@@ -367,7 +369,7 @@ impl Reason {
     /// Returns whether it rests on the file's declaration alone.
     pub fn is_declared(&self) -> bool {
         match self {
-            Reason::Declared => true,
+            Reason::Declared | Reason::OfThisMotion => true,
             Reason::BetweenImpulses(reason) => reason.is_declared(),
             _ => false,
         }
@@ -391,6 +393,7 @@ impl std::fmt::Display for Reason {
             }
             Reason::Numerically => f.write_str("checked numerically"),
             Reason::Declared => f.write_str("declared"),
+            Reason::OfThisMotion => f.write_str("declared, along this motion only"),
             Reason::BetweenImpulses(reason) => write!(f, "{reason}, between impulses"),
         }
     }

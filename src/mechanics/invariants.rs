@@ -3,6 +3,7 @@
 //! (`symmetry`), and those of the file's observables whose rate of change vanishes.
 //! Source: *The Principles of Dynamics*, §§ 1.4.2, 3.2.3.
 
+use super::conservation::{Class, class_of};
 use super::equations::{Conserved, Equations, Flow, Reason};
 use super::impulse_change::is_changed_by_impulse;
 use super::rate_of_change::ConservedBy;
@@ -168,7 +169,12 @@ fn name_observable(
         Some(ConservedBy::Always) => proved(equations, model),
         Some(ConservedBy::OnConstraints) => Reason::ProvedOnConstraints,
         Some(ConservedBy::ByValues) => Reason::Numerically,
-        None if observable.conserved == Some(true) => Reason::Declared,
+        None if observable.conserved == Some(true) => {
+            match class_of(model, equations, &observable.name, expression).class {
+                Class::Changing => Reason::OfThisMotion,
+                _ => Reason::Declared,
+            }
+        }
         None => return,
     };
     equations.conserved.push(Conserved { name: observable.name.clone(), expression, reason });

@@ -61,6 +61,8 @@ pub enum MotionErrorKind {
     NotFinite(String),
     /// The same in a step of fixed size, which may be too long.
     NotFiniteInStep(String),
+    /// A number of the state, given by its name, or the time has grown beyond what a number can hold.
+    OutOfRange(Option<String>),
     /// A number that is given at the start, by its name, is below those that keep all their digits.
     TooSmall(String),
     /// The functions of the events swing too often within one step to be followed.
@@ -122,7 +124,7 @@ impl fmt::Display for MotionError {
             MotionErrorKind::ConstraintParted(name) => write!(
                 f,
                 "the constraint `{name}`, which repeated those before it where the motion began, \
-                 contradicts them at t = {time}"
+                 contradicts them after t = {time}"
             )?,
             MotionErrorKind::ConstraintLost(name) | MotionErrorKind::ConstraintLostInStep(name) => {
                 write!(f, "the constraint `{name}` cannot be kept at t = {time}")?;
@@ -150,6 +152,12 @@ impl fmt::Display for MotionError {
             )?,
             MotionErrorKind::NotFinite(name) | MotionErrorKind::NotFiniteInStep(name) => {
                 write!(f, "{name} is no longer finite at t = {time}")?;
+            }
+            MotionErrorKind::OutOfRange(Some(name)) => {
+                write!(f, "{name} grows beyond the range of numbers, 1.8e308, after t = {time}")?;
+            }
+            MotionErrorKind::OutOfRange(None) => {
+                write!(f, "the time leaves the range of numbers after t = {time}")?;
             }
             MotionErrorKind::TooSmall(name) => {
                 write!(f, "{name} is too small at t = {time}")?;
@@ -234,7 +242,9 @@ impl fmt::Display for MotionError {
             | MotionErrorKind::SeveralStarts(_)
             | MotionErrorKind::Passable(..)
             | MotionErrorKind::Ended(_)
+            | MotionErrorKind::OutOfRange(Some(_))
             | MotionErrorKind::Cancelled => "",
+            MotionErrorKind::OutOfRange(None) => ": what is waited for does not happen before",
             MotionErrorKind::Grazes(_) => ": nearby motions meet it or pass by",
             MotionErrorKind::Coincides(_) => {
                 ": which of them comes first is different in nearby motions"

@@ -4,6 +4,7 @@
 
 use std::sync::Arc;
 
+use super::mean::Mean;
 use crate::analysis::{Errors, History, LEFT, LOST, Stretch, Verdict};
 use crate::experiment::{Gauge, Reference};
 use crate::expr::Expr;
@@ -133,7 +134,7 @@ impl InvariantMonitor {
         self.at_rest = self.quantity.map_or_else(Vec::new, |quantity| terms.at_rest(quantity));
         self.rounding = 0.0;
         self.underflows = false;
-        self.moving = Mean { time, ..Mean::default() };
+        self.moving = Mean::beginning(time);
         self.farthest = 0.0;
         self.worst = 0.0;
         self.left = None;
@@ -205,6 +206,10 @@ impl InvariantMonitor {
             // the terms may have grown
             self.widen(sums.size);
             moving = sums.moving;
+            // where an impulse ends every step the ends of steps are not seen
+            if time > self.moving.time() && self.worst <= LOST {
+                self.moving.note(time, moving);
+            }
             if self.offset {
                 distance = self.rough(sums.value, terms.work()) - self.rough_reference;
             }
@@ -265,6 +270,10 @@ impl InvariantMonitor {
             self.farthest = distance;
         }
         let beyond = distance > floor * self.rounding;
+        // a motion that has not begun says nothing of what will move
+        if !beyond && moving == 0.0 && self.moving.value() == 0.0 {
+            return;
+        }
         let held = self.early.take(beyond.then_some(Distance { time, size: distance, moving }));
         if beyond && !held {
             let drift = self.drift_of(distance, moving);
@@ -408,38 +417,5 @@ impl Early {
         let is_first = self.looks <= FIRST_LOOKS;
         self.distances.extend(distance.filter(|_| is_first));
         is_first
-    }
-}
-
-/// A mean over time of a sampled quantity.
-#[derive(Clone, Copy, Debug, Default)]
-struct Mean {
-    /// The time of the last sample.
-    time: f64,
-    value: f64,
-    weight: f64,
-}
-
-impl Mean {
-    /// A mean with an earlier weight.
-    fn of(value: f64, weight: f64, time: f64) -> Mean {
-        Mean { time, value, weight }
-    }
-
-    fn note(&mut self, time: f64, value: f64) {
-        if value.is_finite() {
-            let weight = (time - self.time).abs();
-            self.weight += weight;
-            if self.weight > 0.0 {
-                self.value += (value - self.value) * (weight / self.weight);
-            } else {
-                self.value = value;
-            }
-            self.time = time;
-        }
-    }
-
-    fn value(&self) -> f64 {
-        self.value
     }
 }

@@ -25,6 +25,9 @@ const HALVINGS: u32 = 60;
 /// states in between keep the constraints no better than that.
 const BLURRED: f64 = 100.0;
 
+/// Numbers and times above this have left all that a motion is about: they overflow soon after.
+const VAST: f64 = 1e100;
+
 /// A step shorter than this part of the regular ones does not count as regular, …
 const REGULAR: f64 = 0.1;
 
@@ -133,6 +136,12 @@ impl Propagator {
     /// Explains an error: one caused by a singular configuration is reported as such, and one at a
     /// place that another method passes is reported with that method.
     pub fn explained(&mut self, fault: MotionError) -> MotionError {
+        if let Some(kind) = self.out_of_range(&fault) {
+            return MotionError { kind, place: Vec::new(), ..fault };
+        }
+        if let MotionErrorKind::ConstraintParted(_) = fault.kind {
+            return self.at_the_beginning_of_the_step(fault);
+        }
         let may_be_passed = matches!(
             fault.kind,
             MotionErrorKind::SingularConstraints(None)
@@ -187,6 +196,32 @@ impl Propagator {
             }
             None => fault,
         }
+    }
+
+    /// The same error at the beginning of the step, where all constraints were still satisfied.
+    fn at_the_beginning_of_the_step(&mut self, fault: MotionError) -> MotionError {
+        let (begin, _) = self.stepper.interval();
+        let mut state = self.state.clone();
+        match self.stepper.at(begin, &mut state) {
+            Ok(()) => self.system.fault(fault.kind, begin, &state.values),
+            Err(_) => fault,
+        }
+    }
+
+    /// Whether a number that is not finite has only grown beyond the range of numbers, far from all singularities.
+    fn out_of_range(&mut self, fault: &MotionError) -> Option<MotionErrorKind> {
+        let MotionErrorKind::NotFinite(name) = &fault.kind else { return None };
+        if fault.time.abs() > VAST {
+            return Some(MotionErrorKind::OutOfRange(None));
+        }
+        let is_vast = |state: &State| {
+            state.is_finite() && state.values.iter().any(|value| value.abs() > VAST)
+        };
+        let (begin, _) = self.stepper.interval();
+        let mut origin = self.state.clone();
+        let grown = is_vast(self.stepper.state())
+            || (self.stepper.at(begin, &mut origin).is_ok() && is_vast(&origin));
+        grown.then(|| MotionErrorKind::OutOfRange(Some(name.clone())))
     }
 
     /// Whether the motion stops where its rates grow without bound, as in a collision: over a step too small to move the

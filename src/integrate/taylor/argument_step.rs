@@ -17,6 +17,23 @@ const SATURATED: f64 = 750.0;
 /// The largest relative change of the argument of a function without scale (`ln`, `atan`).
 const PART_OF_ARGUMENT: f64 = 0.5;
 
+/// The largest part of the way to a pole of an argument, where its function has a value on either side.
+const PART_OF_RADIUS: f64 = 0.7;
+
+/// Whether a function may have a smooth continuation through a pole of its argument on another branch, as arctan(tan t) has,
+/// so that no other series shows the pole.
+pub(super) fn may_pass_pole(function: FunctionId) -> bool {
+    function == FunctionId::Atan
+}
+
+/// The step in which the argument of such a function stays clear of its poles.
+pub(super) fn before_pole(u: &[f64]) -> f64 {
+    let size = u[0].abs().max(1.0);
+    let last = u.iter().enumerate().skip(u.len() / 2).filter(|(_, c)| c.abs() >= FAINT);
+    let radii = last.map(|(k, c)| math::powf(size / c.abs(), 1.0 / k as f64));
+    PART_OF_RADIUS * radii.fold(f64::INFINITY, f64::min)
+}
+
 /// The step in which the argument of a function changes by the largest amount allowed.
 pub(super) fn of_argument(function: FunctionId, u: &[f64]) -> f64 {
     let room = match function {
@@ -53,6 +70,18 @@ fn moving(far: f64, u: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_angle_ends_its_step_before_a_pole_of_its_tangent() {
+        // 1/(r − t) and 1/(10⁶ (r − t)) have their pole at r; a sine has none
+        for (r, size) in [(2.0_f64, 1.0), (1e-3, 1.0), (3.0, 1e-6)] {
+            let pole: Vec<f64> = (0..28).map(|k| size * math::powi(r, -1 - k)).collect();
+            let step = before_pole(&pole);
+            assert!((0.3 * r..0.95 * r).contains(&step), "{step} of {r}");
+        }
+        let line: Vec<f64> = (0..28).map(|k| if k < 2 { 1.0 } else { 0.0 }).collect();
+        assert_eq!(before_pole(&line), f64::INFINITY);
+    }
 
     #[test]
     fn arguments_move_as_far_as_their_functions_stay_told() {

@@ -3,7 +3,7 @@
 //! In: the series of a [`BatchSeries`]. Out: for each lane the step that [`StepSize`](super::step_size::StepSize)
 //! finds for that orbit alone, to the last bit. Never here: the rule and its constants.
 
-use super::argument_step::{FARTHEST_ARGUMENT, of_argument};
+use super::argument_step::{FARTHEST_ARGUMENT, before_pole, may_pass_pole, of_argument};
 use super::last_orders::{FAINT, FIRST, ROOM, last_orders};
 use super::rough_logarithms::rough_logarithms;
 use super::step_screen::StepScreen;
@@ -43,13 +43,16 @@ impl BatchStepSize {
         let mut shortest = vectorized(BatchByCoefficients { rule: self, series });
         for (function, u) in series.arguments() {
             for lane in 0..BATCH {
+                let alone = || -> Vec<f64> { u.iter().map(|c| c.0[lane]).collect() };
+                if may_pass_pole(function) && !shortest.0[lane].is_nan() {
+                    shortest.0[lane] = shortest.0[lane].min(before_pole(&alone()));
+                }
                 let h = shortest.0[lane];
                 let far = |k: usize, h: f64| u[k].0[lane].abs() * h > FARTHEST_ARGUMENT;
                 let (square, cube) = (h * h, h * h * h);
                 if far(1, h) || far(2, square) || far(3, cube) || !cube.is_finite() {
-                    let alone: Vec<f64> = u.iter().map(|c| c.0[lane]).collect();
                     if !h.is_nan() {
-                        shortest.0[lane] = h.min(of_argument(function, &alone));
+                        shortest.0[lane] = h.min(of_argument(function, &alone()));
                     }
                 }
             }

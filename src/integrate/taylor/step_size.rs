@@ -6,7 +6,7 @@
 //! |c_j| h^j, and stays inside the radius of convergence however small those terms are: a body far
 //! from a collision is hardly affected by it.
 
-use super::argument_step::{FARTHEST_ARGUMENT, of_argument};
+use super::argument_step::{FARTHEST_ARGUMENT, before_pole, may_pass_pole, of_argument};
 use super::last_orders::{FIRST, INDULGENCE, LANES, ROOM, indulgence_of, larger, last_orders};
 use super::rough_logarithms::Logarithms;
 use super::step_screen::StepScreen;
@@ -75,6 +75,9 @@ impl StepSize {
     pub(super) fn longest(&mut self, series: &Series) -> Option<f64> {
         let mut shortest = vectorized(ByCoefficients { rule: self, series })?;
         for (function, u) in series.arguments() {
+            if may_pass_pole(function) {
+                shortest = shortest.min(before_pole(u));
+            }
             // most arguments are far from their bound, which is costly to compute
             let far = |k: usize, h: f64| u[k].abs() * h > FARTHEST_ARGUMENT;
             let (square, cube) = (shortest * shortest, shortest * shortest * shortest);

@@ -159,6 +159,16 @@ fn what_cannot_start_is_said_with_the_coordinate_and_the_reason() {
         (two, l("1/2*x'^2 - x*y"), ["`y` has no kinetic term", ":4:1"]),
         (two, l("x*y' - x^2 - y^2"), ["`x`, `y` have no kinetic term", "first order in time"]),
         (
+            "x = { initial = \"pi/2\", velocity = 1 }",
+            l("1/2*x'^2 - tan(x)"),
+            ["`tan(x)` has a pole at x = 1.57", ":3:1"],
+        ),
+        (
+            "x = { initial = \"-pi\", velocity = 1 }",
+            l("1/2*x'^2 - 1/sin(x)^2"),
+            [" has a pole at x = -3.14", ":3:1"],
+        ),
+        (
             "theta = { initial = 0, velocity = 0.5 }\nphi = { initial = 0, velocity = 1 }",
             l("1/2*(theta'^2 + sin(theta)^2*phi'^2) - cos(theta)"),
             ["the mass matrix is singular", "θ = 0"],
@@ -179,6 +189,9 @@ fn what_can_start_is_passed() {
     let l = |law: &str| format!("[lagrangian]\nL = \"{law}\"");
     let at_zero = "x = { initial = 0, velocity = 1 }";
     for law in [
+        // rounding that is small, or that a factor takes away
+        l("1/2*x'^2 - cos(x + pi)"),
+        l("1/2*x'^2 - x*cot(x + 1)"),
         // finite on the side that the motion takes, and at the start
         l("1/2*x'^2 - abs(x)"),
         l("1/2*x'^2 - 1/(x + 1e-3)"),
@@ -191,6 +204,26 @@ fn what_can_start_is_passed() {
             "{law}"
         );
     }
+}
+
+/// At θ = π the rounding of sin θ is not 0, but p_φ is.
+#[test]
+fn a_body_on_the_axis_of_its_chart_can_start_at_pi() {
+    let text = "title = \"T\"\n[coordinates]\ntheta = { initial = \"pi\", momentum = 1 }\nphi = { initial = 0 }\n\
+                [hamiltonian]\nH = \"p_theta^2/2 + p_phi^2/(2*sin(theta)^2) - cos(theta)\"\n";
+    assert_eq!(with_file(text, &["check", "system.toml"]).success(), "");
+}
+
+/// The axis and a parabola touch where the motion begins, and have no other point in common.
+#[test]
+fn constraints_that_only_touch_at_the_start_cannot_be_kept() {
+    let text = "title = \"T\"\n[coordinates]\nx = { initial = 0, velocity = 1 }\ny = { initial = 0, velocity = 0 }\n\
+                [lagrangian]\nL = \"1/2*(x'^2 + y'^2)\"\n[[constraints]]\nname = \"a\"\nexpression = \"y\"\n\
+                [[constraints]]\nname = \"b\"\nexpression = \"y - x^2\"\n";
+    let told = ["the motion cannot begin", "`b`", "contradicts them after t = 0, x = 0", ":12:"];
+    with_file(text, &["check", "system.toml"]).fails(65, &told);
+    let run = with_file(text, &["run", "system.toml"]);
+    assert!(run.code == 1 && run.stderr.contains("after t = 0, x = 0"), "{}", run.stderr);
 }
 
 /// A claim that would take forever is abandoned after a limited number of steps, with the result so far.

@@ -200,3 +200,42 @@ fn a_ramp_ends_exactly_where_it_leads() {
         }
     }
 }
+
+/// A force that a ramp turns on moves a particle that has done no work before, and one whose mass t² it changes from
+/// t = 1 to 2 has ẋ = 1/t² there.
+#[test]
+fn corners_of_ramps_are_no_singularities_to_any_adaptive_method() {
+    let force = r#"
+        title = "A force turned on"
+        [coordinates]
+        x = { initial = 0 }
+        [parameters]
+        k = 0
+        [lagrangian]
+        L = "1/2*x'^2 + k*x"
+    "#;
+    let mass = r#"
+        title = "A mass that changes"
+        [coordinates]
+        x = { initial = 0, velocity = 1 }
+        [parameters]
+        k = 1
+        [lagrangian]
+        L = "1/2*k^2*x'^2"
+    "#;
+    for method in ["taylor", "dop853"] {
+        let method = format!("--method={method}");
+        let end = |file: &str, arguments: &[&str]| -> Vec<f64> {
+            let done = with_file(file, &[&["run", "system.toml", &method], arguments].concat());
+            assert_eq!(done.code, 0, "{}", done.stderr);
+            assert!(!done.stderr.contains("lost"), "{}", done.stderr);
+            let row = done.stdout.lines().last().expect("a row");
+            row.split(',').map(|x| x.parse().expect("a number")).collect()
+        };
+        let row = end(force, &["--ramp=k=0:1:1:2:linear", "--at=4"]);
+        near(row[1], 13.0 / 6.0, 1e-12);
+        near(row[2], 2.0, 1e-12);
+        let row = end(mass, &["--ramp=k=1:2:1:1:linear", "--at=3"]);
+        near(row[1], 1.75, 1e-12);
+    }
+}

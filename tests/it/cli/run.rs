@@ -552,6 +552,54 @@ fn a_method_that_passes_over_kinks_says_which_one_does_not() {
     run("taylor").success();
 }
 
+/// cosh t overflows at t = 710.5, far from all singularities.
+#[test]
+fn what_grows_beyond_the_range_of_numbers_is_not_called_a_collision() {
+    let growing = r#"
+        title = "Upside down"
+        [coordinates]
+        x = { initial = 1 }
+        [lagrangian]
+        L = "1/2*x'^2 + 1/2*x^2"
+    "#;
+    for method in [&["taylor"][..], &["dop853"], &["rk4", "--step=0.1"]] {
+        let until = ["run", "system.toml", "--until=1000", "--method"];
+        let done = with_file(growing, &[&until[..], method].concat());
+        assert_eq!(done.code, 1);
+        let said = "x grows beyond the range of numbers, 1.8e308, after t = 7";
+        assert!(done.stderr.contains(said), "{}", done.stderr);
+    }
+}
+
+/// Dry friction of 0.8 holds an oscillator that comes to rest within |x| ≤ 0.8.
+#[test]
+fn a_method_that_cannot_stick_says_that_the_motion_sticks() {
+    let friction = r#"
+        title = "Dry friction"
+        [coordinates]
+        x = { initial = 1, velocity = 1 }
+        [lagrangian]
+        L = "1/2*x'^2 - 1/2*x^2"
+        forces = { x = "-0.8*sign(x')" }
+    "#;
+    let run =
+        |method: &str| with_file(friction, &["run", "system.toml", "--at=5", "--method", method]);
+    let stopped = run("dop853");
+    assert_eq!(stopped.code, 1);
+    for words in ["the motion sticks at t = ", "both sides of a kink", "taylor passes it"] {
+        assert!(stopped.stderr.contains(words), "{}", stopped.stderr);
+    }
+    run("taylor").success();
+    // on a belt it sticks while it moves
+    let belt = friction.replace("= 1", "= 0").replace("sign(x')", "sign(x' - 0.3)");
+    let stopped = with_file(&belt, &["run", "system.toml", "--at=5", "--method=dop853"]);
+    assert!(
+        stopped.code == 1 && stopped.stderr.contains("the motion sticks"),
+        "{}",
+        stopped.stderr
+    );
+}
+
 #[test]
 fn a_step_beyond_what_is_stable_is_reported() {
     // small oscillations of frequency 1: the leapfrog's limit is 2

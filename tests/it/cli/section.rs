@@ -378,3 +378,18 @@ fn an_orbit_that_crosses_no_more_is_given_up() {
     let done = with_file(text, &words).success();
     assert!(!done.contains("no crossing"), "{done}");
 }
+
+#[test]
+fn what_never_crosses_is_said() {
+    let constant = with_file(OSCILLATOR, &["section", "system.toml", "--on", "2"]);
+    constant.fails(2, &["`2` is a constant, which is never crossed"]);
+    let text = format!("{OSCILLATOR}[parameters]\nk = 1\n").replace("1/2*x^2", "1/2*k*x^2");
+    with_file(&text, &["section", "system.toml", "--on", "k - 2"])
+        .fails(2, &["`k - 2` is a constant, which is never crossed"]);
+    let rest = OSCILLATOR.replace("initial = 1", "initial = 0");
+    let still = with_file(&rest, &["section", "system.toml", "--on", "x"]);
+    assert_eq!(still.code, 1);
+    for words in ["the time leaves the range of numbers", "does not happen before"] {
+        assert!(still.stderr.contains(words), "{}", still.stderr);
+    }
+}

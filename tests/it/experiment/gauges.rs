@@ -87,6 +87,23 @@ fn drift_is_measured_by_the_size_of_the_terms() {
     assert!(energy.max_drift < 1e-14, "{energy:?}");
 }
 
+/// On the circle r is conserved, and on no other orbit; Kepler's A_x is on all, and is proved.
+#[test]
+fn what_is_conserved_along_one_motion_only_is_called_that() {
+    let text = "title = \"Circle\"\n[coordinates]\nr = { initial = 1 }\nphi = { initial = 0, velocity = 1 }\n\
+                [lagrangian]\nL = \"1/2*(r'^2 + r^2*phi'^2) + 1/r\"\n[[observables]]\nname = \"radius\"\n\
+                expression = \"r\"\nconserved = true\n[[observables]]\nname = \"A_x\"\n\
+                expression = \"r^3*phi'^2*cos(phi) + r^2*r'*phi'*sin(phi) - cos(phi)\"\nconserved = true\n";
+    let mut system = build(text, |_| ());
+    run(&mut system, 60.0);
+    let snapshot = system.snapshot();
+    let radius = gauge(&snapshot, "radius");
+    assert_eq!(radius.reason, "declared, along this motion only");
+    assert!(!radius.proved && radius.left.is_none());
+    let vector = gauge(&snapshot, "A_x");
+    assert!(vector.proved && vector.reason.contains("proved"), "{}", vector.reason);
+}
+
 #[test]
 fn a_young_gauge_is_open_and_a_conserved_declared_one_is_judged_by_its_drift() {
     let text = "title = \"T\"\n[coordinates]\nx = { initial = 1 }\n[lagrangian]\n\
@@ -97,7 +114,7 @@ fn a_young_gauge_is_open_and_a_conserved_declared_one_is_judged_by_its_drift() {
     run(&mut system, 60.0);
     let snapshot = system.snapshot();
     let wrong = gauge(&snapshot, "amplitude");
-    assert_eq!(wrong.reason, "declared; contradicted by the run");
+    assert_eq!(wrong.reason, "declared, along this motion only; contradicted by the run");
     assert_eq!(wrong.verdict, Verdict::Lost);
     assert!(wrong.max_drift > 0.6);
     assert_eq!(gauge(&snapshot, "energy").verdict, Verdict::Exact(Growth::Level));

@@ -208,3 +208,21 @@ fn steps_do_not_vanish_before_a_singularity() {
     let stepper = fall.stepper_with(named("rk4"), Settings::default());
     assert!(stepper.step_size() > 1e-7, "{:e}", stepper.step_size());
 }
+
+/// A force on y that jumps where x = sin t passes ½: until then y and its rate are 0, and no step is short enough for a
+/// part of them.
+#[test]
+fn a_number_that_begins_to_move_at_a_kink_does_not_stop_an_adaptive_method() {
+    let l = "1/2*x'^2 + 1/2*y'^2 - 1/2*x^2";
+    let model = dissipative(&["x", "y"], &[], l, "0", &["0", "1 + sign(x - 1/2)"]);
+    let case = case(model, Form::Velocity, &[0.0, 0.0, 1.0, 0.0]);
+    let way = 2.0 * std::f64::consts::PI / 3.0;
+    let rest = 3.0 - 5.0 * std::f64::consts::PI / 6.0;
+    for (name, within) in [("taylor", 1e-14), ("dop853", 1e-11)] {
+        let state = case.run(named(name), 0.01, 3.0);
+        let expected = [3.0_f64.sin(), way * way + 2.0 * way * rest, 3.0_f64.cos(), 2.0 * way];
+        for (found, expected) in state.values.iter().zip(expected) {
+            assert!((found - expected).abs() < within, "{name}: {found}, not {expected}");
+        }
+    }
+}
