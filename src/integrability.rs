@@ -21,6 +21,7 @@ mod naming;
 mod noether;
 mod quadratic;
 mod radicals;
+mod ramps;
 mod random;
 mod reflection;
 mod scope;

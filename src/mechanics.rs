@@ -70,7 +70,7 @@ pub use equations::{
 };
 pub use further::{Further, GeneratorReport, TransformationReport};
 pub use gauge::GaugeDifference;
-pub use generating::GeneratingFunction;
+pub use generating::{GeneratingFunction, NoFunction};
 pub use generator::{GeneratorFlow, flow_of};
 pub use group::{phase_maps, relations_of};
 pub use hamilton_jacobi::HamiltonJacobi;

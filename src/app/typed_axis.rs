@@ -39,13 +39,6 @@ impl App {
         // A dot above a letter is no name that anybody types.
         let shown = model.pool.with_shown_names(&typed);
         let shown = if shown.contains(['\u{307}', '\u{308}']) { typed.clone() } else { shown };
-        // a new variable has its name already
-        let mut laws = model.transformations.iter();
-        let law = laws.find(|law| {
-            let mut new = law.new.iter().flatten();
-            new.any(|&symbol| model.pool.symbol_info(symbol).name == typed)
-        });
-        let shown = law.map_or(shown.clone(), |law| format!("{shown} of {}", law.name));
         let name = known.clone().unwrap_or(shown);
         let axis = TypedAxis { plot, begun, name: name.clone() };
         if known.is_some() {

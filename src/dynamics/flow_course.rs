@@ -1,7 +1,7 @@
 //! The derivative of the flow at several times of one motion: M(t) = ∂η(t)/∂η(0) with its determinant and ‖M𝕁Mᵀ − 𝕁‖.
 //!
 //! In: a state, times. Out: [`FlowMoment`]s. Under a method of fixed step M is that of the method's own map, and the times are
-//! those at which its steps end. Never here: constraints and impulses, what rounding leaves ([`flow_map`](super::flow_map)).
+//! those at which its steps end. Never here: constraints, what rounding leaves ([`flow_map`](super::flow_map)).
 
 use nalgebra::DMatrix;
 
@@ -22,7 +22,7 @@ pub struct FlowMoment {
     pub matrix: DMatrix<f64>,
     /// Its determinant.
     pub determinant: f64,
-    /// exp ∫ div f dt along the motion: 1 where nothing but H acts.
+    /// exp ∫ div f dt along the motion, times the determinants of its impulses: 1 where nothing but H acts.
     pub determinant_expected: f64,
     /// Whether rounding leaves nothing of it: products of the entries of M cancel.
     pub determinant_lost: bool,
@@ -63,6 +63,7 @@ pub fn flow_course(
     let mut moments = Vec::new();
     let mut waiting = times;
     while let Some(&last) = waiting.last() {
+        let jumped = carrier.jump_determinant();
         if let Err(fault) = carrier.step(last) {
             return Ok((moments, Some(fault)));
         }
@@ -77,7 +78,10 @@ pub fn flow_course(
             done = time;
             let (_, matrix) = carrier.at(time)?;
             let steps = carrier.steps();
-            moments.push(FlowMoment::of(space, (time, steps), matrix, math::exp(logarithm)));
+            // an impulse acts at the end of a step
+            let jumped = if time < end { jumped } else { carrier.jump_determinant() };
+            let expected = math::exp(logarithm) * jumped;
+            moments.push(FlowMoment::of(space, (time, steps), matrix, expected));
         }
         if !left.is_empty() && done < end {
             logarithm += divergence.along(space, &mut carrier, [done, end])?;

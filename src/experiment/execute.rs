@@ -134,22 +134,24 @@ impl Experiment {
         let state = self.system().change_parameters(self.motion.state(), &old, new);
         self.continue_from(state);
         // at the start it may be the motion of the file with this value
-        let is_start = |first: &State, state: &State| {
-            let moving = ..self.system().moving();
-            first.time == state.time
-                && first.form == state.form
-                && first.values[moving] == state.values[moving]
-        };
-        match &initial {
-            Ok(first) if is_start(first, self.motion.state()) => self.changed = None,
-            _ => self.changed_here(name.clone()),
-        }
+        self.changed_unless_at(initial.ok().as_ref(), name.clone());
         self.pass_parameters();
         self.gauge(Gauges::refer);
         let jump = self.energy() - before;
         if jump.abs() > 1e-12 * before.abs() {
             self.report_jump(&format!("{name}: energy jumped by"), jump);
         }
+    }
+
+    /// From here on the motion follows another law, unless it still stands in its first state.
+    fn changed_unless_at(&mut self, first: Option<&State>, what: String) {
+        let (state, moving) = (self.motion.state(), ..self.system().moving());
+        let is_start = first.is_some_and(|first| {
+            first.time == state.time
+                && first.form == state.form
+                && first.values[moving] == state.values[moving]
+        });
+        if is_start { self.changed = None } else { self.changed_here(what) }
     }
 
     /// From its current state on the motion follows another law, or goes on from another state.
@@ -233,6 +235,8 @@ impl Experiment {
     /// Continues from the current state with another method. The gauges take a new reference,
     /// because earlier drift is not due to the new method.
     fn change_method(&mut self, method: &'static Method, settings: Settings) {
+        let is_same =
+            (self.motion.method().name, self.motion.settings()) == (method.name, settings);
         if let Err(error) = self.motion.change_method(method, settings) {
             return self.tell(MethodNotFound::from(error).to_string());
         }
@@ -242,6 +246,13 @@ impl Experiment {
             return self.restart();
         }
         self.continue_from(Ok(self.motion.state().clone()));
+        // where the law was changed at this very time, that is what is said of it
+        let time = self.motion.state().time;
+        let is_known = self.changed.as_ref().is_some_and(|last| last.state.time == time);
+        if !is_same && !is_known {
+            let initial = self.initial_state();
+            self.changed_unless_at(initial.ok().as_ref(), "the method".to_owned());
+        }
         self.pass_method();
         self.gauge(Gauges::refer);
     }

@@ -5,6 +5,7 @@
 //! quantities after every step. Out: [`Gauge`]s. Never here: how the values are computed.
 
 mod followed;
+mod integration_constants;
 mod invariant_monitor;
 mod mean;
 
@@ -22,6 +23,7 @@ use crate::model::{Mechanics, Model};
 use crate::num::BATCH;
 use crate::system::{BatchTerms, ChannelKind, System, TermWatch};
 use followed::Followed;
+use integration_constants::IntegrationConstants;
 use invariant_monitor::{ENERGY_BALANCE, InvariantMonitor, MonitoredStep, Subject};
 
 /// Rounding errors are measured once per this many samples.
@@ -37,6 +39,7 @@ pub(super) struct Gauges {
     equations: Arc<Equations>,
     monitors: Vec<InvariantMonitor>,
     followed: Followed,
+    integration: IntegrationConstants,
     residuals: Vec<ResidualGauge>,
     attitude: Option<AttitudeGauge>,
     /// The channel of each symbol that a state expression may contain.
@@ -120,6 +123,8 @@ impl Gauges {
         {
             places.extend(find(ChannelKind::Attitude(i)).map(|channel| (*symbol, channel)));
         }
+        let names = monitors.iter().map(|monitor: &InvariantMonitor| monitor.name.clone());
+        let integration = IntegrationConstants::of(model, equations, &names.collect::<Vec<_>>());
         let residuals = ResidualGauge::all(model, equations, system);
         let attitude = AttitudeGauge::of(system);
         let equations = Arc::clone(equations);
@@ -127,6 +132,7 @@ impl Gauges {
             equations,
             monitors,
             followed: Followed::default(),
+            integration,
             residuals,
             attitude,
             places,
@@ -145,6 +151,8 @@ impl Gauges {
             monitor.refer(now.time, now.values, now.terms);
         }
         self.refer_followed(now);
+        let at = (now.time, now.values);
+        self.integration.refer(at, now.terms, now.constants, &self.places);
         self.residuals.iter_mut().for_each(|residual| residual.refer(now.time));
         self.attitude.iter_mut().for_each(|attitude| attitude.refer(now.time));
         self.measure(now);
@@ -191,6 +199,7 @@ impl Gauges {
     pub(super) fn shift(&mut self, before: &[f64], after: &[f64]) {
         self.monitors.iter_mut().for_each(|monitor| monitor.shift(before, after));
         self.followed.shift(before, after, &self.places);
+        self.integration.shift(before, after, &self.places);
     }
 
     /// Records the values at one of the evenly spaced times. If these are farther apart than the steps, they may
@@ -221,6 +230,7 @@ impl Gauges {
             monitor.look(now.time, now.values, now.terms, floor);
         }
         self.followed.look((now.time, now.values), now.terms, floor, &self.places, false);
+        self.integration.look((now.time, now.values), now.terms, floor, &self.places, false);
         for residual in &mut self.residuals {
             residual.look(now.residuals);
         }
@@ -242,6 +252,7 @@ impl Gauges {
             monitor.sample(time, values, terms, floor);
         }
         self.followed.look((time, values), terms, floor, &self.places, true);
+        self.integration.look((time, values), terms, floor, &self.places, true);
     }
 
     /// Records the terms at the end of a step or within it.
@@ -279,7 +290,9 @@ impl Gauges {
             monitor.show(now.values, self.reference_time, floor, now.errors)
         };
         let mut shown: Vec<Gauge> = self.monitors.iter().map(show).collect();
-        shown.extend(self.followed.show((now.time, now.values), floor, &self.places, now.errors));
+        let at = (now.time, now.values);
+        shown.extend(self.followed.show(at, floor, &self.places, now.errors));
+        shown.extend(self.integration.show(at, floor, &self.places, now.errors));
         contradict(&mut shown);
         let attitude = self.attitude.iter().map(|attitude| attitude.show(now.values));
         let constraints = self.residuals.iter().enumerate().map(|(k, residual)| {

@@ -1,4 +1,4 @@
-//! The last change of the law on the way of a motion: of a parameter, or of the text.
+//! The last change of the law on the way of a motion: of a parameter, of the text, or of the method, whose map is then another.
 //!
 //! In: what was changed, the state there. Out: [`LastChange`], which a checkpoint stores. Never here: how the law is changed
 //! (`execute`, `checkpoint`), what is computed from there on.
@@ -12,7 +12,7 @@ use crate::system::{Form, State, System};
 /// Where a motion continued under another law.
 #[derive(Clone, PartialEq, Debug)]
 pub struct LastChange {
-    /// What was changed: the name of a parameter as it is shown, or `the text`.
+    /// What was changed: the name of a parameter as it is shown, `the text`, or `the method`.
     pub what: String,
     /// The state from which the motion went on, and its time.
     pub state: Arc<State>,

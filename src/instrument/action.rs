@@ -191,7 +191,11 @@ impl Instrument for ActionPlot {
         answer: Option<&Answer>,
     ) -> Option<Picture> {
         let name = plot.column(0).map(|channel| present.physics.shown(channel));
-        let legend = (MOTION, Layer::Legend(sentences(answer, name)));
+        let (lines, answer) = match nothing_yet(present) {
+            Some(line) => (vec![line], None),
+            None => (sentences(answer, name), answer),
+        };
+        let legend = (MOTION, Layer::Legend(lines));
         let named = |range, layers| {
             let letter = self.0.letter();
             let upwards = Upwards::Named(format!("{letter}(ε) − {letter}(0)"), range);
@@ -220,7 +224,9 @@ impl Instrument for ActionPlot {
             return Need::Nothing;
         };
         let conditions = PlotConditions::of_recorded(present, &plot.seeds);
-        let (principle, duration) = (self.0, duration(present));
+        let (principle, Some(duration)) = (self.0, duration(present)) else {
+            return Need::Nothing;
+        };
         let holds = |known: &ComputedAction| {
             (known.principle, known.coordinate, known.duration) == (principle, coordinate, duration)
                 && known.conditions == conditions
@@ -349,15 +355,27 @@ fn beside(
     Ok(Beside { varied, foci, degrees: n })
 }
 
-/// How long the path is: up to now, while the motion runs on a grid.
-pub(super) fn duration(present: &Present<'_>) -> f64 {
+/// How long the path is: up to now, while the motion runs on a grid; `None` where it is paused before there is any.
+pub(super) fn duration(present: &Present<'_>) -> Option<f64> {
     let run = &present.physics.model.run;
     let passed = present.time - present.began();
     let grid = if run.speed.is_normal() { GRID * run.speed.abs() } else { GRID };
-    if !present.running && passed > 0.0 {
-        return passed.min(MOST * grid);
+    if !present.running {
+        return (passed > 0.0).then(|| passed.min(MOST * grid));
     }
-    grid * (passed / grid).floor().clamp(1.0, MOST)
+    Some(grid * (passed / grid).floor().clamp(1.0, MOST))
+}
+
+/// What is said where the motion is paused before there is a path.
+pub(super) fn nothing_yet(present: &Present<'_>) -> Option<String> {
+    if duration(present).is_some() {
+        return None;
+    }
+    let began = significant(present.began(), 4, 1e-3..1e5).replace('-', "−");
+    Some(match present.changed {
+        Some((what, _)) => format!("no motion yet since t = {began}, where {what} was changed"),
+        None => format!("no motion yet since t = {began}"),
+    })
 }
 
 fn computed(answer: Option<&Answer>) -> Option<&ComputedAction> {

@@ -18,7 +18,7 @@ use crate::action_angle::{HeldMotion, OwnMotion, RegionKind, Separatrix};
 use crate::job::{Job, Progress};
 use crate::num::{math, significant};
 use crate::system::ChannelKind;
-use moment::{Moment, changes_in_words};
+use moment::{Moment, signed};
 
 /// The levels of the picture.
 const SEPARATRIX: Level = 0;
@@ -105,8 +105,9 @@ impl Instrument for ActionsPlot {
     }
 
     fn across(&self, _plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
+        let energy = if bottom(answer).is_some() { "E − V₀" } else { "E" };
         let name = energy_unit(present.physics)
-            .map_or_else(|| "E".to_owned(), |unit| format!("E [{unit}]"));
+            .map_or_else(|| energy.to_owned(), |unit| format!("{energy} [{unit}]"));
         Across::Named(name, ranges(answer)[0])
     }
 
@@ -118,31 +119,30 @@ impl Instrument for ActionsPlot {
         answer: Option<&Answer>,
     ) -> Option<Picture> {
         let [_, high] = ranges(answer);
+        let from = bottom(answer);
+        let above = |[energy, action]: [f64; 2]| [energy - from.unwrap_or(0.0), action];
         let mut layers = Vec::new();
         if let Some(found) = found(answer) {
             for separatrix in &found.separatrices {
-                let line = vec![[separatrix.energy, 0.0], [separatrix.energy, 2.0 * high[1]]];
-                layers.push((SEPARATRIX, Layer::Line(line, Ink::Separatrix.into())));
+                let line = [0.0, 2.0 * high[1]].map(|action| above([separatrix.energy, action]));
+                layers.push((SEPARATRIX, Layer::Line(line.to_vec(), Ink::Separatrix.into())));
             }
-            let curves = found.curves.iter();
-            layers.extend(
-                curves.map(|curve| (CURVE, Layer::Line(curve.clone(), Ink::Curve(0).into()))),
-            );
+            layers.extend(found.curves.iter().map(|curve| {
+                let curve = curve.iter().map(|&at| above(at)).collect();
+                (CURVE, Layer::Line(curve, Ink::Curve(0).into()))
+            }));
             if let Ok(row) = &found.own.row {
-                let now = [found.own.energy, row.action];
+                let now = above([found.own.energy, row.action]);
                 layers.push((NOW, Layer::Point(now, MarkerShape::Disc, Ink::Accent)));
             }
         }
         let past = computed(answer).map_or(&[][..], |computed| &computed.course.past[..]);
         if past.len() > 1 {
-            let line = past.iter().map(|instant| [instant.energy, instant.action]).collect();
+            let line = past.iter().map(|instant| instant.seen(from)).collect();
             layers.push((PAST, Layer::Line(line, Ink::Warn.into())));
         }
         if let [first, _, ..] = past {
-            layers.push((
-                NOW,
-                Layer::Point([first.energy, first.action], MarkerShape::Ring, Ink::Warn),
-            ));
+            layers.push((NOW, Layer::Point(first.seen(from), MarkerShape::Ring, Ink::Warn)));
         }
         layers.push((NOW, Layer::Legend(sentences(present, answer))));
         let units = energy_unit(present.physics).zip(Some(present.physics.model.time_unit()));
@@ -340,12 +340,24 @@ fn found(answer: Option<&Answer>) -> Option<&Found> {
     computed(answer)?.found.as_ref().ok()
 }
 
+/// The least energy of the coordinate, above which energies are drawn where it may move with the law: else the way of the
+/// motion would be that of V₀, however little it does itself.
+fn bottom(answer: Option<&Answer>) -> Option<f64> {
+    let computed = computed(answer).filter(|computed| computed.course.moves())?;
+    let found = computed.found.as_ref().ok()?;
+    let bottom = found.own.energy - found.height;
+    bottom.is_finite().then_some(bottom)
+}
+
 /// The ranges of the energy and of the action.
 fn ranges(answer: Option<&Answer>) -> [[f64; 2]; 2] {
     let Some(found) = found(answer) else { return [[0.0, 1.0]; 2] };
     let past = computed(answer).into_iter().flat_map(|computed| &computed.course.past);
-    let past = past.map(|instant| [instant.energy, instant.action]);
-    let all = found.curves.iter().flatten().copied().chain(past);
+    let from = bottom(answer);
+    let past = past.map(|instant| instant.seen(from));
+    let curves = found.curves.iter().flatten();
+    let curves = curves.map(|[energy, action]| [energy - from.unwrap_or(0.0), *action]);
+    let all = curves.chain(past);
     let all = all.filter(|[e, j]| e.is_finite() && j.is_finite());
     let [mut low, mut high, mut top] = [f64::INFINITY, f64::NEG_INFINITY, 0.0_f64];
     for [energy, action] in all {
@@ -362,6 +374,7 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
         Ok(found) => found,
     };
     let short = |x: f64| significant(x, 5, 1e-3..1e5).replace('-', "−");
+    let changes = computed.changes().filter(|_| computed.course.past.len() > 1);
     let mut lines = Vec::new();
     match &found.own.row {
         Err(why) => lines.push(why.to_string()),
@@ -370,39 +383,52 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
         }
         Ok(row) => {
             let [action, over] = [row.action, row.action / std::f64::consts::TAU].map(short);
-            lines.push(format!("{}: J = {action} = 2π · {over}", row.kind.word()));
-            lines.push(format!(
-                "T = dJ/dE = {}, ν = {}",
-                short(row.period),
-                short(1.0 / row.period)
-            ));
+            let [number, slope] = [
+                format!("J = {action} = 2π · {over}"),
+                format!("T = dJ/dE = {}, ν = {}", short(row.period), short(1.0 / row.period)),
+            ];
+            // below a verdict J is what a low plot has room for
+            lines.extend(if changes.is_some() {
+                [number, format!("{}: {slope}", row.kind.word())]
+            } else {
+                [format!("{}: {number}", row.kind.word()), slope]
+            });
         }
     }
     for separatrix in &found.separatrices {
         // a lobe without end has no action
         let lobes = separatrix.actions.iter().filter(|action| action.is_finite());
         let actions: Vec<String> = lobes.map(|&x| short(x)).collect();
-        let (energy, actions) = (short(separatrix.energy), actions.join(" and "));
+        let from = bottom(answer);
+        let name = if from.is_some() { "E − V₀" } else { "E" };
+        let energy = short(separatrix.energy - from.unwrap_or(0.0));
+        let actions = actions.join(" and ");
         let turn = separatrix.turn.map_or_else(String::new, |x| format!(", {} a turn", short(x)));
-        lines.push(format!("separatrix at E = {energy}: J = {actions}{turn}"));
+        lines.push(format!("separatrix at {name} = {energy}: J = {actions}{turn}"));
     }
-    if let Some([action, height]) = computed.changes().filter(|_| computed.course.past.len() > 1) {
+    if let Some([action, height]) = changes {
         let since = computed.course.past.first().map_or(present.time, |first| first.time);
-        let verdict = if height.abs() >= CHANGED && action.abs() <= FAR_LESS * height.abs() {
-            "adiabatic"
-        } else if action.abs().max(height.abs()) < SWINGS {
-            "undecided so far"
-        } else {
-            "not adiabatic"
-        };
-        lines.push(format!("since t = {}: {verdict}", short(since)));
-        lines.push(changes_in_words([action, height]));
+        // a low plot has room for the first lines only
+        lines.insert(0, format!("{}: ΔJ/J = {}", verdict([action, height]), signed(action)));
+        lines.push(format!("since t = {}: ΔE/(E − V₀) = {}", short(since), signed(height)));
     }
     if let Some(last) = computed.replaced.last()
         && let Some(changes) = computed.changes_since(last)
     {
         lines.push(format!("since t = {}, before the last ramp:", short(last.time)));
-        lines.push(changes_in_words(changes));
+        let [action, height] = changes.map(signed);
+        lines.push(format!("ΔJ/J = {action}, ΔE/(E − V₀) = {height}"));
     }
     lines
+}
+
+/// Whether the action has stayed, by which part it and the height of the energy have changed.
+fn verdict([action, height]: [f64; 2]) -> &'static str {
+    if height.abs() >= CHANGED && action.abs() <= FAR_LESS * height.abs() {
+        "adiabatic"
+    } else if action.abs().max(height.abs()) < SWINGS {
+        "undecided so far"
+    } else {
+        "not adiabatic"
+    }
 }

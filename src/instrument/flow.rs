@@ -2,7 +2,8 @@
 //! method and for that of the exact flow; under friction det M beside what Liouville's theorem predicts of it.
 //!
 //! The job follows the variational equations along the motion ([`flow_course`]), over a time that is doubled when the motion has
-//! come to its end. Where the law was changed on the way, the motion is that since then, and M = ∂η(t)/∂η there. Never here: constraints and impulses, for which `phaselab flow` has the map at one time.
+//! come to its end. Where the law was changed on the way, the motion is that since then, and M = ∂η(t)/∂η there. An impulse carries M on by its own derivative.
+//! Never here: constraints, for which `phaselab flow` has the map at one time.
 
 use nalgebra::DMatrix;
 
@@ -168,7 +169,9 @@ impl Instrument for FlowPlot {
         let end = start + length(present.physics, doublings);
         let job = Job::new("flow map", move |progress| {
             let system = system.with_cancel(progress.token().clone());
-            let space = PhaseSpace::of(&model, &equations, &system, &conditions.parameters);
+            let (parameters, of) = (&conditions.parameters, (&*model, &*equations, &system));
+            let space = PhaseSpace::without_end(of.0, of.1, of.2, parameters)
+                .or_else(|_| PhaseSpace::through_impulses(of.0, of.1, of.2, parameters));
             let outcome = space.map_err(|why| why.to_string()).and_then(|space| {
                 let state = conditions.state(space.system(), start);
                 let state = state.and_then(|state| space.state(&state));

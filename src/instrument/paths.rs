@@ -5,7 +5,7 @@
 //! the action stationary. Never here: how such a path is found (`dynamics`), nor that there are no others.
 //! Source: *The Principles of Dynamics*, §§ 1.4.1, 3.5.
 
-use super::action::duration;
+use super::action::{duration, nothing_yet};
 use super::conditions::PlotConditions;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
@@ -93,7 +93,8 @@ impl Instrument for PathsPlot {
     fn across(&self, _plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
         let begin = present.began();
         let span = |known: &ComputedPaths| [known.begin, known.begin + known.duration];
-        let range = computed(answer).map_or_else(|| [begin, begin + duration(present)], span);
+        let none = || [begin, begin + duration(present).unwrap_or(1.0)];
+        let range = computed(answer).map_or_else(none, span);
         Across::Named("t".to_owned(), range)
     }
 
@@ -122,7 +123,8 @@ impl Instrument for PathsPlot {
             let marks = [path.points.first(), path.points.last()].into_iter().flatten();
             layers.extend(marks.map(|&at| (NOW, Layer::Point(at, MarkerShape::Ring, Ink::Level))));
         }
-        layers.push((NOW, Layer::Legend(lines(answer))));
+        let lines = nothing_yet(present).map_or_else(|| lines(answer), |line| vec![line]);
+        layers.push((NOW, Layer::Legend(lines)));
         let range = if ends[0] < ends[1] { ends } else { [-1.0, 1.0] };
         let name = present.physics.shown(column).to_owned();
         Some(Picture::Axes { upwards: Upwards::Named(name, range), layers, occurrences: None })
@@ -137,7 +139,7 @@ impl Instrument for PathsPlot {
             return Need::Nothing;
         };
         let conditions = PlotConditions::of_recorded(present, &plot.seeds);
-        let duration = duration(present);
+        let Some(duration) = duration(present) else { return Need::Nothing };
         let known = computed(answer);
         if known.is_some_and(|known| {
             (known.coordinate, known.duration) == (coordinate, duration)

@@ -80,13 +80,14 @@ impl Instrument for TransformationPlot {
     }
 
     fn offers(&self, physics: Physics<'_>) -> Vec<Offer> {
-        let channel = |symbol: Symbol| {
-            let name = &physics.model.pool.symbol_info(symbol).name;
-            physics.named().find(|(_, channel)| channel.name == *name)
+        let channel = |law: &Law, symbol: Symbol| {
+            let name = physics.model.new_variable_name(law, symbol);
+            physics.named().find(|(_, channel)| channel.name == name)
         };
         let pairs = physics.model.transformations.iter().flat_map(|law| {
             law.new.iter().filter_map(move |&[position, momentum]| {
-                let ((x, across), (y, upwards)) = (channel(position)?, channel(momentum)?);
+                let (x, across) = channel(law, position)?;
+                let (y, upwards) = channel(law, momentum)?;
                 Some(Offer {
                     label: format!("{} against {}", upwards.shown, across.shown),
                     about: format!("the transformation {}, with the grid of (q, p)", law.name),
@@ -425,7 +426,7 @@ fn shown<'a>(plot: &Plot, physics: Physics<'a>) -> Option<Shown<'a>> {
     model.transformations.iter().find_map(|law| {
         let of = |name: &str| {
             let mut all = law.new.iter().flatten();
-            all.find(|&&s| model.pool.symbol_info(s).name == name).copied()
+            all.find(|&&s| model.new_variable_name(law, s) == name).copied()
         };
         Some(Shown { law, new: [of(x)?, of(y)?] })
     })

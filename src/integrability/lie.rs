@@ -18,6 +18,7 @@ use super::explicit_motion::{ExplicitMotion, accelerations};
 use super::formula::{cleared, content};
 use super::naming::name_of;
 use super::noether::{DEGREE, MOST, SPARE, Symmetries, words};
+use super::ramps;
 use super::random::Random;
 use super::stand_in;
 use super::transformations::{generators_of, products};
@@ -75,6 +76,7 @@ pub fn point_symmetries(
         let why = "symmetries of equations under constraints are not searched";
         return Err(Unsupported(why.to_owned()));
     }
+    ramps::refuse(model)?;
     let symbolic = accelerations(equations)?;
     let values: HashMap<Symbol, Expr> = stand_in::constants(model, equations)
         .into_iter()

@@ -16,6 +16,7 @@ use super::echelon::{Echelon, reduced};
 use super::evaluator::ResidueEvaluator;
 use super::formula::{cleared, content};
 use super::naming::name_of;
+use super::ramps;
 use super::random::Random;
 use super::stand_in;
 use super::transformations::{generators_of, products};
@@ -93,6 +94,7 @@ pub fn symmetries(
             "friction or forces act beside the Lagrangian, whose symmetries then give no constants",
         );
     }
+    ramps::refuse(model)?;
     let values: HashMap<Symbol, Expr> = stand_in::constants(model, equations)
         .into_iter()
         .map(|(s, n)| (s, equations.pool.number(n)))

@@ -18,6 +18,7 @@ use super::known::{self, KnownConstant, products};
 use super::law::Law;
 use super::level::{self, Broken, Ground};
 use super::quadratic::with_root;
+use super::ramps;
 use super::random::Random;
 use super::scope::{SearchScope, constants_of};
 use super::stand_in;
@@ -95,6 +96,7 @@ impl<'a> Search<'a> {
         equations: &mut Equations,
         limits: &'a Limits<'a>,
     ) -> Result<Search<'a>, Unsupported> {
+        ramps::refuse(model)?;
         let symbolic = Law::of(model, equations);
         let constants = stand_in::constants(model, equations);
         let generic = stand_in::has_stand_ins(model, equations);

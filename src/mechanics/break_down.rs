@@ -5,8 +5,13 @@
 //! here: the functions themselves (`generating`).
 //! Source: *The Principles of Dynamics*, § 3.2.1.
 
+use nalgebra::DMatrix;
+
 use super::canonical::PhaseMap;
 use super::equations::Equations;
+use super::implicit_map::matrix_at;
+use super::valuation::Valuation;
+use crate::expr::Expr;
 use crate::model::{GeneratingType, Model};
 
 /// The points at which a determinant vanishes.
@@ -24,13 +29,12 @@ impl PhaseMap {
         equations: &Equations,
     ) -> Vec<(GeneratingType, String)> {
         let n = self.old.len() / 2;
-        let images = self.images(model, equations, POINTS);
+        let tangents = self.tangents(model, equations);
         let sizes: Vec<f64> = (self.old.iter())
-            .map(|&old| images.iter().map(|at| at.at(old).abs()).fold(0.0, f64::max))
+            .map(|&old| tangents.iter().map(|(at, _)| at.at(old).abs()).fold(0.0, f64::max))
             .map(|size| if size > 0.0 { size } else { 1.0 })
             .collect();
-        let measured = |at| {
-            let mut matrix = self.tangent(&equations.pool, at)?;
+        let measured = |(_, mut matrix): (Valuation, DMatrix<f64>)| {
             for (mut column, size) in matrix.column_iter_mut().zip(&sizes) {
                 column *= *size;
             }
@@ -38,9 +42,9 @@ impl PhaseMap {
                 let greatest = row.amax();
                 row /= if greatest > 0.0 { greatest } else { 1.0 };
             }
-            Some(matrix)
+            matrix
         };
-        let matrices: Vec<_> = images.iter().filter_map(measured).collect();
+        let matrices: Vec<_> = tangents.into_iter().map(measured).collect();
         let vanishes = |of: &GeneratingType| {
             let row = if of.has_new_position() { 0 } else { n };
             let column = if of.has_position() { n } else { 0 };
@@ -57,5 +61,25 @@ impl PhaseMap {
             (of, format!("{det}∂{new}/∂{old}"))
         };
         GeneratingType::ALL.into_iter().filter(vanishes).map(named).collect()
+    }
+
+    /// M at points near the start. Where the generating function that the map was given by breaks down itself, its relations
+    /// hold at no point; what they were solved for is then the map that the other functions have.
+    fn tangents(&self, model: &Model, equations: &Equations) -> Vec<(Valuation, DMatrix<f64>)> {
+        let images = self.images(model, equations, POINTS).into_iter();
+        let known = |at: Valuation| Some((self.tangent(&equations.pool, &at)?, at));
+        let known: Vec<_> = images.filter_map(known).map(|(matrix, at)| (at, matrix)).collect();
+        let Some(forwards) = self.forwards.as_ref().filter(|_| known.is_empty()) else {
+            return known;
+        };
+        let mut pool = equations.pool.clone();
+        let rows: Vec<Vec<Expr>> = forwards
+            .iter()
+            .map(|&(_, e)| self.old.iter().map(|&old| pool.derivative(e, old)).collect())
+            .collect();
+        let points = (0..POINTS as u64).map(|n| Valuation::near_start(model, equations, n));
+        let all = points.map(|at| (matrix_at(&pool, &rows, &at), at));
+        let finite = all.filter(|(matrix, _)| matrix.iter().all(|x| x.is_finite()));
+        finite.map(|(matrix, at)| (at, matrix)).collect()
     }
 }

@@ -84,6 +84,15 @@ impl TransformationReport {
         Some(Self::of(model, equations, map))
     }
 
+    /// What is said of a canonical map of which no generating functions were found.
+    pub fn without_functions(&self) -> &'static str {
+        if self.map.is_explicit() {
+            "Its generating functions are not known in closed form."
+        } else {
+            "Of its generating functions only that of the file is known in closed form."
+        }
+    }
+
     fn of(model: &Model, equations: &mut Equations, map: PhaseMap) -> Self {
         let verdict = map.verdict(model, equations);
         let backwards = map.backwards(model, equations);

@@ -9,7 +9,7 @@
 use std::collections::HashMap;
 
 use super::canonical::PhaseMap;
-use super::equations::{Equations, NoClosedForm};
+use super::equations::Equations;
 use super::isolate::{self, Solution};
 use super::linear;
 use super::potential::potential;
@@ -29,10 +29,22 @@ const POINTS: u64 = 24;
 pub struct GeneratingFunction {
     /// Its type for each pair.
     pub types: Vec<GeneratingType>,
-    /// The function, or why there is none.
-    pub function: Result<Expr, NoClosedForm>,
+    /// The function, or why it is not there.
+    pub function: Result<Expr, NoFunction>,
     /// Whether its relations are proved; else they hold at points near the start.
     pub proved: bool,
+}
+
+/// Why a map has no generating function of a type, or none that can be written down.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum NoFunction {
+    /// Its variables, which are these, are not independent: Legendre's transformation does not exist.
+    #[error("none: {0} are not independent")]
+    Dependent(String),
+    /// There is one wherever these variables are independent; the equations of Legendre's transformation have no solution
+    /// in closed form.
+    #[error("exists where {0} are independent, but not in closed form")]
+    NotWritten(String),
 }
 
 impl GeneratingFunction {
@@ -75,6 +87,18 @@ fn choices(given: &Transformation) -> Vec<Vec<GeneratingType>> {
         }
     }
     all
+}
+
+/// The letters of the variables of a function of some types: `q and Q`, or `q, p and P, Q` of two pairs.
+fn variables_of(types: &[GeneratingType]) -> String {
+    let alike = types.iter().all(|of| *of == types[0]);
+    let shown = &types[..if alike { 1 } else { types.len() }];
+    let list = |letter: fn(&GeneratingType) -> &'static str| {
+        shown.iter().map(letter).collect::<Vec<_>>().join(", ")
+    };
+    let old = list(|of| if of.has_position() { "q" } else { "p" });
+    let new = list(|of| if of.has_new_position() { "Q" } else { "P" });
+    format!("{old} and {new}")
 }
 
 impl PhaseMap {
@@ -160,11 +184,10 @@ impl PhaseMap {
         given: &Transformation,
         (forwards, first): (&Solution, Expr),
         types: &[GeneratingType],
-    ) -> (Result<Expr, NoClosedForm>, bool) {
-        let no = |why: String| (Err(NoClosedForm(why)), false);
+    ) -> (Result<Expr, NoFunction>, bool) {
         let n = self.old.len() / 2;
         let Some(images) = self.images_of(forwards) else {
-            return no("the new variables are not known".to_owned());
+            return (Err(NoFunction::NotWritten(variables_of(types))), false);
         };
         // the old half that it does not have follows from the new half that it has
         let half = |i: usize, first: bool| if first { i } else { n + i };
@@ -184,17 +207,7 @@ impl PhaseMap {
         }
         let single = n == 1 && pool.is_zero(matrix[0][0]) == Zero::Proved;
         if single || (n > 1 && linear::solve(pool, &matrix, &vec![Expr::ZERO; n]).is_err()) {
-            let mut letters = [String::new(), String::new()];
-            for of in types.iter().take(if types.iter().all(|of| *of == types[0]) { 1 } else { n })
-            {
-                letters[0].push(if of.has_position() { 'q' } else { 'p' });
-                letters[1].push(if of.has_new_position() { 'Q' } else { 'P' });
-            }
-            let [old, new] = letters.map(|list| {
-                let list: Vec<String> = list.chars().map(String::from).collect();
-                list.join(", ")
-            });
-            return no(format!("{old} and {new} are not independent"));
+            return (Err(NoFunction::Dependent(variables_of(types))), false);
         }
         let old: Vec<Expr> = self.old.iter().map(|&s| pool.variable(s)).collect();
         let mut terms = vec![(Number::ONE, first)];
@@ -277,7 +290,7 @@ impl PhaseMap {
         }
         match best {
             Some((function, proved)) => (Ok(function), proved),
-            None => no("its variables cannot be solved for the others in closed form".to_owned()),
+            None => (Err(NoFunction::NotWritten(variables_of(types))), false),
         }
     }
 

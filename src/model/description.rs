@@ -332,6 +332,17 @@ impl Model {
         named.chain(constants).collect()
     }
 
+    /// The name of a new variable of a transformation: with that of the transformation where others have the same variable.
+    pub fn new_variable_name(&self, law: &Transformation, symbol: Symbol) -> String {
+        let name = &self.pool.symbol_info(symbol).name;
+        let all = self.transformations.iter().flat_map(|law| law.new.iter().flatten());
+        if all.filter(|&&other| other == symbol).count() == 1 {
+            name.clone()
+        } else {
+            format!("{name} of {}", law.name)
+        }
+    }
+
     /// The parameters' values as the file gives them.
     pub fn parameter_values(&self) -> Vec<f64> {
         self.parameters.iter().map(|p| p.value).collect()

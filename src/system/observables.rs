@@ -90,6 +90,7 @@ impl ObservableList {
                 list.name(c, &shown.unwrap_or_else(|| model.pool.with_shown_names(&c.written)));
             }
         }
+        list.add_new_variables(model, equations);
         let own = model.views.iter().flat_map(|view| view.shapes.iter().flatten());
         for e in model.space.iter().chain(own).flat_map(numbers_of).chain(followed(model)) {
             list.add_hidden("", e);
@@ -177,6 +178,35 @@ impl ObservableList {
         if let Mechanics::Poisson { casimirs, .. } = &model.mechanics {
             for (i, (name, e, _)) in casimirs.iter().enumerate() {
                 self.add(ChannelKind::Casimir(i), name, name, *e);
+            }
+        }
+    }
+
+    /// Lists what no view of the file shows: the new variables of its transformations and the constants of its complete
+    /// integral, so that they can be chosen for an axis.
+    fn add_new_variables(&mut self, model: &Model, equations: &mut Equations) {
+        let supplements = &equations.supplements;
+        let written = supplements.new_variables.iter().map(|(symbol, _)| *symbol);
+        let solved = supplements.implicit_maps.iter().flat_map(|(map, _)| map.new.clone());
+        let known: Vec<Symbol> = written.chain(solved).collect();
+        for (name, symbol) in model.new_variables() {
+            if known.contains(&symbol) {
+                let e = equations.pool.variable(symbol);
+                self.add_hidden("", e);
+                let shown = equations.pool.symbol_info(symbol).unicode.clone();
+                self.name(&model::WrittenExpr { written: name, expression: e }, &shown);
+            }
+        }
+        // what several of them call by the same names is known by each of them
+        let all = model.transformations.iter().zip(&equations.supplements.transformations);
+        for (law, forwards) in all {
+            for &(symbol, e) in forwards.iter().flatten() {
+                let info = equations.pool.symbol_info(symbol);
+                let name = model.new_variable_name(law, symbol);
+                if name != info.name {
+                    let shown = format!("{} of {}", info.unicode, law.name);
+                    self.push(ChannelKind::Expression, &name, &shown, Some(e));
+                }
             }
         }
     }

@@ -94,9 +94,12 @@ impl FurtherRows<'_> {
                         self.put(&one.name(), *e, if one.proved { "" } else { "near the start" });
                     }
                     Err(why) => {
-                        self.page.words(Role::Dim, format!("{}: none; {why}.", one.name()));
+                        self.page.words(Role::Dim, format!("{}: {why}.", one.name()));
                     }
                 }
+            }
+            if verdict.canonical && known.functions.is_empty() {
+                self.page.words(Role::Dim, known.without_functions());
             }
             match &known.hamiltonian {
                 Ok(e) => self.put("K", *e, ""),

@@ -96,6 +96,95 @@ fn after_a_change_the_action_is_that_of_the_motion_since_then() {
     assert!(course.legend().contains("= p, ∂S/∂t") && course.legend().contains("= −H"));
 }
 
+/// A method has a map of its own: after it is changed on the way M is that of the steps since then, here of `leapfrog`, whose
+/// map of the oscillator in half a step of p, a step of q and half a step of p again is known.
+#[test]
+fn after_a_change_of_the_method_the_map_is_that_of_the_motion_since_then() {
+    let (h, count) = (0.125_f64, 8);
+    let own = [[1.0 - h * h / 2.0, h], [-h * (1.0 - h * h / 4.0), 1.0 - h * h / 2.0]];
+    let mut power = [[1.0, 0.0], [0.0, 1.0]];
+    for _ in 0..count {
+        let entry = |i: usize, j: usize| (0..2).map(|k| own[i][k] * power[k][j]).sum::<f64>();
+        power = [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]];
+    }
+    let mut course = Course::showing("flow", OSCILLATOR);
+    course.go(1.0);
+    course.experiment.execute(Command::Method("leapfrog".to_owned()));
+    course.experiment.execute(Command::StepSize(h));
+    course.go(2.01);
+    let told = course.legend();
+    assert!(told.contains("since t = 1, where the method was changed"), "{told}");
+    let written = |x: f64| phaselab::num::significant(x, 4, 1e-3..1e4).replace('-', "−");
+    let [[a, b], [c, d]] = power.map(|row| row.map(written));
+    assert!(told.contains(&format!("M = ({a} {b} | {c} {d})")), "{told}");
+    // one that was chosen already is no change, nor is one before anything has moved
+    course.experiment.execute(Command::Method("leapfrog".to_owned()));
+    course.go(2.51);
+    assert!(course.legend().contains("since t = 1,"), "{}", course.legend());
+    let mut course = Course::showing("flow", OSCILLATOR);
+    course.experiment.execute(Command::Method("leapfrog".to_owned()));
+    course.go(1.0);
+    assert!(!course.legend().contains("since"), "{}", course.legend());
+}
+
+/// Up to the event that ends a motion its map is that of the motion without it: (cos t, sin t | −sin t, cos t).
+#[test]
+fn a_motion_that_an_event_ends_has_its_map_until_then() {
+    let text =
+        format!("{OSCILLATOR}[[events]]\nname = \"end\"\nwhen = \"t - 3\"\naction = \"stop\"\n");
+    let mut course = Course::showing("flow", &text);
+    course.go(2.0001);
+    let told = course.legend();
+    assert!(told.contains("M = (−0.4161 0.9093 | −0.9093 −0.4161)"), "{told}");
+    near(course.measure("determinant"), 1.0, 1e-13);
+}
+
+/// An impulse carries the map on: p → p + k q at t = 1 and 2 has the derivative (1, 0 | k, 1), and one that halves p the determinant ½.
+#[test]
+fn an_impulse_carries_the_map_on() {
+    let struck = |change: &str| {
+        format!(
+            "{OSCILLATOR}[[impulses]]\nname = \"stroke\"\nat = [1.0, 2.0]\nchange = {{ p_q = \"{change}\" }}\n"
+        )
+    };
+    let (sin, cos) = 1.0_f64.sin_cos();
+    let turned = |[[a, b], [c, d]]: [[f64; 2]; 2]| {
+        [[cos * a + sin * c, cos * b + sin * d], [cos * c - sin * a, cos * d - sin * b]]
+    };
+    let kicked = |[[a, b], [c, d]]: [[f64; 2]; 2]| [[a, b], [c + 3.0 * a, d + 3.0 * b]];
+    let [[a, b], [c, d]] = turned(kicked(turned(kicked(turned([[1.0, 0.0], [0.0, 1.0]])))));
+    let mut course = Course::showing("flow", &struck("3*q"));
+    course.go(3.0001);
+    let written = |x: f64| phaselab::num::significant(x, 4, 1e-3..1e4).replace('-', "−");
+    let [a, b, c, d] = [a, b, c, d].map(written);
+    assert!(course.legend().contains(&format!("M = ({a} {b} | {c} {d})")), "{}", course.legend());
+    near(course.measure("determinant"), 1.0, 1e-12);
+    let mut course = Course::showing("flow", &struck("-p_q/2"));
+    for (time, expected) in [(0.95, 1.0), (1.5, 0.5), (1.95, 0.5), (2.5, 0.25)] {
+        course.go(time);
+        near(course.measure("determinant"), expected, 1e-12);
+        near(course.measure("expected"), expected, 1e-12);
+    }
+}
+
+/// Where the motion stands at the moment of a change, or before it, there is none that an action could be of.
+#[test]
+fn paused_at_a_change_there_is_no_path() {
+    for kind in ["action", "abbreviated", "phase-action", "paths"] {
+        let mut course = Course::showing(kind, OSCILLATOR);
+        course.experiment.execute(Command::Play);
+        course.go(1.0);
+        course.experiment.execute(Command::Pause);
+        course.set(0, 2.0);
+        course.go(1.0);
+        let said = "no motion yet since t = 1, where w was changed";
+        assert_eq!(course.legend(), said, "{kind}");
+        assert_eq!(course.measure(if kind == "paths" { "count" } else { "value" }), None);
+        course.go(1.5);
+        assert_ne!(course.legend(), said, "{kind}");
+    }
+}
+
 /// H = ½ p² − a t q from (0, 0) at t = 0, a = 1, and a = 2 from t = 1 on: q = 2, p = 7/2 at t = 2.
 #[test]
 fn after_a_change_a_law_with_the_time_has_the_time_of_the_motion() {

@@ -1,6 +1,7 @@
 //! The orbit in the new variables of a transformation: the grid of the old ones, and what is said of the map.
 
 mod branches;
+mod listed;
 
 use phaselab::app::{App, Event, Pane};
 use phaselab::diagnostic::Document;
@@ -364,9 +365,18 @@ fn generating_functions_that_break_down_are_named_with_the_determinant() {
         ("0.7", None),
         ("1.57", None),
         ("1.5707963267948966", Some("F2, F3 break down: ∂P/∂p = ∂Q/∂q = 0")),
+        // the plane is that of the map by F1, which is not there: what was solved for still is
+        ("0", Some("F1, F4 break down: ∂Q/∂p = ∂P/∂q = 0")),
     ] {
-        let text = text.replace("a = { value = 0.7,", &format!("a = {{ value = {angle},"));
+        let text = match angle {
+            "0" => text.clone(),
+            _ => text.replace("a = { value = 0.7,", &format!("a = {{ value = {angle},")),
+        };
         let mut course = Course::with(&text);
+        if angle == "0" {
+            let none = phaselab::experiment::Command::Parameter { index: 0, value: 0.0 };
+            course.experiment.execute(none);
+        }
         course.go(1.0);
         let (_, words) = shown(&course.app, &plots(&course.app)[0]);
         let broken = words.iter().find(|line| line.contains("down"));

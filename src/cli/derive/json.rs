@@ -6,8 +6,8 @@ use serde_json::{Map, Value, json};
 use super::against::LagrangianComparison;
 use crate::expr::{Expr, Symbol};
 use crate::mechanics::{
-    Further, GeneratingFunction, HamiltonJacobi, Holonomy, LeftSide, Report, ReportedEquation,
-    Separation,
+    Further, GeneratingFunction, HamiltonJacobi, Holonomy, LeftSide, NoFunction, Report,
+    ReportedEquation, Separation,
 };
 use crate::model::{Direction, Event, EventAction, Model};
 
@@ -248,7 +248,10 @@ impl JsonReport<'_> {
         let all = known.iter().map(|one| {
             let value = match &one.function {
                 Ok(e) => json!({ "F": self.text(*e), "proved": one.proved }),
-                Err(why) => json!({ "F": null, "why": why.to_string() }),
+                Err(why) => {
+                    let exists = matches!(why, NoFunction::NotWritten(_));
+                    json!({ "F": null, "exists": exists, "why": why.to_string() })
+                }
             };
             (one.name(), value)
         });

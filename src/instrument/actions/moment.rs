@@ -1,6 +1,6 @@
 //! An instant of a motion of which the action is known, and what has changed since another.
 //!
-//! In: the motion of the held system at a time. Out: its action and energy, their relative changes, in words. Never here:
+//! In: the motion of the held system at a time. Out: its action and energy, their relative changes, as written. Never here:
 //! whether a change is slow.
 
 use crate::action_angle::{HeldMotion, OwnMotion, RegionKind};
@@ -24,6 +24,11 @@ impl Moment {
         Some(Moment { time, energy: own.energy, height, action: row.action })
     }
 
+    /// Its place in the picture of J over the energy, or over the height of the energy where a least one is drawn at 0.
+    pub(super) fn seen(&self, bottom: Option<f64>) -> [f64; 2] {
+        [if bottom.is_some() { self.height } else { self.energy }, self.action]
+    }
+
     /// By which part action and height have changed since another moment; `None` where there was nothing to have parts.
     pub(super) fn changes_since(&self, first: &Moment) -> Option<[f64; 2]> {
         let part = |from: f64, to: f64| (from > 0.0).then(|| (to - from) / from);
@@ -31,13 +36,10 @@ impl Moment {
     }
 }
 
-/// The relative changes of the action and of the energy above its least value.
-pub(super) fn changes_in_words([action, height]: [f64; 2]) -> String {
-    let signed = |x: f64| {
-        let size = significant(x.abs(), 2, 1e-3..1e5);
-        if x < 0.0 { format!("−{size}") } else { format!("+{size}") }
-    };
-    format!("ΔJ/J = {}, ΔE/(E − V₀) = {}", signed(action), signed(height))
+/// A relative change with its sign.
+pub(super) fn signed(x: f64) -> String {
+    let size = significant(x.abs(), 2, 1e-3..1e5);
+    if x < 0.0 { format!("−{size}") } else { format!("+{size}") }
 }
 
 #[cfg(test)]

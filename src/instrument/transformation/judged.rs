@@ -8,7 +8,9 @@ use nalgebra::DMatrix;
 use crate::dynamics::MethodStep;
 use crate::expr::Pool;
 use crate::integrate::method_named;
-use crate::mechanics::{Equations, FailingBracket, TransformationReport, Valuation};
+use crate::mechanics::{
+    CanonicalVerdict, Equations, FailingBracket, TransformationReport, Valuation,
+};
 use crate::model::{GeneratingType, Model};
 use crate::num::significant;
 use crate::system::System;
@@ -33,7 +35,12 @@ impl MapVerdict {
     ) -> Self {
         let lines = |report: &TransformationReport| {
             let mut lines = lines(&equations.pool, report);
-            lines.extend(break_down(&report.map.broken_down(model, equations)));
+            let broken = break_down(&report.map.broken_down(model, equations));
+            match (lines.first_mut(), broken) {
+                // where the function of the file breaks down itself, that is why no map is known
+                (Some(first), Some(broken)) if is_unknown(&report.verdict) => *first = broken,
+                (_, broken) => lines.extend(broken),
+            }
             lines
         };
         Self {
@@ -106,6 +113,11 @@ fn break_down(broken: &[(GeneratingType, String)]) -> Option<String> {
         .then(|| format!("{} {verb} down: {} = 0", types.join(", "), zeros.join(" = ")))
 }
 
+/// Whether nothing was found of a map, neither that it is canonical nor that it is not.
+fn is_unknown(verdict: &CanonicalVerdict) -> bool {
+    verdict.residual.is_none() && verdict.failing.is_empty()
+}
+
 /// What is said of a transformation.
 fn lines(pool: &Pool, report: &TransformationReport) -> Vec<String> {
     let verdict = &report.verdict;
@@ -122,9 +134,9 @@ fn lines(pool: &Pool, report: &TransformationReport) -> Vec<String> {
         (true, true) => "canonical, proved".to_owned(),
         (true, false) if !verdict.only_here.is_empty() => "canonical at these values".to_owned(),
         (true, false) => format!("canonical to rounding: |M 𝕁 Mᵀ − 𝕁| = {off}"),
-        // nothing was found of it, neither that it is nor that it is not
-        (false, _) if verdict.residual.is_none() && verdict.failing.is_empty() => {
-            "no map is known here".to_owned()
+        (false, _) if is_unknown(verdict) => {
+            let why = verdict.why.as_ref().map_or_else(String::new, |why| format!(": {why}"));
+            format!("no map is known here{why}")
         }
         (false, _) => "not canonical".to_owned(),
     }];

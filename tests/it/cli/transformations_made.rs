@@ -253,6 +253,26 @@ fn the_other_three_generating_functions() {
     check_functions(&point, ["q^3", "p_q/(3*q^2)"], [false, true, true, true]);
 }
 
+/// F2 = q P + 0.1 (P³ + q⁵) has Q = q + 0.3 P² and p = P + 0.5 q⁴, and so F4 with q = (2 (p − P))^¼. F3 would need
+/// q from Q = q + 0.3 (p − 0.5 q⁴)²: it is there wherever ∂Q/∂q does not vanish, but has no closed form.
+#[test]
+fn a_function_without_a_closed_form_is_not_said_to_be_none() {
+    let text = "[[transformations]]\nname = \"a\"\nkind = \"F2\"\nF = \"q*P + 0.1*P^3 + 0.1*q^5\"";
+    let found = derived(&[text]).remove(0);
+    let functions = &found["generating_functions"];
+    assert!(functions["F4"]["F"].is_string() && functions["F2"]["F"].is_string(), "{functions}");
+    let third = &functions["F3"];
+    assert_eq!((&third["F"], &third["exists"]), (&json!(null), &json!(true)), "{functions}");
+    let why = "exists where p and Q are independent, but not in closed form";
+    assert_eq!(third["why"], why);
+    // the identity has none of this type
+    let text = "[[transformations]]\nname = \"a\"\nkind = \"F2\"\nF = \"q*P\"";
+    let found = derived(&[text]).remove(0);
+    let first = &found["generating_functions"]["F1"];
+    assert_eq!(first["exists"], false);
+    assert_eq!(first["why"], "none: q and Q are not independent");
+}
+
 /// F = x A₁ + y B₂ + c x y, of type F1 in the first pair and F2 in the second: A₁ = p_x − c y, A₂ = y, B₁ = −x, B₂ = p_y − c x,
 /// and by hand five of the sixteen choices have independent variables. None is the same for both pairs.
 #[test]

@@ -4,7 +4,7 @@ use phaselab::experiment::{AdvanceOutcome, Command, Experiment, Gauge, Growth, V
 use phaselab::integrate::Settings;
 use phaselab::preset::Catalog;
 
-use super::{PLENTY, build, gauge, run, shipped};
+use super::{PLENTY, build, gauge, run, shipped, value};
 
 #[test]
 fn every_preset_has_a_gauge_for_all_that_is_conserved() {
@@ -278,4 +278,49 @@ fn steps_that_are_seen_together_are_seen_as_one_by_one() {
             }
         }
     }
+}
+
+/// Of a ball that is thrown up α is ½ m v₀², and β = ∂S/∂α is −v₀/g for as long as it rises; S has the other root of p where it
+/// falls. Of an oscillator β is a number on each way to the right, lower by a period from one to the next.
+/// Source: *The Principles of Dynamics*, § 3.5.
+#[test]
+fn the_constants_of_a_complete_integral_are_gauged() {
+    let mut ball = shipped("falling-body");
+    run(&mut ball, 1.9);
+    let snapshot = ball.snapshot();
+    let beta = gauge(&snapshot, "beta_alpha");
+    assert!((beta.value + 2.0).abs() < 1e-12 && beta.proved, "{beta:?}");
+    assert!(matches!(beta.verdict, Verdict::Exact(_)), "{beta:?}");
+    assert_eq!(beta.reason, "∂S/∂α, while p = ∂S/∂q");
+    let alphas = snapshot.gauges.iter().filter(|one| one.name == "α" || one.name == "alpha");
+    let alphas: Vec<&Gauge> = alphas.collect();
+    assert_eq!(alphas.len(), 1, "{alphas:?}");
+    assert!((alphas[0].value - 192.4722).abs() < 1e-11);
+    assert!(matches!(alphas[0].verdict, Verdict::Exact(_)), "{:?}", alphas[0]);
+    run(&mut ball, 3.0);
+    let beta = gauge(&ball.snapshot(), "beta_alpha");
+    assert!(matches!(beta.verdict, Verdict::Broken(_)), "{beta:?}");
+    assert_eq!((beta.left, beta.reason.as_str()), (None, "other branch"));
+
+    // to the right from the start until π/4 − β₀ = 0.23, and again after every π of 2t
+    let mut oscillator = shipped("oscillator-hamilton-jacobi");
+    let first = 0.5535743588970452;
+    let mut known = Vec::new();
+    for step in 1..=300 {
+        run(&mut oscillator, 0.02 * f64::from(step));
+        let beta = gauge(&oscillator.snapshot(), "beta_alpha");
+        let to_the_right = value(&oscillator, "p_q") > 0.1;
+        if to_the_right {
+            assert!(!matches!(beta.verdict, Verdict::Broken(_) | Verdict::Lost), "{beta:?}");
+            assert!(beta.max_drift < 1e-9, "{beta:?}");
+            let turns = ((first - beta.value) / std::f64::consts::PI).round();
+            assert!((beta.value - first + turns * std::f64::consts::PI).abs() < 1e-10, "{beta:?}");
+            if !known.contains(&turns) {
+                known.push(turns);
+            }
+        } else if value(&oscillator, "p_q") < -0.1 {
+            assert!(matches!(beta.verdict, Verdict::Broken(_)), "{beta:?}");
+        }
+    }
+    assert_eq!(known, [0.0, 1.0, 2.0]);
 }

@@ -1,7 +1,7 @@
 //! What must never be called constant: quantities that an impulse, a released constraint, friction, a force, a kink or a
 //! parameter's value makes false. Each of these files is refused with a sentence, or has the word.
 
-use phaselab::integrability::{Limits, Proof, invariants, symmetries};
+use phaselab::integrability::{Limits, Proof, invariants, point_symmetries, symmetries};
 use phaselab::mechanics;
 
 use super::model;
@@ -215,6 +215,30 @@ fn roots_with_kinks_are_not_searched_through() {
         let mut equations = mechanics::derive(&model).expect("derivable");
         let limits = Limits { degree: Some(1), is_over: &|| false };
         invariants(&model, &mut equations, &limits).expect(potential);
+    }
+}
+
+/// A ramp is no formula that an ansatz could be made for; it is named, and not the functions that it is written with. One that
+/// the law does not contain changes nothing.
+#[test]
+fn a_law_with_a_ramp_is_refused_by_the_name_of_its_parameter() {
+    let ramp = "[parameters]\nomega = { value = 1.0, symbol = \"ω\" }\n[[ramps]]\nparameter = \"omega\"\nto = 2\nstart = 1\n\
+                duration = 5\n";
+    for (potential, refused) in [("omega^2*x^2/2", true), ("x^2/2", false)] {
+        let text = file(&lagrangian(&format!("{FREE} - {potential}")), ramp, "omega*x");
+        let model = model(&text);
+        let mut equations = mechanics::derive(&model).expect("derivable");
+        let limits = Limits { degree: Some(1), is_over: &|| false };
+        let answers = [
+            invariants(&model, &mut equations, &limits).err(),
+            symmetries(&model, &mut equations, &|| false).err(),
+            point_symmetries(&model, &mut equations, None, &|| false).err(),
+        ];
+        for answer in answers {
+            let why = answer.map(|why| why.to_string());
+            let said = "no search is made of a law in which a ramp changes ω";
+            assert_eq!(why.as_deref(), refused.then_some(said));
+        }
     }
 }
 

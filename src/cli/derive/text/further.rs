@@ -110,9 +110,12 @@ impl TextReport<'_> {
                 let words = match &one.function {
                     Ok(e) if one.proved => format!("{} = {}", name, self.math(*e)),
                     Ok(e) => format!("{} = {}   (near the start)", name, self.math(*e)),
-                    Err(why) => format!("{}: none; {}", name, self.words(&why.to_string())),
+                    Err(why) => format!("{}: {}", name, self.words(&why.to_string())),
                 };
                 self.line(&format!("  {words}"));
+            }
+            if verdict.canonical && known.functions.is_empty() {
+                self.line(&format!("  {}", known.without_functions()));
             }
             match &known.hamiltonian {
                 Ok(e) => self.line(&format!("  K = {}", self.math(*e))),
