@@ -77,6 +77,8 @@ impl App {
     pub(super) fn choose_on(&mut self, plot: usize, begun: Plot, label: String) -> Vec<Effect> {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let Some(axis) = begun.kind.chosen().get(begun.columns.len()) else {
+            // which axes make a plane is known once all of them are
+            let begun = begun.opened(lab.loaded.physics());
             lab.redraw(plot, |plot, _| *plot = begun);
             lab.focus = Pane::Plot(plot);
             return Vec::new();

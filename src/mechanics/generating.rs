@@ -50,7 +50,16 @@ pub enum NoFunction {
 impl GeneratingFunction {
     /// The name of its type, or the names of those of each pair.
     pub fn name(&self) -> String {
-        let names: Vec<&str> = self.types.iter().map(|of| of.name()).collect();
+        self.named(GeneratingType::name)
+    }
+
+    /// The same as it is shown.
+    pub fn shown(&self) -> String {
+        self.named(GeneratingType::shown)
+    }
+
+    fn named(&self, name: fn(GeneratingType) -> &'static str) -> String {
+        let names: Vec<&str> = self.types.iter().map(|of| name(*of)).collect();
         let single = names.windows(2).all(|pair| pair[0] == pair[1]);
         if single {
             names.first().map_or_else(String::new, |&name| name.into())

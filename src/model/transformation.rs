@@ -72,6 +72,16 @@ impl GeneratingType {
         }
     }
 
+    /// Its name as it is shown.
+    pub fn shown(self) -> &'static str {
+        match self {
+            GeneratingType::F1 => "F₁",
+            GeneratingType::F2 => "F₂",
+            GeneratingType::F3 => "F₃",
+            GeneratingType::F4 => "F₄",
+        }
+    }
+
     /// Whether F depends on the old coordinate of the pair; else on its momentum.
     pub fn has_position(self) -> bool {
         matches!(self, GeneratingType::F1 | GeneratingType::F2)

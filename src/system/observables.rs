@@ -75,16 +75,19 @@ impl ObservableList {
             }
         }
         for (name, e, _) in &model.expect.conserves {
-            list.add_hidden(name, *e);
+            if !list.index.contains_key(e) {
+                let shown = model.pool.with_shown_names(name);
+                list.add(ChannelKind::Expression, name, &shown, *e);
+            }
         }
         // A quantity is not named after a value expected of it at one time; a view may name it.
         for value in &model.expect.values {
-            list.add_hidden("", value.expression);
+            list.add_hidden(value.expression);
         }
         list.precise = list.channels.len();
         for view in &model.views {
             for c in view.axes.iter().flatten() {
-                list.add_hidden("", c.expression);
+                list.add_hidden(c.expression);
                 let symbol = model.pool.as_symbol(c.expression);
                 let shown = symbol.map(|s| model.pool.symbol_info(s).unicode.clone());
                 list.name(c, &shown.unwrap_or_else(|| model.pool.with_shown_names(&c.written)));
@@ -93,17 +96,17 @@ impl ObservableList {
         list.add_new_variables(model, equations);
         let own = model.views.iter().flat_map(|view| view.shapes.iter().flatten());
         for e in model.space.iter().chain(own).flat_map(numbers_of).chain(followed(model)) {
-            list.add_hidden("", e);
+            list.add_hidden(e);
         }
         for frame in &model.frames {
             for e in frame.axis.into_iter().chain([frame.angle]).chain(frame.origin) {
-                list.add_hidden("", e);
+                list.add_hidden(e);
             }
         }
         for seen in equations.supplements.frames.iter().flatten() {
             let forces = [seen.centrifugal, seen.coriolis, seen.euler, seen.dragging];
             for e in seen.at.into_iter().chain(forces.into_iter().flatten()) {
-                list.add_hidden("", e);
+                list.add_hidden(e);
             }
         }
         list.find_units(model, equations);
@@ -237,9 +240,9 @@ impl ObservableList {
         self.push(kind, name, shown, Some(e));
     }
 
-    fn add_hidden(&mut self, name: &str, e: Expr) {
+    fn add_hidden(&mut self, e: Expr) {
         if !self.index.contains_key(&e) {
-            self.add(ChannelKind::Expression, name, name, e);
+            self.add(ChannelKind::Expression, "", "", e);
         }
     }
 

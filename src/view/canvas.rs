@@ -4,15 +4,16 @@
 
 use std::borrow::Cow;
 
-use ratatui::buffer::Buffer;
+use ratatui::buffer::{Buffer, Cell as ScreenCell};
 use ratatui::layout::{Margin, Position, Rect};
 use ratatui::style::Style;
 use ratatui::symbols::border;
 use ratatui::widgets::{Clear, Widget};
-use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
+use unicode_width::UnicodeWidthChar;
 
 use super::RenderStyle;
 use super::colour::ColourDepth;
+use super::glyphs::TextWidth;
 use super::kept::Kept;
 use super::region::ScreenRegion;
 use super::theme::Role;
@@ -72,16 +73,22 @@ impl Canvas<'_> {
     /// number of columns written.
     pub(super) fn write(&mut self, at: Position, width: u16, text: &str, style: Style) -> u16 {
         let look = self.look;
+        let room = width.min(self.buffer.area.right().saturating_sub(at.x));
+        if let Some(wide) = look.columns(text).filter(|wide| *wide <= width.into()) {
+            if self.buffer.area.contains(at) {
+                self.put_letters(at, text, room, style);
+            }
+            return wide as u16;
+        }
         let text = look.shown(text);
-        let (text, wide) = match columns_of(&text) {
+        let (text, wide) = match text.width() {
             wide if wide <= width.into() => (text, wide),
             _ => {
                 let short = shortened(&text, width.into(), look.glyphs.pick("…", "~"));
-                let wide = columns_of(&short);
+                let wide = short.width();
                 (Cow::Owned(short), wide)
             }
         };
-        let room = width.min(self.buffer.area.right().saturating_sub(at.x));
         if self.buffer.area.contains(at) {
             self.put(at, &text, room, style);
         }
@@ -94,6 +101,11 @@ impl Canvas<'_> {
             self.buffer.set_stringn(at.x, at.y, text, room.into(), style);
             return;
         }
+        self.put_letters(at, text, room, style);
+    }
+
+    /// Puts characters that fill one cell each into the cells of a row, at most `room` of them.
+    fn put_letters(&mut self, at: Position, text: &str, room: u16, style: Style) {
         let from = self.buffer.index_of(at.x, at.y);
         let cells = &mut self.buffer.content[from..from + usize::from(room)];
         for (cell, letter) in cells.iter_mut().zip(text.chars()) {
@@ -119,7 +131,7 @@ impl Canvas<'_> {
         let look = self.look;
         let texts = spans.iter().map(|(text, style)| (look.shown(text), *style));
         let texts: Vec<(Cow<'_, str>, Style)> = texts.collect();
-        let all: usize = texts.iter().map(|(text, _)| columns_of(text)).sum();
+        let all: usize = texts.iter().map(|(text, _)| text.width()).sum();
         let padding = texts.last().map_or(0, |(text, _)| text.len() - text.trim_end().len());
         let mark = look.glyphs.pick("…", "~");
         let cut = all.saturating_sub(padding) > usize::from(row.width);
@@ -130,7 +142,7 @@ impl Canvas<'_> {
                 break;
             }
             let at = Position::new(row.x + used, row.y);
-            let wide = columns_of(text);
+            let wide = text.width();
             if wide <= usize::from(room - used) {
                 used += self.write(at, room - used, text, *style);
             } else {
@@ -190,17 +202,23 @@ impl Canvas<'_> {
             return;
         }
         let (right, bottom) = (area.right() - 1, area.bottom() - 1);
+        let [mut row, mut column] = [0, 1].map(|_| ScreenCell::default());
+        for (y, symbol) in [(area.y, set.horizontal_top), (bottom, set.horizontal_bottom)] {
+            row.set_symbol(symbol);
+            let from = self.buffer.index_of(area.x, y);
+            for cell in &mut self.buffer.content[from..from + usize::from(area.width)] {
+                copy_symbol(&row, cell, style);
+            }
+        }
+        for (x, symbol) in [(area.x, set.vertical_left), (right, set.vertical_right)] {
+            column.set_symbol(symbol);
+            for y in area.y..=bottom {
+                copy_symbol(&column, &mut self.buffer[(x, y)], style);
+            }
+        }
         let mut put = |x: u16, y: u16, symbol: &str| {
             self.buffer[(x, y)].set_symbol(symbol).set_style(style);
         };
-        for x in area.x..=right {
-            put(x, area.y, set.horizontal_top);
-            put(x, bottom, set.horizontal_bottom);
-        }
-        for y in area.y..=bottom {
-            put(area.x, y, set.vertical_left);
-            put(right, y, set.vertical_right);
-        }
         put(area.x, area.y, set.top_left);
         put(right, area.y, set.top_right);
         put(area.x, bottom, set.bottom_left);
@@ -242,6 +260,13 @@ impl Canvas<'_> {
     }
 }
 
+/// Gives a cell the symbol of another one, which has no style, and a style over its own.
+fn copy_symbol(from: &ScreenCell, to: &mut ScreenCell, style: Style) {
+    let own = to.style();
+    to.clone_from(from);
+    to.set_style(own).set_style(style);
+}
+
 /// Returns as many groups of spans as fit, each whole or not at all; the first is always included.
 pub(super) fn groups(groups: Vec<Vec<Span>>, room: usize) -> Vec<Span> {
     let mut spans: Vec<Span> = Vec::new();
@@ -275,11 +300,6 @@ pub(super) fn row(area: Rect, index: usize) -> Rect {
 pub(super) fn columns(area: Rect, from: u16, width: u16) -> Rect {
     let from = from.min(area.width);
     Rect { x: area.x + from, width: width.min(area.width - from), ..area }
-}
-
-/// The width of text in columns.
-fn columns_of(text: &str) -> usize {
-    if text.is_ascii() { text.len() } else { text.width() }
 }
 
 /// Whether a character fills one cell whatever stands beside it: Latin, Greek and Cyrillic letters, punctuation, symbols,

@@ -91,10 +91,10 @@ impl FurtherRows<'_> {
             for one in &known.functions {
                 match &one.function {
                     Ok(e) => {
-                        self.put(&one.name(), *e, if one.proved { "" } else { "near the start" });
+                        self.put(&one.shown(), *e, if one.proved { "" } else { "near the start" });
                     }
                     Err(why) => {
-                        self.page.words(Role::Dim, format!("{}: {why}.", one.name()));
+                        self.page.words(Role::Dim, format!("{}: {why}.", one.shown()));
                     }
                 }
             }

@@ -4,10 +4,9 @@
 
 use ratatui::layout::Rect;
 use ratatui::widgets::Widget;
-use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, columns, row};
-use super::glyphs::Glyphs;
+use super::glyphs::{Glyphs, TextWidth};
 use super::layout::split_rows;
 use super::number::{self, fitted, readable};
 use super::plot::{Marker, Scale};

@@ -102,6 +102,22 @@ impl Glyphs {
         self.pick(border::ROUNDED, ASCII_BORDER)
     }
 
+    /// The width of a text in columns if [`Self::text`] leaves it as it is and each of its characters fills one cell; `None`
+    /// where that takes more than a look at each character.
+    pub fn columns(self, text: &str) -> Option<usize> {
+        if self.is_ascii() {
+            return text.bytes().all(|byte| matches!(byte, b' '..=b'~')).then_some(text.len());
+        }
+        let mut count = 0;
+        for c in text.chars() {
+            if !is_plain(c) {
+                return None;
+            }
+            count += 1;
+        }
+        Some(count)
+    }
+
     /// Returns the text as this terminal can show it, one cell per character: dots above letters become primes
     /// (`θ̇` → `θ′`), or everything is spelt in ASCII (`θ₁²` → `theta1^2`).
     pub fn text(self, text: &str) -> Cow<'_, str> {
@@ -113,6 +129,37 @@ impl Glyphs {
             single(text)
         }
     }
+}
+
+/// The width of text in columns, as the Unicode standard has it.
+pub(super) trait TextWidth {
+    /// The number of columns.
+    fn width(&self) -> usize;
+}
+
+impl TextWidth for str {
+    fn width(&self) -> usize {
+        Glyphs::Braille.columns(self).unwrap_or_else(|| unicode_width::UnicodeWidthStr::width(self))
+    }
+}
+
+/// Whether a character is shown as it is and fills one cell, whatever stands beside it: letters and signs of formulas, lines
+/// and dots. Many others are too; these are nearly all that the program writes.
+fn is_plain(c: char) -> bool {
+    matches!(c,
+        ' '..='~'
+            | '\u{a1}'..='\u{ac}'
+            | '\u{ae}'..='\u{bf}'
+            | '×'
+            | '÷'
+            | '\u{391}'..='\u{3c9}'
+            | '\u{2010}'..='\u{2027}'
+            | '\u{2030}'..='\u{205e}'
+            | '\u{2070}'..='\u{209c}'
+            | '\u{2100}'..='\u{2138}'
+            | '\u{2190}'..='\u{2319}'
+            | '\u{2500}'..='\u{25fc}'
+            | '\u{2800}'..='\u{28ff}')
 }
 
 /// Returns the text without combining marks, which terminals render differently and some misalign. Marks of rates of

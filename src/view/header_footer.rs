@@ -4,13 +4,12 @@
 
 use ratatui::layout::Rect;
 use ratatui::symbols::border;
-use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns, row};
 use super::gauges::{departed, finding};
-use super::glyphs::Glyphs;
+use super::glyphs::{Glyphs, TextWidth};
 use super::help::keys;
-use super::number::{brief, fitted};
+use super::number::{brief, fitted, rounded};
 use super::quantity::Quantities;
 use super::theme::Role;
 use super::timeline;
@@ -175,13 +174,14 @@ pub(super) fn status_words(q: &Quantities<'_>) -> String {
     let unit = q.lab.loaded.model.time_unit();
     let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
     let tolerance = snapshot.method.tolerance;
-    let tolerance = tolerance.map_or_else(String::new, |t| format!(", tolerance {t:.0e}"));
+    let tolerance =
+        tolerance.map_or_else(String::new, |t| format!(", tolerance {}", brief(t, 2, glyphs)));
     format!(
         "Time {}{unit}, {status}, speed {}, method {}{tolerance}, step {}.",
         brief(snapshot.time, 6, glyphs),
         speed(snapshot, glyphs),
         snapshot.method.name,
-        brief(snapshot.method.step, 3, glyphs),
+        brief(rounded(snapshot.method.step, 3), 3, glyphs),
     )
 }
 
@@ -197,9 +197,13 @@ fn short(value: f64) -> String {
 /// The method with its step and tolerance, in a constant width.
 fn method(snapshot: &Snapshot, canvas: &Canvas<'_>) -> String {
     let glyphs = canvas.look.glyphs;
-    let step = fitted(snapshot.method.step, 2, 7, glyphs);
+    // Before the first step there is no length of one.
+    let step = match snapshot.method.step {
+        0.0 => glyphs.pick("–", "-").to_owned(),
+        step => fitted(rounded(step, 2), 2, 7, glyphs),
+    };
     let tolerance = snapshot.method.tolerance.map_or_else(String::new, |tolerance| {
-        format!(" {} {tolerance:.0e}", glyphs.pick("ε", "tol"))
+        format!(" {} {}", glyphs.pick("ε", "tol"), brief(tolerance, 2, glyphs))
     });
     format!("{}{tolerance} h {step:<7}", snapshot.method.name)
 }

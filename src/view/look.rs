@@ -20,8 +20,16 @@ pub struct RenderStyle {
 }
 
 impl RenderStyle {
+    /// The width of text in columns if it can be shown as it is, one character in a cell.
+    pub(super) fn columns(&self, text: &str) -> Option<usize> {
+        self.glyphs.columns(text)
+    }
+
     /// Returns text as this terminal can show it, without control characters.
     pub(super) fn shown<'t>(&self, text: &'t str) -> Cow<'t, str> {
+        if self.columns(text).is_some() {
+            return Cow::Borrowed(text);
+        }
         match printable::line(text) {
             Cow::Borrowed(safe) => self.glyphs.text(safe),
             Cow::Owned(safe) => Cow::Owned(self.glyphs.text(&safe).into_owned()),

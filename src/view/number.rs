@@ -3,9 +3,7 @@
 //! In: any `f64`. Out: short text, in ASCII if [`Glyphs`] require it. Never here: machine formats, which are
 //! shortest round-trip decimals and belong to the command line.
 
-use unicode_width::UnicodeWidthStr;
-
-use super::glyphs::Glyphs;
+use super::glyphs::{Glyphs, TextWidth};
 
 /// Formats a changing value: always `significant` digits (1 to 17), so that its width changes only with its magnitude.
 ///
@@ -20,6 +18,12 @@ pub fn fitted(value: f64, significant: usize, width: usize, glyphs: Glyphs) -> S
     // A power of ten leaves room for few digits; `2e-15` is shorter than `2×10⁻¹⁵`.
     let short = signed(format!("{value:.0e}"), glyphs);
     texts.chain([short]).find(|text| text.width() <= width).unwrap_or_else(|| "#".repeat(width))
+}
+
+/// Rounds a value to `significant` digits (1 to 17): 17476 to two is 17000.
+pub fn rounded(value: f64, significant: usize) -> f64 {
+    let digits = significant.clamp(1, 17) - 1;
+    format!("{value:.digits$e}").parse().unwrap_or(value)
 }
 
 /// Formats a constant value: like [`readable`], without trailing zeros (`1`, not `1.000`).

@@ -7,7 +7,7 @@ use super::plot::ticks::nice_range;
 use super::plot::{DrawnAxis, Scale};
 use crate::app::Lab;
 use crate::experiment::Snapshot;
-use crate::expr::Expr;
+use crate::expr::{Expr, Symbol};
 use crate::instrument::{Present, Viewport};
 use crate::model::Point;
 
@@ -88,6 +88,17 @@ impl<'a> Quantities<'a> {
         }
         let channel = self.lab.loaded.system.channel_of(expression);
         channel.map_or(QuantitySource::Number(f64::NAN), QuantitySource::Channel)
+    }
+
+    /// Whether an expression is the same at all times: a number, or a function of parameters none of which is ramped.
+    pub(super) fn is_constant(&self, expression: Expr) -> bool {
+        let model = &self.lab.loaded.model;
+        let constant = |symbol: &Symbol| {
+            model.parameters.iter().any(|parameter| parameter.symbol == *symbol)
+                && !model.ramped.functions().any(|(ramped, _)| ramped == *symbol)
+        };
+        let pool = &self.lab.loaded.equations.pool;
+        pool.as_number(expression).is_some() || pool.symbols_of(expression).iter().all(constant)
     }
 
     /// The current value of an expression of a shape.

@@ -217,19 +217,20 @@ impl ScenePainter<'_> {
             }
             Shape::Disc { centre, radius, normal } => {
                 let (centre, normal) = (self.point(centre), self.direction(normal));
-                let rim = circle::circle(centre, self.q.number(*radius), normal);
+                let rim = self.rim(centre, self.q.number(*radius), normal);
                 self.curve(&rim, &solid);
             }
             Shape::Cone { tip, base, radius } => {
                 let (tip, base) = (self.point(tip), self.point(base));
                 let axis = [0, 1, 2].map(|k| base[k] - tip[k]);
-                let rim = circle::circle(base, self.q.number(*radius), axis);
+                let rim = self.rim(base, self.q.number(*radius), axis);
                 self.curve(&rim, &solid);
                 self.silhouette(&vec![tip; rim.len()], &rim, &solid);
             }
             Shape::Cylinder { from, to, radius } => {
                 let ends = [self.point(from), self.point(to)];
-                let [low, high] = solid::rims(ends, self.q.number(*radius));
+                let radius = self.q.number(*radius);
+                let [low, high] = solid::rims(ends, radius, self.spacing(radius));
                 self.curve(&low, &solid);
                 self.curve(&high, &solid);
                 self.silhouette(&low, &high, &solid);
@@ -311,6 +312,17 @@ impl ScenePainter<'_> {
     fn cells(&self, radius: f64) -> Option<f64> {
         let cell = (self.frame.x.hi - self.frame.x.lo) / f64::from(self.frame.area.width.max(1));
         Some(radius / cell).filter(|cells| cells.is_finite() && *cells > 1.2)
+    }
+
+    /// The rim of a solid, with as many corners as its size on the screen needs.
+    fn rim(&self, centre: [f64; 3], radius: f64, normal: [f64; 3]) -> Vec<[f64; 3]> {
+        circle::rim(centre, radius, normal, self.spacing(radius))
+    }
+
+    /// Every how many corners are enough for a rim.
+    fn spacing(&self, radius: f64) -> usize {
+        let dot = (self.frame.x.hi - self.frame.x.lo) / f64::from(self.raster.size()[0].max(1));
+        circle::spacing((radius / dot).abs())
     }
 
     /// A point of the body, given from its centre of mass, in the reference frame.

@@ -4,9 +4,9 @@
 
 use ratatui::layout::{Position, Rect};
 use ratatui::widgets::Widget;
-use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, columns, row};
+use super::glyphs::TextWidth;
 use super::number::brief_in;
 use super::plot::Scale;
 use super::region::ScreenRegion;

@@ -2,10 +2,17 @@
 //!
 //! In: text. Out: its lines. Never here: styles, or the positions of lines.
 
-use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
+use unicode_width::UnicodeWidthChar;
+
+use super::glyphs::TextWidth;
 
 /// The lines of a paragraph, broken at spaces; a word longer than a line is broken anywhere.
 pub(super) fn words(text: &str, width: usize) -> Vec<String> {
+    let spaced = |text: &str| text.contains("  ") || text.trim().len() < text.len();
+    let plain = text.bytes().all(|byte| matches!(byte, b' '..=b'~'));
+    if plain && (1..=width).contains(&text.len()) && !spaced(text) {
+        return vec![text.to_owned()];
+    }
     let piece = |word: &str| TextPiece { text: word.to_owned(), spaced: true, nested: 0 };
     fill(text.split_whitespace().map(piece), width, 0, 0)
 }
@@ -357,7 +364,7 @@ mod tests {
         assert_eq!(short("centre of mass along x", 15), "centre of mass…");
         assert_eq!(short("moment of inertia about a transverse axis", 36), "moment of inertia…");
         assert_eq!(short("moment on the bearing", 17), "moment…");
-        assert_eq!(short("blow of the hinge, when the pin holds", 17), "blow of the…");
+        assert_eq!(short("torque of the hinge, when the pin holds", 17), "torque of the…");
         // A single word is torn, and so is one after too little.
         assert_eq!(short("Phasenraumvolumen", 9), "Phasenra…");
         assert_eq!(short("a Phasenraumvolumen", 9), "a Phasen…");

@@ -364,9 +364,9 @@ fn generating_functions_that_break_down_are_named_with_the_determinant() {
     for (angle, said) in [
         ("0.7", None),
         ("1.57", None),
-        ("1.5707963267948966", Some("F2, F3 break down: ∂P/∂p = ∂Q/∂q = 0")),
+        ("1.5707963267948966", Some("F₂, F₃ break down: ∂P/∂p = ∂Q/∂q = 0")),
         // the plane is that of the map by F1, which is not there: what was solved for still is
-        ("0", Some("F1, F4 break down: ∂Q/∂p = ∂P/∂q = 0")),
+        ("0", Some("F₁, F₄ break down: ∂Q/∂p = ∂P/∂q = 0")),
     ] {
         let text = match angle {
             "0" => text.clone(),
@@ -397,7 +397,7 @@ fn units_break_no_generating_function_down() {
         course.go(1.0);
         let (_, words) = shown(&course.app, &plots(&course.app)[0]);
         let broken = words.iter().find(|line| line.contains("down"));
-        let said = "F1, F4 break down: ∂Q/∂p = ∂P/∂q = 0";
+        let said = "F₁, F₄ break down: ∂Q/∂p = ∂P/∂q = 0";
         assert_eq!(broken.map(String::as_str), Some(said), "at {scale}: {words:?}");
     }
 }

@@ -106,7 +106,7 @@ fn step_lines(found: &MethodStep, method: &str, within: f64) -> Vec<String> {
 
 /// What is said of the generating functions that a map has not at these values of the parameters.
 fn break_down(broken: &[(GeneratingType, String)]) -> Option<String> {
-    let types: Vec<&str> = broken.iter().map(|(of, _)| of.name()).collect();
+    let types: Vec<&str> = broken.iter().map(|(of, _)| of.shown()).collect();
     let zeros: Vec<&str> = broken.iter().map(|(_, determinant)| determinant.as_str()).collect();
     let verb = if types.len() == 1 { "breaks" } else { "break" };
     (!types.is_empty())

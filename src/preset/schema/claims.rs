@@ -92,7 +92,7 @@ pub(in crate::preset) const EXPECTED_STEP: SchemaTable = SchemaTable {
         key(
             "within",
             Number,
-            "how far image and M may be apart, in parts of their size or of 1; 1e-10 where not given",
+            "the largest difference between image and M, relative to the larger of their size and 1; 1e-10 where not given",
         ),
         SOURCE,
     ],

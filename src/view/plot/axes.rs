@@ -6,11 +6,10 @@
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Style;
-use unicode_width::UnicodeWidthStr;
 
 use super::scale::{PlotFrame, Scale, ScaleKind};
 use super::ticks::Ticks;
-use crate::view::glyphs::Glyphs;
+use crate::view::glyphs::{Glyphs, TextWidth};
 use crate::view::number::power;
 use crate::view::theme::{Role, Theme};
 
@@ -91,7 +90,7 @@ impl Axes {
 
     /// Returns the frame left for the plot.
     pub fn frame(&self, area: Rect, glyphs: Glyphs) -> PlotFrame {
-        self.plan(area, glyphs).frame
+        self.beside_labels(area, glyphs).map_or_else(|| self.over(area), |(frame, _)| frame)
     }
 
     /// Draws the axes and returns the frame left for the plot.
@@ -116,9 +115,18 @@ impl Axes {
     }
 
     fn plan(&self, area: Rect, glyphs: Glyphs) -> Plan {
-        if area.width < LEAST.0 || area.height < LEAST.1 {
+        let Some((frame, y)) = self.beside_labels(area, glyphs) else {
             let frame = self.over(area);
             return Plan { frame, x: Ticks::default(), y: Ticks::default(), bare: true };
+        };
+        let x = x_ticks(&frame, area, glyphs);
+        Plan { frame, x, y, bare: false }
+    }
+
+    /// The frame beside the labels of the vertical axis, and its ticks; `None` in an area too small for labels.
+    fn beside_labels(&self, area: Rect, glyphs: Glyphs) -> Option<(PlotFrame, Ticks)> {
+        if area.width < LEAST.0 || area.height < LEAST.1 {
+            return None;
         }
         let titled = u16::from(!self.y.title.is_empty() || !self.y.unit.is_empty());
         let inside = |margin: u16| Rect {
@@ -127,18 +135,17 @@ impl Axes {
             width: area.width - margin,
             height: area.height - titled - 2,
         };
-        // The width of the labels depends on the range, which with equal units depends on the width; two rounds suffice.
+        // The width of the labels depends on the range, which with equal units depends on the width; then two rounds suffice.
         let mut margin = 6;
         let mut frame = self.over(inside(margin));
         let mut y = Ticks::default();
-        for _ in 0..2 {
+        for _ in 0..if self.equal { 2 } else { 1 } {
             y = Ticks::of(&frame.y, usize::from(frame.area.height.div_ceil(3)).max(3), glyphs);
             let widest = y.marks.iter().map(|tick| tick.label.width()).max().unwrap_or(0);
             margin = (widest as u16 + 2).min(area.width / 3);
             frame = self.over(inside(margin));
         }
-        let x = x_ticks(&frame, area, glyphs);
-        Plan { frame, x, y, bare: false }
+        Some((frame, y))
     }
 
     fn over(&self, area: Rect) -> PlotFrame {
@@ -189,8 +196,17 @@ impl StrokeContext<'_> {
     /// Writes text from a column on, cut at the end of the area.
     fn write(&mut self, x: u16, y: u16, text: &str, style: Style) {
         let room = self.area.right().min(self.buffer.area.right()).saturating_sub(x);
-        if self.buffer.area.contains(Position::new(x, y)) {
+        if !self.buffer.area.contains(Position::new(x, y)) {
+            return;
+        }
+        if self.glyphs.columns(text).is_none() {
             self.buffer.set_stringn(x, y, text, usize::from(room), style);
+            return;
+        }
+        let from = self.buffer.index_of(x, y);
+        let cells = &mut self.buffer.content[from..from + usize::from(room)];
+        for (cell, letter) in cells.iter_mut().zip(text.chars()) {
+            cell.set_char(letter).set_style(style);
         }
     }
 

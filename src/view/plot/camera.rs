@@ -87,6 +87,11 @@ impl Camera {
     /// The frame over an area that shows the whole of each extent with equal units, then zoomed and panned. The
     /// outline of all of them on the screen, not a box in space around it, fills the area in one of its directions.
     pub fn frame_around(&self, extents: &[Extent], area: Rect) -> PlotFrame {
+        self.frame_with(extents, &[], area)
+    }
+
+    /// The same around extents and single points.
+    pub fn frame_with(&self, extents: &[Extent], points: &[[f64; 3]], area: Rect) -> PlotFrame {
         let projection = Self { distance: None, ..*self }.projection();
         let axes = projection.axes();
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
@@ -106,6 +111,13 @@ impl Camera {
                 }
                 low[k] = low[k].min(least[k] - extent.radius);
                 high[k] = high[k].max(most[k] + extent.radius);
+            }
+        }
+        for point in points {
+            let seen = projection.of(*point);
+            for k in 0..2 {
+                low[k] = low[k].min(seen[k]);
+                high[k] = high[k].max(seen[k]);
             }
         }
         let half = |k: usize| high[k] / 2.0 - low[k] / 2.0;

@@ -57,6 +57,8 @@ struct Nearest {
     nears: Vec<f64>,
     /// Which surface that is, and how brightly it is lit.
     surfaces: Vec<(u32, f32)>,
+    /// The dots from the first to the last that is covered.
+    range: std::ops::Range<usize>,
 }
 
 impl Nearest {
@@ -88,8 +90,10 @@ impl DepthBuffer {
     pub fn dots(&self) -> impl Iterator<Item = ([i32; 2], Covered)> {
         let wide = self.size[0].max(1) as usize;
         let slack = self.slack();
-        let count = self.opaque.nears.len().max(self.veil.nears.len());
-        (0..count).filter_map(move |place| {
+        let ranges = [&self.opaque.range, &self.veil.range].into_iter().filter(|r| !r.is_empty());
+        let first = ranges.clone().map(|range| range.start).min().unwrap_or(0);
+        let end = ranges.map(|range| range.end).max().unwrap_or(0);
+        (first..end).filter_map(move |place| {
             let veiled = self.veil.near(place) > self.opaque.near(place) + slack;
             let covered = self.opaque.covered(place, veiled);
             let covered = covered.or_else(|| self.veil.covered(place, false))?;
@@ -118,6 +122,8 @@ impl DepthBuffer {
             let shares = [side([b, c, dot]), side([c, a, dot]), side([a, b, dot])];
             (0..3).map(|k| shares[k] / whole * nearness[k]).sum::<f64>()
         };
+        // A face is flat: along a row its nearness grows by the same with each dot.
+        let growth = near([1.0, 0.0]) - near([0.0, 0.0]);
         for row in rows {
             let middle = |column: i32| [f64::from(column) + 0.5, f64::from(row) + 0.5];
             // How far right of the first column each edge lets the row begin and end.
@@ -146,8 +152,10 @@ impl DepthBuffer {
             if !crossed {
                 continue;
             }
-            for column in from as i32..to as i32 {
-                let near = near(middle(column));
+            let (from, to) = (from as i32, to as i32);
+            let first = near(middle(from));
+            for column in from..to {
+                let near = first + growth * f64::from(column - from);
                 let covered = Covered { near, surface, light, veiled: false };
                 cover(&mut self.opaque, self.size, [column, row], covered);
             }
@@ -284,6 +292,12 @@ fn cover(nearest: &mut Nearest, [wide, high]: [i32; 2], [x, y]: [i32; 2], new: C
         && *near < new.near
     {
         (*near, *surface) = (new.near, (new.surface as u32, new.light as f32));
+        let range = &mut nearest.range;
+        *range = if range.start >= range.end {
+            place..place + 1
+        } else {
+            range.start.min(place)..range.end.max(place + 1)
+        };
     }
 }
 

@@ -14,7 +14,7 @@ mod polyline;
 
 use std::cmp::Ordering;
 
-use ratatui::buffer::Buffer;
+use ratatui::buffer::{Buffer, Cell as ScreenCell};
 use ratatui::layout::Rect;
 use ratatui::style::Style;
 use ratatui::symbols::pixel::{OCTANTS, QUADRANTS, SEXTANTS};
@@ -264,64 +264,75 @@ impl Raster {
 
     /// Copies the dots to the screen. Cells without dots do not change, and neither does the background.
     pub fn draw(&self, buffer: &mut Buffer) {
-        let width = usize::from(self.area.width);
-        let haloes = !self.glyphs.is_ascii() && self.cells.iter().any(|cell| cell.rank.1);
-        for (index, cell) in self.cells.iter().enumerate() {
-            let mut dots = cell.upper;
-            if haloes && dots != 0 {
-                dots &= !self.beside_marker(index);
-            }
-            let symbol = match (cell.sign, self.glyphs) {
-                (Some(sign), _) => sign,
-                (None, _) if dots == 0 => continue,
-                (None, Glyphs::Braille) => braille(dots),
-                (None, Glyphs::HalfBlock) => half_block(dots),
-                (None, Glyphs::Quadrant) => QUADRANTS[usize::from(dots & 0xf)],
-                (None, Glyphs::Sextant) => SEXTANTS[usize::from(dots & 0x3f)],
-                (None, Glyphs::Octant) => OCTANTS[usize::from(dots)],
-                (None, Glyphs::Ascii) => letter(dots),
-            };
-            let x = u32::from(self.area.x) + (index % width) as u32;
-            let y = u32::from(self.area.y) + (index / width) as u32;
-            let (Ok(x), Ok(y)) = (u16::try_from(x), u16::try_from(y)) else { continue };
-            if let Some(shown) = buffer.cell_mut((x, y)) {
-                // The old modifiers are removed with the old character.
-                let background = shown.bg;
-                shown.reset();
-                shown.set_char(symbol).set_bg(background).set_style(cell.style);
+        let covered = self.beside_markers();
+        // A raster and what is on the screen have the same columns, row by row.
+        let shown = self.area.intersection(buffer.area);
+        if shown.is_empty() {
+            return;
+        }
+        for y in shown.top()..shown.bottom() {
+            let first = usize::from(y - self.area.y) * usize::from(self.area.width)
+                + usize::from(shown.x - self.area.x);
+            let from = buffer.index_of(shown.x, y);
+            let there = &mut buffer.content[from..from + usize::from(shown.width)];
+            for (index, place) in (first..).zip(there) {
+                self.show(index, covered.get(index).copied().unwrap_or(0), place);
             }
         }
     }
 
-    /// The dots of a cell that a marker in a neighbouring cell keeps blank: those that touch it, of layers far below.
-    fn beside_marker(&self, index: usize) -> u8 {
-        if self.cells[index].sign.is_some() {
-            return 0;
+    /// Shows a cell on the screen but for some of its dots.
+    fn show(&self, index: usize, blank: u8, place: &mut ScreenCell) {
+        let cell = &self.cells[index];
+        let dots = cell.upper & !blank;
+        let symbol = match (cell.sign, self.glyphs) {
+            (Some(sign), _) => sign,
+            (None, _) if dots == 0 => return,
+            (None, Glyphs::Braille) => braille(dots),
+            (None, Glyphs::HalfBlock) => half_block(dots),
+            (None, Glyphs::Quadrant) => QUADRANTS[usize::from(dots & 0xf)],
+            (None, Glyphs::Sextant) => SEXTANTS[usize::from(dots & 0x3f)],
+            (None, Glyphs::Octant) => OCTANTS[usize::from(dots)],
+            (None, Glyphs::Ascii) => letter(dots),
+        };
+        // The old modifiers are removed with the old character.
+        let background = place.bg;
+        place.reset();
+        place.set_char(symbol).set_bg(background).set_style(cell.style);
+    }
+
+    /// The dots of each cell that markers beside it keep blank: those that touch them, of layers far below. It is empty if
+    /// there is no marker, and in ASCII, where a cell has one character.
+    fn beside_markers(&self) -> Vec<u8> {
+        if self.glyphs.is_ascii() || !self.cells.iter().any(|cell| cell.rank.1) {
+            return Vec::new();
         }
+        let mut covered = vec![0; self.cells.len()];
         let [columns, rows] = self.cell();
         let wide = usize::from(self.area.width);
-        let column = index % wide;
-        let covers = |other: Option<usize>| {
-            let marker = other.and_then(|other| self.cells.get(other)).map(|cell| cell.rank);
-            marker.is_some_and(|(layer, marks, _)| marks && layer >= self.cells[index].rank.0 + 2)
-        };
         let touching = |beside: &dyn Fn(i32) -> bool| {
             (0..columns * rows).filter(|bit| beside(*bit)).fold(0_u8, |dots, bit| dots | 1 << bit)
         };
-        let mut dots = 0;
-        if covers(index.checked_sub(1).filter(|_| column > 0)) {
-            dots |= touching(&|bit| bit % columns == 0);
+        let markers = self.cells.iter().enumerate().filter(|(_, cell)| cell.rank.1);
+        for (index, marker) in markers {
+            let column = index % wide;
+            let mut cover = |other: Option<usize>, dots: u8| {
+                let Some((index, cell)) = other.and_then(|i| Some((i, self.cells.get(i)?))) else {
+                    return;
+                };
+                if cell.sign.is_none() && marker.rank.0 >= cell.rank.0 + 2 {
+                    covered[index] |= dots;
+                }
+            };
+            cover(Some(index + 1).filter(|_| column + 1 < wide), touching(&|b| b % columns == 0));
+            cover(
+                index.checked_sub(1).filter(|_| column > 0),
+                touching(&|b| b % columns == columns - 1),
+            );
+            cover(Some(index + wide), touching(&|b| b / columns == 0));
+            cover(index.checked_sub(wide), touching(&|b| b / columns == rows - 1));
         }
-        if covers(Some(index + 1).filter(|_| column + 1 < wide)) {
-            dots |= touching(&|bit| bit % columns == columns - 1);
-        }
-        if covers(index.checked_sub(wide)) {
-            dots |= touching(&|bit| bit / columns == 0);
-        }
-        if covers(Some(index + wide)) {
-            dots |= touching(&|bit| bit / columns == rows - 1);
-        }
-        dots
+        covered
     }
 
     fn ink(&mut self, dot: [i32; 2], pen: &Pen, sign: Option<char>) {
@@ -397,10 +408,27 @@ fn noise([x, y]: [i32; 2]) -> f64 {
 
 /// Maps dots in row order to the order of Unicode's braille block.
 fn braille(dots: u8) -> char {
-    const BITS: [u8; 8] = [0x01, 0x08, 0x02, 0x10, 0x04, 0x20, 0x40, 0x80];
-    let pattern: u8 = (0..8).filter(|i| dots & (1 << i) != 0).map(|i| BITS[i]).sum();
-    char::from_u32(0x2800 + u32::from(pattern)).unwrap_or('⣿')
+    BRAILLE[usize::from(dots)]
 }
+
+/// The character of each set of dots.
+const BRAILLE: [char; 256] = {
+    const BITS: [u32; 8] = [0x01, 0x08, 0x02, 0x10, 0x04, 0x20, 0x40, 0x80];
+    let mut characters = ['⠀'; 256];
+    let mut dots = 0;
+    while dots < 256 {
+        let (mut pattern, mut bit) = (0, 0);
+        while bit < 8 {
+            pattern += (dots as u32 >> bit & 1) * BITS[bit];
+            bit += 1;
+        }
+        if let Some(character) = char::from_u32(0x2800 + pattern) {
+            characters[dots] = character;
+        }
+        dots += 1;
+    }
+    characters
+};
 
 fn half_block(dots: u8) -> char {
     match dots & 3 {

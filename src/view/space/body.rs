@@ -18,6 +18,9 @@ use crate::view::quantity::Quantities;
 /// The number of sides of a drawn rim.
 const SIDES: usize = 48;
 
+/// Every how many corners a cone's rim has: as many as its drawn rim.
+const CONE: usize = 2;
+
 /// The length of the principal axes relative to the body.
 const AXES: f64 = 1.25;
 
@@ -214,7 +217,7 @@ fn surfaces(solid: &Solid, value: &impl Fn(Expr) -> f64) -> Vec<Surface> {
         }
         Solid::Cone { radius, height } => {
             let h = value(*height);
-            solid::cone([0.0, 0.0, 0.75 * h], [0.0, 0.0, -h / 4.0], value(*radius))
+            solid::cone([0.0, 0.0, 0.75 * h], [0.0, 0.0, -h / 4.0], value(*radius), CONE)
         }
         Solid::Disc(radius) => vec![Surface::Face(rim(value(*radius), 0.0))],
         Solid::Cuboid(edges) => {

@@ -2,7 +2,7 @@
 //!
 //! In: a centre, a size, a normal. Out: points in order. Never here: what they belong to.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::sync::LazyLock;
 
 use crate::num::math;
@@ -17,11 +17,29 @@ static DIRECTIONS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
 
 /// The points of a circle about an axis.
 pub(super) fn circle(centre: [f64; 3], radius: f64, normal: [f64; 3]) -> Vec<[f64; 3]> {
+    rim(centre, radius, normal, 1)
+}
+
+/// The points of the rim of a solid: every so many corners of a circle.
+pub(super) fn rim(
+    centre: [f64; 3],
+    radius: f64,
+    normal: [f64; 3],
+    spacing: usize,
+) -> Vec<[f64; 3]> {
     let [u, v] = perpendicular(normal);
     let point = |&(sin, cos): &(f64, f64)| {
         [0, 1, 2].map(|k| centre[k] + radius * (cos * u[k] + sin * v[k]))
     };
-    DIRECTIONS.iter().map(point).collect()
+    DIRECTIONS.iter().step_by(spacing).map(point).collect()
+}
+
+/// Every how many corners are enough for a rim of this many dots in radius: no side is then farther than a quarter of a
+/// dot from the circle, by r (1 − cos π/n) < r π²/(2 n²).
+pub(super) fn spacing(radius: f64) -> usize {
+    let off =
+        |spacing: i32| radius * math::powi(PI * f64::from(spacing) / f64::from(SIDES), 2) / 2.0;
+    [4, 2].into_iter().find(|spacing| off(*spacing) < 0.25).map_or(1, |spacing| spacing as usize)
 }
 
 /// The outline of a square with the given normal and edge.

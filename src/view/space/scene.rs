@@ -5,7 +5,7 @@
 use ratatui::layout::Rect;
 
 use super::body::Outline;
-use super::circle::{circle, square};
+use super::circle::{circle, rim, square};
 use super::reference_frame::ReferenceFrame;
 use crate::expr::{Expr, Symbol};
 use crate::instrument::CameraPose;
@@ -20,6 +20,8 @@ pub(super) struct Scene {
     bounds: Bounds,
     /// What each shape may reach.
     extents: Vec<Extent>,
+    /// The points of what stays where it is.
+    points: Vec<[f64; 3]>,
 }
 
 /// Two opposite corners of a box.
@@ -35,7 +37,7 @@ impl Scene {
         eye: CameraPose,
         reference_frame: Option<&ReferenceFrame>,
     ) -> Self {
-        let mut scene = Self { bounds: Bounds::EMPTY, extents: Vec::new() };
+        let mut scene = Self { bounds: Bounds::EMPTY, extents: Vec::new(), points: Vec::new() };
         if let Some(extent) = followed(q, eye, reference_frame) {
             scene.add([extent.low, extent.high], extent.radius, None);
             return scene;
@@ -53,6 +55,7 @@ impl Scene {
                 hull: None,
             });
             scene.extents = around.into_iter().collect();
+            scene.points.clear();
         }
         // What moves is rounded outwards, so that the picture does not move while the motion grows a little.
         if let Some([low, high]) = scene.bounds.ends() {
@@ -73,10 +76,10 @@ impl Scene {
     pub(super) fn frame(&self, camera: &Camera, area: Rect) -> PlotFrame {
         let flat = self.bounds.ends().is_some_and(|[low, high]| low[2] == 0.0 && high[2] == 0.0);
         let face_on = camera.pitch == Camera::FACE_ON.pitch && camera.yaw == Camera::FACE_ON.yaw;
-        if flat && face_on || self.extents.is_empty() {
+        if flat && face_on || self.extents.is_empty() && self.points.is_empty() {
             camera.frame(&self.bounds, area)
         } else {
-            camera.frame_around(&self.extents, area)
+            camera.frame_with(&self.extents, &self.points, area)
         }
     }
 
@@ -126,6 +129,8 @@ impl Scene {
                 let radius = room(q, *radius);
                 if rests(q, centre) && rests(q, normal) {
                     self.points(circle(q.point(centre), radius, q.point(normal)));
+                } else if rests(q, normal) {
+                    self.rim(q, (centre, radius, q.point(normal)), reached);
                 } else {
                     // A rim that turns may be anywhere on the sphere.
                     self.reached(q, centre, reached, radius);
@@ -172,6 +177,21 @@ impl Scene {
         self.add(reach(q, point, reached), radius, hull);
     }
 
+    /// Adds a circle that keeps its direction wherever its centre may be.
+    fn rim(
+        &mut self,
+        q: &Quantities<'_>,
+        (centre, radius, normal): (&Point, f64, [f64; 3]),
+        reached: &[(Point, Span3)],
+    ) {
+        let (span, hull) = (reach(q, centre, reached), hull(q, centre));
+        for corner in rim([0.0; 3], radius, normal, CORNERS) {
+            let span = span.map(|end| [0, 1, 2].map(|k| end[k] + corner[k]));
+            let hull = hull.as_ref().map(|hull| hull.plus(&OrientationPolytope::around(corner)));
+            self.add(span, 0.0, hull);
+        }
+    }
+
     fn add(&mut self, [low, high]: Span3, radius: f64, hull: Option<OrientationPolytope>) {
         let flat = low[2] == 0.0 && high[2] == 0.0;
         let [lowest, highest] = grown([low, high], radius, flat);
@@ -181,9 +201,11 @@ impl Scene {
         }
     }
 
+    /// Adds points that stay where they are.
     fn points(&mut self, points: impl IntoIterator<Item = [f64; 3]>) {
-        for point in points {
-            self.add([point, point], 0.0, None);
+        for point in points.into_iter().filter(|p| p.iter().all(|v| v.is_finite())) {
+            self.bounds = self.bounds.with(point);
+            self.points.push(point);
         }
     }
 }
@@ -209,10 +231,20 @@ fn followed(
     })
 }
 
-/// A box rounded outwards to multiples of a length where it is not flat; `None` if that leaves the range of numbers.
+/// Every how many corners of a circle its place is taken from.
+const CORNERS: usize = 4;
+
+/// The part of a step to which a box is rounded where it is thinner than that.
+const THIN: f64 = 0.01;
+
+/// A box rounded outwards to multiples of a length where it is not flat, or of a hundredth of it where it is thin, such as by the
+/// rounding errors of what is conserved; `None` if that leaves the range of numbers.
 fn rounded([low, high]: Span3, step: f64) -> Option<Span3> {
     let corner = |end: [f64; 3], round: fn(f64) -> f64| {
-        [0, 1, 2].map(|k| if low[k] == high[k] { end[k] } else { round(end[k] / step) * step })
+        [0, 1, 2].map(|k| {
+            let step = if high[k] - low[k] < THIN * step { THIN * step } else { step };
+            if low[k] == high[k] { end[k] } else { round(end[k] / step) * step }
+        })
     };
     let ends = [corner(low, f64::floor), corner(high, f64::ceil)];
     ends.as_flattened().iter().all(|v| v.is_finite()).then_some(ends)
@@ -265,9 +297,9 @@ fn is_free(q: &Quantities<'_>, from: &Point, to: &Point) -> bool {
     coordinates.all(|q| moves(from, q) == moves(to, q))
 }
 
-/// Whether a point is the same at all times.
+/// Whether a point is the same at all times: given by numbers and by parameters that do not change with the time.
 pub(super) fn rests(q: &Quantities<'_>, point: &Point) -> bool {
-    point.iter().all(|expression| matches!(q.place(*expression), QuantitySource::Number(_)))
+    point.iter().all(|expression| q.is_constant(*expression))
 }
 
 /// The box that a point may reach: the one found for the end of a rod, or its extent so far.

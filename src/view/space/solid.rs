@@ -2,7 +2,7 @@
 //!
 //! In: points in space, radii. Out: flat convex faces, balls. Never here: the camera, or colours.
 
-use super::circle::circle;
+use super::circle;
 
 /// What hides the things behind it.
 #[derive(Clone, Debug)]
@@ -23,18 +23,18 @@ impl Occluder {
     }
 }
 
-/// The surface of a cone, its base first.
-pub(super) fn cone(tip: [f64; 3], base: [f64; 3], radius: f64) -> Vec<Occluder> {
+/// The surface of a cone, its base first, with every so many corners of its rim.
+pub(super) fn cone(tip: [f64; 3], base: [f64; 3], radius: f64, spacing: usize) -> Vec<Occluder> {
     let axis = [0, 1, 2].map(|k| base[k] - tip[k]);
-    let rim = circle(base, radius, axis);
+    let rim = circle::rim(base, radius, axis, spacing);
     let sides = rim.windows(2).map(|pair| Occluder::Face(vec![tip, pair[0], pair[1]])).collect();
     [vec![Occluder::Face(rim.clone())], sides].concat()
 }
 
-/// The rims of a cylinder about the centres of its ends.
-pub(super) fn rims([from, to]: [[f64; 3]; 2], radius: f64) -> [Vec<[f64; 3]>; 2] {
+/// The rims of a cylinder about the centres of its ends, with every so many of their corners.
+pub(super) fn rims([from, to]: [[f64; 3]; 2], radius: f64, spacing: usize) -> [Vec<[f64; 3]>; 2] {
     let axis = [0, 1, 2].map(|k| to[k] - from[k]);
-    [from, to].map(|centre| circle(centre, radius, axis))
+    [from, to].map(|centre| circle::rim(centre, radius, axis, spacing))
 }
 
 /// The straight lines at which a surface between two rims turns away from the eye, which looks along the third axis.
@@ -69,21 +69,21 @@ mod tests {
     /// The eye looks along the third axis, so that a cylinder across it has two edges at its radius.
     #[test]
     fn a_cylinder_has_an_edge_at_each_side_and_none_from_its_end() {
-        let [low, high] = rims([[0.0, -1.0, 0.0], [0.0, 1.0, 0.0]], 0.5);
+        let [low, high] = rims([[0.0, -1.0, 0.0], [0.0, 1.0, 0.0]], 0.5, 1);
         let edges = silhouette(&low, &high);
         assert_eq!(edges.len(), 2, "{edges:?}");
         for [from, to] in edges {
             assert!((from[0].abs() - 0.5).abs() < 0.01, "{from:?}");
             assert!((from[0] - to[0]).abs() < 1e-12 && to[1] - from[1] > 1.9, "{from:?} {to:?}");
         }
-        let [low, high] = rims([[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]], 0.5);
+        let [low, high] = rims([[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]], 0.5, 1);
         assert!(silhouette(&low, &high).is_empty());
     }
 
     /// From the side the edges of a cone end at the widest places of its rim; from a tip in front of the rim there are none.
     #[test]
     fn a_cone_has_edges_where_its_tip_lies_outside_its_rim() {
-        let rim = |base: [f64; 3]| rims([base, base.map(|v| 2.0 * v)], 0.5)[0].clone();
+        let rim = |base: [f64; 3]| rims([base, base.map(|v| 2.0 * v)], 0.5, 1)[0].clone();
         let upright = rim([0.0, 1.0, 0.0]);
         let edges = silhouette(&vec![[0.0; 3]; upright.len()], &upright);
         assert_eq!(edges.len(), 2);

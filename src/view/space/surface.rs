@@ -3,7 +3,7 @@
 //! In: the shapes of a scene. Out: depths, dots. Never here: lines and masses.
 
 use super::solid::{self, Occluder};
-use super::{BODY, SURFACE, ScenePainter, circle};
+use super::{BODY, SURFACE, ScenePainter};
 use crate::model::Shape;
 use crate::view::colour::ColourDepth;
 use crate::view::plot::Pen;
@@ -27,16 +27,18 @@ impl ScenePainter<'_> {
         let (pen, solids) = match shape {
             Shape::Disc { centre, radius, normal } => {
                 let (centre, normal) = (self.point(centre), self.direction(normal));
-                let rim = circle::circle(centre, self.q.number(*radius), normal);
+                let rim = self.rim(centre, self.q.number(*radius), normal);
                 (faint, vec![Occluder::Face(rim)])
             }
             Shape::Cone { tip, base, radius } => {
                 let (tip, base) = (self.point(tip), self.point(base));
-                (faint, solid::cone(tip, base, self.q.number(*radius)))
+                let radius = self.q.number(*radius);
+                (faint, solid::cone(tip, base, radius, self.spacing(radius)))
             }
             Shape::Cylinder { from, to, radius } => {
                 let (from, to) = (self.point(from), self.point(to));
-                let [low, high] = solid::rims([from, to], self.q.number(*radius));
+                let radius = self.q.number(*radius);
+                let [low, high] = solid::rims([from, to], radius, self.spacing(radius));
                 (faint, solid::tube(&low, &high, true))
             }
             Shape::Sphere { centre, radius } => {

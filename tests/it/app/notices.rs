@@ -58,7 +58,7 @@ fn what_was_said_of_a_motion_ends_where_another_begins() {
 #[test]
 fn a_jump_that_replaces_another_repeats_nothing_before_it() {
     let mut real = Real::of("struck-pendulum");
-    while !said(&real).starts_with("blow") {
+    while !said(&real).starts_with("impulse") {
         real.run(10);
     }
     real.press("Right");
@@ -68,7 +68,7 @@ fn a_jump_that_replaces_another_repeats_nothing_before_it() {
     assert!(said(&real).contains("energy jumped"), "{}", said(&real));
     for _ in 0..8 {
         real.app.update(Event::Tick(Duration::from_secs(3)));
-        assert!(!said(&real).starts_with("blow"), "it was said before: {}", said(&real));
+        assert!(!said(&real).starts_with("impulse"), "it was said before: {}", said(&real));
     }
     assert_eq!(said(&real), "");
 }

@@ -7,6 +7,7 @@ use phaselab::diagnostic::Document;
 use phaselab::experiment::Prepared;
 
 use crate::hand::{lab, press};
+use crate::screen::{rich, rows, screen};
 
 /// Focuses the first phase plane and types into its list.
 fn ask(app: &mut App, typed: &str) -> Vec<Effect> {
@@ -95,4 +96,19 @@ fn a_new_variable_that_is_typed_is_taken_as_it_is() {
     assert!(matches!(app.overlay, Some(Overlay::Menu(_))));
     write(&mut app, "0 + Y");
     assert_eq!(axes(&app), ["X", "Y"]);
+}
+
+/// Two places are a plane with one scale, also where they are chosen one after the other.
+#[test]
+fn a_plane_whose_axes_are_chosen_has_one_scale() {
+    for [x, y, expected] in [["0 + x", "1*y", "Plane"], ["0 + x", "1*p_x", "Phase"]] {
+        let mut app = lab("restricted-three-body", 1.0);
+        ask(&mut app, x);
+        write(&mut app, y);
+        let lab = app.lab.as_ref().unwrap();
+        let (_, plot) = lab.focused_plot().expect("a plot");
+        assert_eq!(plot.viewport().map(|v| v.equal), Some(expected == "Plane"), "{y} over {x}");
+        let shown = rows(&screen(&app, &rich(), (120, 40))).concat();
+        assert!(shown.contains(expected), "{y} over {x}: {shown}");
+    }
 }

@@ -5,8 +5,10 @@ use std::sync::Arc;
 use phaselab::app::{App, Event};
 use phaselab::experiment::{Growth, Verdict};
 use phaselab::instrument::Sight;
+use phaselab::view::number::rounded;
 
 use super::{find, rich, rows, screen};
+use crate::app::real::Real;
 use crate::hand::{catalog, gauge, lab, loaded, press, snapshot};
 
 /// A preset in the lab, with a snapshot of its first second.
@@ -167,4 +169,61 @@ fn a_body_is_seen_through_its_sphere() {
         let motion: String = rows[2..13].iter().flat_map(|row| row.chars().take(39)).collect();
         assert_eq!(motion.matches('●').count(), 1, "{turn}: {rows:#?}");
     }
+}
+
+/// A scene fills its pane in one direction: its cones and rims are where they are drawn, also where their places depend on
+/// parameters, and nothing is kept free for where they never come.
+#[test]
+fn tops_fill_their_pane() {
+    for name in ["heavy-top", "heavy-top-body", "sleeping-top"] {
+        let mut real = Real::of(name);
+        real.run(360);
+        let rows = rows(&screen(&real.app, &rich(), (80, 24)));
+        let pane: Vec<Vec<char>> =
+            rows[2..13].iter().map(|row| row.chars().skip(1).take(37).collect()).collect();
+        let inked = |c: &char| ('\u{2801}'..='\u{28ff}').contains(c) || *c == '●';
+        let high = pane.iter().filter(|row| row.iter().any(inked)).count();
+        let wide = (0..37).filter(|x| pane.iter().any(|row| inked(&row[*x]))).count();
+        assert!(high >= 10 || wide >= 33, "{name}, {high} rows, {wide} columns: {rows:#?}");
+    }
+}
+
+/// A step is told to two digits: what changes all the time beyond them is no use.
+#[test]
+fn a_step_has_two_digits_whatever_its_size() {
+    assert_eq!(
+        [17_476.3, 0.012_345, 99.6, -0.0].map(|h| rounded(h, 2)),
+        [17_000.0, 0.012, 100.0, 0.0]
+    );
+    for name in ["falling-body", "pendulum", "free-particle"] {
+        let mut real = Real::of(name);
+        real.run(120);
+        let rows = rows(&screen(&real.app, &rich(), (120, 40)));
+        let (_, step) = rows[38].split_once(" h ").expect("a step");
+        let step = step.split_whitespace().next().unwrap();
+        let digits = step.split('×').next().unwrap().replace('.', "");
+        assert!(digits.trim_matches('0').len() <= 2, "{name}: {step}");
+    }
+}
+
+/// Before the first step there is none to be told of.
+#[test]
+fn no_step_is_not_a_step_of_zero() {
+    let loaded = loaded("pendulum", 1);
+    let mut seen = snapshot(&loaded, 1.0);
+    seen.method.step = 0.0;
+    let mut app = opened("pendulum");
+    app.update(Event::Snapshot(Arc::new(seen)));
+    let rows = rows(&screen(&app, &rich(), (120, 40)));
+    assert!(rows[38].contains(" h – "), "{}", rows[38]);
+}
+
+/// One quantity has one name on the axes and in the list of gauges.
+#[test]
+fn an_axis_is_named_as_its_quantity() {
+    let mut real = Real::of("mixed-types");
+    real.run(60);
+    let shown = rows(&screen(&real.app, &rich(), (120, 40))).concat();
+    assert!(shown.contains("P₁") && shown.contains("P₂"), "{shown}");
+    assert!(!["P1", "P2", "F1,"].iter().any(|name| shown.contains(name)), "{shown}");
 }
