@@ -390,7 +390,10 @@ impl Continuation<'_> {
     ) -> Result<Option<String>, DynamicsError> {
         let (low, high) = self.range();
         let mut here = begin.clone();
-        let size = self.space.variables(&here.state).iter().fold(0.1, |m: f64, x| m.max(x.abs()));
+        let size_of = |state: &State| {
+            self.space.variables(state).iter().fold(0.1, |m: f64, x| m.max(x.abs()))
+        };
+        let mut size = size_of(&here.state);
         let mut step = 0.02 * size;
         for _ in 0..STEPS {
             let leaves = if here.value > high {
@@ -420,6 +423,8 @@ impl Continuation<'_> {
                 step = (1.5 * step).min(LARGEST * size);
             }
             here = next;
+            // orbits may become much larger along their family
+            size = size.max(size_of(&here.state));
             seen(here.value);
         }
         let value = significant(here.value, 6, 1e-4..1e6);

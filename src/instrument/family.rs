@@ -83,7 +83,8 @@ impl Instrument for FamilyPlot {
             }
         };
         let places: Vec<usize> = physics.positions().map(|(_, x)| x).collect();
-        let conserved = physics.equations.energy_rate == Expr::ZERO;
+        let conserved =
+            physics.equations.energy_rate == Expr::ZERO && physics.model.impulses.is_empty();
         let of_energy = places.iter().filter(|_| conserved).map(|&x| offer(x, None));
         let parameters = (0..physics.model.parameters.len()).filter(|&i| !is_initial(physics, i));
         let of_parameters = parameters
@@ -104,12 +105,15 @@ impl Instrument for FamilyPlot {
     fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
         let range = followed(answer).map(|found| found.range);
         match (plot.over.first(), plot.column(0)) {
+            (None, Some(energy)) => {
+                let shown = followed(answer).and_then(|found| width(found, present.value(energy)));
+                Across::Channel(energy, shown.or(range))
+            }
             (Some(&over), _) => {
                 let range = range.or_else(|| varied::range(plot, present, 0));
                 let name = varied::with_unit(present.physics, over);
                 range.map_or(Across::Nothing, |range| Across::Named(name, range))
             }
-            (None, Some(energy)) => Across::Channel(energy, range),
             (None, None) => Across::Nothing,
         }
     }
@@ -307,6 +311,14 @@ fn now(plot: &Plot, present: &Present<'_>) -> Option<f64> {
     }
 }
 
+/// The energies of its orbits and of the motion, with a margin: it may end long before its range does.
+fn width(found: &FollowedFamily, now: f64) -> Option<[f64; 2]> {
+    let all = found.members.iter().map(|member| member.value).filter(|x| x.is_finite());
+    let (low, high) = all.fold((now, now), |(lo, hi), x| (lo.min(x), hi.max(x)));
+    let margin = MARGIN * (high - low);
+    (low < high).then_some([low - margin, high + margin])
+}
+
 /// The vertical range, with a margin.
 fn heights(members: &[FamilyMember]) -> Option<[f64; 2]> {
     let finite = members.iter().map(|member| member.greatest).filter(|x| x.is_finite());
@@ -362,9 +374,9 @@ fn legend(plot: &Plot, physics: Physics<'_>, answer: Option<&Answer>) -> Vec<Str
                 "no orbit was found with {along} from {from} to {to}, on the family of the one with {along} = {first}"
             )]
         }
-        (_, true, true) => vec!["stable where drawn through, unstable where dotted".to_owned()],
-        (_, true, false) => vec!["stable".to_owned()],
-        (_, false, true) => vec!["unstable, and dotted".to_owned()],
+        (_, true, true) => vec!["solid: stable, dotted: unstable".to_owned()],
+        (_, true, false) => vec!["solid: stable".to_owned()],
+        (_, false, true) => vec!["dotted: unstable".to_owned()],
         (_, false, false) => vec!["neither stable nor unstable to first order".to_owned()],
     };
     let all = members.iter().filter_map(|member| Some((member.bifurcation?, member.value)));

@@ -332,6 +332,13 @@ fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     if !orbit.closes_to_rounding {
         lines.push(format!("closes only to {:.0e} of its size", orbit.closure).replace('-', "−"));
     }
+    let how = match orbit.stability() {
+        OrbitStability::Neutral => "neutral: one of a family in E".to_owned(),
+        OrbitStability::Parabolic => "parabolic: all multipliers are 1".to_owned(),
+        other => other.word().to_owned(),
+    };
+    let residue = orbit.residue().map(|residue| format!(", residue {}", brief(residue)));
+    lines.push(how + &residue.unwrap_or_default());
     lines.extend(orbit.action.map(|action| format!("action = {}", short(action))));
     let multiplier = |[re, im]: [f64; 2]| {
         if im == 0.0 {
@@ -358,13 +365,6 @@ fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     if let Some(error) = orbit.rounding.filter(|error| *error > crate::dynamics::NOTICED_ROUNDING) {
         lines.push(format!("rounding {error:.0e} in their matrix").replace('-', "−"));
     }
-    let how = match orbit.stability() {
-        OrbitStability::Neutral => "neutral: one of a family in E".to_owned(),
-        OrbitStability::Parabolic => "parabolic: all multipliers are 1".to_owned(),
-        other => other.word().to_owned(),
-    };
-    let residue = orbit.residue().map(|residue| format!(", residue {}", brief(residue)));
-    lines.push(how + &residue.unwrap_or_default());
     lines
 }
 

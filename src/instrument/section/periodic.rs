@@ -54,9 +54,9 @@ pub(super) fn marks(
     }
     for (stable, points) in points(present, section, channels) {
         let (shape, word) = match stable {
-            Some(true) => (MarkerShape::Ring, "stable orbit"),
-            Some(false) => (MarkerShape::Cross, "unstable orbit"),
-            None => (MarkerShape::Ring, "periodic orbit"),
+            Some(true) => (MarkerShape::Ring, "stable"),
+            Some(false) => (MarkerShape::Cross, "unstable"),
+            None => (MarkerShape::Ring, "periodic"),
         };
         let name = points.first().map(|at| (MARKS, Layer::Name(*at, word.to_owned(), Ink::Plain)));
         layers.extend(points.into_iter().map(|at| (MARKS, Layer::Point(at, shape, Ink::Plain))));
