@@ -2,7 +2,9 @@
 //!
 //! In: the periodic points that other pictures have found. Out: layers. Never here: how they are found.
 
-use super::super::periodic_points::PeriodicPoints;
+use std::sync::Arc;
+
+use super::super::periodic_points::{PeriodicOrbits, PeriodicPoints};
 use super::super::{Ink, Layer, Level, MarkerShape, Present, Stroke};
 use super::portrait::SectionConditions;
 use crate::expr::Expr;
@@ -42,7 +44,9 @@ pub(super) fn marks(
     let periods =
         channels.map(|channel| present.physics.system.period(channel, present.parameters));
     let mut layers = Vec::new();
-    for found in present.periodic {
+    // until a family is there at new parameters, that at the old ones is another
+    let holds = |found: &&Arc<PeriodicOrbits>| found.orbit.parameters == present.parameters;
+    for found in present.periodic.iter().filter(holds) {
         let family: Vec<Vec<[f64; 2]>> =
             found.family.iter().map(|orbit| orbit.on(section, channels).collect()).collect();
         for curve in curves(&family, periods) {
