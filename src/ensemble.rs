@@ -25,7 +25,9 @@ pub use phase_shift::PhaseShift;
 pub use plane::SectionPlane;
 pub use pool::{PoolError, in_order};
 pub use region::{Region, spread};
-pub use section::{Crossings, OrbitStatus, SectionPlan, add_section, crossings, section_name};
+pub use section::{
+    Crossings, OrbitStatus, SectionPlan, add_section, crossings, crossings_from, section_name,
+};
 pub use section_batch::{crossings_of_all, section_group};
 pub use side_by_side::{Follower, OrbitCourse, side_by_side};
 pub use start::Start;

@@ -25,7 +25,9 @@ mod mode_amplitude;
 mod motion_state;
 mod opening;
 mod orbit;
+mod orbit_crossings;
 mod paths;
+mod periodic_points;
 mod phase;
 mod picture;
 mod plot;
@@ -51,6 +53,7 @@ pub use equilibria::{
     start_at, value_at,
 };
 pub use kind::{Axis, Columns, Instrument, Measure, NoStart, Offer, Plot};
+pub use periodic_points::{PeriodicOrbits, PeriodicPoints};
 pub use picture::{
     Across, Entry, Field, Heading, Ink, Layer, Level, MarkerShape, Picture, Stroke, Upwards,
 };

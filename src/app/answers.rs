@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use super::computation::UnderWay;
-use crate::instrument::{Answer, Columns, FoundEquilibria, Instrument, Plot};
+use crate::instrument::{Answer, Columns, FoundEquilibria, Instrument, PeriodicOrbits, Plot};
 use crate::integrability::PointSymmetry;
 use crate::job::Outcome;
 use crate::mechanics::{Equations, Further};
@@ -16,6 +16,8 @@ use crate::model::{Model, Variation};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Answers {
     pub(super) entries: Vec<PlotJob>,
+    /// The periodic orbits among them.
+    pub(super) periodic: Vec<Arc<PeriodicOrbits>>,
     /// Whether something has changed since the needs were last determined.
     pub(super) stale: bool,
 }
@@ -101,6 +103,13 @@ impl Answers {
                 self.entries.push(PlotJob { columns, answer, under_way: None, ..entry.clone() });
             }
         }
+    }
+
+    /// Replaces the plots, and collects the periodic orbits among their answers.
+    pub(super) fn replace(&mut self, entries: Vec<PlotJob>) {
+        self.entries = entries;
+        let found = |entry: &PlotJob| entry.kind.periodic(entry.answer.as_ref()?);
+        self.periodic = self.entries.iter().filter_map(found).collect();
     }
 
     /// Up to when everything that is drawn and carried along beside the motion is known; infinite if there is no such thing.

@@ -192,6 +192,7 @@ impl Lab {
             crossings: &snapshot.crossings,
             separations: &snapshot.separations,
             equilibria: self.equilibria_at(&snapshot.parameters),
+            periodic: &self.answers.periodic,
             method: snapshot.method.name,
             settings: snapshot.setup.settings,
             returned: returned(snapshot),

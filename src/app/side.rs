@@ -67,7 +67,7 @@ impl Lab {
             let (columns, over) = (plot.columns.clone(), plot.over.clone());
             entries.push(PlotJob { kind, columns, view, over, answer, under_way, is_drawn });
         }
-        self.answers.entries = entries;
+        self.answers.replace(entries);
         wanted
     }
 }

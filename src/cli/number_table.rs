@@ -24,6 +24,8 @@ pub(super) struct NumberTable {
     pub(super) rows: Vec<Vec<f64>>,
     /// The expression that vanishes in all rows of a section, if the file says it.
     pub(super) surface: Option<String>,
+    /// Whether its rows are the lines of a spectrum.
+    pub(super) is_spectrum: bool,
 }
 
 impl NumberTable {
@@ -82,6 +84,7 @@ fn of_values(text: &str) -> Result<NumberTable, String> {
         columns,
         rows,
         surface: surface.map(|(on, _)| on.to_owned()),
+        is_spectrum: false,
     })
 }
 
@@ -125,6 +128,9 @@ fn of_json(text: &str) -> Result<NumberTable, String> {
         columns,
         rows: rows.ok_or("its rows have not as many numbers as it has columns")?,
         surface: word("on"),
+        is_spectrum: list("columns").is_none()
+            && list("curve").is_none()
+            && list("lines").is_some(),
     })
 }
 

@@ -96,9 +96,9 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
                 drive_period(model, equations, study.space.system(), parameters)
             };
             if study.space.is_autonomous() {
-                family(&study.space, method, &orbit, (along, fixed), values)
+                family(&study.space, method, &orbit, (along, fixed), (values, &|_| ()))
             } else {
-                driven_family(&study.space, method, &orbit, (along, &drive), values)
+                driven_family(&study.space, method, &orbit, (along, &drive), (values, &|_| ()))
             }
         })
         .transpose()

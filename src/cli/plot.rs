@@ -126,7 +126,8 @@ impl NumberTable {
         }
         let title = printable::quoted(&self.title);
         let name = |k: usize| printable::quoted(&self.columns[k]);
-        Ok(TablePlot { title, x: name(x), y: name(y), of: of.map(name), points })
+        let stems = self.is_spectrum && self.columns[x] == "frequency";
+        Ok(TablePlot { title, x: name(x), y: name(y), of: of.map(name), points, stems })
     }
 
     /// Whether its rows are crossings, which begin with the `orbit`.

@@ -48,7 +48,7 @@ const LONG: f64 = 3.0;
 const DIFFERENCE: f64 = 1e-5;
 
 /// Follows the family of an orbit in both directions, as far as its values lie between the first
-/// and the last of `values`.
+/// and the last of `values`. `look` is given the part of this range that is behind it.
 ///
 /// # Errors
 /// Returns an error if the family has no such values.
@@ -57,9 +57,9 @@ pub fn family(
     method: (&'static Method, Settings),
     orbit: &Orbit,
     (along, fixed): (Along, Fixed),
-    values: &[f64],
+    (values, look): (&[f64], &dyn Fn(f64)),
 ) -> Result<Family, DynamicsError> {
-    followed(&Continuation { space, method, along, fixed, values, drive: None }, orbit)
+    followed(&Continuation { space, method, along, fixed, values, look, drive: None }, orbit)
 }
 
 /// The same under a drive, whose period at some parameters `drive` gives: the orbits keep their multiple of it, also along a
@@ -72,13 +72,13 @@ pub fn driven_family(
     method: (&'static Method, Settings),
     orbit: &Orbit,
     (along, drive): (Along, &dyn Fn(&[f64]) -> Option<f64>),
-    values: &[f64],
+    (values, look): (&[f64], &dyn Fn(f64)),
 ) -> Result<Family, DynamicsError> {
     let fixed = Fixed::Period(orbit.period);
     let ratio = drive(space.parameters()).map(|period| orbit.period / period);
     // a period that is not a multiple of the drive's is kept
     let drive = ratio.filter(|ratio| is_whole(*ratio)).map(|ratio| (ratio.round(), drive));
-    followed(&Continuation { space, method, along, fixed, values, drive }, orbit)
+    followed(&Continuation { space, method, along, fixed, values, look, drive }, orbit)
 }
 
 /// Whether a number is a whole one above zero but for rounding.
@@ -103,8 +103,16 @@ fn followed(continuation: &Continuation<'_>, orbit: &Orbit) -> Result<Family, Dy
     let mut backwards = first.clone();
     backwards.tangent.neg_mut();
     let mut sides = [Vec::new(), Vec::new()];
-    for (side, begin) in sides.iter_mut().zip([backwards, first.clone()]) {
-        match continuation.follow(&begin, side) {
+    let lengths = [first.value - low, high - first.value].map(|length| length.max(0.0));
+    let mut behind = 0.0;
+    for ((side, begin), length) in sides.iter_mut().zip([backwards, first.clone()]).zip(lengths) {
+        let seen = |value: f64| {
+            let gone = (value - first.value).abs().min(length);
+            (continuation.look)((behind + gone) / (high - low));
+        };
+        let outcome = continuation.follow(&begin, &seen, side);
+        behind += length;
+        match outcome {
             Ok(None) => {}
             Ok(Some(why)) => family.ended.push(why),
             Err(error) if error.is_cancelled() => {
@@ -129,6 +137,7 @@ struct Continuation<'a> {
     along: Along,
     fixed: Fixed,
     values: &'a [f64],
+    look: &'a dyn Fn(f64),
     /// How many periods of a drive an orbit has, and that period at some parameters.
     drive: Option<(f64, &'a dyn Fn(&[f64]) -> Option<f64>)>,
 }
@@ -376,11 +385,15 @@ impl Continuation<'_> {
     fn follow(
         &self,
         begin: &FamilyPoint,
+        seen: &dyn Fn(f64),
         members: &mut Vec<Member>,
     ) -> Result<Option<String>, DynamicsError> {
         let (low, high) = self.range();
         let mut here = begin.clone();
-        let size = self.space.variables(&here.state).iter().fold(0.1, |m: f64, x| m.max(x.abs()));
+        let size_of = |state: &State| {
+            self.space.variables(state).iter().fold(0.1, |m: f64, x| m.max(x.abs()))
+        };
+        let mut size = size_of(&here.state);
         let mut step = 0.02 * size;
         for _ in 0..STEPS {
             let leaves = if here.value > high {
@@ -410,6 +423,9 @@ impl Continuation<'_> {
                 step = (1.5 * step).min(LARGEST * size);
             }
             here = next;
+            // orbits may become much larger along their family
+            size = size.max(size_of(&here.state));
+            seen(here.value);
         }
         let value = significant(here.value, 6, 1e-4..1e6);
         Ok(Some(format!("the family continues beyond {value}, after {STEPS} steps")))

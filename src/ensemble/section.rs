@@ -177,19 +177,50 @@ pub fn crossings(
     start: &Start,
     plan: &SectionPlan,
 ) -> Crossings {
-    let made = Propagator::new(system, method, settings, &start.parameters);
+    let begin = |motion: &mut Propagator| {
+        start.state(system).and_then(|state| motion.begin(&state, &start.parameters))
+    };
+    followed((system, method, settings), (start.time, &start.parameters), plan, begin)
+}
+
+/// The same from a state of a motion on, at which what happens at its time is past.
+pub fn crossings_from(
+    system: &System,
+    method: (&'static Method, Settings),
+    state: &State,
+    parameters: &[f64],
+    plan: &SectionPlan,
+) -> Crossings {
+    let begin = |motion: &mut Propagator| motion.restore(state, parameters, state.time, &[]);
+    followed((system, method.0, method.1), (state.time, parameters), plan, begin)
+}
+
+fn followed(
+    (system, method, settings): (&System, &'static Method, Settings),
+    (start, parameters): (f64, &[f64]),
+    plan: &SectionPlan,
+    begin: impl FnOnce(&mut Propagator) -> Result<(), MotionError>,
+) -> Crossings {
+    let made = Propagator::new(system, method, settings, parameters);
     let mut motion = match made {
         Ok(motion) => motion,
         Err(why) => return Crossings::refused(&why),
     };
-    let begun = start.state(system).and_then(|state| motion.begin(&state, &start.parameters));
-    if let Err(why) = begun {
+    if let Err(why) = begin(&mut motion) {
         return Crossings::refused(&motion.explained(why));
     }
-    let observer = motion.system().observer(&start.parameters);
+    let observer = motion.system().observer(parameters);
     let values = vec![0.0; plan.width(system)];
-    let mut orbit =
-        SectionOrbit { motion, observer, values, holdings: 0, plan, start, rows: Vec::new() };
+    let mut orbit = SectionOrbit {
+        motion,
+        observer,
+        values,
+        holdings: 0,
+        plan,
+        start,
+        parameters,
+        rows: Vec::new(),
+    };
     let (status, message) = orbit.follow(system.cancel());
     Crossings { rows: orbit.rows, status, message }
 }
@@ -200,7 +231,8 @@ struct SectionOrbit<'a> {
     values: Vec<f64>,
     holdings: u64,
     plan: &'a SectionPlan,
-    start: &'a Start,
+    start: f64,
+    parameters: &'a [f64],
     rows: Vec<Vec<f64>>,
 }
 
@@ -210,7 +242,7 @@ impl SectionOrbit<'_> {
             let Crossings { status, message, .. } = stopped_by_a_signal(Vec::new());
             (status, message)
         };
-        let (mut target, mut limit) = first_limit(self.plan, self.start.time);
+        let (mut target, mut limit) = first_limit(self.plan, self.start);
         let begun = self.motion.steps();
         let (mut last, mut is_first) = (begun, true);
         loop {
@@ -266,7 +298,7 @@ impl SectionOrbit<'_> {
         // constraints are released by events, and enforced in turn where some are redundant
         if self.motion.system().constraints() > 0 || self.holdings != self.motion.holdings() {
             self.holdings = self.motion.holdings();
-            self.observer = self.motion.system().observer(&self.start.parameters);
+            self.observer = self.motion.system().observer(self.parameters);
         }
         self.plan.see(&mut self.observer, self.motion.state(), &mut self.values)?;
         self.rows.push([&[time], &self.values[..]].concat());

@@ -10,7 +10,6 @@ use crate::dynamics::{
 };
 use crate::ensemble::Start;
 use crate::integrate::{Method, Settings};
-use crate::job::Progress;
 use crate::system::State;
 
 /// An orbit that was closed.
@@ -40,25 +39,22 @@ pub(super) fn beginning(
 }
 
 /// Closes the orbit near a start: that of its energy, if that is conserved, or of a multiple of the period of its drive.
+/// `look` is given the steps taken, and their greatest number.
 pub(super) fn closed_orbit(
     physics: Physics<'_>,
     method: (&'static Method, Settings),
     (start, conditions): (&Start, &PlotConditions),
-    progress: &Progress,
+    look: &dyn Fn(u64, u64),
 ) -> Result<ClosedOrbit, DynamicsError> {
     let (space, state) = beginning(physics, (start, conditions))?;
-    let look = |done, all| {
-        progress.expect(all);
-        progress.reach(done);
-    };
     let fixed = if space.is_hamiltonian() && space.is_conservative() {
         Fixed::Energy(physics.system.energy(&state, &start.parameters)?)
     } else {
         Fixed::Nothing
     };
     let orbit = match space.drive() {
-        Some(drive) => nearest_driven_orbit(&space, method, &state, drive, &look)?,
-        None => nearest_orbit(&space, method, &state, (None, fixed), &look)?,
+        Some(drive) => nearest_driven_orbit(&space, method, &state, drive, look)?,
+        None => nearest_orbit(&space, method, &state, (None, fixed), look)?,
     };
     Ok(ClosedOrbit { space, orbit, fixed })
 }

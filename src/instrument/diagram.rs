@@ -198,8 +198,10 @@ impl Instrument for Diagram {
         let task = DiagramTask {
             number: self.0,
             section: view.and_then(|view| view.section),
-            channel: view
-                .and_then(|view| motions.system.channel_of(view.axes.first()?.first()?.expression)),
+            channel: view.and_then(|view| {
+                let axis = drawn_axis(plot, present.physics, view);
+                motions.system.channel_of(view.axes.get(axis)?.first()?.expression)
+            }),
             motions,
             columns,
         };
@@ -305,11 +307,20 @@ impl Diagram {
 /// What is drawn upwards where the motions cross a surface, or where there is none.
 fn crossing(plot: &Plot, physics: Physics<'_>) -> String {
     let Some(view) = view(plot, physics) else { return "largest exponent λ".to_owned() };
-    let axis = |axis: usize| view.axes.get(axis).and_then(|axis| axis.first());
-    let Some(written) = axis(0) else { return "?".to_owned() };
+    let axis = view.axes.get(drawn_axis(plot, physics, view));
+    let Some(written) = axis.and_then(|axis| axis.first()) else { return "?".to_owned() };
     let channel = physics.system.channel_of(written.expression);
     let shown = channel.map_or(written.written.as_str(), |channel| physics.shown(channel));
     format!("{} where {}", binary_logarithm(shown), zero(physics, view))
+}
+
+/// The axis of a view whose quantity is drawn upwards: the horizontal one of a section, or the vertical one where the horizontal
+/// one is an angle, of which crossings may fill all values whatever the parameter.
+fn drawn_axis(plot: &Plot, physics: Physics<'_>, view: &View) -> usize {
+    let across = view.axes.first().and_then(|axis| axis.first());
+    let channel = across.and_then(|across| physics.system.channel_of(across.expression));
+    let is_angle = channel.is_some_and(|channel| physics.system.channels()[channel].periodic);
+    usize::from(is_angle && view.kind != plot.kind.name())
 }
 
 /// A quantity as it is written, a logarithm over ln 2 as one to that base: `ln(x)/ln(2)` → `log₂ x`.
@@ -346,10 +357,9 @@ fn heights(plot: &Plot, present: &Present<'_>, found: Option<&ComputedDiagram>) 
         [low - about, high + about]
     });
     let own = own.filter(|[low, high]| low < high);
-    // it shows the horizontal axis of a section
     let section = view(plot, present.physics).filter(|view| view.kind != plot.kind.name());
     let given = match section {
-        Some(section) => varied::ends(section, present, 0),
+        Some(section) => varied::ends(section, present, drawn_axis(plot, present.physics, section)),
         None => varied::given(plot, present, 1),
     };
     given.or(own).unwrap_or([0.0, 1.0])

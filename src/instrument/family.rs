@@ -7,11 +7,14 @@
 
 mod members;
 
+use std::sync::Arc;
+
 use super::conditions::PlotConditions;
 use super::equilibria::given;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, Offer, Physics, Picture, Plot, PlotTable, Present, Seed, Stroke, Upwards, varied,
+    Need, Offer, PeriodicOrbits, Physics, Picture, Plot, PlotTable, Present, Seed, Stroke, Upwards,
+    varied,
 };
 use crate::dynamics::Bifurcation;
 use crate::ensemble::Start;
@@ -26,9 +29,6 @@ use members::{FamilyMember, FollowedFamily, follow};
 /// The levels of the picture.
 const CURVE: Level = 2;
 const NOW: Level = 4;
-
-/// Of so many parameters families are offered.
-const OFFERED: usize = 3;
 
 /// The most bifurcations that are listed.
 const LISTED: usize = 6;
@@ -83,9 +83,10 @@ impl Instrument for FamilyPlot {
             }
         };
         let places: Vec<usize> = physics.positions().map(|(_, x)| x).collect();
-        let conserved = physics.equations.energy_rate == Expr::ZERO;
+        let conserved =
+            physics.equations.energy_rate == Expr::ZERO && physics.model.impulses.is_empty();
         let of_energy = places.iter().filter(|_| conserved).map(|&x| offer(x, None));
-        let parameters = (0..physics.model.parameters.len()).take(OFFERED);
+        let parameters = (0..physics.model.parameters.len()).filter(|&i| !is_initial(physics, i));
         let of_parameters = parameters
             .filter_map(|index| Some(offer(*places.first()?, Some(Variation::Parameter(index)))));
         of_energy.chain(of_parameters).collect()
@@ -104,12 +105,15 @@ impl Instrument for FamilyPlot {
     fn across(&self, plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> Across {
         let range = followed(answer).map(|found| found.range);
         match (plot.over.first(), plot.column(0)) {
+            (None, Some(energy)) => {
+                let shown = followed(answer).and_then(|found| width(found, present.value(energy)));
+                Across::Channel(energy, shown.or(range))
+            }
             (Some(&over), _) => {
                 let range = range.or_else(|| varied::range(plot, present, 0));
                 let name = varied::with_unit(present.physics, over);
                 range.map_or(Across::Nothing, |range| Across::Named(name, range))
             }
-            (None, Some(energy)) => Across::Channel(energy, range),
             (None, None) => Across::Nothing,
         }
     }
@@ -121,7 +125,7 @@ impl Instrument for FamilyPlot {
         _seen: [f64; 2],
         answer: Option<&Answer>,
     ) -> Option<Picture> {
-        let x = plot.column(1)?;
+        let x = quantity(plot, answer)?;
         let now = now(plot, present)?;
         let members = followed(answer).map_or(&[][..], |found| &found.members);
         let [low, high] = heights(members).unwrap_or([-1.0, 1.0]);
@@ -199,7 +203,7 @@ impl Instrument for FamilyPlot {
             Some(&over) => varied::written(physics, over).to_owned(),
             None => "energy".to_owned(),
         };
-        let greatest = &physics.system.channels().get(plot.column(1)?)?.name;
+        let greatest = &physics.system.channels().get(quantity(plot, answer)?)?.name;
         let mut columns = vec![along, format!("greatest {greatest}"), "period".to_owned()];
         let over_energy = plot.over.is_empty();
         columns.extend((!over_energy).then(|| "energy".to_owned()));
@@ -212,6 +216,10 @@ impl Instrument for FamilyPlot {
         };
         let rows = followed(answer)?.members.iter().map(row).collect();
         Some(PlotTable { columns, counts: 0, rows })
+    }
+
+    fn periodic(&self, answer: &Answer) -> Option<Arc<PeriodicOrbits>> {
+        Some(Arc::clone(&followed(Some(answer))?.periodic))
     }
 
     fn measures(&self) -> &'static [Measure] {
@@ -266,6 +274,26 @@ fn is_followed(plot: &Plot, physics: Physics<'_>) -> bool {
     !plot.over.is_empty() || across.is_some_and(|channel| channel.kind == ChannelKind::Energy)
 }
 
+/// Whether a parameter stands in initial values alone: it changes nothing along a family.
+fn is_initial(physics: Physics<'_>, index: usize) -> bool {
+    let model = physics.model;
+    let Some(parameter) = model.parameters.get(index) else { return false };
+    let mut law: Vec<Expr> = model.mechanics.forces().to_vec();
+    law.extend([model.mechanics.function().1, model.mechanics.dissipation()]);
+    for impulse in &model.impulses {
+        law.extend(impulse.times.iter().chain(&impulse.period).chain(&impulse.change));
+    }
+    let has = |all: &[Expr]| all.iter().any(|e| model.pool.depends(*e, parameter.symbol));
+    let initial: Vec<Expr> =
+        model.coordinates.iter().flat_map(|c| [c.initial, c.initial_rate]).collect();
+    has(&initial) && !has(&law)
+}
+
+/// The quantity whose greatest value is drawn: the one chosen, or the momentum of an angle that rotates.
+fn quantity(plot: &Plot, answer: Option<&Answer>) -> Option<usize> {
+    followed(answer).map(|found| found.channel).or_else(|| plot.column(1))
+}
+
 /// What changes along the family, by its name.
 fn along_in_words(plot: &Plot, physics: Physics<'_>) -> String {
     match (plot.over.first(), plot.column(0)) {
@@ -281,6 +309,14 @@ fn now(plot: &Plot, present: &Present<'_>) -> Option<f64> {
         Some(&over) => varied::now(present, over),
         None => Some(present.value(plot.column(0)?)),
     }
+}
+
+/// The energies of its orbits and of the motion, with a margin: it may end long before its range does.
+fn width(found: &FollowedFamily, now: f64) -> Option<[f64; 2]> {
+    let all = found.members.iter().map(|member| member.value).filter(|x| x.is_finite());
+    let (low, high) = all.fold((now, now), |(lo, hi), x| (lo.min(x), hi.max(x)));
+    let margin = MARGIN * (high - low);
+    (low < high).then_some([low - margin, high + margin])
 }
 
 /// The vertical range, with a margin.
@@ -331,10 +367,16 @@ fn legend(plot: &Plot, physics: Physics<'_>, answer: Option<&Answer>) -> Vec<Str
     let members = &found.members;
     let has = |stable: bool| members.iter().any(|member| member.stable == Some(stable));
     let mut lines = match (members.is_empty(), has(true), has(false)) {
-        (true, _, _) => vec!["no orbit of the family lies in this range".to_owned()],
-        (_, true, true) => vec!["stable where drawn through, unstable where dotted".to_owned()],
-        (_, true, false) => vec!["stable".to_owned()],
-        (_, false, true) => vec!["unstable".to_owned()],
+        (true, _, _) => {
+            let [from, to] = found.range.map(short);
+            let first = short(found.first);
+            vec![format!(
+                "no orbit was found with {along} from {from} to {to}, on the family of the one with {along} = {first}"
+            )]
+        }
+        (_, true, true) => vec!["solid: stable, dotted: unstable".to_owned()],
+        (_, true, false) => vec!["solid: stable".to_owned()],
+        (_, false, true) => vec!["dotted: unstable".to_owned()],
         (_, false, false) => vec!["neither stable nor unstable to first order".to_owned()],
     };
     let all = members.iter().filter_map(|member| Some((member.bifurcation?, member.value)));

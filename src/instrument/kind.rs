@@ -5,8 +5,12 @@
 //! one does.
 
 use std::fmt;
+use std::sync::Arc;
 
-use super::{Across, Answer, Heading, Need, Physics, Picture, PlotTable, Present, Seed, Sight};
+use super::{
+    Across, Answer, Heading, Need, PeriodicOrbits, Physics, Picture, PlotTable, Present, Seed,
+    Sight,
+};
 use crate::model::{Variation, View};
 use crate::system::InitialOverride;
 
@@ -175,6 +179,11 @@ pub trait Instrument: Sync {
     /// Up to when the last result is known, of what is carried along beside the motion: pictures of such results show the
     /// same time.
     fn known_until(&self, _answer: &Answer) -> Option<f64> {
+        None
+    }
+
+    /// The periodic orbits that its job has found, which sections mark.
+    fn periodic(&self, _answer: &Answer) -> Option<Arc<PeriodicOrbits>> {
         None
     }
 

@@ -4,12 +4,15 @@
 //! ([`nearest_orbit`]), and follows it once around; where there is none, another job finds out what the motion is instead. It
 //! begins again where a parameter, the method or the initial values change.
 
+use std::sync::Arc;
+
 use super::closed_orbit::{ClosedOrbit, beginning, closed_orbit};
 use super::conditions::PlotConditions;
 use super::equilibria::given;
+use super::orbit_crossings::periodic_points;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
-    Need, NoStart, Offer, Physics, Picture, Plot, Present, Seed, Upwards,
+    Need, NoStart, Offer, PeriodicOrbits, Physics, Picture, Plot, Present, Seed, Upwards,
 };
 use crate::dynamics::{DynamicsError, Orbit as Closed, OrbitStability, Removed, explained};
 use crate::ensemble::{Start, SystemFlow};
@@ -49,6 +52,8 @@ struct Described {
     extent: [[f64; 2]; 2],
     /// The period of the drive.
     drive: Option<f64>,
+    /// Where it crosses the surfaces of section.
+    periodic: Arc<PeriodicOrbits>,
 }
 
 impl Instrument for OrbitPlot {
@@ -178,6 +183,10 @@ impl Instrument for OrbitPlot {
         }))
     }
 
+    fn periodic(&self, answer: &Answer) -> Option<Arc<PeriodicOrbits>> {
+        Some(Arc::clone(&described(Some(answer))?.periodic))
+    }
+
     fn measures(&self) -> &'static [Measure] {
         &[
             Measure {
@@ -246,8 +255,12 @@ fn close(
     (channels, progress): ([usize; 2], &Progress),
 ) -> Result<Described, DynamicsError> {
     let (system, parameters) = (physics.system, &start.parameters);
+    let look = |done, all| {
+        progress.expect(all);
+        progress.reach(done);
+    };
     let ClosedOrbit { space, orbit, .. } =
-        closed_orbit(physics, method, (start, conditions), progress)?;
+        closed_orbit(physics, method, (start, conditions), &look)?;
     let flow = SystemFlow {
         system: System::clone(system),
         method: (method.0, orbit.settings),
@@ -265,7 +278,9 @@ fn close(
             *ends = [ends[0].min(*x), ends[1].max(*x)];
         }
     }
-    Ok(Described { orbit, points, extent, drive: space.drive() })
+    let crossed = periodic_points(physics, method.0, &orbit, parameters);
+    let periodic = Arc::new(PeriodicOrbits { orbit: crossed, family: Vec::new() });
+    Ok(Described { orbit, points, extent, drive: space.drive(), periodic })
 }
 
 /// The pairs of quantities that are offered: two coordinates where there are two, and each coordinate with its rate.
@@ -317,6 +332,13 @@ fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     if !orbit.closes_to_rounding {
         lines.push(format!("closes only to {:.0e} of its size", orbit.closure).replace('-', "−"));
     }
+    let how = match orbit.stability() {
+        OrbitStability::Neutral => "neutral: one of a family in E".to_owned(),
+        OrbitStability::Parabolic => "parabolic: all multipliers are 1".to_owned(),
+        other => other.word().to_owned(),
+    };
+    let residue = orbit.residue().map(|residue| format!(", residue {}", brief(residue)));
+    lines.push(how + &residue.unwrap_or_default());
     lines.extend(orbit.action.map(|action| format!("action = {}", short(action))));
     let multiplier = |[re, im]: [f64; 2]| {
         if im == 0.0 {
@@ -343,13 +365,6 @@ fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     if let Some(error) = orbit.rounding.filter(|error| *error > crate::dynamics::NOTICED_ROUNDING) {
         lines.push(format!("rounding {error:.0e} in their matrix").replace('-', "−"));
     }
-    let how = match orbit.stability() {
-        OrbitStability::Neutral => "neutral: one of a family in E".to_owned(),
-        OrbitStability::Parabolic => "parabolic: all multipliers are 1".to_owned(),
-        other => other.word().to_owned(),
-    };
-    let residue = orbit.residue().map(|residue| format!(", residue {}", brief(residue)));
-    lines.push(how + &residue.unwrap_or_default());
     lines
 }
 

@@ -4,6 +4,7 @@
 
 use std::sync::Arc;
 
+use super::PeriodicOrbits;
 use crate::analysis::{CrossingLog, DistanceHistory};
 use crate::dynamics::Equilibrium;
 use crate::integrate::Settings;
@@ -49,6 +50,8 @@ pub struct Present<'a> {
     pub separations: &'a [(usize, Arc<DistanceHistory>)],
     /// The equilibria that were found at these parameters.
     pub equilibria: &'a [Equilibrium],
+    /// The periodic orbits that other pictures have found.
+    pub periodic: &'a [Arc<PeriodicOrbits>],
     /// The name of the method.
     pub method: &'static str,
     /// Its step and tolerance, as they were set.

@@ -4,6 +4,7 @@
 //! the same energy, their starts spread over what the energy allows, and the boundary of that region; it is done in
 //! parts, so that the picture fills as one looks, and begun anew when a parameter, the method or the energy changes.
 
+mod periodic;
 mod portrait;
 mod regularity;
 
@@ -14,7 +15,7 @@ use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
     Need, NoStart, Offer, Physics, Picture, Plot, PlotTable, Present, Seed, Upwards,
 };
-use crate::ensemble::{NotInPlane, PhaseShift, SectionPlan, SectionPlane};
+use crate::ensemble::{NotInPlane, PhaseShift, SectionPlan, SectionPlane, Start};
 use crate::expr::Expr;
 use crate::integrate::method_named;
 use crate::job::Job;
@@ -144,6 +145,7 @@ impl Instrument for SectionPlot {
             let when = present.physics.model.sections.get(section)?.when;
             if lies_on(present, one, when) { Some([x?, y?]) } else { None }
         }));
+        layers.extend(periodic::marks(present, section, channels));
         let (channel, range) = (channels[1], range(plot, present, answer, 1));
         let upwards = match portrait(answer).and_then(newest_rotation) {
             Some(words) => Upwards::Annotated { channel, range, words },
@@ -225,6 +227,7 @@ impl Instrument for SectionPlot {
                 pending: known.pending.clone(),
             }),
             given: [given(plot, present, 0), given(plot, present, 1)],
+            own: own_start(present),
             around: [bounds(x), bounds(y)],
             seed,
             seeds: known.iter().flat_map(|known| known.seeds.clone()).chain(seed).collect(),
@@ -301,6 +304,16 @@ impl Instrument for SectionPlot {
                 },
             },
             Measure {
+                word: "periodic",
+                about: "how many points of periodic orbits are marked",
+                value: |plot, present, _| {
+                    let section = view(plot, present.physics)?.section?;
+                    let channels = [plot.column(0)?, plot.column(1)?];
+                    let orbits = periodic::points(present, section, channels);
+                    Some(orbits.map(|(_, points)| points.len()).sum::<usize>() as f64)
+                },
+            },
+            Measure {
                 word: "rotation",
                 about: "the rotation number of the newest of them",
                 value: |_, _, answer| {
@@ -354,6 +367,17 @@ fn plane(plot: &Plot, present: &Present<'_>) -> Option<SectionPlane> {
     let at = (model.run.start, present.parameters, energy);
     let plane = SectionPlane::new((model, system), section, axes, at);
     plane.filter(|plane| energy.is_finite() || !plane.is_bounded())
+}
+
+/// The initial values of the motion.
+fn own_start(present: &Present<'_>) -> Start {
+    let Physics { model, system, .. } = present.physics;
+    let given = present.initial.iter().enumerate();
+    Start {
+        time: model.run.start,
+        parameters: present.parameters.to_vec(),
+        overrides: given.map(|(i, &x)| system.initial_override(i, x)).collect(),
+    }
 }
 
 /// The initial values of a motion that passes a point of the picture.

@@ -3,6 +3,7 @@
 //! In: the lab and the layout. Out: cells. Never here: the contents of a single pane.
 
 use ratatui::layout::Rect;
+use unicode_width::UnicodeWidthStr;
 
 use super::canvas::{Canvas, Span, columns, row, wide};
 use super::layout::{Slot, is_single, panes, view_of_motion};
@@ -16,7 +17,8 @@ use super::values::{ValueList, window};
 use super::wrap::{capitalised, words};
 use super::{equations, gauges, picture, tabs};
 use crate::app::{
-    App, DrawnPanes, HitTarget, InputField, Lab, LawInView, Overlay, Pane, PlotsInView, ValueId,
+    App, DrawnPanes, HitTarget, InputField, Lab, LawInView, Overlay, Pane, PlotsInView, UnderWay,
+    ValueId,
 };
 use crate::experiment::{Failure, Status};
 
@@ -170,7 +172,12 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize
     };
     // Between the corners, with a blank at each side.
     let room = usize::from(area.width.saturating_sub(6));
-    let tabs = tabs::of(canvas, &q, (index, sharing), room);
+    // how far what it shows is computed has precedence over the names of the others
+    let status = lab
+        .under_way(plot)
+        .and_then(UnderWay::status)
+        .map_or(0, |status| format!("{}    {status}", tabs::label(&q, plot)).width());
+    let tabs = tabs::of(canvas, &q, (index, sharing), room.saturating_sub(status));
     let mut title = match tabs {
         Some(tabs) => {
             let used = wide(&tabs) + 1;

@@ -2,6 +2,8 @@
 //!
 //! In: points with a number each, the names of the axes. Out: lines of text. Never here: files, or where numbers come from.
 
+mod lattice;
+
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 
@@ -12,6 +14,7 @@ use super::plot::ticks::nice_range;
 use super::plot::{Axes, DrawnAxis, Pen, Raster, Scale};
 use super::theme::{PALETTES, Role, Theme};
 use crate::num::short;
+use lattice::Lattice;
 
 /// The shades from the least number to the greatest.
 const SHADES: [char; 4] = ['░', '▒', '▓', '█'];
@@ -30,6 +33,8 @@ pub struct TablePlot {
     pub of: Option<String>,
     /// The points, each with the number that is shaded.
     pub points: Vec<[f64; 3]>,
+    /// Whether each point that is not shaded stands on a line from the horizontal axis up, as a line of a spectrum.
+    pub stems: bool,
 }
 
 /// The lines of the drawing.
@@ -63,14 +68,24 @@ pub fn drawn(plot: &TablePlot, [columns, rows]: [u16; 2], glyphs: Glyphs) -> Str
     let frame = axes.draw(inside, &mut buffer, &look.theme, glyphs);
     if plot.of.is_some() {
         let wide = usize::from(frame.area.width);
+        // halves, since the difference of two numbers may be larger than any
+        let share_of = |value: f64| (0.5 * value - 0.5 * least) / (0.5 * most - 0.5 * least);
         let mut cells = vec![(0.0, 0_u32); wide * usize::from(frame.area.height)];
         for [x, y, value] in &plot.points {
             let Some(at) = frame.cell([*x, *y]) else { continue };
             let (i, j) = (at.x - frame.area.x, at.y - frame.area.y);
             let cell = &mut cells[usize::from(j) * wide + usize::from(i)];
-            // halves, since the difference of two numbers may be larger than any
-            let share = (0.5 * value - 0.5 * least) / (0.5 * most - 0.5 * least);
-            *cell = (cell.0 + share, cell.1 + 1);
+            *cell = (cell.0 + share_of(*value), cell.1 + 1);
+        }
+        // between the places of a coarse lattice is what lies nearest
+        if let Some(lattice) = Lattice::of(&plot.points) {
+            for at in frame.area.positions() {
+                let (i, j) = (at.x - frame.area.x, at.y - frame.area.y);
+                let cell = &mut cells[usize::from(j) * wide + usize::from(i)];
+                if let (0, Some(value)) = (cell.1, lattice.nearest(frame.at(at))) {
+                    *cell = (share_of(value), 1);
+                }
+            }
         }
         for (index, (sum, count)) in cells.into_iter().enumerate().filter(|(_, c)| c.1 > 0) {
             let share = sum / f64::from(count);
@@ -81,8 +96,15 @@ pub fn drawn(plot: &TablePlot, [columns, rows]: [u16; 2], glyphs: Glyphs) -> Str
         }
     } else {
         let mut raster = Raster::new(frame.area, glyphs);
+        let pen = Pen::new(look.theme[Role::Text], 0);
         let points = plot.points.iter().map(|[x, y, _]| [*x, *y]);
-        raster.points(&frame, points, &Pen::new(look.theme[Role::Text], 0));
+        if plot.stems {
+            for at in points {
+                raster.polyline(&frame, [[at[0], frame.y.lo], at].into_iter(), &pen);
+            }
+        } else {
+            raster.points(&frame, points, &pen);
+        }
         raster.draw(&mut buffer);
     }
     let mut text = String::new();

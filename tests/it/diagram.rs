@@ -317,6 +317,23 @@ fn a_key_on_a_parameter_shows_all_of_its_range() {
     assert!(points.iter().any(|at| at[0] > 3.5) && points.iter().any(|at| at[0] < 0.5));
 }
 
+/// Crossings of an angle may fill all of its values whatever the parameter: of a section with an angle the other axis is drawn.
+#[test]
+fn of_a_section_with_an_angle_the_momentum_is_shown() {
+    let mut app = begun(&catalog().find("kicked-rotor").unwrap().text);
+    press(&mut app, "v");
+    let (plot, lab) = (diagram(&app), app.lab.as_ref().unwrap());
+    let present = lab.present().unwrap();
+    match plot.kind.picture(&plot, &present, [f64::NAN; 2], lab.answer(&plot)) {
+        Some(Picture::Axes { upwards: Upwards::Named(name, [low, high]), .. }) => {
+            assert!(name.starts_with("p_θ where"), "{name}");
+            let pi = std::f64::consts::PI;
+            assert!((low + pi).abs() < 1e-12 && (high - 3.0 * pi).abs() < 1e-12);
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
 #[test]
 fn a_point_of_it_is_a_value_of_the_parameter() {
     let mut app = begun(DRIVEN);

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use phaselab::app::{App, Computation, Effect, Event, Loaded};
 use phaselab::diagnostic::Document;
 use phaselab::experiment::Prepared;
-use phaselab::instrument::{Layer, Picture, Plot, PlotTable, named};
+use phaselab::instrument::{Layer, Physics, Picture, Plot, PlotTable, named};
 use phaselab::job::Progress;
 
 use crate::hand::catalog;
@@ -173,4 +173,35 @@ fn where_there_is_no_orbit_there_is_no_family() {
     let app = opened(text, "family of orbits: q over E");
     assert_eq!(measure(&app, "members"), None);
     assert!(legend(&app).contains("no periodic orbit was found"), "{}", legend(&app));
+}
+
+/// An angle that rotates has no greatest value; its momentum has: p²/2 − cos q = E at the bottom, where the energy is E + 1.
+#[test]
+fn of_an_angle_that_rotates_the_momentum_is_drawn() {
+    let text = "title = \"one\"\n[coordinates]\nq = { initial = 0.0, velocity = 2.6, period = \"2*pi\" }\n[lagrangian]\n\
+                L = \"1/2*q'^2 + cos(q)\"\n[run]\nuntil = 100.0\n";
+    let app = opened(text, "family of orbits: q over E");
+    let table = table(&app);
+    assert_eq!(table.columns, ["energy", "greatest p_q", "period", "trace"]);
+    assert!(table.rows.len() > 20, "{}", table.rows.len());
+    for row in &table.rows {
+        let greatest = (2.0 * (row[0] + 1.0)).sqrt();
+        assert!((row[1] - greatest).abs() < 1e-7, "{row:?} {greatest}");
+    }
+}
+
+/// A family is offered over each parameter of the law, however many there are, and over none of initial values alone.
+#[test]
+fn families_are_offered_over_all_parameters_of_the_law() {
+    let text = "title = \"one\"\n[coordinates]\nq = { initial = \"q0\", velocity = 0.0 }\n[parameters]\nq0 = 0.5\n\
+                a = 1.0\nb = 1.0\nc = 1.0\nd = 1.0\n[lagrangian]\n\
+                L = \"1/2*a*q'^2 - 1/2*b*q^2 - 1/4*c*q^4 - 1/6*d*q^6\"\n[run]\nuntil = 100.0\n";
+    let ready =
+        Prepared::of(&Document::new("test", text)).unwrap_or_else(|error| panic!("{error}"));
+    let Prepared { model, equations, system, .. } = ready;
+    let physics = Physics { model: &model, equations: &equations, system: &system };
+    let offers = named("family").unwrap().offers(physics);
+    let over: Vec<&str> =
+        offers.iter().map(|offer| offer.label.rsplit(' ').next().unwrap()).collect();
+    assert_eq!(over, ["E", "a", "b", "c", "d"]);
 }

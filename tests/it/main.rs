@@ -39,6 +39,7 @@ mod occurrences;
 mod orbit;
 mod orbits;
 mod paused_cloud;
+mod periodic_points;
 mod plot;
 mod poisson;
 mod preset;

@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use crate::dynamics::{NoRotation, Rotation, rotation};
 use crate::ensemble::{
-    Crossings, PhaseShift, Region, SectionPlan, SectionPlane, crossings_of_all, in_order,
-    section_group, spread,
+    Crossings, PhaseShift, Region, SectionPlan, SectionPlane, Start, crossings, crossings_of_all,
+    in_order, section_group, spread,
 };
 use crate::instrument::{MOST_SEEDS, PlotTable, Present, Seed};
 use crate::integrate::{Method, Settings};
@@ -106,10 +106,14 @@ impl SectionConditions {
         }
     }
 
+    /// Whether orbits of this energy are on the same section.
+    pub(super) fn is_near(&self, energy: f64) -> bool {
+        (self.energy - energy).abs() <= DRIFT * self.energy.abs().max(1e-9)
+    }
+
     /// Whether the orbits of one are those of the other. Where the plane has no bound the energy does not matter.
     pub(super) fn still_hold(&self, now: &Self, bounded: bool) -> bool {
-        let scale = self.energy.abs().max(1e-9);
-        let near = !bounded || (self.energy - now.energy).abs() <= DRIFT * scale;
+        let near = !bounded || self.is_near(now.energy);
         near && (&self.parameters, self.method, self.settings)
             == (&now.parameters, now.method, now.settings)
     }
@@ -128,6 +132,8 @@ pub(super) struct SectionTask {
     pub(super) transient: usize,
     pub(super) known: Option<Begun>,
     pub(super) given: [Option<[f64; 2]>; 2],
+    /// The initial values of the motion, and the range of each axis that it has reached so far.
+    pub(super) own: Start,
     pub(super) around: [[f64; 2]; 2],
     pub(super) seed: Option<Seed>,
     pub(super) seeds: Vec<Seed>,
@@ -145,7 +151,7 @@ impl SectionTask {
         let system = self.system.with_cancel(progress.token().clone());
         let begun = self.known.as_ref();
         let region = begun.map_or_else(
-            || Region::of(&self.plane, &system, self.given, self.around, progress.token()),
+            || Region::of(&self.plane, &system, self.given, self.reach(&system), progress.token()),
             |begun| begun.region.clone(),
         );
         let mut orbits = begun.map_or_else(Vec::new, |begun| begun.orbits.clone());
@@ -200,6 +206,24 @@ impl SectionTask {
         let _ = in_order(0, groups.len(), progress.token(), group, take);
         let seeds = self.seeds.clone();
         Portrait { conditions: self.conditions.clone(), seeds, region, orbits, pending }
+    }
+
+    /// How far the motion comes on the section: where nothing bounds that, it is followed as far as the orbits beside it, since
+    /// it may have only begun.
+    fn reach(&self, system: &System) -> [[f64; 2]; 2] {
+        let mut reach = self.around;
+        if self.plane.is_bounded() || self.given.iter().all(Option::is_some) {
+            return reach;
+        }
+        let settings = self.method.fast(self.conditions.settings);
+        let found = crossings(system, self.method, settings, &self.own, &self.plan);
+        for row in found.rows.iter().skip(self.transient) {
+            for (ends, column) in reach.iter_mut().zip(self.columns) {
+                // a range that is not known yet is NaN, which these leave out
+                *ends = [ends[0].min(row[1 + column]), ends[1].max(row[1 + column])];
+            }
+        }
+        reach
     }
 
     /// The flow from the phase of the points to that of the initial values, where the two differ.

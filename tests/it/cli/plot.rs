@@ -74,7 +74,34 @@ fn the_largest_numbers_have_their_shades() {
     };
     let drawn: Vec<String> =
         lines[1..10].iter().map(shades).filter(|line| !line.is_empty()).collect();
-    assert_eq!(drawn, ["#.", ".#"], "{text}");
+    let ends = |line: &String| [line.chars().next(), line.chars().last()].map(Option::unwrap);
+    assert_eq!(ends(&drawn[0]), ['#', '.'], "{text}");
+    assert_eq!(ends(drawn.last().unwrap()), ['.', '#'], "{text}");
+}
+
+/// Between the places of a coarse lattice there are no gaps: each has its quarter.
+#[test]
+fn a_coarse_map_is_filled() {
+    let table = "a,b,c\n0,0,1\n0,1,2\n1,0,3\n1,1,4\n";
+    let text = plotted(table, &["--ascii", "--size", "47x20"]).success();
+    let inside: Vec<String> =
+        rows(&text)[2..17].iter().map(|line| line.iter().skip(6).collect()).collect();
+    let shaded = |line: &String| line.trim().chars().all(|c| ".:+#".contains(c));
+    assert!(inside.iter().all(|line| line.trim().len() >= 39 && shaded(line)), "{text}");
+    let first = inside[1].trim();
+    assert!(first.starts_with(":::::::::::::::") && first.ends_with("###############"), "{text}");
+}
+
+/// Each line of a spectrum stands on the axis, with its height.
+#[test]
+fn a_spectrum_is_drawn_as_lines() {
+    let json = r#"{"title": "two", "lines": [{"frequency": 1.0, "amplitude": 1.0}, {"frequency": 3.0, "amplitude": 0.01}]}"#;
+    let text = plotted(json, &["--size", "40x20"]).success();
+    let dots = |line: &Vec<char>| {
+        line.iter().skip(5).filter(|c| ('\u{2801}'..='\u{28ff}').contains(*c)).count()
+    };
+    let tall = rows(&text).iter().filter(|line| dots(line) > 0).count();
+    assert!(tall >= 15, "{text}");
 }
 
 /// Of a section the columns after those of the crossing are drawn; of a sweep words and what is the same in all rows are not.

@@ -357,8 +357,13 @@ fn families_under_constraints_are_those_of_independent_coordinates() {
     );
     let walk = |case: &Case, along: Along, values: &[f64]| {
         let first = orbit(case);
-        let found =
-            family(&case.space, taylor(), &first, (along, Fixed::Energy(first.energy)), values);
+        let found = family(
+            &case.space,
+            taylor(),
+            &first,
+            (along, Fixed::Energy(first.energy)),
+            (values, &|_| ()),
+        );
         let found = found.unwrap();
         assert!(found.ended.is_empty(), "{:?}", found.ended);
         found.members

@@ -10,7 +10,7 @@ use crate::hand::lowered;
 
 fn of(case: &Case, period: Option<f64>, (along, fixed): (Along, Fixed), values: &[f64]) -> Family {
     let orbit = periodic_orbit(&case.space, taylor(), &case.start, period, fixed).unwrap();
-    family(&case.space, taylor(), &orbit, (along, fixed), values).unwrap()
+    family(&case.space, taylor(), &orbit, (along, fixed), (values, &|_| ())).unwrap()
 }
 
 fn asked(family: &Family) -> Vec<&Member> {
@@ -139,7 +139,8 @@ fn along_the_drive(loaded: &phaselab::app::Loaded, case: &Case, values: &[f64]) 
     let drive = |parameters: &[f64]| {
         drive_period(&loaded.model, &loaded.equations, case.space.system(), parameters)
     };
-    driven_family(&case.space, taylor(), &orbit, (Along::Parameter(0), &drive), values).unwrap()
+    driven_family(&case.space, taylor(), &orbit, (Along::Parameter(0), &drive), (values, &|_| ()))
+        .unwrap()
 }
 
 /// x = A(ω) cos ωt + B(ω) sin ωt: the period is that of the drive at each ω.
@@ -222,7 +223,8 @@ fn a_period_that_is_no_multiple_of_the_drives_is_kept() {
         drive_period(&loaded.model, &loaded.equations, case.space.system(), parameters)
     };
     let along = (Along::Parameter(0), &drive as &dyn Fn(&[f64]) -> Option<f64>);
-    let found = driven_family(&case.space, taylor(), &orbit, along, &[1.2, 1.5, 1.9]).unwrap();
+    let found =
+        driven_family(&case.space, taylor(), &orbit, along, (&[1.2, 1.5, 1.9], &|_| ())).unwrap();
     let members = asked(&found);
     assert_eq!(members.len(), 3, "{:?}", found.ended);
     for member in members {

@@ -83,7 +83,8 @@ fn a_start_on_an_orbit_is_left_as_it_is() {
     let case = preset("restricted-three-body", &set, &[]);
     let first = of(&case, Some(2.7172), Fixed::Nothing);
     let walk = (Along::Period, Fixed::Nothing);
-    let members = family(&case.space, taylor(), &first, walk, &[2.717, 2.716]).unwrap().members;
+    let members =
+        family(&case.space, taylor(), &first, walk, (&[2.717, 2.716], &|_| ())).unwrap().members;
     assert_eq!(members.len(), 2);
     for member in members {
         let found = of(&case, Some(member.value), Fixed::Period(member.value));
