@@ -195,7 +195,7 @@ impl ObservableList {
         for (name, symbol) in model.new_variables() {
             if known.contains(&symbol) {
                 let e = equations.pool.variable(symbol);
-                self.add_hidden("", e);
+                self.add_hidden(e);
                 let shown = equations.pool.symbol_info(symbol).unicode.clone();
                 self.name(&model::WrittenExpr { written: name, expression: e }, &shown);
             }
