@@ -235,9 +235,10 @@ impl DormandPrince {
             || size < 1e-290
             || (size < self.shortest() && !last)
         {
-            match self.is_beside_a_kink() {
-                true => MotionErrorKind::Sticks,
-                false => MotionErrorKind::StepUnderflow(step),
+            if self.is_beside_a_kink() {
+                MotionErrorKind::Sticks
+            } else {
+                MotionErrorKind::StepUnderflow(step)
             }
         } else {
             return Ok(());

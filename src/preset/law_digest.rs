@@ -65,6 +65,6 @@ fn strip(entry: &mut Value, keys: &[&str]) {
 
 fn strip_table(value: &mut Value, keys: &[&str]) {
     if let Value::Table(table) = value {
-        table.retain(|key, _| !keys.iter().any(|known| key == *known));
+        table.retain(|key, _| !keys.contains(&key));
     }
 }

@@ -100,7 +100,7 @@ pub fn drawn(plot: &TablePlot, [columns, rows]: [u16; 2], glyphs: Glyphs) -> Str
         let points = plot.points.iter().map(|[x, y, _]| [*x, *y]);
         if plot.stems {
             for at in points {
-                raster.polyline(&frame, [[at[0], frame.y.lo], at].into_iter(), &pen);
+                raster.polyline(&frame, [[at[0], frame.y.lo], at], &pen);
             }
         } else {
             raster.points(&frame, points, &pen);

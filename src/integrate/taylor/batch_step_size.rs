@@ -50,10 +50,9 @@ impl BatchStepSize {
                 let h = shortest.0[lane];
                 let far = |k: usize, h: f64| u[k].0[lane].abs() * h > FARTHEST_ARGUMENT;
                 let (square, cube) = (h * h, h * h * h);
-                if far(1, h) || far(2, square) || far(3, cube) || !cube.is_finite() {
-                    if !h.is_nan() {
-                        shortest.0[lane] = h.min(of_argument(function, &alone()));
-                    }
+                let moves_far = far(1, h) || far(2, square) || far(3, cube) || !cube.is_finite();
+                if moves_far && !h.is_nan() {
+                    shortest.0[lane] = h.min(of_argument(function, &alone()));
                 }
             }
         }
