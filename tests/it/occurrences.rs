@@ -689,6 +689,9 @@ fn events_whose_series_have_gaps_are_all_found() {
 /// kink is another one, the hidden ones count as well: the times are those of sign changes of the closed form.
 #[test]
 fn functions_with_hidden_kinks_beside_others_vanish_where_their_closed_forms_do() {
+    const LAW: &str = "title = 'a test'\n[coordinates]\nx = { initial = 1.3 }\n\
+        y = { initial = \"sin(0.3)\", velocity = \"0.7*cos(0.3)\" }\n\
+        [lagrangian]\nL = \"1/2*(x'^2 + y'^2) - 1/2*(x^2 + 0.49*y^2)\"\n";
     type Function = fn(f64, f64) -> f64;
     let cases: [(&str, Function); 8] = [
         ("max(x, y) - acos(cos(2*x)) - 0.29", |x, y| x.max(y) - (2.0 * x).cos().acos() - 0.29),
@@ -706,9 +709,6 @@ fn functions_with_hidden_kinks_beside_others_vanish_where_their_closed_forms_do(
         ("(max(x - 0.4, 0)^2 + y^2)^1.5 - 0.1", |x, y| (x - 0.4).max(0.0).hypot(y).powi(3) - 0.1),
         ("abs(x) + (min(x, 0.2)^2*y^2)^0.5 - 0.7", |x, y| x.abs() + (x.min(0.2) * y).abs() - 0.7),
     ];
-    const LAW: &str = "title = 'a test'\n[coordinates]\nx = { initial = 1.3 }\n\
-        y = { initial = \"sin(0.3)\", velocity = \"0.7*cos(0.3)\" }\n\
-        [lagrangian]\nL = \"1/2*(x'^2 + y'^2) - 1/2*(x^2 + 0.49*y^2)\"\n";
     let end = 40.0;
     for (when, function) in cases {
         let at = |t: f64| function(1.3 * t.cos(), (0.7 * t + 0.3).sin());

@@ -110,7 +110,7 @@ fn a_driven_oscillation_is_a_point_of_a_stroboscope() {
     let (re, im) = (1.0 - w * w, 2.0 * g * w);
     let size = re * re + im * im;
     // at ω t = π
-    let exact = [-re / size, w * im / size * -1.0];
+    let exact = [-re / size, -(w * im / size)];
     assert_eq!(points.len(), 1, "{points:?}");
     let (at, stable) = points[0];
     assert!(stable && (0..2).all(|k| (at[k] - exact[k]).abs() < 1e-9), "{at:?} {exact:?}");
