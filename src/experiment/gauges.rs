@@ -192,6 +192,8 @@ impl Gauges {
         {
             attitude.restore(reference);
         }
+        let known = |name: &str, value: f64| known(name, value).cloned();
+        self.integration.restore(&known, (now.time, now.values), &self.places);
     }
 
     /// Shifts the references by the jump of an impulse, so that the jump does not count as drift. The energy balance

@@ -364,7 +364,7 @@ mod tests {
         assert_eq!(short("centre of mass along x", 15), "centre of mass…");
         assert_eq!(short("moment of inertia about a transverse axis", 36), "moment of inertia…");
         assert_eq!(short("moment on the bearing", 17), "moment…");
-        assert_eq!(short("torque of the hinge, when the pin holds", 17), "torque of the…");
+        assert_eq!(short("work of the hinge, when the pin holds", 17), "work of the…");
         // A single word is torn, and so is one after too little.
         assert_eq!(short("Phasenraumvolumen", 9), "Phasenra…");
         assert_eq!(short("a Phasenraumvolumen", 9), "a Phasen…");

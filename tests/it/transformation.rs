@@ -578,7 +578,7 @@ fn the_page_of_equations_has_transformations() {
         assert!(oscillator.contains(words), "{words}: {oscillator}");
     }
     let turn = page("four-generators");
-    assert!(turn.contains("F4 = "), "{turn}");
+    assert!(turn.contains("F₄ = "), "{turn}");
     let falling = page("falling-body");
     assert!(falling.contains("Integral of the Hamilton–Jacobi equation: complete"), "{falling}");
     assert!(falling.contains("∂S/∂α"), "{falling}");

@@ -10,7 +10,7 @@
 
 use super::invariant_monitor::{InvariantMonitor, Subject};
 use crate::analysis::{Errors, Verdict};
-use crate::experiment::Gauge;
+use crate::experiment::{Gauge, Reference};
 use crate::expr::{Expr, Pool, Symbol};
 use crate::mechanics::{Equations, HamiltonJacobi, Valuation};
 use crate::model::Model;
@@ -116,6 +116,28 @@ impl IntegrationConstants {
         let known = self.values(&self.beta, (time, values), places);
         refer(&mut self.beta, &known, time, terms);
         self.follow_branch((time, values), terms, places);
+    }
+
+    /// Continues from saved references, those of gauges that show the same number: β from where the motion came to its branch.
+    pub(super) fn restore(
+        &mut self,
+        known: &dyn Fn(&str, f64) -> Option<Reference>,
+        now: (f64, &[f64]),
+        places: &[(Symbol, usize)],
+    ) {
+        for of_alpha in [true, false] {
+            let monitors = if of_alpha { &self.alpha } else { &self.beta };
+            let values = self.values(monitors, now, places);
+            let monitors = if of_alpha { &mut self.alpha } else { &mut self.beta };
+            for (monitor, (value, _)) in monitors.iter_mut().zip(values) {
+                let Some(reference) = known(&monitor.name, value) else { continue };
+                monitor.restore(&reference, now.0);
+                match &mut self.on_branch {
+                    Some(since) if !of_alpha => *since = reference.since,
+                    _ => self.since = reference.since,
+                }
+            }
+        }
     }
 
     /// Records the values at a time; those of a sample in the history as well.

@@ -32,9 +32,10 @@ impl DormandPrince {
     }
 
     /// Whether the attempted step is as short as a step can be and a kink lies within it. No shorter one would have less
-    /// of an error relative to a number that was zero before the kink.
+    /// of an error relative to a number that was zero before the kink. Before the first step no size is known to go on with.
     pub(super) fn passes_kink(&mut self, step: f64) -> Result<bool, MotionError> {
-        if step.abs() > OVER_A_KINK * self.shortest() || self.is_beside_a_kink() {
+        let begins = self.longest == 0.0;
+        if begins || step.abs() > OVER_A_KINK * self.shortest() || self.is_beside_a_kink() {
             return Ok(false);
         }
         self.crosses_kink(step)

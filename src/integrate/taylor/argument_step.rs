@@ -26,12 +26,18 @@ pub(super) fn may_pass_pole(function: FunctionId) -> bool {
     function == FunctionId::Atan
 }
 
-/// The step in which the argument of such a function stays clear of its poles.
+/// The step in which the argument of such a function stays clear of its poles: a part of the least radius of convergence that
+/// its last terms show beside those in the middle, of which the first may be parts of something else.
 pub(super) fn before_pole(u: &[f64]) -> f64 {
-    let size = u[0].abs().max(1.0);
-    let last = u.iter().enumerate().skip(u.len() / 2).filter(|(_, c)| c.abs() >= FAINT);
-    let radii = last.map(|(k, c)| math::powf(size / c.abs(), 1.0 / k as f64));
-    PART_OF_RADIUS * radii.fold(f64::INFINITY, f64::min)
+    let (middle, last) = (u.len() / 4..u.len() / 2, u.len() / 2..u.len());
+    let known = |k: &usize| u[*k].abs() >= FAINT;
+    let radius = |k: usize| {
+        let beside = middle.clone().filter(known);
+        let beside = beside.map(|j| math::powf((u[j] / u[k]).abs(), 1.0 / (k - j) as f64));
+        let first = math::powf(u[0].abs().max(1.0) / u[k].abs(), 1.0 / k as f64);
+        beside.reduce(f64::max).unwrap_or(first)
+    };
+    PART_OF_RADIUS * last.filter(known).map(radius).fold(f64::INFINITY, f64::min)
 }
 
 /// The step in which the argument of a function changes by the largest amount allowed.
