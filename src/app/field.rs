@@ -111,7 +111,9 @@ pub(super) fn number(model: &Model, parameters: &[f64], text: &str) -> Result<f6
         let what = diagnostic.map_or("it cannot be read".to_owned(), ToString::to_string);
         let help = diagnostic.and_then(|m| m.help.clone());
         let help = help.map_or(String::new(), |help| format!(": {help}"));
-        return Err(format!("`{}` is not a number: {what}{help}.", text.trim()));
+        let sentence = format!("`{}` is not a number: {what}{help}", text.trim());
+        let end = if sentence.ends_with('?') { "" } else { "." };
+        return Err(sentence + end);
     };
     let value = pool.evaluate(expression, &|symbol| {
         let index = model.parameters.iter().position(|p| p.symbol == symbol);

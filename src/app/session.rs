@@ -6,7 +6,9 @@
 //! A system rebuilt from a changed file is resumed in the same way: everything that has the same name in both is
 //! kept.
 
-use super::{App, BufferState, Effect, Lab, Loaded, Overlay, Page, Saved, SourceBuffer};
+use super::{
+    App, BufferState, Effect, Lab, Loaded, Notification, Overlay, Page, Saved, SourceBuffer,
+};
 use crate::experiment::{Checkpoint, Command};
 use crate::instrument::{Plot, SavedPlot};
 use crate::preset::law_digest;
@@ -115,6 +117,14 @@ impl App {
         lab.restore_view(&saved);
         (lab.awaited, lab.awaited_law) = (Some(saved.moment), saved.law);
         self.page = saved.page;
+        let is_other =
+            lab.awaited_law.is_some() && lab.awaited_law != law_digest(&lab.loaded.document.text);
+        if is_other && !saved.edited {
+            let name = &lab.loaded.document.path;
+            self.notice = Some(Notification::info(format!(
+                "{name} has changed since: its law and its values hold from here on."
+            )));
+        }
         self.remind();
         // The motion belongs to the unsaved text, and waits until that is checked.
         if saved.edited && self.wake() { Vec::new() } else { self.restore() }

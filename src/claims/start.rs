@@ -36,7 +36,9 @@ pub(super) fn diagnostic(
     if fault.is_none() && energy.is_finite() {
         return on_a_pole(model, equations, at);
     }
-    if let Some(MotionError { kind: MotionErrorKind::SingularMass, .. }) = fault
+    if let Some(MotionError {
+        kind: MotionErrorKind::SingularMass | MotionErrorKind::NoMass, ..
+    }) = fault
         && let Some((place, message, help)) = without_inertia(model, equations)
     {
         return Some(Diagnostic::error(place, message).with_help(help));

@@ -4,6 +4,7 @@
 mod allowed;
 mod meaning;
 mod notation;
+mod notations;
 mod plain;
 
 use std::cell::OnceCell;
@@ -266,6 +267,15 @@ impl Scope {
         known.sort_unstable();
         if let Some(apart) = self.taken_apart(name, primes) {
             return error.with_help(format!("names side by side are written apart: `{apart}`"));
+        }
+        let positions = self.names.iter().filter(|(_, m)| matches!(m, Meaning::Position(_)));
+        let mut positions: Vec<&str> = positions.map(|(name, _)| name.as_str()).collect();
+        positions.sort_unstable();
+        let is_position = |name: &str| positions.contains(&name);
+        let moves = self.objection(SymbolRole::Position).is_none() && primes == 0;
+        let written = notations::written_here(name, positions.first().copied(), &is_position);
+        if let Some(help) = written.filter(|_| moves) {
+            return error.with_help(help);
         }
         if let Some(table) = table_of(name).filter(|_| primes == 0) {
             let help = format!("{table} defines it; other names belong in [parameters]");

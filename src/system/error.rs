@@ -38,6 +38,8 @@ pub enum MotionErrorKind {
     Passable(Box<MotionErrorKind>, Passage),
     /// A pivot of the mass matrix vanishes.
     SingularMass,
+    /// Under constraints, the momenta do not determine the velocities: a coordinate has no mass of its own.
+    NoMass,
     /// The constraints are dependent, or singular together with the mass matrix. Contains how to
     /// pass the place, if known.
     SingularConstraints(Option<Passage>),
@@ -117,6 +119,9 @@ impl fmt::Display for MotionError {
             MotionErrorKind::Passable(..) => {}
             MotionErrorKind::SingularMass => {
                 write!(f, "the mass matrix is singular at t = {time}")?;
+            }
+            MotionErrorKind::NoMass => {
+                write!(f, "the momenta do not determine the velocities at t = {time}")?;
             }
             MotionErrorKind::SingularConstraints(_) => {
                 write!(f, "singular configuration of the constraints at t = {time}")?;
@@ -224,6 +229,10 @@ impl fmt::Display for MotionError {
         }
         f.write_str(match &self.kind {
             MotionErrorKind::SingularMass => ": a chart singularity or a degenerate Lagrangian",
+            MotionErrorKind::NoMass => {
+                ": a coordinate that the constraints alone move has no mass of its own, and what works with momenta needs \
+                 one for each; put its constraint into L by hand"
+            }
             MotionErrorKind::SingularConstraints(passage) => {
                 f.write_str(": their directions depend on each other there, or one has none")?;
                 let Some(passage) = passage else { return Ok(()) };

@@ -82,6 +82,11 @@ impl System {
         MotionError { time, kind, place: Vec::new() }
     }
 
+    /// The error for momenta that do not determine the velocities.
+    pub(super) fn without_momenta(&self) -> MotionErrorKind {
+        if self.constraints() > 0 { MotionErrorKind::NoMass } else { MotionErrorKind::SingularMass }
+    }
+
     /// The error for a relation between velocities and momenta that could not be solved.
     pub(super) fn unsolved(
         &self,
@@ -90,7 +95,7 @@ impl System {
         numbers: &[DoubleDouble],
     ) -> MotionError {
         let kind = match why {
-            LegendreError::Singular => MotionErrorKind::SingularMass,
+            LegendreError::Singular => self.without_momenta(),
             LegendreError::NotConverging => MotionErrorKind::NoVelocities,
         };
         let values: Vec<f64> = numbers.iter().map(|x| x.high).collect();

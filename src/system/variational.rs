@@ -128,8 +128,7 @@ impl System {
             let mut rates: Vec<DoubleDouble> = (0..n).map(along).collect();
             if !forwards {
                 if !factored.factor(|i, j| values.output(n + i * n + j)) {
-                    let kind = super::MotionErrorKind::SingularMass;
-                    return Err(self.fault(kind, from.time, &from.values));
+                    return Err(self.fault(self.without_momenta(), from.time, &from.values));
                 }
                 for (i, rate) in rates.iter_mut().enumerate() {
                     *rate = from.exact(first + n + i) - *rate;

@@ -347,3 +347,22 @@ fn what_cannot_move_has_neither_equilibria_nor_exponents() {
         with_file(file, words).fails(1, &["the constraints leave nothing that could move"]);
     }
 }
+
+/// A bead on a curve with a parameter, which the constraints alone move: its motion is known, and what works with momenta says
+/// what it lacks.
+#[test]
+fn a_coordinate_without_mass_is_named_as_that() {
+    let cycloid = "[coordinates]\nx = { initial = \"s0 - sin(s0)\" }\ny = { initial = \"1 - cos(s0)\" }\n\
+        s = { initial = \"s0\", velocity = 0 }\n[parameters]\ns0 = 2.0\n[lagrangian]\n\
+        L = \"1/2*(x'^2 + y'^2) + y\"\n[[constraints]]\nname = \"a\"\nexpression = \"x - s + sin(s)\"\n\
+        [[constraints]]\nname = \"b\"\nexpression = \"y - 1 + cos(s)\"\n";
+    for command in ["equilibria", "orbit", "flow", "lyapunov"] {
+        with_file(cycloid, &[command, "system.toml"]).fails(1, &["has no mass of its own"]);
+    }
+    // the tautochrone: at the bottom, s = π, after π √(1/g) from wherever it starts
+    let words = ["run", "system.toml", "--at", "3.141592653589793"];
+    let rows = with_file(cycloid, &words).success();
+    let last = rows.lines().last().unwrap();
+    let s: f64 = last.split(',').nth(3).unwrap().parse().unwrap();
+    assert!((s - std::f64::consts::PI).abs() < 1e-12, "{rows}");
+}
