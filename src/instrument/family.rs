@@ -283,6 +283,8 @@ fn is_initial(physics: Physics<'_>, index: usize) -> bool {
     for impulse in &model.impulses {
         law.extend(impulse.times.iter().chain(&impulse.period).chain(&impulse.change));
     }
+    law.extend(model.constraints.iter().map(|constraint| constraint.expression));
+    law.extend(model.events.iter().map(|event| event.when));
     let has = |all: &[Expr]| all.iter().any(|e| model.pool.depends(*e, parameter.symbol));
     let initial: Vec<Expr> =
         model.coordinates.iter().flat_map(|c| [c.initial, c.initial_rate]).collect();

@@ -27,6 +27,9 @@ const DIGITS: f64 = 16.0;
 /// resolution of time.
 const MOST_SHORTEST: u32 = 64;
 
+/// How often the minimal interval is doubled about the zero of a root: up to half of the digits of time.
+const MOST_DOUBLED: u32 = 24;
+
 /// The most pieces of one step in a row on which the functions are sampled and none crosses zero: a
 /// step with more is far beyond what its method can follow.
 const MOST_PIECES: u32 = 1 << 16;
@@ -185,8 +188,9 @@ impl EventLocator {
             self.shortest = 0;
             return Ok((self.roots(motion, &piece, (from, end))?, end));
         }
-        // a kink or a pole
-        let end = (from + shortest).min(to);
+        // a kink or a pole; about the zero of a root its series is rounding over ever so many digits
+        let doubled = if self.probe.event_functions().has_roots() { self.shortest } else { 0 };
+        let end = (from + shortest * f64::from(1 << doubled.min(MOST_DOUBLED))).min(to);
         self.note_length(from, beyond)?;
         Ok((self.sampled(motion, from, end)?, end))
     }

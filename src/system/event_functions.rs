@@ -79,6 +79,11 @@ impl EventFunctions {
         self.expansion.as_ref().map_or_else(Vec::new, |known| known.function(event).to_vec())
     }
 
+    /// Whether the expanded functions have roots, which have kinks where they vanish.
+    pub fn has_roots(&self) -> bool {
+        self.expansion.as_ref().is_some_and(Expansion::has_roots)
+    }
+
     /// Series beyond whose first zero the expanded functions are others.
     pub fn expanded_branch_signs(&self) -> impl Iterator<Item = Cow<'_, [f64]>> {
         self.expansion.iter().flat_map(Expansion::branch_signs)

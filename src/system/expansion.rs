@@ -14,7 +14,8 @@ use super::jet::{Jet, Side};
 use super::program::{Guard, Program};
 use super::sign_bound::{LAST, bound, keeps_sign, shows_no_end, stays};
 use super::step_series::StepSeries;
-use crate::num::{DoubleDouble, math, square_root};
+use crate::expr::FunctionId;
+use crate::num::{DoubleDouble, all_finite, cosine_of_arctangent, math, square_root};
 
 /// The most times ahead from which functions are looked at whose last terms show nothing.
 const MOST_LOOKS: u32 = 100;
@@ -145,7 +146,9 @@ impl Expansion {
 
     fn grow(&mut self, time: f64, unit: f64) -> bool {
         self.jet.advance_to(self.order(), time, unit).is_ok()
-            && (0..self.outputs).all(|i| self.jet.output_series(i).iter().all(|c| c.is_finite()))
+            && (0..self.outputs).all(|i| all_finite(self.jet.output_series(i)))
+            // also of roots that the functions do not read here, as in the smaller part of a maximum
+            && self.branch_signs().all(|c| all_finite(&c))
     }
 
     /// Whether every function has this sign from the origin of a series up to a time, in its unit, and is represented
@@ -165,6 +168,7 @@ impl Expansion {
         let arguments = self.functions..self.outputs;
         self.jet.switches() == 0
             && self.guards.is_empty()
+            && self.angles().next().is_none()
             && self.about(series, 0.0)
             && !self.may_go_on(time)
             && signs.iter().enumerate().all(|(i, &sign)| keeps(self.function(i), sign))
@@ -179,11 +183,25 @@ impl Expansion {
         self.jet.output_series(event)
     }
 
-    /// Series beyond whose first zero other branches of the functions apply: those of the switches, and of the roots, of which
-    /// √(y²) goes on as y where y changes its sign.
+    /// Series beyond whose first zero other branches of the functions apply: those of the switches, of the roots, of which √(y²)
+    /// goes on as y where y changes its sign, and of arctangents.
     pub(super) fn branch_signs(&self) -> impl Iterator<Item = Cow<'_, [f64]>> {
         let switches = (0..self.jet.switches()).map(|i| Cow::Borrowed(self.jet.switch(i)));
-        switches.chain(self.guards.iter().filter_map(|guard| self.root(guard)))
+        let roots = self.guards.iter().filter_map(|guard| self.root(guard));
+        switches.chain(roots).chain(self.angles())
+    }
+
+    /// Of each arctangent the cosine, which passes zero at a pole of the argument: there the function jumps, and its series goes
+    /// on, as that of arctan(tan t) = t does.
+    fn angles(&self) -> impl Iterator<Item = Cow<'_, [f64]>> {
+        let arguments = self.jet.arguments();
+        let tangents = arguments.filter(|(function, _)| *function == FunctionId::Atan);
+        tangents.map(|(_, tangent)| Cow::Owned(cosine_of_arctangent(tangent)))
+    }
+
+    /// Whether there are roots, or inverse functions that have them in their derivatives.
+    pub(super) fn has_roots(&self) -> bool {
+        !self.guards.is_empty()
     }
 
     /// The series of a root that is positive on its branch, or of the root of the argument of a power that is none itself.

@@ -693,7 +693,7 @@ fn functions_with_hidden_kinks_beside_others_vanish_where_their_closed_forms_do(
         y = { initial = \"sin(0.3)\", velocity = \"0.7*cos(0.3)\" }\n\
         [lagrangian]\nL = \"1/2*(x'^2 + y'^2) - 1/2*(x^2 + 0.49*y^2)\"\n";
     type Function = fn(f64, f64) -> f64;
-    let cases: [(&str, Function); 8] = [
+    let cases: [(&str, Function); 11] = [
         ("max(x, y) - acos(cos(2*x)) - 0.29", |x, y| x.max(y) - (2.0 * x).cos().acos() - 0.29),
         ("asin(sin(2*y)) - sqrt((x - y)^2) + 0.48", |x, y| {
             (2.0 * y).sin().asin() - (x - y).abs() + 0.48
@@ -707,6 +707,11 @@ fn functions_with_hidden_kinks_beside_others_vanish_where_their_closed_forms_do(
             (x.abs() - 0.4).max(0.0).hypot(y) - 0.5
         }),
         ("(max(x - 0.4, 0)^2 + y^2)^1.5 - 0.1", |x, y| (x - 0.4).max(0.0).hypot(y).powi(3) - 0.1),
+        ("max(asin(sin(2*x)), -0.5) + 0.1*y - 0.3", |x, y| {
+            (2.0 * x).sin().asin().max(-0.5) + 0.1 * y - 0.3
+        }),
+        ("min(acos(cos(2*x*y)), x) - 0.2", |x, y| (2.0 * x * y).cos().acos().min(x) - 0.2),
+        ("atan(tan(2*x)) - 0.3", |x, _| (2.0 * x).tan().atan() - 0.3),
         ("abs(x) + (min(x, 0.2)^2*y^2)^0.5 - 0.7", |x, y| x.abs() + (x.min(0.2) * y).abs() - 0.7),
     ];
     let end = 40.0;
@@ -728,7 +733,10 @@ fn functions_with_hidden_kinks_beside_others_vanish_where_their_closed_forms_do(
                     a = middle;
                 }
             }
-            expected.push(b);
+            // a jump is no crossing
+            if at(b).abs() < 1e-9 {
+                expected.push(b);
+            }
         }
         let text = format!("{LAW}[[events]]\nname = 'zero'\nwhen = \"{when}\"\n");
         for spacing in [0.5, end] {

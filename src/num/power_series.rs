@@ -1,0 +1,56 @@
+//! Functions of power series, order by order.
+
+/// The coefficients of √(Σ cₖ xᵏ), from r² = c order by order: 2 r₀ r_k = c_k − Σ r_j r_{k−j}. They are not finite where c₀
+/// has no positive root.
+pub fn square_root(coefficients: &[f64]) -> Vec<f64> {
+    let mut root: Vec<f64> = Vec::with_capacity(coefficients.len());
+    for (k, &c) in coefficients.iter().enumerate() {
+        let next = match root.first() {
+            None => c.sqrt(),
+            Some(first) => {
+                let inner: f64 = (1..k).map(|j| root[j] * root[k - j]).sum();
+                (c - inner) / (2.0 * first)
+            }
+        };
+        root.push(next);
+    }
+    root
+}
+
+/// The coefficients of 1/√(1 + (Σ cₖ xᵏ)²): the cosine of the arctangent, which passes zero at a simple pole of the series.
+pub fn cosine_of_arctangent(coefficients: &[f64]) -> Vec<f64> {
+    let c = coefficients;
+    let square = |k: usize| -> f64 { (0..=k).map(|j| c[j] * c[k - j]).sum() };
+    let one = |k: usize| if k == 0 { 1.0 } else { 0.0 };
+    let secant = square_root(&(0..c.len()).map(|k| one(k) + square(k)).collect::<Vec<f64>>());
+    let mut cosine: Vec<f64> = Vec::with_capacity(c.len());
+    for k in 0..c.len() {
+        let inner: f64 = (0..k).map(|j| cosine[j] * secant[k - j]).sum();
+        cosine.push((one(k) - inner) / secant[0]);
+    }
+    cosine
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{cosine_of_arctangent, square_root};
+
+    /// tan x = x + x³/3 + 2x⁵/15 + …, and cos x.
+    #[test]
+    fn the_cosine_of_an_angle_follows_from_its_tangent() {
+        let tangent = [0.0, 1.0, 0.0, 1.0 / 3.0, 0.0, 2.0 / 15.0, 0.0];
+        let cosine = [1.0, 0.0, -0.5, 0.0, 1.0 / 24.0, 0.0, -1.0 / 720.0];
+        for (found, expected) in cosine_of_arctangent(&tangent).iter().zip(cosine) {
+            assert!((found - expected).abs() < 1e-16, "{found}, not {expected}");
+        }
+    }
+
+    #[test]
+    fn the_root_of_a_square_is_what_was_squared() {
+        // (2 − 3x + x²)², and the binomial series of √(1 + x)
+        let root = square_root(&[4.0, -12.0, 13.0, -6.0, 1.0, 0.0, 0.0]);
+        assert_eq!(root, [2.0, -3.0, 1.0, 0.0, 0.0, 0.0, 0.0]);
+        assert_eq!(square_root(&[1.0, 1.0, 0.0, 0.0]), [1.0, 0.5, -0.125, 0.0625]);
+        assert!(square_root(&[0.0, 1.0])[1].is_infinite() && square_root(&[-1.0])[0].is_nan());
+    }
+}
