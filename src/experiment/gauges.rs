@@ -196,12 +196,12 @@ impl Gauges {
         self.integration.restore(&known, (now.time, now.values), &self.places);
     }
 
-    /// Shifts the references by the jump of an impulse, so that the jump does not count as drift. The energy balance
+    /// Shifts the references by the jump of an impulse at a time, so that the jump does not count as drift. The energy balance
     /// accounts for impulses by its own law.
-    pub(super) fn shift(&mut self, before: &[f64], after: &[f64]) {
+    pub(super) fn shift(&mut self, time: f64, before: &[f64], after: &[f64]) {
         self.monitors.iter_mut().for_each(|monitor| monitor.shift(before, after));
-        self.followed.shift(before, after, &self.places);
-        self.integration.shift(before, after, &self.places);
+        self.followed.shift(time, before, after, &self.places);
+        self.integration.shift(time, before, after, &self.places);
     }
 
     /// Records the values at one of the evenly spaced times. If these are farther apart than the steps, they may

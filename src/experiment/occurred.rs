@@ -34,7 +34,7 @@ impl Experiment {
                 let before = self.motion.values_before()?;
                 self.recorder.insert(clock, &before);
                 let after = self.motion.values();
-                self.gauges.shift(&before, after);
+                self.gauges.shift(clock, &before, after);
                 let energy = self.energy_of(&before);
                 let given = self.energy_of(after) - energy;
                 if !given.is_finite() {

@@ -27,6 +27,9 @@ const DIGITS: f64 = 16.0;
 /// resolution of time.
 const MOST_SHORTEST: u32 = 64;
 
+/// At a root of its series a function is less than this part of its terms.
+const VANISHES: f64 = 1e-6;
+
 /// How often the minimal interval is doubled about the zero of a root: up to half of the digits of time.
 const MOST_DOUBLED: u32 = 24;
 
@@ -186,10 +189,18 @@ impl EventLocator {
         let end = (piece.from + DoubleDouble::from(piece.unit) * piece.length).high.min(to);
         if end - from >= shortest || end >= to {
             self.shortest = 0;
-            return Ok((self.roots(motion, &piece, (from, end))?, end));
+            let known = self.sides.clone();
+            if let Some(found) = self.roots(motion, &piece, (from, end))? {
+                return Ok((found, end));
+            }
+            // the series belong to another branch, or are rounding
+            self.sides = known;
+            self.count_piece(motion.interval().0, from)?;
+            let end = self.simple_until(motion, from, end)?;
+            return Ok((self.sampled(motion, from, end)?, end));
         }
         // a kink or a pole; about the zero of a root its series is rounding over ever so many digits
-        let doubled = if self.probe.event_functions().has_roots() { self.shortest } else { 0 };
+        let doubled = if self.probe.event_functions().has_branches() { self.shortest } else { 0 };
         let end = (from + shortest * f64::from(1 << doubled.min(MOST_DOUBLED))).min(to);
         self.note_length(from, beyond)?;
         Ok((self.sampled(motion, from, end)?, end))
@@ -249,13 +260,13 @@ impl EventLocator {
         Some((SeriesPiece { from, unit, length }, valid * unit))
     }
 
-    /// The first crossing that counts on a piece.
+    /// The first crossing that counts on a piece; nothing where a function does not vanish at a root of its series.
     fn roots(
         &mut self,
         motion: &mut dyn DenseOutput,
         piece: &SeriesPiece,
         (from, to): (f64, f64),
-    ) -> Result<Option<LocatedEvent>, MotionError> {
+    ) -> Result<Option<Option<LocatedEvent>>, MotionError> {
         self.fresh = false;
         let reference = if from == 0.0 { to } else { from.abs() };
         let (length, soonest) = (piece.length, SOONEST * reference / piece.unit);
@@ -271,9 +282,18 @@ impl EventLocator {
                 polynomial.coefficients[0] = exact.high;
             }
             let crossings = self.follow(motion, event, &polynomial, piece, to)?;
+            if self.probe.event_functions().has_branches() {
+                let vanishing = VANISHES * polynomial.size();
+                for crossing in &crossings {
+                    let value = self.probe.exactly_at(motion, event, crossing.exact)?.high;
+                    if value.abs() > vanishing || value.is_nan() {
+                        return Ok(None);
+                    }
+                }
+            }
             passed.push(crossings);
         }
-        Ok(first(&passed, &self.directions, &mut self.sides, to))
+        Ok(Some(first(&passed, &self.directions, &mut self.sides, to)))
     }
 
     /// The crossings of one function, in order of time, up to the first that counts.

@@ -42,7 +42,7 @@ pub(super) struct PieceSignChange {
 
 impl StepPolynomial {
     /// The size of all terms at the end of the piece.
-    fn size(&self) -> f64 {
+    pub(super) fn size(&self) -> f64 {
         self.coefficients.iter().rev().fold(0.0, |sum, c| sum * self.length + c.abs())
     }
 

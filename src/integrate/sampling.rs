@@ -220,6 +220,10 @@ impl Sampling<'_> {
     ) -> Result<Crossing, MotionError> {
         let mut low = self.probe.exactly(self.motion, event, left)?;
         let mut high = self.probe.exactly(self.motion, event, right)?;
+        if high.high * side < 0.0 && low.high * side < 0.0 {
+            // beside a jump, which in double-double lies elsewhere
+            return Ok(Crossing { exact: DoubleDouble::written(right), side, pole: true });
+        }
         if low.high * side > 0.0 {
             // in double-double it has crossed already
             let next = (left + spacing(left)).min(right);

@@ -53,7 +53,29 @@ pub fn law_digest(text: &str) -> Option<String> {
         }
         said.insert((*key).to_owned(), entry);
     }
-    Some(format!("{:016x}", num::digest(said.to_string().as_bytes())))
+    // what an event waits for may be an observable, and that another one
+    let mut others: Vec<Value> = match file.remove("observables") {
+        Some(Value::Array(all)) => all,
+        _ => Vec::new(),
+    };
+    let mut said = said.to_string();
+    while let Some(used) = others.iter().position(|one| is_named(one, &said)) {
+        said += &others.remove(used).to_string();
+    }
+    Some(format!("{:016x}", num::digest(said.as_bytes())))
+}
+
+/// Whether a text has the name of an observable.
+fn is_named(observable: &Value, text: &str) -> bool {
+    let name = observable.get("name").and_then(Value::as_str);
+    name.is_some_and(|name| {
+        let word = |c: char| c.is_alphanumeric() || c == '_';
+        text.match_indices(name).any(|(at, _)| {
+            let before = text[..at].chars().next_back();
+            let after = text[at + name.len()..].chars().next();
+            !name.is_empty() && !before.is_some_and(word) && !after.is_some_and(word)
+        })
+    })
 }
 
 /// Keeps these keys of a table.

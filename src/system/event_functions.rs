@@ -79,9 +79,10 @@ impl EventFunctions {
         self.expansion.as_ref().map_or_else(Vec::new, |known| known.function(event).to_vec())
     }
 
-    /// Whether the expanded functions have roots, which have kinks where they vanish.
-    pub fn has_roots(&self) -> bool {
-        self.expansion.as_ref().is_some_and(Expansion::has_roots)
+    /// Whether the expanded functions have branches that no switch shows: those of roots, which have kinks where they vanish,
+    /// and of inverse functions.
+    pub fn has_branches(&self) -> bool {
+        self.expansion.as_ref().is_some_and(Expansion::has_branches)
     }
 
     /// Series beyond whose first zero the expanded functions are others.

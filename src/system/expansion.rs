@@ -167,8 +167,7 @@ impl Expansion {
         let keeps = |c: &[f64], sign: f64| c[0] * sign > 0.0 && keeps_sign(c, cut_off, time);
         let arguments = self.functions..self.outputs;
         self.jet.switches() == 0
-            && self.guards.is_empty()
-            && self.angles().next().is_none()
+            && !self.has_branches()
             && self.about(series, 0.0)
             && !self.may_go_on(time)
             && signs.iter().enumerate().all(|(i, &sign)| keeps(self.function(i), sign))
@@ -199,9 +198,9 @@ impl Expansion {
         tangents.map(|(_, tangent)| Cow::Owned(cosine_of_arctangent(tangent)))
     }
 
-    /// Whether there are roots, or inverse functions that have them in their derivatives.
-    pub(super) fn has_roots(&self) -> bool {
-        !self.guards.is_empty()
+    /// Whether there are roots or inverse functions.
+    pub(super) fn has_branches(&self) -> bool {
+        !self.guards.is_empty() || self.angles().next().is_some()
     }
 
     /// The series of a root that is positive on its branch, or of the root of the argument of a power that is none itself.

@@ -90,10 +90,16 @@ impl Followed {
         self.values(time, values, places).into_iter().unzip()
     }
 
-    /// Shifts the references by the jump of an impulse.
-    pub(super) fn shift(&mut self, before: &[f64], after: &[f64], places: &[(Symbol, usize)]) {
-        let (before, _) = self.split(self.since, before, places);
-        let (after, _) = self.split(self.since, after, places);
+    /// Shifts the references by the jump of an impulse at a time.
+    pub(super) fn shift(
+        &mut self,
+        time: f64,
+        before: &[f64],
+        after: &[f64],
+        places: &[(Symbol, usize)],
+    ) {
+        let (before, _) = self.split(time, before, places);
+        let (after, _) = self.split(time, after, places);
         self.monitors.iter_mut().for_each(|monitor| monitor.shift(&before, &after));
     }
 

@@ -162,9 +162,15 @@ impl IntegrationConstants {
     }
 
     /// After an impulse the constants are others.
-    pub(super) fn shift(&mut self, before: &[f64], after: &[f64], places: &[(Symbol, usize)]) {
+    pub(super) fn shift(
+        &mut self,
+        time: f64,
+        before: &[f64],
+        after: &[f64],
+        places: &[(Symbol, usize)],
+    ) {
         let numbers = |values: &[f64]| -> Vec<f64> {
-            let all = self.values(&self.alpha, (self.since, values), places);
+            let all = self.values(&self.alpha, (time, values), places);
             all.into_iter().map(|(value, _)| value).collect()
         };
         let (before, after) = (numbers(before), numbers(after));
