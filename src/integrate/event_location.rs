@@ -21,7 +21,7 @@ use crate::system::{EventFunctions, MotionError, MotionErrorKind, State};
 
 /// The minimal length of an interval, in spacings of time: at a pole no function is simple on any
 /// interval, …
-const DIGITS: f64 = 16.0;
+pub(super) const DIGITS: f64 = 16.0;
 
 /// … but so many minimal intervals in a row are no pole: a function changes too fast for the
 /// resolution of time.
@@ -56,6 +56,8 @@ pub(super) struct EventLocator {
     directions: Vec<Direction>,
     /// The last known side of zero of each function; zero if unknown.
     sides: Vec<f64>,
+    /// When each of them last crossed zero in a direction that counts; NaN before it has.
+    last: Vec<f64>,
     /// Whether an impulse has just changed the state.
     fresh: bool,
     /// The time up to which the functions were found to be simple.
@@ -90,6 +92,7 @@ impl EventLocator {
             probe: Probe::new(event_functions, count, blank),
             directions,
             sides: vec![0.0; count],
+            last: vec![f64::NAN; count],
             fresh: false,
             simple: None,
             shortest: 0,
@@ -119,6 +122,7 @@ impl EventLocator {
     /// Forgets the sides of the functions.
     pub(super) fn forget(&mut self) {
         self.sides.fill(0.0);
+        self.last.fill(f64::NAN);
         self.fresh = false;
         self.probe.begin(None);
         self.simple = None;
@@ -164,6 +168,19 @@ impl EventLocator {
     /// Returns the first crossing that counts between two times of the motion's last step, as far
     /// as the functions can be followed at once, and the time up to which they were followed.
     pub(super) fn scan(
+        &mut self,
+        motion: &mut dyn DenseOutput,
+        from: f64,
+        to: f64,
+    ) -> Result<(Option<LocatedEvent>, f64), MotionError> {
+        let (found, end) = self.scanned(motion, from, to)?;
+        if let Some(found) = &found {
+            self.last[found.event] = found.exact.high;
+        }
+        Ok((found, end))
+    }
+
+    fn scanned(
         &mut self,
         motion: &mut dyn DenseOutput,
         from: f64,
@@ -422,8 +439,9 @@ impl EventLocator {
         let samples = sampling.looks(self.sides.len(), soonest)?;
         let mut passed: Vec<Vec<Crossing>> = Vec::new();
         for (event, samples) in samples.iter().enumerate() {
-            let direction = self.directions[event];
-            passed.push(sampling.follow(event, direction, samples, &mut self.sides[event])?);
+            let own = (event, self.directions[event]);
+            let (known, last) = (&mut self.sides[event], self.last[event]);
+            passed.push(sampling.follow(own, samples, known, last)?);
         }
         Ok(first(&passed, &self.directions, &mut self.sides, to))
     }

@@ -11,6 +11,7 @@
 
 use super::DenseOutput;
 use super::clock::spacing;
+use super::event_location::DIGITS;
 use super::located_event::Crossing;
 use super::probe::Probe;
 use crate::model::Direction;
@@ -98,15 +99,16 @@ impl Sampling<'_> {
         Ok(samples.collect())
     }
 
-    /// The crossings of one function, in order of time, up to the first that counts.
+    /// The crossings of one function, in order of time, up to the first that counts; those within the last digits of the `last`
+    /// one are the same.
     pub(super) fn follow(
         &mut self,
-        event: usize,
-        direction: Direction,
+        (event, direction): (usize, Direction),
         samples: &[Sample],
         known: &mut f64,
+        last: f64,
     ) -> Result<Vec<Crossing>, MotionError> {
-        let mut walk = Walk { event, direction, side: *known, known, found: Vec::new() };
+        let mut walk = Walk { event, direction, side: *known, known, last, found: Vec::new() };
         for pair in samples.windows(2) {
             if walk.side == 0.0 {
                 walk.side = sign(pair[0], pair[1]);
@@ -203,6 +205,10 @@ impl Sampling<'_> {
         }
         let crossing = self.locate(walk.event, side, a.time, b.time)?;
         walk.side = side;
+        let time = crossing.exact.high;
+        if (time - walk.last).abs() <= DIGITS * spacing(time) {
+            return Ok(false);
+        }
         walk.found.push(crossing);
         Ok(crossing.counts(walk.direction))
     }
@@ -291,6 +297,8 @@ struct Walk<'a> {
     side: f64,
     /// The sign at the beginning of the interval, or when it was first known.
     known: &'a mut f64,
+    /// When the function last crossed zero; NaN before it has.
+    last: f64,
     found: Vec<Crossing>,
 }
 

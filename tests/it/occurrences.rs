@@ -796,3 +796,21 @@ fn no_wall_is_missed_behind_a_kink_within_a_kink() {
     assert!(places.iter().all(|count| *count == places[0]), "{places:?}");
     assert!((20..40).contains(&places[0]), "{places:?} impacts");
 }
+
+/// A zero of one function on the kink of another is one event, however close to it the step is cut.
+#[test]
+fn an_event_on_a_kink_of_another_one_happens_once() {
+    let text = "title = 'a test'\n[coordinates]\nx = { initial = -0.3, velocity = 0.28 }\n\
+        y = { initial = 0.2, velocity = 0.1 }\n[lagrangian]\nL = \"1/2*(x'^2 + y'^2)\"\n\
+        [[events]]\nname = 'wall'\nwhen = \"max(abs(x) - 1, 0)^2 + y^2 - 1\"\n\
+        [[events]]\nname = 'middle'\nwhen = \"x\"\n[[events]]\nname = 'diagonal'\nwhen = \"x - y\"\n\
+        [[events]]\nname = 'largest'\nwhen = \"max(abs(x), abs(y)) - 0.5\"\n";
+    let mut flight = file(text);
+    run(&mut flight, 10.0);
+    for (name, time) in [("middle", 0.3 / 0.28), ("diagonal", 0.5 / 0.18), ("largest", 0.8 / 0.28)]
+    {
+        let found = times(&flight, name);
+        assert_eq!(found.len(), 1, "{name}: {found:?}");
+        assert!((found[0] - time).abs() < 1e-14, "{name}: {} for {time}", found[0]);
+    }
+}
