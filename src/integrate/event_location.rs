@@ -71,6 +71,14 @@ pub(super) struct EventLocator {
     end: (f64, DoubleDouble),
 }
 
+/// The roots of the functions' series on a piece.
+enum PieceRoots {
+    /// The first crossing that counts, if there is one.
+    First(Option<LocatedEvent>),
+    /// A function does not vanish at a root of its series.
+    Misleading,
+}
+
 /// A piece of a step on which the functions are represented by their series.
 struct SeriesPiece {
     /// The beginning.
@@ -207,7 +215,7 @@ impl EventLocator {
         if end - from >= shortest || end >= to {
             self.shortest = 0;
             let known = self.sides.clone();
-            if let Some(found) = self.roots(motion, &piece, (from, end))? {
+            if let PieceRoots::First(found) = self.roots(motion, &piece, (from, end))? {
                 return Ok((found, end));
             }
             // the series belong to another branch, or are rounding
@@ -277,13 +285,13 @@ impl EventLocator {
         Some((SeriesPiece { from, unit, length }, valid * unit))
     }
 
-    /// The first crossing that counts on a piece; nothing where a function does not vanish at a root of its series.
+    /// The first crossing that counts on a piece.
     fn roots(
         &mut self,
         motion: &mut dyn DenseOutput,
         piece: &SeriesPiece,
         (from, to): (f64, f64),
-    ) -> Result<Option<Option<LocatedEvent>>, MotionError> {
+    ) -> Result<PieceRoots, MotionError> {
         self.fresh = false;
         let reference = if from == 0.0 { to } else { from.abs() };
         let (length, soonest) = (piece.length, SOONEST * reference / piece.unit);
@@ -304,13 +312,13 @@ impl EventLocator {
                 for crossing in &crossings {
                     let value = self.probe.exactly_at(motion, event, crossing.exact)?.high;
                     if value.abs() > vanishing || value.is_nan() {
-                        return Ok(None);
+                        return Ok(PieceRoots::Misleading);
                     }
                 }
             }
             passed.push(crossings);
         }
-        Ok(Some(first(&passed, &self.directions, &mut self.sides, to)))
+        Ok(PieceRoots::First(first(&passed, &self.directions, &mut self.sides, to)))
     }
 
     /// The crossings of one function, in order of time, up to the first that counts.

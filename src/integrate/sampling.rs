@@ -227,8 +227,11 @@ impl Sampling<'_> {
         let mut low = self.probe.exactly(self.motion, event, left)?;
         let mut high = self.probe.exactly(self.motion, event, right)?;
         if high.high * side < 0.0 && low.high * side < 0.0 {
-            // beside a jump, which in double-double lies elsewhere
-            return Ok(Crossing { exact: DoubleDouble::written(right), side, pole: true });
+            // beside a jump, which in double-double comes a digit later
+            let next = right + spacing(right);
+            let beside = self.probe.exactly(self.motion, event, next)?;
+            let pole = self.is_pole(event, (right, high.high), (next, beside.high))?;
+            return Ok(Crossing { exact: DoubleDouble::written(right), side, pole });
         }
         if low.high * side > 0.0 {
             // in double-double it has crossed already

@@ -46,7 +46,9 @@ pub fn law_digest(text: &str) -> Option<String> {
                     .for_each(|(_, one)| retain(one, |key| !DESCRIPTIONS.contains(&key)));
             }
             ("constraints" | "impulses", Value::Array(all)) => {
-                all.iter_mut().for_each(|one| retain(one, |key| !DESCRIPTIONS.contains(&key)));
+                for one in all {
+                    retain(one, |key| !DESCRIPTIONS.contains(&key));
+                }
             }
             ("run", run) => retain(run, |key| OF_THE_METHOD.contains(&key)),
             _ => {}
