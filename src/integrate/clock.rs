@@ -1,6 +1,9 @@
 //! The resolution of a time in `f64`.
 //!
-//! In: a time. Out: the distance to the next representable one. Never here: steps.
+//! In: a time. Out: the distance to the next representable one, and how many of these an interval needs. Never here: steps.
+
+/// The minimal length of an interval on which events are looked for, in spacings of time.
+pub(super) const DIGITS: f64 = 16.0;
 
 /// Returns the distance from a time to the next representable one.
 pub fn spacing(time: f64) -> f64 {

@@ -9,7 +9,7 @@
 //! and poles, the functions are sampled.
 
 use super::DenseOutput;
-use super::clock::spacing;
+use super::clock::{DIGITS, spacing};
 use super::located_event::{Crossing, LocatedEvent, first};
 use super::polynomial::StepPolynomial;
 use super::probe::Probe;
@@ -19,12 +19,8 @@ use crate::model::Direction;
 use crate::num::DoubleDouble;
 use crate::system::{EventFunctions, MotionError, MotionErrorKind, State};
 
-/// The minimal length of an interval, in spacings of time: at a pole no function is simple on any
-/// interval, …
-pub(super) const DIGITS: f64 = 16.0;
-
-/// … but so many minimal intervals in a row are no pole: a function changes too fast for the
-/// resolution of time.
+/// So many minimal intervals in a row are no pole, at which no function is simple on any interval: a function changes too fast
+/// for the resolution of time.
 const MOST_SHORTEST: u32 = 64;
 
 /// At a root of its series a function is less than this part of its terms.
@@ -152,6 +148,7 @@ impl EventLocator {
             }
         }
         self.fresh = true;
+        self.last.fill(f64::NAN);
         self.probe.begin(Some(after.exact_time()));
         self.simple = None;
         Ok(())

@@ -10,8 +10,7 @@
 //! change faster than the motion nor two zeros within one piece are missed.
 
 use super::DenseOutput;
-use super::clock::spacing;
-use super::event_location::DIGITS;
+use super::clock::{DIGITS, spacing};
 use super::located_event::Crossing;
 use super::probe::Probe;
 use crate::model::Direction;

@@ -10,12 +10,12 @@ use crate::system::{MotionError, MotionErrorKind, State};
 /// whatever jumps within it.
 const OVER_A_KINK: f64 = 8.0;
 
-/// The least time between two kinks that are passed so, in shortest steps. Where a motion sticks at a kink, it comes back to it
-/// at once.
-const BETWEEN_KINKS: f64 = 1e4;
+/// The least part of the longest step between two kinks that are passed so. Where a motion sticks at a kink, it comes back
+/// to it at once.
+const BETWEEN_KINKS: f64 = 1e-6;
 
-/// Where so many more steps cross a kink than do not, all of them below this part of the longest one, the motion follows the
-/// kink, and every step is as long as the tolerance allows an error of the jump.
+/// The greatest number of steps below this part of the longest one that cross a kink, with none longer between them. There
+/// the motion follows the kink, and every step is as long as the tolerance allows an error of the jump.
 const MOST_CROSSINGS: u32 = 64;
 const ALONG_A_KINK: f64 = 1e-8;
 
@@ -27,7 +27,7 @@ impl DormandPrince {
 
     /// Whether the motion has just passed a kink by the shortest of steps.
     pub(super) fn is_beside_a_kink(&self) -> bool {
-        let recent = |kink: f64| (self.state.time - kink).abs() < BETWEEN_KINKS * self.shortest();
+        let recent = |kink: f64| (self.state.time - kink).abs() < BETWEEN_KINKS * self.longest;
         self.kink.is_some_and(recent)
     }
 
@@ -50,14 +50,12 @@ impl DormandPrince {
         Ok(!self.rates.sides().agrees(&before))
     }
 
-    /// Counts the short steps that cross a kink, less those that do not. Returns an error if there are too many.
+    /// Counts the short steps that cross a kink. Returns an error if there are too many without a longer one.
     pub(super) fn count_crossings(&mut self, step: f64) -> Result<(), MotionError> {
         if !self.system.has_kinks() || step.abs() > ALONG_A_KINK * self.longest {
             self.crossings = 0;
         } else if self.crosses_kink(step)? {
             self.crossings += 1;
-        } else {
-            self.crossings = self.crossings.saturating_sub(1);
         }
         if self.crossings <= MOST_CROSSINGS {
             return Ok(());
