@@ -87,7 +87,7 @@ impl Experiment {
     fn follow(&mut self, found: &[FoundConstant]) {
         self.gauges.follow(found, &self.model);
         if self.motion.has_begun() {
-            self.gauge(Gauges::refer_followed);
+            self.gauge(Gauges::refer_found);
         }
     }
 

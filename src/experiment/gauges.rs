@@ -4,7 +4,7 @@
 //! In: the consequences of the law of motion; the values of the channels at some times; the terms of the conserved
 //! quantities after every step. Out: [`Gauge`]s. Never here: how the values are computed.
 
-mod followed;
+mod formula_monitors;
 mod integration_constants;
 mod invariant_monitor;
 mod mean;
@@ -22,7 +22,7 @@ use crate::mechanics::{Conserved, Equations, Valuation, casimir_rate};
 use crate::model::{Mechanics, Model};
 use crate::num::BATCH;
 use crate::system::{BatchTerms, ChannelKind, System, TermWatch};
-use followed::Followed;
+use formula_monitors::{ChannelValues, FormulaMonitors};
 use integration_constants::IntegrationConstants;
 use invariant_monitor::{ENERGY_BALANCE, InvariantMonitor, MonitoredStep, Subject};
 
@@ -38,7 +38,8 @@ const CONTRADICTED: f64 = 100.0;
 pub(super) struct Gauges {
     equations: Arc<Equations>,
     monitors: Vec<InvariantMonitor>,
-    followed: Followed,
+    /// Constants that were found while the motion runs.
+    found: FormulaMonitors,
     integration: IntegrationConstants,
     residuals: Vec<ResidualGauge>,
     attitude: Option<AttitudeGauge>,
@@ -131,7 +132,7 @@ impl Gauges {
         Gauges {
             equations,
             monitors,
-            followed: Followed::default(),
+            found: FormulaMonitors::default(),
             integration,
             residuals,
             attitude,
@@ -150,9 +151,9 @@ impl Gauges {
         for monitor in &mut self.monitors {
             monitor.refer(now.time, now.values, now.terms);
         }
-        self.refer_followed(now);
-        let at = (now.time, now.values);
-        self.integration.refer(at, now.terms, now.constants, &self.places);
+        self.refer_found(now);
+        let at = now.channels(&self.places);
+        self.integration.refer(at, now.terms, now.constants);
         self.residuals.iter_mut().for_each(|residual| residual.refer(now.time));
         self.attitude.iter_mut().for_each(|attitude| attitude.refer(now.time));
         self.measure(now);
@@ -161,12 +162,13 @@ impl Gauges {
 
     /// Takes these constants of the motion in place of those followed before.
     pub(super) fn follow(&mut self, found: &[FoundConstant], model: &Model) {
-        self.followed = Followed::of(found, model, &self.equations);
+        self.found = FormulaMonitors::of_found(found, model, &self.equations);
     }
 
-    /// Takes the current values of what is followed as its reference.
-    pub(super) fn refer_followed(&mut self, now: &GaugeInputs<'_>) {
-        self.followed.refer((now.time, now.values), now.terms, now.constants, &self.places);
+    /// Takes the current values of the constants that were found as their reference.
+    pub(super) fn refer_found(&mut self, now: &GaugeInputs<'_>) {
+        let at = now.channels(&self.places);
+        self.found.refer(at, now.terms, now.constants);
     }
 
     /// Continues from the references of gauges with the same names, where both show the same value.
@@ -193,15 +195,17 @@ impl Gauges {
             attitude.restore(reference);
         }
         let known = |name: &str, value: f64| known(name, value).cloned();
-        self.integration.restore(&known, (now.time, now.values), &self.places);
+        let at = now.channels(&self.places);
+        self.integration.restore(&known, at);
     }
 
     /// Shifts the references by the jump of an impulse at a time, so that the jump does not count as drift. The energy balance
     /// accounts for impulses by its own law.
     pub(super) fn shift(&mut self, time: f64, before: &[f64], after: &[f64]) {
         self.monitors.iter_mut().for_each(|monitor| monitor.shift(before, after));
-        self.followed.shift(time, before, after, &self.places);
-        self.integration.shift(time, before, after, &self.places);
+        let at = |values| ChannelValues { time, values, places: &self.places };
+        self.found.shift(at(before), at(after));
+        self.integration.shift(at(before), at(after));
     }
 
     /// Records the values at one of the evenly spaced times. If these are farther apart than the steps, they may
@@ -231,8 +235,9 @@ impl Gauges {
         for monitor in &mut self.monitors {
             monitor.look(now.time, now.values, now.terms, floor);
         }
-        self.followed.look((now.time, now.values), now.terms, floor, &self.places, false);
-        self.integration.look((now.time, now.values), now.terms, floor, &self.places, false);
+        let at = now.channels(&self.places);
+        self.found.look(at, now.terms, floor, false);
+        self.integration.look(at, now.terms, floor, false);
         for residual in &mut self.residuals {
             residual.look(now.residuals);
         }
@@ -253,8 +258,9 @@ impl Gauges {
         for monitor in &mut self.monitors {
             monitor.sample(time, values, terms, floor);
         }
-        self.followed.look((time, values), terms, floor, &self.places, true);
-        self.integration.look((time, values), terms, floor, &self.places, true);
+        let at = ChannelValues { time, values, places: &self.places };
+        self.found.look(at, terms, floor, true);
+        self.integration.look(at, terms, floor, true);
     }
 
     /// Records the terms at the end of a step or within it.
@@ -292,9 +298,9 @@ impl Gauges {
             monitor.show(now.values, self.reference_time, floor, now.errors)
         };
         let mut shown: Vec<Gauge> = self.monitors.iter().map(show).collect();
-        let at = (now.time, now.values);
-        shown.extend(self.followed.show(at, floor, &self.places, now.errors));
-        shown.extend(self.integration.show(at, floor, &self.places, now.errors));
+        let at = now.channels(&self.places);
+        shown.extend(self.found.show(at, floor, now.errors));
+        shown.extend(self.integration.show(at, floor, now.errors));
         contradict(&mut shown);
         let attitude = self.attitude.iter().map(|attitude| attitude.show(now.values));
         let constraints = self.residuals.iter().enumerate().map(|(k, residual)| {
@@ -388,6 +394,12 @@ pub(super) struct GaugeInputs<'a> {
     pub(super) system: &'a System,
     /// The parameters, and the constants that follow from a body.
     pub(super) constants: &'a Valuation,
+}
+
+impl<'a> GaugeInputs<'a> {
+    fn channels(&self, places: &'a [(Symbol, usize)]) -> ChannelValues<'a> {
+        ChannelValues { time: self.time, values: self.values, places }
+    }
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use phaselab::instrument::{Across, Layer, Picture, Plot, SavedVariations, Upward
 use phaselab::model::Variation;
 
 use crate::hand::{begun, catalog, press};
-use crate::section::{layers, measure};
+use crate::laboratory::{layers, measure};
 
 /// A driven oscillator with friction, x″ + x′/2 + 2 x = A cos t.
 const DRIVEN: &str = r#"

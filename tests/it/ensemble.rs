@@ -4,22 +4,18 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use phaselab::app::{App, Computation, Effect, Event, Loaded, Saved};
-use phaselab::diagnostic::Document;
+use phaselab::app::{App, Effect, Event, Saved};
 use phaselab::dynamics::{PhaseSpace, conformal_rate};
 use phaselab::ensemble::{ClosedCurve, SystemFlow};
-use phaselab::experiment::{Command, Prepared};
+use phaselab::experiment::{Command, Experiment, Prepared};
 use phaselab::instrument::{Layer, Picture, Plot, Seed, named};
 use phaselab::integrate::{Settings, method_named};
 use phaselab::job::Progress;
 use phaselab::system::{ChannelKind, InitialOverride, State};
 
 use crate::hand::{catalog, press};
+use crate::laboratory::{first, layers, measured, open, prepared, see, typed};
 use crate::screen::{rich, rows};
-
-fn prepared(text: &str) -> Prepared {
-    Prepared::of(&Document::new("test", text)).unwrap_or_else(|error| panic!("{error}"))
-}
 
 /// An oscillator of one degree of freedom with the potential V and friction γ p.
 fn oscillator(potential: &str, friction: &str) -> Prepared {
@@ -250,27 +246,9 @@ fn the_rate_is_one_number_or_none() {
     assert_eq!(driven("0.6*exp(-t)"), None, "it has no period");
 }
 
-/// Runs all jobs that are asked for, and those that follow.
-fn finish(app: &mut App, mut effects: Vec<Effect>) {
-    while let Some(effect) = effects.pop() {
-        if let Effect::Compute(Computation { ticket, job, .. }) = effect {
-            let outcome = job.run(&Progress::new());
-            effects.extend(app.update(Event::Computed { ticket, outcome }));
-        }
-    }
-}
-
 /// The lab with a motion and the picture of its cloud, and the motion.
-pub(crate) fn opened(ready: Prepared) -> (App, usize, phaselab::experiment::Experiment) {
-    let Prepared { document, model, equations, system, mut experiment } = ready;
-    experiment.set_epoch(1);
-    experiment.advance(0.01, u64::MAX);
-    let (mut app, _) = App::new(catalog(), Some("test"));
-    app.aside = true;
-    let name = "test".to_owned();
-    let loaded = Loaded { name, epoch: 1, document, model, equations, system };
-    let effects = app.update(Event::Loaded(Ok(loaded)));
-    finish(&mut app, effects);
+pub(crate) fn opened(ready: Prepared) -> (App, usize, Experiment) {
+    let (mut app, mut experiment) = open(ready);
     let lab = app.lab.as_mut().unwrap();
     let kind = named("ensemble").unwrap();
     let offer = kind.offers(lab.loaded.physics()).remove(0);
@@ -279,25 +257,12 @@ pub(crate) fn opened(ready: Prepared) -> (App, usize, phaselab::experiment::Expe
     (app, 0, experiment)
 }
 
-pub(crate) fn see(app: &mut App, experiment: &mut phaselab::experiment::Experiment, time: f64) {
-    experiment.advance(time, u64::MAX);
-    let effects = app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
-    finish(app, effects);
-}
-
 pub(crate) fn measure(app: &App, word: &str) -> Option<f64> {
-    let lab = app.lab.as_ref().unwrap();
-    let plot = &lab.plots[0];
-    let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
-    (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot))
+    measured(app, first(app), word)
 }
 
 pub(crate) fn cloud(app: &App) -> Vec<[f64; 2]> {
-    let lab = app.lab.as_ref().unwrap();
-    let (plot, present) = (&lab.plots[0], lab.present().unwrap());
-    let picture = plot.kind.picture(plot, &present, [f64::NAN; 2], lab.answer(plot));
-    let Some(Picture::Axes { layers, .. }) = picture else { panic!("no picture") };
-    let found = layers.iter().find_map(|(_, layer)| match layer {
+    let found = layers(app, first(app)).into_iter().find_map(|layer| match layer {
         Layer::Cloud(points) => Some(points.to_vec()),
         _ => None,
     });
@@ -382,8 +347,7 @@ fn in_the_initial_values_the_cloud_stands_still() {
 fn a_key_begins_the_cloud_over_what_is_seen_and_a_session_has_it() {
     let (mut app, _, _) = opened(oscillator("-cos(q)", "0"));
     press(&mut app, "Tab Tab Tab");
-    let effects = press(&mut app, "n");
-    finish(&mut app, effects);
+    typed(&mut app, "n");
     let plot = app.lab.as_ref().unwrap().plots[0].clone();
     let [Seed::Spread([[left, right], [below, above]])] = plot.seeds[..] else {
         panic!("{:?}", plot.seeds)
@@ -392,8 +356,7 @@ fn a_key_begins_the_cloud_over_what_is_seen_and_a_session_has_it() {
     let action = measure(&app, "action").unwrap();
     assert!((action / area - 1.0).abs() < 1e-9, "a box has the area of a box: {action} {area}");
     // another takes its place
-    let effects = press(&mut app, "+ + + + n");
-    finish(&mut app, effects);
+    typed(&mut app, "+ + + + n");
     assert_eq!(app.lab.as_ref().unwrap().plots[0].seeds.len(), 1);
     assert!(measure(&app, "action").unwrap() < 0.8 * area);
     let text = toml::to_string(&app.saved().unwrap()).unwrap();
@@ -414,8 +377,7 @@ fn once_more_it_is_spread_over_the_energy_shell() {
     let (mut app, _, _) = opened(prepared(&text.replace("y = \"y\"", "y = \"p_x\"")));
     press(&mut app, "Tab Tab Tab");
     for (keys, seed) in [("n", "Spread"), ("n", "Shell"), ("n", "Spread")] {
-        let effects = press(&mut app, keys);
-        finish(&mut app, effects);
+        typed(&mut app, keys);
         let seeds = app.lab.as_ref().unwrap().plots[0].seeds.clone();
         assert!(seeds.len() == 1 && format!("{seeds:?}").contains(seed), "{seeds:?}");
         if seed != "Shell" {
@@ -441,8 +403,7 @@ fn once_more_it_is_spread_over_the_energy_shell() {
     let (mut app, _, _) = opened(oscillator("-cos(q)", "0.1*q'^2"));
     press(&mut app, "Tab Tab Tab");
     for _ in 0..2 {
-        let effects = press(&mut app, "n");
-        finish(&mut app, effects);
+        typed(&mut app, "n");
         let seeds = &app.lab.as_ref().unwrap().plots[0].seeds;
         assert!(matches!(seeds[..], [Seed::Spread(_)]), "{seeds:?}");
     }

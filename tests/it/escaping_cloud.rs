@@ -2,8 +2,8 @@
 
 use phaselab::instrument::{Across, Seed};
 
-use crate::ensemble::{cloud, measure, opened, see};
-use crate::section::prepared;
+use crate::ensemble::{cloud, measure, opened};
+use crate::laboratory::{prepared, see};
 
 /// A well of depth 1, which motions with p² > 2 at its middle leave for ever.
 const WELL: &str = "title = \"a well\"\n[coordinates]\nq = { initial = 0.0, momentum = 0.2 }\n[hamiltonian]\n\

@@ -1,37 +1,15 @@
 //! Families of periodic orbits in the lab: held against the closed form of the pendulum's amplitude, and the published
 //! bifurcations of the straight orbit of Hénon and Heiles.
 
-use std::sync::Arc;
-
-use phaselab::app::{App, Computation, Effect, Event, Loaded};
-use phaselab::diagnostic::Document;
+use phaselab::app::App;
 use phaselab::experiment::Prepared;
-use phaselab::instrument::{Layer, Physics, Picture, Plot, PlotTable, named};
-use phaselab::job::Progress;
+use phaselab::instrument::{Layer, Physics, Plot, PlotTable, named};
 
-use crate::hand::catalog;
-
-fn finish(app: &mut App, mut effects: Vec<Effect>) {
-    while let Some(effect) = effects.pop() {
-        if let Effect::Compute(Computation { ticket, job, .. }) = effect {
-            let outcome = job.run(&Progress::new());
-            effects.extend(app.update(Event::Computed { ticket, outcome }));
-        }
-    }
-}
+use crate::laboratory::{self, first, open, prepared, see};
 
 /// The lab with the family that is offered with these words.
 fn opened(text: &str, label: &str) -> App {
-    let ready =
-        Prepared::of(&Document::new("test", text)).unwrap_or_else(|error| panic!("{error}"));
-    let Prepared { document, model, equations, system, mut experiment } = ready;
-    experiment.set_epoch(1);
-    let (mut app, _) = App::new(catalog(), Some("test"));
-    app.aside = true;
-    let name = "test".to_owned();
-    let loaded = Loaded { name, epoch: 1, document, model, equations, system };
-    let effects = app.update(Event::Loaded(Ok(loaded)));
-    finish(&mut app, effects);
+    let (mut app, mut experiment) = open(prepared(text));
     let lab = app.lab.as_mut().unwrap();
     let kind = named("family").unwrap();
     let offers = kind.offers(lab.loaded.physics());
@@ -41,9 +19,7 @@ fn opened(text: &str, label: &str) -> App {
     let mut plot = Plot::new(kind, (offer.columns, None), &lab.loaded.model);
     plot.over = offer.over;
     lab.plots = vec![plot];
-    experiment.advance(0.01, u64::MAX);
-    let effects = app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
-    finish(&mut app, effects);
+    see(&mut app, &mut experiment, 0.01);
     app
 }
 
@@ -55,27 +31,15 @@ fn table(app: &App) -> PlotTable {
 }
 
 fn measure(app: &App, word: &str) -> Option<f64> {
-    let lab = app.lab.as_ref().unwrap();
-    let plot = &lab.plots[0];
-    let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
-    (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot))
+    laboratory::measured(app, first(app), word)
 }
 
 fn layers(app: &App) -> Vec<Layer> {
-    let lab = app.lab.as_ref().unwrap();
-    let plot = &lab.plots[0];
-    match plot.kind.picture(plot, &lab.present().unwrap(), [f64::NAN; 2], lab.answer(plot)) {
-        Some(Picture::Axes { layers, .. }) => layers.into_iter().map(|(_, layer)| layer).collect(),
-        other => panic!("{other:?}"),
-    }
+    laboratory::layers(app, first(app))
 }
 
 fn legend(app: &App) -> String {
-    let lines = layers(app).into_iter().find_map(|layer| match layer {
-        Layer::Legend(lines) => Some(lines),
-        _ => None,
-    });
-    lines.unwrap().join("\n")
+    laboratory::legend(app, first(app))
 }
 
 /// E = −cos of the amplitude, and T = 2π/agm(1, cos of half of it).
@@ -196,9 +160,7 @@ fn families_are_offered_over_all_parameters_of_the_law() {
     let text = "title = \"one\"\n[coordinates]\nq = { initial = \"q0\", velocity = 0.0 }\n[parameters]\nq0 = 0.5\n\
                 a = 1.0\nb = 1.0\nc = 1.0\nd = 1.0\n[lagrangian]\n\
                 L = \"1/2*a*q'^2 - 1/2*b*q^2 - 1/4*c*q^4 - 1/6*d*q^6\"\n[run]\nuntil = 100.0\n";
-    let ready =
-        Prepared::of(&Document::new("test", text)).unwrap_or_else(|error| panic!("{error}"));
-    let Prepared { model, equations, system, .. } = ready;
+    let Prepared { model, equations, system, .. } = prepared(text);
     let physics = Physics { model: &model, equations: &equations, system: &system };
     let offers = named("family").unwrap().offers(physics);
     let over: Vec<&str> =

@@ -4,7 +4,7 @@ use phaselab::app::App;
 use phaselab::instrument::{Layer, Picture, Plot, Upwards, named, offers};
 
 use crate::hand::begun;
-use crate::section::measure;
+use crate::laboratory::measure;
 
 /// A law with the view of its transform, v = 0.6 at the start.
 fn law(table: &str, law: &str, rate: &str) -> String {

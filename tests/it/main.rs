@@ -29,6 +29,7 @@ mod honest;
 mod impasse;
 mod instrument;
 mod integrability;
+mod laboratory;
 mod layers;
 mod legendre;
 mod map;

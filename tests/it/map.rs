@@ -9,7 +9,7 @@ use phaselab::model::Variation;
 use phaselab::system::InitialOverride;
 
 use crate::hand::{begun, press};
-use crate::section::{layers, measure};
+use crate::laboratory::{layers, measure};
 
 /// A ball above the floor, g = 2.
 const BALL: &str = r#"

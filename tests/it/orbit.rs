@@ -2,19 +2,18 @@
 //! and closed forms.
 
 use std::f64::consts::{PI, TAU};
-use std::sync::Arc;
 
-use phaselab::app::{App, Computation, Effect, Event, Loaded};
-use phaselab::diagnostic::Document;
-use phaselab::experiment::{Experiment, Prepared};
-use phaselab::instrument::{Layer, Picture};
+use phaselab::app::{App, Computation, Effect, Event};
+use phaselab::experiment::Experiment;
+use phaselab::instrument::{Layer, Plot};
 use phaselab::job::Progress;
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::glyphs::Glyphs;
 use phaselab::view::theme::Theme;
 
-use crate::hand::{catalog, press};
+use crate::hand::press;
+use crate::laboratory::{self, open, prepared, see, typed};
 use crate::screen::{rich, rows, screen};
 
 /// Hénon's and Heiles's system at E = 1/8, a little beside the orbit B.
@@ -39,60 +38,31 @@ fn one(lagrangian: &str, rest: &str) -> String {
     )
 }
 
-fn finish(app: &mut App, mut effects: Vec<Effect>) {
-    while let Some(effect) = effects.pop() {
-        if let Effect::Compute(Computation { ticket, job, .. }) = effect {
-            let outcome = job.run(&Progress::new());
-            effects.extend(app.update(Event::Computed { ticket, outcome }));
-        }
-    }
-}
-
 /// The lab with a motion at a time, after `t` was pressed.
 fn opened(text: &str, time: f64) -> (App, Experiment) {
     let (mut app, experiment) = before(text, time);
-    let effects = press(&mut app, "t");
-    finish(&mut app, effects);
+    typed(&mut app, "t");
     (app, experiment)
 }
 
 /// The same before it was pressed.
 fn before(text: &str, time: f64) -> (App, Experiment) {
-    let ready =
-        Prepared::of(&Document::new("test", text)).unwrap_or_else(|error| panic!("{error}"));
-    let Prepared { document, model, equations, system, mut experiment } = ready;
-    experiment.set_epoch(1);
-    let (mut app, _) = App::new(catalog(), Some("test"));
-    app.aside = true;
-    let name = "test".to_owned();
-    let loaded = Loaded { name, epoch: 1, document, model, equations, system };
-    let effects = app.update(Event::Loaded(Ok(loaded)));
-    finish(&mut app, effects);
+    let (mut app, mut experiment) = open(prepared(text));
     see(&mut app, &mut experiment, time);
     (app, experiment)
 }
 
-fn see(app: &mut App, experiment: &mut Experiment, time: f64) {
-    experiment.advance(time, u64::MAX);
-    let effects = app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
-    finish(app, effects);
+fn focused(app: &App) -> &Plot {
+    app.lab.as_ref().unwrap().focused_plot().unwrap().1
 }
 
 fn measure(app: &App, word: &str) -> Option<f64> {
-    let lab = app.lab.as_ref().unwrap();
-    let (_, plot) = lab.focused_plot().unwrap();
-    assert_eq!(plot.kind.name(), "orbit");
-    let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
-    (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot))
+    assert_eq!(focused(app).kind.name(), "orbit");
+    laboratory::measured(app, focused(app), word)
 }
 
 fn layers(app: &App) -> Vec<Layer> {
-    let lab = app.lab.as_ref().unwrap();
-    let (_, plot) = lab.focused_plot().unwrap();
-    match plot.kind.picture(plot, &lab.present().unwrap(), [f64::NAN; 2], lab.answer(plot)) {
-        Some(Picture::Axes { layers, .. }) => layers.into_iter().map(|(_, layer)| layer).collect(),
-        other => panic!("{other:?}"),
-    }
+    laboratory::layers(app, focused(app))
 }
 
 fn curve(app: &App) -> Option<Vec<[f64; 2]>> {
@@ -103,11 +73,7 @@ fn curve(app: &App) -> Option<Vec<[f64; 2]>> {
 }
 
 fn legend(app: &App) -> String {
-    let lines = layers(app).into_iter().find_map(|layer| match layer {
-        Layer::Legend(lines) => Some(lines),
-        _ => None,
-    });
-    lines.unwrap().join("\n")
+    laboratory::legend(app, focused(app))
 }
 
 #[test]
@@ -177,8 +143,7 @@ fn a_limit_cycle_is_found_from_where_the_motion_is_now() {
     // again, from later on: the answer is another, the orbit the same
     see(&mut app, &mut experiment, 43.0);
     let before = curve(&app).unwrap();
-    let effects = press(&mut app, "t");
-    finish(&mut app, effects);
+    typed(&mut app, "t");
     let after = curve(&app).unwrap();
     assert!(near(&app));
     assert_ne!(before[0], after[0]);

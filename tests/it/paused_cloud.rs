@@ -8,8 +8,8 @@ use phaselab::experiment::{Command, Experiment};
 use phaselab::instrument::{Layer, MarkerShape, Picture};
 use phaselab::job::Progress;
 
-use crate::ensemble::{cloud, measure, opened, see};
-use crate::section::prepared;
+use crate::ensemble::{cloud, measure, opened};
+use crate::laboratory::{prepared, see};
 
 /// A harmonic oscillator, of which every cloud turns rigidly, and a pendulum, which stretches them.
 const OSCILLATOR: &str = "title = \"one\"\n[coordinates]\nq = { initial = 1.0, velocity = 0.0 }\n[lagrangian]\n\

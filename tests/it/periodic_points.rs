@@ -2,37 +2,15 @@
 //! their families.
 
 use std::f64::consts::{PI, TAU};
-use std::sync::Arc;
 
-use phaselab::app::{App, Computation, Effect, Event, Loaded};
-use phaselab::diagnostic::Document;
-use phaselab::experiment::Prepared;
-use phaselab::instrument::{Across, Layer, MarkerShape, Picture, Plot, named};
-use phaselab::job::Progress;
+use phaselab::app::App;
+use phaselab::instrument::{Across, Layer, MarkerShape, Plot, named};
 
-use crate::hand::catalog;
-
-fn finish(app: &mut App, mut effects: Vec<Effect>) {
-    while let Some(effect) = effects.pop() {
-        if let Effect::Compute(Computation { ticket, job, .. }) = effect {
-            let outcome = job.run(&Progress::new());
-            effects.extend(app.update(Event::Computed { ticket, outcome }));
-        }
-    }
-}
+use crate::laboratory::{self, first, open, prepared, see};
 
 /// The lab with the section of a file, and beside it the first picture of a kind whose label begins with this.
 fn opened(text: &str, beside: &str, label: &str) -> App {
-    let ready =
-        Prepared::of(&Document::new("test", text)).unwrap_or_else(|error| panic!("{error}"));
-    let Prepared { document, model, equations, system, mut experiment } = ready;
-    experiment.set_epoch(1);
-    let (mut app, _) = App::new(catalog(), Some("test"));
-    app.aside = true;
-    let name = "test".to_owned();
-    let loaded = Loaded { name, epoch: 1, document, model, equations, system };
-    let effects = app.update(Event::Loaded(Ok(loaded)));
-    finish(&mut app, effects);
+    let (mut app, mut experiment) = open(prepared(text));
     let lab = app.lab.as_mut().unwrap();
     let physics = lab.loaded.physics();
     let kind = named(beside).unwrap();
@@ -42,19 +20,13 @@ fn opened(text: &str, beside: &str, label: &str) -> App {
     plot.over = offer.over;
     let section = Plot::opening(physics).into_iter().find(|plot| plot.kind.is_section()).unwrap();
     lab.plots = vec![section, plot];
-    experiment.advance(0.01, u64::MAX);
-    let effects = app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
-    finish(&mut app, effects);
+    see(&mut app, &mut experiment, 0.01);
     app
 }
 
 /// The layers of the section.
 fn layers(app: &App) -> Vec<Layer> {
-    let lab = app.lab.as_ref().unwrap();
-    let plot = &lab.plots[0];
-    let picture = plot.kind.picture(plot, &lab.present().unwrap(), [f64::NAN; 2], lab.answer(plot));
-    let Some(Picture::Axes { layers, .. }) = picture else { panic!("no picture") };
-    layers.into_iter().map(|(_, layer)| layer).collect()
+    laboratory::layers(app, first(app))
 }
 
 /// The points that are marked, and whether each is that of a stable orbit.
@@ -68,10 +40,7 @@ fn marked(app: &App) -> Vec<([f64; 2], bool)> {
 }
 
 fn measure(app: &App, word: &str) -> Option<f64> {
-    let lab = app.lab.as_ref().unwrap();
-    let plot = &lab.plots[0];
-    let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
-    (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot))
+    laboratory::measured(app, first(app), word)
 }
 
 /// The orbit B of Hénon and Heiles at E = 1/8, which is unstable, crosses x = 0 once in either direction.

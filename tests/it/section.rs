@@ -2,19 +2,18 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{App, Computation, Drawn, Effect, Event, Saved};
+use phaselab::app::{App, Drawn, Effect, Event, Saved};
 use phaselab::cancel::Cancel;
-use phaselab::diagnostic::Document;
 use phaselab::ensemble::{NotInPlane, NotOnShell, Region, SectionPlane};
 use phaselab::experiment::{Command, Prepared, Snapshot};
-use phaselab::instrument::{Entry, Ink, Layer, Picture, Plot, Present, Seed};
-use phaselab::job::Progress;
+use phaselab::instrument::{Entry, Ink, Layer, Plot, Seed};
 use phaselab::system::{ChannelKind, InitialOverride};
 use phaselab::view::RenderStyle;
 use phaselab::view::colour::ColourDepth;
 use phaselab::view::theme::Theme;
 
 use crate::hand::{catalog, lab, press};
+use crate::laboratory::{layers, measure, open, prepared, see, typed};
 use crate::screen::{rich, rows, screen};
 
 /// Two oscillators that know nothing of each other: x = sin t, y = cos √2 t, with p_y² + 2 y² constant.
@@ -35,10 +34,6 @@ y = "p_y"
 [run]
 until = 100.0
 "#;
-
-pub(crate) fn prepared(text: &str) -> Prepared {
-    Prepared::of(&Document::new("test", text)).unwrap_or_else(|error| panic!("{error}"))
-}
 
 pub(crate) fn shipped(name: &str) -> Prepared {
     Prepared::of(&catalog().find(name).unwrap()).unwrap_or_else(|error| panic!("{error}"))
@@ -195,58 +190,13 @@ fn planes_without_starts_are_none() {
     }
 }
 
-/// Runs all jobs that are asked for, and those that follow; the other effects are returned.
-fn finish(app: &mut App, mut effects: Vec<Effect>) -> Vec<Effect> {
-    let mut others = Vec::new();
-    while let Some(effect) = effects.pop() {
-        match effect {
-            Effect::Compute(Computation { ticket, job, .. }) => {
-                let outcome = job.run(&Progress::new());
-                effects.extend(app.update(Event::Computed { ticket, outcome }));
-            }
-            other => others.push(other),
-        }
-    }
-    others
-}
-
-/// Presses keys, and waits for the jobs.
-pub(crate) fn typed(app: &mut App, keys: &str) -> Vec<Effect> {
-    let effects = press(app, keys);
-    finish(app, effects)
-}
-
 /// The application with a system in the lab and a snapshot of its real motion, and the section.
 pub(crate) fn opened(ready: Prepared, time: f64) -> (App, usize) {
-    let Prepared { document, model, equations, system, mut experiment } = ready;
-    experiment.set_epoch(1);
-    experiment.advance(time, u64::MAX);
-    let (mut app, _) = App::new(catalog(), Some("test"));
-    app.aside = true;
-    let name = "test".to_owned();
-    let loaded = phaselab::app::Loaded { name, epoch: 1, document, model, equations, system };
-    let effects = app.update(Event::Loaded(Ok(loaded)));
-    finish(&mut app, effects);
-    let effects = app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
-    finish(&mut app, effects);
+    let (mut app, mut experiment) = open(ready);
+    see(&mut app, &mut experiment, time);
     let plots = &app.lab.as_ref().unwrap().plots;
     let index = plots.iter().position(|plot| plot.kind.is_section()).unwrap();
     (app, index)
-}
-
-pub(crate) fn measure(app: &App, plot: &Plot, word: &str) -> f64 {
-    let lab = app.lab.as_ref().unwrap();
-    let measure = plot.kind.measures().iter().find(|measure| measure.word == word).unwrap();
-    (measure.value)(plot, &lab.present().unwrap(), lab.answer(plot)).unwrap()
-}
-
-pub(crate) fn layers(app: &App, plot: &Plot) -> Vec<Layer> {
-    let lab = app.lab.as_ref().unwrap();
-    let present: Present<'_> = lab.present().unwrap();
-    match plot.kind.picture(plot, &present, [f64::NAN; 2], lab.answer(plot)) {
-        Some(Picture::Axes { layers, .. }) => layers.into_iter().map(|(_, layer)| layer).collect(),
-        other => panic!("{other:?}"),
-    }
 }
 
 #[test]

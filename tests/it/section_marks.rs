@@ -1,23 +1,8 @@
 //! Equilibria marked on a section: those that lie on its surface, whatever the units.
 
-use std::sync::Arc;
+use phaselab::instrument::{Layer, MarkerShape};
 
-use phaselab::app::{App, Computation, Effect, Event, Loaded};
-use phaselab::diagnostic::Document;
-use phaselab::experiment::Prepared;
-use phaselab::instrument::{Layer, MarkerShape, Picture};
-use phaselab::job::Progress;
-
-use crate::hand::{catalog, press};
-
-fn finish(app: &mut App, mut effects: Vec<Effect>) {
-    while let Some(effect) = effects.pop() {
-        if let Effect::Compute(Computation { ticket, job, .. }) = effect {
-            let outcome = job.run(&Progress::new());
-            effects.extend(app.update(Event::Computed { ticket, outcome }));
-        }
-    }
-}
+use crate::laboratory::{layers, open, prepared, see, typed};
 
 /// Two wells at y = ±a around a saddle, with x as an oscillator beside; the section is y = 0 in words of `on`. Where the
 /// equilibria are that are marked, in units of a.
@@ -28,32 +13,18 @@ fn marked(a: f64, on: &str) -> Vec<f64> {
          H = \"1/2*(p_x^2 + p_y^2) + 1/2*x^2 + (y^2 - a^2)^2/(4*a^2)\"\n\
          [[views]]\nkind = \"section\"\non = \"{on}\"\nx = \"y\"\ny = \"p_x\"\n[run]\nuntil = 100.0\n"
     );
-    let ready =
-        Prepared::of(&Document::new("test", &text)).unwrap_or_else(|error| panic!("{error}"));
-    let Prepared { document, model, equations, system, mut experiment } = ready;
-    experiment.set_epoch(1);
-    let (mut app, _) = App::new(catalog(), Some("test"));
-    app.aside = true;
-    let name = "test".to_owned();
-    let loaded = Loaded { name, epoch: 1, document, model, equations, system };
-    let effects = app.update(Event::Loaded(Ok(loaded)));
-    finish(&mut app, effects);
-    experiment.advance(0.5, u64::MAX);
-    let effects = app.update(Event::Snapshot(Arc::new(experiment.snapshot())));
-    finish(&mut app, effects);
-    let effects = press(&mut app, "F");
-    finish(&mut app, effects);
+    let (mut app, mut experiment) = open(prepared(&text));
+    see(&mut app, &mut experiment, 0.5);
+    typed(&mut app, "F");
     let lab = app.lab.as_ref().unwrap();
     let present = lab.present().unwrap();
     assert_eq!(present.equilibria.len(), 3, "{:?}", present.equilibria);
     let plot = lab.plots.iter().find(|plot| plot.kind.name() == "section").unwrap();
-    let picture = plot.kind.picture(plot, &present, [f64::NAN; 2], lab.answer(plot));
-    let Some(Picture::Axes { layers, .. }) = picture else { panic!("no picture") };
-    let place = |(_, layer): &(_, Layer)| match layer {
+    let place = |layer: Layer| match layer {
         Layer::Point(at, MarkerShape::Ring | MarkerShape::Cross, _) => Some(at[0] / a),
         _ => None,
     };
-    layers.iter().filter_map(place).collect()
+    layers(&app, plot).into_iter().filter_map(place).collect()
 }
 
 #[test]

@@ -4,7 +4,8 @@ use phaselab::app::{Drawn, Event};
 use phaselab::experiment::{Command, Prepared};
 use phaselab::instrument::{Layer, NoStart, Seed};
 
-use crate::section::{layers, opened, prepared, shipped, typed};
+use crate::laboratory::{layers, prepared, typed};
+use crate::section::{opened, shipped};
 
 /// A motion that begins at a point of a stroboscope passes it at the first instant, also where the initial values lie at another
 /// phase: half an interval before it, as those of the standard map, or a third of a period of a drive.

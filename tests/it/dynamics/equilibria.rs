@@ -1,6 +1,8 @@
 //! Equilibria and small oscillations.
 
-use phaselab::dynamics::{DynamicsError, Equilibrium, Kind, PhaseSpace, equilibria};
+use phaselab::dynamics::{
+    DynamicsError, Equilibrium, Kind, PhaseSpace, equilibria, with_virtual_work,
+};
 
 use super::{Case, case_in, file, preset};
 use crate::hand::{loaded, lowered};
@@ -499,6 +501,47 @@ fn a_law_has_the_same_equilibria_in_any_units() {
 
 /// At L₄ the first component of the linearised motion, (−ω² − U_xx) x − 2iω y = U_xy y, gives y/x; at L₁ the ellipse has the
 /// axis of the bodies as one of its own.
+/// Where the forces vanish to a higher order there is one equilibrium as well, and none where they vanish only in the limit.
+#[test]
+fn a_zero_of_higher_order_is_one_equilibrium() {
+    let of_potential = |potential: &str, start: f64| -> Vec<f64> {
+        let found = held(
+            &format!(
+                "title = \"one\"\n[coordinates]\nx = {{ initial = {start} }}\n[lagrangian]\n\
+                 L = \"1/2*x'^2 - ({potential})\"\n"
+            ),
+            &[],
+        );
+        assert!(found.iter().all(|one| one.kind == Some(Kind::Degenerate)), "{potential}");
+        found.iter().map(|one| one.variables[0]).collect()
+    };
+    for potential in ["x^4", "1e12*x^4", "x^3", "x^6", "x^20", "cosh(x) - 1 - x^2/2", "x^4 + x^8"] {
+        let found = of_potential(potential, 1.0);
+        assert!(found.len() == 1 && found[0].abs() < 1e-3, "{potential}: {found:?}");
+    }
+    let found = of_potential("(x - 1)^4", 0.3);
+    assert!(found.len() == 1 && (found[0] - 1.0).abs() < 1e-9, "{found:?}");
+    // π is no number of the computer
+    let text = "title = \"one\"\n[coordinates]\nx = { initial = 1.0 }\n[lagrangian]\nL = \"1/2*x'^2 - V\"\n";
+    let found = held(&text.replace('V', "sin(x)^4"), &[]);
+    assert!(found.iter().any(|one| one.kind == Some(Kind::Maximum)));
+    for one in found {
+        let flat = one.variables[0].sin().abs() < 0.5;
+        let kind = if flat { Kind::Degenerate } else { Kind::Maximum };
+        assert_eq!(one.kind, Some(kind), "{:?}", one.variables);
+        assert!(one.modes.is_empty(), "{:?}", one.modes);
+    }
+    // at x = 0 there is a maximum or a minimum; beyond it the force falls, and is 0 only for want of smaller numbers
+    for (potential, kind) in [("exp(-x^2)", Kind::Maximum), ("(1 - exp(-x^4))", Kind::Degenerate)] {
+        let loaded = lowered(&text.replace('V', potential));
+        let case = case_in(&loaded, &[], &[], PhaseSpace::without_impulses);
+        let mut found = equilibria(&case.space, &case.start).unwrap().found;
+        with_virtual_work((&loaded.model, &loaded.equations), case.space.parameters(), &mut found);
+        let places: Vec<_> = found.iter().map(|one| (one.variables[0], one.kind)).collect();
+        assert_eq!(places, [(0.0, Some(kind))]);
+    }
+}
+
 #[test]
 fn modes_have_all_their_digits() {
     let case = preset("restricted-three-body", &[], &[]);

@@ -12,8 +12,8 @@ use phaselab::instrument::{Layer, Plot, named};
 use phaselab::integrate::{METHODS, Settings};
 
 use crate::hand::{catalog, lab, lowered, press, snapshot};
+use crate::laboratory::{layers, measure};
 use crate::screen::{rich, rows};
-use crate::section::{layers, measure};
 
 /// A law in the plane, without parameters.
 fn plane(law: &str) -> String {
