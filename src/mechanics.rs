@@ -7,6 +7,7 @@ mod attitude;
 mod bracket;
 mod break_down;
 mod canonical;
+mod canonical_verdict;
 mod chart;
 mod closed_forms;
 mod conservation;
@@ -57,7 +58,8 @@ mod vakonomic;
 mod valuation;
 
 pub use bracket::{ChainRule, Recognised, bracket, in_phase_space, rate_by_bracket, recognise};
-pub use canonical::{CanonicalVerdict, FailingBracket, PhaseMap};
+pub use canonical::PhaseMap;
+pub use canonical_verdict::{CanonicalVerdict, FailingBracket};
 pub use chart::ChartBracket;
 pub use conservation::{Class, Classed, class_of, classes};
 pub use constrain::with_reactions;

@@ -10,6 +10,7 @@ mod check;
 mod draft;
 mod law_digest;
 mod new_surface;
+mod number_help;
 mod read;
 mod rewrite;
 mod schema;

@@ -39,7 +39,7 @@ pub(super) fn perform(arguments: &Arguments) -> Result<(), CommandError> {
         if !arguments.write {
             Output::print(OutputForm::Text, &text)?;
         } else if text != document.text {
-            let mut output = Output::open(Some(path), OutputForm::Text)?;
+            let mut output = Output::rewrite(path, OutputForm::Text)?;
             output.write_all(text.as_bytes()).map_err(|why| output.failed(&why))?;
             output.finish()?;
         }

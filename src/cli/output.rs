@@ -44,9 +44,21 @@ enum Target {
 
 impl Output {
     /// Opens standard output, or the file at a path. A regular file is replaced as a whole in [`Output::finish`], so
-    /// that a failure leaves an old file unchanged; a device or a pipe is written directly.
+    /// that a failure leaves an old file unchanged; a device or a pipe is written directly. A file that describes a system, such as
+    /// the one that is being read, is not replaced.
     pub(super) fn open(path: Option<&Path>, form: OutputForm) -> Result<Output, CommandError> {
         let Some(path) = path else { return Ok(Output::standard(form)) };
+        if describes_a_system(path) {
+            let name = printable::path(path);
+            return Err(CommandError::WrongUse(format!(
+                "{name} describes a system, and is not replaced; give the output another name"
+            )));
+        }
+        Output::rewrite(path, form)
+    }
+
+    /// Opens the file at a path, whatever is in it.
+    pub(super) fn rewrite(path: &Path, form: OutputForm) -> Result<Output, CommandError> {
         let name = printable::path(path);
         let about = fs::metadata(path);
         let direct = about.as_ref().is_ok_and(|about| !about.is_file());
@@ -102,6 +114,16 @@ impl Output {
     pub(super) fn failed(&self, error: &io::Error) -> CommandError {
         CommandError::writing(&self.name, error)
     }
+}
+
+/// Whether there is a file that has a table of coordinates or variables.
+fn describes_a_system(path: &Path) -> bool {
+    let is_file = fs::metadata(path).is_ok_and(|about| about.is_file());
+    let text = if is_file { fs::read(path).unwrap_or_default() } else { Vec::new() };
+    text.split(|byte| *byte == b'\n').any(|line| {
+        let line = line.trim_ascii();
+        [&b"[coordinates]"[..], b"[variables]"].iter().any(|head| line.starts_with(head))
+    })
 }
 
 impl Write for Output {

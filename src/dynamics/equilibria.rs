@@ -10,57 +10,43 @@
 //! kind is that of the effective potential: the least energy at fixed coordinates, whose second
 //! derivative is H_qq − H_qp H_pp⁻¹ H_pq.
 
-use nalgebra::{DMatrix, DVector};
+mod search;
 
-use super::constrained_balance::ConstrainedBalance;
+use nalgebra::DMatrix;
+
 use super::equilibrium::{Equilibria, Equilibrium, in_a_family, in_order};
-use super::equilibrium_units::{coordinate_units, units};
 use super::error::DynamicsError;
-use super::halton::halton;
 use super::linear;
-use super::phase_space::{NOTHING_MOVES, PhaseSpace, VectorField};
+use super::phase_space::PhaseSpace;
 use super::small_oscillation::{Kind, Mode, modes, stable};
 use super::virtual_work::{Balance, virtual_work};
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::system::{Form, MotionErrorKind, State};
+use search::{EquilibriumSearch, LawAtRest};
 
 /// The number of beginnings of the search.
 const BEGINNINGS: usize = 600;
 
-/// The number of steps from each.
-const STEPS: usize = 60;
-
-/// How far around its centre a coordinate without period is searched, in its size there plus its
-/// unit.
-const RADII: [f64; 5] = [0.5, 1.5, 4.0, 12.0, 40.0];
-
-/// How many of these are searched where the units are ordinary. In other units a start says how large a coordinate is there,
-/// which may be a small part of what the forces reach over.
-const ORDINARY_RADII: usize = 3;
-
-/// A rate counts as zero up to this part of what the variables can cause.
-const ZERO: f64 = 1e-12;
-
-/// Half a turn itself is not taken for its opposite by rounding.
-const HALF_A_TURN: f64 = 0.5 + 1e-9;
-
-/// Two places are the same up to this distance relative to their size plus their unit.
-const SAME: f64 = 1e-7;
-
-/// Singular values up to this part of the largest are not divided by in a step of Newton's.
-const VANISHES: f64 = 1e-8;
-
 /// The largest number of equilibria.
 const MOST: usize = 100;
 
-/// Writes into each equilibrium the forces that balance there.
-pub fn with_virtual_work(law: (&Model, &Equations), parameters: &[f64], found: &mut [Equilibrium]) {
+/// Writes into each equilibrium the forces that balance there, and removes the places at which a force is zero only because
+/// its value is below the smallest number.
+pub fn with_virtual_work(
+    law: (&Model, &Equations),
+    parameters: &[f64],
+    found: &mut Vec<Equilibrium>,
+) {
     let places: Vec<_> = found.iter().map(|one| (&one.variables[..], &one.rates[..])).collect();
     let balances = virtual_work(law, parameters, &places);
-    for (one, Balance { work, multipliers }) in found.iter_mut().zip(balances) {
-        (one.work, one.multipliers) = (work, multipliers);
+    let mut underflow = vec![false; found.len()];
+    for ((one, at), balance) in found.iter_mut().zip(&mut underflow).zip(balances) {
+        let Balance { work, underflows, multipliers } = balance;
+        (one.work, one.multipliers, *at) = (work, multipliers, underflows);
     }
+    let mut underflow = underflow.into_iter();
+    found.retain(|_| !underflow.next().unwrap_or(false));
 }
 
 /// Searches around the coordinates of `start`; cyclic coordinates have its momenta.
@@ -121,210 +107,7 @@ pub fn equilibria_watched(
     Ok(Equilibria { found, periods, cancelled })
 }
 
-/// What must vanish at an equilibrium, and of what.
-enum LawAtRest {
-    /// The rates of the variables of the phase space.
-    Free(Box<VectorField>),
-    /// What remains of the forces under constraints, of coordinates and velocities.
-    Constrained(Box<ConstrainedBalance>),
-}
-
-struct EquilibriumSearch<'a> {
-    space: &'a PhaseSpace,
-    start: &'a State,
-    law: LawAtRest,
-    /// The variables of the search at the start: those of the space, or under constraints (q, q̇).
-    middle: Vec<f64>,
-    /// The variables that are searched for, by index.
-    unknowns: Vec<usize>,
-    /// The cyclic coordinates.
-    cyclic: Vec<usize>,
-    /// The number of coordinates, or of the variables of brackets.
-    degrees: usize,
-    /// The unit of each variable.
-    units: Vec<f64>,
-}
-
-impl<'a> EquilibriumSearch<'a> {
-    fn new(space: &'a PhaseSpace, start: &'a State) -> Result<Self, DynamicsError> {
-        let degrees = space.system().degrees();
-        let canonical = space.form() == Form::Momentum;
-        let cyclic = if canonical { space.cyclic().to_vec() } else { Vec::new() };
-        if space.is_constrained() {
-            let allowed = space.state(start).and_then(|s| space.allowed_displacements(&s));
-            if matches!(allowed, Ok((_, 0))) {
-                return Err(DynamicsError::Unsuited(NOTHING_MOVES.to_owned()));
-            }
-            let balance = ConstrainedBalance::new(space, start)?;
-            let (middle, unknowns) = (balance.start(), balance.unknowns());
-            let mut units = coordinate_units(space, &middle[..degrees]);
-            units.extend(middle[degrees..].iter().map(|v| if *v == 0.0 { 1.0 } else { v.abs() }));
-            let law = LawAtRest::Constrained(Box::new(balance));
-            return Ok(Self { space, start, law, middle, unknowns, cyclic, degrees, units });
-        }
-        let unknowns =
-            (0..space.dimension()).filter(|i| !cyclic.contains(&(i % degrees))).collect();
-        let mut field = space.vector_field();
-        let units = units(space, start, &mut field);
-        let (law, middle) = (LawAtRest::Free(Box::new(field)), space.variables(start).to_vec());
-        Ok(Self { space, start, law, middle, unknowns, cyclic, degrees, units })
-    }
-
-    /// How far around its centre a coordinate is searched.
-    fn radii(&self) -> &'static [f64] {
-        let mut lengths = (0..self.degrees).filter(|&i| self.space.turns()[i].is_none());
-        let ordinary = lengths.all(|i| self.units[i] == 1.0);
-        if ordinary { &RADII[..ORDINARY_RADII] } else { &RADII }
-    }
-
-    /// The variables at which a search begins: the start itself, then places around it.
-    fn beginning(&self, index: usize) -> Vec<f64> {
-        let mut variables = self.middle.clone();
-        let canonical = self.space.form() == Form::Momentum;
-        let radii = self.radii();
-        let radius = radii[index % radii.len()];
-        for (k, &i) in self.unknowns.iter().enumerate() {
-            if canonical && i >= self.degrees {
-                // velocities of cyclic coordinates are those of the start
-                if matches!(self.law, LawAtRest::Free(_)) {
-                    variables[i] = 0.0;
-                }
-            } else if index > 0 {
-                let part = halton(index, k);
-                let centre = variables[i];
-                variables[i] += match self.space.turns()[i] {
-                    Some(period) => (part - 0.5) * period,
-                    None => (2.0 * part - 1.0) * radius * (self.units[i] + centre.abs()),
-                };
-            }
-        }
-        variables
-    }
-
-    /// What must vanish and its derivatives, in the units of the variables.
-    fn look_in_units(&mut self, variables: &[f64]) -> Option<(DVector<f64>, DMatrix<f64>)> {
-        let field = match &mut self.law {
-            LawAtRest::Constrained(balance) => return balance.equations(variables, &self.units),
-            LawAtRest::Free(field) => field,
-        };
-        let (mut f, mut df) = resting_rates(field, (self.start.time, variables), &self.unknowns)?;
-        let unit = |k: usize| self.units[self.unknowns[k]];
-        for i in 0..f.len() {
-            f[i] /= unit(i);
-            for j in 0..f.len() {
-                df[(i, j)] *= unit(j) / unit(i);
-            }
-        }
-        Some((f, df))
-    }
-
-    /// The images of a place in each coordinate that rests, and in all of them.
-    fn images(&self, variables: &[f64]) -> Vec<Vec<f64>> {
-        let resting = self.unknowns.iter().copied().filter(|&i| i < self.degrees);
-        let resting: Vec<usize> = resting.filter(|&i| variables[i] != 0.0).collect();
-        let image = |coordinates: &[usize]| {
-            let mut image = variables.to_vec();
-            for &i in coordinates {
-                image[i] = -image[i];
-            }
-            image
-        };
-        resting.iter().map(|&i| image(&[i])).chain([image(&resting)]).collect()
-    }
-
-    /// Newton's method from a beginning.
-    fn from(&mut self, beginning: Vec<f64>) -> Option<Vec<f64>> {
-        let mut variables = beginning;
-        if self.unknowns.is_empty() {
-            return None;
-        }
-        let (mut f, mut df) = self.look_in_units(&variables)?;
-        let mut settled = 0;
-        for _ in 0..STEPS {
-            if self.space.system().cancel().is_cancelled() {
-                return None;
-            }
-            let sizes = self.unknowns.iter().map(|&i| (variables[i] / self.units[i]).abs());
-            let size = sizes.fold(1.0, f64::max);
-            if f.amax() <= ZERO * size * df.amax() {
-                settled += 1;
-                if settled > 2 {
-                    return self.accepted(variables);
-                }
-            }
-            let step = linear::least_squares(&df, &(-&f), VANISHES * df.amax())?;
-            let mut part = 1.0_f64.min(2.0 * size / step.amax().max(f64::MIN_POSITIVE));
-            let next = loop {
-                let mut there = variables.clone();
-                for (k, &i) in self.unknowns.iter().enumerate() {
-                    there[i] += part * step[k] * self.units[i];
-                }
-                match self.look_in_units(&there) {
-                    Some((g, dg)) if settled > 0 || g.norm() < f.norm() => {
-                        break Some((there, g, dg));
-                    }
-                    _ if part < 1e-4 => break None,
-                    _ => part *= 0.5,
-                }
-            };
-            let Some(next) = next else { break };
-            (variables, f, df) = next;
-        }
-        if settled > 0 { self.accepted(variables) } else { None }
-    }
-
-    /// The variables nearest to the start among their periods, if they are in reach; angles within half a turn of zero,
-    /// however often the motion has gone round.
-    fn accepted(&mut self, mut variables: Vec<f64>) -> Option<Vec<f64>> {
-        let start = &self.middle;
-        for &i in &self.unknowns {
-            if let Some(period) = self.space.turns()[i] {
-                let turns = ((variables[i] - start[i]) / period).round();
-                variables[i] -= turns * period;
-            }
-            let far = self.radii()[self.radii().len() - 1] * (self.units[i] + start[i].abs());
-            if i < self.degrees && (variables[i] - start[i]).abs() > far {
-                return None;
-            }
-            if let Some(period) = self.space.periods()[i] {
-                variables[i] -= period * (variables[i] / period - HALF_A_TURN).ceil();
-            }
-            // a zero but for rounding
-            if variables[i].abs() < 1e-14 * self.units[i] {
-                variables[i] = 0.0;
-            }
-        }
-        match &mut self.law {
-            LawAtRest::Constrained(balance) => (!balance.drives(&variables)).then_some(variables),
-            LawAtRest::Free(field) => {
-                // a force on a cyclic coordinate, as friction, lets nothing rest
-                resting_rates(field, (self.start.time, &variables), &self.unknowns)?;
-                let (rate, derivative, units) = (field.rate(), field.derivative(), &self.units);
-                let part = |i: usize, j: usize| derivative[(i, j)].abs() * units[j] / units[i];
-                let all = 0..units.len();
-                let caused = all.clone().flat_map(|i| all.clone().map(move |j| (i, j)));
-                let caused = caused.map(|(i, j)| part(i, j)).fold(0.0, f64::max);
-                let of = |i: usize| rate[i].abs() / units[i];
-                let size = all.map(of).fold(caused, f64::max);
-                let pushed = |i: &usize| of(self.degrees + i) > 1e3 * ZERO * size;
-                (!self.cyclic.iter().any(pushed)).then_some(variables)
-            }
-        }
-    }
-
-    fn alike(&self, a: &[f64], b: &[f64]) -> bool {
-        // velocities follow from the coordinates
-        let places = matches!(self.law, LawAtRest::Constrained(_));
-        let mut unknowns = self.unknowns.iter().filter(|&&i| !places || i < self.degrees);
-        unknowns.all(|&i| {
-            let mut apart = a[i] - b[i];
-            if let Some(period) = self.space.turns()[i] {
-                apart -= (apart / period).round() * period;
-            }
-            apart.abs() <= SAME * (self.units[i] + a[i].abs())
-        })
-    }
-
+impl EquilibriumSearch<'_> {
     fn described(&mut self, variables: &[f64]) -> Result<Option<Equilibrium>, DynamicsError> {
         let state = match &self.law {
             LawAtRest::Free(_) => self.space.state_at(self.start, variables),
@@ -371,20 +154,16 @@ impl<'a> EquilibriumSearch<'a> {
 
     /// The kind, the eigenvalues and the modes at a place, of variables that are independent.
     fn around(&mut self, variables: &[f64]) -> Option<Around> {
-        let LawAtRest::Free(field) = &mut self.law else { return None };
-        let (_, df) = resting_rates(field, (self.start.time, variables), &self.unknowns)?;
+        let df = self.slopes(variables)?;
         let eigenvalues = linear::eigenvalues(&df);
         if self.space.form() != Form::Momentum {
             return Some((None, eigenvalues, Vec::new()));
         }
-        let modes = match self.look_in_units(variables) {
-            Some((_, in_units)) => {
-                let count = self.unknowns.len();
-                let places = DMatrix::identity(count / 2, count);
-                self.modes(&in_units, &eigenvalues, &places)
-            }
-            None => Vec::new(),
-        };
+        let count = self.unknowns.len();
+        let unit = |k: usize| self.units[self.unknowns[k]];
+        let in_units = DMatrix::from_fn(count, count, |i, j| df[(i, j)] * unit(j) / unit(i));
+        let places = DMatrix::identity(count / 2, count);
+        let modes = self.modes(&in_units, &eigenvalues, &places);
         Some((Some(Kind::of_canonical(&df)), eigenvalues, modes))
     }
 
@@ -429,17 +208,3 @@ impl<'a> EquilibriumSearch<'a> {
 
 /// The kind, the eigenvalues and the modes of an equilibrium.
 type Around = (Option<Kind>, Vec<[f64; 2]>, Vec<Mode>);
-
-/// f and ∂f/∂z of the variables that rest.
-fn resting_rates(
-    field: &mut VectorField,
-    (time, variables): (f64, &[f64]),
-    resting: &[usize],
-) -> Option<(DVector<f64>, DMatrix<f64>)> {
-    field.evaluate(time, variables).ok()?;
-    let (rate, derivative) = (field.rate(), field.derivative());
-    let n = resting.len();
-    let f = DVector::from_fn(n, |i, _| rate[resting[i]]);
-    let df = DMatrix::from_fn(n, n, |i, j| derivative[(resting[i], resting[j])]);
-    f.iter().chain(df.iter()).all(|x| x.is_finite()).then_some((f, df))
-}

@@ -55,6 +55,8 @@ impl VirtualWork {
 /// The forces at an equilibrium: the virtual work along each coordinate that rests, and the multiplier of each constraint.
 pub(super) struct Balance {
     pub(super) work: Vec<VirtualWork>,
+    /// Whether a force vanishes only because its value is below the smallest number, as in the tail of exp(−x⁴).
+    pub(super) underflows: bool,
     pub(super) multipliers: Vec<f64>,
 }
 
@@ -84,6 +86,12 @@ impl ForceTerm {
         let slope = |&(i, q): &(usize, Symbol)| (i, pool.derivative(expression, q));
         let slopes = resting.iter().map(slope).collect();
         ForceTerm { shown: pool.unicode(expression), expression, slopes }
+    }
+
+    /// Whether its value is below the normal numbers by underflow.
+    fn underflows(&self, pool: &Pool, known: &Valuation) -> bool {
+        known.value(pool, self.expression).abs() < f64::MIN_POSITIVE
+            && pool.underflows(self.expression, &|symbol| known.at(symbol))
     }
 
     /// Its value at a place, as far as the place is known.
@@ -160,7 +168,9 @@ pub(super) fn virtual_work(
             terms.retain(|(_, value)| *value != 0.0);
             VirtualWork { coordinate: *coordinate, terms }
         });
-        Balance { work: work.collect(), multipliers }
+        let mut terms = forces.iter().flat_map(|(_, force)| force).map(|(whole, _)| whole);
+        let underflows = terms.any(|term| term.underflows(&pool, &known));
+        Balance { work: work.collect(), underflows, multipliers }
     };
     places.iter().map(at).collect()
 }

@@ -183,6 +183,7 @@ fn unexpected(text: &str, start: usize) -> SyntaxError {
         '[' | ']' | '{' | '}' => "group with parentheses ( )",
         '\'' | '′' | '″' => "a prime follows the name of a coordinate at once: x'",
         '’' => "a velocity is written with a prime: x' or x′",
+        '°' => "angles are in radians: 30° is 30*pi/180",
         '–' | '—' => "minus is written with `-` or `−`",
         _ => return error,
     };

@@ -11,21 +11,14 @@ use std::collections::HashMap;
 use nalgebra::DMatrix;
 
 use super::equations::{Equations, ImplicitMap};
-use super::implicit_map::{departure, guesses, matrix_at};
+use super::implicit_map::{guesses, matrix_at};
 use super::isolate::{self, Solution, tidy};
-use super::sampling::{POINTS, TRIES};
+use super::sampling::TRIES;
 use super::slope::relations_with_common_roots;
 use super::valuation::Valuation;
-use crate::expr::{Expr, Node, Pool, Symbol, Zero};
+use crate::expr::{Expr, Pool, Symbol};
 use crate::model::{Model, Transformation, TransformationLaw};
 use crate::num::Number;
-
-/// The residual below which a map without a proof is canonical, relative to the size of M.
-const CANONICAL: f64 = 1e-10;
-
-/// Points at which M is larger are left out while there are others: they are next to where the map
-/// breaks down.
-const LARGEST: f64 = 1e4;
 
 /// The points at which a written solution has to hold, and the points looked at for them.
 const WITNESSES: usize = 8;
@@ -48,36 +41,6 @@ pub struct PhaseMap {
     /// identity.
     near_identity: Vec<bool>,
     pub(super) by_old: Vec<Vec<Expr>>,
-}
-
-/// Whether a map is canonical.
-#[derive(Clone, Debug)]
-pub struct CanonicalVerdict {
-    /// Whether it is: proved, or to rounding at the points tried.
-    pub canonical: bool,
-    /// Whether that is proved.
-    pub proved: bool,
-    /// The largest entry of |M 𝕁 Mᵀ − 𝕁| at the points; `None` if there are none.
-    pub residual: Option<f64>,
-    /// c of M 𝕁 Mᵀ = c 𝕁, if c is another number than 1.
-    pub valence: Option<Expr>,
-    /// The brackets that are not what they should be.
-    pub failing: Vec<FailingBracket>,
-    /// The brackets that are what they should be at these values of the parameters, and not at others.
-    pub only_here: Vec<FailingBracket>,
-    /// Why it is not canonical, or no map.
-    pub why: Option<String>,
-}
-
-/// A bracket of new variables that is not that of canonical variables.
-#[derive(Clone, Debug)]
-pub struct FailingBracket {
-    /// The two variables.
-    pub pair: [Symbol; 2],
-    /// Their bracket.
-    pub is: Expr,
-    /// What it should be.
-    pub expected: Expr,
 }
 
 impl PhaseMap {
@@ -309,128 +272,6 @@ impl PhaseMap {
             })
         });
         found.flatten().take(most).collect()
-    }
-
-    /// Whether the map is canonical.
-    pub fn verdict(&self, model: &Model, equations: &mut Equations) -> CanonicalVerdict {
-        let mut matrices: Vec<DMatrix<f64>> = Vec::new();
-        let mut wild: Vec<DMatrix<f64>> = Vec::new();
-        for at in self.images(model, equations, 2 * POINTS) {
-            if let Some(matrix) = self.tangent(&equations.pool, &at) {
-                if matrix.amax() <= LARGEST { &mut matrices } else { &mut wild }.push(matrix);
-            }
-        }
-        matrices.truncate(POINTS);
-        if matrices.is_empty() {
-            matrices = wild;
-        }
-        let residual = matrices.iter().map(departure).reduce(f64::max);
-        let relative = matrices
-            .iter()
-            .map(|matrix| departure(matrix) / matrix.norm_squared().max(1.0))
-            .reduce(f64::max);
-        let mut verdict = CanonicalVerdict {
-            canonical: relative.is_some_and(|r| r < CANONICAL),
-            proved: false,
-            residual,
-            valence: None,
-            failing: Vec::new(),
-            only_here: Vec::new(),
-            why: None,
-        };
-        if self.is_explicit() {
-            self.by_brackets(equations, &mut verdict);
-        } else if residual.is_none() {
-            verdict.why = Some(self.no_map(&mut equations.pool));
-        } else {
-            verdict.proved = verdict.canonical;
-        }
-        verdict
-    }
-
-    /// Why a generating function gives no map.
-    fn no_map(&self, pool: &mut Pool) -> String {
-        let matrix = self.implicit.by_new.clone();
-        let right = vec![Expr::ZERO; matrix.len()];
-        match super::linear::solve(pool, &matrix, &right) {
-            Err(_) => "its equations cannot be solved: the determinant of ∂²F/∂old∂new vanishes \
-                       everywhere"
-                .to_owned(),
-            Ok(_) => "no point of its domain was found near the start".to_owned(),
-        }
-    }
-
-    /// Compares the brackets of an explicit map with those of canonical variables.
-    fn by_brackets(&self, equations: &mut Equations, verdict: &mut CanonicalVerdict) {
-        let n = self.implicit.new.len() / 2;
-        let pool = &mut equations.pool;
-        let mut all: Vec<(FailingBracket, Zero)> = Vec::new();
-        for i in 0..2 * n {
-            for j in i + 1..2 * n {
-                // the relation is Q − Q(q, p, t)
-                let mut terms = Vec::new();
-                for k in 0..n {
-                    let a = pool.mul(self.by_old[i][k], self.by_old[j][n + k]);
-                    let b = pool.mul(self.by_old[i][n + k], self.by_old[j][k]);
-                    terms.extend([(Number::ONE, a), (Number::MINUS_ONE, b)]);
-                }
-                let is = pool.linear(Number::ZERO, &terms);
-                let is = super::slope::zero_if_proved(pool, is);
-                let is = pool.simplify(is);
-                let is = pool.divided_out(is);
-                let expected = if j == i + n { Expr::ONE } else { Expr::ZERO };
-                let difference = pool.sub(is, expected);
-                let zero = pool.is_zero(difference);
-                let pair = [self.implicit.new[i], self.implicit.new[j]];
-                all.push((FailingBracket { pair, is, expected }, zero));
-            }
-        }
-        let proved = all.iter().all(|(_, zero)| *zero == Zero::Proved);
-        let refuted = all.iter().any(|(_, zero)| *zero == Zero::No);
-        if proved {
-            (verdict.canonical, verdict.proved) = (true, true);
-            return;
-        }
-        verdict.valence = self.valence(pool, &all);
-        if verdict.canonical {
-            // at these values of the parameters; a number that is nearly one has no others
-            let other = all.into_iter().filter(|(bracket, zero)| {
-                *zero == Zero::No && !matches!(pool.node(bracket.is), Node::Number(_))
-            });
-            verdict.only_here = other.map(|(bracket, _)| bracket).collect();
-            return;
-        }
-        verdict.proved = refuted;
-        let wrong = |zero: Zero| if refuted { zero == Zero::No } else { zero != Zero::Proved };
-        verdict.failing =
-            all.into_iter().filter(|(_, zero)| wrong(*zero)).map(|(bracket, _)| bracket).collect();
-        let failing = verdict.failing.iter().map(|bracket| {
-            let [a, b] = bracket.pair.map(|s| pool.symbol_info(s).name.clone());
-            let (is, expected) = (pool.text(bracket.is), pool.text(bracket.expected));
-            format!("[{a}, {b}] = {is}, not {expected}")
-        });
-        verdict.why = Some(failing.collect::<Vec<_>>().join("; "));
-    }
-
-    /// The common number of all brackets [Q, P], if the others vanish.
-    fn valence(&self, pool: &mut Pool, all: &[(FailingBracket, Zero)]) -> Option<Expr> {
-        let mut variables = self.old.clone();
-        variables.extend(pool.find_symbol("t"));
-        let mut valence = None;
-        for (bracket, zero) in all {
-            if bracket.expected == Expr::ZERO {
-                if *zero != Zero::Proved {
-                    return None;
-                }
-                continue;
-            }
-            let c = *valence.get_or_insert(bracket.is);
-            let difference = pool.sub(c, bracket.is);
-            if pool.depends_on_any(c, &variables) || pool.is_zero(difference) != Zero::Proved {
-                return None;
-            }
-        }
-        valence.filter(|&c| pool.is_zero(c) == Zero::No)
     }
 }
 

@@ -4,7 +4,8 @@
 //! In: a model and its equations, whose pool grows. Out: [`Further`]. Never here: how any of it is written.
 
 use super::bracket::{bracket, in_phase_space};
-use super::canonical::{CanonicalVerdict, PhaseMap};
+use super::canonical::PhaseMap;
+use super::canonical_verdict::CanonicalVerdict;
 use super::conservation::{Classed, class_of, classes};
 use super::constrain::with_reactions;
 use super::equations::{Equations, Flow, NoClosedForm};

@@ -7,7 +7,8 @@
 
 use std::collections::HashMap;
 
-use super::canonical::{CanonicalVerdict, PhaseMap, free_of};
+use super::canonical::{PhaseMap, free_of};
+use super::canonical_verdict::CanonicalVerdict;
 use super::equations::{CLOSED_FORM_LIMIT, Equations, NoClosedForm};
 use super::isolate::Solution;
 use super::slope::with_common_roots;

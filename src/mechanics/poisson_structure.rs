@@ -1,6 +1,6 @@
 //! Checks that given brackets are a Poisson structure (Jacobi's identity), and that given Casimirs
 //! are Casimirs (B ∇C = 0): by proof, or to 1e-10 of the size of the terms at twenty points near
-//! the start.
+//! the start and wherever they have values at sixty far from it.
 //!
 //! In: a Poisson system's model and equations. Out: a [`StructureError`] with its place for each
 //! false statement. Never here: antisymmetry, which the reader of files ensures.
@@ -9,7 +9,7 @@
 
 use super::equations::Equations;
 use super::rigid_body;
-use super::sampling::{POINTS, TRIES};
+use super::sampling::{FAR_POINTS, POINTS, TRIES};
 use super::structure_error::StructureError;
 use super::valuation::Valuation;
 use crate::diagnostic::SourceRange;
@@ -36,7 +36,8 @@ pub fn structure_errors(model: &Model, equations: &Equations) -> Vec<StructureEr
     };
     let points: Vec<Valuation> =
         (0..TRIES).map(|n| Valuation::near_start(model, equations, n)).collect();
-    let mut structure = Structure { model, equations: equations.clone(), brackets, points };
+    let far = (0..FAR_POINTS).map(|n| Valuation::far_from_start(model, equations, n)).collect();
+    let mut structure = Structure { model, equations: equations.clone(), brackets, points, far };
     structure_errors.extend(structure.jacobi(place));
     for (name, casimir, place) in casimirs {
         structure_errors.extend(structure.casimir(name, *casimir, place));
@@ -50,6 +51,7 @@ struct Structure<'a> {
     equations: Equations,
     brackets: &'a [Vec<Expr>],
     points: Vec<Valuation>,
+    far: Vec<Valuation>,
 }
 
 /// Three variables and the terms B_il ∂_l B_jk of their identity, as pairs of factors.
@@ -121,8 +123,7 @@ impl Structure<'_> {
             let sum = pool.simplify(sum);
             written = (pool.weight(sum) <= LONGEST).then(|| format!("is {}", pool.unicode(sum)));
         }
-        let mut seen = 0;
-        for point in &self.points {
+        let mut look = |point: &Valuation| {
             let (mut total, mut size) = (0.0, 0.0);
             for &(b, s) in terms {
                 let (b, b_size) = pool.evaluate_with_size(b, &|x| point.at(x));
@@ -130,19 +131,18 @@ impl Structure<'_> {
                 total += b * s;
                 size += (b_size * s_size).abs();
             }
-            if !f64::is_finite(total) || !f64::is_finite(size) {
-                continue;
-            }
-            if f64::abs(total) > TOLERANCE * size {
-                let value = || format!("is {total:.1e} near the start, its terms being {size:.1e}");
-                return Some(written.unwrap_or_else(value));
-            }
-            seen += 1;
-            if seen == POINTS {
-                return None;
-            }
+            let known = f64::is_finite(total) && f64::is_finite(size);
+            known.then(|| (f64::abs(total) > TOLERANCE * size).then_some((total, size)))
+        };
+        let near = self.points.iter().filter_map(&mut look).take(POINTS).collect::<Vec<_>>();
+        if near.len() < POINTS {
+            return Some("has no value near the start".to_owned());
         }
-        Some("has no value near the start".to_owned())
+        let refuted = near.into_iter().flatten().map(|found| (found, "near"));
+        let far = self.far.iter().filter_map(look).flatten().map(|found| (found, "far from"));
+        let ((total, size), place) = refuted.chain(far).next()?;
+        let value = || format!("is {total:.1e} {place} the start, its terms being {size:.1e}");
+        Some(written.unwrap_or_else(value))
     }
 
     /// The triples whose identity has any terms.

@@ -22,6 +22,12 @@ pub const TRIES: u64 = 400;
 /// their kind.
 const WIDTHS: [f64; 4] = [1.0, 0.1, 1.0, 0.01];
 
+/// The distances of those at which an identity that holds near the start is looked at as well.
+const FAR: [f64; 3] = [10.0, 100.0, 1000.0];
+
+/// The number of points far from the start.
+pub(super) const FAR_POINTS: u64 = 60;
+
 /// The scales tried in turn if all coordinates, or all velocities, start at 0.
 const SIZES: [f64; 6] = [1.0, 1.0, 1e-3, 1e3, 1e-6, 1e-9];
 
@@ -33,6 +39,17 @@ impl Valuation {
     /// The n-th point near the start, at the file's parameters. The momenta of a Lagrangian system
     /// follow from its velocities; the velocities of any other system follow from its state.
     pub fn near_start(model: &Model, equations: &Equations, n: u64) -> Valuation {
+        Valuation::around_start(model, equations, n, WIDTHS[(n % WIDTHS.len() as u64) as usize])
+    }
+
+    /// The n-th point far from the start, where an identity may fail that holds near it, as that of max(0, x − 30) or
+    /// exp(−(x − 50)²) does. A function may have no value there.
+    pub(super) fn far_from_start(model: &Model, equations: &Equations, n: u64) -> Valuation {
+        Valuation::around_start(model, equations, n, FAR[(n % FAR.len() as u64) as usize])
+    }
+
+    /// The n-th point at distances of up to `width` from the start, relative to the largest initial value of a kind.
+    fn around_start(model: &Model, equations: &Equations, n: u64, width: f64) -> Valuation {
         let parameters = model.parameter_values();
         let body = equations.supplements.body.as_ref();
         let body = body_values(model, &equations.pool, body, &parameters);
@@ -56,7 +73,6 @@ impl Valuation {
             if size > 0.0 { size } else { SIZES[(n % SIZES.len() as u64) as usize] }
         };
         let (length, speed) = (largest(|start| start.0), largest(|start| start.1));
-        let width = WIDTHS[(n % WIDTHS.len() as u64) as usize];
         for (c, &(position, rate)) in model.coordinates.iter().zip(&starts) {
             let rate_symbol = if model.is_lagrangian() { c.velocity } else { c.momentum };
             point.set(c.position, draws.near(position, width * length));

@@ -277,6 +277,9 @@ impl Scope {
         if let Some(help) = written.filter(|_| moves) {
             return error.with_help(help);
         }
+        if matches!(name, "deg" | "degree" | "degrees") && primes == 0 {
+            return error.with_help("angles are in radians: 30 degrees are 30*pi/180");
+        }
         if let Some(table) = table_of(name).filter(|_| primes == 0) {
             let help = format!("{table} defines it; other names belong in [parameters]");
             return error.with_help(help);

@@ -304,7 +304,7 @@ impl Add for Number {
                 let total = a + b;
                 // the rounding error of two terms that cancel
                 let noise = total.abs() <= CANCELLED * f64::max(a.abs(), b.abs());
-                if noise { Number::ZERO } else { Number::Real(total) }
+                if noise && total.is_finite() { Number::ZERO } else { Number::Real(total) }
             }
             _ => Number::Real(self.value() + other.value()),
         }

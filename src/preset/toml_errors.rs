@@ -14,6 +14,7 @@ use crate::diagnostic::Diagnostic;
 use crate::diagnostic::Diagnostics;
 use crate::diagnostic::SourceRange;
 use crate::expr::plain_name;
+use crate::preset::number_help::{decimal_comma, number_with_unit};
 use crate::printable;
 
 /// Parses the file as a table. Whatever is not TOML is reported, then dropped or patched.
@@ -166,9 +167,15 @@ fn between_tokens(text: &str, error: &ParseError) -> Slip {
     let next = text.get(place.start..).and_then(|rest| rest.chars().next()).unwrap_or('\n');
     let message = match error.expected() {
         None => "tables and lists are nested too deep",
-        _ if expects("\n") => "nothing more may follow on this line",
+        _ if expects("\n") => {
+            let help = decimal_comma(text, place.start);
+            let message = "nothing more may follow on this line";
+            return Slip { help, ..Slip::new(place, message, Loses::Track) };
+        }
         Some(_) if ",=".contains(next) && !expects(&next.to_string()) => {
-            return Slip::new(place, format!("one `{next}` too many"), Loses::Track);
+            let help = decimal_comma(text, place.start);
+            let message = format!("one `{next}` too many");
+            return Slip { help, ..Slip::new(place, message, Loses::Track) };
         }
         _ if expects("]]") => "a `]]` is missing before this",
         _ if expects("=") => "a key is followed by `=` and its value",
@@ -203,10 +210,10 @@ fn in_plain_value(value: &str, place: SourceRange) -> Slip {
     let numeric = |c: char| c.is_ascii_digit() || "+-._eE".contains(c);
     if value.is_empty() {
         Slip::new(place, "a value is missing here", loses)
-    } else if value.contains(['"', '\'']) {
+    } else if value.contains('"') || value.ends_with('\'') {
         Slip::new(place, "the first quote of this text is missing", loses)
     } else if !value.chars().all(numeric) || !value.contains(|c: char| c.is_ascii_digit()) {
-        let help = format!("write \"{value}\"");
+        let help = number_with_unit(value).unwrap_or_else(|| format!("write \"{value}\""));
         Slip::new(place, "text and expressions are written in quotes", loses).help(help)
     } else if value.contains('_') {
         Slip::new(place, "in a number `_` stands between digits", loses)

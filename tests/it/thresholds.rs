@@ -193,6 +193,25 @@ fn a_casimir_commutes_to_1e_10_of_its_terms() {
     });
 }
 
+/// Near the start these commute with everything to the last digit, and ten starts away they do not.
+#[test]
+fn what_commutes_near_the_start_alone_is_no_casimir() {
+    for added in ["max(0, x - 30)", "exp(-(x - 50)^2)"] {
+        let text = format!(
+            "title = \"A plane\"\n[variables]\nx = {{ initial = 0 }}\np = {{ initial = 1 }}\nz = {{ initial = 1 }}\n\
+             [poisson]\nH = \"p^2/2\"\nbrackets = [[\"x\", \"p\", \"1\"]]\ncasimirs = {{ C = \"z + {added}\" }}\n"
+        );
+        with_file(&text, &["check", "system.toml"])
+            .fails(1, &["`C` is no Casimir of these brackets"]);
+        let map = oscillator(&format!(
+            "[[transformations]]\nname = \"m\"\nkind = \"explicit\"\nQ = {{ Q = \"x + {added}*p_x\" }}\n\
+             P = {{ P = \"p_x - {added}\" }}"
+        ));
+        let text = with_file(&map, &["derive", "system.toml"]).success();
+        assert!(text.contains("not canonical"), "{text}");
+    }
+}
+
 #[test]
 fn a_complete_integral_solves_its_equation_to_1e_10_of_its_terms() {
     // H and α count three times in what is left, not once

@@ -9,6 +9,9 @@ use crate::diagnostic::nearest;
 use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 use crate::preset::schema::{Key, SchemaTable, ValueKind};
 
+/// The functions that give a law of motion, and their tables.
+const LAWS: [(&str, &str); 2] = [("L", "[lagrangian]"), ("H", "[hamiltonian]")];
+
 /// A table that is being read.
 pub(in crate::preset) struct Table<'d> {
     /// Its name in messages: `[run]`, `the coordinate x`.
@@ -316,11 +319,18 @@ impl<'d> Table<'d> {
             };
             let what = if tables { "table" } else { "key" };
             let message = format!("unknown {what} `{name}` in {}", self.called);
-            let help = if let Some(near) = nearest(name, known.iter().copied()) {
+            let help = if name.bytes().all(|b| b.is_ascii_digit()) {
+                format!("a decimal fraction is written with a point: 0.{name}, not 0,{name}")
+            } else if let Some(near) = nearest(name, known.iter().copied()) {
                 self.absent.retain(|(key, _)| *key != near);
                 format!("did you mean `{near}`?")
             } else if TOP_LEVEL.contains(&name) && !self.place.is_empty() {
                 format!("`{name}` belongs at the top of the file, before the first [table]")
+            } else if let Some((_, law)) = LAWS.iter().find(|(function, _)| *function == name) {
+                format!("`{name}` belongs in {law}")
+            } else if LAWS.iter().any(|(_, law)| *law == self.called) {
+                let keys = known.join(", ");
+                format!("the keys here are {keys}; other names are defined in [definitions]")
             } else {
                 format!("the keys here are {}", known.join(", "))
             };

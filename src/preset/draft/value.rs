@@ -6,6 +6,7 @@ use toml::de::{DeArray, DeValue};
 use super::Formula;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::{Allowed, Model, Scope};
+use crate::preset::number_help::number_with_unit;
 use crate::printable::is_steering;
 
 /// A value of TOML with its span.
@@ -111,8 +112,10 @@ pub(super) fn constant(
     let found = read.map(|e| nothing.pool.evaluate(e, &|_| f64::NAN));
     let Some(found) = found.filter(|x| x.is_finite()) else {
         let message = format!("{called} must be a finite number, or an expression of numbers");
-        let help =
-            "write 2.5 or \"2*pi\"; what follows from other parameters belongs in [definitions]";
+        let help = number_with_unit(text).unwrap_or_else(|| {
+            "write 2.5 or \"2*pi\"; what follows from other parameters belongs in [definitions]"
+                .to_owned()
+        });
         diagnostics.push(Diagnostic::error(value.span(), message).with_help(help));
         return None;
     };

@@ -46,6 +46,19 @@ fn what_is_replaced_is_reported() {
     assert_eq!(done(program(home.path()).args(null)).stderr, "");
 }
 
+/// The file that is read is the one most easily named by mistake.
+#[test]
+fn a_file_that_describes_a_system_is_not_replaced() {
+    let home = folder();
+    let before = fs::read_to_string(home.path().join("system.toml")).expect("it is there");
+    for command in ["run", "invariants", "symmetries", "orbit"] {
+        let words = [command, "system.toml", "-o", "system.toml"];
+        done(program(home.path()).args(words))
+            .fails(2, &["system.toml describes a system, and is not replaced"]);
+    }
+    assert_eq!(fs::read_to_string(home.path().join("system.toml")).expect("it is there"), before);
+}
+
 #[test]
 fn a_fault_still_brings_its_rows_to_the_file() {
     let home = folder();

@@ -1,0 +1,41 @@
+//! What to write in place of a number that has a unit behind it or a decimal comma.
+//!
+//! In: the text of a value. Out: the sentence of help. Never here: errors and their places.
+
+/// What to write for a number with a unit behind it or with a decimal comma; `None` if the text is neither.
+pub(super) fn number_with_unit(text: &str) -> Option<String> {
+    let text = text.trim();
+    let is_numeric = |c: char| c.is_ascii_digit() || ".,+-".contains(c);
+    let end = text.find(|c| !is_numeric(c)).unwrap_or(text.len());
+    let (number, unit) = text.split_at(end);
+    let pointed = number.replacen(',', ".", 1);
+    pointed.parse::<f64>().ok()?;
+    let unit = unit.trim();
+    match unit.chars().next() {
+        None if number != pointed => Some(with_point(&pointed)),
+        Some(first) if is_unit(unit, first) => {
+            Some(format!("a unit has a key of its own: {{ value = {pointed}, unit = \"{unit}\" }}"))
+        }
+        _ => None,
+    }
+}
+
+/// A unit is made of letters, powers and a fraction: `m/s^2`, `°`, `kg m²`.
+fn is_unit(text: &str, first: char) -> bool {
+    (first.is_alphabetic() || "°%".contains(first))
+        && !text.contains(['(', '*', '+', '"', '=', ','])
+}
+
+/// What to write for a number whose decimal comma is at this place of the text.
+pub(super) fn decimal_comma(text: &str, comma: usize) -> Option<String> {
+    let (before, after) = (text.get(..comma)?, text.get(comma..)?.strip_prefix(',')?);
+    let is_digit = |c: char| c.is_ascii_digit();
+    let whole = &before[before.trim_end_matches(is_digit).len()..];
+    let fraction = &after[..after.len() - after.trim_start_matches(is_digit).len()];
+    let is_number = !whole.is_empty() && !fraction.is_empty();
+    is_number.then(|| with_point(&format!("{whole}.{fraction}")))
+}
+
+fn with_point(number: &str) -> String {
+    format!("a decimal fraction is written with a point: {number}")
+}
