@@ -19,6 +19,12 @@ const NOISE: f64 = 1e-11;
 /// A top or a bottom that is greater by this factor than what is around it is a pole.
 const POLE: f64 = 1e12;
 
+/// So many bottoms and tops in succession without a place between them are an oscillation that is too fast for the places.
+const UNRESOLVED: usize = 8;
+
+/// The most tops on one side of the start that are given.
+const MOST_TOPS: usize = 8;
+
 /// Halvings of an interval, and sections by the golden ratio.
 const HALVINGS: usize = 200;
 const SECTIONS: usize = 90;
@@ -37,6 +43,8 @@ pub struct EffectivePotential<'a> {
     /// The greatest size of an energy at a bottom or a top: beyond them a potential may fall without end.
     height: f64,
     period: Option<f64>,
+    /// Between which places its tops are given.
+    resolved: [f64; 2],
 }
 
 /// An interval in which a coordinate may move.
@@ -81,6 +89,7 @@ impl<'a> EffectivePotential<'a> {
             tops,
             height: 0.0,
             period,
+            resolved: [f64::NEG_INFINITY, f64::INFINITY],
         };
         potential.look_around(at);
         Ok(potential)
@@ -105,6 +114,12 @@ impl<'a> EffectivePotential<'a> {
         }
         start.replace(InitialOverride::Velocity(self.coordinate, 0.0));
         start
+    }
+
+    /// Between which places its tops are given: of a coordinate without its period there may be any number of them, and those far
+    /// away may be too narrow to be seen.
+    pub fn resolved(&self) -> [f64; 2] {
+        self.resolved
     }
 
     /// The energy with the coordinate at rest; infinite where there is none.
@@ -188,7 +203,12 @@ impl<'a> EffectivePotential<'a> {
         };
         let mut nodes: Vec<[f64; 2]> = places.into_iter().map(|q| [q, self.at(q)]).collect();
         let (mut extrema, mut walls) = (Vec::new(), Vec::new());
-        for [low, middle, high] in turns(&nodes) {
+        let turns = turns(&nodes);
+        self.resolved = if self.period.is_some() { self.resolved } else { resolved(&turns, at) };
+        let [first, last] = self.resolved;
+        for [low, middle, high] in
+            turns.into_iter().filter(|turn| first <= turn[0] && turn[2] <= last)
+        {
             let sign = if middle > 0.0 { -1.0 } else { 1.0 };
             let place = self.extremum(low, high, sign);
             let energy = self.at(place);
@@ -371,6 +391,31 @@ impl<'a> EffectivePotential<'a> {
 /// The column of a channel.
 fn column(system: &System, kind: ChannelKind) -> usize {
     system.channels().iter().position(|channel| channel.kind == kind).unwrap_or(0)
+}
+
+/// The places around `at` beyond which extrema follow each other from one sample to the next, or there are too many tops.
+fn resolved(turns: &[[f64; 3]], at: f64) -> [f64; 2] {
+    // two extrema have a sample between them where the second begins behind the first
+    let is_fast = |pairs: &[[f64; 3]]| pairs.windows(2).all(|two| two[1][0] < two[0][2]);
+    let mut limits = [f64::NEG_INFINITY, f64::INFINITY];
+    for fast in turns.windows(UNRESOLVED).filter(|some| is_fast(some)) {
+        let [first, last] = [fast[0], fast[UNRESOLVED - 1]];
+        if first[0] >= at {
+            limits[1] = limits[1].min(first[0]);
+        } else if last[2] <= at {
+            limits[0] = limits[0].max(last[2]);
+        }
+    }
+    let tops = |side: &dyn Fn(&[f64; 3]) -> bool| {
+        turns.iter().filter(|turn| turn[1] > 0.0 && side(turn)).copied().collect::<Vec<_>>()
+    };
+    if let Some(beyond) = tops(&|turn| turn[0] >= at).get(MOST_TOPS) {
+        limits[1] = limits[1].min(beyond[0]);
+    }
+    if let Some(beyond) = tops(&|turn| turn[2] <= at).iter().rev().nth(MOST_TOPS) {
+        limits[0] = limits[0].max(beyond[2]);
+    }
+    limits
 }
 
 /// The extrema of a sampled function beyond rounding: the places on both sides, with +1 for a maximum, −1 for a minimum.

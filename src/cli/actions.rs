@@ -14,6 +14,7 @@ use super::interrupt::Interrupt;
 use super::motion_options::{Laid, ModelReading, MotionOptions};
 use super::output::Output;
 use super::section::surface;
+use super::stderr;
 use crate::action_angle::{
     ActionRow, ActionSystems, AllowedInterval, EffectivePotential, NoAction, RegionKind,
     Separatrix, action_row, cyclic_row,
@@ -120,6 +121,13 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     }
     if rows.is_empty() {
         return Err(could_not(format!("{name} cannot move at that energy")));
+    }
+    let [first, last] = potential.resolved();
+    if first.is_finite() || last.is_finite() {
+        stderr::tell(&format!(
+            "the potential has more wells than those of which separatrices are given, for {name} from {first:.4} to {last:.4}; an \
+             angle needs its `period` in the file"
+        ));
     }
     Ok(())
 }

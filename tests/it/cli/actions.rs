@@ -292,6 +292,21 @@ fn wells_too_narrow_to_be_seen_are_named_and_no_other_reason_is_given() {
     with_file(&angle(", period = \"2*pi\""), &arguments).success();
 }
 
+/// The action of the motion itself is known, and the separatrices as far as the wells are seen: the nearest have lobes of 16.
+#[test]
+fn an_angle_without_its_period_has_the_separatrices_that_are_seen() {
+    let text = "title = \"A\"\n[coordinates]\nq = { initial = 0.1 }\n[lagrangian]\nL = \"1/2*q'^2 + cos(q)\"\n";
+    let done = with_file(text, &["actions", "system.toml", "--format=json"]);
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    assert!(done.stderr.contains("an angle needs its `period`"), "{}", done.stderr);
+    let object: Value = serde_json::from_str(&done.stdout).expect("JSON");
+    let all = object["separatrices"].as_array().expect("separatrices");
+    let finite = all.iter().flat_map(|one| one["actions"].as_array().expect("actions"));
+    let actions: Vec<f64> = finite.filter_map(Value::as_f64).collect();
+    let sixteen = actions.iter().filter(|action| (*action - 16.0).abs() < 1e-6).count();
+    assert_eq!((sixteen, actions.len()), (15, 15), "{all:?}");
+}
+
 /// The motion of a preset followed by `actions --until`: rows by the names of their columns.
 fn along(arguments: &[&str]) -> (Value, Vec<Vec<f64>>, Vec<String>) {
     let words = [&["actions"], arguments, &["--format=json"]].concat();
