@@ -373,7 +373,7 @@ impl<'a> EquilibriumSearch<'a> {
     fn around(&mut self, variables: &[f64]) -> Option<Around> {
         let LawAtRest::Free(field) = &mut self.law else { return None };
         let (_, df) = resting_rates(field, (self.start.time, variables), &self.unknowns)?;
-        let eigenvalues = linear::eigenvalues(&df);
+        let eigenvalues = linear::rates(&df);
         if self.space.form() != Form::Momentum {
             return Some((None, eigenvalues, Vec::new()));
         }
@@ -392,7 +392,7 @@ impl<'a> EquilibriumSearch<'a> {
     fn around_on_surface(&mut self, variables: &[f64]) -> Option<Around> {
         let LawAtRest::Constrained(balance) = &mut self.law else { return None };
         let around = balance.around(variables, &self.units)?;
-        let eigenvalues = linear::eigenvalues(&around.matrix);
+        let eigenvalues = linear::rates(&around.matrix);
         let positive = |mass: &DMatrix<f64>| {
             let symmetric = (mass + mass.transpose()) * 0.5;
             symmetric.cholesky().is_some()
