@@ -8,6 +8,8 @@
 //! found (`mechanics::hamilton_jacobi`).
 //! Source: *The Principles of Dynamics*, § 3.5.
 
+use std::sync::Arc;
+
 use super::invariant_monitor::{InvariantMonitor, Subject};
 use crate::analysis::{Errors, Verdict};
 use crate::experiment::{Gauge, Reference};
@@ -201,7 +203,19 @@ impl IntegrationConstants {
             }
             let law = "p is that of another branch of S".to_owned();
             let reason = "other branch".to_owned();
-            Gauge { reason, proved: false, verdict: Verdict::Broken(law), left: None, ..gauge }
+            let verdict = Verdict::Broken(law);
+            // the drift that was seen is that of the constant of this branch
+            let (unknown, history) = (f64::NAN, Arc::default());
+            Gauge {
+                reason,
+                proved: false,
+                verdict,
+                drift: unknown,
+                max_drift: unknown,
+                left: None,
+                history,
+                ..gauge
+            }
         });
         alpha.chain(beta).collect()
     }
