@@ -135,11 +135,7 @@ impl Menu {
     pub fn new(title: impl Into<String>, purpose: Choosing, items: Vec<Item>) -> Self {
         let plain = matches!(
             purpose,
-            Choosing::Method
-                | Choosing::Impulse
-                | Choosing::Theme
-                | Choosing::Flow
-                | Choosing::Equilibrium
+            Choosing::Impulse | Choosing::Theme | Choosing::Flow | Choosing::Equilibrium
         );
         let filter = (!plain).then(Input::default);
         Self {

@@ -80,6 +80,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     };
     found.exponents.truncate(kept);
     found.uncertainty.truncate(kept);
+    found.settled.truncate(kept);
     let (mut object, mut text) = (object(&study, &found), text(&study, &found));
     if let Some(volumes) = volumes {
         object.insert("gali".to_owned(), series(&volumes));
@@ -127,6 +128,7 @@ fn object(study: &Study, found: &Lyapunov) -> Map<String, Value> {
     insert("t", json!(found.time));
     insert("exponents", json!(found.exponents));
     insert("uncertainty", json!(found.uncertainty));
+    insert("settled", json!(found.settled));
     insert("trivial", json!(removed(found.removed)));
     insert("megno", json!(found.megno));
     insert("verdict", json!(word(found.verdict)));
@@ -141,12 +143,16 @@ fn object(study: &Study, found: &Lyapunov) -> Map<String, Value> {
 
 fn text(study: &Study, found: &Lyapunov) -> String {
     let mut rows = Vec::new();
-    for (i, (exponent, off)) in found.exponents.iter().zip(&found.uncertainty).enumerate() {
-        rows.push(vec![
-            format!("λ{}", i + 1),
-            shown(*exponent),
-            if *off == 0.0 { "exact".to_owned() } else { format!("± {off:.1e}") },
-        ]);
+    let known = found.uncertainty.iter().zip(&found.settled);
+    for (i, (exponent, (off, settled))) in found.exponents.iter().zip(known).enumerate() {
+        let known = match (*off == 0.0, settled) {
+            (true, _) => "exact".to_owned(),
+            (false, true) => format!("± {off:.1e}"),
+            (false, false) => {
+                format!("± {off:.1e} or more: undecided, the average has not settled")
+            }
+        };
+        rows.push(vec![format!("λ{}", i + 1), shown(*exponent), known]);
     }
     let mut text = format!(
         "{} from t = {} to {}\n\n",

@@ -149,6 +149,7 @@ fn object(found: &FoundSpectrum) -> Map<String, Value> {
     insert("fundamentals", json!(spectrum.fundamentals));
     insert("drive", json!(drive));
     insert("left", json!(spectrum.left));
+    insert("turns", json!(spectrum.turns));
     let halves = |d: &FrequencyDrift| json!({ "first": d.first, "second": d.second, "relative": d.relative(), "error": d.relative_error() });
     insert("frequency_drift", drift.as_ref().map_or(Value::Null, halves));
     insert("mean_rate", rate.map_or(Value::Null, |r| json!({ "rate": r.rate, "error": r.error })));
@@ -169,7 +170,12 @@ fn text(found: &FoundSpectrum) -> String {
             shown(line.phase),
         ]);
     }
-    if spectrum.lines.is_empty() {
+    if let Some(turns) = spectrum.turns {
+        text.push_str(&format!(
+            "no line: the strongest would make {turns:.2} of a turn in this time; nothing has come back yet, as where a \
+             motion escapes\n"
+        ));
+    } else if spectrum.lines.is_empty() {
         text.push_str("no line stands out\n");
     } else {
         text.push_str(&table(&rows));
@@ -179,7 +185,7 @@ fn text(found: &FoundSpectrum) -> String {
         shown(spectrum.mean),
         spectrum.left
     ));
-    if spectrum.is_continuous() {
+    if spectrum.is_continuous() && spectrum.turns.is_none() {
         let part = 100.0 * spectrum.part_left();
         text.push_str(&format!("that is {part:.0} % of it: it is not a sum of few lines\n"));
     }

@@ -14,6 +14,9 @@ use crate::model::Model;
 use crate::num::{DoubleDouble, gauss};
 use crate::system::{Evaluator, Program};
 
+/// A sum is no more than rounding up to this part of the size of its terms.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 /// A Lagrangian at fixed parameters, as a function of (t, q, q̇).
 pub struct Lagrangian {
     degrees: usize,
@@ -240,7 +243,8 @@ impl Lagrangian {
                 return Err(unsuited("L is not finite on this path"));
             }
             if (sum - before).abs() <= settled * size {
-                return Ok(sum);
+                // terms that cancel leave their rounding
+                return Ok(if sum.abs() <= ROUNDING * size { 0.0 } else { sum });
             }
             before = sum;
             parts *= 2;

@@ -1,9 +1,9 @@
 //! Families of periodic orbits, followed by pseudo-arclength.
 //!
 //! In: a periodic orbit, and what changes along its family: the energy, the period, or a parameter.
-//! Out: the orbits at given values, in their order along the family, and between them the folds,
+//! Out: a step along the family, with the orbits at given values, and between them the folds,
 //! where the family turns back, and the bifurcations, where a multiplier passes 1 or −1. Never
-//! here: how one orbit is closed; what lies between two points of a family (`members`), displacements within what is allowed (`equations`).
+//! here: how one orbit is closed, both sides of a family (`family_course`); what lies between two points of a family (`members`), displacements within what is allowed (`equations`).
 //!
 //! Source: H. B. Keller, Lectures on Numerical Methods in Bifurcation Problems, Springer 1987; the
 //! bifurcations of orbits: K. R. Meyer, Trans. Amer. Math. Soc. 149 (1970) 95.
@@ -16,9 +16,9 @@ use nalgebra::{DMatrix, DVector};
 
 use super::direction::FlowDirection;
 use super::error::DynamicsError;
-use super::family::{Along, Family, Member};
+use super::family::{Along, Member};
 use super::linear;
-use super::newton::{Fixed, Newton, NewtonIterate};
+use super::newton::{Fixed, Newton};
 use super::orbit::Orbit;
 use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
@@ -47,99 +47,35 @@ const LONG: f64 = 3.0;
 /// A change of a parameter for its difference.
 const DIFFERENCE: f64 = 1e-5;
 
-/// Follows the family of an orbit in both directions, as far as its values lie between the first
-/// and the last of `values`. `look` is given the part of this range that is behind it.
-///
-/// # Errors
-/// Returns an error if the family has no such values.
-pub fn family(
-    space: &PhaseSpace,
-    method: (&'static Method, Settings),
-    orbit: &Orbit,
-    (along, fixed): (Along, Fixed),
-    (values, look): (&[f64], &dyn Fn(f64)),
-) -> Result<Family, DynamicsError> {
-    followed(&Continuation { space, method, along, fixed, values, look, drive: None }, orbit)
+/// The period of a drive at some parameters.
+pub type DrivePeriod<'a> = &'a dyn Fn(&[f64]) -> Option<f64>;
+
+/// One side of a family.
+#[derive(Clone)]
+pub(super) struct FamilySide {
+    pub(super) begin: FamilyPoint,
+    pub(super) here: FamilyPoint,
+    /// The size of the orbits so far, the next step, and the steps taken.
+    size: f64,
+    step: f64,
+    steps: usize,
+    pub(super) members: Vec<Member>,
+    /// It is followed no farther; why, if it ends before the values do.
+    pub(super) ended: Option<Option<String>>,
 }
 
-/// The same under a drive, whose period at some parameters `drive` gives: the orbits keep their multiple of it, also along a
-/// parameter on which it depends.
-///
-/// # Errors
-/// Returns an error if the family has no such values.
-pub fn driven_family(
-    space: &PhaseSpace,
-    method: (&'static Method, Settings),
-    orbit: &Orbit,
-    (along, drive): (Along, &dyn Fn(&[f64]) -> Option<f64>),
-    (values, look): (&[f64], &dyn Fn(f64)),
-) -> Result<Family, DynamicsError> {
-    let fixed = Fixed::Period(orbit.period);
-    let ratio = drive(space.parameters()).map(|period| orbit.period / period);
-    // a period that is not a multiple of the drive's is kept
-    let drive = ratio.filter(|ratio| is_whole(*ratio)).map(|ratio| (ratio.round(), drive));
-    followed(&Continuation { space, method, along, fixed, values, look, drive }, orbit)
-}
-
-/// Whether a number is a whole one above zero but for rounding.
-fn is_whole(x: f64) -> bool {
-    x.round() >= 1.0 && (x - x.round()).abs() <= 1e-9 * x
-}
-
-fn followed(continuation: &Continuation<'_>, orbit: &Orbit) -> Result<Family, DynamicsError> {
-    let Continuation { space, along, values, .. } = continuation;
-    let conserved = space.is_autonomous() && space.is_hamiltonian();
-    if !matches!(along, Along::Parameter(_)) && !conserved {
-        return Err(DynamicsError::Unsuited(
-            "without a conserved energy orbits are isolated: name a parameter that changes along \
-             their family"
-                .to_owned(),
-        ));
-    }
-    let first = continuation.first(orbit)?;
-    let mut family = Family { members: Vec::new(), ended: Vec::new(), cancelled: false };
-    let (low, high) = continuation.range();
-    // backwards first, so that the members follow each other
-    let mut backwards = first.clone();
-    backwards.tangent.neg_mut();
-    let mut sides = [Vec::new(), Vec::new()];
-    let lengths = [first.value - low, high - first.value].map(|length| length.max(0.0));
-    let mut behind = 0.0;
-    for ((side, begin), length) in sides.iter_mut().zip([backwards, first.clone()]).zip(lengths) {
-        let seen = |value: f64| {
-            let gone = (value - first.value).abs().min(length);
-            (continuation.look)((behind + gone) / (high - low));
-        };
-        let outcome = continuation.follow(&begin, &seen, side);
-        behind += length;
-        match outcome {
-            Ok(None) => {}
-            Ok(Some(why)) => family.ended.push(why),
-            Err(error) if error.is_cancelled() => {
-                family.cancelled = true;
-                break;
-            }
-            Err(error) => family.ended.push(error.to_string()),
-        }
-    }
-    let [before, after] = sides;
-    family.members.extend(before.into_iter().rev());
-    if values.contains(&first.value) && (low..=high).contains(&first.value) {
-        family.members.push(Member { value: first.value, orbit: first.orbit, bifurcation: None });
-    }
-    family.members.extend(after);
-    Ok(family)
-}
-
-struct Continuation<'a> {
-    space: &'a PhaseSpace,
-    method: (&'static Method, Settings),
-    along: Along,
-    fixed: Fixed,
-    values: &'a [f64],
-    look: &'a dyn Fn(f64),
+/// A family that is followed: of which space, by which method, along what.
+#[derive(Clone, Copy)]
+pub(super) struct Continuation<'a> {
+    pub(super) space: &'a PhaseSpace,
+    pub(super) method: (&'static Method, Settings),
+    /// The method of the members, and of steps that the other does not find.
+    pub(super) exact: (&'static Method, Settings),
+    pub(super) along: Along,
+    pub(super) fixed: Fixed,
+    pub(super) values: &'a [f64],
     /// How many periods of a drive an orbit has, and that period at some parameters.
-    drive: Option<(f64, &'a dyn Fn(&[f64]) -> Option<f64>)>,
+    pub(super) drive: Option<(f64, DrivePeriod<'a>)>,
 }
 
 impl Continuation<'_> {
@@ -152,7 +88,7 @@ impl Continuation<'_> {
         })
     }
 
-    fn range(&self) -> (f64, f64) {
+    pub(super) fn range(&self) -> (f64, f64) {
         let low = self.values.iter().copied().fold(f64::INFINITY, f64::min);
         (low, self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max))
     }
@@ -204,7 +140,8 @@ impl Continuation<'_> {
         };
         let (low, high) = self.range();
         // the value grows along the tangent
-        point.tangent = self.direction(&point, None)?;
+        let found = self.equations(&point.state, point.period, point.parameter)?;
+        point.tangent = self.direction(&point, &found, None)?;
         if point.value > high || point.value < low {
             let slope = self.slope(&point)?;
             let wanted = if point.value > high { -1.0 } else { 1.0 };
@@ -244,7 +181,7 @@ impl Continuation<'_> {
                 let newton = self.newton(&space);
                 let there = newton.displaced(state, &none)?;
                 let period = self.driven(parameter, period)?;
-                Ok(newton.missed(&newton.circuit(&there, period)?))
+                newton.missing(&there, period)
             };
             let slope = (at(parameter + step)? - at(parameter - step)?) / (2.0 * step);
             full.view_mut((0, columns), (n + 2, 1)).copy_from(&slope);
@@ -252,14 +189,14 @@ impl Continuation<'_> {
         Ok(FamilyEquations { missing, matrix: full, here })
     }
 
-    /// The unit direction of the family at a point, along `before` if that is given.
+    /// The unit direction of the family at a point with these equations, along `before` if that is given.
     fn direction(
         &self,
         point: &FamilyPoint,
+        found: &FamilyEquations,
         before: Option<&DVector<f64>>,
     ) -> Result<DVector<f64>, DynamicsError> {
         let n = self.space.dimension();
-        let found = self.equations(&point.state, point.period, point.parameter)?;
         // the last column does not exist where no parameter changes
         let missing = usize::from(!matches!(self.along, Along::Parameter(_)));
         let kept = found.matrix.ncols() - missing;
@@ -315,11 +252,48 @@ impl Continuation<'_> {
         })
     }
 
-    /// The point of the family a step onwards.
+    /// The point of the family a step onwards, and the corrections that it took.
     fn onwards(
         &self,
         from: &FamilyPoint,
         step: f64,
+    ) -> Result<Option<(FamilyPoint, usize)>, DynamicsError> {
+        self.corrected(from, &(&from.tangent * step))
+    }
+
+    /// The same family by the method of its members, if that is another one.
+    fn exact(&self) -> Option<Continuation<'_>> {
+        (self.exact.1 != self.method.1).then_some(Continuation { method: self.exact, ..*self })
+    }
+
+    /// The orbit at a point, by the method of the members.
+    fn member(&self, from: &FamilyPoint, point: FamilyPoint) -> Result<Orbit, DynamicsError> {
+        let (mut point, mut method) = (point, self.method);
+        if let Some(exact) = self.exact()
+            && let Some((found, _)) = exact.closed_near(from, &from.change(&point))?
+        {
+            (point, method) = (found, exact.method);
+        }
+        point.orbit.with_action(&self.space_at(point.parameter), method)
+    }
+
+    /// The point of the family near a change of (z, T, μ), across its tangent from there.
+    fn corrected(
+        &self,
+        from: &FamilyPoint,
+        by: &DVector<f64>,
+    ) -> Result<Option<(FamilyPoint, usize)>, DynamicsError> {
+        match (self.closed_near(from, by)?, self.exact()) {
+            (None, Some(exact)) => exact.closed_near(from, by),
+            (found, _) => Ok(found),
+        }
+    }
+
+    /// The same by this method alone.
+    fn closed_near(
+        &self,
+        from: &FamilyPoint,
+        by: &DVector<f64>,
     ) -> Result<Option<(FamilyPoint, usize)>, DynamicsError> {
         let n = self.space.dimension();
         let moved = |state: &State, by: &DVector<f64>, parameter: f64| {
@@ -330,9 +304,8 @@ impl Continuation<'_> {
                 there => Ok(there.ok()),
             }
         };
-        let by = &from.tangent * step;
         let (mut period, mut parameter) = (from.period + by[n], from.parameter + by[n + 1]);
-        let Some(mut state) = moved(&from.state, &by, parameter)? else { return Ok(None) };
+        let Some(mut state) = moved(&from.state, by, parameter)? else { return Ok(None) };
         for count in 0..CORRECTIONS {
             if period <= 0.0 {
                 return Ok(None);
@@ -344,7 +317,7 @@ impl Continuation<'_> {
                 Err(_) => return Ok(None),
             };
             if found.missing.norm() <= CLOSED * found.here.circuit.size {
-                let point = self.point(from, &found.here, parameter)?;
+                let point = self.point(from, &found, parameter)?;
                 return Ok(Some((point, count)));
             }
             // across the family only
@@ -367,68 +340,89 @@ impl Continuation<'_> {
     fn point(
         &self,
         from: &FamilyPoint,
-        here: &NewtonIterate,
+        found: &FamilyEquations,
         parameter: f64,
     ) -> Result<FamilyPoint, DynamicsError> {
+        let here = &found.here;
         let space = self.space_at(parameter);
         let orbit = Orbit::of(&self.newton(&space), here)?;
         let (state, period) = (here.state.clone(), here.period);
         let tangent = from.tangent.clone();
         let value = self.value_of(&orbit, parameter);
         let mut point = FamilyPoint { state, period, parameter, tangent, value, orbit };
-        point.tangent = self.direction(&point, Some(&from.tangent))?;
+        point.tangent = self.direction(&point, found, Some(&from.tangent))?;
         Ok(point)
     }
 
-    /// Follows the family along its tangent and collects its members. Returns why it ends before
-    /// the values do.
-    fn follow(
-        &self,
-        begin: &FamilyPoint,
-        seen: &dyn Fn(f64),
-        members: &mut Vec<Member>,
-    ) -> Result<Option<String>, DynamicsError> {
-        let (low, high) = self.range();
-        let mut here = begin.clone();
-        let size_of = |state: &State| {
-            self.space.variables(state).iter().fold(0.1, |m: f64, x| m.max(x.abs()))
-        };
-        let mut size = size_of(&here.state);
-        let mut step = 0.02 * size;
-        for _ in 0..STEPS {
-            let leaves = if here.value > high {
-                self.slope(&here)? > 0.0
-            } else {
-                here.value < low && self.slope(&here)? < 0.0
-            };
-            if leaves {
-                return Ok(None);
-            }
-            let Some((next, count)) = self.onwards(&here, step)? else {
-                step *= 0.5;
-                if step < LEAST * size {
-                    return Ok(Some(lost(&here, begin.period)));
-                }
-                continue;
-            };
-            self.between(&here, &next, step, members)?;
-            if begin.unit().is_some() && here.unit().is_none() && next.unit().is_none() {
-                let value = significant(next.value, 6, 1e-4..1e6);
-                return Ok(Some(format!(
-                    "from {value} on the family cannot be distinguished from the orbits beside it: its multipliers are \
-                     1 within rounding"
-                )));
-            }
-            if count <= 3 {
-                step = (1.5 * step).min(LARGEST * size);
-            }
-            here = next;
-            // orbits may become much larger along their family
-            size = size.max(size_of(&here.state));
-            seen(here.value);
+    /// The point at which a family begins.
+    pub(super) fn begun(&self, orbit: &Orbit) -> Result<FamilyPoint, DynamicsError> {
+        let conserved = self.space.is_autonomous() && self.space.is_hamiltonian();
+        if !matches!(self.along, Along::Parameter(_)) && !conserved {
+            return Err(DynamicsError::Unsuited(
+                "without a conserved energy orbits are isolated: name a parameter that changes along \
+                 their family"
+                    .to_owned(),
+            ));
         }
-        let value = significant(here.value, 6, 1e-4..1e6);
-        Ok(Some(format!("the family continues beyond {value}, after {STEPS} steps")))
+        self.first(orbit)
+    }
+
+    /// The size of a state.
+    fn size(&self, state: &State) -> f64 {
+        self.space.variables(state).iter().fold(0.1, |m: f64, x| m.max(x.abs()))
+    }
+
+    /// The side of a family along the tangent at a point.
+    pub(super) fn side(&self, begin: FamilyPoint) -> FamilySide {
+        let size = self.size(&begin.state);
+        let (here, step) = (begin.clone(), 0.02 * size);
+        FamilySide { begin, here, size, step, steps: 0, members: Vec::new(), ended: None }
+    }
+
+    /// Follows a side along its tangent by a step, and collects the members there. The step is halved where it is too
+    /// long.
+    pub(super) fn advance(&self, side: &mut FamilySide) -> Result<(), DynamicsError> {
+        let (low, high) = self.range();
+        let here = &side.here;
+        let leaves = if here.value > high {
+            self.slope(here)? > 0.0
+        } else {
+            here.value < low && self.slope(here)? < 0.0
+        };
+        if leaves {
+            side.ended = Some(None);
+            return Ok(());
+        }
+        if side.steps == STEPS {
+            let value = significant(here.value, 6, 1e-4..1e6);
+            let why = format!("the family continues beyond {value}, after {STEPS} steps");
+            side.ended = Some(Some(why));
+            return Ok(());
+        }
+        side.steps += 1;
+        let Some((next, count)) = self.onwards(here, side.step)? else {
+            side.step *= 0.5;
+            if side.step < LEAST * side.size {
+                side.ended = Some(Some(lost(here, side.begin.period)));
+            }
+            return Ok(());
+        };
+        self.between(here, &next, side.step, &mut side.members)?;
+        if side.begin.unit().is_some() && here.unit().is_none() && next.unit().is_none() {
+            let value = significant(next.value, 6, 1e-4..1e6);
+            side.ended = Some(Some(format!(
+                "from {value} on the family cannot be distinguished from the orbits beside it: its multipliers are \
+                 1 within rounding"
+            )));
+            return Ok(());
+        }
+        if count <= 3 {
+            side.step = (1.5 * side.step).min(LARGEST * side.size);
+        }
+        // orbits may become much larger along their family
+        side.size = side.size.max(self.size(&next.state));
+        side.here = next;
+        Ok(())
     }
 }
 

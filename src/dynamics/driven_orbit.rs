@@ -2,9 +2,9 @@
 //!
 //! In: a start, the period of the drive. Out: the orbit, or what was looked for. Never here: how an orbit is closed.
 
+use super::end_state::end_state;
 use super::error::DynamicsError;
 use super::first_return::difference;
-use super::flow_map::flow_map;
 use super::newton::Fixed;
 use super::orbit::{Orbit, periodic_orbit, searched};
 use super::phase_space::PhaseSpace;
@@ -55,11 +55,7 @@ pub fn nearest_driven_orbit(
     let mut state = start.clone();
     for count in 1..=MULTIPLES {
         let end = start.time + f64::from(count) * drive;
-        let map = flow_map(space, method, &state, end, &mut |_| {})?;
-        if let Some(fault) = map.failure {
-            return Err(fault.into());
-        }
-        state = map.state;
+        state = end_state(space, method, &state, end)?;
         misses.push((count, difference(space, &state, start).norm()));
     }
     let farthest = misses.iter().map(|(_, miss)| *miss).fold(0.0, f64::max);
@@ -95,8 +91,8 @@ fn shortest(
     for part in (1..count).filter(|&part| count.is_multiple_of(part)) {
         let period = f64::from(part) * drive;
         let end = orbit.state.time + period;
-        let map = flow_map(space, method, &orbit.state, end, &mut |_| {})?;
-        if difference(space, &map.state, &orbit.state).norm() <= SAME * size {
+        let after = end_state(space, method, &orbit.state, end)?;
+        if difference(space, &after, &orbit.state).norm() <= SAME * size {
             return periodic_orbit(
                 space,
                 method,

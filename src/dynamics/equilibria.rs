@@ -155,7 +155,7 @@ impl EquilibriumSearch<'_> {
     /// The kind, the eigenvalues and the modes at a place, of variables that are independent.
     fn around(&mut self, variables: &[f64]) -> Option<Around> {
         let df = self.slopes(variables)?;
-        let eigenvalues = linear::eigenvalues(&df);
+        let eigenvalues = linear::rates(&df);
         if self.space.form() != Form::Momentum {
             return Some((None, eigenvalues, Vec::new()));
         }
@@ -171,7 +171,7 @@ impl EquilibriumSearch<'_> {
     fn around_on_surface(&mut self, variables: &[f64]) -> Option<Around> {
         let LawAtRest::Constrained(balance) = &mut self.law else { return None };
         let around = balance.around(variables, &self.units)?;
-        let eigenvalues = linear::eigenvalues(&around.matrix);
+        let eigenvalues = linear::rates(&around.matrix);
         let positive = |mass: &DMatrix<f64>| {
             let symmetric = (mass + mass.transpose()) * 0.5;
             symmetric.cholesky().is_some()

@@ -72,15 +72,27 @@ pub fn flow_map(
         look(time);
         true
     };
-    flow_map_while(space, (method, settings), start, until, &mut look_on)
+    let divergence = (!space.is_constrained()).then(|| Divergence::of(space, method));
+    followed(space, (method, settings), (start, until), divergence, &mut look_on)
 }
 
-/// The same for as long as `look` returns true; otherwise the result is that of the time reached.
+/// The same for as long as `look` returns true, otherwise the result is that of the time reached; and without the
+/// determinant that Liouville's theorem predicts, whose integral takes longer than the motion.
 pub(super) fn flow_map_while(
     space: &PhaseSpace,
     (method, settings): (&'static Method, Settings),
     start: &State,
     until: f64,
+    look: &mut dyn FnMut(f64) -> bool,
+) -> Result<FlowMap, DynamicsError> {
+    followed(space, (method, settings), (start, until), None, look)
+}
+
+fn followed(
+    space: &PhaseSpace,
+    (method, settings): (&'static Method, Settings),
+    (start, until): (&State, f64),
+    mut divergence: Option<Divergence>,
     look: &mut dyn FnMut(f64) -> bool,
 ) -> Result<FlowMap, DynamicsError> {
     if space.has_jumps() && until < start.time {
@@ -98,7 +110,6 @@ pub(super) fn flow_map_while(
     let (allowed, dimension) = space.allowed_displacements(start)?;
     carrier.start(start, &allowed)?;
     let free = !space.is_constrained();
-    let mut divergence = free.then(|| Divergence::of(space, method));
     let canonical = free && space.form() == crate::system::Form::Momentum;
     let mut rounding = free.then(|| AmplifiedRounding::new(n));
     let forwards = until >= start.time;
@@ -151,7 +162,7 @@ pub(super) fn flow_map_while(
         time,
         dimension,
         determinant: Some(matrix.determinant()),
-        determinant_expected: Some(math::exp(logarithm) * carrier.jump_determinant()),
+        determinant_expected: divergence.map(|_| math::exp(logarithm) * carrier.jump_determinant()),
         symplectic_residual: symplectic.map(|(residual, _)| residual),
         symplectic_rounding: symplectic.map(|(_, rounding)| rounding),
         rounding: rounding.map(|rounding| rounding.of_map(&inverse)),

@@ -8,6 +8,9 @@ use crate::num;
 /// The maximal number of iterations of a decomposition.
 const SWEEPS: usize = 10_000;
 
+/// What is less than this part of the largest eigenvalue is rounding of a small matrix.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
 /// The eigenvalues of a matrix as real and imaginary parts, by falling modulus, of a pair the
 /// positive imaginary part first; empty if they cannot be found.
 pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<[f64; 2]> {
@@ -23,6 +26,15 @@ pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<[f64; 2]> {
         }
     });
     values
+}
+
+/// The same of a matrix of rates, whose eigenvalues all are in one unit: real and imaginary parts that are rounding of the
+/// largest are 0.
+pub(super) fn rates(matrix: &DMatrix<f64>) -> Vec<[f64; 2]> {
+    let values = eigenvalues(matrix);
+    let largest = values.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let known = |x: f64| if x.abs() <= ROUNDING * largest { 0.0 } else { x };
+    values.into_iter().map(|z| z.map(known)).collect()
 }
 
 /// The solution of A x = b of least norm in the sense of least squares; singular values up to
@@ -141,4 +153,23 @@ pub(super) fn null_vector(
         found.push(vector.unscale(length));
     }
     None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A rotation by the rate 2 beside what does not move: with the rows mixed, rounding of 2 is not told from 0, and 1e-14 is.
+    #[test]
+    fn rates_that_are_rounding_of_the_largest_are_zero() {
+        let of = |small: f64| {
+            let parts = [[0.0, 2.0, 0.0], [-2.0, 0.0, 0.0], [0.0, 0.0, small]];
+            rates(&DMatrix::from_fn(3, 3, |i, j| parts[i][j]))
+        };
+        let found = of(1e-15);
+        assert!((found[0][1] - 2.0).abs() < 1e-14 && found[0][0] == 0.0, "{found:?}");
+        assert_eq!(found[2], [0.0, 0.0]);
+        let known = of(1e-14)[2];
+        assert!((known[0] - 1e-14).abs() < 1e-15 && known[1] == 0.0, "{known:?}");
+    }
 }

@@ -8,13 +8,29 @@ use nalgebra::DMatrix;
 use super::carrier::Carrier;
 use super::direction::FlowDirection;
 use super::error::DynamicsError;
+use super::orbit::Orbit;
 use super::phase_space::PhaseSpace;
 use crate::integrate::{Method, Settings, Stepping};
 use crate::num::gauss;
 use crate::system::{Form, State};
 
+impl Orbit {
+    /// The same with its action, where the variables are canonical.
+    ///
+    /// # Errors
+    /// Returns an error if the motion cannot be followed, or is cancelled.
+    pub(super) fn with_action(
+        self,
+        space: &PhaseSpace,
+        method: (&'static Method, Settings),
+    ) -> Result<Orbit, DynamicsError> {
+        let action = loop_action(space, method, &self.state, self.period)?;
+        Ok(Orbit { action, ..self })
+    }
+}
+
 /// The integral from a state over a period.
-pub(super) fn loop_action(
+fn loop_action(
     space: &PhaseSpace,
     (method, settings): (&'static Method, Settings),
     start: &State,

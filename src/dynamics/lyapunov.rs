@@ -64,6 +64,8 @@ pub struct Lyapunov {
     pub exponents: Vec<f64>,
     /// Their uncertainties.
     pub uncertainty: Vec<f64>,
+    /// Whether the mean rate of each has settled; where it has not, the uncertainty is a lower bound.
+    pub settled: Vec<bool>,
     /// Which directions were taken out; their exponents are zero.
     pub removed: Removed,
     /// MEGNO, averaged over the time.
@@ -229,12 +231,13 @@ fn result(
 ) -> Lyapunov {
     let (begin, end) = (growth.begin(), growth.end());
     let count = growth.logarithms[0].len();
-    let mut all: Vec<(f64, f64)> = (0..count)
+    let mut all: Vec<(f64, (f64, bool))> = (0..count)
         .map(|i| (growth.weighted(i, begin, end), growth.uncertainty(i)))
-        .chain(std::iter::repeat_n((0.0, 0.0), what.count()))
+        .chain(std::iter::repeat_n((0.0, (0.0, true)), what.count()))
         .collect();
     all.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let (exponents, uncertainty): (Vec<f64>, Vec<f64>) = all.into_iter().unzip();
+    let (exponents, known): (Vec<f64>, Vec<(f64, bool)>) = all.into_iter().unzip();
+    let (uncertainty, settled): (Vec<f64>, Vec<bool>) = known.into_iter().unzip();
     let pairs = exponents.iter().zip(exponents.iter().rev());
     let pairing = pairs.map(|(a, b)| (a + b).abs()).fold(0.0, f64::max);
     let curve = (1..=POINTS).map(|i| begin + (end - begin) * i as f64 / POINTS as f64);
@@ -251,11 +254,17 @@ fn result(
         }
         (_, judged) => judged,
     };
+    // the exponents of regular motion are 0, towards which they go like 1/t
+    let settled = match verdict {
+        Chaos::Regular => vec![true; settled.len()],
+        Chaos::Chaotic | Chaos::Undecided => settled,
+    };
     Lyapunov {
         time: end,
         sum: exponents.iter().sum(),
         exponents,
         uncertainty,
+        settled,
         removed: what,
         megno: mean,
         verdict,

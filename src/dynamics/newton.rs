@@ -13,6 +13,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::amplified_rounding::MapRounding;
 use super::direction::{FlowDirection, basis_of_range};
+use super::end_state::end_state;
 use super::error::DynamicsError;
 use super::first_return::difference;
 use super::flow_map::flow_map_while;
@@ -330,6 +331,24 @@ impl Newton<'_> {
             matrix.view_mut((0, allowed), (n, 1)).copy_from(&circuit.rates[1]);
         }
         (matrix, -self.missed(circuit))
+    }
+
+    /// What is missing at a state, without its derivatives.
+    pub(super) fn missing(
+        &self,
+        state: &State,
+        period: f64,
+    ) -> Result<DVector<f64>, DynamicsError> {
+        let (space, n) = (self.space, self.space.dimension());
+        let end = end_state(space, self.method, state, state.time + period)?;
+        let mut missed = DVector::zeros(n + 2);
+        missed.rows_mut(0, n).copy_from(&self.units.scaled(&difference(space, &end, state)));
+        if let Fixed::Energy(wanted) = self.fixed {
+            let rate = self.units.rates(&FlowDirection::new(space).at(state)?);
+            let energy = space.system().energy(state, space.parameters())?;
+            missed[n + 1] = (energy - wanted) / self.units.gradient(&rate).norm();
+        }
+        Ok(missed)
     }
 
     /// The distance by which the motion does not close, no motion along the orbit, and the energy in

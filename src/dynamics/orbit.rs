@@ -12,7 +12,6 @@ use super::direction::FlowDirection;
 use super::error::DynamicsError;
 use super::first_return::{difference, return_near};
 use super::linear;
-use super::loop_action::loop_action;
 use super::newton::{CLOSED, Fixed, Newton, NewtonIterate};
 use super::orbit_units::OrbitUnits;
 use super::phase_space::PhaseSpace;
@@ -83,7 +82,7 @@ pub struct Orbit {
 }
 
 impl Orbit {
-    /// The orbit at a state from which the motion closes.
+    /// The orbit at a state from which the motion closes, without its action, which takes longer than the motion.
     ///
     /// # Errors
     /// Returns an error if the motion comes so near to a singularity of its law that nothing is known of the multipliers.
@@ -120,7 +119,7 @@ impl Orbit {
             energy: space.system().energy(&closed.state, space.parameters())?,
             closure: closed.residual / size.max(f64::MIN_POSITIVE),
             closes_to_rounding: closed.is_rounding(),
-            action: loop_action(space, newton.method, &closed.state, closed.period)?,
+            action: None,
             state: closed.state.clone(),
             monodromy: circuit.monodromy.clone(),
             transverse,
@@ -294,7 +293,7 @@ fn closed_near(
             }
         }
     }
-    Orbit::of(&newton, &closed).map(Ok)
+    Orbit::of(&newton, &closed)?.with_action(space, method).map(Ok)
 }
 
 fn unsuited(why: &str) -> DynamicsError {

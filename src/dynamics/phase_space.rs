@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::drive::{acts, coordinate_period, drive_period};
 use super::error::DynamicsError;
+use crate::cancel::Cancel;
 use crate::expr::Expr;
 use crate::mechanics::Equations;
 use crate::model::{EventAction, Mechanics, Model};
@@ -187,6 +188,12 @@ impl PhaseSpace {
     pub fn at_parameters(&self, parameters: &[f64]) -> PhaseSpace {
         let drive = self.drive.filter(|_| parameters == self.parameters);
         PhaseSpace { parameters: parameters.to_vec(), drive, ..self.clone() }
+    }
+
+    /// The same space, whose motions are followed until this token is set.
+    #[must_use]
+    pub fn with_cancel(&self, cancel: &Cancel) -> PhaseSpace {
+        PhaseSpace { system: self.system.with_cancel(cancel.clone()), ..self.clone() }
     }
 
     /// The period of the drive, where the law depends on time by sines and cosines of a t + b, or impulses act at equal

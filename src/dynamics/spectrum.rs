@@ -42,6 +42,9 @@ pub struct Spectrum {
     pub left: f64,
     /// See `left`.
     pub size: f64,
+    /// The turns that the strongest line would make in the whole time, where these are less than one: nothing has come back
+    /// yet, as where a motion escapes, and there are no lines.
+    pub turns: Option<f64>,
 }
 
 /// A motion of which the lines leave more than this part is no sum of few lines, as a chaotic one is not.
@@ -96,7 +99,7 @@ pub fn driven_spectrum(
     }
     let mut fit = SpectralFit::new(signal, spacing);
     fit.polish(1);
-    let mut curve = Vec::new();
+    let (mut curve, mut turns) = (Vec::new(), None);
     for count in 0..most {
         let left = fit.left();
         let transform = fit.transform(&left);
@@ -118,6 +121,13 @@ pub fn driven_spectrum(
             (fit.lines, fit.mean) = before;
             break;
         }
+        let turned = fit.lines[0].frequency.abs() * fit.length() / TAU;
+        if turned < 1.0 {
+            // a line that has made no turn is none
+            (turns, fit.mean) = ((count == 0).then_some(turned), before.1);
+            fit.lines = before.0;
+            break;
+        }
         if !look(count + 1) {
             break;
         }
@@ -132,7 +142,7 @@ pub fn driven_spectrum(
     let mean = signal.iter().sum::<f64>() / signal.len() as f64;
     let about: Vec<f64> = signal.iter().map(|x| x - mean).collect();
     let size = root_mean_square(&about);
-    Some(Spectrum { mean: fit.mean, lines, fundamentals, curve, left, size })
+    Some(Spectrum { mean: fit.mean, lines, fundamentals, curve, left, size, turns })
 }
 
 /// An angle that goes round less its mean advance, so that what is left has lines.

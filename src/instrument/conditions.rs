@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use super::{Present, Seed};
-use crate::integrate::Settings;
+use crate::integrate::{Method, Settings, method_named};
 use crate::num::significant;
 use crate::system::{InitialOverride, MotionError, State, System};
 
@@ -42,6 +42,18 @@ impl PlotConditions {
     /// Whether parameters and initial values are the same.
     pub(super) fn begin_alike(&self, other: &Self) -> bool {
         self.parameters == other.parameters && self.initial == other.initial
+    }
+
+    /// The method and its settings.
+    pub(super) fn method(&self) -> Option<(&'static Method, Settings)> {
+        Some((method_named(self.method)?, self.settings))
+    }
+
+    /// Whether they differ in nothing but the method and its settings.
+    pub(super) fn differ_in_method_alone(&self, other: &Self) -> bool {
+        let method = (other.method, other.settings);
+        let alike = Self { method: method.0, settings: method.1, ..self.clone() };
+        self != other && alike == *other
     }
 
     /// Whether the law was changed last at the same state, or never.

@@ -2,11 +2,13 @@
 //! and the closed curve around it with ∮ Σ p dq: constant where the motion is Hamilton's (Liouville, Poincaré), shrunk at
 //! a known rate under friction that takes the same part of every momentum.
 //!
-//! The cloud is that of the moment at which it was begun: when the picture is first shown, and anew when a parameter, the
-//! method or the initial values change. Its job carries it some time ahead, in parts, so that it is there when the motion
+//! The cloud is that of the moment at which it was begun: when the picture is first shown, and anew when a parameter or
+//! the initial values change; another method carries it on from where it is. Its job carries it some time ahead, in parts, so that it is there when the motion
 //! is.
 
 mod cloud;
+mod frame;
+mod leg;
 mod origin;
 
 use std::sync::Arc;
@@ -23,7 +25,9 @@ use crate::job::Job;
 use crate::num::{math, significant};
 use crate::system::{ChannelKind, Form, InitialOverride};
 
-use cloud::{Cloud, CloudFrame, CloudTask};
+use cloud::{Cloud, CloudTask};
+use frame::CloudFrame;
+use leg::CloudLeg;
 use origin::CloudOrigin;
 
 /// The levels of the picture.
@@ -108,8 +112,10 @@ impl Instrument for Ensemble {
         let now = then.unwrap_or_else(|| channels.map(|channel| present.value(channel)));
         layers.push((NOW, Layer::Point(now, MarkerShape::Disc, Ink::Accent)));
         let words = [sentence(present, answer), outside_in_words(plot, present, answer)].concat();
-        if !words.is_empty() {
-            layers.push((NOW, Layer::Legend(vec![words])));
+        let lines: Vec<String> = [words].into_iter().chain(since(present, answer)).collect();
+        let lines: Vec<String> = lines.into_iter().filter(|line| !line.is_empty()).collect();
+        if !lines.is_empty() {
+            layers.push((NOW, Layer::Legend(lines)));
         }
         let upwards = Upwards::Channel(channels[1], range(plot, present, answer, 1));
         Some(Picture::Axes { upwards, layers, occurrences: None })
@@ -150,13 +156,26 @@ impl Instrument for Ensemble {
         let Some(starts) = starts(plot, present.physics) else { return Need::Nothing };
         let Some(method) = method_named(present.method) else { return Need::Nothing };
         let conditions = PlotConditions::of(present, &plot.seeds);
-        let known = cloud(answer)
-            .filter(|known| known.conditions == conditions && known.origin.time <= present.time);
+        let before = cloud(answer).filter(|known| known.origin.time <= present.time);
+        // by another method a cloud is carried on from where that took over
+        let other = before.filter(|known| known.conditions.differ_in_method_alone(&conditions));
+        let carried_on = other.and_then(|known| {
+            CloudLeg::all((&known.legs, &known.conditions), known.origin.time, present)
+                .map(|legs| (known, legs))
+        });
+        let known = before.filter(|known| {
+            known.conditions == conditions && CloudLeg::are_of_the_motion(&known.legs, present)
+        });
         let is_there = |known: &Cloud| present.running || known.is_at(present.time);
         if known.is_some_and(|known| known.holds(present.time) && is_there(known)) {
             return Need::Held;
         }
-        let origin = match known {
+        let (known, legs) = match (known, carried_on) {
+            (None, Some((known, legs))) => (Some(known), legs),
+            (known, _) => (known, known.map_or_else(Vec::new, |known| known.legs.clone())),
+        };
+        // where it is begun again by another method, it begins as before
+        let origin = match known.or(other) {
             Some(known) => known.origin.clone(),
             None => match CloudOrigin::of(&starts, present, conditions.seeds.last().copied()) {
                 Some(origin) => origin,
@@ -172,6 +191,7 @@ impl Instrument for Ensemble {
             method: (method, present.settings),
             conditions,
             origin,
+            legs,
             now: present.time,
             shown: present.carried,
             // what was known beyond the current time is continued from
@@ -252,6 +272,15 @@ fn starts(plot: &Plot, physics: Physics<'_>) -> Option<Plot> {
 
 fn cloud(answer: Option<&Answer>) -> Option<&Cloud> {
     answer?.of::<Cloud>()
+}
+
+/// Since when the cloud is carried, if that is more than a second of the wall clock after the start of the motion.
+fn since(present: &Present<'_>, answer: Option<&Answer>) -> Option<String> {
+    let run = &present.physics.model.run;
+    let (begun, second) = (cloud(answer)?.origin.time, run.speed.abs());
+    let second = if second.is_finite() { second } else { 0.0 };
+    (begun - run.start > second)
+        .then(|| format!("since t = {}", significant(begun, 4, 1e-3..1e5).replace('-', "−")))
 }
 
 /// The frame that is shown: the last that is not later than the motion, and than what is known of clouds beside this one.

@@ -102,8 +102,10 @@ impl Instrument for Exponents {
         });
         let short = |x: f64| significant(x, 3, 1e-4..1e4);
         let (largest_words, off_words) = (short(*largest), significant(*off, 1, 1e-4..1e4));
+        let settled = found.settled.first().copied().unwrap_or(true);
+        let known = if settled { "" } else { " or more: the average has not settled" };
         let legend = vec![
-            format!("{}: λ = {largest_words} ± {off_words}", word(found.verdict)),
+            format!("{}: λ = {largest_words} ± {off_words}{known}", word(found.verdict)),
             format!("MEGNO {}", short(found.megno)),
             found.reason.clone(),
         ];

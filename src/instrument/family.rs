@@ -2,7 +2,7 @@
 //! coordinate, stable and unstable ones drawn in two styles, folds, period doublings and branchings marked by their names.
 //!
 //! The job closes the orbit near the state at which the picture was begun, or was asked for again, and follows its family in
-//! both directions by pseudo-arclength ([`family`](crate::dynamics::family)). It begins again where a parameter, the method or the initial values
+//! both directions by pseudo-arclength ([`FamilyCourse`](crate::dynamics::FamilyCourse)), in parts that are drawn as they come. It begins again where a parameter, the method or the initial values
 //! change.
 
 mod members;
@@ -24,7 +24,7 @@ use crate::job::{Job, Progress};
 use crate::model::Variation;
 use crate::num::significant;
 use crate::system::{ChannelKind, Form};
-use members::{FamilyMember, FollowedFamily, follow};
+use members::{FamilyMember, FollowedFamily, close, follow_on};
 
 /// The levels of the picture.
 const CURVE: Level = 2;
@@ -86,7 +86,7 @@ impl Instrument for FamilyPlot {
         let conserved =
             physics.equations.energy_rate == Expr::ZERO && physics.model.impulses.is_empty();
         let of_energy = places.iter().filter(|_| conserved).map(|&x| offer(x, None));
-        let parameters = (0..physics.model.parameters.len()).filter(|&i| !is_initial(physics, i));
+        let parameters = (0..physics.model.parameters.len()).filter(|&i| is_in_law(physics, i));
         let of_parameters = parameters
             .filter_map(|index| Some(offer(*places.first()?, Some(Variation::Parameter(index)))));
         of_energy.chain(of_parameters).collect()
@@ -131,6 +131,10 @@ impl Instrument for FamilyPlot {
         let [low, high] = heights(members).unwrap_or([-1.0, 1.0]);
         let mut layers = vec![(NOW, Layer::Line(vec![[now, low], [now, high]], Ink::Level.into()))];
         layers.extend(curves(members).into_iter().map(|curve| (CURVE, curve)));
+        if let [alone] = members {
+            let at = [alone.value, alone.greatest];
+            layers.push((CURVE, Layer::Point(at, MarkerShape::Disc, Ink::Accent)));
+        }
         for member in members {
             let Some(bifurcation) = member.bifurcation else { continue };
             let at = [member.value, member.greatest];
@@ -154,9 +158,13 @@ impl Instrument for FamilyPlot {
         let known = answer.and_then(Answer::of::<ComputedFamily>);
         let holds =
             |known: &&ComputedFamily| known.conditions == conditions && known.asked <= present.time;
-        if known.as_ref().is_some_and(holds) {
-            return Need::Held;
-        }
+        let known = known.filter(holds);
+        // what is there of a family under way is followed on
+        let under_way = match known.map(|known| &known.outcome) {
+            Some(Ok(found)) if !found.is_complete() => answer.cloned(),
+            Some(_) => return Need::Held,
+            None => None,
+        };
         let (Some(channel), Some(method)) = (plot.column(1), method_named(present.method)) else {
             return Need::Nothing;
         };
@@ -175,18 +183,25 @@ impl Instrument for FamilyPlot {
         let (model, equations, system) = (model.clone(), equations.clone(), system.clone());
         // a picture shows no more, and a family has many orbits
         let settings = method.fast(present.settings);
+        let asked = known.map_or(present.time, |known| known.asked);
         let start = Start {
-            time: present.time,
+            time: asked,
             parameters: present.parameters.to_vec(),
             overrides: given(present.physics, |channel| present.value(channel)),
         };
         let job = Job::new("family of orbits", move |progress: &Progress| {
             let system = system.with_cancel(progress.token().clone());
             let physics = Physics { model: &model, equations: &equations, system: &system.into() };
-            let of = (&start, &conditions);
-            let outcome = follow(physics, (method, settings), of, (parameter, channel), progress);
-            let (conditions, asked) = (conditions.clone(), start.time);
-            Answer::new(ComputedFamily { conditions, asked, outcome })
+            let (of, method) = ((&start, &conditions), (method, settings));
+            let known = under_way.as_ref().and_then(Answer::of::<ComputedFamily>);
+            let outcome = match known.and_then(|known| known.outcome.as_ref().ok()) {
+                Some(known) => {
+                    let over = parameter.map(|(index, _)| index);
+                    follow_on(physics, method, (known, &start), over, progress)
+                }
+                None => close(physics, method, of, (parameter, channel), progress),
+            };
+            Answer::new(ComputedFamily { conditions: conditions.clone(), asked, outcome })
         });
         // what a person asks for is computed in any case
         if plot.seeds.is_empty() { Need::Addition(job) } else { Need::Job(job) }
@@ -274,8 +289,8 @@ fn is_followed(plot: &Plot, physics: Physics<'_>) -> bool {
     !plot.over.is_empty() || across.is_some_and(|channel| channel.kind == ChannelKind::Energy)
 }
 
-/// Whether a parameter stands in initial values alone: it changes nothing along a family.
-fn is_initial(physics: Physics<'_>, index: usize) -> bool {
+/// Whether a parameter stands in the law: one of initial values, observables or pictures alone changes nothing along a family.
+fn is_in_law(physics: Physics<'_>, index: usize) -> bool {
     let model = physics.model;
     let Some(parameter) = model.parameters.get(index) else { return false };
     let mut law: Vec<Expr> = model.mechanics.forces().to_vec();
@@ -285,10 +300,7 @@ fn is_initial(physics: Physics<'_>, index: usize) -> bool {
     }
     law.extend(model.constraints.iter().map(|constraint| constraint.expression));
     law.extend(model.events.iter().map(|event| event.when));
-    let has = |all: &[Expr]| all.iter().any(|e| model.pool.depends(*e, parameter.symbol));
-    let initial: Vec<Expr> =
-        model.coordinates.iter().flat_map(|c| [c.initial, c.initial_rate]).collect();
-    has(&initial) && !has(&law)
+    law.iter().any(|&expression| model.pool.depends(expression, parameter.symbol))
 }
 
 /// The quantity whose greatest value is drawn: the one chosen, or the momentum of an angle that rotates.
@@ -326,8 +338,9 @@ fn heights(members: &[FamilyMember]) -> Option<[f64; 2]> {
     let finite = members.iter().map(|member| member.greatest).filter(|x| x.is_finite());
     let (low, high) =
         finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), x| (lo.min(x), hi.max(x)));
-    let margin = MARGIN * (high - low);
-    (low < high).then_some([low - margin, high + margin])
+    // one orbit alone is in the middle
+    let margin = if low < high { MARGIN * (high - low) } else { 1.0 };
+    (low <= high).then_some([low - margin, high + margin])
 }
 
 /// The family as curves, one for each part of the same stability. Between two orbits it is that of the one at which nothing
@@ -387,6 +400,9 @@ fn legend(plot: &Plot, physics: Physics<'_>, answer: Option<&Answer>) -> Vec<Str
     lines.extend(all.iter().take(LISTED).cloned());
     if all.len() > LISTED {
         lines.push(format!("and {} more", all.len() - LISTED));
+    }
+    if !found.is_complete() {
+        lines.push("being followed".to_owned());
     }
     lines.extend(found.ended.iter().cloned());
     lines

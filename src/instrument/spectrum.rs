@@ -282,10 +282,12 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
             format!("halves: ω differs by {apart} ± {error}")
         }),
     );
-    if lines.is_continuous() {
+    if lines.is_continuous() && lines.turns.is_none() {
         all.insert(0, format!("no sum of lines: they leave {:.0} %", 100.0 * lines.part_left()));
     }
-    if lines.lines.is_empty() {
+    if let Some(turns) = lines.turns {
+        all.push(format!("no line: nothing came back, {} of a turn at most", brief(turns)));
+    } else if lines.lines.is_empty() {
         all.push("no line stands out".to_owned());
     }
     let advances = mean(answer).filter(|rate| rate.rate.abs() > rate.error);

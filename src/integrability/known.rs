@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use super::evaluator::ResidueEvaluator;
 use super::law::Law;
 use crate::expr::{Expr, Node, Pool, Symbol, Zero};
-use crate::mechanics::{Equations, in_phase_space};
+use crate::mechanics::{Equations, Flow, in_phase_space};
 
 /// A constant of the motion that the equations already have.
 #[derive(Clone, Debug)]
@@ -36,7 +36,14 @@ pub(super) fn of(
         if !conserved.reason.is_proved() {
             continue;
         }
-        let opened = if law.hamiltonian {
+        // H as it is read best, and not as E with the momenta put in
+        let is_energy = conserved.expression == equations.energy
+            && matches!(equations.flow, Flow::Lagrange { .. });
+        let hamiltonian =
+            (law.hamiltonian && is_energy).then(|| equations.hamiltonian().clone().ok()).flatten();
+        let opened = if let Some(hamiltonian) = hamiltonian {
+            hamiltonian
+        } else if law.hamiltonian {
             match in_phase_space(equations, conserved.expression) {
                 Ok(e) => e,
                 Err(_) => continue,

@@ -261,6 +261,19 @@ pub(crate) fn measure(app: &App, word: &str) -> Option<f64> {
     measured(app, first(app), word)
 }
 
+/// Since when the cloud is carried, where its picture says so.
+fn since(app: &App) -> Option<String> {
+    let lab = app.lab.as_ref().unwrap();
+    let (plot, present) = (&lab.plots[0], lab.present().unwrap());
+    let picture = plot.kind.picture(plot, &present, [f64::NAN; 2], lab.answer(plot));
+    let Some(Picture::Axes { layers, .. }) = picture else { panic!("no picture") };
+    let lines = layers.into_iter().filter_map(|(_, layer)| match layer {
+        Layer::Legend(lines) => Some(lines),
+        _ => None,
+    });
+    lines.flatten().find(|line| line.starts_with("since"))
+}
+
 pub(crate) fn cloud(app: &App) -> Vec<[f64; 2]> {
     let found = layers(app, first(app)).into_iter().find_map(|layer| match layer {
         Layer::Cloud(points) => Some(points.to_vec()),
@@ -288,9 +301,11 @@ fn the_lab_carries_a_cloud_with_the_motion_and_begins_it_anew_where_it_must() {
     let points = cloud(&app);
     let middle = points.iter().map(|at| at[0]).sum::<f64>() / points.len() as f64;
     assert!((middle - own).abs() < 0.05, "{middle} {own}");
+    assert_eq!(since(&app), None);
     // another parameter: a new cloud around where the motion is now
     experiment.execute(Command::Parameter { index: 0, value: 0.5 });
     see(&mut app, &mut experiment, 3.01);
+    assert_eq!(since(&app).as_deref(), Some("since t = 3.01"));
     assert!((measure(&app, "rate").unwrap() + 0.5).abs() < 1e-14);
     assert!(measure(&app, "off").unwrap() < 1e-9);
     // the motion begins again, and so does the cloud
@@ -302,12 +317,44 @@ fn the_lab_carries_a_cloud_with_the_motion_and_begins_it_anew_where_it_must() {
 /// A cloud that is begun anew where the motion passes q = 0 has the size of one that is begun elsewhere: π (0.3)², by the amplitude.
 #[test]
 fn a_cloud_begun_anew_at_zero_keeps_its_size() {
-    let (mut app, _, mut experiment) = opened(oscillator("1/2*q^2", "0*q'"));
+    let (mut app, _, mut experiment) = opened(oscillator("1/2*q^2", "0*c*q'"));
     see(&mut app, &mut experiment, 4.712);
-    experiment.execute(Command::Method("leapfrog".to_owned()));
+    experiment.execute(Command::Parameter { index: 0, value: 0.5 });
     see(&mut app, &mut experiment, 4.713);
     let action = measure(&app, "action").unwrap();
     assert!((action - PI * 0.09).abs() < 1e-2 * action, "{action}");
+}
+
+/// Another method carries a cloud on from where it is: a step of Runge and Kutta multiplies its area by 1 − h⁶/72 + h⁸/576, and
+/// what is expected of it stays that of the beginning.
+#[test]
+fn another_method_carries_the_cloud_on() {
+    let (mut app, _, mut experiment) = opened(oscillator("1/2*q^2", "0"));
+    let begun = measure(&app, "action").unwrap();
+    see(&mut app, &mut experiment, 3.0);
+    let before = cloud(&app);
+    let step: f64 = 0.5;
+    let settings = Settings { step: Some(step), ..Settings::default() };
+    experiment.execute(Command::Method("rk4".to_owned()));
+    experiment.execute(Command::Settings(settings));
+    see(&mut app, &mut experiment, 3.0);
+    let far = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).abs().max((a[1] - b[1]).abs());
+    let moved = before.iter().zip(&cloud(&app)).map(far).fold(0.0, f64::max);
+    assert!(moved < 1e-9, "{moved:e}");
+    assert_eq!(since(&app), None);
+    see(&mut app, &mut experiment, 5.0);
+    let expected = measure(&app, "expected").unwrap();
+    assert!((expected / begun - 1.0).abs() < 1e-9, "{expected} {begun}");
+    let grown = (measure(&app, "action").unwrap() / begun).ln();
+    // steps are cut short where a part of the cloud's course ends
+    let law = (step.powi(8) / 576.0 - step.powi(6) / 72.0).ln_1p() / step;
+    assert!((2.1 * law..0.6 * law).contains(&grown), "{grown} {law}");
+    // the motion begins again by the new method, and so does the cloud
+    experiment.execute(Command::Reset);
+    see(&mut app, &mut experiment, 0.02);
+    see(&mut app, &mut experiment, 1.02);
+    let grown = (measure(&app, "action").unwrap() / measure(&app, "expected").unwrap()).ln();
+    assert!((1.1 * law..0.3 * law).contains(&grown), "{grown} {law}");
 }
 
 /// Seen in its initial values a cloud stands still, point by point; seen in others it does not.

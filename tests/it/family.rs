@@ -154,11 +154,13 @@ fn of_an_angle_that_rotates_the_momentum_is_drawn() {
     }
 }
 
-/// A family is offered over each parameter of the law, however many there are, and over none of initial values alone.
+/// A family is offered over each parameter of the law, however many there are, and over none of initial values or observables
+/// alone.
 #[test]
 fn families_are_offered_over_all_parameters_of_the_law() {
     let text = "title = \"one\"\n[coordinates]\nq = { initial = \"q0\", velocity = 0.0 }\n[parameters]\nq0 = 0.5\n\
-                a = 1.0\nb = 1.0\nc = 1.0\nd = 1.0\n[lagrangian]\n\
+                a = 1.0\nb = 1.0\nc = 1.0\nd = 1.0\nunseen = 1.0\nseen = 2.0\n\
+                [[observables]]\nname = \"scaled\"\nexpression = \"seen*q\"\n[lagrangian]\n\
                 L = \"1/2*a*q'^2 - 1/2*b*q^2 - 1/4*c*q^4 - 1/6*d*q^6\"\n[run]\nuntil = 100.0\n";
     let Prepared { model, equations, system, .. } = prepared(text);
     let physics = Physics { model: &model, equations: &equations, system: &system };

@@ -8,18 +8,21 @@ use phaselab::instrument::{Across, Layer, MarkerShape, Plot, named};
 
 use crate::laboratory::{self, first, open, prepared, see};
 
-/// The lab with the section of a file, and beside it the first picture of a kind whose label begins with this.
-fn opened(text: &str, beside: &str, label: &str) -> App {
+/// The lab with the section of a file, and beside it of some kinds the first picture whose label begins with this.
+fn opened(text: &str, beside: &[(&str, &str)]) -> App {
     let (mut app, mut experiment) = open(prepared(text));
     let lab = app.lab.as_mut().unwrap();
     let physics = lab.loaded.physics();
-    let kind = named(beside).unwrap();
-    let offers = kind.offers(physics);
-    let offer = offers.into_iter().find(|offer| offer.label.starts_with(label)).unwrap();
-    let mut plot = Plot::new(kind, (offer.columns, None), physics.model);
-    plot.over = offer.over;
+    let picture = |&(kind, label): &(&str, &str)| {
+        let kind = named(kind).unwrap();
+        let offers = kind.offers(physics);
+        let offer = offers.into_iter().find(|offer| offer.label.starts_with(label)).unwrap();
+        let mut plot = Plot::new(kind, (offer.columns, None), physics.model);
+        plot.over = offer.over;
+        plot
+    };
     let section = Plot::opening(physics).into_iter().find(|plot| plot.kind.is_section()).unwrap();
-    lab.plots = vec![section, plot];
+    lab.plots = [section].into_iter().chain(beside.iter().map(picture)).collect();
     see(&mut app, &mut experiment, 0.01);
     app
 }
@@ -56,7 +59,7 @@ fn the_orbit_b_is_marked_where_it_is_published() {
         )
     };
     for (direction, count) in [("rising", 1), ("falling", 1), ("either", 2)] {
-        let app = opened(&text(direction), "orbit", "orbit");
+        let app = opened(&text(direction), &[("orbit", "orbit")]);
         let points = marked(&app);
         assert_eq!(points.len(), count, "{direction}: {points:?}");
         assert_eq!(measure(&app, "periodic"), Some(count as f64));
@@ -73,7 +76,7 @@ fn a_driven_oscillation_is_a_point_of_a_stroboscope() {
                 [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\ndissipation = \"g*x'^2\"\nforces = { x = \"cos(w*t)\" }\n\
                 [[views]]\nkind = \"section\"\non = \"sin(w*t)\"\ndirection = \"falling\"\nx = \"x\"\ny = \"x'\"\n\
                 [run]\nuntil = 100.0\n";
-    let app = opened(text, "orbit", "orbit");
+    let app = opened(text, &[("orbit", "orbit")]);
     let points = marked(&app);
     let (g, w) = (0.2, 0.7);
     let (re, im) = (1.0 - w * w, 2.0 * g * w);
@@ -92,7 +95,7 @@ fn a_stroboscope_shows_as_much_as_the_motion_will_reach() {
                 [lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\ndissipation = \"g*x'^2\"\nforces = { x = \"cos(w*t)\" }\n\
                 [[views]]\nkind = \"section\"\non = \"sin(w*t)\"\ndirection = \"falling\"\nx = \"x\"\ny = \"x'\"\n\
                 [run]\nuntil = 100.0\n";
-    let app = opened(text, "orbit", "orbit");
+    let app = opened(text, &[("orbit", "orbit")]);
     let lab = app.lab.as_ref().unwrap();
     let plot = &lab.plots[0];
     let across = plot.kind.across(plot, &lab.present().unwrap(), lab.answer(plot));
@@ -113,7 +116,7 @@ fn cycles_of_the_standard_map_have_their_points() {
         )
     };
     // θ → θ + p, p → p + K sin θ: from (0, π) to (π, π) and back
-    let app = opened(&text(0.02, PI - 0.01), "orbit", "orbit");
+    let app = opened(&text(0.02, PI - 0.01), &[("orbit", "orbit")]);
     let mut points = marked(&app);
     assert_eq!(points.len(), 2, "{points:?}");
     points.sort_by(|a, b| a.0[0].rem_euclid(TAU).total_cmp(&b.0[0].rem_euclid(TAU)));
@@ -130,7 +133,7 @@ fn a_family_is_a_curve_through_the_section() {
                 [hamiltonian]\nH = \"1/2*(p_x^2 + p_y^2) + 1.2*x^2 + 1/2*y^2 + 1/4*y^4\"\n\
                 [[views]]\nkind = \"section\"\non = \"p_y\"\ndirection = \"falling\"\nx = \"y\"\ny = \"energy\"\n\
                 [run]\nuntil = 100.0\n";
-    let app = opened(text, "family", "family of orbits: y");
+    let app = opened(text, &[("family", "family of orbits: y"), ("orbit", "orbit")]);
     let lines: Vec<_> = layers(&app)
         .into_iter()
         .filter_map(|layer| match layer {
@@ -143,7 +146,7 @@ fn a_family_is_a_curve_through_the_section() {
     for [y, energy] in &lines[0] {
         assert!((0.5 * y * y + 0.25 * y.powi(4) - energy).abs() < 1e-7, "{y} {energy}");
     }
-    // the orbit itself, at the energy of the motion
+    // the orbit itself, at the energy of the motion, is marked once, though it has a picture of its own
     let points = marked(&app);
     assert_eq!(points.len(), 1, "{points:?}");
     assert!((points[0].0[0] - 0.5).abs() < 1e-9, "{points:?}");

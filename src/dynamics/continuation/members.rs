@@ -6,8 +6,9 @@ use super::super::error::DynamicsError;
 use super::super::family::{Bifurcation, Member};
 use super::{Continuation, FamilyPoint};
 
-/// The halvings that locate a bifurcation.
-const HALVINGS: usize = 30;
+/// A bifurcation is located to this part of a step, in so many tries at most.
+const LOCATED: f64 = 1e-9;
+const MOST: usize = 40;
 
 impl Continuation<'_> {
     /// Collects the members between two points, in their order.
@@ -41,61 +42,74 @@ impl Continuation<'_> {
             specials.push((Bifurcation::Branching, Box::new(test)));
         }
         for (kind, test) in specials {
-            let (mut a, mut b) = (0.0, step);
-            let below = test(from)? < 0.0;
-            let mut last = None;
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (a + b);
-                let Some((point, _)) = self.onwards(from, middle)? else { break };
-                if (test(&point)? < 0.0) == below {
-                    a = middle;
-                } else {
-                    b = middle;
-                }
-                last = Some((middle, point));
-            }
-            if let Some((part, point)) = last
+            let close = |_: &FamilyPoint, moved: f64| moved <= LOCATED * step;
+            let located = self.located((from, to, step), &*test, &close)?;
+            if let Some((part, point)) = located
                 && (low..=high).contains(&point.value)
             {
-                let member =
-                    Member { value: point.value, orbit: point.orbit, bifurcation: Some(kind) };
-                found.push((part, member));
+                let value = point.value;
+                let orbit = self.member(from, point)?;
+                found.push((part, Member { value, orbit, bifurcation: Some(kind) }));
             }
         }
         for &value in self.values {
             if (from.value < value) == (to.value < value) || from.value == value {
                 continue;
             }
-            let (mut a, mut b) = (0.0, step);
-            let (mut fa, mut fb) = (from.value - value, to.value - value);
-            let mut last = (step, to.clone());
-            // the rule of false position, with the weight of an end that stays halved
-            for _ in 0..30 {
-                if fb == 0.0 {
-                    break;
-                }
-                let middle = a + (b - a) * fa / (fa - fb);
-                let Some((point, _)) = self.onwards(from, middle)? else { break };
-                let off = point.value - value;
-                last = (middle, point);
-                if off.abs() <= 1e-12 * value.abs().max(1e-2) {
-                    break;
-                }
-                if (off < 0.0) == (fb < 0.0) {
-                    (b, fb, fa) = (middle, off, 0.5 * fa);
-                } else {
-                    (a, fa, fb) = (middle, off, 0.5 * fb);
-                }
-            }
-            let (part, point) = last;
+            let unit = value.abs().max(1e-2);
+            let close = |point: &FamilyPoint, _: f64| (point.value - value).abs() <= 1e-12 * unit;
+            let off = |point: &FamilyPoint| Ok(point.value - value);
+            let located = self.located((from, to, step), &off, &close)?;
+            let (part, point) = located.unwrap_or_else(|| (step, to.clone()));
             // a member that was not found is left out
-            if (point.value - value).abs() > 1e-9 * value.abs().max(1e-2) {
+            if (point.value - value).abs() > 1e-9 * unit {
                 continue;
             }
-            found.push((part, Member { value, orbit: point.orbit, bifurcation: None }));
+            let orbit = self.member(from, point)?;
+            found.push((part, Member { value, orbit, bifurcation: None }));
         }
         found.sort_by(|x, y| x.0.total_cmp(&y.0));
         members.extend(found.into_iter().map(|(_, member)| member));
         Ok(())
+    }
+
+    /// Where between two points, a step apart, a function changes its sign, by the rule of false position with the weight of
+    /// an end that stays halved, until `close` says of a point, and of how far it lies from the one before, that it is near
+    /// enough. `None` if the family cannot be followed there at all.
+    fn located(
+        &self,
+        (from, to, step): (&FamilyPoint, &FamilyPoint, f64),
+        test: &dyn Fn(&FamilyPoint) -> Result<f64, DynamicsError>,
+        close: &dyn Fn(&FamilyPoint, f64) -> bool,
+    ) -> Result<Option<(f64, FamilyPoint)>, DynamicsError> {
+        let (mut a, mut b) = (0.0, step);
+        let (mut fa, mut fb) = (test(from)?, test(to)?);
+        let mut last = None;
+        let (mut before, mut moved_end) = (f64::INFINITY, None);
+        for _ in 0..MOST {
+            if fb == 0.0 && last.is_none() {
+                return Ok(Some((step, to.clone())));
+            }
+            let middle = a + (b - a) * fa / (fa - fb);
+            let by = from.part_way(to, step, middle / step);
+            let Some((point, _)) = self.corrected(from, &by)? else { break };
+            let value = test(&point)?;
+            let is_close = value == 0.0 || close(&point, (middle - before).abs());
+            last = Some((middle, point));
+            before = middle;
+            if is_close {
+                break;
+            }
+            let moves_end = (value < 0.0) == (fb < 0.0);
+            // an end that stays twice counts half
+            let weight = if moved_end == Some(moves_end) { 0.5 } else { 1.0 };
+            if moves_end {
+                (b, fb, fa) = (middle, value, weight * fa);
+            } else {
+                (a, fa, fb) = (middle, value, weight * fb);
+            }
+            moved_end = Some(moves_end);
+        }
+        Ok(last)
     }
 }

@@ -149,6 +149,8 @@ impl IntegrationConstants {
                 left: None,
                 drift: f64::NAN,
                 max_drift: f64::NAN,
+                // what was seen is that of the constant of this branch
+                history: Arc::default(),
                 ..gauge
             }
         });

@@ -6,6 +6,8 @@ use std::sync::Arc;
 
 use super::super::conditions::PlotConditions;
 use super::super::{Answer, Physics, Plot};
+use super::frame::{CloudFrame, extent};
+use super::leg::CloudLeg;
 use super::origin::CloudOrigin;
 use crate::dynamics::{PhaseSpace, conformal_rate};
 use crate::ensemble::{Carried, Circulation, ClosedCurve, SystemFlow};
@@ -32,9 +34,6 @@ const EFFORT: f64 = 1000.0;
 /// The states of a cloud that are looked at for the rate at which areas shrink.
 const PROBES: usize = 16;
 
-/// How far from the middle half of the cloud its bulk reaches, in widths of that half. Evenly spread points reach half of one.
-const FENCES: f64 = 3.0;
-
 /// A cloud under way.
 pub(super) struct Cloud {
     pub(super) conditions: PlotConditions,
@@ -54,6 +53,8 @@ pub(super) struct Cloud {
     /// The extent of the bulk in all that was seen.
     pub(super) extent: [[f64; 2]; 2],
     pub(super) failure: Option<String>,
+    /// The methods by which it was carried before that of now.
+    pub(super) legs: Vec<CloudLeg>,
 }
 
 /// Where a cloud is at one time, to be carried on from.
@@ -63,17 +64,6 @@ struct CloudStage {
     /// The motion that they were spread around.
     own: Option<State>,
     curve: Option<ClosedCurve>,
-}
-
-/// What is seen at one time.
-#[derive(Clone)]
-pub(super) struct CloudFrame {
-    pub(super) time: f64,
-    pub(super) cloud: Arc<Vec<[f64; 2]>>,
-    pub(super) curve: Arc<Vec<[f64; 2]>>,
-    pub(super) action: Option<Circulation>,
-    /// The motion at this time.
-    pub(super) own: [f64; 2],
 }
 
 impl Cloud {
@@ -110,6 +100,7 @@ pub(super) struct CloudTask {
     pub(super) method: (&'static Method, Settings),
     pub(super) conditions: PlotConditions,
     pub(super) origin: CloudOrigin,
+    pub(super) legs: Vec<CloudLeg>,
     pub(super) now: f64,
     /// The time of what is shown, which is earlier where clouds are behind the motion.
     pub(super) shown: f64,
@@ -125,33 +116,66 @@ impl CloudTask {
     pub(super) fn run(&self, progress: &Progress) -> Cloud {
         let known = self.known.as_ref().and_then(Answer::of::<Cloud>);
         match known {
+            Some(known) if known.conditions != self.conditions => {
+                self.next(Some(&self.up_to_here(known)), progress)
+            }
             Some(known) if known.holds(self.now) => self.exact(known, progress),
             _ => self.next(known, progress),
         }
     }
 
-    /// The flow, and the shortest time of a part.
-    fn flow(&self, progress: &Progress) -> (SystemFlow, f64) {
+    /// A cloud that another method carries on: what is known of it up to where that took over.
+    fn up_to_here(&self, known: &Cloud) -> Cloud {
+        let until = self.legs.last().map_or(self.origin.time, |leg| leg.until);
+        let stages = known.stages.iter().filter(|stage| stage.time <= until).cloned().collect();
+        let frames = known.frames.iter().filter(|frame| frame.time <= until).cloned().collect();
+        Cloud {
+            conditions: self.conditions.clone(),
+            origin: known.origin.clone(),
+            asked: known.asked,
+            end: known.end.min(until),
+            frames,
+            spacing: known.spacing,
+            stages,
+            first: known.first,
+            rate: known.rate,
+            extent: known.extent,
+            failure: None,
+            legs: self.legs.clone(),
+        }
+    }
+
+    /// The methods in their order, each with the time up to which it carries the cloud.
+    fn methods(&self) -> Vec<CloudLeg> {
+        let now = CloudLeg { until: f64::INFINITY, method: self.method };
+        self.legs.iter().cloned().chain([now]).collect()
+    }
+
+    /// The shortest time of a part.
+    fn least(&self) -> f64 {
+        let speed = Some(self.model.run.speed).filter(|s| s.is_finite() && *s > 0.0);
+        FRAMES as f64 * speed.unwrap_or(1.0) / RATE
+    }
+
+    /// The flow by a method.
+    fn flow(&self, method: (&'static Method, Settings), progress: &Progress) -> SystemFlow {
         let flow = SystemFlow {
             system: self.system.with_cancel(progress.token().clone()),
-            method: self.method,
+            method,
             parameters: self.conditions.parameters.clone(),
             start: self.model.run.start,
             effort: None,
         };
-        let flow = match self.state(self.origin.centre) {
+        match self.state(self.origin.centre) {
             Some(centre) => flow.settled(&centre).fast(),
             None => flow.fast(),
-        };
-        let speed = Some(self.model.run.speed).filter(|s| s.is_finite() && *s > 0.0);
-        (flow, FRAMES as f64 * speed.unwrap_or(1.0) / RATE)
+        }
     }
 
     /// The next part, about twice as long as the motion took since the last was asked for.
     fn next(&self, known: Option<&Cloud>, progress: &Progress) -> Cloud {
-        let (flow, least) = self.flow(progress);
         let passed = known.map_or(0.0, |known| self.now - known.asked);
-        let spacing = frame_spacing(passed, least);
+        let spacing = frame_spacing(passed, self.least());
         // clouds of the same beginning have frames at the same times
         let place = |time: f64| ((time - self.origin.time) / spacing + 1e-6).floor();
         let place =
@@ -164,7 +188,7 @@ impl CloudTask {
         if stages.is_empty() {
             stages.push(Arc::clone(&begin));
         }
-        let (end, new, failure) = self.carry(&begin, &times, (flow, least), progress);
+        let (end, new, failure) = self.carry(&begin, &times, progress);
         let known_frames = known.map_or(&[][..], |known| &known.frames);
         let seen = known_frames.iter().rposition(|frame| frame.time <= self.shown).unwrap_or(0);
         let old = known_frames.iter().skip(seen).filter(|frame| frame.time < first).cloned();
@@ -174,7 +198,7 @@ impl CloudTask {
         let earliest = frames.first().map_or(first, |frame| frame.time);
         let needed = stages.iter().rposition(|stage| stage.time <= earliest).unwrap_or(0);
         stages.drain(..needed);
-        stages.push(Arc::new(end));
+        stages.push(end);
         let start = |s: f64| self.state(self.origin.boundary(s));
         Cloud {
             conditions: self.conditions.clone(),
@@ -192,6 +216,7 @@ impl CloudTask {
             stages,
             extent,
             failure,
+            legs: self.legs.clone(),
         }
     }
 
@@ -199,7 +224,7 @@ impl CloudTask {
     fn exact(&self, known: &Cloud, progress: &Progress) -> Cloud {
         let before = known.stages.iter().rfind(|stage| stage.time <= self.now);
         let begin = before.map_or_else(|| Arc::new(self.beginning()), Arc::clone);
-        let (_, new, failure) = self.carry(&begin, &[self.now], self.flow(progress), progress);
+        let (_, new, failure) = self.carry(&begin, &[self.now], progress);
         let mut frames = known.frames.clone();
         frames.extend(new);
         frames.sort_by(|a, b| a.time.total_cmp(&b.time));
@@ -215,6 +240,7 @@ impl CloudTask {
             first: known.first,
             rate: known.rate,
             failure,
+            legs: self.legs.clone(),
         }
     }
 
@@ -231,17 +257,60 @@ impl CloudTask {
         }
     }
 
-    /// A cloud carried on through these times: where it is then, what is seen of it, and what failed.
+    /// A cloud carried on through these times, by each method as far as that goes: where it is then, what is seen of it, and
+    /// what failed.
     fn carry(
         &self,
+        begin: &Arc<CloudStage>,
+        times: &[f64],
+        progress: &Progress,
+    ) -> (Arc<CloudStage>, Vec<CloudFrame>, Option<String>) {
+        let (mut here, mut frames) = (Arc::clone(begin), Vec::new());
+        let last = times.last().copied().unwrap_or(begin.time);
+        for (number, leg) in self.methods().iter().enumerate() {
+            let seen = frames.len();
+            let within = times[seen..].iter().copied().take_while(|&time| time <= leg.until);
+            let mut part: Vec<f64> = within.collect();
+            let count = part.len();
+            if leg.until < last && leg.until > here.time && part.last() != Some(&leg.until) {
+                part.push(leg.until);
+            }
+            if part.is_empty() {
+                continue;
+            }
+            let (end, new, failure) = self.carry_by((number, leg), &here, &part, progress);
+            here = Arc::new(end);
+            frames.extend(new.into_iter().take(count));
+            if failure.is_some() {
+                return (here, frames, failure);
+            }
+        }
+        (here, frames, None)
+    }
+
+    /// The start of the curve at s where a method took over: carried there by those before it.
+    fn start(&self, s: f64, before: &[(f64, SystemFlow)]) -> Option<State> {
+        let state = self.state(self.origin.boundary(s))?;
+        before.iter().try_fold(state, |state, (until, flow)| flow.carry(&state, &[*until], &[]).end)
+    }
+
+    /// The same by one method.
+    fn carry_by(
+        &self,
+        (number, leg): (usize, &CloudLeg),
         begin: &CloudStage,
         times: &[f64],
-        (mut flow, least): (SystemFlow, f64),
         progress: &Progress,
     ) -> (CloudStage, Vec<CloudFrame>, Option<String>) {
+        let mut flow = self.flow(leg.method, progress);
+        let before: Vec<(f64, SystemFlow)> = self.legs[..number]
+            .iter()
+            .map(|leg| (leg.until, self.flow(leg.method, progress)))
+            .collect();
+        let least = self.least();
         let end = times.last().copied().unwrap_or(begin.time);
         let seconds = |from: f64| (end - from) / least * FRAMES as f64 / RATE;
-        flow.effort = self.effort(seconds(begin.time));
+        flow.effort = effort(leg.method.0, seconds(begin.time));
         let count = begin.points.len() as u64;
         let on_curve = begin.curve.as_ref().map_or(0, |curve| curve.len() as u64);
         // one more for what is left to do at the end
@@ -254,9 +323,9 @@ impl CloudTask {
         };
         let own = begin.own.as_ref();
         let own = own.map_or_else(Carried::default, |own| flow.carry(own, times, &self.axes()));
-        let start = |s: f64| self.state(self.origin.boundary(s));
+        let start = |s: f64| self.start(s, &before);
         // starts that are put between others come from the beginning
-        flow.effort = self.effort(seconds(self.origin.time));
+        flow.effort = effort(leg.method.0, seconds(self.origin.time));
         let mut curve = begin.curve.clone();
         let mut report = |done: Option<u64>| match done {
             Some(done) => progress.reach(count + done),
@@ -283,12 +352,6 @@ impl CloudTask {
         let frames = times.iter().enumerate().map(frame).collect();
         let points = carried.into_iter().map(|one| one.end).collect();
         (CloudStage { time: end, points, own: own.end, curve }, frames, failure)
-    }
-
-    /// The most steps of a point in so many seconds of the wall clock; those of a fixed step are known beforehand.
-    fn effort(&self, seconds: f64) -> Option<u64> {
-        let adapts = self.method.0.stepping == Stepping::Adaptive;
-        adapts.then(|| (EFFORT * seconds.max(1.0)).ceil() as u64)
     }
 
     fn state(&self, at: [f64; 2]) -> Option<State> {
@@ -348,6 +411,12 @@ impl CloudTask {
     }
 }
 
+/// The most steps of a point in so many seconds of the wall clock; those of a fixed step are known beforehand.
+fn effort(method: &Method, seconds: f64) -> Option<u64> {
+    let adapts = method.stepping == Stepping::Adaptive;
+    adapts.then(|| (EFFORT * seconds.max(1.0)).ceil() as u64)
+}
+
 /// The time between frames of a part that is twice as long as the time `passed`, or `least`: the shortest, or so often twice as
 /// long that the frames of every part are among those of the shortest.
 fn frame_spacing(passed: f64, least: f64) -> f64 {
@@ -357,31 +426,4 @@ fn frame_spacing(passed: f64, least: f64) -> f64 {
         spacing *= 2.0;
     }
     spacing
-}
-
-/// The extent of the bulk in all that was seen, with what is in these frames. Few that escape do not make it wider: a point
-/// belongs to the bulk that is no farther from the middle half of the cloud than [`FENCES`] of its width.
-fn extent(known: Option<[[f64; 2]; 2]>, frames: &[CloudFrame]) -> [[f64; 2]; 2] {
-    let mut extent = known.unwrap_or([[f64::INFINITY, f64::NEG_INFINITY]; 2]);
-    for frame in frames {
-        for (axis, ends) in extent.iter_mut().enumerate() {
-            let finite = |at: &[f64; 2]| Some(at[axis]).filter(|x| x.is_finite());
-            let mut seen: Vec<f64> = frame.cloud.iter().filter_map(finite).collect();
-            if seen.is_empty() {
-                seen = frame.curve.iter().filter_map(finite).collect();
-            }
-            seen.sort_by(f64::total_cmp);
-            let (Some(lower), Some(upper)) =
-                (seen.get(seen.len() / 4), seen.get(3 * seen.len() / 4))
-            else {
-                continue;
-            };
-            let fence = FENCES * (upper - lower);
-            let bulk = lower - fence..=upper + fence;
-            for x in seen.iter().filter(|x| bulk.contains(x)) {
-                *ends = [ends[0].min(*x), ends[1].max(*x)];
-            }
-        }
-    }
-    extent
 }

@@ -8,8 +8,10 @@ use std::sync::Arc;
 use super::super::closed_orbit::{ClosedOrbit, closed_orbit};
 use super::super::conditions::PlotConditions;
 use super::super::orbit_crossings::periodic_points;
-use super::super::{PeriodicOrbits, Physics};
-use crate::dynamics::{Along, Bifurcation, Member, Orbit, drive_period, driven_family, family};
+use super::super::{PeriodicOrbits, PeriodicPoints, Physics};
+use crate::dynamics::{
+    Along, Bifurcation, DrivePeriod, FamilyCourse, Fixed, Member, Orbit, PhaseSpace, drive_period,
+};
 use crate::ensemble::{Start, SystemFlow};
 use crate::integrate::{Method, Settings};
 use crate::job::Progress;
@@ -29,6 +31,10 @@ const CLOSING: u64 = 100;
 /// The points of an orbit of which the greatest is taken.
 const POINTS: usize = 512;
 
+/// The steps to either side in the first part, after the orbit alone, and the most in one.
+const FIRST_STEPS: usize = 2;
+const MOST_STEPS: usize = 64;
+
 /// A family, in the order along it.
 pub(super) struct FollowedFamily {
     pub(super) range: [f64; 2],
@@ -41,6 +47,27 @@ pub(super) struct FollowedFamily {
     pub(super) ended: Vec<String>,
     /// Where its orbits cross the surfaces of section.
     pub(super) periodic: Arc<PeriodicOrbits>,
+    /// What it is followed on from; `None` once that is done.
+    way: Option<FamilyWay>,
+}
+
+/// A family under way.
+#[derive(Clone)]
+struct FamilyWay {
+    space: PhaseSpace,
+    fixed: Fixed,
+    course: FamilyCourse,
+    /// The steps of the next part.
+    steps: usize,
+    /// Where the orbit begun with crosses the surfaces of section.
+    orbit: PeriodicPoints,
+}
+
+impl FollowedFamily {
+    /// Whether there is no more to follow.
+    pub(super) fn is_complete(&self) -> bool {
+        self.way.is_none()
+    }
 }
 
 /// What is drawn and written of an orbit.
@@ -56,8 +83,8 @@ pub(super) struct FamilyMember {
     pub(super) bifurcation: Option<Bifurcation>,
 }
 
-/// Closes the orbit near a start, and follows its family.
-pub(super) fn follow(
+/// Closes the orbit near a start.
+pub(super) fn close(
     physics: Physics<'_>,
     method: (&'static Method, Settings),
     (start, conditions): (&Start, &PlotConditions),
@@ -68,38 +95,67 @@ pub(super) fn follow(
     let closing = |done: u64, all: u64| progress.reach(CLOSING * done / all.max(1));
     let found = closed_orbit(physics, method, (start, conditions), &closing);
     let ClosedOrbit { space, orbit, fixed } = found.map_err(|why| why.to_string())?;
-    let look = |part: f64| progress.reach(CLOSING + ((PARTS - CLOSING) as f64 * part) as u64);
-    let (along, range) = match parameter {
-        Some((index, range)) => (Along::Parameter(index), range),
+    let (first, range) = match parameter {
+        Some((index, range)) => (start.parameters[index], range),
         None => {
             // of a small oscillation this is its energy above the bottom
             let height = orbit.action.map(|action| (action / orbit.period).abs());
             let height = height.filter(|height| height.is_normal());
             let height = height.ok_or("without the action of the orbit no range of E is known")?;
-            (Along::Energy, [orbit.energy - BELOW * height, orbit.energy + ABOVE * height])
+            (orbit.energy, [orbit.energy - BELOW * height, orbit.energy + ABOVE * height])
         }
     };
-    let first = match along {
-        Along::Parameter(index) => start.parameters[index],
-        Along::Energy | Along::Period => orbit.energy,
-    };
-    let [from, to] = range;
-    let value = |k: usize| from + (to - from) * k as f64 / INTERVALS as f64;
-    let values: Vec<f64> = (0..=INTERVALS).map(value).collect();
-    let drive = |parameters: &[f64]| {
-        drive_period(physics.model, physics.equations, space.system(), parameters)
-    };
-    let found = if space.is_autonomous() {
-        family(&space, method, &orbit, (along, fixed), (&values, &look))
-    } else {
-        driven_family(&space, method, &orbit, (along, &drive), (&values, &look))
-    };
-    let found = found.map_err(|why| why.to_string())?;
     let channel = if rotates(physics, (method.0, &start.parameters), &orbit, coordinate) {
         rate(physics, coordinate)
     } else {
         coordinate
     };
+    let points = periodic_points(physics, method.0, &orbit, &start.parameters);
+    let alone = Member { value: first, orbit: orbit.clone(), bifurcation: None };
+    let members = vec![seen((physics.system, method.0), &start.parameters, &alone, channel)];
+    let periodic = PeriodicOrbits { orbit: points.clone(), family: Vec::new() };
+    let course = FamilyCourse::new(&orbit);
+    Ok(FollowedFamily {
+        range,
+        first,
+        channel,
+        members,
+        ended: Vec::new(),
+        periodic: Arc::new(periodic),
+        way: Some(FamilyWay { space, fixed, course, steps: FIRST_STEPS, orbit: points }),
+    })
+}
+
+/// Follows a family on, by twice as many steps as before.
+pub(super) fn follow_on(
+    physics: Physics<'_>,
+    method: (&'static Method, Settings),
+    (known, start): (&FollowedFamily, &Start),
+    parameter: Option<usize>,
+    progress: &Progress,
+) -> Result<FollowedFamily, String> {
+    progress.expect(PARTS);
+    progress.reach(CLOSING);
+    let look = |part: f64| progress.reach(CLOSING + ((PARTS - CLOSING) as f64 * part) as u64);
+    let mut way = known.way.clone().ok_or("there is no more to follow")?;
+    let space = way.space.with_cancel(progress.token());
+    let along = parameter.map_or(Along::Energy, Along::Parameter);
+    let [from, to] = known.range;
+    let value = |k: usize| from + (to - from) * k as f64 / INTERVALS as f64;
+    let values: Vec<f64> = (0..=INTERVALS).map(value).collect();
+    let drive = |parameters: &[f64]| {
+        drive_period(physics.model, physics.equations, physics.system, parameters)
+    };
+    let (fixed, drive) = if space.is_autonomous() {
+        (way.fixed, None)
+    } else {
+        (Fixed::Period(way.course.orbit().period), Some(&drive as DrivePeriod<'_>))
+    };
+    let asked = (&values[..], &look as &dyn Fn(f64));
+    let followed = way.course.follow(&space, method, (along, fixed, drive), asked, way.steps);
+    followed.map_err(|why| why.to_string())?;
+    way.steps = (2 * way.steps).min(MOST_STEPS);
+    let found = way.course.family();
     let parameters = |member: &Member| {
         let mut parameters = start.parameters.clone();
         if let Along::Parameter(index) = along {
@@ -107,29 +163,43 @@ pub(super) fn follow(
         }
         parameters
     };
-    let seen = |member: &Member| FamilyMember {
+    let of: (&System, _) = (physics.system, method.0);
+    let members = found.members.iter();
+    let members = members.map(|member| seen(of, &parameters(member), member, known.channel));
+    let members = members.collect();
+    let is_complete = way.course.is_complete();
+    // drawn on sections, where a part of it would be as long to compute each time
+    let crossed =
+        |member: &Member| periodic_points(physics, method.0, &member.orbit, &parameters(member));
+    let family = if is_complete { found.members.iter().map(crossed).collect() } else { Vec::new() };
+    let periodic = PeriodicOrbits { orbit: way.orbit.clone(), family };
+    Ok(FollowedFamily {
+        range: known.range,
+        first: known.first,
+        channel: known.channel,
+        members,
+        ended: found.ended,
+        periodic: Arc::new(periodic),
+        way: (!is_complete).then_some(way),
+    })
+}
+
+/// What is drawn and written of a member at some parameters.
+fn seen(
+    (system, method): (&System, &'static Method),
+    parameters: &[f64],
+    member: &Member,
+    channel: usize,
+) -> FamilyMember {
+    FamilyMember {
         value: member.value,
-        greatest: greatest(physics.system, (method.0, parameters(member)), member, channel),
+        greatest: greatest(system, (method, parameters.to_vec()), member, channel),
         period: member.orbit.period,
         energy: member.orbit.energy,
         trace: member.orbit.transverse.trace(),
         stable: member.orbit.is_stable(),
         bifurcation: member.bifurcation,
-    };
-    let members = found.members.iter().map(seen).collect();
-    let crossed =
-        |orbit: &Orbit, parameters: &[f64]| periodic_points(physics, method.0, orbit, parameters);
-    let family = found.members.iter().map(|member| crossed(&member.orbit, &parameters(member)));
-    let periodic =
-        PeriodicOrbits { orbit: crossed(&orbit, &start.parameters), family: family.collect() };
-    Ok(FollowedFamily {
-        range,
-        first,
-        channel,
-        members,
-        ended: found.ended,
-        periodic: Arc::new(periodic),
-    })
+    }
 }
 
 /// Whether a coordinate is another after a period: an angle that rotates has no greatest value.

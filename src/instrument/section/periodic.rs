@@ -13,11 +13,14 @@ use crate::num::math;
 /// The level of the marks, over the motion's own crossings.
 const MARKS: Level = 4;
 
+/// Points of two orbits that differ by no more than this part of their size are those of one orbit.
+const SAME: f64 = 1e-6;
+
 /// The part of the dots that is drawn of the curve of a family.
 const SPARSE: f64 = 0.5;
 
 /// The points on a surface, in two channels, of each orbit that has the parameters of the motion and, where that is conserved,
-/// its energy.
+/// its energy, once.
 pub(super) fn points<'a>(
     present: &'a Present<'_>,
     section: usize,
@@ -32,7 +35,28 @@ pub(super) fn points<'a>(
         near && orbit.parameters == now.parameters
     };
     let orbits = present.periodic.iter().map(|found| &found.orbit).filter(is_here);
-    orbits.map(move |orbit| (orbit.stable, orbit.on(section, channels).collect()))
+    let all = orbits.map(move |orbit| (orbit.stable, orbit.on(section, channels).collect()));
+    distinct(all.collect()).into_iter()
+}
+
+/// The orbits without those that another picture has found, too, whichever of the points is their first.
+fn distinct(all: Vec<(Option<bool>, Vec<[f64; 2]>)>) -> Vec<(Option<bool>, Vec<[f64; 2]>)> {
+    let sizes = [0, 1].map(|axis| {
+        let values = all.iter().flat_map(|(_, points)| points).map(|at| at[axis].abs());
+        values.fold(0.0, f64::max)
+    });
+    let near = |a: &[f64; 2], b: &[f64; 2]| (0..2).all(|k| (a[k] - b[k]).abs() <= SAME * sizes[k]);
+    let mut kept: Vec<(Option<bool>, Vec<[f64; 2]>)> = Vec::new();
+    for (stable, points) in all {
+        let is_known = kept.iter().any(|(_, known)| {
+            known.len() == points.len()
+                && points.iter().all(|at| known.iter().any(|other| near(at, other)))
+        });
+        if !is_known {
+            kept.push((stable, points));
+        }
+    }
+    kept
 }
 
 /// The layers that show them, and the families.

@@ -274,3 +274,14 @@ fn numbers_with_many_digits_find_what_short_ones_find() {
         }
     }
 }
+
+/// The energy of phase space is written as H is, and not as E with the momenta put in.
+#[test]
+fn the_energy_is_written_as_the_hamiltonian_is() {
+    let derived = phaselab(&["derive", "rotating-frame"]).success();
+    let hamiltonian = derived.lines().find_map(|line| line.trim().strip_prefix("H = "));
+    let known = phaselab(&["invariants", "rotating-frame", "--degree", "1"]).success();
+    let energy = known.lines().find_map(|line| line.trim().strip_prefix("energy = "));
+    assert_eq!(energy, hamiltonian);
+    assert_eq!(energy, Some("((p_x + m ω y)² + (p_y − m ω x)²)/(2 m) + ½ (k − m ω²) (x² + y²)"));
+}

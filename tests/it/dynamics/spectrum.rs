@@ -118,6 +118,23 @@ fn what_is_no_combination_is_not_named_one() {
     assert!((unnamed[0] - 1.423).abs() < 1e-9);
 }
 
+/// What goes away and does not come back has no lines: a straight line, a hyperbola, a part of a turn. Two turns are a line.
+#[test]
+fn what_makes_no_turn_is_no_line() {
+    let away: [&dyn Fn(f64) -> f64; 3] =
+        [&|t| 1.0 + 3.0 * t, &|t| (1.0 + t * t).sqrt(), &|t| (0.02 * t).sin()];
+    for signal in away {
+        let found = lines(signal, 0.05, 1);
+        assert!(
+            found.lines.is_empty() && found.turns.is_some_and(|turns| turns < 1.0),
+            "{found:?}"
+        );
+    }
+    let found = lines(&|t| (0.3 * t).sin(), 0.05, 1);
+    assert!(found.turns.is_none());
+    assert!((found.lines[0].frequency - 0.3).abs() < 1e-9, "{:?}", found.lines);
+}
+
 #[test]
 fn noise_is_told_by_the_error() {
     // pseudo-random numbers beside one line

@@ -301,6 +301,8 @@ fn the_constants_of_a_complete_integral_are_gauged() {
     let beta = gauge(&ball.snapshot(), "beta_alpha");
     assert!(matches!(beta.verdict, Verdict::Broken(_)), "{beta:?}");
     assert_eq!((beta.left, beta.reason.as_str()), (None, "other branch"));
+    // the drift of the first branch is not that of this one
+    assert!(beta.drift.is_nan() && beta.max_drift.is_nan() && beta.history.is_empty());
 
     // to the right from the start until π/4 − β₀ = 0.23, and again after every π of 2t
     let mut oscillator = shipped("oscillator-hamilton-jacobi");
