@@ -161,7 +161,7 @@ impl fmt::Display for MotionError {
                 write!(f, "{name} is no longer finite at t = {time}")?;
             }
             MotionErrorKind::BlowsUp(name) => {
-                write!(f, "{name} grows without bound and reaches infinity at t = {time}")?;
+                write!(f, "the motion grows without bound: {name} reaches infinity at t = {time}")?;
             }
             MotionErrorKind::OutOfRange(Some(name)) => {
                 write!(f, "{name} grows beyond the range of numbers, 1.8e308, after t = {time}")?;
