@@ -97,6 +97,11 @@ fn before_fall(u: &[f64], fall: f64) -> f64 {
         logs[k] = if log.abs() > ROUNDING * size { log } else { 0.0 };
         if logs[k].abs() >= FAINT {
             safe = safe.min(0.5 * math::powf(fall / logs[k].abs(), 1.0 / k as f64));
+            if k >= u.len() / 2 {
+                // a zero of u at a distance r is a term r^−k/k
+                let zero = math::powf(k as f64 * logs[k].abs(), -1.0 / k as f64);
+                safe = safe.min(PART_OF_RADIUS * zero);
+            }
         }
     }
     safe
@@ -144,13 +149,20 @@ mod tests {
         // e^u, of which only ln |e^u| = 1e9 is known, with u′ = 1
         let factorial = |k: usize| (1..=k).map(|i| i as f64).product::<f64>();
         let exponential: Vec<f64> = (0..20).map(|k| 1e300 / factorial(k)).collect();
-        let step = of_argument(FunctionId::Exp, &exponential, Some(1e9));
-        assert!((4e8..1e9).contains(&step), "{step}");
+        let longest = of_argument(FunctionId::Exp, &exponential, Some(1e9));
+        assert!((4e8..1e9).contains(&longest), "{longest}");
         // (1 + t)⁴¹, from 1e60: it has fallen to 750 near t = −0.96
         let mut power = vec![1e60];
         (0..20).for_each(|k| power.push(power[k] * (41 - k) as f64 / (k + 1) as f64));
-        let step = of_argument(FunctionId::Tanh, &power, None);
-        assert!((0.3..0.96).contains(&step), "{step}");
+        let longest = of_argument(FunctionId::Tanh, &power, None);
+        assert!((0.3..0.96).contains(&longest), "{longest}");
+        // 1e300 (1 − t) passes zero at t = 1, whatever the number of its terms
+        for order in [12, 20, 28] {
+            let mut line = vec![0.0; order + 1];
+            (line[0], line[1]) = (1e300, -1e300);
+            let longest = of_argument(FunctionId::Tanh, &line, None);
+            assert!((0.3..0.95).contains(&longest), "{order}: {longest}");
+        }
         near(step(FunctionId::Ln, 100.0), 25.0);
         near(step(FunctionId::Sin, 100.0), 6.0);
     }
