@@ -26,6 +26,9 @@ const NEAR: f64 = (1_i128 << 121) as f64;
 /// A rest up to this size is kept.
 const REST: f64 = (1_i128 << 119) as f64;
 
+/// Beyond this the rest of a sum may be larger: 2¹⁷².
+const EXACT: f64 = REST * (1_i128 << 53) as f64;
+
 /// Where so small a part of two rounded exponents is left it is nothing but their rounding.
 const ROUNDED: f64 = 1e-12;
 
@@ -61,7 +64,7 @@ impl Exponent {
         let sum = DoubleDouble::sum(self.far, other.far);
         let rest = if sum.low.abs() < REST { Some(sum.low as i128) } else { None };
         let largest = self.far.abs().max(other.far.abs());
-        if rest.is_none() && sum.high.abs() < ROUNDED * largest {
+        if largest > EXACT && sum.high != 0.0 && sum.high.abs() < ROUNDED * largest {
             return Exponent { near: 0, far: f64::NAN };
         }
         Exponent { near: near + rest.unwrap_or(0), far: sum.high }.settled()
