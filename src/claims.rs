@@ -7,6 +7,7 @@
 mod brackets;
 mod check;
 mod conservation;
+mod dissipation;
 mod invariants;
 mod motion;
 mod own_method;

@@ -5,6 +5,7 @@
 
 mod batch;
 mod batch_events;
+mod blow_up;
 mod clock;
 mod convergence;
 mod dense_output;
@@ -43,6 +44,7 @@ mod zeno;
 
 pub use batch::BatchPropagator;
 pub use batch_events::LaneEvent;
+pub use blow_up::StoppedMotion;
 pub use clock::spacing;
 pub use dense_output::DenseOutput;
 pub use lane_status::LaneStatus;

@@ -14,6 +14,7 @@ mod convolution;
 mod digest;
 mod double_double;
 mod eigenvalues;
+mod exponent;
 mod extended_range;
 mod finite;
 mod format;

@@ -5,6 +5,7 @@
 
 use super::brackets::false_brackets;
 use super::conservation::{known, open_claims};
+use super::dissipation;
 use super::invariants::false_count;
 use super::motion::ClaimedMotion;
 use super::own_method;
@@ -43,6 +44,7 @@ pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
         }
         Err(diagnostic) => diagnostics.push(diagnostic),
     }
+    diagnostics.extend(dissipation::odd(model));
     for e in mechanics::widened(model, equations) {
         let message = format!(
             "`{}` is under a root that is squared away: the equations continue where it is below zero",

@@ -10,7 +10,9 @@ use nalgebra::DMatrix;
 
 use super::error::DynamicsError;
 use super::phase_space::PhaseSpace;
-use crate::integrate::{Method, OccurrenceKind, Propagator, Reached, Settings, Stepper, Stepping};
+use crate::integrate::{
+    Method, OccurrenceKind, Propagator, Reached, Settings, Stepper, Stepping, StoppedMotion,
+};
 use crate::system::{MotionError, MotionErrorKind, Saltation, State, System};
 
 /// A motion changes within as many steps as these, also where they are short.
@@ -140,7 +142,9 @@ impl Carrier {
             return Err(self.system.fault(kind, state.time, &state.values));
         }
         self.steps += 1;
-        let Some(jumping) = &mut self.jumping else { return self.stepper.step(limit) };
+        let Some(jumping) = &mut self.jumping else {
+            return self.stepper.step(limit).map_err(|fault| self.explained(fault));
+        };
         let begin = jumping.span.1;
         let reached = jumping.motion.reach(limit, limit, &mut 1)?;
         jumping.pending = reached != Reached::There;
@@ -165,6 +169,18 @@ impl Carrier {
         }
         jumping.span = (begin, jumping.motion.undisturbed().1);
         Ok(())
+    }
+
+    /// An error where a motion stops that meets no impulse: one that reaches infinity is reported as such.
+    fn explained(&self, fault: MotionError) -> MotionError {
+        let stopped = StoppedMotion {
+            system: &self.system,
+            method: self.method,
+            stepper: self.stepper.as_ref(),
+            parameters: self.space.parameters(),
+            begun: None,
+        };
+        stopped.blow_up(&fault).unwrap_or(fault)
     }
 
     /// The product of the determinants of the derivatives of all impulses since the start.

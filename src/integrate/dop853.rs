@@ -91,10 +91,10 @@ struct DormandPrince {
     stale: bool,
     /// The longest step since the start.
     longest: f64,
-    /// When a kink was last passed by the shortest of steps.
-    kink: Option<f64>,
     /// The number of short steps in a row that have crossed a kink.
     crossings: u32,
+    /// The switches and roots whose kink lies within the attempted step.
+    parted: (Vec<usize>, Vec<usize>),
 }
 
 impl DormandPrince {
@@ -124,8 +124,8 @@ impl DormandPrince {
             sizes: zeros,
             stale: false,
             longest: 0.0,
-            kink: None,
             crossings: 0,
+            parted: Default::default(),
         })
     }
 
@@ -235,11 +235,7 @@ impl DormandPrince {
             || size < 1e-290
             || (size < self.shortest() && !last)
         {
-            if self.is_beside_a_kink() {
-                MotionErrorKind::Sticks
-            } else {
-                MotionErrorKind::StepUnderflow(step)
-            }
+            MotionErrorKind::StepUnderflow(step)
         } else {
             return Ok(());
         };
@@ -292,7 +288,6 @@ impl Stepper for DormandPrince {
         self.exact.set_parameters(&self.system.inputs(parameters));
         self.size = initial_step::of(&self.system, state, parameters) * FIRST;
         self.longest = 0.0;
-        self.kink = None;
         self.crossings = 0;
         self.noise.fill(0.0);
         self.stale = false;
@@ -335,7 +330,6 @@ impl Stepper for DormandPrince {
             }
             let passes_kink = error > 1.0 && self.passes_kink(step)?;
             if passes_kink {
-                self.kink = Some(time.high);
                 error = 1.0;
             }
             let most = if failures > 0 { 1.0 } else { LONGER };

@@ -8,6 +8,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::convolution::LANES;
 use super::double_double::DoubleDouble;
+use super::exponent::Exponent;
 use super::math;
 use super::real::{Analytic, Real};
 
@@ -15,7 +16,7 @@ use super::real::{Analytic, Real};
 #[derive(Clone, Copy, Debug)]
 pub struct ExtendedRange {
     mantissa: DoubleDouble,
-    exponent: i128,
+    exponent: Exponent,
 }
 
 /// ln 2.
@@ -25,11 +26,8 @@ const LN_2: DoubleDouble =
 /// Adding numbers whose exponents differ by more than this leaves the larger one unchanged.
 const DIGITS: i128 = 220;
 
-/// Exponents beyond this count as infinity, or zero: e^x has an exponent for every |x| below 9e35.
-const LARGEST: i128 = 1 << 120;
-
-/// What the exponent of zero counts as in sums.
-const LOWEST: i128 = i128::MIN / 4;
+/// Beyond this exponent of e^x no digit of the mantissa is known.
+const LARGEST: f64 = (1_i128 << 120) as f64;
 
 /// For an argument of this size e^−x is negligible against e^x, to all digits.
 const LOPSIDED: f64 = 80.0;
@@ -54,10 +52,15 @@ fn scaled(x: f64, n: i128) -> f64 {
 }
 
 impl ExtendedRange {
-    fn new(mantissa: DoubleDouble, exponent: i128) -> ExtendedRange {
-        let high = mantissa.high;
+    fn new(mantissa: DoubleDouble, exponent: Exponent) -> ExtendedRange {
+        let high = match exponent.beyond() {
+            _ if mantissa.high == 0.0 => mantissa.high,
+            0.0 => mantissa.high,
+            f64::NEG_INFINITY if mantissa.high.is_finite() => 0.0,
+            beyond => mantissa.high * beyond,
+        };
         if high == 0.0 || !high.is_finite() {
-            return ExtendedRange { mantissa: DoubleDouble::from(high), exponent: 0 };
+            return ExtendedRange::moderate(DoubleDouble::from(high));
         }
         let field = i128::from(high.to_bits() >> 52 & 0x7FF);
         if field == 0 {
@@ -65,35 +68,35 @@ impl ExtendedRange {
                 high: high * power_of_two(200),
                 low: mantissa.low * power_of_two(200),
             };
-            return ExtendedRange::new(raised, exponent - 200);
+            return ExtendedRange::new(raised, exponent.plus(Exponent::of(-200)));
         }
         let n = field - 1023;
-        let exponent = exponent + n;
-        if exponent > LARGEST {
-            return ExtendedRange {
-                mantissa: DoubleDouble::from(f64::INFINITY.copysign(high)),
-                exponent: 0,
-            };
-        }
-        if exponent < -LARGEST {
-            return ExtendedRange { mantissa: DoubleDouble::ZERO, exponent: 0 };
-        }
         if n == 0 {
             return ExtendedRange { mantissa, exponent };
         }
         let mantissa = DoubleDouble { high: scaled(high, -n), low: scaled(mantissa.low, -n) };
-        ExtendedRange { mantissa, exponent }
+        ExtendedRange { mantissa, exponent: exponent.plus(Exponent::of(n)) }
     }
 
-    /// The exponent, or for zero one lower than that of any other number.
-    fn order(self) -> i128 {
-        if self.mantissa.high == 0.0 { LOWEST } else { self.exponent }
+    /// A number within the range of `f64`, or zero, or one that is not finite.
+    fn moderate(number: DoubleDouble) -> ExtendedRange {
+        if number.high == 0.0 || !number.high.is_finite() {
+            let mantissa = DoubleDouble::from(number.high);
+            return ExtendedRange { mantissa, exponent: Exponent::ZERO };
+        }
+        ExtendedRange::new(number, Exponent::ZERO)
     }
 
-    /// The number in units of `2^exponent`.
-    fn in_units(self, exponent: i128) -> DoubleDouble {
-        let shift = self.order() - exponent;
-        if shift < -DIGITS && self.mantissa.high.is_finite() {
+    /// By how much its exponent is above that of another, neither of which is zero.
+    fn above(self, other: ExtendedRange) -> i128 {
+        self.exponent.minus(other.exponent).moderate()
+    }
+
+    /// The number in units of the power of two in another one that is not zero.
+    fn in_units_of(self, other: ExtendedRange) -> DoubleDouble {
+        let shift = self.above(other);
+        let negligible = self.mantissa.high == 0.0 || shift < -DIGITS;
+        if negligible && self.mantissa.high.is_finite() {
             return DoubleDouble::ZERO;
         }
         let high = scaled(self.mantissa.high, shift);
@@ -103,12 +106,19 @@ impl ExtendedRange {
 
     /// Applies a function that accepts moderate numbers only.
     fn by(self, function: impl Fn(DoubleDouble) -> DoubleDouble) -> ExtendedRange {
-        ExtendedRange::new(function(self.double()), 0)
+        ExtendedRange::moderate(function(self.double()))
     }
 
     /// Returns whether it is so small that odd functions of slope 1 leave it unchanged.
     fn is_tiny(self) -> bool {
-        self.order() < TINY
+        self.mantissa.high == 0.0 || self.exponent.moderate() < TINY
+    }
+
+    /// The one of two numbers whose exponent is larger, or that is not zero.
+    fn larger(self, other: ExtendedRange) -> ExtendedRange {
+        let own =
+            other.mantissa.high == 0.0 || (self.mantissa.high != 0.0 && self.above(other) >= 0);
+        if own { self } else { other }
     }
 
     fn whole_power(self, n: u32) -> ExtendedRange {
@@ -124,18 +134,27 @@ impl ExtendedRange {
     }
 }
 
+/// x/ln 2 for a large x. The parts of a product are found by splitting, which overflows before the product does.
+fn quotient_by_ln_2(x: DoubleDouble) -> DoubleDouble {
+    (x.scaled(FAR_UNIT.recip()) / LN_2).scaled(FAR_UNIT)
+}
+
+/// 2¹⁰⁰.
+const FAR_EXPONENT: i128 = 100;
+const FAR_UNIT: f64 = (1_i128 << FAR_EXPONENT) as f64;
+
 impl Add for ExtendedRange {
     type Output = ExtendedRange;
     fn add(self, other: ExtendedRange) -> ExtendedRange {
         let (a, b) = (self.mantissa.high, other.mantissa.high);
         if !a.is_finite() || !b.is_finite() {
-            return ExtendedRange { mantissa: DoubleDouble::from(a + b), exponent: 0 };
+            return ExtendedRange::moderate(DoubleDouble::from(a + b));
         }
-        let unit = self.order().max(other.order());
-        if unit == LOWEST {
+        if a == 0.0 && b == 0.0 {
             return ExtendedRange::ZERO;
         }
-        ExtendedRange::new(self.in_units(unit) + other.in_units(unit), unit)
+        let larger = self.larger(other);
+        ExtendedRange::new(self.in_units_of(larger) + other.in_units_of(larger), larger.exponent)
     }
 }
 
@@ -156,7 +175,7 @@ impl Neg for ExtendedRange {
 impl Mul for ExtendedRange {
     type Output = ExtendedRange;
     fn mul(self, other: ExtendedRange) -> ExtendedRange {
-        ExtendedRange::new(self.mantissa * other.mantissa, self.exponent + other.exponent)
+        ExtendedRange::new(self.mantissa * other.mantissa, self.exponent.plus(other.exponent))
     }
 }
 
@@ -166,7 +185,7 @@ impl Div for ExtendedRange {
         if other.mantissa.high.is_infinite() && self.mantissa.high.is_finite() {
             return ExtendedRange::ZERO;
         }
-        ExtendedRange::new(self.mantissa / other.mantissa, self.exponent - other.exponent)
+        ExtendedRange::new(self.mantissa / other.mantissa, self.exponent.minus(other.exponent))
     }
 }
 
@@ -188,32 +207,38 @@ impl Real for ExtendedRange {
     const UNBOUNDED: bool = true;
 
     fn value(self) -> f64 {
-        scaled(self.mantissa.high, self.exponent)
+        scaled(self.mantissa.high, self.exponent.moderate())
     }
 
     fn double(self) -> DoubleDouble {
         let high = self.value();
-        let low = if high.is_finite() { scaled(self.mantissa.low, self.exponent) } else { 0.0 };
+        let low = if high.is_finite() {
+            scaled(self.mantissa.low, self.exponent.moderate())
+        } else {
+            0.0
+        };
         DoubleDouble { high, low }
     }
 }
 
 impl Analytic for ExtendedRange {
-    const ZERO: ExtendedRange = ExtendedRange { mantissa: DoubleDouble::ZERO, exponent: 0 };
-    const ONE: ExtendedRange = ExtendedRange { mantissa: DoubleDouble::ONE, exponent: 0 };
+    const ZERO: ExtendedRange =
+        ExtendedRange { mantissa: DoubleDouble::ZERO, exponent: Exponent::ZERO };
+    const ONE: ExtendedRange =
+        ExtendedRange { mantissa: DoubleDouble::ONE, exponent: Exponent::ZERO };
     type Unit = f64;
     type Lanes = [ExtendedRange; LANES];
     const ZEROS: [ExtendedRange; LANES] = [ExtendedRange::ZERO; LANES];
     const SIDE: usize = LANES;
 
     fn of(x: DoubleDouble) -> ExtendedRange {
-        ExtendedRange::new(x, 0)
+        ExtendedRange::moderate(x)
     }
 
     fn sqrt(self) -> ExtendedRange {
-        let odd = self.exponent.rem_euclid(2);
+        let (half, odd) = self.exponent.halved();
         let mantissa = Analytic::sqrt(self.mantissa * if odd == 1 { 2.0 } else { 1.0 });
-        ExtendedRange::new(mantissa, (self.exponent - odd) / 2)
+        ExtendedRange::new(mantissa, half)
     }
 
     fn scaled(self, power_of_two: f64) -> ExtendedRange {
@@ -250,11 +275,14 @@ impl Analytic for ExtendedRange {
     fn exp(self) -> ExtendedRange {
         let x = self.double();
         if x.high.abs() < 600.0 {
-            return ExtendedRange::new(x.exp(), 0);
+            return ExtendedRange::moderate(x.exp());
         }
         let n = (x.high / LN_2.high).round();
-        if n.abs() >= LARGEST as f64 || n.is_nan() {
-            return ExtendedRange::new(DoubleDouble::from(math::exp(x.high)), 0);
+        if !n.is_finite() {
+            return ExtendedRange::moderate(DoubleDouble::from(math::exp(x.high)));
+        }
+        if n.abs() >= LARGEST {
+            return ExtendedRange::new(DoubleDouble::ONE, Exponent::nearest(quotient_by_ln_2(x)));
         }
         let rest = x - LN_2 * n;
         // beyond 2⁵³ the nearest whole number is known to the digits of `f64` only
@@ -262,17 +290,17 @@ impl Analytic for ExtendedRange {
         let rest = rest - LN_2 * more;
         // beyond 1e30 no digit of the mantissa is known
         let mantissa = if rest.high.abs() < 1.0 { rest.exp() } else { DoubleDouble::ONE };
-        ExtendedRange::new(mantissa, n as i128 + more as i128)
+        ExtendedRange::new(mantissa, Exponent::of(n as i128 + more as i128))
     }
 
     fn ln(self) -> ExtendedRange {
         let high = self.mantissa.high;
         if high <= 0.0 || !high.is_finite() {
-            return ExtendedRange::new(DoubleDouble::from(math::ln(high)), 0);
+            return ExtendedRange::moderate(DoubleDouble::from(math::ln(high)));
         }
-        let high = self.exponent as f64;
-        let low = (self.exponent - high as i128) as f64;
-        ExtendedRange::new(self.mantissa.ln() + LN_2 * high + LN_2 * low, 0)
+        let rest = ExtendedRange::moderate(self.mantissa.ln());
+        let exponent = self.exponent.value().scaled(FAR_UNIT.recip());
+        rest + ExtendedRange::new(LN_2 * exponent, Exponent::of(FAR_EXPONENT))
     }
 
     fn sin_cos(self) -> (ExtendedRange, ExtendedRange) {
@@ -280,7 +308,7 @@ impl Analytic for ExtendedRange {
             return (self, ExtendedRange::ONE);
         }
         let (sine, cosine) = self.double().sin_cos();
-        (ExtendedRange::new(sine, 0), ExtendedRange::new(cosine, 0))
+        (ExtendedRange::moderate(sine), ExtendedRange::moderate(cosine))
     }
 
     fn tan(self) -> ExtendedRange {
@@ -294,7 +322,7 @@ impl Analytic for ExtendedRange {
         }
         if self.value().abs() < LOPSIDED {
             let (sine, cosine) = self.double().sinh_cosh();
-            return (ExtendedRange::new(sine, 0), ExtendedRange::new(cosine, 0));
+            return (ExtendedRange::moderate(sine), ExtendedRange::moderate(cosine));
         }
         let negative = self.mantissa.high < 0.0;
         let half = (if negative { -self } else { self }).exp() * 0.5;
@@ -306,14 +334,15 @@ impl Analytic for ExtendedRange {
     }
 
     fn atan2(self, x: ExtendedRange) -> ExtendedRange {
-        let unit = self.order().max(x.order());
-        if unit == LOWEST {
-            return ExtendedRange::new(Analytic::atan2(self.mantissa, x.mantissa), 0);
+        if self.mantissa.high == 0.0 && x.mantissa.high == 0.0 {
+            return ExtendedRange::moderate(Analytic::atan2(self.mantissa, x.mantissa));
         }
-        if x.mantissa.high > 0.0 && self.order() < x.order() + TINY {
+        if x.mantissa.high > 0.0 && (self.mantissa.high == 0.0 || self.above(x) < TINY) {
             return self / x;
         }
-        ExtendedRange::new(Analytic::atan2(self.in_units(unit), x.in_units(unit)), 0)
+        let larger = self.larger(x);
+        let (ordinate, abscissa) = (self.in_units_of(larger), x.in_units_of(larger));
+        ExtendedRange::moderate(Analytic::atan2(ordinate, abscissa))
     }
 
     fn asin(self) -> ExtendedRange {
@@ -334,7 +363,7 @@ impl Analytic for ExtendedRange {
         }
         let high = self.mantissa.high;
         if high <= 0.0 || !high.is_finite() {
-            return ExtendedRange::new(DoubleDouble::from(math::powf(high, n)), 0);
+            return ExtendedRange::moderate(DoubleDouble::from(math::powf(high, n)));
         }
         (self.ln() * ExtendedRange::of(exponent)).exp()
     }
@@ -406,6 +435,17 @@ mod tests {
         assert!((wide(f64::INFINITY) - wide(f64::INFINITY)).value().is_nan());
         assert_eq!(wide(1e30).exp().value(), f64::INFINITY);
         assert_eq!(wide(-1e30).exp().value(), 0.0);
+        for x in [1e36, 1e40, 1e300] {
+            let (e, one) = (wide(x).exp(), ExtendedRange::ONE);
+            assert_eq!((e / (one + e)).value(), 1.0, "{x:e}");
+            assert_eq!((e / (one + e) / (one + e)).value(), 0.0, "{x:e}");
+            let (s, c) = wide(-x).sinh_cosh();
+            assert_eq!((s / c).value(), -1.0, "{x:e}");
+            assert_eq!((one / c.power(DoubleDouble::from(2.0))).value(), 0.0, "{x:e}");
+            close((one + e).ln(), x);
+            // the slope of ln(1 + e^u)
+            close(e * wide(0.7) / (one + e), 0.7);
+        }
         for x in [1e40, 1e300, f64::INFINITY] {
             assert_eq!((ExtendedRange::ONE / (ExtendedRange::ONE + wide(x).exp())).value(), 0.0);
         }

@@ -18,6 +18,9 @@ use crate::num::DoubleDouble;
 /// this, relative to the row.
 const INDEPENDENT: f64 = 1e-9;
 
+/// The number of values of each constraint beside its entries of A.
+const VALUES: usize = 4;
+
 /// The number of passes that scale rows and columns to make entries comparable. Each pass brings
 /// them closer.
 const SCALINGS: usize = 3;
@@ -112,18 +115,18 @@ impl Conditions {
     }
 
     fn output(&self, constraint: usize, place: usize) -> DoubleDouble {
-        self.values.output(constraint * (self.degrees + 3) + place)
+        self.values.output(constraint * (self.degrees + VALUES) + place)
     }
 
     /// The size of the terms of the value at this place.
     fn size(&self, constraint: usize, place: usize) -> f64 {
-        self.sizes.output(2 * (constraint * (self.degrees + 3) + place))
+        self.sizes.output(2 * (constraint * (self.degrees + VALUES) + place))
     }
 
     /// The sensitivity to its inputs of the value at this place; zero where it cannot be computed,
     /// as at the branch point of a root.
     fn inputs(&self, constraint: usize, place: usize) -> f64 {
-        let inputs = self.sizes.output(2 * (constraint * (self.degrees + 3) + place) + 1);
+        let inputs = self.sizes.output(2 * (constraint * (self.degrees + VALUES) + place) + 1);
         if inputs.is_finite() { inputs } else { 0.0 }
     }
 
@@ -137,11 +140,15 @@ impl Conditions {
         self.output(constraint, self.degrees)
     }
 
-    /// f of a holonomic constraint, or what f has moved from its level over g; zero for others.
+    /// f of a holonomic constraint, on the nearest turn of an angle in it, or what f has moved from its level over g; zero for
+    /// others.
     pub(super) fn position(&self, constraint: usize) -> Residual {
         let place = self.degrees + 1;
+        let turn = self.output(constraint, place + 2);
+        let value = self.output(constraint, place);
+        let turns = (value / turn).high.round();
         let f = Residual {
-            value: self.output(constraint, place),
+            value: if turns.is_normal() { value - turn * turns } else { value },
             size: self.size(constraint, place),
             inputs: self.inputs(constraint, place),
         };

@@ -14,7 +14,7 @@ use crate::num::Number;
 /// The programs of the constraints, as functions of (q, t).
 #[derive(Clone, Debug)]
 pub(super) struct ConstraintPrograms {
-    /// A, A₀, f and g of each constraint.
+    /// A, A₀, f and g of each constraint, and by how much f jumps where an angle in it begins a new turn.
     pub(super) values: Arc<Program>,
     /// For each of these values the size of its terms, then its sensitivity to its inputs, Σ |s
     /// ∂/∂s|.
@@ -36,7 +36,8 @@ impl ConstraintPrograms {
             integrated.push(known.is_some());
             holonomic.push(row.position.is_some());
             let (f, g) = known.unwrap_or((row.position.unwrap_or(Expr::ZERO), Expr::ONE));
-            values.extend([f, g]);
+            let turn = turn(builder, f);
+            values.extend([f, g, turn]);
         }
         let pool = &mut builder.pool;
         let sizes = values.iter().flat_map(|&e| [pool.magnitude(e), pool.size_of_inputs(e)]);
@@ -69,6 +70,33 @@ fn integral(builder: &mut ProgramBuilder<'_>, k: usize) -> Option<(Expr, Expr)> 
     let (along, square) = (pool.sum(&along), pool.sum(&square));
     let g = pool.div(along, square);
     Some((f, pool.simplify(g)))
+}
+
+/// By how much an f jumps where the angle of a point in it begins a new turn; zero where there is none, or several. There the
+/// motion goes on, since the slopes of f do.
+fn turn(builder: &mut ProgramBuilder<'_>, f: Expr) -> Expr {
+    let equations = builder.equations;
+    let pool = &mut builder.pool;
+    let mut moving: Vec<Symbol> = equations.coordinates.iter().map(|c| c.position).collect();
+    moving.push(equations.symbols.time);
+    let varying = pool.reachable(&[f]).into_iter().filter(|&e| pool.depends_on_any(e, &moving));
+    let half_turns = |e: Expr| match pool.node(e) {
+        Node::Call(FunctionId::Atan2, _) => Some((e, 2)),
+        Node::Call(FunctionId::Atan, _) => Some((e, 1)),
+        _ => None,
+    };
+    let angles: Vec<(Expr, i64)> = varying.filter_map(half_turns).collect();
+    let [(angle, half_turns)] = angles[..] else { return Expr::ZERO };
+    let symbol = pool.symbol("the angle of a constraint");
+    let variable = pool.variable(symbol);
+    let function = pool.replace(f, angle, variable);
+    let slope = pool.derivative(function, symbol);
+    if pool.depends(slope, symbol) || pool.depends_on_any(slope, &moving) {
+        return Expr::ZERO;
+    }
+    let (pi, count) = (pool.pi(), pool.integer(half_turns));
+    let half_turns = pool.mul(pi, count);
+    pool.mul(slope, half_turns)
 }
 
 /// Whether an expression is smooth everywhere and has one value: an angle of a point jumps, and a

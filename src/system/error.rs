@@ -65,6 +65,8 @@ pub enum MotionErrorKind {
     NotFiniteInStep(String),
     /// A number of the state, given by its name, or the time has grown beyond what a number can hold.
     OutOfRange(Option<String>),
+    /// This coordinate or variable reaches infinity at the time of the error.
+    BlowsUp(String),
     /// A number that is given at the start, by its name, is below those that keep all their digits.
     TooSmall(String),
     /// The functions of the events swing too often within one step to be followed.
@@ -157,6 +159,9 @@ impl fmt::Display for MotionError {
             )?,
             MotionErrorKind::NotFinite(name) | MotionErrorKind::NotFiniteInStep(name) => {
                 write!(f, "{name} is no longer finite at t = {time}")?;
+            }
+            MotionErrorKind::BlowsUp(name) => {
+                write!(f, "the motion grows without bound: {name} reaches infinity at t = {time}")?;
             }
             MotionErrorKind::OutOfRange(Some(name)) => {
                 write!(f, "{name} grows beyond the range of numbers, 1.8e308, after t = {time}")?;
@@ -251,6 +256,7 @@ impl fmt::Display for MotionError {
             | MotionErrorKind::SeveralStarts(_)
             | MotionErrorKind::Passable(..)
             | MotionErrorKind::Ended(_)
+            | MotionErrorKind::BlowsUp(_)
             | MotionErrorKind::OutOfRange(Some(_))
             | MotionErrorKind::Cancelled => "",
             MotionErrorKind::OutOfRange(None) => ": what is waited for does not happen before",

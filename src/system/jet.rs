@@ -19,7 +19,7 @@ use std::sync::Arc;
 use super::program::{Op, Program, Register, Singular};
 use super::schedule::Schedule;
 use crate::expr::FunctionId;
-use crate::num::{Batch, DoubleDouble, Kernel, Real, vectorized};
+use crate::num::{Analytic, Batch, DoubleDouble, Kernel, Real, vectorized};
 use series_index::SeriesIndex;
 pub use side::Side;
 pub(super) use tables::Coefficient;
@@ -259,6 +259,9 @@ impl<R: Real> Jet<R> {
         for ((own, other), &register) in stretches.zip(theirs).zip(&own.index.registers) {
             if !fixed[register as usize] {
                 own.iter_mut().zip(other).take(orders).for_each(|(x, y)| *x = R::of(y.double()));
+                if S::UNBOUNDED && other[..orders].iter().any(|y| !y.value().is_finite()) {
+                    copy_in_proportion(&mut own[..orders], &other[..orders]);
+                }
             }
         }
         for switch in 0..own.sides.len() {
@@ -283,6 +286,23 @@ impl Jet<Batch> {
         }
     }
 }
+
+/// Copies a series with terms beyond the range of the copy in a unit of its own: as an argument, at which its function is its
+/// limit to every digit, it is asked only how fast it changes in proportion to itself.
+fn copy_in_proportion<R: Real, S: Real>(own: &mut [R], other: &[S]) {
+    let larger = |a: S, b: S| if (b / a).value().abs() <= 1.0 { a } else { b };
+    let Some(largest) = other.iter().copied().reduce(larger) else { return };
+    let unit = LARGEST_COPIED.copysign(largest.value());
+    for (x, &y) in own.iter_mut().zip(other) {
+        let part = (y / largest).double();
+        if part.is_finite() {
+            *x = R::of(part.scaled(unit));
+        }
+    }
+}
+
+/// The size of the largest term of such a copy: 2¹⁰⁰⁰.
+const LARGEST_COPIED: f64 = f64::from_bits((1023 + 1000) << 52);
 
 /// Some orders of a jet whose inputs are known up to them.
 struct Advance<'a, R: Coefficient> {

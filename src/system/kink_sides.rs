@@ -34,15 +34,25 @@ impl KinkSides {
         self.switches.len()
     }
 
+    /// The switches, and the functions under roots, between whose sides here and elsewhere a kink lies.
+    pub fn parted(&self, other: &KinkSides) -> (Vec<usize>, Vec<usize>) {
+        let switches = (0..self.switches.len()).filter(|&i| self.switches[i] != other.switches[i]);
+        let roots = (0..self.roots.len()).filter(|&i| !alike(self.roots[i], other.roots[i]));
+        (switches.collect(), roots.collect())
+    }
+
     /// Whether an evaluation nearby, at numbers that differ by rounding, has no kink between it and this one.
     /// A kink of a root may lie between values that differ in size.
     pub fn agrees(&self, other: &KinkSides) -> bool {
-        let alike = |(a, b): (&f64, &f64)| {
-            let (a, b) = (a.abs(), b.abs());
-            a.max(b) <= BESIDE * a.min(b)
-        };
-        self.switches == other.switches && self.roots.iter().zip(&other.roots).all(alike)
+        let mut roots = self.roots.iter().zip(&other.roots);
+        self.switches == other.switches && roots.all(|(&a, &b)| alike(a, b))
     }
+}
+
+/// Whether two values under a root lie on one side of where it vanishes.
+fn alike(a: f64, b: f64) -> bool {
+    let (a, b) = (a.abs(), b.abs());
+    a.max(b) <= BESIDE * a.min(b)
 }
 
 fn side(value: f64) -> Option<Ordering> {

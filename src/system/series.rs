@@ -30,6 +30,8 @@ pub struct Series {
     high: SeriesBuilder<f64>,
     /// All orders in a wider range, once they were needed.
     wide: Option<Box<SeriesBuilder<ExtendedRange>>>,
+    /// Whether all orders are copies of those.
+    has_left_range: bool,
     parameters: Vec<DoubleDouble>,
     underflow_may_count: bool,
     /// The state at the origin, in these units.
@@ -54,6 +56,7 @@ impl System {
             low,
             high: SeriesBuilder::new(high, inputs, len),
             wide: None,
+            has_left_range: false,
             parameters: Vec::new(),
             underflow_may_count: underflow::may_count(program, &[], |_| 0.0),
             origin: vec![DoubleDouble::ZERO; len],
@@ -153,10 +156,14 @@ impl Series {
     fn grow(&mut self) -> Result<(), Halt> {
         self.units.fill(1.0);
         let small = self.origin.iter().any(|x| underflow::is_small(x.high));
+        self.has_left_range = false;
         match self.grow_in_range() {
             Ok(()) if self.is_finite() && !self.underflows(small) => Ok(()),
             Err(Halt::Cancelled) => Err(Halt::Cancelled),
-            _ => self.grow_extended(),
+            _ => {
+                self.has_left_range = true;
+                self.grow_extended()
+            }
         }
     }
 
@@ -297,9 +304,16 @@ impl Series {
         &self.high.jet.weight(i)[..self.high.order]
     }
 
-    /// The series of the arguments of functions, which show how fast these change.
-    pub fn arguments(&self) -> impl Iterator<Item = (FunctionId, &[f64])> {
-        self.high.jet.arguments()
+    /// The series of the arguments u of functions, which show how fast these change, with ln |u| at the origin where
+    /// numbers have left the range of `f64`: there a series is known in a unit of its own.
+    pub fn arguments(&self) -> impl Iterator<Item = (FunctionId, &[f64], Option<f64>)> {
+        let wide = self.wide.as_ref().filter(|_| self.has_left_range);
+        let mut sizes = wide.map(|wide| wide.jet.arguments());
+        self.high.jet.arguments().map(move |(function, u)| {
+            let argument = sizes.as_mut().and_then(Iterator::next).map(|(_, u)| u[0]);
+            let size = argument.map(|u| if u.value() < 0.0 { -u } else { u });
+            (function, u, size.map(|size| Analytic::ln(size).value()))
+        })
     }
 
     /// Writes the state at a time `after` the origin into `out`, by the polynomials.

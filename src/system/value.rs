@@ -12,6 +12,9 @@ use super::solve::Factored;
 use super::underflow;
 use crate::num::{Analytic, DoubleDouble, ExtendedRange, Real};
 
+/// Factors beyond 2⁹⁹⁰ overflow where a product of two parts splits them, though their product may not.
+const LARGEST_FACTOR: f64 = 1e298;
+
 /// The registers of one program as numbers, in one precision.
 #[derive(Clone, Debug)]
 pub struct Evaluator<R> {
@@ -69,7 +72,7 @@ impl<R: Real> Evaluator<R> {
 
     fn is_finite(&self) -> bool {
         let mut outputs = self.program.outputs.iter();
-        outputs.all(|&r| self.registers[r as usize].value().is_finite())
+        outputs.all(|&r| self.registers[r as usize].double().is_finite())
     }
 
     /// Whether the first number that is not finite results from overflow, or from a division by
@@ -77,7 +80,8 @@ impl<R: Real> Evaluator<R> {
     /// overflow of a product may leave NaN in a number of two parts.
     fn left_the_range(&self) -> bool {
         let value = |r: &Register| self.registers[*r as usize].value();
-        let first = self.program.body.iter().find(|r| !value(r).is_finite());
+        let is_finite = |r: &Register| self.registers[*r as usize].double().is_finite();
+        let first = self.program.body.iter().find(|r| !is_finite(r));
         first.is_some_and(|r| match self.program.ops[*r as usize] {
             Op::Divide(..)
             | Op::Solve(_)
@@ -86,6 +90,7 @@ impl<R: Real> Evaluator<R> {
             | Op::Square(_)
             | Op::Linear { .. }
             | Op::Power(..) => true,
+            Op::Call(_, [a, b]) if value(&a).abs().max(value(&b).abs()) > LARGEST_FACTOR => true,
             _ => value(r).is_infinite() && !self.program.inputs.contains(r),
         })
     }

@@ -452,3 +452,35 @@ fn an_angle_that_jumps_stops_no_motion() {
         - value(&experiment, "y'") * value(&experiment, "a").cos();
     assert!(across.abs() < 1e-15, "{across:e}");
 }
+
+/// A thread that is wound up by the angle of a point, over several turns: the motion of its polar coordinates.
+#[test]
+fn a_constraint_goes_on_where_an_angle_in_it_begins_a_new_turn() {
+    let wound = |angle: &str| {
+        format!(
+            "[coordinates]\nx = {{ initial = 1.0, velocity = 0.0 }}\ny = {{ initial = 0.0, velocity = 1.0 }}\n\
+             s = {{ initial = 0.5, velocity = 2.0 }}\n[lagrangian]\nL = \"1/2*(x'^2 + y'^2 + s'^2) - 1/2*(x^2 + y^2 - 1)^2\"\n\
+             [[constraints]]\nname = \"thread\"\nexpression = \"s - 0.5 - {angle}\"\n"
+        )
+    };
+    let polar = "[coordinates]\nr = { initial = 1.0, velocity = 0.0 }\nphi = { initial = 0.0, velocity = 1.0 }\n[lagrangian]\n\
+                 L = \"1/2*(r'^2 + (r^2 + 4)*phi'^2) - 1/2*(r^2 - 1)^2\"\n";
+    let mut free = build(polar, |_| ());
+    run(&mut free, 30.0);
+    let (r, phi) = (value(&free, "r"), value(&free, "phi"));
+    assert!(phi > 25.0, "{phi}");
+    for (method, step, within) in
+        [("taylor", None, 1e-12), ("dop853", None, 1e-10), ("rk4", Some(0.01), 1e-7)]
+    {
+        let mut motion = build(&wound("2*atan2(y, x)"), |setup| {
+            method.clone_into(&mut setup.method);
+            setup.settings.step = step;
+        });
+        run(&mut motion, 30.0);
+        for (name, expected) in [("x", r * phi.cos()), ("y", r * phi.sin()), ("s", 0.5 + 2.0 * phi)]
+        {
+            let found = value(&motion, name);
+            assert!((found - expected).abs() < within, "{method}: {name} = {found}, {expected}");
+        }
+    }
+}

@@ -628,3 +628,155 @@ fn no_method_is_named_where_all_collide() {
         assert!(!message.contains("passes it"), "{potential}: {message}");
     }
 }
+
+/// Motions that reach infinity in a finite time, with the time: x = 1/(1 − t)², 1/(1 − t), and −2 ln of what is left of π/2.
+#[test]
+fn a_motion_that_reaches_infinity_is_said_to() {
+    let second = |potential: &str, x: f64, v: f64| {
+        format!(
+            "[coordinates]\nx = {{ initial = {x}, velocity = {v} }}\n[lagrangian]\nL = \"1/2*x'^2 - ({potential})\""
+        )
+    };
+    let first =
+        "[coordinates]\nx = { initial = 1.0, momentum = 1.0 }\n[hamiltonian]\nH = \"p_x*x^2\"";
+    let half_turn = std::f64::consts::FRAC_PI_2;
+    for (law, time) in [
+        (second("-2*x^3", 1.0, 2.0), 1.0),
+        (second("-x^4/2", 1.0, 1.0), 1.0),
+        (second("-x^4/2 + 1e-9*x^2", 1.0, 1.0), 1.0),
+        (second("-exp(x)", 0.0, 1.0), half_turn),
+        (first.to_owned(), 1.0),
+        // begun at −1, it does so at 0
+        (format!("{}\n[run]\nstart = -1", second("-2*x^3", 1.0, 2.0)), 0.0),
+    ] {
+        let steps =
+            [("taylor", None), ("dop853", None), ("rk4", Some(0.01)), ("gauss4", Some(0.01))];
+        for (method, step) in steps {
+            let mut motion = by(method, step, &law);
+            assert_ne!(motion.advance(3.0, PLENTY), AdvanceOutcome::Arrived, "{method} {law}");
+            let Status::Failed(fault) = motion.status() else { panic!("{:?}", motion.status()) };
+            let said = "the motion grows without bound: x reaches infinity at t = ";
+            let Some(at) = fault.message.strip_prefix(said) else {
+                panic!("{method} {law}: {}", fault.message)
+            };
+            let at: f64 = at.parse().expect("a time and nothing more");
+            let within = if law.contains("e-9") { 1e-8 } else { 1e-10 };
+            assert!((at - time).abs() < within, "{method} {law}: {at}");
+        }
+    }
+}
+
+/// What falls into a centre, however it turns on the way, reaches no infinity; neither does what grows exponentially.
+#[test]
+fn collisions_and_exponential_growth_reach_no_infinity() {
+    let plane = |potential: &str| {
+        format!(
+            "[coordinates]\nx = {{ initial = 1.0, velocity = 0.0 }}\ny = {{ initial = 0.0, velocity = 0.5 }}\n\
+             [lagrangian]\nL = \"1/2*(x'^2 + y'^2) - ({potential})\""
+        )
+    };
+    let polar = "[coordinates]\nr = { initial = 1.0, velocity = 0.0 }\nphi = { initial = 0.0, velocity = 0.5 }\n\
+                 [lagrangian]\nL = \"1/2*(r'^2 + r^2*phi'^2) + 1/r^2\"";
+    let line = |potential: &str, v: f64| {
+        format!(
+            "[coordinates]\nx = {{ initial = 1.0, velocity = {v} }}\n[lagrangian]\nL = \"1/2*x'^2 - ({potential})\""
+        )
+    };
+    for law in [
+        plane("-1/(x^2 + y^2)"),
+        plane("-1/(x^2 + y^2)^2"),
+        polar.to_owned(),
+        line("-1/x", 0.0),
+        line("-1/x^20", 0.0),
+        line("ln(x)", 0.0),
+    ] {
+        for method in ["taylor", "dop853"] {
+            let message = fault(by(method, None, &law), 9.0);
+            assert!(!message.contains("infinity"), "{method} {law}: {message}");
+            assert!(message.contains("collision"), "{method} {law}: {message}");
+        }
+    }
+    for (method, step) in [("taylor", None), ("dop853", None), ("rk4", Some(0.1))] {
+        let message = fault(by(method, step, &line("-1/2*x^2", 1.0)), 2000.0);
+        assert!(message.contains("grows beyond the range of numbers"), "{method}: {message}");
+    }
+}
+
+/// Where the law on both sides of a kink leads to it the motion follows it, which dop853 cannot; after however long a rest it
+/// passes the others.
+#[test]
+fn what_follows_a_kink_is_told_by_the_forces_on_its_sides() {
+    let law = |x: f64, force: &str| {
+        format!(
+            "[coordinates]\nx = {{ initial = {x}, velocity = 0.0 }}\n[lagrangian]\nL = \"1/2*x'^2\"\nforces = {{ x = \"{force}\" }}\n"
+        )
+    };
+    // x' = −x/2 from where t = ½ (1 − ½t²) on
+    let sliding = law(1.0, "-sign(x' + 0.5*x)");
+    let message = fault(by("dop853", None, &sliding), 9.0);
+    assert!(
+        message.contains("the motion sticks") && message.contains("taylor passes it"),
+        "{message}"
+    );
+    let mut exact = file(&sliding);
+    run(&mut exact, 4.0);
+    let begin = 6.0_f64.sqrt() - 2.0;
+    assert!((fault_time(&message) - begin).abs() < 1e-6, "{message}");
+    let expected = (1.0 - 0.5 * begin * begin) * (-(4.0 - begin) / 2.0).exp();
+    assert!((value(&exact, "x") - expected).abs() < 1e-13, "{}", value(&exact, "x"));
+    let passing = law(0.0, "-max(0, min(1, t - 1e4))*sign(x - 1)");
+    let mut exact = file(&passing);
+    let mut other = by("dop853", None, &passing);
+    for time in [1e4, 1e4 + 3.0, 1e4 + 12.0] {
+        run(&mut exact, time);
+        run(&mut other, time);
+        let [exact, other] = [&exact, &other].map(|motion| value(motion, "x"));
+        // the clock tells times of 1e4 apart to 2e-12
+        assert!((exact - other).abs() < 1e-9, "{time}: {exact} and {other}");
+    }
+}
+
+/// The time in a message.
+fn fault_time(message: &str) -> f64 {
+    let (_, rest) = message.split_once(" t = ").expect("a time");
+    rest.split([',', ':']).next().expect("a number").parse().expect("a number")
+}
+
+/// Friction that grows without bound towards rest has no strength there: the motion ends, for every method that chooses its
+/// steps, where v² = 1 − 2t has reached zero.
+#[test]
+fn a_pole_of_friction_ends_the_motion() {
+    let text = "[coordinates]\nx = { initial = 0.0, velocity = 1.0 }\n[lagrangian]\nL = \"1/2*x'^2\"\nforces = { x = \"-1/x'\" }";
+    for method in ["taylor", "dop853"] {
+        let message = fault(by(method, None, text), 3.0);
+        assert!((fault_time(&message) - 0.5).abs() < 1e-10, "{method}: {message}");
+        assert!(!message.contains("passes it"), "{method}: {message}");
+    }
+}
+
+/// What jumps at times that a law is written with is seen by every method, as the same events.
+#[test]
+fn jumps_are_the_same_events_for_every_method() {
+    let text = "[coordinates]\nx = { initial = 1.0, velocity = 0.0 }\n[lagrangian]\nL = \"1/2*x'^2 - 1/2*x^2\"\n\
+                forces = { x = \"0.3*sign(sin(t))\" }\n\
+                [[events]]\nname = \"half\"\nwhen = \"x - 0.5\"\n\
+                [[events]]\nname = \"push\"\nwhen = \"sign(sin(t))\"\n\
+                [[events]]\nname = \"free\"\nwhen = \"x''\"\n";
+    let events = |method: &str| {
+        let mut motion = by(method, None, text);
+        run(&mut motion, 30.0);
+        let found = motion.occurrences().iter();
+        found.map(|found| (found.name.clone(), found.time)).collect::<Vec<_>>()
+    };
+    let (exact, other) = (events("taylor"), events("dop853"));
+    assert_eq!(exact.iter().filter(|(name, _)| name == "push").count(), 9);
+    assert_eq!(exact.len(), other.len(), "{exact:?} and {other:?}");
+    for of in ["half", "push", "free"] {
+        let times = |events: &[(String, f64)]| -> Vec<f64> {
+            events.iter().filter(|(name, _)| name == of).map(|(_, time)| *time).collect()
+        };
+        for (one, another) in times(&exact).iter().zip(&times(&other)) {
+            assert!((one - another).abs() < 1e-8, "{of}: {one} and {another}");
+        }
+    }
+}

@@ -142,17 +142,39 @@ impl Run<'_> {
         let (start, end) = (self.times.start(), self.times.end());
         let (mut bar, mut outlook) =
             (Bar::new(start, end), Outlook::new(start, end, self.experiment.system().has_kinks()));
-        let mut row = vec![0.0; self.columns + 1];
+        let mut last = f64::NEG_INFINITY;
         for time in self.times.rows() {
-            self.reach(time, &mut bar, &mut outlook)?;
-            row[0] = time;
-            row[1..].copy_from_slice(&self.experiment.values()[..self.columns]);
-            match &mut *table.rows() {
-                Some(rows) => rows.row(&row).map_err(EarlyEnd::Write)?,
-                None => return self.interrupted(),
-            }
+            let reached = self.reach(time, &mut bar, &mut outlook);
+            self.end_at_event(&reached, last, table)?;
+            reached?;
+            self.write_row(time, table)?;
+            last = time;
         }
-        self.reach(end, &mut bar, &mut outlook)
+        let reached = self.reach(end, &mut bar, &mut outlook);
+        self.end_at_event(&reached, last, table)?;
+        reached
+    }
+
+    /// Writes the state at which an event has ended the motion as the last row, unless the rows are at times that were listed.
+    fn end_at_event(
+        &self,
+        reached: &Result<(), EarlyEnd>,
+        last: f64,
+        table: &PendingRows,
+    ) -> Result<(), EarlyEnd> {
+        let time = self.experiment.time();
+        let ends = matches!(reached, Err(EarlyEnd::Event)) && !self.times.are_listed();
+        if ends && time > last { self.write_row(time, table) } else { Ok(()) }
+    }
+
+    /// Writes the current state as the row of a time.
+    fn write_row(&self, time: f64, table: &PendingRows) -> Result<(), EarlyEnd> {
+        let values = &self.experiment.values()[..self.columns];
+        let row: Vec<f64> = std::iter::once(time).chain(values.iter().copied()).collect();
+        match &mut *table.rows() {
+            Some(rows) => rows.row(&row).map_err(EarlyEnd::Write),
+            None => self.interrupted(),
+        }
     }
 
     fn interrupted(&self) -> Result<(), EarlyEnd> {

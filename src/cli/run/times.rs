@@ -96,6 +96,11 @@ impl Times {
         Ok(times)
     }
 
+    /// Whether the rows are at listed times and no other.
+    pub(super) fn are_listed(&self) -> bool {
+        matches!(self.rows, Which::At(_))
+    }
+
     /// Checks that the rows are separated by more than the resolution of the time.
     fn check(&self) -> Result<(), CommandError> {
         let Times { start, end, .. } = *self;

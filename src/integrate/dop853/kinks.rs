@@ -2,22 +2,25 @@
 //!
 //! In: an attempted step. Out: whether it passes a kink that no shorter one would pass, or the motion follows the kink. Never
 //! here: where a kink lies within a step.
+//!
+//! A motion follows a switching surface where the law on each side leads towards it (A. F. Filippov, Differential Equations
+//! with Discontinuous Righthand Sides, Kluwer 1988, §4), as it does by Taylor series.
 
 use super::{DormandPrince, SHORTEST};
-use crate::system::{MotionError, MotionErrorKind, State};
+use crate::num::DoubleDouble;
+use crate::system::{ExactRates, MotionError, MotionErrorKind, State};
 
 /// A kink may lie within a step that is this many times as long as the shortest one: it moves nothing but by rounding,
 /// whatever jumps within it.
 const OVER_A_KINK: f64 = 8.0;
 
-/// The least part of the longest step between two kinks that are passed so. Where a motion sticks at a kink, it comes back
-/// to it at once.
-const BETWEEN_KINKS: f64 = 1e-6;
+/// The part of a step that crosses a kink over which the law of either side is followed, to see where it leads.
+const AHEAD: f64 = 1e-6;
 
-/// The greatest number of steps below this part of the longest one that cross a kink, with none longer between them. There
-/// the motion follows the kink, and every step is as long as the tolerance allows an error of the jump.
-const MOST_CROSSINGS: u32 = 64;
+/// A step below this part of the longest one hardly changes anything but by what jumps within it: both its ends show the law
+/// beside the kink. So many of them in a row make no way, whatever the law.
 const ALONG_A_KINK: f64 = 1e-8;
+const MOST_CROSSINGS: u32 = 64;
 
 impl DormandPrince {
     /// The size below which no step can continue the motion.
@@ -25,20 +28,16 @@ impl DormandPrince {
         (1e-16 * self.state.time.abs()).max(1e-290).max(SHORTEST * self.longest)
     }
 
-    /// Whether the motion has just passed a kink by the shortest of steps.
-    pub(super) fn is_beside_a_kink(&self) -> bool {
-        let recent = |kink: f64| (self.state.time - kink).abs() < BETWEEN_KINKS * self.longest;
-        self.kink.is_some_and(recent)
-    }
-
     /// Whether the attempted step is as short as a step can be and a kink lies within it. No shorter one would have less
     /// of an error relative to a number that was zero before the kink. Before the first step no size is known to go on with.
+    /// Returns an error if the motion follows the kink.
     pub(super) fn passes_kink(&mut self, step: f64) -> Result<bool, MotionError> {
         let begins = self.longest == 0.0;
-        if begins || step.abs() > OVER_A_KINK * self.shortest() || self.is_beside_a_kink() {
+        if begins || step.abs() > OVER_A_KINK * self.shortest() || !self.crosses_kink(step)? {
             return Ok(false);
         }
-        self.crosses_kink(step)
+        self.refuse_to_slide(step)?;
+        Ok(true)
     }
 
     /// Whether the ends of the attempted step lie on two sides of a kink.
@@ -47,19 +46,58 @@ impl DormandPrince {
         self.rates.evaluate(*time, values, &mut self.fresh)?;
         let before = self.rates.sides();
         self.rates.evaluate(time + step, &self.next.values, &mut self.fresh)?;
-        Ok(!self.rates.sides().agrees(&before))
+        let after = self.rates.sides();
+        self.parted = after.parted(&before);
+        Ok(!after.agrees(&before))
     }
 
-    /// Counts the short steps that cross a kink. Returns an error if there are too many without a longer one.
+    /// Counts the short steps that cross a kink. Returns an error if the motion follows it, or if there are too many without
+    /// a longer one.
     pub(super) fn count_crossings(&mut self, step: f64) -> Result<(), MotionError> {
         if !self.system.has_kinks() || step.abs() > ALONG_A_KINK * self.longest {
             self.crossings = 0;
         } else if self.crosses_kink(step)? {
+            self.refuse_to_slide(step)?;
             self.crossings += 1;
         }
-        if self.crossings <= MOST_CROSSINGS {
-            return Ok(());
+        if self.crossings <= MOST_CROSSINGS { Ok(()) } else { Err(self.sticks()) }
+    }
+
+    /// Returns an error if the laws at both ends of a step lead towards a kink between them.
+    fn refuse_to_slide(&mut self, step: f64) -> Result<(), MotionError> {
+        let before = self.approach(&self.state.clone(), step);
+        let time = self.state.exact_time() + DoubleDouble::from(step);
+        let mut end = self.next.clone();
+        (end.time, end.time_carry) = (time.high, time.low);
+        let after = self.approach(&end, step);
+        let slides = before.iter().zip(&after).any(|(before, after)| *before && *after);
+        if slides { Err(self.sticks()) } else { Ok(()) }
+    }
+
+    fn sticks(&self) -> MotionError {
+        self.system.fault(MotionErrorKind::Sticks, self.state.time, &self.state.values)
+    }
+
+    /// Whether the law at a state leads towards each of the kinks that the attempted step crosses.
+    fn approach(&mut self, from: &State, step: f64) -> Vec<bool> {
+        let (switches, roots) = &self.parted;
+        let count = switches.len() + roots.len();
+        let after = DoubleDouble::from(AHEAD * step);
+        let numbers: Vec<DoubleDouble> = (0..from.values.len()).map(|i| from.exact(i)).collect();
+        let distances = |exact: &ExactRates| -> Vec<f64> {
+            let switches = switches.iter().map(|&i| exact.switch(i).abs());
+            switches.chain(roots.iter().map(|&i| exact.guard(i).abs())).collect()
+        };
+        if self.exact.evaluate(from.exact_time(), &numbers).is_err() {
+            return vec![false; count];
         }
-        Err(self.system.fault(MotionErrorKind::Sticks, self.state.time, &self.state.values))
+        let here = distances(&self.exact);
+        let rates = (0..numbers.len()).map(|i| self.exact.rate(i));
+        let ahead: Vec<DoubleDouble> =
+            numbers.iter().zip(rates).map(|(&x, rate)| x + rate * after).collect();
+        if self.exact.evaluate(from.exact_time() + after, &ahead).is_err() {
+            return vec![false; count];
+        }
+        here.iter().zip(distances(&self.exact)).map(|(here, ahead)| ahead < *here).collect()
     }
 }

@@ -8,7 +8,7 @@
 
 use super::Propagator;
 use super::singularity_record::SingularityRecord;
-use crate::integrate::{Settings, Stepper, Stepping, initial_step, method_named};
+use crate::integrate::{Settings, Stepper, Stepping, StoppedMotion, initial_step, method_named};
 use crate::num::{DoubleDouble, math};
 use crate::system::{
     ConstraintProjector, Directions, Form, MotionError, MotionErrorKind, Passage, State,
@@ -136,6 +136,16 @@ impl Propagator {
     /// Explains an error: one caused by a singular configuration is reported as such, and one at a
     /// place that another method passes is reported with that method.
     pub fn explained(&mut self, fault: MotionError) -> MotionError {
+        let stopped = StoppedMotion {
+            system: &self.system,
+            method: self.method,
+            stepper: self.stepper.as_ref(),
+            parameters: &self.parameters,
+            begun: self.watch.begun.as_ref(),
+        };
+        if let Some(blow_up) = stopped.blow_up(&fault) {
+            return blow_up;
+        }
         if let Some(kind) = self.out_of_range(&fault) {
             return MotionError { kind, place: Vec::new(), ..fault };
         }

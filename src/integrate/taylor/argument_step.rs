@@ -2,7 +2,7 @@
 //!
 //! In: a function, the series of its argument. Out: a time, in the unit of the series. Never here: tolerances.
 
-use super::last_orders::FAINT;
+use super::last_orders::{FAINT, ROOM};
 use crate::expr::FunctionId;
 use crate::num::math;
 
@@ -13,6 +13,12 @@ pub(super) const FARTHEST_ARGUMENT: f64 = 6.0;
 /// Beyond this argument exponentials leave the range of `f64`, and functions that saturate with
 /// them no longer change: up to there an argument may move at once.
 const SATURATED: f64 = 750.0;
+
+/// ln 750, from above.
+const LOG_SATURATED: f64 = 6.621;
+
+/// What is left of terms that cancel to this part of them is their rounding.
+const ROUNDING: f64 = 1e-13;
 
 /// The largest relative change of the argument of a function without scale (`ln`, `atan`).
 const PART_OF_ARGUMENT: f64 = 0.5;
@@ -41,15 +47,20 @@ pub(super) fn before_pole(u: &[f64]) -> f64 {
 }
 
 /// The step in which the argument of a function changes by the largest amount allowed.
-pub(super) fn of_argument(function: FunctionId, u: &[f64]) -> f64 {
+/// `log_size` is ln |u| where that is known beyond the range of `u`, whose series is then in a unit of its own.
+pub(super) fn of_argument(function: FunctionId, u: &[f64], log_size: Option<f64>) -> f64 {
     let room = match function {
-        FunctionId::Exp | FunctionId::Sinh | FunctionId::Cosh | FunctionId::Tanh => {
-            u[0].abs() - SATURATED
-        }
+        _ if saturates(function) => u[0].abs() - SATURATED,
         FunctionId::Ln | FunctionId::Atan | FunctionId::Atan2 => u[0].abs() * PART_OF_ARGUMENT,
         _ => 0.0,
     };
     let mut step = moving(FARTHEST_ARGUMENT, &u[..4]);
+    if saturates(function) {
+        let fall = log_size.unwrap_or_else(|| math::ln(u[0].abs())) - LOG_SATURATED;
+        if fall > 1.0 {
+            step = step.max(before_fall(u, fall));
+        }
+    }
     if room > FARTHEST_ARGUMENT {
         // all terms together, each with a share
         let mut safe = f64::INFINITY;
@@ -59,6 +70,41 @@ pub(super) fn of_argument(function: FunctionId, u: &[f64]) -> f64 {
         step = step.max(safe);
     }
     step
+}
+
+/// Whether a function no longer changes, or is beyond the range of `f64`, where its argument is large.
+fn saturates(function: FunctionId) -> bool {
+    matches!(function, FunctionId::Exp | FunctionId::Sinh | FunctionId::Cosh | FunctionId::Tanh)
+}
+
+/// A time in which |u| does not fall by a factor of more than e^`fall`. With a_k = u_k/u₀ the series of ln |u| is
+/// l_k = a_k − Σ_{0<j<k} j l_j a_{k−j}/k, and the sum of the sizes of its terms stays below `fall`, each having a share.
+/// Where u grows fast, as an exponential or a high power does, its own terms allow far less.
+fn before_fall(u: &[f64], fall: f64) -> f64 {
+    let mut logs = [0.0; ROOM];
+    let mut safe = f64::INFINITY;
+    // the highest order of an argument is not known where that of the state is
+    for k in 1..(u.len() - 1).min(ROOM) {
+        let own = u[k] / u[0];
+        let (mut log, mut size) = (own, own.abs());
+        for j in 1..k {
+            let term = j as f64 * logs[j] * (u[k - j] / u[0]) / k as f64;
+            (log, size) = (log - term, size.max(term.abs()));
+        }
+        if !log.is_finite() {
+            return 0.0;
+        }
+        logs[k] = if log.abs() > ROUNDING * size { log } else { 0.0 };
+        if logs[k].abs() >= FAINT {
+            safe = safe.min(0.5 * math::powf(fall / logs[k].abs(), 1.0 / k as f64));
+            if k >= u.len() / 2 {
+                // a zero of u at a distance r is a term r^−k/k
+                let zero = math::powf(k as f64 * logs[k].abs(), -1.0 / k as f64);
+                safe = safe.min(PART_OF_RADIUS * zero);
+            }
+        }
+    }
+    safe
 }
 
 /// The time in which no term of a series exceeds `far`.
@@ -92,12 +138,31 @@ mod tests {
     #[test]
     fn arguments_move_as_far_as_their_functions_stay_told() {
         let line = |value: f64| [value, 1.0, 0.0, 0.0, 0.0];
-        let step = |function, value| of_argument(function, &line(value));
+        let step = |function, value| of_argument(function, &line(value), None);
         let near = |step: f64, wanted: f64| assert!((step / wanted - 1.0).abs() < 1e-9, "{step}");
         near(step(FunctionId::Exp, 1.0), 6.0);
         near(step(FunctionId::Exp, -749.0), 6.0);
         // beyond the range of exponentials nothing changes until the argument comes back
         near(step(FunctionId::Exp, -850.0), 50.0);
+        // −1e6 − t falls by a factor of 1e6/750 within less than 1e6
+        assert!((4e5..1e6).contains(&step(FunctionId::Exp, -1e6)));
+        // e^u, of which only ln |e^u| = 1e9 is known, with u′ = 1
+        let factorial = |k: usize| (1..=k).map(|i| i as f64).product::<f64>();
+        let exponential: Vec<f64> = (0..20).map(|k| 1e300 / factorial(k)).collect();
+        let longest = of_argument(FunctionId::Exp, &exponential, Some(1e9));
+        assert!((4e8..1e9).contains(&longest), "{longest}");
+        // (1 + t)⁴¹, from 1e60: it has fallen to 750 near t = −0.96
+        let mut power = vec![1e60];
+        (0..20).for_each(|k| power.push(power[k] * (41 - k) as f64 / (k + 1) as f64));
+        let longest = of_argument(FunctionId::Tanh, &power, None);
+        assert!((0.3..0.96).contains(&longest), "{longest}");
+        // 1e300 (1 − t) passes zero at t = 1, whatever the number of its terms
+        for order in [12, 20, 28] {
+            let mut line = vec![0.0; order + 1];
+            (line[0], line[1]) = (1e300, -1e300);
+            let longest = of_argument(FunctionId::Tanh, &line, None);
+            assert!((0.3..0.95).contains(&longest), "{order}: {longest}");
+        }
         near(step(FunctionId::Ln, 100.0), 25.0);
         near(step(FunctionId::Sin, 100.0), 6.0);
     }

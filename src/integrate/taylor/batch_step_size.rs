@@ -52,7 +52,7 @@ impl BatchStepSize {
                 let (square, cube) = (h * h, h * h * h);
                 let moves_far = far(1, h) || far(2, square) || far(3, cube) || !cube.is_finite();
                 if moves_far && !h.is_nan() {
-                    shortest.0[lane] = h.min(of_argument(function, &alone()));
+                    shortest.0[lane] = h.min(of_argument(function, &alone(), None));
                 }
             }
         }

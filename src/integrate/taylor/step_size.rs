@@ -74,7 +74,7 @@ impl StepSize {
     /// polynomial. Returns `None` if a coefficient is not finite.
     pub(super) fn longest(&mut self, series: &Series) -> Option<f64> {
         let mut shortest = vectorized(ByCoefficients { rule: self, series })?;
-        for (function, u) in series.arguments() {
+        for (function, u, log_size) in series.arguments() {
             if may_pass_pole(function) {
                 shortest = shortest.min(before_pole(u));
             }
@@ -82,7 +82,7 @@ impl StepSize {
             let far = |k: usize, h: f64| u[k].abs() * h > FARTHEST_ARGUMENT;
             let (square, cube) = (shortest * shortest, shortest * shortest * shortest);
             if far(1, shortest) || far(2, square) || far(3, cube) || !cube.is_finite() {
-                shortest = shortest.min(of_argument(function, u));
+                shortest = shortest.min(of_argument(function, u, log_size));
             }
         }
         Some(shortest)

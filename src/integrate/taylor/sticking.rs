@@ -24,6 +24,10 @@ const TRIAL: f64 = 1e-12;
 /// The ratio of the second trial velocity to the first, for the auxiliary numbers.
 const SMALLER: f64 = 1e-3;
 
+/// Friction that grows by more than this factor from the first to the second has a pole at rest: no vector of a limited
+/// strength holds a motion there.
+const POLE: f64 = 2.0;
+
 /// The maximal number of degrees of freedom that are tested in all directions.
 const MOST: usize = 12;
 
@@ -134,6 +138,12 @@ fn carried(
             *x = trial.rates.rate(i);
         }
         trial.size *= SMALLER;
+    }
+    let n = trial.n;
+    let [strength, nearer] =
+        samples.each_ref().map(|rates| (n..2 * n).map(|i| rates[i].high.abs()).fold(0.0, f64::max));
+    if nearer > POLE * strength {
+        return Ok(Sticking::Unknown);
     }
     for i in moving..len {
         let (before, after) = (samples[0][i], samples[1][i]);

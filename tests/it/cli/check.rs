@@ -402,3 +402,25 @@ fn what_underflows_is_not_claimed_to_be_conserved() {
     // 0 is constant
     assert_eq!(square("0").code, 0);
 }
+
+#[test]
+fn a_dissipation_that_feeds_energy_in_one_direction_is_warned_of() {
+    let odd = "the dissipation function is odd in the velocities";
+    let warned = |dissipation: &str| {
+        let file = format!(
+            "title = 'a test'\n[coordinates]\nx = {{ initial = 1.0 }}\ny = {{ initial = 0.0 }}\n[parameters]\nc = 0.1\n\
+             [lagrangian]\nL = \"1/2*(x'^2 + y'^2) - 1/2*x^2\"\ndissipation = \"{dissipation}\""
+        );
+        let done = with_file(&file, &["check", "system.toml"]);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        done.stderr.contains(odd)
+    };
+    for dissipation in ["c*x'^3", "c*x'^3*cos(y) + x*y'", "c*x'*y'^2", "c*sin(x')"] {
+        assert!(warned(dissipation), "{dissipation}");
+    }
+    for dissipation in
+        ["1/2*c*x'^2", "c*abs(x')^3", "c*abs(x')", "c*x'^3 + c*x'^2", "-c*(1 - x^2)*x'^2"]
+    {
+        assert!(!warned(dissipation), "{dissipation}");
+    }
+}

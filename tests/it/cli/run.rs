@@ -347,7 +347,7 @@ action = "stop"
 #[test]
 fn an_event_that_stops_ends_the_run_well_and_its_moment_still_has_a_row() {
     // to 1 by t = 1, then at half the speed: at 2 by t = 3
-    for every in [["--every", "1"], ["--at", "0,1,2,3,4"], ["--every", "0.5"]] {
+    for every in [["--every", "1"], ["--at", "0,1,2,3,4"], ["--every", "0.5"], ["--every", "0.7"]] {
         let arguments =
             ["run", "system.toml", "--until", "4", every[0], every[1], "--format", "json"];
         let arguments = if every[0] == "--at" {

@@ -263,3 +263,47 @@ fn forces_whose_series_begin_beyond_its_order_are_not_passed_over() {
         }
     }
 }
+
+/// e^u of u = x⁴¹ leaves every range of exponents that fits into an integer soon after x = 7.
+#[test]
+fn functions_of_any_steepness_saturate() {
+    for (v, start, end) in [
+        ("tanh(x^41)", 0.0, 1.0),
+        ("1/(1 + exp(x^21))", 0.5, 0.0),
+        ("exp(x^21)/(1 + exp(x^21)) - 1", -0.5, 0.0),
+        ("exp(-x^40)", 1.0, 0.0),
+        ("1/cosh(x^31)", 1.0, 0.0),
+        ("tanh(1e200*x)", 1.0, 1.0),
+        ("exp(-1e300*x^2)", 0.0, 0.0),
+        ("exp(-exp(x))", (-(0.1_f64.exp())).exp(), 0.0),
+        ("tanh(1e200*tanh(x^9))", 1.0, 1.0),
+        ("atan(x^41)", 0.0, std::f64::consts::FRAC_PI_2),
+    ] {
+        let mut run = potential("0.1", "2.0", v);
+        let speed = (4.0_f64 + 2.0 * (start - end)).sqrt();
+        for time in [10.0, 100.0, 1e6] {
+            near(&run.to(time)[1..], &[speed], 1e-13);
+        }
+        assert!(run.steps < 2000, "{v}: {} steps", run.steps);
+    }
+}
+
+/// ½v² is ½v₀² + ∫ F dx, with ∫ (π/2 − atan uⁿ) du = π/2/cos(π/2n) and ∫ (1 − tanh uⁿ) du, n = 41 and 5 from 0 to ∞.
+#[test]
+fn forces_of_any_steepness_saturate() {
+    use std::f64::consts::{FRAC_PI_2, PI};
+    let missing = FRAC_PI_2 / (PI / 82.0).cos();
+    for (force, limit, missing) in
+        [("atan(x^41)", FRAC_PI_2, missing), ("tanh(x^41)", 1.0, 0.980_607_569_570_413_7)]
+    {
+        let mut run = Run::new(&format!(
+            "title = \"Pushed\"\n[coordinates]\nx = {{ initial = 0.0, velocity = 2.0 }}\n[lagrangian]\nL = \"1/2*x'^2\"\nforces = {{ x = \"{force}\" }}\n"
+        ));
+        for time in [10.0, 100.0, 1e3] {
+            let state = run.to(time);
+            let expected = (4.0 + 2.0 * (limit * state[0] - missing)).sqrt();
+            near(&[state[1] / expected], &[1.0], 1e-14);
+        }
+        assert!(run.steps < 20_000, "{force}: {} steps", run.steps);
+    }
+}

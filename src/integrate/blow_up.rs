@@ -1,0 +1,230 @@
+//! Motions that reach infinity in a finite time, as those of ẍ = 6 x² do.
+//!
+//! In: the state at which a motion stopped. Out: which coordinate grows without bound, and when it has done so. Never
+//! here: collisions, where velocities grow without bound and coordinates do not.
+//!
+//! With τ, the time that is left, the speed of such a motion is like τ^−β, with β ≥ 1, since ∫ τ^−β dτ has no bound; in a
+//! collision β < 1. From speed v, its rate v̇ and the rate of that, v̈, follow β/(β + 1) = v̇²/(v v̈) and τ = β v/v̇. These
+//! are taken from the law at the place where the motion stopped.
+
+use super::{Method, Settings, Stepper, Stepping, method_named};
+use crate::num::{Analytic, DoubleDouble, math};
+use crate::system::{ExactRates, Form, MotionError, MotionErrorKind, State, System};
+
+/// The least v̇²/(v v̈) of a motion to infinity, which is that of ẍ = e^x, where x grows like −2 ln τ, …
+const LEAST: f64 = 0.5;
+
+/// … to within this.
+const MARGIN: f64 = 1e-3;
+
+/// The greatest: a motion that grows like e^t, with 1, never reaches infinity.
+const GREATEST: f64 = 0.995;
+
+/// Below this a coordinate comes to a place while its velocity grows without bound.
+const CONVERGING: f64 = 0.45;
+
+/// The parts of the time in which the speeds change, and of the last step, between the speeds that are compared.
+const PART_OF_CHANGE: f64 = 1e-3;
+const PART_OF_STEP: f64 = 0.1;
+
+/// The motion stops because of what happens within so many times its last step.
+const STEPS_LEFT: f64 = 1e6;
+
+/// The most steps of the trial that finds out when a motion with fixed steps should have stopped.
+const MOST_STEPS: u32 = 4000;
+
+/// The digits of the time that are not shown, of those that the tolerance stands for.
+const UNCERTAIN: f64 = 2.0;
+
+/// A coordinate and the time at which it reaches infinity.
+struct BlowUp {
+    coordinate: usize,
+    time: DoubleDouble,
+}
+
+/// A motion that cannot continue.
+#[derive(Clone, Copy)]
+pub struct StoppedMotion<'a> {
+    /// Its law.
+    pub system: &'a System,
+    /// The method that followed it.
+    pub method: &'static Method,
+    /// Where it stopped.
+    pub stepper: &'a dyn Stepper,
+    /// The parameters.
+    pub parameters: &'a [f64],
+    /// Where it began, or continued after an impulse.
+    pub begun: Option<&'a State>,
+}
+
+impl StoppedMotion<'_> {
+    /// The error of a motion that reaches infinity where it stopped, in place of the one that its method met there.
+    pub fn blow_up(&self, fault: &MotionError) -> Option<MotionError> {
+        let (begin, end) = self.stepper.interval();
+        let found = match (&fault.kind, self.method.stepping) {
+            (MotionErrorKind::StepUnderflow(step), Stepping::Adaptive) => {
+                let step = if end < begin { -step.abs() } else { step.abs() };
+                self.blow_up_from(self.stepper.state(), step)
+            }
+            // events may come ever faster on the way
+            (MotionErrorKind::NotFinite(_) | MotionErrorKind::PilesUp(_), Stepping::Adaptive) => {
+                self.blow_up_from(self.stepper.state(), end - begin)
+            }
+            (
+                MotionErrorKind::NotFinite(_) | MotionErrorKind::NoConvergence(_),
+                Stepping::Fixed,
+            ) => self.blow_up_before(fault.time),
+            _ => None,
+        }?;
+        let name = self.system.channels().get(found.coordinate)?.shown.clone();
+        let digits = match (self.method.stepping, self.stepper.tolerance()) {
+            (Stepping::Adaptive, Some(tolerance)) => -math::log10(tolerance) - UNCERTAIN,
+            _ => f64::INFINITY,
+        };
+        let kind = MotionErrorKind::BlowsUp(name);
+        Some(MotionError { time: rounded(found.time.high, digits), kind, place: Vec::new() })
+    }
+
+    /// Follows the motion from its beginning by series to near a time that fixed steps have come to.
+    fn blow_up_before(&self, time: f64) -> Option<BlowUp> {
+        let from = self.begun?;
+        let settings = Settings { step: None, tolerance: None };
+        let mut stepper = (method_named("taylor")?.make)(self.system, &settings).ok()?;
+        stepper.start(from, self.parameters).ok()?;
+        let until = time + 2.0 * self.stepper.step_size();
+        for _ in 0..MOST_STEPS {
+            if stepper.time() == until {
+                return None;
+            }
+            if let Err(fault) = stepper.step(until) {
+                let MotionErrorKind::StepUnderflow(step) = fault.kind else { return None };
+                return self.blow_up_from(stepper.state(), step.abs().copysign(until - from.time));
+            }
+        }
+        None
+    }
+
+    /// Whether a motion that stopped at a state, over a step of this size, reaches infinity.
+    fn blow_up_from(&self, state: &State, step: f64) -> Option<BlowUp> {
+        if state.form != self.system.form() || step == 0.0 || !state.is_finite() {
+            return None;
+        }
+        let mut rates = self.system.exact_rates();
+        rates.set_parameters(&self.system.inputs(self.parameters));
+        let start: Vec<DoubleDouble> = (0..state.values.len()).map(|i| state.exact(i)).collect();
+        let moving = self.system.moving();
+        let mut motion = LawfulMotion { rates, time: state.exact_time(), numbers: start, moving };
+        let all = if state.form == Form::Variables { moving } else { self.system.degrees() };
+        let channels = self.system.channels();
+        // an angle that turns ever faster goes nowhere
+        let places: Vec<usize> = (0..all).filter(|&i| !channels[i].periodic).collect();
+        let part = PART_OF_STEP * step;
+        let before = motion.clone();
+        let first = motion.speeds(&places)?;
+        let near = PART_OF_CHANGE * part;
+        motion.advance(near)?;
+        let change = (motion.speeds(&places)?.size - first.size).high;
+        let interval = (PART_OF_CHANGE * first.size.high * near / change).abs().min(part.abs());
+        let interval = interval.copysign(step);
+        motion = before;
+        let mut samples = vec![first];
+        for _ in 0..2 {
+            motion.advance(interval)?;
+            samples.push(motion.speeds(&places)?);
+        }
+        let speed = Growth::of([0, 1, 2].map(|k| samples[k].size))?;
+        if !(LEAST - MARGIN..=GREATEST).contains(&speed.ratio) {
+            return None;
+        }
+        let component = |i: usize| Growth::of([0, 1, 2].map(|k: usize| samples[k].components[i]));
+        let fastest = |i: &usize| samples[2].components[*i].high.abs();
+        let fastest = (0..places.len()).max_by(|i, j| fastest(i).total_cmp(&fastest(j)))?;
+        // an angle may turn without bound on the way to a centre
+        let mut others = (0..places.len()).filter(|&i| i != fastest).filter_map(component);
+        if speed.ratio < LEAST + MARGIN && others.any(|other| other.ratio < CONVERGING) {
+            return None;
+        }
+        let left = speed.ratio / (1.0 - speed.ratio) / speed.rate * interval;
+        let time = motion.time + DoubleDouble::from(left - interval);
+        let near = left.abs() < STEPS_LEFT * step.abs();
+        near.then_some(BlowUp { coordinate: places[fastest], time })
+    }
+}
+
+/// How a speed grows from one of three samples at equal intervals to the next, at the second of them.
+struct Growth {
+    /// v̇/v, per interval.
+    rate: f64,
+    /// v̇²/(v v̈).
+    ratio: f64,
+}
+
+impl Growth {
+    /// `None` for one that does not grow ever faster.
+    fn of([before, now, after]: [DoubleDouble; 3]) -> Option<Growth> {
+        let slope = ((after - before) * 0.5 / now).high;
+        let bend = ((after - now - (now - before)) / now).high;
+        (slope > 0.0 && bend > 0.0).then(|| Growth { rate: slope, ratio: slope * slope / bend })
+    }
+}
+
+/// The velocities of some coordinates, and the root of the sum of their squares.
+struct Speeds {
+    components: Vec<DoubleDouble>,
+    size: DoubleDouble,
+}
+
+/// A motion continued from a state by its law, over times in which it hardly changes.
+#[derive(Clone)]
+struct LawfulMotion {
+    rates: ExactRates,
+    time: DoubleDouble,
+    numbers: Vec<DoubleDouble>,
+    moving: usize,
+}
+
+impl LawfulMotion {
+    /// The rates at the numbers moved by a part of other rates.
+    fn slopes(&mut self, along: &[DoubleDouble], after: f64) -> Option<Vec<DoubleDouble>> {
+        let mut numbers = self.numbers.clone();
+        for (x, &slope) in numbers.iter_mut().zip(along) {
+            *x = *x + slope * after;
+        }
+        self.rates.evaluate(self.time + DoubleDouble::from(after), &numbers).ok()?;
+        let slopes: Vec<DoubleDouble> = (0..self.moving).map(|i| self.rates.rate(i)).collect();
+        slopes.iter().all(|x| x.is_finite()).then_some(slopes)
+    }
+
+    /// Takes a step of the classical Runge–Kutta method.
+    fn advance(&mut self, step: f64) -> Option<()> {
+        let first = self.slopes(&[], 0.0)?;
+        let second = self.slopes(&first, 0.5 * step)?;
+        let third = self.slopes(&second, 0.5 * step)?;
+        let fourth = self.slopes(&third, step)?;
+        for i in 0..self.moving {
+            let sum = first[i] + (second[i] + third[i]) * 2.0 + fourth[i];
+            self.numbers[i] = self.numbers[i] + sum * step / 6.0;
+        }
+        self.time = self.time + DoubleDouble::from(step);
+        Some(())
+    }
+
+    fn speeds(&mut self, places: &[usize]) -> Option<Speeds> {
+        let slopes = self.slopes(&[], 0.0)?;
+        let components: Vec<DoubleDouble> = places.iter().map(|&i| slopes[i]).collect();
+        let largest = components.iter().map(|v| v.high.abs()).fold(0.0, f64::max);
+        let unit = DoubleDouble::from(largest);
+        let squares = components.iter().map(|&v| (v / unit) * (v / unit));
+        let sum = squares.fold(DoubleDouble::ZERO, |sum, square| sum + square);
+        (largest > 0.0).then(|| Speeds { components, size: Analytic::sqrt(sum) * unit })
+    }
+}
+
+/// A number with so many digits.
+fn rounded(number: f64, digits: f64) -> f64 {
+    if digits > f64::from(f64::DIGITS) {
+        return number;
+    }
+    let places = (digits.max(1.0) - 1.0) as usize;
+    format!("{number:.places$e}").parse().unwrap_or(number)
+}
