@@ -80,8 +80,10 @@ impl<const N: usize> Kernel for InnerProducts<'_, [f64; N]> {
     #[inline(always)]
     fn run<const FUSED: bool>(self) -> [f64; N] {
         const APART: usize = 4;
-        let (left, left_rest) = self.left.as_chunks::<APART>();
-        let (right, right_rest) = self.right.as_chunks::<APART>();
+        // cut to one length, so that it is compared once and not for each chunk
+        let length = self.left.len().min(self.right.len());
+        let (left, left_rest) = self.left[..length].as_chunks::<APART>();
+        let (right, right_rest) = self.right[..length].as_chunks::<APART>();
         let mut sums = [Vector::ZERO; APART];
         for (a, b) in left.iter().zip(right) {
             for i in 0..APART {

@@ -33,7 +33,7 @@ impl DoubleDouble {
         DoubleDouble { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16 };
 
     /// `a + b` exactly.
-    #[inline]
+    #[inline(always)]
     pub fn sum(a: f64, b: f64) -> DoubleDouble {
         let high = a + b;
         let part = high - a;
@@ -41,7 +41,7 @@ impl DoubleDouble {
     }
 
     /// `a + b` exactly, for `|a| ≥ |b|`.
-    #[inline]
+    #[inline(always)]
     fn ordered_sum(a: f64, b: f64) -> DoubleDouble {
         let high = a + b;
         DoubleDouble { high, low: b - (high - a) }
@@ -50,9 +50,7 @@ impl DoubleDouble {
     /// `a · b` exactly.
     #[inline]
     pub fn product(a: f64, b: f64) -> DoubleDouble {
-        DoubleDouble::product_by::<{ cfg!(any(target_feature = "fma", target_arch = "aarch64")) }>(
-            a, b,
-        )
+        DoubleDouble::product_by::<FUSED>(a, b)
     }
 
     /// `a · b` exactly, by a fused multiply-add or without: the bits are the same, as either gives
@@ -189,7 +187,7 @@ fn split(a: f64) -> (f64, f64) {
 }
 
 impl From<f64> for DoubleDouble {
-    #[inline]
+    #[inline(always)]
     fn from(high: f64) -> DoubleDouble {
         DoubleDouble { high, low: 0.0 }
     }
@@ -197,7 +195,7 @@ impl From<f64> for DoubleDouble {
 
 impl Add for DoubleDouble {
     type Output = DoubleDouble;
-    #[inline]
+    #[inline(always)]
     fn add(self, other: DoubleDouble) -> DoubleDouble {
         let (s, t) =
             (DoubleDouble::sum(self.high, other.high), DoubleDouble::sum(self.low, other.low));
@@ -208,7 +206,7 @@ impl Add for DoubleDouble {
 
 impl Sub for DoubleDouble {
     type Output = DoubleDouble;
-    #[inline]
+    #[inline(always)]
     fn sub(self, other: DoubleDouble) -> DoubleDouble {
         self + -other
     }
@@ -216,9 +214,41 @@ impl Sub for DoubleDouble {
 
 impl Neg for DoubleDouble {
     type Output = DoubleDouble;
-    #[inline]
+    #[inline(always)]
     fn neg(self) -> DoubleDouble {
         DoubleDouble { high: -self.high, low: -self.low }
+    }
+}
+
+/// Whether the instructions that the program was built for have a fused multiply-add.
+const FUSED: bool = cfg!(any(target_feature = "fma", target_arch = "aarch64"));
+
+/// Operations by a fused multiply-add or without: the bits are the same, as those of
+/// [`DoubleDouble::product_by`].
+impl DoubleDouble {
+    #[inline(always)]
+    fn times_double<const FUSED: bool>(self, other: DoubleDouble) -> DoubleDouble {
+        let p = DoubleDouble::product_by::<FUSED>(self.high, other.high);
+        DoubleDouble::ordered_sum(p.high, p.low + (self.high * other.low + self.low * other.high))
+    }
+
+    #[inline(always)]
+    fn times_f64<const FUSED: bool>(self, other: f64) -> DoubleDouble {
+        let p = DoubleDouble::product_by::<FUSED>(self.high, other);
+        DoubleDouble::ordered_sum(p.high, p.low + self.low * other)
+    }
+
+    #[inline(always)]
+    fn quotient<const FUSED: bool>(self, other: DoubleDouble) -> DoubleDouble {
+        let first = self.high / other.high;
+        if !first.is_finite() || !other.high.is_finite() {
+            return DoubleDouble::from(first);
+        }
+        let rest = self - other.times_f64::<FUSED>(first);
+        let second = rest.high / other.high;
+        let third = (rest - other.times_f64::<FUSED>(second)).high / other.high;
+        let quotient = DoubleDouble::ordered_sum(first, second);
+        DoubleDouble::ordered_sum(quotient.high, quotient.low + third)
     }
 }
 
@@ -226,8 +256,7 @@ impl Mul for DoubleDouble {
     type Output = DoubleDouble;
     #[inline]
     fn mul(self, other: DoubleDouble) -> DoubleDouble {
-        let p = DoubleDouble::product(self.high, other.high);
-        DoubleDouble::ordered_sum(p.high, p.low + (self.high * other.low + self.low * other.high))
+        self.times_double::<FUSED>(other)
     }
 }
 
@@ -235,8 +264,7 @@ impl Mul<f64> for DoubleDouble {
     type Output = DoubleDouble;
     #[inline]
     fn mul(self, other: f64) -> DoubleDouble {
-        let p = DoubleDouble::product(self.high, other);
-        DoubleDouble::ordered_sum(p.high, p.low + self.low * other)
+        self.times_f64::<FUSED>(other)
     }
 }
 
@@ -244,15 +272,7 @@ impl Div for DoubleDouble {
     type Output = DoubleDouble;
     #[inline]
     fn div(self, other: DoubleDouble) -> DoubleDouble {
-        let first = self.high / other.high;
-        if !first.is_finite() || !other.high.is_finite() {
-            return DoubleDouble::from(first);
-        }
-        let rest = self - other * first;
-        let second = rest.high / other.high;
-        let third = (rest - other * second).high / other.high;
-        let quotient = DoubleDouble::ordered_sum(first, second);
-        DoubleDouble::ordered_sum(quotient.high, quotient.low + third)
+        self.quotient::<FUSED>(other)
     }
 }
 
@@ -263,5 +283,25 @@ impl Div<f64> for DoubleDouble {
         let first = self.high / other;
         let rest = self - DoubleDouble::product(first, other);
         DoubleDouble::ordered_sum(first, (rest.high + rest.low) / other)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fused_multiply_add_changes_no_bit() {
+        let number =
+            |k: i64| DoubleDouble::integer(k * k - 40 * k + 3) / DoubleDouble::integer(7 * k + 1);
+        let bits = |x: DoubleDouble| (x.high.to_bits(), x.low.to_bits());
+        for k in 0..100 {
+            let (a, b) = (number(k), number(k + 17));
+            assert_eq!(bits(a.times_double::<true>(b)), bits(a.times_double::<false>(b)));
+            assert_eq!(bits(a.times_f64::<true>(b.high)), bits(a.times_f64::<false>(b.high)));
+            assert_eq!(bits(a.quotient::<true>(b)), bits(a.quotient::<false>(b)));
+            let rest = a.quotient::<true>(b) * b - a;
+            assert!(rest.high.abs() <= 1e-30 * a.high.abs(), "{a:?} / {b:?}");
+        }
     }
 }

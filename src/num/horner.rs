@@ -27,10 +27,7 @@ pub struct Polynomial<'a> {
 /// over the power of the first of them. None waits for another.
 #[inline(always)]
 pub fn tails<const N: usize>(high: [&[f64]; N], x: f64) -> [f64; N] {
-    let mut length = usize::MAX;
-    for lane in 0..N {
-        length = length.min(high[lane].len());
-    }
+    let (high, length) = of_one_length(high);
     let mut sums = [0.0; N];
     for j in (0..length).rev() {
         for lane in 0..N {
@@ -43,10 +40,7 @@ pub fn tails<const N: usize>(high: [&[f64]; N], x: f64) -> [f64; N] {
 /// The same of the slopes of these polynomials, whose term of order `first` is the first of `high`.
 #[inline(always)]
 pub fn slope_tails<const N: usize>(high: [&[f64]; N], first: usize, x: f64) -> [f64; N] {
-    let mut length = usize::MAX;
-    for lane in 0..N {
-        length = length.min(high[lane].len());
-    }
+    let (high, length) = of_one_length(high);
     let mut sums = [0.0; N];
     for j in (0..length).rev() {
         let order = (first + j) as f64;
@@ -55,6 +49,19 @@ pub fn slope_tails<const N: usize>(high: [&[f64]; N], first: usize, x: f64) -> [
         }
     }
     sums
+}
+
+/// Series cut to their common length, and that.
+#[inline(always)]
+fn of_one_length<const N: usize>(mut series: [&[f64]; N]) -> ([&[f64]; N], usize) {
+    let mut length = usize::MAX;
+    for lane in 0..N {
+        length = length.min(series[lane].len());
+    }
+    for lane in 0..N {
+        series[lane] = &series[lane][..length];
+    }
+    (series, length)
 }
 
 impl Polynomial<'_> {

@@ -44,20 +44,33 @@ pub trait Analytic:
     /// The number nearest to a [`DoubleDouble`].
     fn of(x: DoubleDouble) -> Self;
 
-    /// Division by an integer from 1 to 64.
+    /// Division by an integer from 1 to 64, with a fused multiply-add where that gives the same bits; so are the
+    /// products and quotients below.
     #[must_use]
     #[inline(always)]
-    fn over(self, n: usize) -> Self {
+    fn over<const FUSED: bool>(self, n: usize) -> Self {
         self / n as f64
+    }
+    /// An integer multiple.
+    #[must_use]
+    #[inline(always)]
+    fn multiple<const FUSED: bool>(self, n: usize) -> Self {
+        self * n as f64
     }
     /// Multiplication by a power of two.
     #[must_use]
     fn scaled(self, power_of_two: Self::Unit) -> Self;
-    /// The product, with a fused multiply-add where that gives the same bits.
+    /// The product.
     #[must_use]
     #[inline(always)]
     fn times<const FUSED: bool>(self, other: Self) -> Self {
         self * other
+    }
+    /// The quotient.
+    #[must_use]
+    #[inline(always)]
+    fn divided_by<const FUSED: bool>(self, other: Self) -> Self {
+        self / other
     }
     /// Puts [`Analytic::SIDE`] numbers side by side.
     fn side_by_side(number: impl Fn(usize) -> Self) -> Self::Lanes;

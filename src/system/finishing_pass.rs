@@ -61,11 +61,14 @@ pub(super) struct LinearSum {
     pub(super) count: u32,
 }
 
-/// Linear equations. The inner products are those of the varying entries of the matrix, row by row.
+/// Linear equations. The varying entries of the matrix are a range of the schedule's table; the inner products are
+/// theirs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LinearSolution {
     pub(super) register: Register,
     pub(super) block: u32,
+    pub(super) first: u32,
+    pub(super) count: u32,
     pub(super) inner: u32,
 }
 
@@ -239,7 +242,11 @@ mod tests {
     #[test]
     fn a_solution_is_known_in_all_its_registers() {
         let mut sorter = Sorter::new(8);
-        sorter.add(Step::Solution(LinearSolution { register: 2, block: 0, inner: 0 }), 2, [0, 1]);
+        sorter.add(
+            Step::Solution(LinearSolution { register: 2, block: 0, first: 0, count: 0, inner: 0 }),
+            2,
+            [0, 1],
+        );
         let (step, needs) = product(4, 3, 3);
         sorter.add(step, 1, needs);
         let runs = sorter.runs();

@@ -113,8 +113,8 @@ impl<R: Coefficient> Jet<R> {
         made: impl Fn(R) -> R,
     ) {
         let Tables { rows, stride, width, .. } = &mut self.tables;
-        let (below, next) = rows.split_at_mut((k + 1) * *width);
-        let (now, next) = (&below[k * *width..], &mut next[..*width]);
+        let (stride, width) = (*stride, *width);
+        let (now, next) = rows[k * width..][..2 * width].split_at_mut(width);
         let Program { inputs, outputs, .. } = &*self.program;
         let (driving, others) = outputs.split_at(count.min(outputs.len()).min(inputs.len()));
         // counted along, since to divide a table into chunks takes a division
@@ -123,12 +123,12 @@ impl<R: Coefficient> Jet<R> {
             let coefficient = made(now[output as usize]);
             next[input as usize] = coefficient;
             series[place] = coefficient;
-            place += *stride;
+            place += stride;
         }
         for &output in others {
             let Some(coefficient) = series.get_mut(place) else { break };
             *coefficient = made(now[output as usize]);
-            place += *stride;
+            place += stride;
         }
     }
 
@@ -175,7 +175,7 @@ impl<R: Coefficient> Jet<R> {
         tables.multiply::<FUSED>(k);
         let rate = if k == 1 { R::ONE.scaled(scale) } else { R::ZERO };
         tables.finish::<FUSED>(program, schedule, k, rate);
-        tables.hand_on(schedule, k);
+        tables.hand_on::<FUSED>(schedule, k);
         tables.keep(k);
         Ok(())
     }
@@ -244,15 +244,16 @@ impl<R: Real> Jet<R> {
     pub fn copy<S: Real>(&mut self, other: &Jet<S>, orders: usize) {
         let (own, other) = (&mut self.tables, &other.tables);
         let fixed = &self.program.fixed;
-        for (own, other) in own
-            .rows
-            .chunks_exact_mut(own.width)
-            .zip(other.rows.chunks_exact(own.width))
-            .take(orders)
-        {
+        let rows = own.rows.chunks_exact_mut(own.width);
+        let mut rows = rows.zip(other.rows.chunks_exact(other.width)).take(orders);
+        if let Some((own, other)) = rows.next() {
             for ((x, y), _) in own.iter_mut().zip(other).zip(fixed).filter(|(_, fixed)| !**fixed) {
                 *x = R::of(y.double());
             }
+        }
+        // above order 0 what depends on parameters alone is zero in both
+        for (own, other) in rows {
+            own.iter_mut().zip(other).for_each(|(x, y)| *x = R::of(y.double()));
         }
         let stretches = own.series.chunks_exact_mut(own.stride);
         let theirs = other.series.chunks_exact(other.stride);
@@ -272,7 +273,7 @@ impl<R: Real> Jet<R> {
             }
         }
         for k in 1..orders {
-            own.hand_on(&self.schedule, k);
+            own.hand_on::<false>(&self.schedule, k);
         }
     }
 }

@@ -19,7 +19,7 @@ use super::finishing_pass::{
     Integral, LinearSolution, LinearSum, OperationRun, Product, Related, Scaling, Sorter, Step,
     TermSign,
 };
-use super::program::{Op, Program, Register};
+use super::program::{Block, Op, Program, Register};
 use crate::expr::{BilinearEquation, Divisor, Operand, Rule};
 use crate::num::DoubleDouble;
 
@@ -105,6 +105,14 @@ pub(super) enum Direct {
     Slope(ConvolutionFactor, Register),
 }
 
+/// An entry of a matrix that is not constant, row by row.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct VaryingEntry {
+    pub(super) row: u32,
+    pub(super) column: u32,
+    pub(super) register: Register,
+}
+
 /// The schedule of one program.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Schedule {
@@ -113,6 +121,8 @@ pub(super) struct Schedule {
     pub(super) runs: Vec<OperationRun>,
     pub(super) relations: Vec<Relation>,
     pub(super) summands: Vec<Summand>,
+    /// The varying entries of matrices.
+    pub(super) entries: Vec<VaryingEntry>,
     /// The registers whose slope enters an inner product.
     pub(super) slopes: Vec<Register>,
 }
@@ -211,8 +221,7 @@ impl ScheduleWriter<'_> {
                 return;
             }
             Op::Solve(block) => {
-                let inner = self.products_of_block(register, block as usize);
-                let solution = Step::Solution(LinearSolution { register, block, inner });
+                let solution = Step::Solution(self.solution(register, block));
                 self.add(solution, register, self.program.blocks[block as usize].size());
                 return;
             }
@@ -327,18 +336,21 @@ impl ScheduleWriter<'_> {
         }))
     }
 
-    /// Those of the varying entries of a matrix and the unknowns, side by side.
-    fn products_of_block(&mut self, register: Register, block: usize) -> u32 {
+    /// Linear equations whose unknowns begin at a register, with the inner products of the varying entries of the matrix
+    /// and these.
+    fn solution(&mut self, register: Register, block: u32) -> LinearSolution {
         let (program, schedule) = (self.program, &mut self.schedule);
-        let block = &program.blocks[block];
-        let first = schedule.pairs.len() as u32;
-        for row in block.matrix.chunks(block.size()) {
-            for (unknown, &entry) in (register..).zip(row) {
+        let Block { matrix, right, .. } = &program.blocks[block as usize];
+        let (inner, first) = (schedule.pairs.len() as u32, schedule.entries.len() as u32);
+        for (row, entries) in (0..).zip(matrix.chunks(right.len())) {
+            for (column, &entry) in (0..).zip(entries) {
                 if !program.fixed[entry as usize] {
-                    schedule.pairs.push(Pair { left: entry, right: unknown });
+                    schedule.pairs.push(Pair { left: entry, right: register + column });
+                    schedule.entries.push(VaryingEntry { row, column, register: entry });
                 }
             }
         }
-        first
+        let count = schedule.entries.len() as u32 - first;
+        LinearSolution { register, block, first, count, inner }
     }
 }

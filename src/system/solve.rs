@@ -95,16 +95,22 @@ impl<R: Real> Factored<R> {
 
     /// Solves for a right-hand side, in place.
     pub(super) fn solve(&mut self, right: &mut [R]) {
+        self.solve_with::<false>(right);
+    }
+
+    /// The same inside a [`Kernel`](crate::num::Kernel).
+    #[inline(always)]
+    pub(super) fn solve_with<const FUSED: bool>(&mut self, right: &mut [R]) {
         match self.size {
-            2 => self.solve_of::<2>(right),
-            3 => self.solve_of::<3>(right),
-            4 => self.solve_of::<4>(right),
-            _ => self.solve_of::<0>(right),
+            2 => self.solve_of::<2, FUSED>(right),
+            3 => self.solve_of::<3, FUSED>(right),
+            4 => self.solve_of::<4, FUSED>(right),
+            _ => self.solve_of::<0, FUSED>(right),
         }
     }
 
-    #[inline]
-    fn solve_of<const SIZE: usize>(&mut self, right: &mut [R]) {
+    #[inline(always)]
+    fn solve_of<const SIZE: usize, const FUSED: bool>(&mut self, right: &mut [R]) {
         let n = if SIZE == 0 { self.size } else { SIZE };
         let (entries, rows) = (&self.entries[..n * n], &self.rows[..n]);
         let (right, scratch) = (&mut right[..n], &mut self.scratch[..n]);
@@ -112,7 +118,7 @@ impl<R: Real> Factored<R> {
             let row = rows[k];
             let mut sum = right[row];
             for j in 0..k {
-                sum = sum - entries[row * n + j] * scratch[j];
+                sum = sum - entries[row * n + j].times::<FUSED>(scratch[j]);
             }
             scratch[k] = sum;
         }
@@ -120,9 +126,9 @@ impl<R: Real> Factored<R> {
             let row = rows[k];
             let mut sum = scratch[k];
             for j in k + 1..n {
-                sum = sum - entries[row * n + j] * right[j];
+                sum = sum - entries[row * n + j].times::<FUSED>(right[j]);
             }
-            right[k] = sum / entries[row * n + k];
+            right[k] = sum.divided_by::<FUSED>(entries[row * n + k]);
         }
     }
 }

@@ -142,9 +142,13 @@ impl Analytic for DoubleDouble {
     const ZEROS: DoubleLanes<LANES> = DoubleLanes::ZERO;
     const SIDE: usize = LANES;
 
-    #[inline]
-    fn over(self, n: usize) -> DoubleDouble {
-        self * RECIPROCALS[n]
+    #[inline(always)]
+    fn over<const FUSED: bool>(self, n: usize) -> DoubleDouble {
+        self.times::<FUSED>(RECIPROCALS[n])
+    }
+    #[inline(always)]
+    fn multiple<const FUSED: bool>(self, n: usize) -> DoubleDouble {
+        self.times_f64::<FUSED>(n as f64)
     }
     #[inline]
     fn scaled(self, power_of_two: f64) -> DoubleDouble {
@@ -152,8 +156,11 @@ impl Analytic for DoubleDouble {
     }
     #[inline(always)]
     fn times<const FUSED: bool>(self, other: DoubleDouble) -> DoubleDouble {
-        let p = DoubleDouble::product_by::<FUSED>(self.high, other.high);
-        DoubleDouble::ordered_sum(p.high, p.low + (self.high * other.low + self.low * other.high))
+        self.times_double::<FUSED>(other)
+    }
+    #[inline(always)]
+    fn divided_by<const FUSED: bool>(self, other: DoubleDouble) -> DoubleDouble {
+        self.quotient::<FUSED>(other)
     }
     #[inline(always)]
     fn side_by_side(number: impl Fn(usize) -> DoubleDouble) -> DoubleLanes<LANES> {

@@ -33,7 +33,8 @@ impl Elimination<Batch> for FactoredBatch {
         true
     }
 
-    fn solve(&mut self, right: &mut [Batch]) {
+    #[inline(always)]
+    fn solve<const FUSED: bool>(&mut self, right: &mut [Batch]) {
         for (lane, factored) in self.lanes.iter_mut().enumerate() {
             if self.singular[lane] {
                 for x in right.iter_mut() {
@@ -44,7 +45,7 @@ impl Elimination<Batch> for FactoredBatch {
             for (own, x) in self.right.iter_mut().zip(&*right) {
                 *own = x.0[lane];
             }
-            factored.solve(&mut self.right);
+            factored.solve_with::<FUSED>(&mut self.right);
             for (x, own) in right.iter_mut().zip(&self.right) {
                 x.0[lane] = *own;
             }

@@ -19,53 +19,55 @@ use crate::system::schedule::Pair;
 pub(super) struct Operands<R: Analytic> {
     /// The number of orders.
     stride: usize,
-    groups: Vec<OperandGroup<R>>,
-    products: Vec<R>,
-}
-
-/// Pairs side by side. The last ones may be filled up.
-#[derive(Clone, Debug)]
-struct OperandGroup<R: Analytic> {
+    /// The pairs, group by group. The last group may be filled up.
     pairs: Vec<Pair>,
+    /// The series of each group, one after another.
     left: Vec<R::Lanes>,
     right: Vec<R::Lanes>,
+    products: Vec<R>,
 }
 
 impl<R: Analytic> Operands<R> {
     /// Zeros, for these pairs and so many orders.
     pub(super) fn new(pairs: &[Pair], stride: usize) -> Operands<R> {
-        let group = |pairs: &[Pair]| {
-            let last = pairs.last().copied().into_iter().cycle();
-            OperandGroup {
-                pairs: pairs.iter().copied().chain(last).take(R::SIDE).collect(),
-                left: vec![R::ZEROS; stride],
-                right: vec![R::ZEROS; stride],
-            }
-        };
-        let groups: Vec<OperandGroup<R>> = pairs.chunks(R::SIDE).map(group).collect();
-        let products = vec![R::ZERO; groups.len() * R::SIDE];
-        Operands { stride, groups, products }
+        let count = pairs.len().next_multiple_of(R::SIDE);
+        let last = pairs.last().copied().into_iter().cycle();
+        let series = vec![R::ZEROS; count / R::SIDE * stride];
+        Operands {
+            stride,
+            pairs: pairs.iter().copied().chain(last).take(count).collect(),
+            right: series.clone(),
+            left: series,
+            products: vec![R::ZERO; count],
+        }
     }
 
     /// Computes all inner products of order `k`, which is above zero.
     #[inline(always)]
     pub(super) fn multiply<const FUSED: bool>(&mut self, k: usize) {
-        let room = self.stride;
-        let places = self.products.chunks_exact_mut(R::SIDE);
-        for (group, products) in self.groups.iter().zip(places) {
-            let (left, right) = (&group.left[1..k], &group.right[room - k..room - 1]);
-            R::inner_products::<FUSED>(left, right, products);
+        let stride = self.stride;
+        let (mut left, mut right) = (&self.left[..], &self.right[..]);
+        for products in self.products.chunks_exact_mut(R::SIDE) {
+            // split off, since to divide a table into chunks of any length takes a division
+            let (own_left, others_left) = left.split_at(stride);
+            let (own_right, others_right) = right.split_at(stride);
+            let (a, b) = (&own_left[1..k], &own_right[stride - k..stride - 1]);
+            R::inner_products::<FUSED>(a, b, products);
+            (left, right) = (others_left, others_right);
         }
     }
 
     /// Stores the coefficients of order `k` of all registers and slopes.
     #[inline(always)]
     pub(super) fn store(&mut self, now: &[R], k: usize) {
-        let last = self.stride - 1;
-        for OperandGroup { pairs, left, right } in &mut self.groups {
-            let pairs = &pairs[..R::SIDE];
-            left[k] = R::side_by_side(|lane| now[pairs[lane].left as usize]);
-            right[last - k] = R::side_by_side(|lane| now[pairs[lane].right as usize]);
+        let stride = self.stride;
+        let (mut left, mut right) = (&mut self.left[..], &mut self.right[..]);
+        for pairs in self.pairs.chunks_exact(R::SIDE) {
+            let (own_left, others_left) = left.split_at_mut(stride);
+            let (own_right, others_right) = right.split_at_mut(stride);
+            own_left[k] = R::side_by_side(|lane| now[pairs[lane].left as usize]);
+            own_right[stride - 1 - k] = R::side_by_side(|lane| now[pairs[lane].right as usize]);
+            (left, right) = (others_left, others_right);
         }
     }
 

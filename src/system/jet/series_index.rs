@@ -8,8 +8,9 @@ use crate::system::program::{Op, PARAMETRIC_POWER_BITS, Program, Register};
 #[derive(Debug)]
 pub(super) struct SeriesIndex {
     pub(super) registers: Vec<Register>,
-    /// Whether each is one of the factors of a parametric power, which are stored nowhere else.
-    pub(super) factors: Vec<bool>,
+    /// Those that are copies of registers, each with its place among all. The factors of a parametric power are stored
+    /// nowhere else.
+    pub(super) copies: Vec<(Register, u32)>,
     /// For each register of the program, its place among these; [`NOWHERE`] if it has none.
     places: Vec<u32>,
 }
@@ -52,8 +53,9 @@ impl SeriesIndex {
         for (place, &register) in (0..).zip(&registers) {
             places[register as usize] = place;
         }
-        let factors = registers.iter().map(|&register| factors[register as usize]).collect();
-        SeriesIndex { registers, factors, places }
+        let copies = (0..).zip(&registers).filter(|&(_, &register)| !factors[register as usize]);
+        let copies = copies.map(|(place, &register)| (register, place)).collect();
+        SeriesIndex { registers, copies, places }
     }
 
     /// Where the series of a register begins, if they are `stride` apart.

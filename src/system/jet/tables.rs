@@ -35,8 +35,8 @@ pub trait Elimination<R>: Clone + Send + Sync + std::fmt::Debug {
     /// singular.
     #[must_use]
     fn factor(&mut self, entry: impl Fn(usize, usize) -> R) -> bool;
-    /// Solves for a right-hand side, in place.
-    fn solve(&mut self, right: &mut [R]);
+    /// Solves for a right-hand side, in place. With `FUSED` it must be inlined into a kernel.
+    fn solve<const FUSED: bool>(&mut self, right: &mut [R]);
 }
 
 impl<R: Real> Elimination<R> for Factored<R> {
@@ -46,8 +46,9 @@ impl<R: Real> Elimination<R> for Factored<R> {
     fn factor(&mut self, entry: impl Fn(usize, usize) -> R) -> bool {
         Factored::factor(self, entry)
     }
-    fn solve(&mut self, right: &mut [R]) {
-        Factored::solve(self, right);
+    #[inline(always)]
+    fn solve<const FUSED: bool>(&mut self, right: &mut [R]) {
+        self.solve_with::<FUSED>(right);
     }
 }
 
@@ -130,7 +131,7 @@ impl<R: Coefficient> Tables<R> {
                         *x = self.rows[right as usize];
                     }
                     let solution = &mut self.vector[..block_of.size()];
-                    self.blocks[block as usize].solve(solution);
+                    self.blocks[block as usize].solve::<false>(solution);
                     self.rows[r as usize..][..block_of.size()].copy_from_slice(solution);
                 }
                 op => self.evaluate(program, r, op),
@@ -164,7 +165,9 @@ impl<R: Coefficient> Tables<R> {
         let mut runs = schedule.runs.iter();
         while let Some(run) = self.finish_plainly::<FUSED>(schedule, &mut runs, k, rate) {
             match *run {
-                OperationRun::Solution(solution) => self.solve(program, solution, k),
+                OperationRun::Solution(solution) => {
+                    self.solve::<FUSED>(program, schedule, solution, k)
+                }
                 OperationRun::Alone(register) => {
                     let coefficient = R::alone(self, program, register, k);
                     self.rows[k * self.width + register as usize] = coefficient;
@@ -211,7 +214,7 @@ impl<R: Coefficient> Tables<R> {
                         let x = related::<R, FUSED>(schedule, relation, (values, now, products), k);
                         now[at(register)] = match relation.vanishing.map(at) {
                             Some(a) => {
-                                let below = below.chunks_exact(width).map(|row| row[a]);
+                                let below = (0..k).map(|j| below[j * width + a]);
                                 x.unless_vanishing(std::iter::once(now[a]).chain(below))
                             }
                             None => x,
@@ -220,10 +223,11 @@ impl<R: Coefficient> Tables<R> {
                 }
                 OperationRun::Integrals(run) => {
                     for &Integral { register, sign, slope, factor, inner } in run {
-                        let last = now[at(slope)].times::<FUSED>(values[at(factor)]) * k as f64;
+                        let last =
+                            now[at(slope)].times::<FUSED>(values[at(factor)]).multiple::<FUSED>(k);
                         let sum = products[at(inner)] + last;
                         let sum = if sign == TermSign::Minus { -sum } else { sum };
-                        now[at(register)] = (R::ZERO + sum).over(k);
+                        now[at(register)] = (R::ZERO + sum).over::<FUSED>(k);
                     }
                 }
                 OperationRun::Sums(run) => {
@@ -241,36 +245,41 @@ impl<R: Coefficient> Tables<R> {
     }
 
     /// `M_0 a_k = f_k − Σ_{j≥1} M_j a_{k−j}`.
-    fn solve(&mut self, program: &Program, solution: LinearSolution, k: usize) {
-        let LinearSolution { register, block, inner } = solution;
-        let (block, mut product) = (block as usize, inner as usize);
-        let Block { matrix, right, .. } = &program.blocks[block];
-        let (n, first) = (right.len(), register as usize);
-        let (below, now) = self.rows.split_at_mut(k * self.width);
-        let products = self.operands.products();
-        for (i, &right) in right.iter().enumerate() {
-            let mut sum = now[right as usize];
-            for (j, &entry) in matrix[i * n..][..n].iter().enumerate() {
-                if !program.fixed[entry as usize] {
-                    let last = now[entry as usize] * below[first + j];
-                    sum = sum - (products[product] + last);
-                    product += 1;
-                }
-            }
-            self.vector[i] = sum;
+    #[inline(always)]
+    fn solve<const FUSED: bool>(
+        &mut self,
+        program: &Program,
+        schedule: &Schedule,
+        solution: LinearSolution,
+        k: usize,
+    ) {
+        let LinearSolution { register, block, first, count, inner } = solution;
+        let (width, block) = (self.width, block as usize);
+        let (below, now) = self.rows.split_at_mut(k * width);
+        let (unknowns, now) = (&below[register as usize..width], &mut now[..width]);
+        let right = &program.blocks[block].right[..];
+        let sums = &mut self.vector[..right.len()];
+        for (sum, &right) in sums.iter_mut().zip(right) {
+            *sum = now[right as usize];
         }
-        let solution = &mut self.vector[..n];
-        self.blocks[block].solve(solution);
-        now[first..first + n].copy_from_slice(solution);
+        let entries = &schedule.entries[first as usize..][..count as usize];
+        let products = &self.operands.products()[inner as usize..][..entries.len()];
+        for (entry, &product) in entries.iter().zip(products) {
+            let last = now[entry.register as usize].times::<FUSED>(unknowns[entry.column as usize]);
+            let sum = &mut sums[entry.row as usize];
+            *sum = *sum - (product + last);
+        }
+        self.blocks[block].solve::<FUSED>(sums);
+        now[register as usize..][..sums.len()].copy_from_slice(sums);
     }
 
     /// Stores order `k` once more where inner products read it.
     #[inline(always)]
-    pub(super) fn hand_on(&mut self, schedule: &Schedule, k: usize) {
+    pub(super) fn hand_on<const FUSED: bool>(&mut self, schedule: &Schedule, k: usize) {
         let now = &mut self.rows[k * self.width..][..self.width];
         let (registers, slopes) = now.split_at_mut(self.width - schedule.slopes.len());
         for (slope, &r) in slopes.iter_mut().zip(&schedule.slopes) {
-            *slope = registers[r as usize] * k as f64;
+            *slope = registers[r as usize].multiple::<FUSED>(k);
         }
         self.operands.store(now, k);
     }
@@ -278,13 +287,11 @@ impl<R: Coefficient> Tables<R> {
     /// Stores order `k` once more where whole series are read.
     #[inline(always)]
     pub(super) fn keep(&mut self, k: usize) {
-        let now = &self.rows[k * self.width..][..self.width];
-        let mut place = k;
-        for (&register, &factor) in self.index.registers.iter().zip(&self.index.factors) {
-            if !factor {
-                self.series[place] = now[register as usize];
-            }
-            place += self.stride;
+        let Tables { rows, series, index, stride, width, .. } = self;
+        let now = &rows[k * *width..][..*width];
+        let (series, stride) = (&mut series[..], *stride);
+        for &(register, place) in &index.copies {
+            series[place as usize * stride + k] = now[register as usize];
         }
     }
 
@@ -358,7 +365,7 @@ fn related<R: Analytic, const FUSED: bool>(
     let mut sum = match relation.direct {
         Direct::None => R::ZERO,
         Direct::Coefficient(a) => now[at(a)],
-        Direct::Slope(factor, a) => times(factor, now[at(a)] * k as f64),
+        Direct::Slope(factor, a) => times(factor, now[at(a)].multiple::<FUSED>(k)),
     };
     let range = relation.first as usize..(relation.first + relation.count) as usize;
     for summand in &schedule.summands[range] {
@@ -366,7 +373,9 @@ fn related<R: Analytic, const FUSED: bool>(
         let whole = match summand.ends {
             Ends::None => product,
             Ends::Last(a, b) => product + now[at(a)].times::<FUSED>(values[at(b)]),
-            Ends::LastSlope(a, b) => product + now[at(a)].times::<FUSED>(values[at(b)]) * k as f64,
+            Ends::LastSlope(a, b) => {
+                product + now[at(a)].times::<FUSED>(values[at(b)]).multiple::<FUSED>(k)
+            }
             Ends::Both(a, b) => {
                 product
                     + (values[at(a)].times::<FUSED>(now[at(b)])
@@ -377,9 +386,9 @@ fn related<R: Analytic, const FUSED: bool>(
     }
     match relation.denominator {
         Denominator::One => sum,
-        Denominator::Order => sum.over(k),
-        Denominator::Value(a) => sum / values[at(a)],
-        Denominator::OrderTimes(a) => (sum / values[at(a)]).over(k),
-        Denominator::Twice(a) => sum / (values[at(a)] * 2.0),
+        Denominator::Order => sum.over::<FUSED>(k),
+        Denominator::Value(a) => sum.divided_by::<FUSED>(values[at(a)]),
+        Denominator::OrderTimes(a) => sum.divided_by::<FUSED>(values[at(a)]).over::<FUSED>(k),
+        Denominator::Twice(a) => sum.divided_by::<FUSED>(values[at(a)].multiple::<FUSED>(2)),
     }
 }
