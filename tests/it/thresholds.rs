@@ -202,7 +202,7 @@ fn what_commutes_near_the_start_alone_is_no_casimir() {
              [poisson]\nH = \"p^2/2\"\nbrackets = [[\"x\", \"p\", \"1\"]]\ncasimirs = {{ C = \"z + {added}\" }}\n"
         );
         with_file(&text, &["check", "system.toml"])
-            .fails(1, &["`C` is no Casimir of these brackets"]);
+            .fails(65, &["`C` is no Casimir of these brackets"]);
         let map = oscillator(&format!(
             "[[transformations]]\nname = \"m\"\nkind = \"explicit\"\nQ = {{ Q = \"x + {added}*p_x\" }}\n\
              P = {{ P = \"p_x - {added}\" }}"
