@@ -25,6 +25,7 @@ mod measure;
 mod memo;
 mod node;
 mod notation;
+mod other_functions;
 mod parse;
 mod plain;
 mod pool;

@@ -3,6 +3,7 @@
 
 use super::function::FUNCTIONS;
 use super::node::{Expr, FunctionId};
+use super::other_functions;
 use super::pool::Pool;
 use crate::diagnostic::nearest;
 use crate::num::Number;
@@ -222,9 +223,10 @@ fn not_a_product(left: &Syntax, right: &Syntax, names: &dyn Resolve) -> Option<S
 /// The error for a call of an unknown function.
 fn no_function(name: &str, span: Span) -> SyntaxError {
     let error = SyntaxError::new(span, format!("there is no function `{name}`"));
+    if let Some(help) = other_functions::written_here(name) {
+        return error.with_help(help);
+    }
     match nearest(name, FUNCTIONS.iter().map(|row| row.name)) {
-        _ if name == "log" => error
-            .with_help("did you mean `ln`, the natural logarithm? That to base 10 is ln(x)/ln(10)"),
         Some(near) => error.with_help(format!("did you mean `{near}`?")),
         None => {
             let all: Vec<&str> = FUNCTIONS.iter().map(|row| row.name).collect();

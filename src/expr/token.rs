@@ -180,6 +180,9 @@ fn unexpected(text: &str, start: usize) -> SyntaxError {
     let error = SyntaxError::new(span, format!("`{c}` has no meaning in an expression"));
     let help = match c {
         '=' => "an expression is one side only; what must vanish is written as a difference",
+        '<' | '>' | '≤' | '≥' => {
+            "an expression is a number: an event is where one passes 0, and (1 + sign(x))/2 is 1 where x > 0"
+        }
         '[' | ']' | '{' | '}' => "group with parentheses ( )",
         '\'' | '′' | '″' => "a prime follows the name of a coordinate at once: x'",
         '’' => "a velocity is written with a prime: x' or x′",

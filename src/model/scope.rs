@@ -204,7 +204,7 @@ impl Scope {
             return self.complain(SyntaxError::new(span, message));
         }
         if pool.reachable(&[e]).into_iter().any(|part| holds_infinity(pool.node(part))) {
-            let message = "this divides by zero, or holds a number beyond all range";
+            let message = "this divides by zero, has the root of a negative number, or holds a number beyond all range";
             self.complain(SyntaxError::new(span, message));
         }
     }
