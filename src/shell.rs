@@ -69,5 +69,5 @@ pub use progress::{LessonMark, LessonProgress, ProgressError};
 pub use question::Questions;
 pub use recording_ahead::{LeftRecording, NotRecorded, RecordingAhead};
 pub use request::Request;
-pub use session_file::SessionError;
+pub use session_file::{SessionError, has_session};
 pub use terminal::TerminalError;

@@ -166,15 +166,27 @@ impl Lab {
     /// Undoes the last change and returns its description. Returns `None` if there is none.
     pub(super) fn undo(&mut self) -> Option<(Vec<Effect>, String)> {
         let change = self.history.undo()?;
-        let label = format!("undone: {}", self.words(&change, ChangeSide::Before));
+        let label = format!(
+            "undone: {}{}",
+            self.words(&change, ChangeSide::Before),
+            self.going_on(&change)
+        );
         Some((self.carry_out(change, ChangeSide::Before), label))
     }
 
     /// Redoes the change undone last and returns its description. Returns `None` if there is none.
     pub(super) fn redo(&mut self) -> Option<(Vec<Effect>, String)> {
         let change = self.history.redo()?;
-        let label = format!("redone: {}", self.words(&change, ChangeSide::After));
+        let label =
+            format!("redone: {}{}", self.words(&change, ChangeSide::After), self.going_on(&change));
         Some((self.carry_out(change, ChangeSide::After), label))
+    }
+
+    /// What becomes of a motion under way when a parameter is given back: it has been another one since, and goes on.
+    fn going_on(&self, change: &Change) -> &'static str {
+        let moving = self.seen().is_some_and(|seen| seen.time > 0.0);
+        let of_law = matches!(change, Change::Parameter { .. });
+        if moving && of_law { "; the motion goes on from here, r restarts it" } else { "" }
     }
 
     /// Describes the transition to one side of a change: `g 9.81 → 3.2`.

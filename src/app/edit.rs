@@ -229,7 +229,10 @@ impl App {
         }
         let message = match (stopped, buffer.is_modified()) {
             (true, _) => format!("{} is no longer being checked; E resumes.", buffer.title),
-            (false, true) => format!("{} has unsaved changes; E returns to it.", buffer.title),
+            (false, true) => {
+                let key = if self.lab.is_some() { "E" } else { "Enter" };
+                format!("{} has unsaved changes; {key} returns to it.", buffer.title)
+            }
             (false, false) if self.lab.is_none() => return self.leave_alone(),
             (false, false) => return Vec::new(),
         };

@@ -29,6 +29,8 @@ pub struct Lab {
     pub focus: Pane,
     /// The picture that was focused last.
     pub front: Option<usize>,
+    /// The pictures that were focused before it, the last one first.
+    pub(super) earlier: Vec<usize>,
     /// Whether that pane is zoomed to fill the page.
     pub zoomed: bool,
     /// What is selected in the lists.
@@ -119,6 +121,7 @@ impl Lab {
             plots,
             focus: Pane::Parameters,
             front: None,
+            earlier: Vec::new(),
             zoomed: false,
             selection: Selection::default(),
             law_scroll: 0,
@@ -278,6 +281,21 @@ impl Lab {
         let LawInView::Clipped(beyond) = self.drawn.law else { return };
         let rows = usize::from(self.law_scroll).saturating_add_signed(by);
         self.law_scroll = rows.min(beyond.into()) as u16;
+    }
+
+    /// Remembers a picture as the one focused last.
+    pub(super) fn bring_to_front(&mut self, index: usize) {
+        if self.front != Some(index) {
+            self.earlier.retain(|other| *other != index);
+            self.earlier.splice(0..0, self.front);
+            self.front = Some(index);
+        }
+    }
+
+    /// Returns the pictures that were focused, the last one first.
+    pub fn focused_before(&self) -> impl Iterator<Item = usize> {
+        let all = self.front.into_iter().chain(self.earlier.iter().copied());
+        all.filter(|index| *index < self.plots.len())
     }
 
     /// Returns the focused picture and its index.

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use super::buffer::Unsaved;
 use super::session::NEW_SYSTEM;
-use super::{App, Effect, Lab, Loaded, Overlay, Page};
+use super::{Above, App, Effect, Lab, Loaded, Overlay, Page};
 use crate::experiment::Command;
 use crate::preset::{PresetOrigin, is_path, template};
 
@@ -79,12 +79,36 @@ impl App {
         vec![Effect::Tell(Command::Play)]
     }
 
-    /// Leaves the editor where no system runs: the list of systems is below.
+    /// Leaves the editor where no system runs: the list of systems is below, at the row of the text if it is not saved.
     pub(super) fn leave_alone(&mut self) -> Vec<Effect> {
         let notice = self.notice.take();
         self.go(Page::Picker);
         self.notice = notice;
+        self.list_unsaved();
+        self.picker.point_above(Above::Unsaved);
         self.picker.take().map(|name| self.ask(name, false)).into_iter().collect()
+    }
+
+    /// Lists the last unsaved text among the systems, unless the session is the one that runs it.
+    pub(super) fn list_unsaved(&mut self) {
+        let title = self.waiting_text().map(|text| text.title);
+        self.picker.unsaved = title;
+    }
+
+    /// The last unsaved text to which no other row leads.
+    fn waiting_text(&self) -> Option<Unsaved> {
+        let session = self.picker.session().filter(|session| session.edited);
+        let continued = session.map(|session| session.open.as_str());
+        let texts = self.workbench.unsaved().into_iter();
+        texts.rev().find(|text| Some(text.name.as_str()) != continued)
+    }
+
+    /// Returns to the unsaved text that is listed.
+    pub(super) fn return_to_text(&mut self) -> Vec<Effect> {
+        if let Some(text) = self.waiting_text() {
+            self.edit_alone(text);
+        }
+        Vec::new()
     }
 
     /// Returns the name of the system that a checked text is to have.

@@ -7,6 +7,7 @@ use tui_input::Input;
 use super::action::Action;
 use super::fuzzy::{FuzzyMatch, Query, Texts};
 use super::keymap::Place;
+use super::synonyms::synonyms;
 use super::{Pane, ValueId};
 use crate::instrument::Plot;
 
@@ -130,6 +131,23 @@ impl Item {
     }
 }
 
+impl Item {
+    /// The action that it carries out, if it is one.
+    fn action(&self) -> Option<Action> {
+        match self.choice {
+            Choice::Action(action) | Choice::ActionAt(_, action) => Some(action),
+            _ => None,
+        }
+    }
+
+    /// Whether its title, after the word for what is done with it, or its name begins with a text.
+    fn is_called(&self, text: &str) -> bool {
+        let text = text.trim().to_lowercase();
+        let title = self.label.split_once(": ").map_or(&*self.label, |(_, title)| title);
+        [title, &self.about].iter().any(|name| name.to_lowercase().starts_with(&text))
+    }
+}
+
 impl Menu {
     /// Creates a list with its first line selected.
     pub fn new(title: impl Into<String>, purpose: Choosing, items: Vec<Item>) -> Self {
@@ -174,14 +192,29 @@ impl Menu {
         let mut query = Query::new(text);
         let lines = self.items.iter().enumerate();
         let mut fit = |item: &Item| {
-            query.fit(Texts { label: &item.label, names: &[], about: &[&item.about] })
+            let names = item.action().map_or(&[][..], synonyms);
+            query.fit(Texts { label: &item.label, names, about: &[&item.about] })
         };
         let mut found: Vec<(usize, FuzzyMatch)> =
             lines.filter_map(|(index, item)| Some((index, fit(item)?))).collect();
+        // Opening another system leaves this one, so a system comes after what can be done here, unless it is called so.
         // Among equal matches, available lines come first, then the order of the list decides.
         found.sort_by_key(|(index, fit)| {
             let item = &self.items[*index];
-            (item.unavailable.is_some(), std::cmp::Reverse(fit.score))
+            let leaves = matches!(item.choice, Choice::System(_)) && !item.is_called(text);
+            (item.unavailable.is_some(), leaves, std::cmp::Reverse(fit.score))
+        });
+        // An action is listed once under its name, and what cannot be done here only if nothing of the same name or effect can.
+        let mut listed: Vec<&Item> = Vec::new();
+        found.retain(|(index, _)| {
+            let item = &self.items[*index];
+            let again = listed.iter().any(|other| {
+                let acts = item.action().is_some() && other.action() == item.action();
+                let named = other.label == item.label;
+                acts && named || item.unavailable.is_some() && (acts || named)
+            });
+            listed.push(item);
+            !again
         });
         found
     }

@@ -4,7 +4,7 @@
 
 use super::keymap::Place;
 use super::{Action, App, Effect, Lab, Notification, Page, Pane};
-use crate::instrument::Plot;
+use crate::instrument::{Plot, Sight};
 
 impl App {
     /// Returns the pane of the lab for which an action of this place is meant, if there is one.
@@ -83,6 +83,12 @@ impl Lab {
     /// The nearest picture of a transformation, of an action, or over a range.
     pub(super) fn with_other_way(&self) -> Option<usize> {
         self.nearest_fitting(|plot| moves_points(plot) || plot.kind.other().is_some())
+    }
+
+    /// Whether the focused picture of a motion in space is seen otherwise than at the beginning.
+    pub fn is_seen_otherwise(&self) -> bool {
+        let sight = self.focused_plot().map(|(_, plot)| plot.sight);
+        matches!(sight, Some(Sight::Camera(eye)) if eye.is_moved(&self.loaded.model))
     }
 
     /// The nearest picture of the kind.

@@ -16,6 +16,7 @@ impl App {
             return self.continue_session(session);
         }
         match self.picker.selected_above() {
+            Some(Above::Unsaved) => return self.return_to_text(),
             Some(Above::Guides) => return self.open_guides(),
             Some(Above::NewSystem) => return self.new_system(),
             Some(Above::Session) | None => {}

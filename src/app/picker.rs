@@ -32,6 +32,8 @@ pub struct Picker {
     pub failure: Option<LoadError>,
     /// The session that can be resumed from the row above the systems.
     session: Option<Saved>,
+    /// The title of the unsaved text to which another row leads.
+    pub(super) unsaved: Option<String>,
     /// The row above the systems that is selected.
     above: Option<Above>,
     waiting: Option<Duration>,
@@ -42,6 +44,8 @@ pub struct Picker {
 pub enum Above {
     /// It resumes a session.
     Session,
+    /// It returns to a text that is not saved and that no session runs.
+    Unsaved,
     /// It lists lessons and demos.
     Guides,
     /// It begins a system of one's own.
@@ -100,7 +104,8 @@ impl Picker {
     pub fn above(&self) -> impl Iterator<Item = Above> {
         let session = self.session().map(|_| Above::Session);
         let guides = (!self.guides.is_empty()).then_some(Above::Guides);
-        let all = session.into_iter().chain(guides).chain([Above::NewSystem]);
+        let unsaved = self.unsaved.as_ref().map(|_| Above::Unsaved);
+        let all = session.into_iter().chain(unsaved).chain(guides).chain([Above::NewSystem]);
         all.filter(|row| self.lists(*row))
     }
 
@@ -109,10 +114,16 @@ impl Picker {
         let Some(sought) = self.sought().map(str::to_lowercase) else { return true };
         let words: &[&str] = match row {
             Above::Session => &["continue", "resume"],
+            Above::Unsaved => &["unsaved"],
             Above::Guides => &["lessons", "demos", "tour"],
             Above::NewSystem => &["new"],
         };
         sought.len() > 2 && words.iter().any(|word| word.starts_with(&sought))
+    }
+
+    /// Returns the title of the unsaved text to which a row leads.
+    pub fn unsaved(&self) -> Option<&str> {
+        self.unsaved.as_deref()
     }
 
     /// Returns the one of these rows that is selected.
@@ -163,7 +174,7 @@ impl Picker {
                 let session = self.session()?;
                 return self.entries.iter().find(|entry| entry.name == session.open);
             }
-            Some(Above::Guides | Above::NewSystem) => return None,
+            Some(Above::Unsaved | Above::Guides | Above::NewSystem) => return None,
             None => {}
         }
         self.shown().get(self.selected).map(|&index| &self.entries[index])

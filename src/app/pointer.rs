@@ -5,12 +5,15 @@
 //! found them. Out: the changed state and the effects.
 //! Never here: bytes, or hit testing.
 
+use std::f64::consts::FRAC_PI_2;
+
 use crossterm::event::{MouseButton, MouseEventKind};
 
 use super::hit_target::{Grab, HitTarget};
-use super::{Action, App, Effect, InputField, Lab, Overlay, Page, Pane, ValueId};
+use super::{Action, App, Effect, InputField, Lab, Notification, Overlay, Page, Pane, ValueId};
 use crate::experiment::Command;
-use crate::instrument::NoStart;
+use crate::instrument::{NoStart, Plot, Sight};
+use crate::model::Model;
 use crate::system::InitialOverride;
 
 /// The number of lines of text or of a list per notch of the wheel.
@@ -22,6 +25,14 @@ const NOTCH: f64 = 1.25;
 /// Why orbits are not added to a section.
 const NO_STARTS: &str = "No orbits can be added here: points of this section cannot be starts.";
 const NO_MORE: &str = "No more orbits can be added; N removes those added.";
+
+/// Why a picture in a plane does not turn under the mouse.
+const PLANE: &str = "This motion stays in a plane and is seen face on; to start elsewhere, click in a phase portrait.";
+
+/// Whether a picture is of a motion in a plane, seen face on.
+fn is_face_on(plot: &Plot, model: &Model) -> bool {
+    matches!(plot.sight, Sight::Camera(eye) if eye.is_plane(model) && eye.pitch == FRAC_PI_2)
+}
 
 impl App {
     /// Handles a mouse event; the left button and the wheel have an effect, and the right button, which Shift makes of the
@@ -123,9 +134,12 @@ impl App {
             ) if grabbed == index && place != from => {
                 self.hold = Some(Grab::Picture { index, place, moved: true });
                 let by = [0, 1].map(|k| place[k] - from[k]);
-                if let Some(lab) = &mut self.lab {
-                    lab.redraw(index, |plot, _| plot.drag(by));
+                let Some(lab) = &mut self.lab else { return Vec::new() };
+                if lab.plots.get(index).is_some_and(|plot| is_face_on(plot, &lab.loaded.model)) {
+                    self.notice = Some(Notification::info(PLANE));
+                    return Vec::new();
                 }
+                lab.redraw(index, |plot, _| plot.drag(by));
                 Vec::new()
             }
             _ => Vec::new(),

@@ -21,7 +21,8 @@ impl App {
             return false;
         };
         prediction.before = Some(lab.focus);
-        (lab.focus, lab.front, lab.untouched) = (Pane::Plot(index), Some(index), false);
+        lab.bring_to_front(index);
+        (lab.focus, lab.untouched) = (Pane::Plot(index), false);
         if let Some(viewport) = lab.plots[index].viewport_mut() {
             (viewport.zoom, viewport.pan) = ([1.0; 2], [0.0; 2]);
             viewport.cursor = Some([0.5; 2]);

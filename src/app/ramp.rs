@@ -125,7 +125,7 @@ impl Lab {
             Some(self.plots.len() - 1)
         });
         if let Some(index) = index {
-            self.front = Some(index);
+            self.bring_to_front(index);
             self.answers.stale = true;
         }
     }

@@ -182,7 +182,9 @@ impl App {
             return vec![Effect::Tell(Command::Play)];
         };
         lab.restore_view(&saved);
-        lab.front = old.front.filter(|_| lab.plots.len() == old.plots.len());
+        if lab.plots.len() == old.plots.len() {
+            (lab.front, lab.earlier) = (old.front, old.earlier);
+        }
         let (known, now) = (old.loaded.system.channels(), lab.loaded.system.channels());
         lab.answers.inherit(&old.answers, &|column| {
             let name = &known.get(column)?.name;

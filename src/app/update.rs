@@ -28,10 +28,13 @@ impl App {
         let mut effects = self.handle(event);
         self.forget_past_motion(shown.as_ref(), &effects);
         self.look_after_jobs(&mut effects);
+        if self.page == Page::Picker {
+            self.list_unsaved();
+        }
         if let Some(lab) = &mut self.lab
             && let Pane::Plot(index) = lab.focus
         {
-            lab.front = Some(index);
+            lab.bring_to_front(index);
         }
         effects
     }

@@ -73,7 +73,8 @@ pub(super) fn perform(
         request.resume = false;
         ended = shell::run(&request);
     }
-    if matches!(ended, Ok(Ending::Quit)) && std::io::stderr().is_terminal() {
+    if matches!(ended, Ok(Ending::Quit)) && std::io::stderr().is_terminal() && shell::has_session()
+    {
         stderr::tell("`phaselab --resume` continues where you left off");
     }
     how_it_ended(ended)

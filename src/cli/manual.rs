@@ -8,6 +8,7 @@ use clap_mangen::roff::{Roff, bold, roman};
 use super::exit::EXITS;
 use super::failure::CommandError;
 use super::output::{Output, OutputForm};
+use crate::app::gestures::{GESTURES, MOUSE};
 use crate::app::keymap::{KEYS, Place};
 use crate::shell::options::rows;
 
@@ -135,7 +136,7 @@ fn of_command(
     Ok(render())
 }
 
-/// The keys, by context.
+/// The keys, by context, and the mouse.
 fn keys(roff: &mut Roff) {
     roff.control("SH", ["KEYS"]);
     for place in Place::ALL {
@@ -147,6 +148,10 @@ fn keys(roff: &mut Roff) {
         for row in rows {
             entry(roff, &row.key_names().join("  "), row.help);
         }
+    }
+    roff.control("SS", [MOUSE]);
+    for (what, does) in GESTURES {
+        entry(roff, what, does);
     }
 }
 

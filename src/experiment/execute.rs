@@ -11,7 +11,7 @@ use super::setup::{choose_method, with_override};
 use super::{Command, Experiment, FoundConstant, MethodNotFound};
 use crate::integrate::{Method, Settings, Stepping};
 use crate::num::short;
-use crate::system::{self, ChannelKind, State};
+use crate::system::{self, ChannelKind, Form, State};
 
 /// The greatest number of stored notices.
 const NOTICES: usize = 16;
@@ -160,13 +160,18 @@ impl Experiment {
         self.changed = Some(Arc::new(LastChange { what, state }));
     }
 
-    /// Reports a jump in energy; a parameter that is changed repeatedly is reported once.
+    /// Reports a jump in energy, and what did not jump; a parameter that is changed repeatedly is reported once.
     fn report_jump(&mut self, lead: &str, jump: f64) {
         if self.notices.last().is_some_and(|last| last.starts_with(lead)) {
             self.notices.pop();
         }
         let sign = if jump < 0.0 { '−' } else { '+' };
-        self.tell(format!("{lead} {sign}{}; the gauges measure from here", short(jump.abs())));
+        let jump = short(jump.abs());
+        let kept = match self.motion.state().form {
+            Form::Variables => "the state is",
+            Form::Velocity | Form::Momentum => "q and p are",
+        };
+        self.tell(format!("{lead} {sign}{jump}; {kept} kept, gauges begin anew; r restarts"));
     }
 
     fn energy(&self) -> f64 {

@@ -137,10 +137,11 @@ impl Instrument for Potential {
         for run in pairs.chunk_by(|a, b| allowed(a) == allowed(b)) {
             let (line, bright) =
                 if allowed(&run[0]) { (Ink::Warn, Ink::Accent) } else { (Ink::Level, Ink::Plain) };
-            let ends = [run[0][0][0], run[run.len() - 1][1][0]];
-            layers.push((ENERGY, Layer::Line(ends.map(|x| [x, energy]).to_vec(), line.into())));
-            let points = run.iter().map(|pair| pair[0]).chain([run[run.len() - 1][1]]);
-            layers.push((CURVE, Layer::Line(points.collect(), bright.into())));
+            let points = || run.iter().map(|pair| pair[0]).chain([run[run.len() - 1][1]]);
+            // Point by point, since a line over an angle takes the shorter way between two of its points.
+            let level = points().map(|[x, _]| [x, energy]).collect();
+            layers.push((ENERGY, Layer::Line(level, line.into())));
+            layers.push((CURVE, Layer::Line(points().collect(), bright.into())));
         }
         layers.push((NOW, Layer::Point([now[0], energy], MarkerShape::Ring, Ink::Warn)));
         layers.push((NOW, Layer::Point(now, MarkerShape::Disc, Ink::Accent)));

@@ -100,13 +100,22 @@ impl CameraPose {
 
     /// The initial camera of the same picture.
     pub(super) fn at_first(self, model: &Model) -> Self {
-        let plane = self.shapes(model).iter().all(is_plane);
-        let usual = if plane { (0.0, FRAC_PI_2) } else { (PI / 6.0, PI / 9.0) };
+        let usual = if self.is_plane(model) { (0.0, FRAC_PI_2) } else { (PI / 6.0, PI / 9.0) };
         let own = self.own_shapes(model).is_some();
         let written = if own { Viewpoint::default() } else { model.viewpoint };
         let yaw = written.azimuth.map_or(usual.0, |azimuth| azimuth.rem_euclid(TAU));
         let pitch = written.elevation.unwrap_or(usual.1);
         Self { yaw, pitch, zoom: 1.0, ..self }
+    }
+
+    /// Whether all that it sees stays in the plane z = 0.
+    pub fn is_plane(self, model: &Model) -> bool {
+        self.shapes(model).iter().all(is_plane)
+    }
+
+    /// Whether it was turned, or brought nearer, since the beginning.
+    pub fn is_moved(self, model: &Model) -> bool {
+        self != self.at_first(model)
     }
 
     /// The same camera with the smooth settings at their defaults.

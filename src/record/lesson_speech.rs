@@ -11,30 +11,43 @@ use super::lesson::{Lesson, LessonStage, paragraph};
 use super::lesson_judge::letter;
 use super::lesson_order::steps_of_person;
 use super::lesson_question::{Question, QuestionKind};
+use crate::app::{Overlay, Page};
 use crate::view::RenderStyle;
 use crate::view::lesson::{self, Paragraph, ParagraphKind, Speech};
 
-/// The least rows of the pane, with its frame.
+/// The least rows of the pane, with its frame: where it keeps its size, and where it does not.
 const LEAST_ROWS: u16 = 5;
+const LEAST_PANE: u16 = 3;
+
+/// The rows from which a screen keeps the pane the same throughout, and the least rows of the picture in a lower one.
+const STANDARD: u16 = 20;
+const LEAST_PICTURE: u16 = 3;
 
 impl Lesson {
     /// Draws the lab, and below it what the lesson says.
     pub fn draw(&mut self, style: &RenderStyle, area: Rect, buffer: &mut Buffer) {
-        let rows = self.pane_rows(area);
+        let speech = self.speech();
+        let rows = self.pane_rows(&speech, area);
         let above = Rect { height: area.height - rows, ..area };
         self.share_keys();
         self.runner.draw(style, above, buffer);
         let below = Rect { y: above.bottom(), height: rows, ..area };
-        lesson::draw(style, &self.speech(), below, buffer);
+        lesson::draw(style, &speech, below, buffer);
     }
 
-    /// The rows of the pane, the same throughout, so that the picture keeps its place.
-    fn pane_rows(&self, area: Rect) -> u16 {
+    /// The rows of the pane: the same throughout, so that the picture keeps its place; on a low screen those of what is
+    /// said now, so that there is a picture.
+    fn pane_rows(&self, speech: &Speech, area: Rect) -> u16 {
+        let rows = lesson::rows(&speech.paragraphs, area.width).max(LEAST_PANE);
+        if area.height < STANDARD {
+            return if rows + LEAST_PICTURE > area.height { area.height } else { rows };
+        }
         let steps = self.runner.script.steps.iter();
         let texts =
             steps_of_person(&self.runner.script).map(|said| lesson::rows(&said, area.width));
         let least = if steps.len() == 0 { 0 } else { LEAST_ROWS };
-        texts.max().unwrap_or(0).max(least).min((area.height / 2).max(LEAST_ROWS)).min(area.height)
+        let most = (area.height / 2).max(LEAST_ROWS);
+        texts.max().unwrap_or(0).max(least).min(most).max(rows).min(area.height)
     }
 
     /// What the lesson says now.
@@ -51,6 +64,12 @@ impl Lesson {
             },
             LessonStage::Said => "Enter continues · Tab next pane · q leaves",
             LessonStage::Ended => "Enter leaves",
+            LessonStage::Task { .. } | LessonStage::Free if self.is_typing_in_lab() => {
+                "Enter accepts what is typed · Esc cancels"
+            }
+            LessonStage::Task { .. } | LessonStage::Free if self.is_off_the_lab() => {
+                "1 returns to the lab · q leaves"
+            }
             LessonStage::Free => "the lab is yours · F9 continues · q leaves",
             LessonStage::Task { hint, .. } => match hint {
                 Some(_) => "the lab is yours · F9 hint · q leaves",
@@ -91,6 +110,17 @@ impl Lesson {
 }
 
 impl Lesson {
+    /// Whether a field of the lab takes the keys.
+    fn is_typing_in_lab(&self) -> bool {
+        matches!(self.runner.lab.app.overlay, Some(Overlay::Field(_)))
+    }
+
+    /// Whether another page than the lab is shown.
+    fn is_off_the_lab(&self) -> bool {
+        let app = &self.runner.lab.app;
+        app.overlay.is_none() && app.page != Page::Lab
+    }
+
     /// Where the cursor is, and how many points there are.
     fn pointed(&self) -> String {
         let app = &self.runner.lab.app;

@@ -71,6 +71,11 @@ pub(super) fn session_path() -> Option<PathBuf> {
     Some(folder.join("phaselab").join("session.toml"))
 }
 
+/// Whether there is a session to resume.
+pub fn has_session() -> bool {
+    session_path().is_some_and(|path| path.is_file())
+}
+
 /// Serializes texts into the contents of their file.
 pub(super) fn contents(texts: &[Unsaved]) -> io::Result<String> {
     let phaselab = env!("CARGO_PKG_VERSION").to_owned();

@@ -161,6 +161,7 @@ fn heads(canvas: &mut Canvas<'_>, area: Rect, single: Option<SingleRow>) {
 pub(super) fn in_full(verdict: &Verdict) -> (&'static str, Role) {
     let (word, role) = word(verdict);
     let words = match verdict {
+        Verdict::Exact(Growth::Faster) => "exact, but grows",
         Verdict::Exact(_) => "conserved (exact)",
         Verdict::Broken(_) => "not conserved",
         _ => word,
@@ -174,7 +175,7 @@ pub(super) fn word(verdict: &Verdict) -> (&'static str, Role) {
         Verdict::Open => ("…", Role::Dim),
         Verdict::Unknown => ("unknown", Role::Warn),
         Verdict::Exact(Growth::Level | Growth::Root) => ("exact", Role::Good),
-        Verdict::Exact(Growth::Faster) => ("exact", Role::Warn),
+        Verdict::Exact(Growth::Faster) => ("grows", Role::Warn),
         Verdict::Bounded => ("bounded", Role::Good),
         Verdict::Secular(_) => ("drifting", Role::Bad),
         Verdict::Lost => ("lost", Role::Bad),
@@ -300,8 +301,10 @@ fn in_one_row(
     if let Some(at) = row.drift {
         drift(canvas, columns(area, at, SHORT_DRIFT), gauge);
     }
-    value(canvas, columns(area, row.value, SHORT_VALUE), gauge, 4);
-    name(canvas, columns(area, 0, row.value.saturating_sub(1)), (gauge, all), here);
+    let used = value(canvas, columns(area, row.value, SHORT_VALUE), gauge, 4);
+    // The name has the columns that the value leaves blank, too.
+    let room = (row.value + SHORT_VALUE).saturating_sub(used + 1);
+    name(canvas, columns(area, 0, room), (gauge, all), here);
 }
 
 /// Draws the words for the verdict at the right, with a sign if impulses have changed the value: after the words that refer
@@ -353,9 +356,10 @@ fn name(canvas: &mut Canvas<'_>, area: Rect, (gauge, all): (&Gauge, &[Gauge]), h
     canvas.left(area, if here { Role::Title } else { Role::Text }, &text)
 }
 
-fn value(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, digits: usize) {
+/// Draws the value at the right. Returns the number of columns used.
+fn value(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge, digits: usize) -> u16 {
     let text = fitted(gauge.value, digits, area.width.into(), canvas.look.glyphs);
-    canvas.right(area, Role::Accent, &text);
+    canvas.right(area, Role::Accent, text.trim_start())
 }
 
 fn drift(canvas: &mut Canvas<'_>, area: Rect, gauge: &Gauge) {

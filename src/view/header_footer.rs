@@ -15,7 +15,7 @@ use super::theme::Role;
 use super::timeline;
 use super::values::typing;
 use super::wrap::words_in;
-use crate::app::keymap::{KEYS, Place};
+use crate::app::keymap::{Binding, KEYS, Place};
 use crate::app::{
     Action, App, HitTarget, InputField, KeyHints, Lab, Overlay, Page, Pane, Purpose, ValueId,
 };
@@ -157,7 +157,8 @@ fn speed(snapshot: &Snapshot, glyphs: Glyphs) -> String {
     if snapshot.speed.is_infinite() {
         "flat out".to_owned()
     } else {
-        format!("×{}", brief(snapshot.speed, 3, glyphs))
+        // below ten two digits say how fast it is
+        format!("×{}", brief(snapshot.speed, if snapshot.speed < 10.0 { 2 } else { 3 }, glyphs))
     }
 }
 
@@ -334,7 +335,7 @@ fn erase_while(canvas: &mut Canvas<'_>, row: Rect, is_rest: impl Fn(char) -> boo
 /// What ended the motion, and how to continue.
 fn ended(snapshot: &Snapshot) -> Option<String> {
     let Status::Ended(event) = &snapshot.status else { return None };
-    Some(format!("finished by {event}: r to restart"))
+    Some(format!("ended at: {event}; r restarts"))
 }
 
 /// The meaning, unit and range of the selected item.
@@ -370,10 +371,13 @@ fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
     let editing = app.places().contains(&Place::Workbench);
     let rows = app.places().iter().flat_map(|place| {
         KEYS.iter().filter(move |row| {
-            row.place == *place && !row.hint.is_empty() && app.offers(row.action)
+            let back = (row.place, row.action) == (Place::Space, Action::Home)
+                && app.lab.as_ref().is_some_and(Lab::is_seen_otherwise);
+            let named = !row.hint.is_empty() || back;
+            row.place == *place && named && app.offers(row.action)
         })
     });
-    let hint = |row: &crate::app::keymap::Binding| {
+    let hint = |row: &Binding| {
         let keys = keys(row, canvas.look);
         let first = keys.split(' ').next().unwrap_or_default().to_owned();
         // The editor keeps its text when it is left; what lies on top is closed before the program is left.
@@ -386,6 +390,7 @@ fn hints(canvas: &Canvas<'_>, app: &App) -> Vec<Hint> {
         let word = match row.hint {
             _ if closes => "close",
             _ if leaves => "leave",
+            "" => "initial view",
             hint => hint,
         };
         let word = canvas.span(Role::Dim, format!(" {word}"));
@@ -421,7 +426,10 @@ fn open_field(canvas: &mut Canvas<'_>, area: Rect, app: &App, field: &InputField
     let used = canvas.left(area, Role::Title, &format!("{name}{sign}"));
     let room = (if is_surface { 30 } else { 20 }).min(area.width / 3);
     typing(canvas, columns(area, used, room), field);
-    let rest = columns(area, used + room + 2, area.width);
+    // What is wrong is told right after what was typed, where there is more room for it.
+    let typed = (canvas.text(field.input.value()).width() as u16).saturating_add(2).min(room);
+    let taken = if field.diagnostic.is_some() { typed } else { room };
+    let rest = columns(area, used + taken + 2, area.width);
     let (role, text) = match (&field.diagnostic, facts) {
         (Some(diagnostic), _) => (Role::Bad, diagnostic.clone()),
         (None, _) if field.purpose == Purpose::TypedFlow => {

@@ -1,6 +1,6 @@
-//! The help: every key, from the table of key bindings.
+//! The help: every key, from the table of key bindings, and what the mouse does.
 //!
-//! In: the table of key bindings. Out: a page of text. Never here: a key that is not in the table.
+//! In: the tables of key bindings and of gestures. Out: a page of text. Never here: a key that is not in the table.
 
 use ratatui::layout::Rect;
 use tui_input::Input;
@@ -10,8 +10,9 @@ use super::canvas::{Canvas, columns, row};
 use super::layout::split_rows;
 use super::text_page::TextPage;
 use super::theme::Role;
+use crate::app::gestures::{GESTURES, MOUSE};
 use crate::app::keymap::{Binding, KEYS, Place};
-use crate::app::{Drawn, HitTarget};
+use crate::app::{Drawn, HitTarget, synonyms};
 
 /// Draws the page from `scroll` on, and above it the search, if there is one.
 pub(super) fn draw(
@@ -44,30 +45,40 @@ pub(super) fn draw(
     page.draw_in_columns(canvas, inner, scroll)
 }
 
-/// Builds the page: the keys of what has the focus come first, then those of the page around it, then all others. Of a
-/// search only what was found is left.
+/// Builds the page: the keys of what has the focus come first, then those of the page around it, the mouse, then all
+/// others. Of a search only what was found is left, by the words of the page or by other words for the same action.
 fn document(look: &RenderStyle, active: &[Place], sought: &str) -> TextPage {
     let mut page = TextPage::default();
-    let elsewhere = Place::ALL.into_iter().filter(|place| !active.contains(place));
     let words: Vec<String> = sought.split_whitespace().map(str::to_lowercase).collect();
+    let has = |text: String| {
+        let text = text.to_lowercase();
+        words.iter().all(|word| text.contains(word))
+    };
     let mut none = true;
-    for (index, place) in active.iter().copied().chain(elsewhere).enumerate() {
+    let mut section = |title: &str, rows: Vec<(String, &str)>| {
+        if !rows.is_empty() {
+            none = false;
+            page.heading(title);
+            rows.iter().for_each(|(keys, help)| page.item(keys, help));
+        }
+    };
+    let rows_of = |place: Place| -> Vec<(String, &'static str)> {
         let fits = |row: &&Binding| {
-            let text = format!("{} {} {}", keys(row, look), row.help, place.title());
-            let text = text.to_lowercase();
-            words.iter().all(|word| text.contains(word))
+            let others = synonyms(row.action).join(" ");
+            has(format!("{} {} {} {others}", keys(row, look), row.help, place.title()))
         };
-        let rows: Vec<&Binding> =
-            KEYS.iter().filter(|row| row.place == place).filter(fits).collect();
-        if rows.is_empty() {
-            continue;
-        }
-        none = false;
+        let rows = KEYS.iter().filter(|row| row.place == place).filter(fits);
+        rows.map(|row| (keys(row, look), row.help)).collect()
+    };
+    for (index, place) in active.iter().enumerate() {
         let title = place.title();
-        page.heading(&if index == 0 { format!("Here: {title}") } else { title.to_owned() });
-        for row in rows {
-            page.item(&keys(row, look), row.help);
-        }
+        let title = if index == 0 { format!("Here: {title}") } else { title.to_owned() };
+        section(&title, rows_of(*place));
+    }
+    let gestures = GESTURES.iter().filter(|(what, does)| has(format!("{what} {does} {MOUSE}")));
+    section(MOUSE, gestures.map(|(what, does)| ((*what).to_owned(), *does)).collect());
+    for place in Place::ALL.into_iter().filter(|place| !active.contains(place)) {
+        section(place.title(), rows_of(place));
     }
     if none {
         page.words(Role::Dim, "No match; Esc shows all keys.");

@@ -183,9 +183,9 @@ fn meaning(lab: &Lab, width: u16) -> u16 {
 }
 
 /// As many plots as there is room for, in their order; those against time come last and have the wide slots, where
-/// one of them replaces a phase portrait if there is none. If the motion is in none of them although there is a view of
-/// it, that view replaces the last phase portrait, or else the last one that is not against time. The plot in front of
-/// the rest, which is focused or was last, takes the last slot.
+/// one of them replaces a phase portrait if there is none, and a section comes after the motion in space. If the motion
+/// is in none of them although there is a view of it, that view replaces the last phase portrait, or else the last one that
+/// is not against time. Of the rest the plot that is focused, or was last, takes the last slot.
 fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
     let kind = |index: &usize| lab.plots[*index].kind.name();
     let mut shown: Vec<usize> = (0..lab.plots.len().min(room)).collect();
@@ -206,11 +206,18 @@ fn chosen(lab: &Lab, room: usize) -> Vec<Pane> {
             shown[place] = motion;
         }
     }
-    if let (Some(front), Some(last)) = (lab.front, shown.len().checked_sub(1))
-        && front < lab.plots.len()
-        && !shown.contains(&front)
+    // A cloud of points says nothing before what it is of has been seen moving.
+    if let [first, second, ..] = &mut shown[..]
+        && kind(first) == "section"
+        && lab.plots[*second].kind.is_scene()
     {
-        shown[last] = front;
+        std::mem::swap(first, second);
+    }
+    // What was in the last slot stays there while another one has the focus.
+    if let Some((last, others)) = shown.split_last_mut()
+        && let Some(front) = lab.focused_before().find(|index| !others.contains(index))
+    {
+        *last = front;
     }
     shown.into_iter().map(Pane::Plot).collect()
 }

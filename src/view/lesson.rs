@@ -93,6 +93,19 @@ pub fn draw(look: &RenderStyle, speech: &Speech, area: Rect, buffer: &mut Buffer
     let below = columns(below, 2, below.width.saturating_sub(4));
     let keys = fitting(&speech.keys, usize::from(below.width).saturating_sub(2));
     canvas.right(below, Role::Accent, &format!(" {keys} "));
+    let needed = rows(&speech.paragraphs, area.width);
+    if needed > area.height {
+        let short = format!(
+            "This needs {needed} rows in {} columns; the window has {}.",
+            area.width, area.height
+        );
+        for (index, line) in words(&short, room(area.width)).iter().enumerate() {
+            if index < inner.height.into() {
+                canvas.left(columns(row(inner, index), 1, inner.width), Role::Warn, line);
+            }
+        }
+        return;
+    }
     let mut used = 0;
     for Paragraph { kind, text } in &speech.paragraphs {
         let (role, mark) = match kind {

@@ -13,8 +13,8 @@ use crate::instrument::{Ink, Level};
 /// A level curve is omitted if it shares more than this fraction of its cells with others: in ASCII, and with dots.
 const CROWDED: [f64; 2] = [0.25, 0.35];
 
-/// The number of cells above which all levels are drawn.
-const ROOMY: u32 = 2000;
+/// The number of dots above which all levels are drawn.
+const ROOMY: u32 = 16_000;
 
 /// Draws separatrices, and as many energy levels as fit beside each other.
 pub(super) fn draw(
@@ -35,7 +35,9 @@ pub(super) fn draw(
     let parting = pen(canvas, Ink::Separatrix, lowest + 1);
     trace(raster, &landscape.separatrices, &parting);
     let faint = pen(canvas, Ink::Level, lowest);
-    if frame.area.area() > ROOMY && !look.glyphs.is_ascii() {
+    let (wide, high) = look.glyphs.dots();
+    let dots = frame.area.area() * u32::from(wide) * u32::from(high);
+    if dots > ROOMY && !look.glyphs.is_ascii() {
         landscape.levels.iter().for_each(|level| trace(raster, level, &faint));
     } else {
         let blank = Raster::new(frame.area, look.glyphs);

@@ -68,6 +68,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, menu: &Menu) {
             Choosing::Contents { .. } | Choosing::Axis { .. } => {
                 "no line has this; Enter takes it as an expression"
             }
+            Choosing::Action => "no match: F1 lists all keys",
             _ => "no match",
         };
         canvas.left(columns(row(list, 0), 2, list.width), Role::Dim, text);

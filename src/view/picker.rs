@@ -46,6 +46,7 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         let title = match app.picker.selected_above() {
             Some(Above::Guides) => Some("Lessons and demos"),
             Some(Above::NewSystem) => Some("New system"),
+            Some(Above::Unsaved) => Some("Unsaved text"),
             Some(Above::Session) | None => None,
         };
         let title = title.map(|title| canvas.span(Role::Title, title));
@@ -54,6 +55,13 @@ pub(super) fn draw(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
             Some(Above::Session) => {
                 let open = app.picker.session().map_or("it", |session| session.open.as_str());
                 format!("Enter continues {open} where you left off.")
+            }
+            Some(Above::Unsaved) => {
+                let title = app.picker.unsaved().unwrap_or("it");
+                format!(
+                    "Enter returns to {title} in the editor. Its last changes are not saved in the file; phaselab \
+                     keeps them until they are."
+                )
             }
             Some(Above::Guides) => guided(app),
             Some(Above::NewSystem) => "Enter opens the editor with a small system to begin from: change its \
@@ -141,6 +149,12 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
                     (Above::Session, Some(session)) => {
                         continuation(canvas, picker, session, field.width.into())
                     }
+                    (Above::Unsaved, _) => {
+                        let title = canvas.text(picker.unsaved().unwrap_or_default());
+                        let room = usize::from(field.width).saturating_sub("Unsaved: ".len());
+                        let mark = canvas.look.glyphs.pick("…", "~");
+                        format!("Unsaved: {}", ending(&title, room, mark))
+                    }
                     (Above::Guides, _) => canvas.text("Lessons and demos …"),
                     _ => canvas.text("New system …"),
                 };
@@ -211,10 +225,12 @@ fn continuation(canvas: &Canvas<'_>, picker: &Picker, session: &Saved, width: us
     let time = brief(present.time, 2, canvas.look.glyphs);
     let unit = canvas.text(&session.time_unit);
     let time = format!(", t = {time} {unit}").trim_end().to_owned();
-    // Of a long title the beginning is enough; the time says which motion it is.
-    let room = width.saturating_sub("Continue: ".len() + time.width());
-    let mark = canvas.look.glyphs.pick("…", "~");
-    format!("Continue: {}{time}", shortened(&title, room, mark))
+    // The name says which system it is, so the time goes first, and then the end of the name.
+    let room = width.saturating_sub("Continue: ".len());
+    if title.width() + time.width() <= room {
+        return format!("Continue: {title}{time}");
+    }
+    format!("Continue: {}", shortened(&title, room, canvas.look.glyphs.pick("…", "~")))
 }
 
 fn search(canvas: &mut Canvas<'_>, area: Rect, search: Option<&Input>) {

@@ -11,7 +11,7 @@ use super::header_footer;
 use super::help;
 use super::kept::Kept;
 use super::lab_page;
-use super::layout::{LEAST, ScreenLayout};
+use super::layout::{LEAST, ScreenLayout, split_rows};
 use super::look::RenderStyle;
 use super::menu;
 use super::notes;
@@ -25,7 +25,7 @@ use super::text_page::{TextPage, measure};
 use super::theme::Role;
 use super::workbench;
 use super::wrap;
-use crate::app::{App, Drawn, HitTarget, Lab, Overlay, Page};
+use crate::app::{App, Drawn, HitTarget, KeyHints, Lab, Overlay, Page};
 
 /// Draws the whole screen over a blank area, and returns how far its page of text can be scrolled.
 pub fn draw(app: &App, look: &RenderStyle, area: Rect, buffer: &mut Buffer) -> Drawn {
@@ -68,9 +68,20 @@ impl Painter {
 
 pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
     let area = area.intersection(canvas.buffer.area);
-    if area.width < LEAST.0 || area.height < LEAST.1 {
+    // Above what a lesson says, the motion is shown in whatever rows there are, alone if they are few.
+    let low = app.hints != KeyHints::Lab && area.height < LEAST.1;
+    if area.width < LEAST.0 || area.height < LEAST.1 && !low {
         too_small(canvas, area);
         return Drawn::default();
+    }
+    if low {
+        let field = u16::from(matches!(app.overlay, Some(Overlay::Field(_))) && area.height > 1);
+        let (above, below) = split_rows(area, area.height - field);
+        let drawn = if above.height < LOWEST { Drawn::default() } else { body(canvas, above, app) };
+        if field > 0 {
+            header_footer::footer(canvas, below, app);
+        }
+        return drawn;
     }
     // The plain page contains the status itself and must not change while it is read.
     let status = !matches!(app.page, Page::Picker | Page::Plain) && app.lab.is_some();
@@ -84,6 +95,9 @@ pub(super) fn paint(canvas: &mut Canvas<'_>, app: &App, area: Rect) -> Drawn {
     header_footer::footer(canvas, screen.footer, app);
     drawn
 }
+
+/// The least rows of a pane in which anything is seen, with its frame.
+const LOWEST: u16 = 3;
 
 fn body(canvas: &mut Canvas<'_>, area: Rect, app: &App) -> Drawn {
     let over = app.overlay.as_ref();

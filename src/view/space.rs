@@ -33,6 +33,9 @@ use colours::colours;
 use reference_frame::ReferenceFrame;
 use scene::Scene;
 
+/// The least radius, in cells, of a mass drawn with its size: in a plane, and in space, where tracks run across it.
+const LEAST: [f64; 2] = [1.2, 2.0];
+
 /// The layers of the picture, from the lowest.
 const SURFACE: u8 = 0;
 const GROUND: u8 = 1;
@@ -311,7 +314,8 @@ impl ScenePainter<'_> {
     /// A radius in cells, if it is large enough to be drawn.
     fn cells(&self, radius: f64) -> Option<f64> {
         let cell = (self.frame.x.hi - self.frame.x.lo) / f64::from(self.frame.area.width.max(1));
-        Some(radius / cell).filter(|cells| cells.is_finite() && *cells > 1.2)
+        let least = LEAST[usize::from(self.range.is_some())];
+        Some(radius / cell).filter(|cells| cells.is_finite() && *cells > least)
     }
 
     /// The rim of a solid, with as many corners as its size on the screen needs.

@@ -142,14 +142,21 @@ impl Raster {
     }
 
     /// The fraction of this raster's non-empty cells in which another raster of the same area has dots too; in ASCII,
-    /// neighbouring cells count as well. It is 0 if there are none.
+    /// neighbouring cells beside them count as well, and with half blocks, which fill their cells, all around them. It is 0
+    /// if there are none.
     pub fn shared(&self, other: &Self) -> f64 {
         let wide = usize::from(self.area.width).max(1);
+        let [across, along] = match self.glyphs {
+            Glyphs::Ascii => [1, 0],
+            Glyphs::HalfBlock => [1, 1],
+            _ => [0, 0],
+        };
+        let last = self.cells.len() / wide;
         let near = |i: usize| {
-            let column = i % wide;
-            let reach = usize::from(self.glyphs.is_ascii());
-            let [from, to] = [i - column.min(reach), i + reach.min(wide - 1 - column)];
-            other.cells[from..=to].iter().any(|cell| cell.dots != 0)
+            let (row, column) = (i / wide, i % wide);
+            let columns = column.saturating_sub(across)..=(column + across).min(wide - 1);
+            let mut rows = row.saturating_sub(along)..(row + along + 1).min(last);
+            rows.any(|row| columns.clone().any(|column| other.cells[row * wide + column].dots != 0))
         };
         let inked = || (0..self.cells.len()).filter(|i| self.cells[*i].dots != 0);
         inked().filter(|i| near(*i)).count() as f64 / inked().count().max(1) as f64

@@ -63,7 +63,8 @@ impl Outline {
                 let turned = turn.iter().fold(own, |v, turn| turn.of(v));
                 [0, 1, 2].map(|k| at[k] + turned[k] - centre[k])
             };
-            if matches!(piece.solid, Solid::Point) {
+            // a weight of no mass is not there
+            if matches!(piece.solid, Solid::Point) && value(piece.mass) != 0.0 {
                 outline.points.push(place([0.0; 3]));
             }
             let surfaces = surfaces(&piece.solid, &value).into_iter();

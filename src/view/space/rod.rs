@@ -30,13 +30,19 @@ impl ScenePainter<'_> {
         self.raster.polyline(&self.frame, [beside(a), beside(b)], &pen);
     }
 
+    /// How the point of a ball that is nearest to the eye is seen: its centre is hidden by the ball itself.
+    fn sight_of_front(&self, centre: [f64; 3], radius: f64) -> Visibility {
+        let [x, y, near] = self.camera.project(centre);
+        self.depth.sight_of([x, y, near + radius])
+    }
+
     /// Blanks the tracks around the masses that are drawn with their radius.
     pub(super) fn halos(&mut self) {
         for (shape, _) in self.q.lab.shapes(self.eye) {
             let Shape::Mass { at, radius: Some(radius) } = shape else { continue };
             let (at, radius) = (self.point(at), self.q.number(*radius).abs());
-            let clear = self.sight(at) == Visibility::Clear;
-            if self.cells(radius).is_some() && clear {
+            if self.cells(radius).is_some() && self.sight_of_front(at, radius) == Visibility::Clear
+            {
                 let centre = self.flat(at);
                 self.raster.halo(&self.frame, centre, radius, TRACK);
             }

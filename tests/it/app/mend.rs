@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use phaselab::app::{App, BufferState, CheckedText, Effect, Event, LoadError, Overlay, Page, Pane};
+use phaselab::app::{
+    Above, App, BufferState, CheckedText, Effect, Event, LoadError, Overlay, Page, Pane,
+};
 use phaselab::diagnostic::Document;
 use phaselab::preset::template;
 
@@ -93,6 +95,39 @@ fn a_wrong_file_that_is_left_leads_back_to_the_systems() {
     assert_eq!(app.page, Page::Picker);
     assert!(effects.iter().any(|effect| matches!(effect, Effect::Load(_))), "a preview again");
     assert!(app.unsaved().is_empty());
+}
+
+/// What was typed into a wrong file is kept, said, and one key away: over the preview of another system, too, and after a
+/// start of the program that finds it.
+#[test]
+fn an_unsaved_text_of_a_wrong_file_is_listed_among_the_systems() {
+    let name = "./wrong.toml";
+    let (mut app, _) = App::new(catalog(), Some(name));
+    let message = "error: a wrong line".to_owned();
+    app.update(Event::Loaded(Err(LoadError { name: name.to_owned(), message })));
+    press(&mut app, "E");
+    app.update(Event::FileRead { text: wrong(), asked: true });
+    rest(&mut app);
+    press(&mut app, "x Esc");
+    assert_eq!(app.page, Page::Picker);
+    let told = app.notice.as_ref().map(|notice| notice.text.clone()).unwrap_or_default();
+    assert_eq!(told, "./wrong.toml has unsaved changes; Enter returns to it.");
+    assert_eq!(app.picker.selected_above(), Some(Above::Unsaved));
+    assert!(text_of(&app).contains("Unsaved: ./wrong.toml"), "{}", text_of(&app));
+    let (mut again, _) = App::new(catalog(), None);
+    again.workbench.put(app.unsaved());
+    again.update(Event::Tick(Duration::ZERO));
+    assert_eq!(again.picker.unsaved(), Some(name));
+    for mut app in [app, again] {
+        app.update(Event::Loaded(Ok(crate::hand::pendulum())));
+        app.picker.step(-9);
+        while app.picker.selected_above() != Some(Above::Unsaved) {
+            app.picker.step(1);
+        }
+        press(&mut app, "Enter");
+        let text = app.open_buffer().map(|buffer| buffer.editor.text());
+        assert!(text.is_some_and(|text| text.contains('x') && text != wrong()));
+    }
 }
 
 #[test]

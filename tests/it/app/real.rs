@@ -226,6 +226,12 @@ fn undo_and_redo_tell_what_went_where() {
         assert_eq!(told(&real), redone, "{keys}");
     };
     check("Right", "undone: m 1.02 → 1", "redone: m 1 → 1.02");
+    // a motion under way has been another one meanwhile, and is not brought back
+    let mut real = Real::of("pendulum");
+    real.run(60);
+    real.press("Right u");
+    let whole = "undone: m 1.02 → 1; the motion goes on from here, r restarts it";
+    assert_eq!(told(&real), whole);
     check("Tab Right", "undone: initial θ 2.01 → 2", "redone: initial θ 2 → 2.01");
     check("m Down Enter", "undone: method leapfrog → taylor", "redone: method taylor → leapfrog");
     check(

@@ -87,6 +87,37 @@ fn the_palette_finds_words_and_not_chance() {
     assert!(!chance.iter().any(|line| line.starts_with("focus the next")), "{chance:?}");
 }
 
+/// Who does not know how a key is put finds it by the word that a textbook has.
+#[test]
+fn the_palette_knows_other_words() {
+    let lab = in_lab();
+    for (query, first) in [
+        ("conserved", "ask for a bracket"),
+        ("is this conserved", "ask for a bracket"),
+        ("stable", "find equilibria"),
+        ("stability", "find equilibria"),
+        ("equilibrium", "find equilibria"),
+        ("restart", "reset: back to the initial values"),
+        ("trail", "reset: back to the initial values"),
+        ("chaos", "measure the Lyapunov exponent"),
+        ("drag", "use the mouse here"),
+        ("zoom in", "look closer"),
+    ] {
+        let found = lines(&lab, query);
+        assert!(found.first().is_some_and(|line| line.starts_with(first)), "{query}: {found:?}");
+    }
+    // Another system comes before actions only where it is called so.
+    assert!(lines(&lab, "stable").iter().any(|line| line == "open: Double well"));
+    assert_eq!(lines(&lab, "double well")[0], "open: Double well");
+    assert_eq!(lines(&lab, "damped")[0], "open: Damped oscillator");
+    // What cannot be done here is not listed beside the same thing that can.
+    for query in ["undo", "new", "redo"] {
+        let mut found = lines(&lab, query);
+        found.retain(|line| line.contains("new system") || line.contains("undone change"));
+        assert!(found.len() < 2, "{found:?}");
+    }
+}
+
 /// The palette finds every kind of plot by its name, and shows it in the nearest plot.
 #[test]
 fn every_kind_of_plot_is_found_by_its_name() {

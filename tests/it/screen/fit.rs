@@ -71,9 +71,13 @@ fn names_of_gauges_end_with_a_word() {
     seen.gauges = names.iter().map(named).collect::<Vec<_>>().into();
     app.update(Event::Snapshot(Arc::new(seen)));
     let text = rows(&screen(&app, &rich(), (120, 40))).join("\n");
-    for shown in
-        ["least spin…", "A Aᵀ = 1…", "areal velocity…", "centre of mass… x", "centre of mass… y"]
-    {
+    for shown in [
+        "least spin…",
+        "A Aᵀ = 1, det A = 1",
+        "areal velocity seen…",
+        "centre… along x",
+        "centre… along y",
+    ] {
         assert!(text.contains(&format!("  {shown} ")), "{shown}: {text}");
     }
 }

@@ -263,12 +263,35 @@ fn the_wheel_zooms_about_the_place_under_it() {
     }
 }
 
+/// A pendulum in a plane is seen face on; turned by accident it would swing askew.
 #[test]
-fn a_drag_turns_a_picture_and_moves_a_window_with_the_mouse() {
+fn a_motion_in_a_plane_does_not_turn_under_the_mouse() {
     let size = (120, 40);
     let mut real = Real::of("pendulum");
     real.run(60);
-    for picture in [0, 1] {
+    let (x, y) = inside(&real.app, size, 0);
+    let before = real.lab().plots.clone();
+    act(&mut real, size, Down(Left), (x, y));
+    act(&mut real, size, Drag(Left), (x + 6, y - 1));
+    act(&mut real, size, Up(Left), (x + 6, y - 1));
+    assert_eq!(real.lab().plots, before);
+    let told = real.app.notice.as_ref().map(|notice| notice.text.as_str());
+    assert!(told.is_some_and(|text| text.contains("stays in a plane")), "{told:?}");
+    // Keys still turn it, and then the last line says how it is turned back.
+    let footer =
+        |real: &Real| super::rows(&super::screen(&real.app, &super::rich(), (160, 40)))[39].clone();
+    real.app.notice = None;
+    assert!(!footer(&real).contains("initial view"), "{}", footer(&real));
+    real.press("Left");
+    assert!(footer(&real).contains("Home initial view"), "{}", footer(&real));
+}
+
+#[test]
+fn a_drag_turns_a_picture_and_moves_a_window_with_the_mouse() {
+    let size = (120, 40);
+    for (name, picture) in [("spherical-pendulum", 0), ("pendulum", 1)] {
+        let mut real = Real::of(name);
+        real.run(60);
         let (x, y) = inside(&real.app, size, picture);
         let before = real.lab().plots.clone();
         let grabbed = at(&real.app, size, (x, y)).unwrap();

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::Duration;
 
-use phaselab::app::{App, Drawn, DrawnPanes, Event, LawInView, Notification, Pane};
+use phaselab::app::{App, Drawn, DrawnPanes, Event, LawInView, Notification, Pane, ValueId};
 use phaselab::experiment::{Gauge, Growth, Status, Verdict};
 use phaselab::instrument::{Plot, PotentialView};
 use phaselab::integrate::{Occurrence, OccurrenceKind};
@@ -16,6 +16,7 @@ use phaselab::view::theme::{Role, Theme};
 use ratatui::style::Modifier;
 
 use super::{find, rich, rows, screen};
+use crate::app::real::Real;
 use crate::hand::{
     at_picker, catalog, gauge, in_lab, lab, loaded, lowered, pendulum, press, snapshot,
 };
@@ -64,6 +65,26 @@ fn the_help_begins_here_and_is_searched() {
     press(&mut app, "Esc");
     let buffer = screen(&app, &rich(), (80, 24));
     assert!(find(&buffer, "Here: Plots").is_some() && find(&buffer, "No match").is_none());
+}
+
+/// The mouse is used from the start, so the help says what it does; and it is searched by words that no key has.
+#[test]
+fn the_help_tells_of_the_mouse_and_knows_other_words() {
+    for (word, line) in [
+        ("mouse", "begin the motion there"),
+        ("drag", "a slider: change the value"),
+        ("wheel", "zoom a plot or a picture"),
+        ("click", "Shift-click"),
+        ("conserved", "ask for a bracket"),
+        ("stable", "find equilibria"),
+        ("chaos", "Lyapunov exponent"),
+    ] {
+        let mut app = in_lab();
+        press(&mut app, "? /");
+        app.update(Event::Paste(word.to_owned()));
+        let buffer = screen(&app, &rich(), (120, 40));
+        assert!(find(&buffer, line).is_some(), "{word}: {:#?}", rows(&buffer));
+    }
 }
 
 /// The law of motion says how much of it is out of sight; then Tab reaches it, and arrows scroll it to its end.
@@ -429,7 +450,7 @@ fn an_ended_motion_says_by_what_and_how_to_go_on() {
     app.update(Event::Snapshot(Arc::new(seen)));
     for size in [(80, 24), (120, 40), (200, 60)] {
         let buffer = screen(&app, &rich(), size);
-        assert!(find(&buffer, "finished by ground: r to restart").is_some(), "{size:?}");
+        assert!(find(&buffer, "ended at: ground; r restarts").is_some(), "{size:?}");
     }
 }
 
@@ -567,6 +588,32 @@ fn a_potential_is_drawn_with_the_energy_and_where_the_motion_is_allowed() {
         let warn = look.theme[Role::Warn].fg.unwrap();
         let level = buffer.content.iter().filter(|c| c.fg == warn).count();
         assert!(level >= 5, "the energy between the turning points: {level} cells");
+    }
+}
+
+/// Over an angle, the energy is a line between the turning points, however wide the well is: m = l = 1, so they are ±θ₀.
+#[test]
+fn the_energy_reaches_from_one_turning_point_of_a_pendulum_to_the_other() {
+    for start in [0.5, 2.0, 3.0] {
+        let mut real = Real::of("pendulum");
+        let effects = real.app.give(ValueId::Initial(0), start);
+        real.execute(effects);
+        real.look();
+        let lab = real.app.lab.as_mut().unwrap();
+        let potential = lab.plots.iter().position(|plot| plot.kind.name() == "potential");
+        (lab.focus, lab.zoomed) = (Pane::Plot(potential.expect("a potential")), true);
+        let buffer = screen(&real.app, &rich(), (120, 40));
+        let warn = rich().theme[Role::Warn].fg.unwrap();
+        let amber = |y: u16| -> Vec<u16> {
+            (2..118)
+                .filter(|x| buffer[(*x, y)].fg == warn && buffer[(*x, y)].symbol() != " ")
+                .collect()
+        };
+        let line = (3..36).map(amber).max_by_key(Vec::len).unwrap();
+        let wide = start / std::f64::consts::PI;
+        let share = line.len() as f64 / 112.0;
+        assert!((share - wide).abs() < 0.1, "{share} of the width instead of {wide}: {line:?}");
+        assert!(line.windows(2).all(|pair| pair[1] - pair[0] <= 3), "without a gap: {line:?}");
     }
 }
 

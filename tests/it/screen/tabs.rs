@@ -56,6 +56,28 @@ fn all_titles_fit_beside_a_plot_of_a_standard_screen_and_are_clicked_there() {
     }
 }
 
+/// A picture that was brought into a slot stays there while another one is focused.
+#[test]
+fn a_tab_stays_while_another_picture_has_the_focus() {
+    for size in [(120, 40), (80, 24)] {
+        let mut real = Real::of("pendulum");
+        real.run(30);
+        let place =
+            |kind: &str| real.lab().plots.iter().position(|plot| plot.kind.name() == kind).unwrap();
+        let (potential, other) =
+            (place("potential"), if size.0 == 80 { 0 } else { place("phase") });
+        for index in [potential, other] {
+            real.app.lab.as_mut().unwrap().focus = Pane::Plot(index);
+            real.app.update(Event::Tick(std::time::Duration::ZERO));
+        }
+        let buffer = screen(&real.app, &rich(), size);
+        let (x, y) = find(&buffer, "Potential").expect("a title or a tab");
+        let hit = hit_test(&real.app, &rich(), Rect::new(0, 0, size.0, size.1), x + 2, y + 4);
+        let shown = matches!(hit, Some(HitTarget::Plot { index, .. }) if index == potential);
+        assert!(shown, "{hit:?} {:#?}", rows(&buffer));
+    }
+}
+
 /// A verdict is told in one way in a list: what varies is not called `varies` in one row and `not conserved` in the next.
 #[test]
 fn one_verdict_has_the_same_words_throughout_a_list() {

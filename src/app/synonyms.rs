@@ -1,0 +1,45 @@
+//! Other words for actions: what a person types who does not know how the table of keys puts it.
+//!
+//! In: an action. Out: the words, for the palette's search and for that of the help. Never here: keys, or how a line is
+//! searched.
+
+use super::action::{Action, AxisChoice};
+
+/// Returns other words for an action.
+pub fn synonyms(action: Action) -> &'static [&'static str] {
+    match action {
+        Action::Ask => &["is this conserved", "conserved", "constant of the motion", "commute"],
+        Action::SearchFurther => &["conserved quantities", "first integrals", "invariants"],
+        Action::Equilibria => {
+            &["stable", "unstable", "stability", "equilibrium", "fixed points", "normal modes"]
+        }
+        Action::Exponents => &["chaos", "Lyapunov", "predictable", "sensitive"],
+        Action::AddNeighbour => &["butterfly effect", "sensitive"],
+        Action::ByChaos => &["chaos"],
+        Action::Reset => &["restart", "start over", "start again", "clear the trail"],
+        Action::FullReset => &["restart with the original values", "defaults"],
+        Action::PlayPause => &["stop", "run", "play", "freeze"],
+        Action::StepBack | Action::LookEarlier => &["rewind", "earlier"],
+        Action::Reverse => &["backwards"],
+        Action::Faster => &["speed", "fast forward"],
+        Action::Slower => &["speed", "slow motion"],
+        Action::Mouse => &["drag", "click", "wheel"],
+        Action::Closer(AxisChoice::Both) => &["zoom in", "magnify"],
+        Action::Farther(AxisChoice::Both) => &["zoom out"],
+        Action::Home => &["restore the view", "original view"],
+        Action::ChooseAxes => &["another plot", "graph"],
+        Action::ChooseMethod => &["integrator", "solver"],
+        Action::Spectrum => &["Fourier", "frequency"],
+        Action::PeriodicOrbit => &["closed orbit"],
+        Action::Pin => &["compare", "keep"],
+        Action::Still => &["picture", "image"],
+        Action::Data => &["export", "save the data"],
+        Action::Record => &["video", "film"],
+        Action::Export => &["save"],
+        Action::Edit => &["Lagrangian", "Hamiltonian", "source"],
+        Action::Guides => &["tutorial", "learn", "examples"],
+        Action::ChooseTheme => &["colors"],
+        Action::Quit => &["exit"],
+        _ => &[],
+    }
+}
