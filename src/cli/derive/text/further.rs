@@ -68,7 +68,7 @@ impl TextReport<'_> {
             let name = self.words(&known.map.name);
             let verdict = &known.verdict;
             let residual = verdict.residual.map_or_else(String::new, |residual| {
-                format!("; residual {} at points near the start", magnitude(residual))
+                format!("; residual {} at points around the start", magnitude(residual))
             });
             let judged = match (verdict.canonical, verdict.proved) {
                 (true, true) => format!("canonical, proved{residual}"),
