@@ -60,8 +60,17 @@ pub(super) struct FamilySide {
     step: f64,
     steps: usize,
     pub(super) members: Vec<Member>,
-    /// It is followed no farther; why, if it ends before the values do.
-    pub(super) ended: Option<Option<String>>,
+    /// Why it is followed no farther, if it is not.
+    pub(super) ended: Option<SideEnd>,
+}
+
+/// Why a side of a family is followed no farther.
+#[derive(Clone)]
+pub(super) enum SideEnd {
+    /// It has come to the last of the values.
+    Values,
+    /// It ends before.
+    Before(String),
 }
 
 /// A family that is followed: of which space, by which method, along what.
@@ -390,27 +399,27 @@ impl Continuation<'_> {
             here.value < low && self.slope(here)? < 0.0
         };
         if leaves {
-            side.ended = Some(None);
+            side.ended = Some(SideEnd::Values);
             return Ok(());
         }
         if side.steps == STEPS {
             let value = significant(here.value, 6, 1e-4..1e6);
             let why = format!("the family continues beyond {value}, after {STEPS} steps");
-            side.ended = Some(Some(why));
+            side.ended = Some(SideEnd::Before(why));
             return Ok(());
         }
         side.steps += 1;
         let Some((next, count)) = self.onwards(here, side.step)? else {
             side.step *= 0.5;
             if side.step < LEAST * side.size {
-                side.ended = Some(Some(lost(here, side.begin.period)));
+                side.ended = Some(SideEnd::Before(lost(here, side.begin.period)));
             }
             return Ok(());
         };
         self.between(here, &next, side.step, &mut side.members)?;
         if side.begin.unit().is_some() && here.unit().is_none() && next.unit().is_none() {
             let value = significant(next.value, 6, 1e-4..1e6);
-            side.ended = Some(Some(format!(
+            side.ended = Some(SideEnd::Before(format!(
                 "from {value} on the family cannot be distinguished from the orbits beside it: its multipliers are \
                  1 within rounding"
             )));

@@ -3,7 +3,7 @@
 //! In: an orbit, what changes along its family, the values that are asked for. Out: a [`Family`]. Never here: how a step along
 //! a family is taken (`continuation`).
 
-use super::continuation::{Continuation, DrivePeriod, FamilySide};
+use super::continuation::{Continuation, DrivePeriod, FamilySide, SideEnd};
 use super::error::DynamicsError;
 use super::family::{Along, Family, Member};
 use super::newton::Fixed;
@@ -128,7 +128,9 @@ impl FamilyCourse {
                 match continuation.advance(&mut sides[which]) {
                     Ok(()) => {}
                     Err(error) if error.is_cancelled() => self.cancelled = true,
-                    Err(error) => sides[which].ended = Some(Some(error.to_string())),
+                    Err(error) => {
+                        sides[which].ended = Some(SideEnd::Before(error.to_string()));
+                    }
                 }
                 let behind: f64 = (0..2).map(|k| gone(&sides[k], lengths[k])).sum();
                 look(behind / (high - low));
@@ -147,7 +149,10 @@ impl FamilyCourse {
             members.extend(before.members.iter().rev().cloned());
             members.extend(self.own.clone());
             members.extend(after.members.iter().cloned());
-            ended.extend([before, after].iter().filter_map(|side| side.ended.clone().flatten()));
+            ended.extend([before, after].iter().filter_map(|side| match &side.ended {
+                Some(SideEnd::Before(why)) => Some(why.clone()),
+                _ => None,
+            }));
         }
         Family { members, ended, cancelled: self.cancelled }
     }

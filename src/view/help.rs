@@ -59,7 +59,9 @@ fn document(look: &RenderStyle, active: &[Place], sought: &str) -> TextPage {
         if !rows.is_empty() {
             none = false;
             page.heading(title);
-            rows.iter().for_each(|(keys, help)| page.item(keys, help));
+            for (keys, help) in rows {
+                page.item(&keys, help);
+            }
         }
     };
     let rows_of = |place: Place| -> Vec<(String, &'static str)> {

@@ -166,7 +166,7 @@ impl<R: Coefficient> Tables<R> {
         while let Some(run) = self.finish_plainly::<FUSED>(schedule, &mut runs, k, rate) {
             match *run {
                 OperationRun::Solution(solution) => {
-                    self.solve::<FUSED>(program, schedule, solution, k)
+                    self.solve::<FUSED>(program, schedule, solution, k);
                 }
                 OperationRun::Alone(register) => {
                     let coefficient = R::alone(self, program, register, k);
