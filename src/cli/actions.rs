@@ -123,10 +123,16 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         return Err(could_not(format!("{name} cannot move at that energy")));
     }
     let [first, last] = potential.resolved();
-    if first.is_finite() || last.is_finite() {
+    let range = match (first.is_finite(), last.is_finite()) {
+        (false, false) => String::new(),
+        (true, true) => format!("from {name} = {first:.4} to {last:.4}"),
+        (true, false) => format!("from {name} = {first:.4} on"),
+        (false, true) => format!("up to {name} = {last:.4}"),
+    };
+    if !range.is_empty() {
         stderr::tell(&format!(
-            "the potential has more wells than those of which separatrices are given, for {name} from {first:.4} to {last:.4}; an \
-             angle needs its `period` in the file"
+            "separatrices are listed {range}; the potential has more wells beyond. If {name} is an angle, give its `period` in \
+             the file"
         ));
     }
     Ok(())

@@ -116,14 +116,25 @@ impl Output {
     }
 }
 
-/// Whether there is a file that has a table of coordinates or variables.
+/// Files that describe a system are not longer than this.
+const LONGEST: u64 = 1 << 22;
+
+/// Whether there is a file that gives coordinates or variables.
 fn describes_a_system(path: &Path) -> bool {
-    let is_file = fs::metadata(path).is_ok_and(|about| about.is_file());
-    let text = if is_file { fs::read(path).unwrap_or_default() } else { Vec::new() };
-    text.split(|byte| *byte == b'\n').any(|line| {
-        let line = line.trim_ascii();
-        [&b"[coordinates]"[..], b"[variables]"].iter().any(|head| line.starts_with(head))
-    })
+    let known = fs::metadata(path);
+    if !known.is_ok_and(|about| about.is_file() && about.len() <= LONGEST) {
+        return false;
+    }
+    let Ok(text) = fs::read_to_string(path) else { return false };
+    let tables = ["coordinates", "variables"];
+    match text.parse::<toml::Table>() {
+        Ok(file) => tables.iter().any(|table| file.contains_key(*table)),
+        // a file with mistakes is one, too
+        Err(_) => text.lines().any(|line| {
+            let head = line.trim().trim_start_matches('[').trim_start();
+            line.trim().starts_with('[') && tables.iter().any(|table| head.starts_with(table))
+        }),
+    }
 }
 
 impl Write for Output {

@@ -19,7 +19,7 @@ use super::error::DynamicsError;
 use super::linear;
 use super::phase_space::PhaseSpace;
 use super::small_oscillation::{Kind, Mode, modes, stable};
-use super::virtual_work::{Balance, virtual_work};
+use super::virtual_work::virtual_work;
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::system::{Form, MotionErrorKind, State};
@@ -31,8 +31,8 @@ const BEGINNINGS: usize = 600;
 /// The largest number of equilibria.
 const MOST: usize = 100;
 
-/// Writes into each equilibrium the forces that balance there, and removes the places at which a force is zero only because
-/// its value is below the smallest number.
+/// Writes into each equilibrium the forces that balance there, and removes the places at which they do not balance: next to a
+/// singularity, and where they are zero only because their values are below the smallest number.
 pub fn with_virtual_work(
     law: (&Model, &Equations),
     parameters: &[f64],
@@ -40,13 +40,12 @@ pub fn with_virtual_work(
 ) {
     let places: Vec<_> = found.iter().map(|one| (&one.variables[..], &one.rates[..])).collect();
     let balances = virtual_work(law, parameters, &places);
-    let mut underflow = vec![false; found.len()];
-    for ((one, at), balance) in found.iter_mut().zip(&mut underflow).zip(balances) {
-        let Balance { work, underflows, multipliers } = balance;
-        (one.work, one.multipliers, *at) = (work, multipliers, underflows);
+    let mut hold = vec![true; found.len()];
+    for ((one, hold), balance) in found.iter_mut().zip(&mut hold).zip(balances) {
+        (one.work, one.multipliers, *hold) = (balance.work, balance.multipliers, balance.holds);
     }
-    let mut underflow = underflow.into_iter();
-    found.retain(|_| !underflow.next().unwrap_or(false));
+    let mut hold = hold.into_iter();
+    found.retain(|_| hold.next().unwrap_or(true));
 }
 
 /// Searches around the coordinates of `start`; cyclic coordinates have its momenta.

@@ -121,10 +121,11 @@ pub fn driven_spectrum(
             (fit.lines, fit.mean) = before;
             break;
         }
-        let turned = fit.lines[0].frequency.abs() * fit.length() / TAU;
-        if turned < 1.0 {
+        let turned = |line: &Wave| line.frequency.abs() * fit.length() / TAU;
+        let fewest = fit.lines.iter().map(turned).fold(f64::INFINITY, f64::min);
+        if fewest < 1.0 {
             // a line that has made no turn is none
-            (turns, fit.mean) = ((count == 0).then_some(turned), before.1);
+            (turns, fit.mean) = ((count == 0).then_some(fewest), before.1);
             fit.lines = before.0;
             break;
         }

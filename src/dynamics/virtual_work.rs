@@ -19,6 +19,10 @@ use crate::num::significant;
 /// A sum of forces below this part of the largest is zero.
 const SUMS_TO_ZERO: f64 = 1e-9;
 
+/// Forces whose sum is more than this part of the largest of them, and of what they change by over the size of a coordinate, do not
+/// balance.
+const OUT_OF_BALANCE: f64 = 1e-3;
+
 /// A term that has more parts than this is shown as a whole.
 const MOST_PARTS: usize = 12;
 
@@ -55,8 +59,9 @@ impl VirtualWork {
 /// The forces at an equilibrium: the virtual work along each coordinate that rests, and the multiplier of each constraint.
 pub(super) struct Balance {
     pub(super) work: Vec<VirtualWork>,
-    /// Whether a force vanishes only because its value is below the smallest number, as in the tail of exp(−x⁴).
-    pub(super) underflows: bool,
+    /// Whether the forces balance there, as far as that can be told without those of constraints: in the tail of exp(−x⁴) they vanish
+    /// only for want of smaller numbers, and next to a singular place what is left is not rounding.
+    pub(super) holds: bool,
     pub(super) multipliers: Vec<f64>,
 }
 
@@ -92,6 +97,13 @@ impl ForceTerm {
     fn underflows(&self, pool: &Pool, known: &Valuation) -> bool {
         known.value(pool, self.expression).abs() < f64::MIN_POSITIVE
             && pool.underflows(self.expression, &|symbol| known.at(symbol))
+    }
+
+    /// By how much it changes over the size of each coordinate, or over a unit.
+    fn change(&self, pool: &Pool, known: &Valuation, place: &[f64]) -> f64 {
+        let change =
+            |&(i, slope): &(usize, Expr)| known.value(pool, slope).abs() * place[i].abs().max(1.0);
+        self.slopes.iter().map(change).sum()
     }
 
     /// Its value at a place, as far as the place is known.
@@ -168,9 +180,20 @@ pub(super) fn virtual_work(
             terms.retain(|(_, value)| *value != 0.0);
             VirtualWork { coordinate: *coordinate, terms }
         });
-        let mut terms = forces.iter().flat_map(|(_, force)| force).map(|(whole, _)| whole);
-        let underflows = terms.any(|term| term.underflows(&pool, &known));
-        Balance { work: work.collect(), underflows, multipliers }
+        let holds = forces.iter().all(|(_, force)| {
+            let (mut sum, mut largest, mut change) = (0.0, 0.0_f64, 0.0);
+            for (term, _) in force {
+                let value = known.value(&pool, term.expression);
+                sum += value;
+                largest = largest.max(value.abs());
+                change += term.change(&pool, &known, variables);
+            }
+            let nothing = largest.max(change) < f64::MIN_POSITIVE;
+            let lost = nothing && force.iter().any(|(term, _)| term.underflows(&pool, &known));
+            let pushed = sum.abs() > OUT_OF_BALANCE * (largest + change);
+            !lost && !(pushed && equations.constraints.is_empty())
+        });
+        Balance { work: work.collect(), holds, multipliers }
     };
     places.iter().map(at).collect()
 }

@@ -15,6 +15,9 @@ use crate::expr::{Expr, Node, Pool, Symbol, Zero};
 use crate::model::Model;
 use crate::num::Number;
 
+/// Far from the start an entry of M may be off by so many ε of the size of its terms.
+const SIZED: f64 = 1e3;
+
 /// The residual below which a map without a proof is canonical, relative to the size of M.
 const CANONICAL: f64 = 1e-10;
 
@@ -61,7 +64,13 @@ impl PhaseMap {
             let matrix = image.and_then(|at| self.tangent(&equations.pool, &at));
             let Some(matrix) = matrix.filter(|matrix| matrix.amax() <= LARGEST) else { continue };
             let residual = departure(&matrix);
-            if residual / matrix.norm_squared().max(1.0) >= CANONICAL {
+            // entries whose terms cancel have an error of their own
+            let sizes = self.by_old.iter().flatten().map(|&entry| {
+                equations.pool.evaluate_with_size(entry, &|symbol| point.at(symbol)).1
+            });
+            let size: f64 = sizes.map(|size| size * size).sum();
+            let rounding = SIZED * f64::EPSILON * size;
+            if residual > CANONICAL * matrix.norm_squared().max(1.0) + rounding {
                 verdict.canonical = false;
                 verdict.residual = Some(verdict.residual.unwrap_or(0.0).max(residual));
                 return;

@@ -135,12 +135,12 @@ impl Structure<'_> {
             known.then(|| (f64::abs(total) > TOLERANCE * size).then_some((total, size)))
         };
         let near = self.points.iter().filter_map(&mut look).take(POINTS).collect::<Vec<_>>();
-        if near.len() < POINTS {
-            return Some("has no value near the start".to_owned());
-        }
+        let has_values = near.len() == POINTS;
         let refuted = near.into_iter().flatten().map(|found| (found, "near"));
         let far = self.far.iter().filter_map(look).flatten().map(|found| (found, "far from"));
-        let ((total, size), place) = refuted.chain(far).next()?;
+        let Some(((total, size), place)) = refuted.chain(far).next() else {
+            return (!has_values).then(|| "has no value near the start".to_owned());
+        };
         let value = || format!("is {total:.1e} {place} the start, its terms being {size:.1e}");
         Some(written.unwrap_or_else(value))
     }

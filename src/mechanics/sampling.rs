@@ -39,17 +39,25 @@ impl Valuation {
     /// The n-th point near the start, at the file's parameters. The momenta of a Lagrangian system
     /// follow from its velocities; the velocities of any other system follow from its state.
     pub fn near_start(model: &Model, equations: &Equations, n: u64) -> Valuation {
-        Valuation::around_start(model, equations, n, WIDTHS[(n % WIDTHS.len() as u64) as usize])
+        let width = WIDTHS[(n % WIDTHS.len() as u64) as usize];
+        Valuation::around_start(model, equations, n, (n, width))
     }
 
     /// The n-th point far from the start, where an identity may fail that holds near it, as that of max(0, x − 30) or
     /// exp(−(x − 50)²) does. A function may have no value there.
     pub(super) fn far_from_start(model: &Model, equations: &Equations, n: u64) -> Valuation {
-        Valuation::around_start(model, equations, n, FAR[(n % FAR.len() as u64) as usize])
+        let count = FAR.len() as u64;
+        Valuation::around_start(model, equations, n, (n / count, FAR[(n % count) as usize]))
     }
 
-    /// The n-th point at distances of up to `width` from the start, relative to the largest initial value of a kind.
-    fn around_start(model: &Model, equations: &Equations, n: u64, width: f64) -> Valuation {
+    /// The n-th point at distances of up to `width` from the start, relative to the largest initial value of a kind, or to the scale of
+    /// this number if all are 0.
+    fn around_start(
+        model: &Model,
+        equations: &Equations,
+        n: u64,
+        (scale, width): (u64, f64),
+    ) -> Valuation {
         let parameters = model.parameter_values();
         let body = equations.supplements.body.as_ref();
         let body = body_values(model, &equations.pool, body, &parameters);
@@ -70,7 +78,7 @@ impl Valuation {
         let largest = |of: fn(&(f64, f64)) -> f64| {
             let size = starts.iter().map(|start| of(start).abs()).fold(0.0, f64::max);
             // if everything starts at 0, nothing indicates how large it will become
-            if size > 0.0 { size } else { SIZES[(n % SIZES.len() as u64) as usize] }
+            if size > 0.0 { size } else { SIZES[(scale % SIZES.len() as u64) as usize] }
         };
         let (length, speed) = (largest(|start| start.0), largest(|start| start.1));
         for (c, &(position, rate)) in model.coordinates.iter().zip(&starts) {

@@ -87,6 +87,11 @@ impl Exponent {
         (self.near.clamp(-APART, APART) + far).clamp(-APART, APART)
     }
 
+    /// Whether it is the difference of two that are too large for their difference to be known.
+    pub(super) fn is_unknown(self) -> bool {
+        self.far.is_nan()
+    }
+
     /// Its value, to twice the digits of `f64`.
     pub(super) fn value(self) -> DoubleDouble {
         let high = self.near as f64;

@@ -87,14 +87,16 @@ impl ExtendedRange {
         ExtendedRange::new(number, Exponent::ZERO)
     }
 
-    /// By how much its exponent is above that of another, neither of which is zero.
-    fn above(self, other: ExtendedRange) -> i128 {
-        self.exponent.minus(other.exponent).moderate()
+    /// By how much its exponent is above that of another, neither of which is zero; not known of enormous exponents that are nearly
+    /// the same.
+    fn above(self, other: ExtendedRange) -> Option<i128> {
+        let difference = self.exponent.minus(other.exponent);
+        (!difference.is_unknown()).then(|| difference.moderate())
     }
 
     /// The number in units of the power of two in another one that is not zero.
     fn in_units_of(self, other: ExtendedRange) -> DoubleDouble {
-        let shift = self.above(other);
+        let Some(shift) = self.above(other) else { return DoubleDouble::from(f64::NAN) };
         let negligible = self.mantissa.high == 0.0 || shift < -DIGITS;
         if negligible && self.mantissa.high.is_finite() {
             return DoubleDouble::ZERO;
@@ -116,8 +118,8 @@ impl ExtendedRange {
 
     /// The one of two numbers whose exponent is larger, or that is not zero.
     fn larger(self, other: ExtendedRange) -> ExtendedRange {
-        let own =
-            other.mantissa.high == 0.0 || (self.mantissa.high != 0.0 && self.above(other) >= 0);
+        let own = other.mantissa.high == 0.0
+            || (self.mantissa.high != 0.0 && self.above(other) >= Some(0));
         if own { self } else { other }
     }
 
@@ -337,7 +339,9 @@ impl Analytic for ExtendedRange {
         if self.mantissa.high == 0.0 && x.mantissa.high == 0.0 {
             return ExtendedRange::moderate(Analytic::atan2(self.mantissa, x.mantissa));
         }
-        if x.mantissa.high > 0.0 && (self.mantissa.high == 0.0 || self.above(x) < TINY) {
+        if x.mantissa.high > 0.0
+            && (self.mantissa.high == 0.0 || self.above(x).is_some_and(|above| above < TINY))
+        {
             return self / x;
         }
         let larger = self.larger(x);

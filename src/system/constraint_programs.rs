@@ -82,7 +82,11 @@ fn turn(builder: &mut ProgramBuilder<'_>, f: Expr) -> Expr {
     let varying = pool.reachable(&[f]).into_iter().filter(|&e| pool.depends_on_any(e, &moving));
     let half_turns = |e: Expr| match pool.node(e) {
         Node::Call(FunctionId::Atan2, _) => Some((e, 2)),
-        Node::Call(FunctionId::Atan, _) => Some((e, 1)),
+        // that of a finite argument makes no turn
+        Node::Call(FunctionId::Atan, arguments) => {
+            let finite = arguments.iter().all(|&argument| is_entire(pool, argument, &moving));
+            (!finite).then_some((e, 1))
+        }
         _ => None,
     };
     let angles: Vec<(Expr, i64)> = varying.filter_map(half_turns).collect();

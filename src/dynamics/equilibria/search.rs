@@ -42,7 +42,7 @@ const VANISHES: f64 = 1e-8;
 const FURTHER_STEPS: usize = 60;
 
 /// A step of Newton's is a part of the one before it where it converges linearly: that of a zero of order m is 1 − 1/m.
-const LINEAR: std::ops::Range<f64> = 0.4..0.97;
+const LINEAR: std::ops::Range<f64> = 0.4..0.999;
 
 /// What must vanish at an equilibrium, and of what.
 pub(super) enum LawAtRest {
@@ -218,6 +218,11 @@ impl<'a> EquilibriumSearch<'a> {
         if settled > 0 { self.accepted(variables) } else { None }
     }
 
+    /// The variables of the search in their units.
+    fn in_units(&self, variables: &[f64]) -> Vec<f64> {
+        self.unknowns.iter().map(|&i| variables[i] / self.units[i]).collect()
+    }
+
     /// Newton's method continued from a place at which the rates are small, with all directions in which they change. Where they
     /// vanish to a higher order, as those of V = x⁴ do, the steps shrink by a constant factor 1 − 1/m, and m of them are taken
     /// at once (E. Schröder, Math. Ann. 2, 317 (1870)). Returns `None` where the rates go on shrinking without a zero, as in the
@@ -226,6 +231,9 @@ impl<'a> EquilibriumSearch<'a> {
         let (mut f, mut df) = self.look_in_units(&variables)?;
         let mut before: Option<DVector<f64>> = None;
         for _ in 0..FURTHER_STEPS {
+            if is_rounding(&f, &df, &self.in_units(&variables)) {
+                return Some(variables);
+            }
             // in a direction in which nothing changes there is a family of equilibria
             let Some(step) = newton_step(&df, &f) else { return Some(variables) };
             let sizes = self.unknowns.iter().map(|&i| (variables[i] / self.units[i]).abs());
@@ -304,6 +312,14 @@ impl<'a> EquilibriumSearch<'a> {
             apart.abs() <= SAME * (self.units[i] + a[i].abs())
         })
     }
+}
+
+/// Whether f is no more than the rounding of the place leaves of it.
+fn is_rounding(f: &DVector<f64>, df: &DMatrix<f64>, place: &[f64]) -> bool {
+    f.iter().enumerate().all(|(i, f)| {
+        let terms = place.iter().enumerate().map(|(j, x)| (df[(i, j)] * x).abs());
+        f.abs() <= 8.0 * ROUNDED * terms.sum::<f64>()
+    })
 }
 
 /// The step at which the linear part of f vanishes; `None` if it does not change in some direction.

@@ -24,7 +24,7 @@ impl CloudLeg {
     ) -> Option<Vec<CloudLeg>> {
         let until = present.changed_at().filter(|&time| time >= begun)?;
         let mut legs: Vec<CloudLeg> =
-            known.iter().filter(|leg| leg.until < until).cloned().collect();
+            known.iter().filter(|leg| leg.until <= until).cloned().collect();
         if until > legs.last().map_or(begun, |leg| leg.until) {
             legs.push(CloudLeg { until, method: conditions.method()? });
         }

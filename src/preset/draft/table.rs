@@ -9,8 +9,9 @@ use crate::diagnostic::nearest;
 use crate::diagnostic::{Diagnostic, Diagnostics, SourceRange};
 use crate::preset::schema::{Key, SchemaTable, ValueKind};
 
-/// The functions that give a law of motion, and their tables.
-const LAWS: [(&str, &str); 2] = [("L", "[lagrangian]"), ("H", "[hamiltonian]")];
+/// The functions of a law of motion, and their tables.
+const LAWS: [(&str, &str); 3] =
+    [("L", "[lagrangian]"), ("H", "[hamiltonian]"), ("dissipation", "[lagrangian]")];
 
 /// A table that is being read.
 pub(in crate::preset) struct Table<'d> {
@@ -320,7 +321,7 @@ impl<'d> Table<'d> {
             let what = if tables { "table" } else { "key" };
             let message = format!("unknown {what} `{name}` in {}", self.called);
             let help = if name.bytes().all(|b| b.is_ascii_digit()) {
-                format!("a decimal fraction is written with a point: 0.{name}, not 0,{name}")
+                "a decimal fraction is written with a point, as 1.5".to_owned()
             } else if let Some(near) = nearest(name, known.iter().copied()) {
                 self.absent.retain(|(key, _)| *key != near);
                 format!("did you mean `{near}`?")

@@ -298,7 +298,7 @@ fn an_angle_without_its_period_has_the_separatrices_that_are_seen() {
     let text = "title = \"A\"\n[coordinates]\nq = { initial = 0.1 }\n[lagrangian]\nL = \"1/2*q'^2 + cos(q)\"\n";
     let done = with_file(text, &["actions", "system.toml", "--format=json"]);
     assert_eq!(done.code, 0, "{}", done.stderr);
-    assert!(done.stderr.contains("an angle needs its `period`"), "{}", done.stderr);
+    assert!(done.stderr.contains("give its `period`"), "{}", done.stderr);
     let object: Value = serde_json::from_str(&done.stdout).expect("JSON");
     let all = object["separatrices"].as_array().expect("separatrices");
     let finite = all.iter().flat_map(|one| one["actions"].as_array().expect("actions"));

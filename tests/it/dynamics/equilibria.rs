@@ -499,8 +499,6 @@ fn a_law_has_the_same_equilibria_in_any_units() {
     }
 }
 
-/// At L₄ the first component of the linearised motion, (−ω² − U_xx) x − 2iω y = U_xy y, gives y/x; at L₁ the ellipse has the
-/// axis of the bodies as one of its own.
 /// Where the forces vanish to a higher order there is one equilibrium as well, and none where they vanish only in the limit.
 #[test]
 fn a_zero_of_higher_order_is_one_equilibrium() {
@@ -531,6 +529,15 @@ fn a_zero_of_higher_order_is_one_equilibrium() {
         assert_eq!(one.kind, Some(kind), "{:?}", one.variables);
         assert!(one.modes.is_empty(), "{:?}", one.modes);
     }
+    // a narrow well far away is 0 here, and takes nothing away
+    let two = text.replace('V', "(x^2 - 1)^2 - exp(-10*(x - 30)^2)");
+    let loaded = lowered(&two);
+    let case = case_in(&loaded, &[], &[], PhaseSpace::without_impulses);
+    let mut found = equilibria(&case.space, &case.start).unwrap().found;
+    with_virtual_work((&loaded.model, &loaded.equations), case.space.parameters(), &mut found);
+    let places: Vec<_> =
+        found.iter().map(|one| one.variables[0]).filter(|x| x.abs() < 2.0).collect();
+    assert_eq!(places, [-1.0, 1.0, 0.0], "{found:?}");
     // at x = 0 there is a maximum or a minimum; beyond it the force falls, and is 0 only for want of smaller numbers
     for (potential, kind) in [("exp(-x^2)", Kind::Maximum), ("(1 - exp(-x^4))", Kind::Degenerate)] {
         let loaded = lowered(&text.replace('V', potential));
@@ -542,6 +549,8 @@ fn a_zero_of_higher_order_is_one_equilibrium() {
     }
 }
 
+/// At L₄ the first component of the linearised motion, (−ω² − U_xx) x − 2iω y = U_xy y, gives y/x; at L₁ the ellipse has the
+/// axis of the bodies as one of its own.
 #[test]
 fn modes_have_all_their_digits() {
     let case = preset("restricted-three-body", &[], &[]);
@@ -572,6 +581,14 @@ fn modes_have_all_their_digits() {
 }
 
 /// L₄ and L₅ have one energy: which comes first is no matter of where the search begins.
+/// Euler's equations have a family of permanent rotations along each principal axis, about which their rates are quadratic.
+#[test]
+fn a_free_body_rotates_about_its_axes() {
+    let found = of(&preset("t-handle", &[], &[]));
+    let rotates = found.iter().filter(|one| one.variables.iter().any(|x| x.abs() > 0.1)).count();
+    assert!(rotates >= 2, "{found:?}");
+}
+
 #[test]
 fn equilibria_of_one_energy_have_an_order_of_their_own() {
     for x0 in [0.5, -0.5, 0.994] {
