@@ -14,4 +14,4 @@ mod own_method;
 mod start;
 mod step;
 
-pub use check::{false_claims, structure_diagnostics};
+pub use check::{false_claims, structure_diagnostics, undefined_start};

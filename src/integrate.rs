@@ -28,6 +28,7 @@ mod probe;
 mod propagator;
 mod rk4;
 mod rk4_batch;
+mod root_correction;
 mod roots;
 mod roundoff;
 mod sampling;

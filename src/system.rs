@@ -67,6 +67,7 @@ mod lane_series;
 mod legendre;
 mod logarithms;
 mod lower;
+mod mass_determinant;
 mod native_states;
 mod node;
 mod observables;

@@ -7,13 +7,13 @@ use super::brackets::false_brackets;
 use super::conservation::{known, open_claims};
 use super::dissipation;
 use super::invariants::false_count;
-use super::motion::ClaimedMotion;
+use super::motion::{self, ClaimedMotion};
 use super::own_method;
 use super::step::false_steps;
 use crate::diagnostic::{Diagnostic, SourceRange};
 use crate::mechanics::{self, Equations, HamiltonJacobi};
 use crate::model::Model;
-use crate::system::System;
+use crate::system::{State, System};
 
 /// Returns a diagnostic for each false claim of a model, at its place.
 pub fn false_claims(model: &Model, equations: &Equations) -> Vec<Diagnostic> {
@@ -71,6 +71,17 @@ pub fn structure_diagnostics(model: &Model, equations: &Equations) -> Vec<Diagno
     errors
         .map(|error| Diagnostic::error(error.place, error.message).with_help(error.help))
         .collect()
+}
+
+/// Why the motion cannot start at a state, which is empty if there is none: a coordinate has no inertia, or a term of the
+/// law no value there.
+pub fn undefined_start(
+    model: &Model,
+    equations: &Equations,
+    system: &System,
+    state: &State,
+) -> Option<String> {
+    Some(motion::undefined_start(model, equations, system, state)?.message)
 }
 
 /// A complete integral that is none.

@@ -11,7 +11,7 @@ use crate::expr::{Expr, Symbol};
 use crate::integrate::{self, Occurrence, Reached, Settings, method_named};
 use crate::mechanics::{Equations, Flow};
 use crate::model::{ExpectedValue, Model};
-use crate::system::{ChannelKind, MotionError, MotionErrorKind, Observer, System};
+use crate::system::{ChannelKind, MotionError, MotionErrorKind, Observer, State, System};
 
 /// The assumed relative error of the values of a motion where a rate is evaluated.
 const SLACK: f64 = 1e-9;
@@ -101,6 +101,65 @@ fn place_of(model: &Model, fault: &MotionError) -> SourceRange {
     constraint.map_or(0..0, |c| c.place.clone())
 }
 
+/// A coordinate without inertia, or a term of the law that has no value at a start.
+pub(super) fn undefined_start(
+    model: &Model,
+    equations: &Equations,
+    system: &System,
+    state: &State,
+) -> Option<Diagnostic> {
+    if model.constraints.is_empty()
+        && let Some(cause) = start::without_mass(model, equations)
+    {
+        return Some(cause);
+    }
+    if state.values.is_empty() {
+        return None;
+    }
+    let parameters = model.parameter_values();
+    let mut values = vec![f64::NAN; system.channels().len()];
+    // also where not all of them are known, since the others give the reason
+    system.observer(&parameters).observe(state, &mut values).ok();
+    let at = |symbol| value_of(model, equations, (system, &values), symbol, state.time);
+    start::without_value(model, equations, &at)
+}
+
+/// The value of a channel among those of all.
+fn seen(system: &System, values: &[f64], kind: ChannelKind) -> f64 {
+    let channel = system.channels().iter().position(|c| c.kind == kind);
+    channel.map_or(f64::NAN, |i| values[i])
+}
+
+/// The value of a symbol where the channels have these values.
+fn value_of(
+    model: &Model,
+    equations: &Equations,
+    (system, values): (&System, &[f64]),
+    symbol: Symbol,
+    time: f64,
+) -> f64 {
+    for (i, c) in equations.coordinates.iter().enumerate() {
+        let kind = match symbol {
+            s if s == c.position => ChannelKind::Position(i),
+            s if s == c.velocity => ChannelKind::Velocity(i),
+            s if s == c.momentum => ChannelKind::Momentum(i),
+            _ => continue,
+        };
+        return seen(system, values, kind);
+    }
+    if symbol == equations.symbols.time {
+        return time;
+    }
+    if symbol == equations.symbols.energy {
+        return seen(system, values, ChannelKind::Energy);
+    }
+    if let Some(parameter) = model.parameters.iter().find(|p| p.symbol == symbol) {
+        return parameter.value;
+    }
+    let body = system.body_values(&model.parameter_values());
+    body.iter().find(|(s, _)| *s == symbol).map_or(f64::NAN, |(_, value)| *value)
+}
+
 impl<'a> ClaimedMotion<'a> {
     /// The motion at its start, with a first step that is known to succeed.
     pub(super) fn begin(
@@ -180,32 +239,12 @@ impl<'a> ClaimedMotion<'a> {
 
     /// The value of a channel at the last sample.
     fn seen(&self, kind: ChannelKind) -> f64 {
-        let channel = self.system.channels().iter().position(|c| c.kind == kind);
-        channel.map_or(f64::NAN, |i| self.values[i])
+        seen(self.system, &self.values, kind)
     }
 
     /// The value of a symbol at the last sample.
     fn value_of(&self, model: &Model, equations: &Equations, symbol: Symbol, time: f64) -> f64 {
-        for (i, c) in equations.coordinates.iter().enumerate() {
-            let kind = match symbol {
-                s if s == c.position => ChannelKind::Position(i),
-                s if s == c.velocity => ChannelKind::Velocity(i),
-                s if s == c.momentum => ChannelKind::Momentum(i),
-                _ => continue,
-            };
-            return self.seen(kind);
-        }
-        if symbol == equations.symbols.time {
-            return time;
-        }
-        if symbol == equations.symbols.energy {
-            return self.seen(ChannelKind::Energy);
-        }
-        if let Some(parameter) = model.parameters.iter().find(|p| p.symbol == symbol) {
-            return parameter.value;
-        }
-        let body = self.system.body_values(&model.parameter_values());
-        body.iter().find(|(s, _)| *s == symbol).map_or(f64::NAN, |(_, value)| *value)
+        value_of(model, equations, (self.system, &self.values), symbol, time)
     }
 
     /// Follows the motion and checks all its claims.

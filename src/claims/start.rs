@@ -39,17 +39,12 @@ pub(super) fn diagnostic(
     if let Some(MotionError {
         kind: MotionErrorKind::SingularMass | MotionErrorKind::NoMass, ..
     }) = fault
-        && let Some((place, message, help)) = without_inertia(model, equations)
+        && let Some(cause) = without_mass(model, equations)
     {
-        return Some(Diagnostic::error(place, message).with_help(help));
+        return Some(cause);
     }
-    let culprit = undefined(equations, at);
-    let described = culprit.and_then(|e| describe(model, &equations.pool, e, at));
-    match (described, fault) {
-        (Some((coordinate, cause)), _) => {
-            let place = coordinate.map_or(law, |i| model.coordinates[i].place.clone());
-            Some(Diagnostic::error(place, format!("the motion cannot start: {cause}")))
-        }
+    match (without_value(model, equations, at), fault) {
+        (Some(cause), _) => Some(cause),
         (None, Some(fault)) => {
             Some(Diagnostic::error(law, format!("the motion cannot start: {fault}")))
         }
@@ -58,6 +53,24 @@ pub(super) fn diagnostic(
             Some(Diagnostic::error(law, message))
         }
     }
+}
+
+/// A term of the law that has no value at the start.
+pub(super) fn without_value(
+    model: &Model,
+    equations: &Equations,
+    at: &dyn Fn(Symbol) -> f64,
+) -> Option<Diagnostic> {
+    let culprit = undefined(equations, at)?;
+    let (coordinate, cause) = describe(model, &equations.pool, culprit, at)?;
+    let place = coordinate.map_or(&model.law_place, |i| &model.coordinates[i].place);
+    Some(Diagnostic::error(place.clone(), format!("the motion cannot start: {cause}")))
+}
+
+/// A coordinate that has no inertia.
+pub(super) fn without_mass(model: &Model, equations: &Equations) -> Option<Diagnostic> {
+    let (place, message, help) = without_inertia(model, equations)?;
+    Some(Diagnostic::error(place, message).with_help(help))
 }
 
 /// Coordinates whose velocities appear in L without giving them a mass.

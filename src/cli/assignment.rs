@@ -146,6 +146,13 @@ pub(super) fn initial(
     refuse_twice("--init", set)?;
     for assignment in set.iter().filter(|assignment| assignment.name != "t") {
         let value = initial_value(model, parameters, assignment)?;
+        if let Some(name) = multiplied(model, &assignment.value) {
+            stderr::tell(&format!(
+                "--init {}={}: `{name}` is the parameter and no unit, so that this is {value:?}",
+                printable::quoted(&assignment.name),
+                printable::quoted(&assignment.value)
+            ));
+        }
         all.push(place(model, &assignment.name, value)?);
     }
     for (i, c) in model.coordinates.iter().enumerate() {
@@ -168,6 +175,15 @@ pub(super) fn begin_at(model: &mut Model, given: &[InitialOverride]) {
             model.coordinates[i].initial = model.pool.number(Number::Real(x).canonical());
         }
     }
+}
+
+/// The parameter that a number is multiplied with by standing before it, if it has the name of a unit.
+fn multiplied<'a>(model: &Model, value: &'a str) -> Option<&'a str> {
+    const UNITS: [&str; 12] = ["m", "s", "kg", "g", "km", "cm", "mm", "h", "N", "J", "rad", "deg"];
+    let (number, name) = value.trim().split_once(' ')?;
+    let name = name.trim();
+    let is_product = numeral(number).is_some() && UNITS.contains(&name);
+    is_product.then(|| model.parameter(name)).flatten().map(|_| name)
 }
 
 /// An initial value as an expression in parameters, as in a file.

@@ -8,6 +8,7 @@ use super::assignment::number;
 use super::decimal;
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
+use super::slow_notice::with_notice;
 use super::study::{self, Study, StudyArguments, shown, table};
 use crate::dynamics::{
     Along, Bifurcation, Family, Fixed, Orbit, OrbitStability, Removed, drive_period, driven_family,
@@ -82,15 +83,15 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let along = arguments.along.as_ref().map(|values| along(values, &study)).transpose()?;
     interrupt.ends_by_itself(|| ());
     let method = (study.method, study.settings);
-    let found = match (arguments.period, study.space.drive()) {
+    let find = || match (arguments.period, study.space.drive()) {
         (None, Some(drive)) => driven_orbit(&study.space, method, &study.start, drive),
         (period, _) => periodic_orbit(&study.space, method, &study.start, period, fixed),
     };
-    let orbit = found.map_err(study::failed)?;
+    let orbit = with_notice("searching for the orbit", find).map_err(study::failed)?;
     let fixed = if study.space.is_autonomous() { fixed } else { Fixed::Period(orbit.period) };
     let values = arguments.along.as_ref().map_or(&[][..], |along| &along.values);
-    let family = along
-        .map(|along| {
+    let follow = || {
+        along.map(|along| {
             let (model, equations) = (&study.model, &study.equations);
             let drive = |parameters: &[f64]| {
                 drive_period(model, equations, study.space.system(), parameters)
@@ -101,8 +102,9 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
                 driven_family(&study.space, method, &orbit, (along, &drive), (values, &|_| ()))
             }
         })
-        .transpose()
-        .map_err(study::failed)?;
+    };
+    let family = with_notice("following the family of orbits", follow);
+    let family = family.transpose().map_err(study::failed)?;
     let (mut object, mut text) = (object(&study, &orbit), text(&study, &orbit));
     if let (Some(family), Some(along)) = (&family, &arguments.along) {
         object.insert("along".to_owned(), along.name.as_str().into());

@@ -24,6 +24,7 @@ use super::output::{Output, OutputForm};
 use super::report::Header;
 use super::rows::RowFormat;
 use super::{open, stderr};
+use crate::claims;
 use crate::experiment::{Derived, Experiment, Setup, choose_method};
 use crate::integrate::{Method, Settings, Stepping};
 use crate::model::{Model, replace_by_ramps};
@@ -204,9 +205,22 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let (columns, strict) = (system.columns(), arguments.strict);
     let gives_up = settings.step.is_none();
     let first = experiment.snapshot().state.clone();
+    let begun = Arc::clone(&first);
     let adiabatic = adiabatic.map(|known| (known, first, system.clone()));
     let steps = STEPS_PER_LOOK;
-    let run = Run { experiment, times, columns, interrupt, steps, strict, gives_up, adiabatic };
+    let cannot_start = || claims::undefined_start(&model, &equations, &system, &begun);
+    let cannot_start = &cannot_start;
+    let run = Run {
+        experiment,
+        times,
+        columns,
+        interrupt,
+        steps,
+        strict,
+        gives_up,
+        adiabatic,
+        cannot_start,
+    };
     match (run.write(arguments.format, out, &header), interrupt.signal()) {
         // a signal takes precedence over any other failure
         (Err(_), Some(signal)) => Err(CommandError::Signal(signal)),

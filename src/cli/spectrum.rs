@@ -6,6 +6,7 @@ use super::assignment::number;
 use super::failure::CommandError;
 use super::interrupt::Interrupt;
 use super::motion_options::Laid;
+use super::slow_notice::with_notice;
 use super::study::{self, StudyArguments, shown, table};
 use crate::dynamics::{
     FrequencyDrift, MeanRate, PhaseSpace, SpectralLine, Spectrum, driven_spectrum, frequency_drift,
@@ -101,7 +102,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let count = arguments.count as usize;
     let spacing = (until - start.time) / count as f64;
     let times: Vec<f64> = (0..count).map(|k| start.time + k as f64 * spacing).collect();
-    let seen = flow.carry(&state, &times, &[channel]).seen;
+    let carry = || flow.carry(&state, &times, &[channel]).seen;
+    let seen = with_notice("following the motion", carry);
     if seen.len() < count {
         let time = significant(times[seen.len()], 6, 1e-4..1e6);
         let why = format!("the motion ends before t = {time}: choose an earlier --until");
@@ -116,7 +118,8 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let most = (arguments.lines as usize, fundamentals);
     let space = PhaseSpace::on_constraints(model, equations, system, &start.parameters).ok();
     let drive = space.and_then(|space| space.drive()).map(|period| std::f64::consts::TAU / period);
-    let spectrum = driven_spectrum(&straight, spacing, most, drive, &mut |_| true)
+    let search = || driven_spectrum(&straight, spacing, most, drive, &mut |_| true);
+    let spectrum = with_notice("searching for the lines", search)
         .ok_or_else(|| CommandError::CouldNot("the quantity has no finite values".to_owned()))?;
     let drift = frequency_drift(&straight, spacing, &spectrum.lines);
     let of = arguments.of.clone().unwrap_or_else(|| system.channels()[channel].name.clone());

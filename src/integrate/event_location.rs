@@ -13,6 +13,7 @@ use super::clock::{DIGITS, spacing};
 use super::located_event::{Crossing, LocatedEvent, first};
 use super::polynomial::StepPolynomial;
 use super::probe::Probe;
+use super::root_correction::RootCorrection;
 use super::roots::sign_changes;
 use super::sampling::Sampling;
 use crate::model::Direction;
@@ -38,12 +39,6 @@ const SOONEST: f64 = 2e-15;
 
 /// The truncation error of a series, as a part of its function.
 pub(super) const CUT_OFF: f64 = 1e-13;
-
-/// The maximal number of corrections of a root by the value of the function there.
-const CORRECTIONS: u32 = 3;
-
-/// A correction larger than this part of a piece is rejected: the root is of a higher order.
-const SMALL: f64 = 1e-6;
 
 /// The state of the search for events.
 #[derive(Clone, Debug)]
@@ -76,13 +71,13 @@ enum PieceRoots {
 }
 
 /// A piece of a step on which the functions are represented by their series.
-struct SeriesPiece {
+pub(super) struct SeriesPiece {
     /// The beginning.
-    from: DoubleDouble,
+    pub(super) from: DoubleDouble,
     /// The unit of time of the series.
-    unit: f64,
+    pub(super) unit: f64,
     /// The length in that unit.
-    length: f64,
+    pub(super) length: f64,
 }
 
 impl EventLocator {
@@ -201,7 +196,7 @@ impl EventLocator {
         let Some((piece, beyond)) = self.piece(motion, from, to) else {
             self.count_piece(motion.interval().0, from)?;
             let end = self.simple_until(motion, from, to)?;
-            let found = self.sampled(motion, from, end)?;
+            let found = self.sampled(motion, from, end, end >= to)?;
             if found.is_some() {
                 self.pieces.1 = 0;
             }
@@ -212,20 +207,20 @@ impl EventLocator {
         if end - from >= shortest || end >= to {
             self.shortest = 0;
             let known = self.sides.clone();
-            if let PieceRoots::First(found) = self.roots(motion, &piece, (from, end))? {
+            if let PieceRoots::First(found) = self.roots(motion, &piece, (from, end), end >= to)? {
                 return Ok((found, end));
             }
             // the series belong to another branch, or are rounding
             self.sides = known;
             self.count_piece(motion.interval().0, from)?;
             let end = self.simple_until(motion, from, end)?;
-            return Ok((self.sampled(motion, from, end)?, end));
+            return Ok((self.sampled(motion, from, end, end >= to)?, end));
         }
         // a kink or a pole; about the zero of a root its series is rounding over ever so many digits
         let doubled = if self.probe.event_functions().has_branches() { self.shortest } else { 0 };
         let end = (from + shortest * f64::from(1 << doubled.min(MOST_DOUBLED))).min(to);
         self.note_length(from, beyond)?;
-        Ok((self.sampled(motion, from, end)?, end))
+        Ok((self.sampled(motion, from, end, end >= to)?, end))
     }
 
     /// Passes over a piece of a step on which all functions surely stay on their known sides.
@@ -282,12 +277,13 @@ impl EventLocator {
         Some((SeriesPiece { from, unit, length }, valid * unit))
     }
 
-    /// The first crossing that counts on a piece.
+    /// The first crossing that counts on a piece. The next piece detects one at the end, if it is not the `last`.
     fn roots(
         &mut self,
         motion: &mut dyn DenseOutput,
         piece: &SeriesPiece,
         (from, to): (f64, f64),
+        is_last: bool,
     ) -> Result<PieceRoots, MotionError> {
         self.fresh = false;
         let reference = if from == 0.0 { to } else { from.abs() };
@@ -303,7 +299,7 @@ impl EventLocator {
                 let exact = self.probe.exactly_at(motion, event, piece.from)?;
                 polynomial.coefficients[0] = exact.high;
             }
-            let crossings = self.follow(motion, event, &polynomial, piece, to)?;
+            let crossings = self.follow(motion, event, &polynomial, piece, to, is_last)?;
             if self.probe.event_functions().has_branches() {
                 let vanishing = VANISHES * polynomial.size();
                 for crossing in &crossings {
@@ -326,15 +322,18 @@ impl EventLocator {
         polynomial: &StepPolynomial,
         piece: &SeriesPiece,
         to: f64,
+        is_last: bool,
     ) -> Result<Vec<Crossing>, MotionError> {
         let course = polynomial.follow(self.sides[event]);
         let mut crossings = Vec::new();
+        // just behind a root of a higher order its sign is rounding
+        let begun = piece.from.high;
+        let has_crossed = (begun - self.last[event]).abs() <= DIGITS * spacing(begun);
         if self.sides[event] == 0.0 {
             self.sides[event] = course.side;
-        } else if course.side != 0.0 && course.side != self.sides[event] {
+        } else if !has_crossed && course.side != 0.0 && course.side != self.sides[event] {
             crossings.push(Crossing::at(piece.from, course.side));
         }
-        let mut side = course.side;
         let direction = self.directions[event];
         for change in &course.changes {
             if crossings.last().is_some_and(|last| last.counts(direction)) {
@@ -343,51 +342,34 @@ impl EventLocator {
             if change.side == crossings.last().map_or(self.sides[event], |last| last.side) {
                 continue;
             }
-            side = change.side;
             let exact = piece.from + DoubleDouble::from(change.x) * piece.unit;
-            let mut crossing = Crossing::at(exact, side);
+            let mut crossing = Crossing::at(exact, change.side);
             if crossing.counts(direction) {
-                crossing.exact = self.correct(motion, event, polynomial, piece, change.x)?;
+                let probe = &mut self.probe;
+                let mut root = RootCorrection { probe, motion, event, polynomial, piece };
+                let Some(exact) = root.correct(change.x, change.side)? else { continue };
+                crossing.exact = exact;
             }
             crossings.push(crossing);
         }
+        let side = crossings.last().map_or(self.sides[event], |last| last.side);
         let counted = crossings.last().is_some_and(|last| last.counts(direction));
-        if !counted && polynomial.ends_at_zero(side) {
+        if is_last && !counted && polynomial.ends_at_zero(side) {
             // it crosses at the very end of the piece, which may be the time of an output row or an
             // impulse
-            crossings.push(Crossing::at(self.written(to), -side));
+            let probe = &mut self.probe;
+            let mut root = RootCorrection { probe, motion, event, polynomial, piece };
+            if !polynomial.ends_flat() {
+                crossings.push(Crossing::at(self.written(to), -side));
+            } else if let Some(exact) = root.bracketed(piece.length, -side)? {
+                crossings.push(Crossing::at(exact, -side));
+            }
         }
         let end = self.written(to);
         for crossing in crossings.iter_mut().filter(|c| c.exact.high > to) {
             crossing.exact = end;
         }
         Ok(crossings)
-    }
-
-    /// Refines a root to the full precision of the function.
-    fn correct(
-        &mut self,
-        motion: &mut dyn DenseOutput,
-        event: usize,
-        polynomial: &StepPolynomial,
-        piece: &SeriesPiece,
-        x: f64,
-    ) -> Result<DoubleDouble, MotionError> {
-        let slope = polynomial.slope(x);
-        let mut x = DoubleDouble::from(x);
-        for _ in 0..CORRECTIONS {
-            let time = piece.from + x * piece.unit;
-            let correction = self.probe.exactly_at(motion, event, time)? / slope;
-            let size = correction.high.abs();
-            if size.is_nan() || size >= SMALL * piece.length {
-                break;
-            }
-            x = x - correction;
-            if correction.high.abs() <= 1e-28 * x.high.abs() {
-                break;
-            }
-        }
-        Ok(piece.from + x * piece.unit)
     }
 
     /// The end, at most `to`, of the interval that begins at a time within the last step and on
@@ -437,10 +419,12 @@ impl EventLocator {
         motion: &mut dyn DenseOutput,
         from: f64,
         to: f64,
+        is_last: bool,
     ) -> Result<Option<LocatedEvent>, MotionError> {
         let soonest = SOONEST * if from == 0.0 { to } else { from.abs() };
         let soonest = std::mem::take(&mut self.fresh).then_some(soonest);
-        let mut sampling = Sampling { probe: &mut self.probe, motion, whole: (from, to) };
+        let probe = &mut self.probe;
+        let mut sampling = Sampling { probe, motion, whole: (from, to), is_last };
         let samples = sampling.looks(self.sides.len(), soonest)?;
         let mut passed: Vec<Vec<Crossing>> = Vec::new();
         for (event, samples) in samples.iter().enumerate() {

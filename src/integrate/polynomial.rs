@@ -9,6 +9,9 @@ use super::roots::{sign_changes, value_and_slope};
 /// The sign of a value below this part of the terms of its polynomial is not trusted.
 const SIGNLESS: f64 = 1e-13;
 
+/// With a slope below this part of the terms a value may be rounding over many digits of the time.
+const FLAT: f64 = 1e-6;
+
 /// Two changes of sign between which a polynomial stays below this part of its terms count as a
 /// touch.
 const TOUCH: f64 = 1e-14;
@@ -56,6 +59,12 @@ impl StepPolynomial {
     pub(super) fn ends_at_zero(&self, side: f64) -> bool {
         let (value, slope) = value_and_slope(&self.coefficients, self.length);
         value.abs() <= SIGNLESS * self.size() && slope * side < 0.0
+    }
+
+    /// Whether the slope at the end is so small that a value there which may be rounding may still belong to times far from
+    /// a root.
+    pub(super) fn ends_flat(&self) -> bool {
+        self.slope(self.length).abs() * self.length <= FLAT * self.size()
     }
 
     /// The slope at a time.

@@ -7,6 +7,7 @@
 mod advance;
 mod constraint_watch;
 mod occurrence;
+mod singular_mass;
 mod singularity_record;
 
 use super::event_location::EventLocator;

@@ -54,6 +54,8 @@ pub(super) struct Sampling<'a> {
     pub(super) motion: &'a mut dyn DenseOutput,
     /// The beginning and end of the interval.
     pub(super) whole: (f64, f64),
+    /// Whether nothing follows that would detect a crossing at its very end.
+    pub(super) is_last: bool,
 }
 
 impl Sampling<'_> {
@@ -186,7 +188,8 @@ impl Sampling<'_> {
     /// Handles a piece with at most one crossing, and records it.
     fn end(&mut self, walk: &mut Walk<'_>, a: Sample, b: Sample) -> Result<bool, MotionError> {
         let side = sign(b, a);
-        if side == 0.0 && b.time == self.whole.1 && b.slope * walk.side < 0.0 {
+        let at_end = self.is_last && b.time == self.whole.1;
+        if side == 0.0 && at_end && b.slope * walk.side < 0.0 {
             // it crosses at the very end of the step, which may be the time of an output row or an
             // impulse
             let crossing = Crossing::at(DoubleDouble::written(b.time), -walk.side);
@@ -202,14 +205,43 @@ impl Sampling<'_> {
             *walk.known = side;
             return Ok(false);
         }
-        let crossing = self.locate(walk.event, side, a.time, b.time)?;
+        let is_same = |time: f64| (time - walk.last).abs() <= DIGITS * spacing(time);
+        let from = if is_same(a.time) {
+            self.between(walk.event, side, a.time, b.time)?
+        } else {
+            Some(a.time)
+        };
         walk.side = side;
-        let time = crossing.exact.high;
-        if (time - walk.last).abs() <= DIGITS * spacing(time) {
+        let Some(from) = from else {
+            *walk.known = side;
+            return Ok(false);
+        };
+        let crossing = self.locate(walk.event, side, from, b.time)?;
+        if is_same(crossing.exact.high) {
             return Ok(false);
         }
         walk.found.push(crossing);
         Ok(crossing.counts(walk.direction))
+    }
+
+    /// A time between that of the last crossing and a sample on this side of zero at which the function is on the other: the
+    /// sign at the crossing itself is that of its rounding.
+    fn between(
+        &mut self,
+        event: usize,
+        side: f64,
+        left: f64,
+        right: f64,
+    ) -> Result<Option<f64>, MotionError> {
+        let mut distance = DIGITS * spacing(left);
+        while left + distance < right {
+            let time = left + distance;
+            if self.probe.exactly(self.motion, event, time)?.high * side < 0.0 {
+                return Ok(Some(time));
+            }
+            distance *= 2.0;
+        }
+        Ok(None)
     }
 
     /// The time of a crossing between two samples, after which the function is on `side`:

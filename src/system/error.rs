@@ -71,6 +71,8 @@ pub enum MotionErrorKind {
     TooSmall(String),
     /// The functions of the events swing too often within one step to be followed.
     Swings,
+    /// The change of the momenta by this impulse, or what it leads to, is not a finite number.
+    ImpulseNotFinite(String),
     /// No velocities were found for the given momenta (or the reverse).
     NoVelocities,
     /// The same in a step of fixed size, which may be too long.
@@ -195,6 +197,9 @@ impl fmt::Display for MotionError {
             MotionErrorKind::NoInterval(name, interval) => {
                 write!(f, "the impulse `{name}` cannot act every {}", short(*interval))?;
             }
+            MotionErrorKind::ImpulseNotFinite(name) => {
+                write!(f, "the impulse `{name}` has no finite value at t = {time}")?;
+            }
             MotionErrorKind::TooManySteps(step, until) => write!(
                 f,
                 "steps of size {step:e} from t = {time} are too many to be counted up to t = {until}"
@@ -289,6 +294,9 @@ impl fmt::Display for MotionError {
             MotionErrorKind::ClockStands(_) => ", and the next step, impulse or event comes sooner",
             MotionErrorKind::NoInterval(..) => ": its interval must be above zero",
             MotionErrorKind::TooManySteps(..) => ": try a larger step",
+            MotionErrorKind::ImpulseNotFinite(_) => {
+                ": its change lies outside a function's domain, or beyond the range of numbers"
+            }
             MotionErrorKind::PilesUp(_) => ": give the file an event that stops it before",
             MotionErrorKind::Rough => ": the rates of change have no limit there, or no value beyond",
             MotionErrorKind::NoSide => ": no side of it leads away, and a motion along it cannot be followed",

@@ -104,7 +104,15 @@ impl System {
         self.inputs_of(state, &mut seen);
         let found = values.evaluate(state.exact_time(), &seen);
         found.map_err(|why| self.singular(program, why, state.time, &state.values))?;
+        let name = &self.discontinuities().impulses[impulse].name;
         let impulse: Vec<DoubleDouble> = (0..n).map(|i| values.output(impulse * n + i)).collect();
+        let not_finite = || {
+            let kind = MotionErrorKind::ImpulseNotFinite(name.clone());
+            self.fault(kind, state.time, &state.values)
+        };
+        if !impulse.iter().all(|x| x.is_finite()) {
+            return Err(not_finite());
+        }
         let mut after = state.clone();
         let mut reaction = vec![0.0; self.constraints()];
         let mut jump: Vec<f64> = impulse.iter().map(|x| x.high).collect();
@@ -115,6 +123,9 @@ impl System {
                 let before = self.convert(state, Form::Momentum, parameters)?;
                 let target: Vec<DoubleDouble> =
                     (0..n).map(|i| before.exact(n + i) + impulse[i]).collect();
+                if !target.iter().all(|x| x.is_finite()) {
+                    return Err(not_finite());
+                }
                 if self.constraints() > 0 {
                     (after, reaction) = self.impulse_outcome(state, &target, parameters)?;
                     let after_impulse = self.convert(&after, Form::Momentum, parameters)?;

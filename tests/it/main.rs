@@ -35,6 +35,7 @@ mod legendre;
 mod map;
 mod mechanics;
 mod methods;
+mod multiple_roots;
 mod notation;
 mod occurrences;
 mod orbit;

@@ -3,6 +3,7 @@
 use crate::cli::stderr;
 use crate::experiment::Experiment;
 use crate::integrate::{METHODS, Method};
+use crate::printable;
 use crate::system::System;
 
 /// Warns before the run about a method that ignores the kinks of the motion.
@@ -18,9 +19,33 @@ pub(super) fn before(system: &System, method: &Method) {
     }
 }
 
-/// Warns after the run about a fixed step beyond the stability limit.
+/// Warns after the run about a fixed step beyond the stability limit, and about events that can no longer happen.
 pub(super) fn after(experiment: &Experiment) {
+    for name in without_value(experiment) {
+        stderr::tell(&format!(
+            "at the end the function of the event `{}` has no value; an event is where it changes its sign",
+            printable::quoted(&name)
+        ));
+    }
     if let Some(sentence) = experiment.unstable() {
         stderr::tell(&sentence);
     }
+}
+
+/// The events whose functions have no value at the current state, as that of √y below the floor.
+fn without_value(experiment: &Experiment) -> Vec<String> {
+    let (snapshot, system) = (experiment.snapshot(), experiment.system());
+    let events = &experiment.model().events;
+    let Some(mut functions) = system.event_functions(&snapshot.parameters) else {
+        return Vec::new();
+    };
+    let count = events.len() + experiment.model().sections.len();
+    let mut values = vec![0.0; count];
+    // a motion that has not begun has no state
+    let has_begun = snapshot.state.is_finite() && !snapshot.state.values.is_empty();
+    if !has_begun || functions.look(&snapshot.state, &mut values).is_err() {
+        return Vec::new();
+    }
+    let without = events.iter().zip(values).filter(|(_, value)| value.is_nan());
+    without.map(|(event, _)| event.name.clone()).collect()
 }

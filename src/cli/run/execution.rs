@@ -41,6 +41,8 @@ pub(super) struct Run<'i> {
     pub(super) gives_up: bool,
     /// Where parameters are ramped, what the action variable is found by: with the first state.
     pub(super) adiabatic: Option<(Adiabatic, Arc<State>, System)>,
+    /// Why the motion cannot start, as a check of the file says it.
+    pub(super) cannot_start: &'i dyn Fn() -> Option<String>,
 }
 
 /// Why a run ended early.
@@ -95,7 +97,13 @@ impl Run<'_> {
         let (stuck, interrupt) = (table.clone(), self.interrupt.clone());
         self.interrupt.ends_by_itself(move || stuck.end_within_a_step(&interrupt));
         *table.rows() = Some(Rows::begin(format, out, header).map_err(|error| failed(&error))?);
-        let end = self.rows(&table).err();
+        let mut end = self.rows(&table).err();
+        if let Some(EarlyEnd::Fault(fault)) = &mut end
+            && fault.time == self.times.start()
+            && let Some(cause) = (self.cannot_start)()
+        {
+            fault.message = cause;
+        }
         if let Some(EarlyEnd::Write(error)) = &end {
             return Err(failed(error));
         }

@@ -20,6 +20,10 @@ const UNDERFLOW: &str = "its terms underflow";
 /// the sum of the others has.
 const LARGE: f64 = 1e3;
 
+/// What moves by less than this multiple of the error that rounding explains, and all of it away from the reference, is
+/// error and no motion: a quantity each of whose terms is constant.
+const ERROR: f64 = 1e3;
+
 /// The state of one gauge.
 #[derive(Clone, Debug)]
 pub(super) struct InvariantMonitor {
@@ -51,6 +55,8 @@ pub(super) struct InvariantMonitor {
     at_rest: Vec<f64>,
     /// The greatest error of its value since then, in units of ε.
     rounding: f64,
+    /// The greatest distance so far that rounding explains.
+    explained: f64,
     /// Whether terms that are not 0 were seen where their error is less than a normal number.
     underflows: bool,
     /// The mean size of its moving part.
@@ -111,6 +117,7 @@ impl InvariantMonitor {
             last: 0.0,
             at_rest: Vec::new(),
             rounding: 0.0,
+            explained: 0.0,
             underflows: false,
             moving: Mean::default(),
             farthest: 0.0,
@@ -133,6 +140,7 @@ impl InvariantMonitor {
             self.summed(terms).map_or(f64::NAN, |sums| self.rough(sums.value, terms.work()));
         self.at_rest = self.quantity.map_or_else(Vec::new, |quantity| terms.at_rest(quantity));
         self.rounding = 0.0;
+        self.explained = 0.0;
         self.underflows = false;
         self.moving = Mean::beginning(time);
         self.farthest = 0.0;
@@ -269,7 +277,9 @@ impl InvariantMonitor {
         if distance > self.farthest {
             self.farthest = distance;
         }
-        let beyond = distance > floor * self.rounding;
+        let explained = floor * self.rounding;
+        self.explained = self.explained.max(explained);
+        let beyond = distance > explained;
         // a motion that has not begun says nothing of what will move
         if !beyond && moving == 0.0 && self.moving.value() == 0.0 {
             return;
@@ -296,8 +306,7 @@ impl InvariantMonitor {
     }
 
     fn drift_of(&self, distance: f64, moving: f64) -> f64 {
-        let moving = moving.max(self.moving.value());
-        if moving > 0.0 { distance / moving } else { distance / self.rounding }
+        distance / self.scale_of(moving.max(self.moving.value()))
     }
 
     /// The greatest drift, and when it first exceeded the limit.
@@ -315,8 +324,14 @@ impl InvariantMonitor {
 
     /// The scale of drift: the mean moving part, or the size of the terms if nothing moves.
     fn scale(&self) -> f64 {
-        let moving = self.moving.value();
-        if moving > 0.0 { moving } else { self.rounding }
+        self.scale_of(self.moving.value())
+    }
+
+    /// The scale of drift where this much moves.
+    fn scale_of(&self, moving: f64) -> f64 {
+        // terms that balance each other move by more than their sum
+        let is_error = moving <= 2.0 * self.farthest && moving <= ERROR * self.explained;
+        if is_error { self.rounding } else { moving }
     }
 
     pub(super) fn show(&self, values: &[f64], since: f64, floor: f64, errors: Errors) -> Gauge {

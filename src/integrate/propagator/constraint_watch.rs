@@ -204,7 +204,7 @@ impl Propagator {
                 };
                 MotionError { kind, ..fault }
             }
-            None => fault,
+            None => self.with_singular_mass(fault),
         }
     }
 

@@ -714,3 +714,90 @@ fn velocities_that_do_not_fit_are_named() {
         assert!(!gauge["reason"].as_str().expect("text").contains("NaN"), "{gauge}");
     }
 }
+
+/// A run that stops for this reason, which is also in its rows.
+fn stops(text: &str, options: &[&str], why: &str) {
+    let mut all = vec!["run", "system.toml"];
+    all.extend(options);
+    let done = with_file(text, &all);
+    assert_eq!(done.code, 1, "{}", done.stderr);
+    assert!(done.stderr.contains(why) && done.stdout.contains(why), "{}", done.stderr);
+}
+
+/// What a check of the same file says, also where the start is given.
+#[test]
+fn a_start_without_a_value_is_refused_as_by_check() {
+    let law = |coordinate: &str, l: &str| {
+        format!(
+            "title = \"A start\"\n[coordinates]\nx = {{ {coordinate} }}\n[lagrangian]\nL = \"{l}\"\n"
+        )
+    };
+    let root = law("initial = 1", "1/2*x'^2 - (x - 2)^1.5");
+    let why = "the motion cannot start: `(x - 2)^(3/2)` has no finite value at x = 1";
+    with_file(&root, &["check", "system.toml"]).fails(65, &[why]);
+    stops(&root, &[], why);
+    let fast = law("initial = 0, velocity = 0.1", "-sqrt(1 - x'^2) - 0.1*x");
+    stops(&fast, &["--init", "x'=1.5"], "`sqrt(1 - x'^2)` has no finite value at x' = 1.5");
+}
+
+#[test]
+fn a_coordinate_without_inertia_is_named_and_a_start_without_a_state_is_a_fault() {
+    let file = |l: &str, rest: &str| {
+        format!(
+            "title = \"Massless\"\n[coordinates]\nx = {{ initial = 0, velocity = 1 }}\ns = {{ initial = 0 }}\n\
+             [lagrangian]\nL = \"{l}\"\n{rest}"
+        )
+    };
+    stops(&file("1/2*x'^2 - x - s*x", ""), &[], "the coordinate `s` has no kinetic term in L");
+    let held = "[[constraints]]\nname = \"a\"\nexpression = \"x - s^3\"\n";
+    stops(&file("1/2*x'^2 - x", held), &[], "do not say with which velocities the motion starts");
+}
+
+#[test]
+fn an_impulse_without_a_finite_value_is_named() {
+    for change in ["ln(-x)", "1e308*x' + 1e308"] {
+        let text = format!(
+            "title = \"Hit\"\n[coordinates]\nx = {{ initial = 0, velocity = 1 }}\n[lagrangian]\nL = \"1/2*x'^2\"\n\
+             [[impulses]]\nname = \"a\"\nat = [1.0]\nchange = {{ p_x = \"{change}\" }}\n"
+        );
+        stops(&text, &[], "the impulse `a` has no finite value at t = 1, x = 1");
+    }
+}
+
+/// ∂²L/∂x'² = 3 x'² vanishes where the motion turns, and 3 x'² − 1 at x' = 1/√3.
+#[test]
+fn a_mass_that_vanishes_on_the_way_is_no_collision() {
+    for l in ["x'^4/4 - x^2/2", "abs(x')^3/3 - x^2/2", "1/4*x'^4 - 1/2*x'^2 - 1/2*x^2"] {
+        let text = format!(
+            "title = \"Mass\"\n[coordinates]\nx = {{ initial = 0.3, velocity = 1.5 }}\n[lagrangian]\nL = \"{l}\"\n"
+        );
+        stops(&text, &["--until", "10"], "the mass matrix is singular at t = ");
+    }
+    let fall = "title = \"Fall\"\n[coordinates]\nx = { initial = 1 }\n[lagrangian]\nL = \"1/2*x'^2 + 1/x\"\n";
+    stops(fall, &["--until", "10"], "collision");
+}
+
+/// √y has no value below the floor, so that it never changes its sign there.
+#[test]
+fn an_event_whose_function_has_lost_its_value_is_named() {
+    let ball = |when: &str| {
+        format!(
+            "title = \"Ball\"\n[coordinates]\ny = {{ initial = 1 }}\n[lagrangian]\nL = \"1/2*y'^2 - 9.81*y\"\n\
+             [[events]]\nname = \"floor\"\nwhen = \"{when}\"\ndirection = \"falling\"\naction = \"mark\"\n"
+        )
+    };
+    let said = "at the end the function of the event `floor` has no value";
+    let arguments = ["run", "system.toml", "--until", "1"];
+    let (root, height) =
+        (with_file(&ball("sqrt(y)"), &arguments), with_file(&ball("y"), &arguments));
+    assert!(root.code == 0 && root.stderr.contains(said), "{}", root.stderr);
+    assert!(height.code == 0 && height.stderr.is_empty(), "{}", height.stderr);
+}
+
+#[test]
+fn a_parameter_with_the_name_of_a_unit_is_pointed_out() {
+    let text = PENDULUM.to_owned();
+    let done = with_file(&text, &["run", "system.toml", "--init", "theta=0.5 m", "--until", "1"]);
+    let said = "--init theta=0.5 m: `m` is the parameter and no unit, so that this is 1.0";
+    assert!(done.code == 0 && done.stderr.contains(said), "{}", done.stderr);
+}

@@ -250,3 +250,38 @@ fn a_motion_of_impulses_alone_is_judged_by_what_moves_between_them() {
     let energy = gauge(&carried(text, "dop853", None, 0.2).snapshot(), "energy");
     assert!(energy.max_drift < 1e-11 && energy.left.is_none(), "{energy:?}");
 }
+
+/// The radius of a planet on a circle, started with a velocity too great by this part.
+fn radius(by: f64) -> phaselab::experiment::Gauge {
+    let text = format!(
+        "title = \"Circle\"\n[coordinates]\nx = {{ initial = 1 }}\ny = {{ initial = 0, velocity = {:?} }}\n\
+         [lagrangian]\nL = \"1/2*(x'^2 + y'^2) + 1/sqrt(x^2 + y^2)\"\n\
+         [[observables]]\nname = \"radius\"\nexpression = \"sqrt(x^2 + y^2)\"\nconserved = true\n",
+        1.0 + by
+    );
+    gauge(&carried(&text, "dop853", None, 30.0).snapshot(), "radius")
+}
+
+/// What of a constant term moves is the error of the motion: compared with itself it would always be all.
+#[test]
+fn a_value_kept_to_rounding_is_not_lost() {
+    let kept = radius(0.0);
+    assert!(["exact", "bounded"].contains(&kept.verdict.word()), "{kept:?}");
+    assert!(kept.max_drift < 1e-13 && kept.left.is_none(), "{kept:?}");
+    // r = 1 + 2δ (1 − cos t) to the first order
+    for by in [1e-9, 1e-6] {
+        let lost = radius(by);
+        assert_eq!(lost.verdict.word(), "lost", "{lost:?}");
+        assert!((lost.farthest / (4.0 * by) - 1.0).abs() < 1e-3, "{lost:?}");
+    }
+}
+
+/// The angle θ of a steady precession, kept to 5e-14 by a method of order eight.
+#[test]
+fn the_angle_of_a_steady_precession_is_not_lost() {
+    let preset = include_str!("../../../presets/rigid-body/rotations.toml");
+    let angle = gauge(&carried(preset, "dop853", None, 30.0).snapshot(), "θ");
+    assert_ne!(angle.verdict.word(), "lost", "{angle:?}");
+    assert!(angle.max_drift < 1e-12 && angle.left.is_none(), "{angle:?}");
+    assert!(!angle.reason.contains("contradicted"), "{angle:?}");
+}
