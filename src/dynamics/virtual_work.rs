@@ -190,8 +190,10 @@ pub(super) fn virtual_work(
             }
             let nothing = largest.max(change) < f64::MIN_POSITIVE;
             let lost = nothing && force.iter().any(|(term, _)| term.underflows(&pool, &known));
-            let pushed = sum.abs() > OUT_OF_BALANCE * (largest + change);
-            !lost && !(pushed && equations.constraints.is_empty())
+            // the forces of constraints are not among the terms
+            let is_free = equations.constraints.is_empty();
+            let pushed = is_free && sum.abs() > OUT_OF_BALANCE * (largest + change);
+            !lost && !pushed
         });
         Balance { work: work.collect(), holds, multipliers }
     };

@@ -17,8 +17,13 @@ fn every_preset_has_a_gauge_for_all_that_is_conserved() {
         assert_eq!(first.name, "energy", "{}", entry.name);
         for gauge in snapshot.gauges.iter() {
             let whole = !gauge.shown.is_empty() && !gauge.reason.is_empty();
-            assert!(whole && gauge.value.is_finite() && gauge.drift.is_finite(), "{gauge:?}");
-            assert!(gauge.drift <= gauge.max_drift, "{gauge:?}");
+            assert!(whole && gauge.value.is_finite(), "{gauge:?}");
+            // on another branch of S the constant is another function
+            if gauge.reason == "other branch" {
+                assert!(matches!(gauge.verdict, Verdict::Broken(_)), "{gauge:?}");
+                continue;
+            }
+            assert!(gauge.drift.is_finite() && gauge.drift <= gauge.max_drift, "{gauge:?}");
             if !matches!(gauge.verdict, Verdict::Broken(_)) {
                 assert!(gauge.max_drift < 1e-13, "{}: {gauge:?}", entry.name);
             }
