@@ -56,7 +56,7 @@ pub struct FailingBracket {
 }
 
 impl PhaseMap {
-    /// Takes back that an explicit map is canonical if it is not so far from the start.
+    /// Withdraws the verdict on an explicit map that fails far from the start.
     fn look_far_away(&self, model: &Model, equations: &Equations, verdict: &mut CanonicalVerdict) {
         for n in 0..FAR_POINTS {
             let point = Valuation::far_from_start(model, equations, n);

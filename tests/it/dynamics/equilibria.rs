@@ -519,7 +519,7 @@ fn a_zero_of_higher_order_is_one_equilibrium() {
     }
     let found = of_potential("(x - 1)^4", 0.3);
     assert!(found.len() == 1 && (found[0] - 1.0).abs() < 1e-9, "{found:?}");
-    // π is no number of the computer
+    // π is not a floating-point number
     let text = "title = \"one\"\n[coordinates]\nx = { initial = 1.0 }\n[lagrangian]\nL = \"1/2*x'^2 - V\"\n";
     let found = held(&text.replace('V', "sin(x)^4"), &[]);
     assert!(found.iter().any(|one| one.kind == Some(Kind::Maximum)));
