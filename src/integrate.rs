@@ -32,6 +32,7 @@ mod root_correction;
 mod roots;
 mod roundoff;
 mod sampling;
+mod series_piece;
 mod splitting;
 mod stability;
 mod stage_lanes;

@@ -240,6 +240,11 @@ impl<'a> EffectivePotential<'a> {
         let left = walls.iter().copied().filter(|&w| w < at).fold(f64::NEG_INFINITY, f64::max);
         let right = walls.iter().copied().filter(|&w| w > at).fold(f64::INFINITY, f64::min);
         let inside = |place: f64| (left..=right).contains(&place);
+        // nothing is beyond a wall
+        self.resolved = [
+            if inside(self.resolved[0]) { self.resolved[0] } else { f64::NEG_INFINITY },
+            if inside(self.resolved[1]) { self.resolved[1] } else { f64::INFINITY },
+        ];
         nodes.retain(|node| inside(node[0]));
         self.tops.retain(|top| inside(top[0]));
         self.nodes = nodes;

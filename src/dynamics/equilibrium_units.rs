@@ -10,6 +10,9 @@ use crate::system::{Form, State};
 /// units of momenta follow.
 const ORDINARY: f64 = 1e3;
 
+/// A stiffness counts from this part of the largest work on, over a unit of each coordinate.
+const PULLS: f64 = 1e-12;
+
 /// The units of the coordinates, or of the variables of brackets, at a start.
 pub(super) fn coordinate_units(space: &PhaseSpace, start: &[f64]) -> Vec<f64> {
     let ordinary = |x: f64| (1.0 / ORDINARY..=ORDINARY).contains(&x);
@@ -37,6 +40,11 @@ pub(super) fn units(space: &PhaseSpace, start: &State, field: &mut VectorField) 
     units.resize(2 * degrees, 1.0);
     if field.evaluate(start.time, variables).is_ok() {
         let derivative = field.derivative();
+        // what pulls on no coordinate but for rounding, as on a pendulum that is level, is no measure
+        let pull = |i: usize| derivative[(degrees + i, i)].abs() * units[i] * units[i];
+        let given = |i: usize| field.rate()[degrees + i].abs() * units[i];
+        let largest = (0..degrees).map(|i| pull(i).max(given(i))).fold(0.0, f64::max);
+        let pulls: Vec<bool> = (0..degrees).map(|i| pull(i) > PULLS * largest).collect();
         for i in 0..degrees {
             let stiffness = derivative[(degrees + i, i)].abs();
             let mobility = derivative[(i, degrees + i)].abs();
@@ -44,7 +52,7 @@ pub(super) fn units(space: &PhaseSpace, start: &State, field: &mut VectorField) 
             // where nothing pulls, the momentum that the force gives on that way
             let force = field.rate()[degrees + i].abs();
             let given = (force * units[i] / mobility).sqrt();
-            let unit = if stiffness > 0.0 { impedance * units[i] } else { given };
+            let unit = if pulls[i] { impedance * units[i] } else { given };
             // the square of a momentum's unit over its mass is compared with forces: no unit is ordinary by itself
             if unit.is_finite() && unit > 0.0 {
                 units[degrees + i] = unit;

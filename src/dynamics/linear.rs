@@ -37,6 +37,17 @@ pub(super) fn rates(matrix: &DMatrix<f64>) -> Vec<[f64; 2]> {
     values.into_iter().map(|z| z.map(known)).collect()
 }
 
+/// The unit vector along which a matrix changes a vector least, if that is by no more than this part of the most.
+pub(super) fn least_direction(a: &DMatrix<f64>, cut: f64) -> Option<DVector<f64>> {
+    if a.iter().any(|x| !x.is_finite()) {
+        return None;
+    }
+    let svd = a.clone().try_svd(false, true, f64::EPSILON, SWEEPS)?;
+    let (least, value) = svd.singular_values.argmin();
+    let right = svd.v_t?;
+    (value <= cut * svd.singular_values.max()).then(|| right.row(least).transpose())
+}
+
 /// The solution of A x = b of least norm in the sense of least squares; singular values up to
 /// `cut` count as zero.
 pub(super) fn least_squares(a: &DMatrix<f64>, b: &DVector<f64>, cut: f64) -> Option<DVector<f64>> {

@@ -16,6 +16,7 @@ use super::probe::Probe;
 use super::root_correction::RootCorrection;
 use super::roots::sign_changes;
 use super::sampling::Sampling;
+use super::series_piece::SeriesPiece;
 use crate::model::Direction;
 use crate::num::DoubleDouble;
 use crate::system::{EventFunctions, MotionError, MotionErrorKind, State};
@@ -68,16 +69,6 @@ enum PieceRoots {
     First(Option<LocatedEvent>),
     /// A function does not vanish at a root of its series.
     Misleading,
-}
-
-/// A piece of a step on which the functions are represented by their series.
-pub(super) struct SeriesPiece {
-    /// The beginning.
-    pub(super) from: DoubleDouble,
-    /// The unit of time of the series.
-    pub(super) unit: f64,
-    /// The length in that unit.
-    pub(super) length: f64,
 }
 
 impl EventLocator {

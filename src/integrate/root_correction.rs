@@ -8,9 +8,9 @@
 //! iteration does not converge there, and the root is bracketed by the signs of the function.
 
 use super::DenseOutput;
-use super::event_location::SeriesPiece;
 use super::polynomial::StepPolynomial;
 use super::probe::Probe;
+use super::series_piece::SeriesPiece;
 use crate::num::{DoubleDouble, math};
 use crate::system::MotionError;
 

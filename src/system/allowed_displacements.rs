@@ -15,6 +15,7 @@
 
 use std::sync::Arc;
 
+use super::constraint_programs::VALUES;
 use super::error::MotionError;
 use super::projection::ProjectionError;
 use super::solve::Factored;
@@ -125,9 +126,9 @@ impl System {
             .evaluate(state.exact_time(), &numbers)
             .map_err(|why| self.singular(&program, why, state.time, &state.values))?;
         let outputs = constrained.programs.values.outputs();
-        // of each constraint A, A₀, f and g, behind the values along each coordinate
+        // of each constraint A and what stands behind it, once more along each coordinate
         let slope = |k: usize, entry: usize, along: usize| {
-            values.output(outputs * (1 + along) + k * (n + 3) + entry)
+            values.output(outputs * (1 + along) + k * (n + VALUES) + entry)
         };
         let along = |k: usize, j: usize| {
             slope(k, n, j) + sum((0..n).map(|i| slope(k, i, j) * state.exact(n + i)))

@@ -8,7 +8,7 @@
 
 use std::sync::Arc;
 
-use super::constraint_programs::ConstraintPrograms;
+use super::constraint_programs::{ConstraintPrograms, VALUES};
 use super::constraint_span::{Basis, ConstraintSpan, norm};
 use super::solve::Factored;
 use super::value::Evaluator;
@@ -17,9 +17,6 @@ use crate::num::DoubleDouble;
 /// A row counts as dependent if its component orthogonal to the rows before it is smaller than
 /// this, relative to the row.
 const INDEPENDENT: f64 = 1e-9;
-
-/// The number of values of each constraint beside its entries of A.
-const VALUES: usize = 4;
 
 /// The number of passes that scale rows and columns to make entries comparable. Each pass brings
 /// them closer.

@@ -11,6 +11,9 @@ use crate::expr::{Expr, FunctionId, Node, Pool, Symbol};
 use crate::mechanics::Holonomy;
 use crate::num::Number;
 
+/// The number of values of each constraint beside its entries of A: A₀, f, g and a turn of f.
+pub(super) const VALUES: usize = 4;
+
 /// The programs of the constraints, as functions of (q, t).
 #[derive(Clone, Debug)]
 pub(super) struct ConstraintPrograms {

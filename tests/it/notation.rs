@@ -138,7 +138,7 @@ fn what_could_be_read_in_two_ways_is_refused_with_both() {
     check(
         "log(x)",
         &[
-            "there is no function `log`; did you mean `ln`, the natural logarithm? That to base 10 is ln(x)/ln(10)",
+            "there is no function `log`; write ln(x), the natural logarithm, or ln(x)/ln(10), that to base 10",
         ],
     );
     check(

@@ -27,7 +27,7 @@ const ORDINARY_RADII: usize = 3;
 const ZERO: f64 = 1e-12;
 
 /// A place is known up to this part of its size plus its unit.
-const ROUNDED: f64 = 8.0 * f64::EPSILON;
+const ROUNDED: f64 = 64.0 * f64::EPSILON;
 
 /// Half a turn itself is not taken for its opposite by rounding.
 const HALF_A_TURN: f64 = 0.5 + 1e-9;
@@ -37,6 +37,10 @@ const SAME: f64 = 1e-7;
 
 /// Singular values up to this part of the largest are not divided by in a step of Newton's.
 const VANISHES: f64 = 1e-8;
+
+/// How far along a family its rates are looked at, in the size of the place, and by how much they may grow there.
+const ALONG: f64 = 1.0;
+const AS_SMALL: f64 = 100.0;
 
 /// The number of steps in which a zero of higher order is approached further.
 const FURTHER_STEPS: usize = 60;
@@ -218,6 +222,26 @@ impl<'a> EquilibriumSearch<'a> {
         if settled > 0 { self.accepted(variables) } else { None }
     }
 
+    /// Whether the rates are as small along the whole direction in which they change least, as those of Euler's equations along
+    /// a principal axis: they are quadratic across it, and Newton's method would lead to where all of them vanish.
+    fn is_in_a_straight_family(
+        &mut self,
+        variables: &[f64],
+        (f, df): (&DVector<f64>, &DMatrix<f64>),
+    ) -> bool {
+        let Some(direction) = linear::least_direction(df, VANISHES) else { return false };
+        let place = self.in_units(variables).iter().fold(1.0, |most: f64, x| most.max(x.abs()));
+        [ALONG, -ALONG].into_iter().all(|part| {
+            let mut there = variables.to_vec();
+            for (k, &i) in self.unknowns.iter().enumerate() {
+                there[i] += part * place * direction[k] * self.units[i];
+            }
+            // the direction itself is known to rounding
+            let small = AS_SMALL * f.amax() + ROUNDED * place * df.amax();
+            self.look_in_units(&there).is_some_and(|(g, _)| g.amax() <= small)
+        })
+    }
+
     /// The variables of the search in their units.
     fn in_units(&self, variables: &[f64]) -> Vec<f64> {
         self.unknowns.iter().map(|&i| variables[i] / self.units[i]).collect()
@@ -229,6 +253,9 @@ impl<'a> EquilibriumSearch<'a> {
     /// tail of V = exp(−x²).
     fn approached(&mut self, mut variables: Vec<f64>) -> Option<Vec<f64>> {
         let (mut f, mut df) = self.look_in_units(&variables)?;
+        if self.is_in_a_straight_family(&variables, (&f, &df)) {
+            return Some(variables);
+        }
         let mut before: Option<DVector<f64>> = None;
         for _ in 0..FURTHER_STEPS {
             if is_rounding(&f, &df, &self.in_units(&variables)) {
@@ -318,7 +345,7 @@ impl<'a> EquilibriumSearch<'a> {
 fn is_rounding(f: &DVector<f64>, df: &DMatrix<f64>, place: &[f64]) -> bool {
     f.iter().enumerate().all(|(i, f)| {
         let terms = place.iter().enumerate().map(|(j, x)| (df[(i, j)] * x).abs());
-        f.abs() <= 8.0 * ROUNDED * terms.sum::<f64>()
+        f.abs() <= ROUNDED * terms.sum::<f64>()
     })
 }
 

@@ -209,6 +209,9 @@ fn no_name_of_a_file_steers_the_terminal() {
     }
     call(&["run", "system.toml", "--at", "0", "-o"], &name, &[2]);
     fs::write(home.path().join("system.toml"), PENDULUM).unwrap();
+    let told = call(&["run", "system.toml", "--at", "0", "-o"], &name, &[2]);
+    assert!(String::from_utf8_lossy(&told.stderr).contains("describes a system"));
+    fs::write(home.path().join(&name), "rows\n").unwrap();
     let told = call(&["run", "system.toml", "--at", "0", "-o"], &name, &[0]);
     assert!(String::from_utf8_lossy(&told.stderr).ends_with("\\n\\r\\xff\\xfe.toml is replaced\n"));
     let mut folder = name.clone();
