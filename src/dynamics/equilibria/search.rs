@@ -39,7 +39,7 @@ const SAME: f64 = 1e-7;
 const VANISHES: f64 = 1e-8;
 
 /// How far along a family its rates are looked at, in the size of the place, and by how much they may grow there.
-const ALONG: f64 = 1.0;
+const ALONG: [f64; 4] = [-1.0, -0.6, 0.6, 1.0];
 const AS_SMALL: f64 = 100.0;
 
 /// The number of steps in which a zero of higher order is approached further.
@@ -231,7 +231,7 @@ impl<'a> EquilibriumSearch<'a> {
     ) -> bool {
         let Some(direction) = linear::least_direction(df, VANISHES) else { return false };
         let place = self.in_units(variables).iter().fold(1.0, |most: f64, x| most.max(x.abs()));
-        [ALONG, -ALONG].into_iter().all(|part| {
+        ALONG.into_iter().all(|part| {
             let mut there = variables.to_vec();
             for (k, &i) in self.unknowns.iter().enumerate() {
                 there[i] += part * place * direction[k] * self.units[i];
