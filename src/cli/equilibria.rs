@@ -112,11 +112,7 @@ fn text(study: &Study, found: &Equilibria) -> String {
     let mut text = String::new();
     for one in &found.found {
         let kind = one.kind.map_or("equilibrium", word);
-        let stable = match one.stable {
-            Some(true) => "stable",
-            Some(false) => "unstable",
-            None => "neutral in a direction",
-        };
+        let stable = one.stability();
         let name = if one.name.is_empty() { String::new() } else { format!("{}: ", one.name) };
         let energy = match one.energy {
             energy if energy.is_finite() => format!("energy {}", shown(energy)),
@@ -141,7 +137,8 @@ fn text(study: &Study, found: &Equilibria) -> String {
             }
         };
         let values: Vec<String> = one.eigenvalues.iter().map(complex).collect();
-        text.push_str(&format!("  eigenvalues {}\n", values.join(", ")));
+        let values = if values.is_empty() { "not found".to_owned() } else { values.join(", ") };
+        text.push_str(&format!("  eigenvalues {values}\n"));
         let degrees = study.space.system().degrees();
         let rows: Vec<Vec<String>> = one
             .modes

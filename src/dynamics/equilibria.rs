@@ -124,7 +124,7 @@ impl EquilibriumSearch<'_> {
             LawAtRest::Free(_) => self.around(variables),
             LawAtRest::Constrained(_) => self.around_on_surface(variables),
         };
-        let Some((kind, eigenvalues, modes)) = found else { return Ok(None) };
+        let Some((kind, eigenvalues, stable, modes)) = found else { return Ok(None) };
         let rates = match &self.law {
             LawAtRest::Free(field) => {
                 let rate = field.rate();
@@ -134,7 +134,6 @@ impl EquilibriumSearch<'_> {
                 self.cyclic.iter().map(|&i| (i, variables[self.degrees + i])).collect()
             }
         };
-        let stable = stable(&eigenvalues);
         let variables = self.space.variables(&state).to_vec();
         let (work, multipliers) = (Vec::new(), Vec::new());
         Ok(Some(Equilibrium {
@@ -155,15 +154,16 @@ impl EquilibriumSearch<'_> {
     fn around(&mut self, variables: &[f64]) -> Option<Around> {
         let df = self.slopes(variables)?;
         let eigenvalues = linear::rates(&df);
-        if self.space.form() != Form::Momentum {
-            return Some((None, eigenvalues, Vec::new()));
-        }
         let count = self.unknowns.len();
         let unit = |k: usize| self.units[self.unknowns[k]];
         let in_units = DMatrix::from_fn(count, count, |i, j| df[(i, j)] * unit(j) / unit(i));
+        let stable = stable(&in_units, &eigenvalues);
+        if self.space.form() != Form::Momentum {
+            return Some((None, eigenvalues, stable, Vec::new()));
+        }
         let places = DMatrix::identity(count / 2, count);
         let modes = self.modes(&in_units, &eigenvalues, &places);
-        Some((Some(Kind::of_canonical(&df)), eigenvalues, modes))
+        Some((Some(Kind::of_canonical(&df)), eigenvalues, stable, modes))
     }
 
     /// The same of displacements along the surface of constraints.
@@ -178,7 +178,8 @@ impl EquilibriumSearch<'_> {
         let potential = around.potential.filter(|(_, mass)| positive(mass));
         let kind = potential.map(|(second, _)| Kind::of(&second));
         let modes = self.modes(&around.matrix, &eigenvalues, &around.displacements);
-        Some((kind, eigenvalues, modes))
+        let stable = stable(&around.matrix, &eigenvalues);
+        Some((kind, eigenvalues, stable, modes))
     }
 
     /// The modes, with the displacement of every coordinate.
@@ -205,5 +206,5 @@ impl EquilibriumSearch<'_> {
     }
 }
 
-/// The kind, the eigenvalues and the modes of an equilibrium.
-type Around = (Option<Kind>, Vec<[f64; 2]>, Vec<Mode>);
+/// The kind, the eigenvalues, whether nothing grows, and the modes of an equilibrium.
+type Around = (Option<Kind>, Vec<[f64; 2]>, Option<bool>, Vec<Mode>);

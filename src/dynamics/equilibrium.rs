@@ -4,7 +4,7 @@
 
 use std::cmp::Ordering;
 
-use super::small_oscillation::{Kind, Mode};
+use super::small_oscillation::{Kind, Mode, rests};
 use super::virtual_work::VirtualWork;
 
 /// Two energies are the same up to this distance relative to their size plus 1, and eigenvalues up to its root.
@@ -25,7 +25,8 @@ pub struct Equilibrium {
     pub eigenvalues: Vec<[f64; 2]>,
     /// The small oscillations, the slowest first.
     pub modes: Vec<Mode>,
-    /// Whether nothing grows in the linearised motion; `None` where zero eigenvalues leave it open.
+    /// Whether nothing grows in the linearised motion; `None` where zero eigenvalues or equal ones leave it open, see
+    /// [`Equilibrium::stability`].
     pub stable: Option<bool>,
     /// The rates of the cyclic coordinates, by index.
     pub rates: Vec<(usize, f64)>,
@@ -33,6 +34,19 @@ pub struct Equilibrium {
     pub work: Vec<VirtualWork>,
     /// … and the multiplier of each constraint.
     pub multipliers: Vec<f64>,
+}
+
+impl Equilibrium {
+    /// Its stability in words.
+    pub fn stability(&self) -> &'static str {
+        match self.stable {
+            Some(true) => "stable",
+            Some(false) => "unstable",
+            None if self.eigenvalues.is_empty() => "of unknown stability",
+            None if rests(&self.eigenvalues) => "neutral in a direction",
+            None => "neutral: equal frequencies with fewer modes",
+        }
+    }
 }
 
 /// What a search has found.

@@ -118,17 +118,16 @@ fn refined(
 /// Each gains half of all digits.
 const REFINEMENTS: usize = 2;
 
-/// A vector that the matrix minus i ω takes to (nearly) zero, the `rank`-th best.
-pub(super) fn null_vector(
-    matrix: &DMatrix<f64>,
-    omega: f64,
-    rank: usize,
-) -> Option<Vec<Complex<f64>>> {
+/// What the matrix minus i ω takes to zero up to this part of the largest of its entries is its eigenvector.
+const EIGENVECTOR: f64 = 1e-5;
+
+/// Orthonormal vectors that the matrix minus i ω takes to (nearly) zero, the best first; there is one at least.
+pub(super) fn null_vectors(matrix: &DMatrix<f64>, omega: f64) -> Vec<DVector<Complex<f64>>> {
     let n = matrix.nrows();
     // the power of two of the size, so that no digit changes and no square under- or overflows
     let size = f64::from_bits(matrix.amax().max(omega).to_bits() & f64::INFINITY.to_bits());
     if !size.is_normal() {
-        return None;
+        return Vec::new();
     }
     // the matrix of real and imaginary parts, of which each right singular vector v is one as v and as i v: several equal
     // ones are mixed
@@ -141,12 +140,17 @@ pub(super) fn null_vector(
         _ => 0.0,
     });
     let square = parts.transpose() * &parts;
-    let eigen = SymmetricEigen::try_new(square, f64::EPSILON, SWEEPS)?;
+    let Some(eigen) = SymmetricEigen::try_new(square, f64::EPSILON, SWEEPS) else {
+        return Vec::new();
+    };
     let mut order: Vec<usize> = (0..2 * n).collect();
     order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
     let mut found: Vec<DVector<Complex<f64>>> = Vec::new();
     for k in order {
         let both = refined(&eigen.eigenvectors.column(k).into_owned(), &parts, &eigen);
+        if !found.is_empty() && (&parts * &both).norm() > EIGENVECTOR * both.norm() {
+            break;
+        }
         let mut vector = DVector::from_fn(n, |i, _| Complex::new(both[i], both[i + n]));
         for _ in 0..2 {
             for one in &found {
@@ -155,15 +159,11 @@ pub(super) fn null_vector(
             }
         }
         let length = vector.norm();
-        if length < NEW {
-            continue;
+        if length >= NEW {
+            found.push(vector.unscale(length));
         }
-        if found.len() == rank {
-            return Some(vector.iter().copied().collect());
-        }
-        found.push(vector.unscale(length));
     }
-    None
+    found
 }
 
 #[cfg(test)]

@@ -117,6 +117,11 @@ impl Pool {
         &self.cancel
     }
 
+    /// The number of expressions in the pool: how much was built so far.
+    pub fn built(&self) -> usize {
+        self.nodes.len()
+    }
+
     /// Returns whether the pool has exceeded [`NODE_LIMIT`] or work on it was cancelled.
     /// Expressions built since then are not valid, and the stage that built them must return an
     /// error.

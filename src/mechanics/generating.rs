@@ -8,10 +8,11 @@
 
 use std::collections::HashMap;
 
+use nalgebra::DMatrix;
+
 use super::canonical::PhaseMap;
 use super::equations::Equations;
 use super::isolate::{self, Solution};
-use super::linear;
 use super::potential::potential;
 use super::valuation::Valuation;
 use crate::expr::{Expr, Pool, Symbol, Zero};
@@ -23,6 +24,9 @@ const PAIRS: usize = 2;
 
 /// The points at which a function has to give the map.
 const POINTS: u64 = 24;
+
+/// A determinant counts as zero up to this part of its terms.
+const DEPENDENT: f64 = 1e-10;
 
 /// A generating function of a map, if it has one of this type.
 #[derive(Clone, Debug)]
@@ -41,9 +45,9 @@ pub enum NoFunction {
     /// Its variables, which are these, are not independent: Legendre's transformation does not exist.
     #[error("none: {0} are not independent")]
     Dependent(String),
-    /// There is one wherever these variables are independent; the equations of Legendre's transformation have no solution
-    /// in closed form.
-    #[error("exists where {0} are independent, but not in closed form")]
+    /// There is one wherever these variables are independent; no solution in closed form of the equations of Legendre's
+    /// transformation was found.
+    #[error("exists where {0} are independent; no closed form was found")]
     NotWritten(String),
 }
 
@@ -108,6 +112,34 @@ fn variables_of(types: &[GeneratingType]) -> String {
     let old = list(|of| if of.has_position() { "q" } else { "p" });
     let new = list(|of| if of.has_new_position() { "Q" } else { "P" });
     format!("{old} and {new}")
+}
+
+/// Whether the determinant of a square matrix vanishes at all points where it has a value: to rounding of the terms of its
+/// entries, each row relative to its largest.
+fn singular(pool: &Pool, matrix: &[Vec<Expr>], points: &[Valuation]) -> bool {
+    let n = matrix.len();
+    let determinants = points.iter().map(|at| {
+        let entry = |i: usize, j: usize| {
+            let (value, size) = pool.evaluate_with_size(matrix[i][j], &|s| at.at(s));
+            if value.abs() <= DEPENDENT * size { 0.0 } else { value }
+        };
+        let mut values = DMatrix::from_fn(n, n, entry);
+        for k in 0..n {
+            let largest = values.row(k).amax();
+            if largest > 0.0 {
+                values.row_mut(k).unscale_mut(largest);
+            }
+        }
+        for k in 0..n {
+            let largest = values.column(k).amax();
+            if largest > 0.0 {
+                values.column_mut(k).unscale_mut(largest);
+            }
+        }
+        values.determinant().abs()
+    });
+    let known: Vec<f64> = determinants.filter(|size| size.is_finite()).collect();
+    !known.is_empty() && known.iter().all(|size| *size <= DEPENDENT)
 }
 
 impl PhaseMap {
@@ -214,10 +246,16 @@ impl PhaseMap {
             let variable = pool.variable(name);
             relations.push(pool.sub(variable, value));
         }
-        let single = n == 1 && pool.is_zero(matrix[0][0]) == Zero::Proved;
-        if single || (n > 1 && linear::solve(pool, &matrix, &vec![Expr::ZERO; n]).is_err()) {
+        let points: Vec<Valuation> = (0..POINTS)
+            .filter_map(|k| {
+                let at = Valuation::near_start(model, equations, k);
+                self.image(&equations.pool, &at)
+            })
+            .collect();
+        if singular(&equations.pool, &matrix, &points) {
             return (Err(NoFunction::Dependent(variables_of(types))), false);
         }
+        let pool = &mut equations.pool;
         let old: Vec<Expr> = self.old.iter().map(|&s| pool.variable(s)).collect();
         let mut terms = vec![(Number::ONE, first)];
         for (i, of) in types.iter().enumerate() {
@@ -233,12 +271,6 @@ impl PhaseMap {
         ways.splice(0..0, self.of_given(pool, given, types));
         let direct = self.of_linear_map(pool, &images, types);
         ways.splice(0..0, direct.map(|value| (Vec::new(), Vec::new(), value)));
-        let points: Vec<Valuation> = (0..POINTS)
-            .filter_map(|k| {
-                let at = Valuation::near_start(model, equations, k);
-                self.image(&equations.pool, &at)
-            })
-            .collect();
         let relations_of = |pool: &mut Pool, function: Expr| {
             let law = TransformationLaw::Generating { types: types.to_vec(), function };
             PhaseMap::relations(pool, model, &Transformation { law, ..given.clone() })

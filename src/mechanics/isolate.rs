@@ -16,6 +16,9 @@ use crate::num::Number;
 /// The number of steps after which a search is given up.
 const BUDGET: usize = 400;
 
+/// … or after which it has built so many expressions: what has a solution that can be read needs far fewer.
+const MOST_BUILT: usize = 10_000;
+
 /// A solution, or an expression on the way to it, may not be heavier.
 const HEAVIEST: u64 = 4_000;
 
@@ -29,13 +32,16 @@ pub(super) fn solve(
     unknowns: &[Symbol],
     accept: &mut dyn FnMut(&mut Pool, &Solution) -> bool,
 ) -> Option<Solution> {
-    let mut search = Isolation { wanted: unknowns.to_vec(), budget: BUDGET, accept };
+    let most = pool.built() + MOST_BUILT;
+    let mut search = Isolation { wanted: unknowns.to_vec(), budget: BUDGET, most, accept };
     search.step(pool, equations.to_vec(), unknowns, Vec::new())
 }
 
 struct Isolation<'a> {
     wanted: Vec<Symbol>,
     budget: usize,
+    /// No more is tried once the pool has so many expressions.
+    most: usize,
     accept: &'a mut dyn FnMut(&mut Pool, &Solution) -> bool,
 }
 
@@ -48,7 +54,11 @@ impl Isolation<'_> {
         unknowns: &[Symbol],
         found: Solution,
     ) -> Option<Solution> {
-        if self.budget == 0 || pool.is_full() || pool.cancel().is_cancelled() {
+        if self.budget == 0
+            || pool.built() > self.most
+            || pool.is_full()
+            || pool.cancel().is_cancelled()
+        {
             return None;
         }
         self.budget -= 1;

@@ -85,11 +85,44 @@ fn equal_frequencies_have_two_modes() {
     let [first, second] = &found[0].modes[..] else { panic!("{:?}", found[0]) };
     close(first.frequency, 1.0, 1e-12);
     close(second.frequency, 1.0, 1e-12);
-    let (a, b) = (&first.in_phase, &second.in_phase);
-    assert!((a[0] * b[1] - a[1] * b[0]).abs() > 0.1, "{a:?} {b:?}");
+    for (mode, own) in [first, second].into_iter().zip([[1.0, 0.0], [0.0, 1.0]]) {
+        assert_eq!(mode.quadrature, [0.0, 0.0]);
+        close(mode.in_phase[0], own[0], 1e-12);
+        close(mode.in_phase[1], own[1], 1e-12);
+    }
     for saddle in &found[1..] {
         assert_eq!(saddle.kind, Some(Kind::Saddle));
         close(saddle.energy, 1.0 / 6.0, 1e-14);
+    }
+}
+
+/// Two bodies with equal frequencies in both directions and a magnetic force: the eigenvalues of the file's linear motion, by
+/// another program (LAPACK): ±1.840 ± 0.020 i, so that it falls away from the equilibrium.
+#[test]
+fn what_turns_as_it_grows_is_unstable() {
+    let text = "title = \"two\"\n[coordinates]\nx = 0.3\ny = 0.2\nu = 0.1\nv = 0.1\n[lagrangian]\n\
+        L = \"1/2*1.17*(x'^2 + y'^2) + 1/2*1.7*(u'^2 + v'^2) - 0.21*(x'*u' + y'*v') + 0.03*(x*y' - y*x') \
+        + 0.03*(u*v' - v*u') + 1/2*2.64*(x^2 + y^2) + 1/2*1.8*(u^2 + v^2) - 3.0*(x*u + y*v)\"\n";
+    let found = of(&file(text, &[]));
+    assert_eq!((found.len(), found[0].stable), (1, Some(false)));
+    assert_eq!(found[0].eigenvalues.len(), 8);
+    let grows = found[0].eigenvalues.iter().filter(|z| (z[0] - 1.840).abs() < 2e-3).count();
+    assert_eq!(grows, 2, "{:?}", found[0].eigenvalues);
+}
+
+/// A body that rests in space, as a turntable sees it, circles with the turntable's rate; one that moves goes off along
+/// ζ = (a + b t) e^{−iΩt}. The frequency is there twice and the mode once. So it is for L₄ at Routh's ratio of masses,
+/// (1 − √69/9)/2; beside it there are two modes, or it grows.
+#[test]
+fn equal_frequencies_with_one_mode_are_not_stable() {
+    let turns = of(&preset("rotating-frame", &[("k", 0.0)], &[]));
+    assert_eq!((turns[0].stable, turns[0].modes.len()), (None, 1), "{:?}", turns[0]);
+    assert!(turns[0].stability().contains("equal frequencies"));
+    let routh = (1.0 - 69.0_f64.sqrt() / 9.0) / 2.0;
+    for (mu, stable) in [(routh, None), (routh - 1e-4, Some(true)), (routh + 1e-4, Some(false))] {
+        let found = of(&preset("restricted-three-body", &[("mu", mu)], &[]));
+        let fourth = found.iter().find(|one| one.variables[1] > 0.5).expect("L4");
+        assert_eq!(fourth.stable, stable, "{mu}: {fourth:?}");
     }
 }
 
@@ -184,7 +217,7 @@ fn two_wells_of_an_atom_are_two() {
     );
 }
 
-/// Two equal frequencies in a plane have two modes, and any two that differ will do.
+/// Two equal oscillators are two modes, each of which moves by itself.
 #[test]
 fn modes_of_one_frequency_differ_in_any_units() {
     for [length, time, energy] in
@@ -203,9 +236,10 @@ fn modes_of_one_frequency_differ_in_any_units() {
         for frequency in frequencies(rest) {
             close(frequency * time, 1.0, 1e-9);
         }
-        let [one, other] = [&rest.modes[0].in_phase, &rest.modes[1].in_phase];
-        let area = one[0] * other[1] - one[1] * other[0];
-        assert!(area.abs() > 0.1, "{:?}", rest.modes);
+        for (k, mode) in rest.modes.iter().enumerate() {
+            assert!(mode.in_phase[1 - k].abs() < 1e-9, "{:?}", rest.modes);
+            close(mode.in_phase[k], 1.0, 1e-15);
+        }
     }
 }
 
@@ -580,7 +614,6 @@ fn modes_have_all_their_digits() {
     assert_eq!((one.modes[0].in_phase[0], one.modes[0].quadrature[1]), (0.0, 0.0));
 }
 
-/// L₄ and L₅ have one energy: which comes first is no matter of where the search begins.
 /// Euler's equations have a family of permanent rotations along each principal axis, about which their rates are quadratic.
 #[test]
 fn a_free_body_rotates_about_its_axes() {
@@ -589,6 +622,7 @@ fn a_free_body_rotates_about_its_axes() {
     assert!(rotates >= 2, "{found:?}");
 }
 
+/// L₄ and L₅ have one energy: which comes first is no matter of where the search begins.
 #[test]
 fn equilibria_of_one_energy_have_an_order_of_their_own() {
     for x0 in [0.5, -0.5, 0.994] {
