@@ -35,6 +35,7 @@ mod latex;
 mod legendre;
 mod linear;
 mod modulo;
+mod momenta_at_rest;
 mod named_ramps;
 mod new_hamiltonian;
 mod observe;

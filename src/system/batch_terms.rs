@@ -127,13 +127,18 @@ impl BatchTerms {
         let mut next = || outputs.next().map(|&r| self.registers[r as usize]);
         for (k, rest) in rests.iter().enumerate() {
             let Some(term) = next() else { break };
+            let mut its_size = term.abs();
             let rest = match rest {
                 AtRest::Same => term,
                 AtRest::Nothing => Batch::ZERO,
                 AtRest::Other => next().unwrap_or(term),
+                AtRest::Cancels => {
+                    its_size = its_size + next().unwrap_or(Batch::ZERO).abs();
+                    Batch::ZERO
+                }
             };
             value = value + term;
-            size = size + term.abs();
+            size = size + its_size;
             if let Some(&were) = were.get(k) {
                 let moved = (term - rest).abs() + (rest - Batch::splat(were)).abs();
                 for lane in 0..BATCH {

@@ -102,33 +102,34 @@ impl TermWatch {
         self.places.get(quantity).is_some_and(|place| place.as_ref().is_some_and(|p| p.offset))
     }
 
-    /// The terms of a quantity, each with its value at rest.
-    fn terms(&self, quantity: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
+    /// The terms of a quantity, each with its value at rest and its size, to which its rounding errors are proportional.
+    fn terms(&self, quantity: usize) -> impl Iterator<Item = [f64; 3]> + '_ {
         let place = self.places.get(quantity).and_then(Option::as_ref);
         let (first, terms) = place.map_or((0, &[][..]), |place| (place.first, &place.terms));
         let mut outputs = self.outputs.get(first..).unwrap_or_default().iter();
         terms.iter().map_while(move |rest| {
             let term = *outputs.next()?;
             Some(match rest {
-                AtRest::Same => (term, term),
-                AtRest::Nothing => (term, 0.0),
-                AtRest::Other => (term, *outputs.next()?),
+                AtRest::Same => [term, term, term.abs()],
+                AtRest::Nothing => [term, 0.0, term.abs()],
+                AtRest::Other => [term, *outputs.next()?, term.abs()],
+                AtRest::Cancels => [term, 0.0, term.abs() + outputs.next()?.abs()],
             })
         })
     }
 
     /// The value of each term of a quantity at rest.
     pub fn at_rest(&self, quantity: usize) -> Vec<f64> {
-        self.terms(quantity).map(|(_, rest)| rest).collect()
+        self.terms(quantity).map(|[_, rest, _]| rest).collect()
     }
 
     /// The sums over the terms of a quantity whose values at rest were these.
     pub fn sums(&self, quantity: usize, were: &[f64]) -> TermSums {
         let mut sums = TermSums { value: -0.0, size: -0.0, moving: -0.0 };
         let mut were = were.iter();
-        for (term, rest) in self.terms(quantity) {
+        for [term, rest, size] in self.terms(quantity) {
             sums.value += term;
-            sums.size += term.abs();
+            sums.size += size;
             if let Some(were) = were.next() {
                 let moved = (term - rest).abs() + (rest - were).abs();
                 sums.moving += if moved.is_finite() { moved } else { term.abs() };

@@ -9,9 +9,10 @@ use std::sync::Arc;
 use super::Form;
 use super::program::Program;
 use super::rhs::ProgramBuilder;
-use crate::expr::{Expr, Symbol};
-use crate::mechanics::{Equations, Flow};
+use crate::expr::{Expr, Pool, Symbol};
+use crate::mechanics::{CoordinateSymbols, Equations, Flow};
 use crate::model::Model;
+use crate::num::Number;
 
 /// The value of a term at rest, that is with velocities or momenta zero.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -22,6 +23,8 @@ pub(super) enum AtRest {
     Nothing,
     /// Another value, which is the next output.
     Other,
+    /// Zero, as p − A is; the next output is the size of what cancels in the term, by which its rounding errors are larger.
+    Cancels,
 }
 
 /// The place of one quantity among the outputs of the programs.
@@ -37,6 +40,44 @@ pub(super) struct OutputPlace {
 pub(super) struct ConservedTerms {
     places: Vec<Option<OutputPlace>>,
     outputs: Vec<Expr>,
+}
+
+/// Σ p ∂T/∂p of a term T of the momenta: what rounding errors of p and of what it cancels against change, in units of both.
+fn cancelling(pool: &mut Pool, term: Expr, momenta: &[Symbol]) -> Expr {
+    let mut parts = Vec::new();
+    for &p in momenta {
+        let slope = pool.derivative(term, p);
+        let momentum = pool.variable(p);
+        parts.push((Number::ONE, pool.mul(momentum, slope)));
+    }
+    pool.linear(Number::ZERO, &parts)
+}
+
+/// The variables whose own rate of change is zero: energy that depends on them alone does not move, whatever the method.
+fn still(equations: &Equations) -> Vec<Symbol> {
+    let coordinates = &equations.coordinates;
+    let parameters_alone = |e: Expr| {
+        let moves = coordinates.iter().flat_map(|c| [c.position, c.velocity, c.momentum]);
+        let moves: Vec<Symbol> = moves.chain([equations.symbols.time]).collect();
+        !equations.pool.depends_on_any(e, &moves)
+    };
+    let is_still = |&(i, _): &(usize, &CoordinateSymbols)| match &equations.flow {
+        Flow::Lagrange { mass, force, .. } => {
+            let alone = (0..coordinates.len()).all(|j| j == i || mass[i][j] == Expr::ZERO);
+            alone && parameters_alone(mass[i][i]) && force[i] == Expr::ZERO
+        }
+        Flow::Hamilton { momentum_rates, .. } => momentum_rates[i] == Expr::ZERO,
+        Flow::Poisson { rates } => rates[i] == Expr::ZERO,
+    };
+    if !equations.constraints.is_empty() {
+        return Vec::new();
+    }
+    let variable = |(_, c): (usize, &CoordinateSymbols)| match equations.flow {
+        Flow::Lagrange { .. } => c.velocity,
+        Flow::Hamilton { .. } => c.momentum,
+        Flow::Poisson { .. } => c.position,
+    };
+    coordinates.iter().enumerate().filter(is_still).map(variable).collect()
 }
 
 /// The compiled programs of these terms.
@@ -64,7 +105,11 @@ impl ConservedTerms {
             Flow::Hamilton { .. } => equations.coordinates.iter().map(|c| c.momentum).collect(),
             Flow::Poisson { .. } => Vec::new(),
         };
-        let at_rest: HashMap<Symbol, Expr> = rates.iter().map(|&r| (r, Expr::ZERO)).collect();
+        let zeros = || vec![Expr::ZERO; rates.len()];
+        let rates_at_rest = equations.momenta_at_rest().unwrap_or_else(zeros);
+        let cancels = rates_at_rest.iter().any(|&e| e != Expr::ZERO);
+        let at_rest: HashMap<Symbol, Expr> = rates.iter().copied().zip(rates_at_rest).collect();
+        let still = still(equations);
         let unknown: Vec<Symbol> = equations
             .coordinates
             .iter()
@@ -73,7 +118,7 @@ impl ConservedTerms {
             .chain(equations.constraints.iter().map(|row| row.multiplier))
             .chain(equations.supplements.implicit_maps.iter().flat_map(|(map, _)| map.new.clone()))
             .collect();
-        for e in all {
+        for (quantity, e) in all.into_iter().enumerate() {
             let e = equations.open(e);
             if equations.pool.depends_on_any(e, &unknown) {
                 quantities.places.push(None);
@@ -83,7 +128,9 @@ impl ConservedTerms {
             let mut terms = Vec::new();
             let mut summands = equations.pool.summands(e);
             let is_fixed = |&(_, term): &(_, Expr)| {
-                equations.pool.symbols_of(term).iter().all(|s| parameters.contains(s))
+                let symbols = equations.pool.symbols_of(term);
+                let still = if quantity == 0 { &still[..] } else { &[] };
+                symbols.iter().all(|s| parameters.contains(s) || still.contains(s))
             };
             let varies = summands.iter().any(|term| !is_fixed(term));
             let offset = varies && summands.iter().any(is_fixed);
@@ -95,6 +142,10 @@ impl ConservedTerms {
                 quantities.outputs.push(term);
                 let rest = if equations.pool.depends_on_any(term, &rates) {
                     match equations.pool.substitute(term, &at_rest) {
+                        Expr::ZERO if cancels => {
+                            quantities.outputs.push(cancelling(&mut equations.pool, term, &rates));
+                            AtRest::Cancels
+                        }
                         Expr::ZERO => AtRest::Nothing,
                         rest => {
                             quantities.outputs.push(rest);
