@@ -3,13 +3,19 @@
 //! In: the derivative of the rates of the variables that rest, or the second derivative of a potential. Out: modes, a kind, a
 //! verdict on stability. Never here: where the equilibrium is.
 
-use nalgebra::DMatrix;
+use nalgebra::{Complex, DMatrix, DVector};
 
 use super::linear;
 use crate::num::math;
 
 /// An eigenvalue counts as zero up to this part of the largest.
 const VANISHES: f64 = 1e-8;
+
+/// Frequencies are equal up to this part.
+const EQUAL: f64 = 1e-7;
+
+/// A part of a mode below this is rounding, which equal frequencies leave half the digits of.
+const REAL: f64 = 1e-7;
 
 /// What the effective potential does at an equilibrium.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -83,36 +89,103 @@ pub(super) fn stable(eigenvalues: &[[f64; 2]]) -> Option<bool> {
     (!rests).then_some(true)
 }
 
-/// The modes of a linear motion x′ = `matrix` x. `displacements` are the coordinates, in their `units`, of each variable x.
+/// The modes of a linear motion x′ = `matrix` x. `displacements` are the coordinates, in their `units`, of each variable x. Modes of
+/// one frequency are orthogonal by the kinetic energy, whose matrix in these units is `mass`, where they can be real.
 pub(super) fn modes(
     matrix: &DMatrix<f64>,
     eigenvalues: &[[f64; 2]],
     displacements: &DMatrix<f64>,
-    units: &[f64],
+    (units, mass): (&[f64], Option<&DMatrix<f64>>),
 ) -> Vec<Mode> {
     let scale = largest(eigenvalues);
     let oscillates =
         |z: &&[f64; 2]| z[1] > VANISHES.sqrt() * scale && z[0].abs() <= VANISHES.sqrt() * scale;
     let mut frequencies: Vec<f64> = eigenvalues.iter().filter(oscillates).map(|z| z[1]).collect();
     frequencies.sort_by(f64::total_cmp);
-    let complex = displacements.map(|x| nalgebra::Complex::new(x, 0.0));
+    let complex = displacements.map(|x| Complex::new(x, 0.0));
     let mut modes: Vec<Mode> = Vec::new();
-    for (k, &frequency) in frequencies.iter().enumerate() {
-        let equal = |other: &&f64| (frequency - **other).abs() <= 1e-7 * frequency;
-        let rank = frequencies[..k].iter().filter(equal).count();
-        let Some(vector) = linear::null_vector(matrix, frequency, rank) else { continue };
-        let moved = &complex * nalgebra::DVector::from_vec(vector);
-        let size = |i: usize| moved[i].norm() * units[i];
-        let Some(largest) = (0..moved.len()).max_by(|&a, &b| size(a).total_cmp(&size(b))) else {
-            continue;
-        };
-        let clean = |x: f64| if x.abs() < 1e-12 { 0.0 } else { x };
-        let part = |i: usize| moved[i] / moved[largest] * (units[i] / units[largest]);
-        let in_phase = (0..moved.len()).map(|i| clean(part(i).re)).collect();
-        let quadrature = (0..moved.len()).map(|i| clean(part(i).im)).collect();
-        modes.push(Mode { frequency, in_phase, quadrature });
+    let equal = |one: f64, other: f64| (one - other).abs() <= EQUAL * one;
+    for group in frequencies.chunk_by(|&one, &other| equal(one, other)) {
+        let vectors = (0..group.len()).filter_map(|rank| {
+            let vector = linear::null_vector(matrix, group[0], rank)?;
+            Some(&complex * DVector::from_vec(vector))
+        });
+        let mut moved: Vec<DVector<Complex<f64>>> = vectors.collect();
+        if moved.len() > 1 {
+            moved = real_basis(&moved, mass).unwrap_or(moved);
+        }
+        for (&frequency, moved) in group.iter().zip(moved) {
+            let size = |i: usize| moved[i].norm() * units[i];
+            let places = 0..moved.len();
+            let Some(largest) = places.max_by(|&a, &b| size(a).total_cmp(&size(b))) else {
+                continue;
+            };
+            let clean = |x: f64| if x.abs() < 1e-12 { 0.0 } else { x };
+            let part = |i: usize| moved[i] / moved[largest] * (units[i] / units[largest]);
+            let in_phase = (0..moved.len()).map(|i| clean(part(i).re)).collect();
+            let quadrature = (0..moved.len()).map(|i| clean(part(i).im)).collect();
+            modes.push(Mode { frequency, in_phase, quadrature });
+        }
     }
     modes
+}
+
+/// Real displacements that span the same as these, if there are as many: those along single coordinates as far as that goes, the
+/// others orthogonal to them by `mass`.
+fn real_basis(
+    moved: &[DVector<Complex<f64>>],
+    mass: Option<&DMatrix<f64>>,
+) -> Option<Vec<DVector<Complex<f64>>>> {
+    let (n, count) = (moved[0].len(), moved.len());
+    let parts = DMatrix::from_fn(n, 2 * count, |i, j| {
+        if j < count { moved[j][i].re } else { moved[j - count][i].im }
+    });
+    let found = parts.svd(true, false);
+    let (left, sizes) = (found.u?, found.singular_values);
+    let largest = sizes.max();
+    let mut order: Vec<usize> = (0..sizes.len()).collect();
+    order.sort_by(|&a, &b| sizes[b].total_cmp(&sizes[a]));
+    let is_real = sizes.iter().filter(|size| **size > REAL * largest).count() == count;
+    if !is_real {
+        return None;
+    }
+    let mut rows = DMatrix::from_fn(count, n, |i, j| left[(j, order[i])]);
+    // reduced to one coordinate each
+    let mut done = 0;
+    for column in 0..n {
+        let Some(pivot) = (done..count)
+            .max_by(|&a, &b| rows[(a, column)].abs().total_cmp(&rows[(b, column)].abs()))
+            .filter(|&row| rows[(row, column)].abs() > REAL)
+        else {
+            continue;
+        };
+        rows.swap_rows(done, pivot);
+        let row = rows.row(done) / rows[(done, column)];
+        rows.row_mut(done).copy_from(&row);
+        for other in (0..count).filter(|&other| other != done) {
+            let part = rows[(other, column)];
+            let less = rows.row(other) - &row * part;
+            rows.row_mut(other).copy_from(&less);
+        }
+        done += 1;
+        if done == count {
+            break;
+        }
+    }
+    let weighted = |v: &DVector<f64>| mass.map_or_else(|| v.clone(), |mass| mass * v);
+    let mut basis: Vec<DVector<f64>> = Vec::new();
+    for row in rows.row_iter() {
+        let mut v = row.transpose();
+        for _ in 0..2 {
+            for one in &basis {
+                let along = weighted(one);
+                v.axpy(-along.dot(&v) / along.dot(one), one, 1.0);
+            }
+        }
+        let size = v.amax();
+        basis.push(v.map(|x| if x.abs() <= REAL * size { 0.0 } else { x }));
+    }
+    Some(basis.into_iter().map(|v| v.map(|x| Complex::new(x, 0.0))).collect())
 }
 
 /// The largest modulus.
