@@ -8,10 +8,11 @@
 
 use std::collections::HashMap;
 
+use nalgebra::DMatrix;
+
 use super::canonical::PhaseMap;
 use super::equations::Equations;
 use super::isolate::{self, Solution};
-use super::linear;
 use super::potential::potential;
 use super::valuation::Valuation;
 use crate::expr::{Expr, Pool, Symbol, Zero};
@@ -23,6 +24,9 @@ const PAIRS: usize = 2;
 
 /// The points at which a function has to give the map.
 const POINTS: u64 = 24;
+
+/// A determinant up to this part of the size of its terms is rounding.
+const REGULAR: f64 = 1e-10;
 
 /// A generating function of a map, if it has one of this type.
 #[derive(Clone, Debug)]
@@ -43,7 +47,7 @@ pub enum NoFunction {
     Dependent(String),
     /// There is one wherever these variables are independent; the equations of Legendre's transformation have no solution
     /// in closed form.
-    #[error("exists where {0} are independent, but not in closed form")]
+    #[error("exists where {0} are independent; no closed form of it was found")]
     NotWritten(String),
 }
 
@@ -214,10 +218,10 @@ impl PhaseMap {
             let variable = pool.variable(name);
             relations.push(pool.sub(variable, value));
         }
-        let single = n == 1 && pool.is_zero(matrix[0][0]) == Zero::Proved;
-        if single || (n > 1 && linear::solve(pool, &matrix, &vec![Expr::ZERO; n]).is_err()) {
+        if !is_regular(model, equations, &matrix) {
             return (Err(NoFunction::Dependent(variables_of(types))), false);
         }
+        let pool = &mut equations.pool;
         let old: Vec<Expr> = self.old.iter().map(|&s| pool.variable(s)).collect();
         let mut terms = vec![(Number::ONE, first)];
         for (i, of) in types.iter().enumerate() {
@@ -384,4 +388,25 @@ impl PhaseMap {
         let value = pool.linear(Number::ZERO, &terms);
         Some((self.implicit.relations.clone(), unknowns, value))
     }
+}
+
+/// Whether a matrix of derivatives has a determinant: it differs from zero at a point, by more than rounding.
+fn is_regular(model: &Model, equations: &Equations, matrix: &[Vec<Expr>]) -> bool {
+    let n = matrix.len();
+    (0..POINTS).any(|k| {
+        let at = Valuation::near_start(model, equations, k);
+        let entry =
+            |i: usize, j: usize| equations.pool.evaluate_with_size(matrix[i][j], &|s| at.at(s));
+        let (mut values, mut sizes) = (DMatrix::zeros(n, n), vec![0.0; n]);
+        for i in 0..n {
+            for j in 0..n {
+                let (value, size) = entry(i, j);
+                values[(i, j)] = value;
+                sizes[i] += size.abs();
+            }
+        }
+        // Hadamard's bound of what its terms add up to
+        let bound: f64 = sizes.iter().product();
+        values.determinant().abs() > REGULAR * bound
+    })
 }
