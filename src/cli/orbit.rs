@@ -11,7 +11,7 @@ use super::interrupt::Interrupt;
 use super::slow_notice::with_notice;
 use super::study::{self, Study, StudyArguments, shown, table};
 use crate::dynamics::{
-    Along, Bifurcation, Family, Fixed, Orbit, OrbitStability, Removed, drive_period, driven_family,
+    Along, Bifurcation, Family, Fixed, Orbit, OrbitStability, drive_period, driven_family,
     driven_orbit, family, periodic_orbit,
 };
 use crate::printable;
@@ -120,7 +120,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
 fn fixed(arguments: &Arguments, study: &Study) -> Result<Fixed, CommandError> {
     let space = &study.space;
     let wrong = |what: &str| Err(CommandError::WrongUse(what.to_owned()));
-    let conserved = space.is_hamiltonian() && space.is_autonomous();
+    let conserved = space.has_energy_levels();
     match (arguments.energy, arguments.period) {
         (_, Some(period)) if period <= 0.0 => wrong("--period: a period is above zero"),
         (Some(_), _) if !conserved => {
@@ -193,18 +193,10 @@ fn rows(family: &Family, name: &str) -> String {
     text
 }
 
-fn trivial(what: Removed) -> &'static [&'static str] {
-    match what {
-        Removed::Nothing => &[],
-        Removed::Flow => &["flow"],
-        Removed::FlowAndEnergy => &["flow", "energy"],
-    }
-}
-
 /// All multipliers, the trivial ones last.
 fn multipliers(orbit: &Orbit) -> Vec<[f64; 2]> {
     let mut all = orbit.multipliers.clone();
-    all.extend(std::iter::repeat_n([1.0, 0.0], orbit.trivial.count()));
+    all.extend(std::iter::repeat_n([1.0, 0.0], orbit.trivial_names().len()));
     all
 }
 
@@ -220,9 +212,9 @@ fn object(study: &Study, orbit: &Orbit) -> Map<String, Value> {
     insert("multipliers", json!(multipliers(orbit)));
     let exponents = orbit.multipliers.iter().map(|z| orbit.exponent(*z));
     insert("multipliers_error", json!(orbit.rounding));
-    let trivial_ones = std::iter::repeat_n(Some(0.0), orbit.trivial.count());
+    let trivial_ones = std::iter::repeat_n(Some(0.0), orbit.trivial_names().len());
     insert("exponents", exponents.chain(trivial_ones).collect());
-    insert("trivial", json!(trivial(orbit.trivial)));
+    insert("trivial", json!(orbit.trivial_names()));
     insert("trace", json!(orbit.transverse.trace()));
     insert("residue", json!(orbit.residue()));
     insert("stable", json!(orbit.is_stable()));
@@ -235,6 +227,9 @@ fn text(study: &Study, orbit: &Orbit) -> String {
     let start = names.iter().zip(study.space.variables(&orbit.state));
     let start: Vec<String> = start.map(|(name, &x)| format!("{name} = {x:?}")).collect();
     let headline = match orbit.stability() {
+        OrbitStability::Neutral if orbit.levels.len() > 1 => {
+            "periodic orbit, one of a family in E and the Casimirs"
+        }
         OrbitStability::Neutral => "periodic orbit, one of a family in E",
         OrbitStability::Parabolic => {
             "parabolic periodic orbit: all multipliers are 1, as on a torus filled with periodic orbits"
@@ -264,6 +259,15 @@ fn text(study: &Study, orbit: &Orbit) -> String {
         text.push_str(&format!("residue     {}\n", shown(residue)));
     }
     text
+}
+
+/// The flow and the energy with their article; a Casimir is called by its name.
+fn of(trivial: &str) -> String {
+    if ["flow", "energy"].contains(&trivial) {
+        format!("the {trivial}")
+    } else {
+        trivial.to_owned()
+    }
 }
 
 /// A row for each multiplier or conjugate pair: what it is, and its exponent or its angle. Those that symmetries hold at 1 are
@@ -305,9 +309,16 @@ fn multiplier_rows(orbit: &Orbit) -> Vec<(String, String)> {
         let times = if ones.len() > 1 { format!("{} times, ", ones.len()) } else { String::new() };
         rows.push(("1".to_owned(), format!("{times}to {spread:.0e}")));
     }
-    if orbit.trivial.count() > 0 {
-        let names = trivial(orbit.trivial).join(" and of the ");
-        rows.push(("1".to_owned(), format!("of the {names}")));
+    let trivial = orbit.trivial_names();
+    if let Some((last, others)) = trivial.split_last() {
+        let others = match others {
+            [] => String::new(),
+            others => format!(
+                "{} and of ",
+                others.iter().map(|name| of(name)).collect::<Vec<_>>().join(", of ")
+            ),
+        };
+        rows.push(("1".to_owned(), format!("of {others}{}", of(last))));
     }
     rows
 }

@@ -121,7 +121,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let search = || driven_spectrum(&straight, spacing, most, drive, &mut |_| true);
     let spectrum = with_notice("searching for the lines", search)
         .ok_or_else(|| CommandError::CouldNot("the quantity has no finite values".to_owned()))?;
-    let drift = frequency_drift(&straight, spacing, &spectrum.lines);
+    let drift = frequency_drift(&spectrum.without_trend(&straight), spacing, &spectrum.lines);
     let of = arguments.of.clone().unwrap_or_else(|| system.channels()[channel].name.clone());
     let found = FoundSpectrum { of, from: start.time, until, count, spectrum, drive, rate, drift };
     let mut head = study::head(model, system, &start.parameters, (*method, *settings));
@@ -148,6 +148,7 @@ fn object(found: &FoundSpectrum) -> Map<String, Value> {
     insert("until", json!(until));
     insert("count", json!(count));
     insert("mean", json!(spectrum.mean));
+    insert("change_of_mean", json!(spectrum.change_of_mean()));
     insert("lines", spectrum.lines.iter().map(line).collect());
     insert("fundamentals", json!(spectrum.fundamentals));
     insert("drive", json!(drive));
@@ -188,6 +189,12 @@ fn text(found: &FoundSpectrum) -> String {
         shown(spectrum.mean),
         spectrum.left
     ));
+    if let Some(change) = spectrum.change_of_mean() {
+        text.push_str(&format!(
+            "the mean changes by {} in this time: a slow change is fitted beside the lines\n",
+            shown(change)
+        ));
+    }
     if spectrum.is_continuous() && spectrum.turns.is_none() {
         let part = 100.0 * spectrum.part_left();
         text.push_str(&format!("that is {part:.0} % of it: it is not a sum of few lines\n"));

@@ -9,12 +9,12 @@
 //! bifurcations of orbits: K. R. Meyer, Trans. Amer. Math. Soc. 149 (1970) 95.
 
 mod equations;
+mod family_end;
 mod members;
 mod point;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::direction::FlowDirection;
 use super::error::DynamicsError;
 use super::family::{Along, Member};
 use super::linear;
@@ -26,6 +26,7 @@ use crate::integrate::{Method, Settings};
 use crate::num::significant;
 use crate::system::State;
 use equations::FamilyEquations;
+use family_end::{lost, shrunk};
 use point::FamilyPoint;
 
 /// The most steps in one direction.
@@ -40,9 +41,6 @@ const CORRECTIONS: usize = 8;
 
 /// A point counts as on the family when it closes up to this part of its size.
 const CLOSED: f64 = 1e-11;
-
-/// A period grows where it is so many times that of the orbit begun with.
-const LONG: f64 = 3.0;
 
 /// A change of a parameter for its difference.
 const DIFFERENCE: f64 = 1e-5;
@@ -83,6 +81,8 @@ pub(super) struct Continuation<'a> {
     pub(super) along: Along,
     pub(super) fixed: Fixed,
     pub(super) values: &'a [f64],
+    /// The values of the Casimirs on all orbits.
+    pub(super) casimirs: &'a [f64],
     /// How many periods of a drive an orbit has, and that period at some parameters.
     pub(super) drive: Option<(f64, DrivePeriod<'a>)>,
 }
@@ -146,10 +146,12 @@ impl Continuation<'_> {
             tangent: DVector::zeros(self.space.dimension() + 2),
             value: self.value_of(orbit, parameter),
             orbit: orbit.clone(),
+            rounds: Vec::new(),
         };
         let (low, high) = self.range();
         // the value grows along the tangent
         let found = self.equations(&point.state, point.period, point.parameter)?;
+        point.rounds.clone_from(&found.here.circuit.rounds);
         point.tangent = self.direction(&point, &found, None)?;
         if point.value > high || point.value < low {
             let slope = self.slope(&point)?;
@@ -164,7 +166,8 @@ impl Continuation<'_> {
     /// The equations of an orbit of the family, in the units of the file.
     fn newton<'s>(&self, space: &'s PhaseSpace) -> Newton<'s> {
         let units = OrbitUnits::of_file(space.dimension());
-        Newton { space, method: self.method, fixed: self.held(), units, budget: None }
+        let casimirs = self.casimirs.to_vec();
+        Newton { space, method: self.method, fixed: self.held(), units, casimirs, budget: None }
     }
 
     /// The equations of an orbit at (z, T, μ), with their derivatives by the displacements of z that are allowed, T and μ.
@@ -180,8 +183,9 @@ impl Continuation<'_> {
         let here = newton.reached(state.clone(), self.driven(parameter, period)?)?;
         let (matrix, missing) = newton.equations(&here.circuit);
         let columns = matrix.ncols();
-        let mut full = DMatrix::zeros(n + 2, columns + 1);
-        full.view_mut((0, 0), (n + 2, columns)).copy_from(&matrix);
+        let rows = matrix.nrows();
+        let mut full = DMatrix::zeros(rows, columns + 1);
+        full.view_mut((0, 0), (rows, columns)).copy_from(&matrix);
         if let Along::Parameter(_) = self.along {
             let step = DIFFERENCE * parameter.abs().max(1e-2);
             let none = DVector::zeros(n);
@@ -193,7 +197,7 @@ impl Continuation<'_> {
                 newton.missing(&there, period)
             };
             let slope = (at(parameter + step)? - at(parameter - step)?) / (2.0 * step);
-            full.view_mut((0, columns), (n + 2, 1)).copy_from(&slope);
+            full.view_mut((0, columns), (rows, 1)).copy_from(&slope);
         }
         Ok(FamilyEquations { missing, matrix: full, here })
     }
@@ -239,16 +243,8 @@ impl Continuation<'_> {
         Ok(found.outside(&unit.resize_vertically(kept + missing, 0.0)))
     }
 
-    /// ∇H = −𝕁 f.
     fn gradient(&self, point: &FamilyPoint) -> Result<DVector<f64>, DynamicsError> {
-        let rate = FlowDirection::new(&self.space_at(point.parameter)).at(&point.state)?;
-        let half = rate.len() / 2;
-        Ok(DVector::from_fn(
-            rate.len(),
-            |i, _| {
-                if i < half { -rate[half + i] } else { rate[i - half] }
-            },
-        ))
+        self.space_at(point.parameter).energy_gradient(&point.state)
     }
 
     /// How fast the value grows along the tangent.
@@ -326,15 +322,19 @@ impl Continuation<'_> {
                 Err(_) => return Ok(None),
             };
             if found.missing.norm() <= CLOSED * found.here.circuit.size {
+                // beyond a separatrix there is another family
+                if found.here.circuit.rounds != from.rounds {
+                    return Ok(None);
+                }
                 let point = self.point(from, &found, parameter)?;
                 return Ok(Some((point, count)));
             }
             // across the family only
-            let columns = found.matrix.ncols();
-            let mut all = found.matrix.clone().resize_vertically(n + 3, 0.0);
-            all.view_mut((n + 2, 0), (1, columns))
+            let (rows, columns) = found.matrix.shape();
+            let mut all = found.matrix.clone().resize_vertically(rows + 1, 0.0);
+            all.view_mut((rows, 0), (1, columns))
                 .copy_from(&found.within(&from.tangent).transpose());
-            let right = found.missing.clone().resize_vertically(n + 3, 0.0);
+            let right = found.missing.clone().resize_vertically(rows + 1, 0.0);
             let cut = 1e-10 * found.matrix.amax() + 1e-4 * found.missing.norm();
             let Some(change) = linear::least_squares(&all, &right, cut) else { return Ok(None) };
             let change = found.outside(&change);
@@ -358,14 +358,15 @@ impl Continuation<'_> {
         let (state, period) = (here.state.clone(), here.period);
         let tangent = from.tangent.clone();
         let value = self.value_of(&orbit, parameter);
-        let mut point = FamilyPoint { state, period, parameter, tangent, value, orbit };
+        let rounds = here.circuit.rounds.clone();
+        let mut point = FamilyPoint { state, period, parameter, tangent, value, orbit, rounds };
         point.tangent = self.direction(&point, found, Some(&from.tangent))?;
         Ok(point)
     }
 
     /// The point at which a family begins.
     pub(super) fn begun(&self, orbit: &Orbit) -> Result<FamilyPoint, DynamicsError> {
-        let conserved = self.space.is_autonomous() && self.space.is_hamiltonian();
+        let conserved = self.space.has_energy_levels();
         if !matches!(self.along, Along::Parameter(_)) && !conserved {
             return Err(DynamicsError::Unsuited(
                 "without a conserved energy orbits are isolated: name a parameter that changes along \
@@ -386,6 +387,13 @@ impl Continuation<'_> {
         let size = self.size(&begin.state);
         let (here, step) = (begin.clone(), 0.02 * size);
         FamilySide { begin, here, size, step, steps: 0, members: Vec::new(), ended: None }
+    }
+
+    /// Why a side is followed no farther after an error: next to a separatrix neighbouring orbits part without bound.
+    pub(super) fn failed(side: &FamilySide, error: &DynamicsError) -> String {
+        let is_long = family_end::grows(&side.here, side.begin.period);
+        let parts = matches!(error, DynamicsError::Singular(_)) && is_long;
+        if parts { lost(&side.here, side.begin.period) } else { error.to_string() }
     }
 
     /// Follows a side along its tangent by a step, and collects the members there. The step is halved where it is too
@@ -416,7 +424,10 @@ impl Continuation<'_> {
             }
             return Ok(());
         };
-        self.between(here, &next, side.step, &mut side.members)?;
+        if let Some(end) = self.between(here, &next, side.step, &mut side.members)? {
+            side.ended = Some(SideEnd::Before(shrunk(here, &end)));
+            return Ok(());
+        }
         if side.begin.unit().is_some() && here.unit().is_none() && next.unit().is_none() {
             let value = significant(next.value, 6, 1e-4..1e6);
             side.ended = Some(SideEnd::Before(format!(
@@ -433,14 +444,4 @@ impl Continuation<'_> {
         side.here = next;
         Ok(())
     }
-}
-
-/// Why a family ends at a point: as its period grows without bound, as towards a separatrix, where that is seen.
-fn lost(here: &FamilyPoint, first: f64) -> String {
-    let (value, period) =
-        (significant(here.value, 6, 1e-4..1e6), significant(here.period, 3, 1e-4..1e6));
-    if here.period.abs() > LONG * first.abs() {
-        return format!("the family ends near {value}: its period grows, to {period} so far");
-    }
-    format!("the family was lost at {value}")
 }

@@ -150,6 +150,11 @@ impl EquilibriumSearch<'_> {
         }))
     }
 
+    /// The eigenvalues without those across the level sets of Casimirs, which are zero.
+    fn within_levels<'e>(&self, eigenvalues: &'e [[f64; 2]]) -> &'e [[f64; 2]] {
+        &eigenvalues[..eigenvalues.len().saturating_sub(self.casimirs.len())]
+    }
+
     /// The kind, the eigenvalues and the modes at a place, of variables that are independent.
     fn around(&mut self, variables: &[f64]) -> Option<Around> {
         let df = self.slopes(variables)?;
@@ -157,12 +162,20 @@ impl EquilibriumSearch<'_> {
         let count = self.unknowns.len();
         let unit = |k: usize| self.units[self.unknowns[k]];
         let in_units = DMatrix::from_fn(count, count, |i, j| df[(i, j)] * unit(j) / unit(i));
-        let stable = stable(&in_units, &eigenvalues);
+        let stable = stable(&in_units, self.within_levels(&eigenvalues));
         if self.space.form() != Form::Momentum {
             return Some((None, eigenvalues, stable, Vec::new()));
         }
         let places = DMatrix::identity(count / 2, count);
-        let modes = self.modes(&in_units, &eigenvalues, &places);
+        let half = count / 2;
+        let mass = df.view((0, half), (half, half)).into_owned().try_inverse();
+        let mass = mass.map(|mass| {
+            DMatrix::from_fn(half, half, |i, j| {
+                (mass[(i, j)] + mass[(j, i)]) / 2.0 * (unit(i) * unit(j))
+            })
+        });
+        let mass = mass.filter(|mass| mass.clone().cholesky().is_some());
+        let modes = self.modes(&in_units, &eigenvalues, &places, mass.as_ref());
         Some((Some(Kind::of_canonical(&df)), eigenvalues, stable, modes))
     }
 
@@ -177,7 +190,7 @@ impl EquilibriumSearch<'_> {
         };
         let potential = around.potential.filter(|(_, mass)| positive(mass));
         let kind = potential.map(|(second, _)| Kind::of(&second));
-        let modes = self.modes(&around.matrix, &eigenvalues, &around.displacements);
+        let modes = self.modes(&around.matrix, &eigenvalues, &around.displacements, None);
         let stable = stable(&around.matrix, &eigenvalues);
         Some((kind, eigenvalues, stable, modes))
     }
@@ -188,6 +201,7 @@ impl EquilibriumSearch<'_> {
         matrix: &DMatrix<f64>,
         eigenvalues: &[[f64; 2]],
         displacements: &DMatrix<f64>,
+        mass: Option<&DMatrix<f64>>,
     ) -> Vec<Mode> {
         let resting = &self.unknowns[..displacements.nrows()];
         let units: Vec<f64> = resting.iter().map(|&i| self.units[i]).collect();
@@ -196,7 +210,7 @@ impl EquilibriumSearch<'_> {
             resting.iter().zip(some).for_each(|(&i, &x)| all[i] = x);
             all
         };
-        let found = modes(matrix, eigenvalues, displacements, &units).into_iter();
+        let found = modes(matrix, eigenvalues, displacements, (&units, mass)).into_iter();
         let whole = found.map(|mode| Mode {
             in_phase: every(&mode.in_phase),
             quadrature: every(&mode.quadrature),

@@ -99,7 +99,9 @@ impl FamilyCourse {
         let drive = ratio.zip(drive);
         // only the members are to have all digits
         let (exact, method) = (method, (method.0, method.0.fast(method.1)));
-        let continuation = Continuation { space, method, exact, along, fixed, values, drive };
+        let casimirs = &space.casimirs(&self.orbit.state)?;
+        let continuation =
+            Continuation { space, method, exact, along, fixed, values, casimirs, drive };
         let (low, high) = continuation.range();
         let mut sides = match self.sides.take() {
             Some(sides) => sides,
@@ -129,7 +131,8 @@ impl FamilyCourse {
                     Ok(()) => {}
                     Err(error) if error.is_cancelled() => self.cancelled = true,
                     Err(error) => {
-                        sides[which].ended = Some(SideEnd::Before(error.to_string()));
+                        let why = Continuation::failed(&sides[which], &error);
+                        sides[which].ended = Some(SideEnd::Before(why));
                     }
                 }
                 let behind: f64 = (0..2).map(|k| gone(&sides[k], lengths[k])).sum();

@@ -4,7 +4,7 @@
 //! orbit.
 //!
 //! Unknown are the state and the period; the equations are that the motion closes, that the state
-//! does not move along the orbit, and that the energy (or the period) is the given one. They are
+//! does not move along the orbit, and that the energy (or the period) is the given one, and Casimirs are. They are
 //! solved by least squares, because with a conserved energy one of them follows from the others, and
 //! symmetries leave a choice (Viswanath, SIAM Review 43 (2001) 478, has the method). Under constraints the state moves by
 //! displacements that they allow, and back onto them.
@@ -54,11 +54,28 @@ pub(super) struct Newton<'a> {
     pub(super) method: (&'static Method, Settings),
     pub(super) fixed: Fixed,
     pub(super) units: OrbitUnits,
+    /// The values that Casimirs are to have.
+    pub(super) casimirs: Vec<f64>,
     /// The steps that are left; without one there is no end to them.
     pub(super) budget: Option<&'a SearchBudget<'a>>,
 }
 
-/// The motion over one period, in the units of the orbit but for the monodromy matrix and the energy.
+/// A level set on which an orbit is to lie, beside a start, in the units of the orbit.
+struct Surface {
+    /// The direction across it, a unit vector; zero where it has none.
+    normal: DVector<f64>,
+    /// How far the start lies beyond it.
+    excess: f64,
+}
+
+impl Surface {
+    fn new(gradient: &DVector<f64>, excess: f64) -> Surface {
+        let slope = gradient.norm().max(f64::MIN_POSITIVE);
+        Surface { normal: gradient / slope, excess: excess / slope }
+    }
+}
+
+/// The motion over one period, in the units of the orbit but for the monodromy matrix.
 pub(super) struct Circuit {
     miss: DVector<f64>,
     pub(super) monodromy: DMatrix<f64>,
@@ -66,8 +83,11 @@ pub(super) struct Circuit {
     pub(super) basis: DMatrix<f64>,
     /// The rates at its two ends.
     pub(super) rates: [DVector<f64>; 2],
-    energy: f64,
+    /// What is to have given values at the start.
+    surfaces: Vec<Surface>,
     pub(super) size: f64,
+    /// How often each variable with a period has gone round.
+    pub(super) rounds: Vec<i64>,
     /// The largest singular value of the monodromy matrix.
     growth: f64,
     /// What rounding may leave of the monodromy matrix, in the units of the file.
@@ -132,8 +152,13 @@ impl Newton<'_> {
         let mut direction = FlowDirection::new(space);
         let rates = [direction.at(state)?, direction.at(&map.state)?];
         let miss = self.units.scaled(&difference(space, &map.state, state));
-        let energy = space.system().energy(state, space.parameters())?;
+        let ends = space.variables(&map.state).iter().zip(space.variables(state));
+        let rounds = ends.zip(space.periods()).map(|((end, start), turn)| {
+            turn.map_or(0, |turn| ((end - start) / turn).round() as i64)
+        });
+        let rounds = rounds.collect();
         let rates = rates.map(|rate| self.units.rates(&rate));
+        let surfaces = self.surfaces(state, &rates[0])?;
         let basis = self.basis(state)?;
         let size = self.size(state).max(rates[0].amax() * (period / self.units.time()).min(1.0));
         let growth = linear::singular_values(&self.units.map(&map.matrix)).ok_or_else(|| {
@@ -146,8 +171,9 @@ impl Newton<'_> {
             monodromy: map.matrix,
             basis,
             rates,
-            energy,
+            surfaces,
             size,
+            rounds,
             rounding: map.rounding,
             settings: map.settings,
         })
@@ -185,16 +211,34 @@ impl Newton<'_> {
         self.units.scaled(&variables).amax()
     }
 
-    /// What is missing: closure, and the energy in units of length.
-    pub(super) fn residual(&self, circuit: &Circuit) -> f64 {
-        let energy = match self.fixed {
-            Fixed::Energy(wanted) => {
-                let slope = self.units.gradient(&circuit.rates[0]).norm();
-                (wanted - circuit.energy) / slope.max(f64::MIN_POSITIVE)
-            }
-            _ => 0.0,
+    /// The level sets on which the orbit is to lie, beside a state with these rates: those of the energy, if it is given, and of
+    /// the Casimirs.
+    fn surfaces(&self, state: &State, rate: &DVector<f64>) -> Result<Vec<Surface>, DynamicsError> {
+        let (space, mut surfaces) = (self.space, Vec::new());
+        let levels = match space.levels() {
+            Some(levels) => levels.at(state, space.parameters())?,
+            None => Vec::new(),
         };
-        math::hypot(circuit.miss.norm(), energy)
+        if let Fixed::Energy(wanted) = self.fixed {
+            let energy = space.system().energy(state, space.parameters())?;
+            let gradient = match levels.first() {
+                Some(energy) => self.units.covector(&energy.gradient),
+                None => self.units.gradient(rate),
+            };
+            surfaces.push(Surface::new(&gradient, energy - wanted));
+        }
+        let casimirs = levels.iter().skip(usize::from(space.has_energy_levels()));
+        for (casimir, wanted) in casimirs.zip(&self.casimirs) {
+            let gradient = self.units.covector(&casimir.gradient);
+            surfaces.push(Surface::new(&gradient, casimir.value - wanted));
+        }
+        Ok(surfaces)
+    }
+
+    /// What is missing: closure, and the level sets, in units of length.
+    pub(super) fn residual(&self, circuit: &Circuit) -> f64 {
+        let beyond = circuit.surfaces.iter().map(|surface| surface.excess);
+        beyond.fold(circuit.miss.norm(), math::hypot)
     }
 
     /// The period at which the motion misses its start across itself only: a start that lies on a periodic orbit
@@ -311,7 +355,7 @@ impl Newton<'_> {
         let (n, basis) = (self.space.dimension(), &circuit.basis);
         let allowed = basis.ncols();
         let autonomous = self.space.is_autonomous();
-        let mut matrix = DMatrix::zeros(n + 2, allowed + 1);
+        let mut matrix = DMatrix::zeros(self.count(), allowed + 1);
         let identity = DMatrix::identity(n, n);
         matrix
             .view_mut((0, 0), (n, allowed))
@@ -324,13 +368,18 @@ impl Newton<'_> {
             // the state does not move along the orbit
             row(n, &circuit.rates[0] / speed);
         }
-        if let Fixed::Energy(_) = self.fixed {
-            row(n + 1, self.units.gradient(&circuit.rates[0]).normalize());
+        for (k, surface) in circuit.surfaces.iter().enumerate() {
+            row(n + 1 + k, surface.normal.clone());
         }
         if !matches!(self.fixed, Fixed::Period(_)) {
             matrix.view_mut((0, allowed), (n, 1)).copy_from(&circuit.rates[1]);
         }
         (matrix, -self.missed(circuit))
+    }
+
+    /// The number of equations.
+    fn count(&self) -> usize {
+        self.space.dimension() + 2 + self.casimirs.len()
     }
 
     /// What is missing at a state, without its derivatives.
@@ -339,27 +388,25 @@ impl Newton<'_> {
         state: &State,
         period: f64,
     ) -> Result<DVector<f64>, DynamicsError> {
-        let (space, n) = (self.space, self.space.dimension());
+        let space = self.space;
         let end = end_state(space, self.method, state, state.time + period)?;
-        let mut missed = DVector::zeros(n + 2);
-        missed.rows_mut(0, n).copy_from(&self.units.scaled(&difference(space, &end, state)));
-        if let Fixed::Energy(wanted) = self.fixed {
-            let rate = self.units.rates(&FlowDirection::new(space).at(state)?);
-            let energy = space.system().energy(state, space.parameters())?;
-            missed[n + 1] = (energy - wanted) / self.units.gradient(&rate).norm();
-        }
-        Ok(missed)
+        let rate = self.units.rates(&FlowDirection::new(space).at(state)?);
+        let surfaces = self.surfaces(state, &rate)?;
+        Ok(self.listed(&self.units.scaled(&difference(space, &end, state)), &surfaces))
     }
 
-    /// The distance by which the motion does not close, no motion along the orbit, and the energy in
-    /// excess in units of its gradient.
+    /// The distance by which the motion does not close, no motion along the orbit, and how far the start lies beyond the level
+    /// sets.
     pub(super) fn missed(&self, circuit: &Circuit) -> DVector<f64> {
+        self.listed(&circuit.miss, &circuit.surfaces)
+    }
+
+    fn listed(&self, miss: &DVector<f64>, surfaces: &[Surface]) -> DVector<f64> {
         let n = self.space.dimension();
-        let mut missed = DVector::zeros(n + 2);
-        missed.rows_mut(0, n).copy_from(&circuit.miss);
-        if let Fixed::Energy(wanted) = self.fixed {
-            missed[n + 1] =
-                (circuit.energy - wanted) / self.units.gradient(&circuit.rates[0]).norm();
+        let mut missed = DVector::zeros(self.count());
+        missed.rows_mut(0, n).copy_from(miss);
+        for (k, surface) in surfaces.iter().enumerate() {
+            missed[n + 1 + k] = surface.excess;
         }
         missed
     }
@@ -376,8 +423,9 @@ mod tests {
             monodromy: DMatrix::identity(2, 2),
             basis: DMatrix::identity(2, 2),
             rates: [DVector::zeros(2), DVector::zeros(2)],
-            energy: 0.0,
+            surfaces: Vec::new(),
             size: 3.0,
+            rounds: Vec::new(),
             growth,
             rounding: None,
             settings: Settings { step: None, tolerance },

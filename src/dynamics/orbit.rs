@@ -42,10 +42,7 @@ const BESIDE: f64 = 1e-5;
 const ROUNDS: usize = 4;
 
 /// A multiplier this close to the unit circle lies on it.
-const ON_CIRCLE: f64 = 1e-6;
-
-/// Rounding up to this size leaves of a multiplier that is smaller that it nearly vanishes.
-const VANISHING: f64 = 1e-3;
+pub(super) const ON_CIRCLE: f64 = 1e-6;
 
 /// The part of a matrix by which rounding turns what is across an orbit.
 const DIRECTIONS: f64 = 4.0 * f64::EPSILON;
@@ -73,6 +70,9 @@ pub struct Orbit {
     pub multipliers: Vec<[f64; 2]>,
     /// The trivial directions, whose multipliers are 1.
     pub trivial: Removed,
+    /// The functions whose level sets have trivial directions across them too: of a system that is given by brackets, its energy
+    /// and its Casimirs.
+    pub levels: Vec<String>,
     /// What rounding may leave of the entries of `transverse`, at most; `None` under constraints.
     pub rounding: Option<f64>,
     /// Whether no multiplier lies outside the unit circle.
@@ -98,8 +98,17 @@ impl Orbit {
             (false, _) => Removed::Nothing,
         };
         let rate = newton.units.rates(&rate);
+        let mut levels = Vec::new();
         let frame = if space.is_constrained() {
             transverse::frame_within(&circuit.basis, &rate, trivial)
+        } else if let Some(functions) = space.levels() {
+            let gradients = functions.at(&closed.state, space.parameters())?;
+            let gradients: Vec<DVector<f64>> =
+                gradients.iter().map(|level| newton.units.covector(&level.gradient)).collect();
+            let (frame, independent) = transverse::frame_within_levels(&rate, trivial, &gradients);
+            let names = functions.names().iter().zip(independent);
+            levels.extend(names.filter(|(_, is_one)| *is_one).map(|(name, _)| name.clone()));
+            frame
         } else {
             transverse::frame(&rate, trivial, space.is_hamiltonian())
         };
@@ -125,43 +134,11 @@ impl Orbit {
             transverse,
             multipliers,
             trivial,
+            levels,
             rounding,
             stable,
             settings: circuit.settings,
         })
-    }
-
-    /// Greene's residue (2 − tr M)/4, where two multipliers are left and areas across the orbit are preserved: between 0
-    /// and 1 the orbit is elliptic, below 0 hyperbolic, above 1 hyperbolic with reflection (J. M. Greene, J. Math. Phys.
-    /// 20 (1979) 1183).
-    pub fn residue(&self) -> Option<f64> {
-        let across = &self.transverse;
-        let preserves = across.nrows() == 2 && (across.determinant() - 1.0).abs() <= ON_CIRCLE;
-        preserves.then(|| (2.0 - across.trace()) / 4.0)
-    }
-
-    /// Whether a multiplier is so small that it is lost in rounding.
-    pub fn is_lost(&self, [re, im]: [f64; 2]) -> bool {
-        self.rounding.is_some_and(|rounding| math::hypot(re, im) <= rounding)
-    }
-
-    /// Whether no more is known of a multiplier than that it nearly vanishes: it is lost in rounding that is itself small. Beside
-    /// a multiplier of 10¹⁶ and more nothing is known of those on the unit circle.
-    pub fn nearly_vanishes(&self, multiplier: [f64; 2]) -> bool {
-        self.is_lost(multiplier) && self.rounding.is_some_and(|rounding| rounding <= VANISHING)
-    }
-
-    /// The characteristic exponent ln|μ|/T of a multiplier μ: the Lyapunov exponent along its direction; nothing where μ is
-    /// lost in rounding.
-    pub fn exponent(&self, [re, im]: [f64; 2]) -> Option<f64> {
-        let known = !self.is_lost([re, im]);
-        known.then(|| math::ln(math::hypot(re, im)) / self.period)
-    }
-
-    /// The angle by which a pair of multipliers e^{±2πiν} turns in a period, in turns: 0 < ν < ½, or nothing off the unit circle.
-    pub fn rotation(&self, [re, im]: [f64; 2]) -> Option<f64> {
-        let on_circle = im != 0.0 && (math::hypot(re, im) - 1.0).abs() <= ON_CIRCLE;
-        on_circle.then(|| math::atan2(im.abs(), re) / core::f64::consts::TAU)
     }
 }
 
@@ -279,7 +256,8 @@ fn closed_near(
 ) -> Result<Result<Orbit, Missed>, DynamicsError> {
     let apart = |state: &State| difference(space, state, start);
     let units = OrbitUnits::of_motion(space, method, (start, period), apart)?;
-    let newton = Newton { space, method, fixed, units, budget: Some(budget) };
+    let casimirs = space.casimirs(start)?;
+    let newton = Newton { space, method, fixed, units, casimirs, budget: Some(budget) };
     let period = newton.settled(start, period);
     let mut closed = match solve(&newton, start, period)? {
         Ok(closed) => closed,

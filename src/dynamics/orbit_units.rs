@@ -97,6 +97,11 @@ impl OrbitUnits {
         self.unscaled(&gradient)
     }
 
+    /// A gradient of the file in these units.
+    pub(super) fn covector(&self, gradient: &DVector<f64>) -> DVector<f64> {
+        self.unscaled(gradient)
+    }
+
     /// The unit of time.
     pub(super) fn time(&self) -> f64 {
         self.time

@@ -1,15 +1,17 @@
 //! The phase space of a system: its canonical variables (q, p), or the variables of its brackets,
 //! at one set of parameters.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::drive::{acts, coordinate_period, drive_period};
 use super::error::DynamicsError;
+use super::levels::Levels;
 use crate::cancel::Cancel;
 use crate::expr::Expr;
 use crate::mechanics::Equations;
 use crate::model::{EventAction, Mechanics, Model};
-use crate::num::math;
 use crate::system::{Form, MotionError, Rates, State, System};
 
 /// Why nothing is asked of a system whose constraints allow no displacement.
@@ -32,6 +34,8 @@ pub struct PhaseSpace {
     /// The period of the law in each coordinate.
     turns: Vec<Option<f64>>,
     cyclic: Vec<usize>,
+    /// The functions whose level sets hold motions that are given by brackets.
+    levels: Option<Arc<Levels>>,
 }
 
 impl PhaseSpace {
@@ -150,7 +154,10 @@ impl PhaseSpace {
         }
         turns.resize(names.len(), None);
         periods.resize(names.len(), None);
+        let conservative = autonomous && !jumps && equations.energy_rate == Expr::ZERO;
+        let levels = if jumps { None } else { Levels::of(model, equations, conservative)? };
         Ok(PhaseSpace {
+            levels: levels.map(Arc::new),
             system: system.without_tangents(),
             parameters: parameters.to_vec(),
             names,
@@ -161,7 +168,7 @@ impl PhaseSpace {
             drive: (!autonomous)
                 .then(|| drive_period(model, equations, system, parameters))
                 .flatten(),
-            conservative: autonomous && !jumps && equations.energy_rate == Expr::ZERO,
+            conservative,
             periods,
             turns,
             cyclic: equations
@@ -232,6 +239,17 @@ impl PhaseSpace {
         self.conservative
     }
 
+    /// Whether periodic orbits come in families over the energy: it is conserved, and its gradient is known.
+    pub fn has_energy_levels(&self) -> bool {
+        self.autonomous
+            && (self.hamiltonian || self.levels.as_ref().is_some_and(|levels| levels.has_energy()))
+    }
+
+    /// The functions whose level sets hold motions that are given by brackets.
+    pub(super) fn levels(&self) -> Option<&Levels> {
+        self.levels.as_deref()
+    }
+
     /// Whether impulses may act on the motion, or events end it.
     pub fn has_jumps(&self) -> bool {
         self.jumps
@@ -300,33 +318,6 @@ impl PhaseSpace {
     /// The rates of change of its variables, with their derivatives.
     pub fn vector_field(&self) -> VectorField {
         VectorField::new(self)
-    }
-
-    /// M⁻¹ = −𝕁 Mᵀ 𝕁 of a symplectic matrix.
-    pub fn symplectic_inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
-        let size = matrix.nrows();
-        let n = size / 2;
-        DMatrix::from_fn(size, size, |i, j| {
-            let sign = if (i < n) == (j < n) { 1.0 } else { -1.0 };
-            sign * matrix[((j + n) % size, (i + n) % size)]
-        })
-    }
-
-    /// The largest entry of |M𝕁Mᵀ − 𝕁|, and what rounding may leave of that entry: ε times its entry of |M| |𝕁| |M|ᵀ, by the
-    /// rounding of M, and what earlier steps have `left` of it. Entries of two coordinates, of two momenta and of one of each
-    /// have units of their own.
-    pub fn symplectic_residual(matrix: &DMatrix<f64>, left: &DMatrix<f64>) -> (f64, f64) {
-        let size = matrix.nrows();
-        let n = size / 2;
-        let unit = DMatrix::from_fn(size, size, |i, j| {
-            f64::from(i8::from(j == i + n) - i8::from(i == j + n))
-        });
-        let residual = (matrix * &unit * matrix.transpose() - &unit).abs();
-        let rounding = matrix.abs() * unit.abs() * matrix.abs().transpose() * f64::EPSILON;
-        let rounding = rounding.zip_map(left, math::hypot);
-        let largest = residual.amax();
-        let of_the_largest = residual.iter().zip(&rounding).filter(|(entry, _)| **entry == largest);
-        (largest, of_the_largest.map(|(_, &bound)| bound).fold(f64::INFINITY, f64::min))
     }
 }
 

@@ -14,6 +14,9 @@ const VANISHES: f64 = 1e-8;
 /// Two frequencies are equal up to this part: a pair without two modes differs by the root of rounding.
 const EQUAL: f64 = 1e-6;
 
+/// A part of a mode below this is rounding, which equal frequencies leave half the digits of.
+const REAL: f64 = 1e-7;
+
 /// What the effective potential does at an equilibrium.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Kind {
@@ -84,7 +87,7 @@ pub(super) fn stable(matrix: &DMatrix<f64>, eigenvalues: &[[f64; 2]]) -> Option<
     if eigenvalues.iter().any(|z| z[0] > VANISHES.sqrt() * scale) {
         return Some(false);
     }
-    let known = eigenvalues.len() == matrix.nrows();
+    let known = !eigenvalues.is_empty();
     let whole = || {
         frequencies(eigenvalues).chunk_by(equal).all(|equal| {
             equal.len() == 1 || linear::null_vectors(matrix, equal[0]).len() >= equal.len()
@@ -114,20 +117,29 @@ fn equal(one: &f64, other: &f64) -> bool {
     (one - other).abs() <= EQUAL * other
 }
 
-/// The modes of a linear motion x′ = `matrix` x. `displacements` are the coordinates, in their `units`, of each variable x.
+/// The modes of a linear motion x′ = `matrix` x. `displacements` are the coordinates, in their `units`, of each variable x. Modes of
+/// one frequency are orthogonal by the kinetic energy, whose matrix in these units is `mass`, where they can be real.
 pub(super) fn modes(
     matrix: &DMatrix<f64>,
     eigenvalues: &[[f64; 2]],
     displacements: &DMatrix<f64>,
-    units: &[f64],
+    (units, mass): (&[f64], Option<&DMatrix<f64>>),
 ) -> Vec<Mode> {
     let complex = displacements.map(|x| Complex::new(x, 0.0));
     let mut modes: Vec<Mode> = Vec::new();
     for equal in frequencies(eigenvalues).chunk_by(equal) {
         let vectors = linear::null_vectors(matrix, equal[0]);
-        let moved = vectors.iter().take(equal.len()).map(|vector| &complex * vector).collect();
-        for (moved, &frequency) in each_by_itself(moved, units).iter().zip(equal) {
-            let largest = largest_part(moved, units);
+        let vectors = vectors.iter().take(equal.len()).map(|vector| &complex * vector);
+        let mut moved: Vec<DVector<Complex<f64>>> = vectors.collect();
+        if moved.len() > 1 {
+            moved = real_basis(&moved, mass).unwrap_or(moved);
+        }
+        for (moved, &frequency) in moved.iter().zip(equal) {
+            let size = |i: usize| moved[i].norm() * units[i];
+            let places = 0..moved.len();
+            let Some(largest) = places.max_by(|&a, &b| size(a).total_cmp(&size(b))) else {
+                continue;
+            };
             let clean = |x: f64| if x.abs() < 1e-12 { 0.0 } else { x };
             let part = |i: usize| moved[i] / moved[largest] * (units[i] / units[largest]);
             let in_phase = (0..moved.len()).map(|i| clean(part(i).re)).collect();
@@ -138,47 +150,62 @@ pub(super) fn modes(
     modes
 }
 
-/// The coordinate that moves most, in its unit.
-fn largest_part(moved: &DVector<Complex<f64>>, units: &[f64]) -> usize {
-    let size = |i: usize| moved[i].norm() * units[i];
-    (0..moved.len()).max_by(|&a, &b| size(a).total_cmp(&size(b))).unwrap_or(0)
-}
-
-/// Modes of one frequency, of which any sums are modes too: each moves a coordinate of its own, at which the others rest. So
-/// equal oscillators come out one by one, and modes are real where they can be.
-fn each_by_itself(
-    mut modes: Vec<DVector<Complex<f64>>>,
-    units: &[f64],
-) -> Vec<DVector<Complex<f64>>> {
-    if modes.len() < 2 {
-        return modes;
+/// Real displacements that span the same as these, if there are as many: those along single coordinates as far as that goes, the
+/// others orthogonal to them by `mass`.
+fn real_basis(
+    moved: &[DVector<Complex<f64>>],
+    mass: Option<&DMatrix<f64>>,
+) -> Option<Vec<DVector<Complex<f64>>>> {
+    let (n, count) = (moved[0].len(), moved.len());
+    let parts = DMatrix::from_fn(n, 2 * count, |i, j| {
+        if j < count { moved[j][i].re } else { moved[j - count][i].im }
+    });
+    let found = parts.svd(true, false);
+    let (left, sizes) = (found.u?, found.singular_values);
+    let largest = sizes.max();
+    let mut order: Vec<usize> = (0..sizes.len()).collect();
+    order.sort_by(|&a, &b| sizes[b].total_cmp(&sizes[a]));
+    let is_real = sizes.iter().filter(|size| **size > REAL * largest).count() == count;
+    if !is_real {
+        return None;
     }
-    let mut own = Vec::new();
-    for k in 0..modes.len() {
-        // over all that are left, so that it does not matter which these are
-        let size = |i: usize| {
-            let squares = modes[k..].iter().map(|mode| mode[i].norm_sqr());
-            squares.sum::<f64>() * units[i] * units[i]
+    let mut rows = DMatrix::from_fn(count, n, |i, j| left[(j, order[i])]);
+    // reduced to one coordinate each
+    let mut done = 0;
+    for column in 0..n {
+        let Some(pivot) = (done..count)
+            .max_by(|&a, &b| rows[(a, column)].abs().total_cmp(&rows[(b, column)].abs()))
+            .filter(|&row| rows[(row, column)].abs() > REAL)
+        else {
+            continue;
         };
-        let most = (0..units.len()).map(size).fold(0.0, f64::max);
-        let Some(row) = (0..units.len()).find(|&i| size(i) > 0.99 * most) else { break };
-        let part = |of: &DVector<Complex<f64>>| of[row].norm();
-        let left = (k..modes.len()).max_by(|&a, &b| part(&modes[a]).total_cmp(&part(&modes[b])));
-        modes.swap(k, left.unwrap_or(k));
-        let pivot = modes[k].clone() / modes[k][row];
-        for (other, mode) in modes.iter_mut().enumerate() {
-            if other == k {
-                mode.copy_from(&pivot);
-            } else {
-                let along = mode[row];
-                *mode -= &pivot * along;
+        rows.swap_rows(done, pivot);
+        let row = rows.row(done) / rows[(done, column)];
+        rows.row_mut(done).copy_from(&row);
+        for other in (0..count).filter(|&other| other != done) {
+            let part = rows[(other, column)];
+            let less = rows.row(other) - &row * part;
+            rows.row_mut(other).copy_from(&less);
+        }
+        done += 1;
+        if done == count {
+            break;
+        }
+    }
+    let weighted = |v: &DVector<f64>| mass.map_or_else(|| v.clone(), |mass| mass * v);
+    let mut basis: Vec<DVector<f64>> = Vec::new();
+    for row in rows.row_iter() {
+        let mut v = row.transpose();
+        for _ in 0..2 {
+            for one in &basis {
+                let along = weighted(one);
+                v.axpy(-along.dot(&v) / along.dot(one), one, 1.0);
             }
         }
-        own.push(row);
+        let size = v.amax();
+        basis.push(v.map(|x| if x.abs() <= REAL * size { 0.0 } else { x }));
     }
-    let mut order: Vec<usize> = (0..own.len()).collect();
-    order.sort_by_key(|&k| own[k]);
-    order.into_iter().map(|k| modes[k].clone()).collect()
+    Some(basis.into_iter().map(|v| v.map(|x| Complex::new(x, 0.0))).collect())
 }
 
 /// The largest modulus.

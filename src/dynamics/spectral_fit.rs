@@ -38,11 +38,15 @@ pub(super) struct SpectralFit<'a> {
     window: Vec<f64>,
     pub(super) size: f64,
     pub(super) mean: f64,
+    /// What changes slowly beside the lines: the coefficients of Legendre's polynomials from the first degree on, of the time
+    /// from −1 to 1.
+    pub(super) trend: Vec<f64>,
     pub(super) lines: Vec<Wave>,
 }
 
 impl<'a> SpectralFit<'a> {
-    pub(super) fn new(signal: &'a [f64], spacing: f64) -> Self {
+    /// Of a signal with a trend of at most this degree.
+    pub(super) fn new(signal: &'a [f64], spacing: f64, degree: usize) -> Self {
         let count = signal.len() as f64;
         let hann = |k: usize| {
             let (_, cos) = math::sin_cos(TAU * (k as f64 + 0.5) / count);
@@ -51,7 +55,8 @@ impl<'a> SpectralFit<'a> {
         };
         let window: Vec<f64> = (0..signal.len()).map(hann).collect();
         let size = signal.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
-        Self { signal, spacing, window, size, mean: 0.0, lines: Vec::new() }
+        let trend = vec![0.0; degree];
+        Self { signal, spacing, window, size, mean: 0.0, trend, lines: Vec::new() }
     }
 
     pub(super) fn length(&self) -> f64 {
@@ -61,6 +66,23 @@ impl<'a> SpectralFit<'a> {
     /// The time from the middle.
     fn time(&self, k: usize) -> f64 {
         (k as f64 - (self.signal.len() as f64 - 1.0) / 2.0) * self.spacing
+    }
+
+    /// Legendre's polynomials of this time from the middle, from the first degree on.
+    fn legendre(&self, time: f64) -> impl Iterator<Item = f64> {
+        let x = 2.0 * time / self.length();
+        let mut pair = [1.0, x];
+        (1..=self.trend.len()).map(move |n| {
+            let (n, [before, here]) = (n as f64, pair);
+            pair = [here, ((2.0 * n + 1.0) * x * here - n * before) / (n + 1.0)];
+            here
+        })
+    }
+
+    /// The trend about the mean.
+    pub(super) fn slow(&self) -> Vec<f64> {
+        let at = |k| self.legendre(self.time(k)).zip(&self.trend).map(|(p, c)| p * c).sum();
+        (0..self.signal.len()).map(at).collect()
     }
 
     /// The signal without the lines.
@@ -77,7 +99,11 @@ impl<'a> SpectralFit<'a> {
                 .sum();
             x - self.mean - lines
         };
-        self.signal.iter().enumerate().map(one).collect()
+        let mut left: Vec<f64> = self.signal.iter().enumerate().map(one).collect();
+        if !self.trend.is_empty() {
+            left.iter_mut().zip(self.slow()).for_each(|(x, slow)| *x -= slow);
+        }
+        left
     }
 
     /// The amplitude of a signal at a frequency, under the window.
@@ -134,9 +160,11 @@ impl<'a> SpectralFit<'a> {
         Some(f64::midpoint(from, to))
     }
 
-    /// Corrects the mean and all lines together, so often. Returns the standard deviation of each frequency.
+    /// Corrects the mean, the trend and all lines together, so often. Returns the standard deviation of each frequency.
     pub(super) fn polish(&mut self, steps: usize) -> Vec<f64> {
-        let size = 1 + 3 * self.lines.len();
+        // the columns of the mean and of the trend come first
+        let first = 1 + self.trend.len();
+        let size = first + 3 * self.lines.len();
         let scale = self.length();
         let mut errors = vec![f64::INFINITY; self.lines.len()];
         for _ in 0..steps {
@@ -147,7 +175,10 @@ impl<'a> SpectralFit<'a> {
             let mut row = vec![1.0; size];
             for (k, (x, weight)) in left.iter().zip(&self.window).enumerate() {
                 let time = self.time(k);
-                for (line, entries) in self.lines.iter().zip(row[1..].chunks_exact_mut(3)) {
+                for (entry, p) in row[1..first].iter_mut().zip(self.legendre(time)) {
+                    *entry = p;
+                }
+                for (line, entries) in self.lines.iter().zip(row[first..].chunks_exact_mut(3)) {
                     let (sin, cos) = math::sin_cos(line.frequency * time);
                     entries[0] = time / scale * (line.sine * cos - line.cosine * sin);
                     entries[1] = cos;
@@ -172,8 +203,11 @@ impl<'a> SpectralFit<'a> {
             let scaled = &unit * &gram * &unit;
             let Some(step) = least_squares(&scaled, &(&unit * &right), 0.0) else { break };
             self.mean += units[0] * step[0];
+            for (k, slow) in self.trend.iter_mut().enumerate() {
+                *slow += units[1 + k] * step[1 + k];
+            }
             for (k, line) in self.lines.iter_mut().enumerate() {
-                let at = 1 + 3 * k;
+                let at = first + 3 * k;
                 // a line that has no amplitude yet has no better frequency either
                 if line.amplitude() > 0.0 {
                     line.frequency += units[at] * step[at] / scale;
@@ -183,7 +217,7 @@ impl<'a> SpectralFit<'a> {
             }
             let noise = (squares / weights).sqrt();
             for (k, error) in errors.iter_mut().enumerate() {
-                let at = 1 + 3 * k;
+                let at = first + 3 * k;
                 let rounding = f64::EPSILON * self.lines[k].frequency;
                 // what the window lets through counts as so many numbers
                 *error = (noise * units[at] * weights.sqrt() / (left.len() as f64).sqrt() / scale)

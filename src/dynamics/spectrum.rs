@@ -3,7 +3,8 @@
 //!
 //! A line is looked for where the transform of what is left, under the square of Hann's window, is largest (J. Laskar,
 //! Physica D 67 (1993) 257). All lines found so far are then fitted together under the window by Gauss's and Newton's method, so that they
-//! do not disturb each other. The mean rate of an angle is a weighted Birkhoff average, which converges faster than any
+//! do not disturb each other. Where the strongest of what is left makes hardly a turn, the mean changes slowly, by a polynomial of
+//! third degree that is fitted together with the lines. The mean rate of an angle is a weighted Birkhoff average, which converges faster than any
 //! power where the motion is quasi-periodic (S. Das, Y. Saiki, E. Sander and J. Yorke, Nonlinearity 30 (2017) 4111).
 //!
 //! In: numbers at equal intervals of time. Out: lines with what they are sure of. Never here: motions, pictures.
@@ -27,11 +28,22 @@ const APART: f64 = 1.5;
 const STEPS: usize = 3;
 const LAST_STEPS: usize = 8;
 
+/// A slow change beside the lines is a polynomial of this degree.
+const DEGREE: usize = 3;
+
+/// Lines that make fewer turns in the whole time than this may be parts of a slow change, and are none where one is fitted.
+const SLOW: f64 = 3.0;
+
+/// A slow change is one that leaves no more than this part of what lines alone leave.
+const BETTER: f64 = 0.5;
+
 /// The lines of a signal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
     /// The mean.
     pub mean: f64,
+    /// How the mean changes in time, beside the lines, at the times of the numbers; empty where it does not.
+    pub trend: Vec<f64>,
     /// The lines in the order in which they were found, the strongest first.
     pub lines: Vec<SpectralLine>,
     /// The fundamental frequencies: those of the strongest lines that are no combination of stronger ones.
@@ -54,6 +66,17 @@ impl Spectrum {
     /// The part of the signal that the lines leave.
     pub fn part_left(&self) -> f64 {
         if self.size > 0.0 { self.left / self.size } else { 0.0 }
+    }
+
+    /// By how much the mean changes from the first number to the last.
+    pub fn change_of_mean(&self) -> Option<f64> {
+        Some(self.trend.last()? - self.trend.first()?)
+    }
+
+    /// A signal of these lines without the slow change of its mean.
+    pub fn without_trend(&self, signal: &[f64]) -> Vec<f64> {
+        let slow = self.trend.iter().copied().chain(std::iter::repeat(0.0));
+        signal.iter().zip(slow).map(|(x, slow)| x - slow).collect()
     }
 
     /// Whether the signal is more than a sum of the lines.
@@ -97,9 +120,37 @@ pub fn driven_spectrum(
     {
         return None;
     }
-    let mut fit = SpectralFit::new(signal, spacing);
+    let wanted = (most, fundamentals, drive);
+    let plain = fitted(signal, spacing, wanted, (0, 1.0), look);
+    if plain.fewest >= SLOW {
+        return Some(plain.spectrum);
+    }
+    // what changes slowly would hide the lines beside it
+    let detrended = fitted(signal, spacing, wanted, (DEGREE, SLOW), look).spectrum;
+    let is_better = !detrended.lines.is_empty()
+        && !detrended.is_continuous()
+        && detrended.left < BETTER * plain.spectrum.left;
+    Some(if is_better { detrended } else { plain.spectrum })
+}
+
+/// Lines fitted to a signal.
+struct Fitted {
+    spectrum: Spectrum,
+    /// The turns of the slowest line that was met in the whole time.
+    fewest: f64,
+}
+
+/// The lines of a signal with a trend of at most this degree: those that make at least so many turns in the whole time.
+fn fitted(
+    signal: &[f64],
+    spacing: f64,
+    (most, fundamentals, drive): (usize, usize, Option<f64>),
+    (degree, least): (usize, f64),
+    look: &mut dyn FnMut(usize) -> bool,
+) -> Fitted {
+    let mut fit = SpectralFit::new(signal, spacing, degree);
     fit.polish(1);
-    let (mut curve, mut turns) = (Vec::new(), None);
+    let (mut curve, mut turns, mut slowest) = (Vec::new(), None, f64::INFINITY);
     for count in 0..most {
         let left = fit.left();
         let transform = fit.transform(&left);
@@ -113,20 +164,21 @@ pub fn driven_spectrum(
         if amplitude <= FAINTEST * strongest.max(fit.size) || fit.lines.iter().any(near) {
             break;
         }
-        let before = (fit.lines.clone(), fit.mean);
+        let before = (fit.lines.clone(), fit.mean, fit.trend.clone());
         fit.lines.push(Wave { frequency: at, cosine: 0.0, sine: 0.0 });
         fit.polish(STEPS);
-        if fit.has_merged() {
-            // what has no lines makes those that were found run into each other
-            (fit.lines, fit.mean) = before;
-            break;
-        }
         let turned = |line: &Wave| line.frequency.abs() * fit.length() / TAU;
         let fewest = fit.lines.iter().map(turned).fold(f64::INFINITY, f64::min);
-        if fewest < 1.0 {
+        slowest = slowest.min(fewest);
+        if fit.has_merged() {
+            // what has no lines makes those that were found run into each other
+            (fit.lines, fit.mean, fit.trend) = before;
+            break;
+        }
+        if fewest < least {
             // a line that has made no turn is none
-            (turns, fit.mean) = ((count == 0).then_some(fewest), before.1);
-            fit.lines = before.0;
+            turns = (count == 0).then_some(fewest);
+            (fit.lines, fit.mean, fit.trend) = before;
             break;
         }
         if !look(count + 1) {
@@ -141,9 +193,13 @@ pub fn driven_spectrum(
     };
     let left = root_mean_square(&fit.left());
     let mean = signal.iter().sum::<f64>() / signal.len() as f64;
-    let about: Vec<f64> = signal.iter().map(|x| x - mean).collect();
+    let trend = if degree > 0 { fit.slow() } else { Vec::new() };
+    let slow = |k: usize| trend.get(k).copied().unwrap_or(0.0);
+    let about: Vec<f64> = signal.iter().enumerate().map(|(k, x)| x - mean - slow(k)).collect();
     let size = root_mean_square(&about);
-    Some(Spectrum { mean: fit.mean, lines, fundamentals, curve, left, size, turns })
+    let mean = fit.mean;
+    let spectrum = Spectrum { mean, trend, lines, fundamentals, curve, left, size, turns };
+    Fitted { spectrum, fewest: slowest }
 }
 
 /// An angle that goes round less its mean advance, so that what is left has lines.

@@ -5,11 +5,15 @@
 //! and with a conserved H also ∇H = −𝕁f, are taken out. Where both are, the frame is symplectic,
 //! e₁ … eₘ, 𝕁eₘ … 𝕁e₁, in that order: a triangular matrix between two such frames has reciprocal
 //! diagonal entries in pairs, so that exponents come in pairs ±λ at every time. Under constraints the frame is one of the
-//! displacements that they allow, and pairs hold in the mean. Never here: how the directions move.
+//! displacements that they allow, and pairs hold in the mean. Where a motion is given by brackets the gradients of H and of the
+//! Casimirs are taken out as they are. Never here: how the directions move.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::direction::basis_of_range;
+
+/// A gradient of which no more than this part lies outside others depends on them.
+const DEPENDENT: f64 = 1e-6;
 
 /// Which directions are taken out.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -61,8 +65,30 @@ pub(super) fn take_out(v: &mut DVector<f64>, of: &[DVector<f64>]) {
 
 /// An orthonormal frame across a motion with these rates; symplectic if `canonical`.
 pub(super) fn frame(rates: &DVector<f64>, what: Removed, canonical: bool) -> DMatrix<f64> {
-    let n = rates.len();
+    frame_outside(rates.len(), removed(rates, what), canonical && what != Removed::Flow)
+}
+
+/// An orthonormal frame across a motion with these rates and within the level sets of functions with these gradients, and which
+/// of them are independent.
+pub(super) fn frame_within_levels(
+    rates: &DVector<f64>,
+    what: Removed,
+    gradients: &[DVector<f64>],
+) -> (DMatrix<f64>, Vec<bool>) {
     let mut taken = removed(rates, what);
+    let independent = |gradient: &DVector<f64>| {
+        let mut across = gradient.clone();
+        take_out(&mut across, &taken);
+        let is_one = across.norm() > DEPENDENT * gradient.norm();
+        taken.extend(is_one.then(|| across.normalize()));
+        is_one
+    };
+    let independent: Vec<bool> = gradients.iter().map(independent).collect();
+    (frame_outside(rates.len(), taken, false), independent)
+}
+
+/// An orthonormal frame of what is outside orthonormal vectors; symplectic if they are and it is asked for.
+fn frame_outside(n: usize, mut taken: Vec<DVector<f64>>, symplectic: bool) -> DMatrix<f64> {
     let wanted = n - taken.len();
     let mut first = Vec::new();
     let mut last = Vec::new();
@@ -79,7 +105,7 @@ pub(super) fn frame(rates: &DVector<f64>, what: Removed, canonical: bool) -> DMa
         };
         let unit = found.normalize();
         taken.push(unit.clone());
-        if canonical && what != Removed::Flow {
+        if symplectic {
             let partner = rotated(&unit);
             taken.push(partner.clone());
             last.push(partner);

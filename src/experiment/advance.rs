@@ -46,7 +46,8 @@ impl Experiment {
         }
     }
 
-    fn advance_main(&mut self, time: f64, mut budget: u64) -> AdvanceOutcome {
+    /// The same for this motion alone.
+    pub(super) fn advance_main(&mut self, time: f64, mut budget: u64) -> AdvanceOutcome {
         if self.fault.is_some() {
             return AdvanceOutcome::Stuck;
         }

@@ -1,28 +1,22 @@
 //! A checkpoint of a motion, stored by name: all that is needed to resume it elsewhere, in another session or in a
 //! system rebuilt from a changed file.
 //!
-//! In: a model and a [`Snapshot`] of its motion. Out: plain data for saving, and an experiment that resumes from it.
-//! Never here: files; what the screen shows of it.
+//! In: a model and a [`Snapshot`] of its motion. Out: plain data for saving. Never here: how an experiment
+//! resumes from it (`restore`), files, what the screen shows of it.
 //!
 //! A checkpoint holds only what differs from the file. A value that has since changed in the file therefore replaces
 //! the old one, and a value set by the user is preserved.
 
 use std::fmt;
-use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::gauges::Gauges;
 use super::last_change::SavedChange;
-use super::named::{Named, given, named};
+use super::named::{Named, named};
 use super::reference::Reference;
-use super::{Experiment, SavedCompanion, Setup, Snapshot, Status, Trail};
-use crate::integrate::Settings;
+use super::{SavedCompanion, Setup, Snapshot, Status, Trail};
 use crate::model::Model;
-use crate::system::{Channel, ChannelKind, Form, InitialOverride, MotionError, State, System};
-
-/// A state is restored unchanged if its constraint residuals are within this fraction of the constraints' terms.
-const RESIDUAL_LIMIT: f64 = 1e-9;
+use crate::system::{Channel, ChannelKind, Form, State, System};
 
 /// A checkpoint of a motion.
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
@@ -46,6 +40,9 @@ pub struct Checkpoint {
     /// Whether time ran backwards.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub backwards: bool,
+    /// When time was reversed, if it ran backwards and all of the run until then is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub turned: Option<f64>,
     /// The state of the motion, or `None` if it had not begun.
     pub present: Option<MotionState>,
     /// The motions beside this one.
@@ -63,7 +60,7 @@ pub struct Checkpoint {
 #[derive(Clone, PartialEq)]
 pub struct Past {
     names: Vec<String>,
-    trail: Trail,
+    pub(super) trail: Trail,
 }
 
 /// A changed parameter.
@@ -112,6 +109,8 @@ impl Checkpoint {
     /// Makes a checkpoint from a snapshot of a model's system.
     pub fn of(model: &Model, system: &System, snapshot: &Snapshot) -> Checkpoint {
         let setup = &snapshot.setup;
+        let changed = snapshot.recorded.changed.as_deref();
+        let begun = changed.map_or(setup.start, |change| change.state.time);
         let of_file = Setup::of(model);
         let parameters = model.parameters.iter().zip(&setup.parameters);
         let parameters = parameters
@@ -129,6 +128,11 @@ impl Checkpoint {
             speed: (setup.speed != of_file.speed).then_some(setup.speed),
             running: snapshot.status == Status::Running,
             backwards: snapshot.backwards,
+            turned: snapshot
+                .returned
+                .as_ref()
+                .filter(|run| snapshot.backwards && run.start == begun)
+                .map(|run| run.turned),
             present: MotionState::of(model, system, snapshot),
             companions: snapshot
                 .companions
@@ -165,7 +169,11 @@ impl fmt::Debug for Past {
 impl Past {
     /// Converts this past's rows before `time` to rows of the given channels. A channel that was not recorded becomes
     /// NaN.
-    fn row(&self, channels: &[Channel], time: f64) -> impl Fn(&[f64]) -> Option<Vec<f64>> {
+    pub(super) fn row(
+        &self,
+        channels: &[Channel],
+        time: f64,
+    ) -> impl Fn(&[f64]) -> Option<Vec<f64>> {
         // channels that share a name are matched in order
         let place = |(at, channel): (usize, &Channel)| {
             let earlier = channels[..at].iter().filter(|other| other.name == channel.name).count();
@@ -220,7 +228,7 @@ impl MotionState {
         })
     }
 
-    fn exact(&self) -> State {
+    pub(super) fn exact(&self) -> State {
         State {
             time: self.time,
             time_carry: self.time_carry,
@@ -231,7 +239,7 @@ impl MotionState {
     }
 
     /// Whether the stored state has the shape of this system's state.
-    fn fits(&self, model: &Model, system: &System) -> bool {
+    pub(super) fn fits(&self, model: &Model, system: &System) -> bool {
         let names = model.coordinates.iter().map(|c| &c.name);
         let poisson = self.form == Form::Variables;
         names.eq(&self.coordinates)
@@ -254,162 +262,4 @@ fn seen(system: &System, snapshot: &Snapshot) -> Vec<Named> {
         .filter(|(channel, value)| moves(channel.kind) && value.is_finite())
         .map(|(channel, &value)| Named { name: channel.name.clone(), value })
         .collect()
-}
-
-impl Experiment {
-    /// Resumes from a checkpoint of this system or of one with similar names. Whatever does not apply here is
-    /// reported in a notice.
-    pub fn restore(&mut self, checkpoint: &Checkpoint) {
-        self.restored = true;
-        let mut lost = self.restore_setup(checkpoint);
-        self.running = checkpoint.running;
-        let notices = std::mem::take(&mut self.notices);
-        self.companions.clear();
-        self.restart();
-        self.notices = notices;
-        let present = checkpoint.present.as_ref();
-        let same = present.is_some_and(|present| present.fits(&self.model, self.system()));
-        lost.extend(self.restore_companions(&checkpoint.companions, same));
-        if let Some(present) = &checkpoint.present {
-            lost.extend(
-                present.released.iter().filter(|name| self.constraint(name).is_none()).cloned(),
-            );
-            match self.restore_state(present) {
-                Ok(()) => {
-                    self.restore_change(checkpoint.changed.clone(), present);
-                    if checkpoint.backwards {
-                        self.go_on_backwards();
-                    } else {
-                        self.restore_past(checkpoint.past.as_ref(), present);
-                    }
-                }
-                Err(why) => {
-                    self.restart();
-                    self.tell(format!("the motion starts again: {why}"));
-                }
-            }
-        }
-        if !lost.is_empty() {
-            self.tell(format!("no longer there: {}", lost.join(", ")));
-        }
-    }
-
-    /// Prepends the recorded past, if the coordinates are the same.
-    fn restore_past(&mut self, past: Option<&Past>, present: &MotionState) {
-        let own = self.model.coordinates.iter();
-        let same = own.len() == present.coordinates.len()
-            && own.clone().all(|c| present.coordinates.contains(&c.name));
-        if let Some(past) = past.filter(|_| same) {
-            let row = past.row(self.motion.system().channels(), present.time);
-            self.recorder.precede(&past.trail, row);
-        }
-    }
-
-    /// Restores where the law was changed last: here, if it is another one than before.
-    fn restore_change(&mut self, here: Option<String>, present: &MotionState) {
-        match here {
-            Some(what) => self.changed_here(what),
-            None => {
-                let saved = present.changed.as_ref();
-                let change = saved.and_then(|saved| saved.of_system(self.system()));
-                self.changed = change.map(Arc::new);
-            }
-        }
-    }
-
-    /// Applies the changed settings and returns the names that no longer exist.
-    fn restore_setup(&mut self, checkpoint: &Checkpoint) -> Vec<String> {
-        let mut lost = Vec::new();
-        let Setup { start, end, .. } = self.setup;
-        let mut setup = Setup { start, end, ..Setup::of(&self.model) };
-        for changed in &checkpoint.parameters {
-            match self.model.parameters.iter().position(|p| p.name == changed.name) {
-                None => lost.push(changed.name.clone()),
-                Some(i) if setup.parameters[i].to_bits() == changed.of_file.to_bits() => {
-                    setup.parameters[i] = changed.value;
-                }
-                Some(_) => {}
-            }
-        }
-        for named in &checkpoint.initial {
-            match given(&self.model, named) {
-                Some(given) => setup.overrides.push(given),
-                None => lost.push(named.name.clone()),
-            }
-        }
-        setup.speed = checkpoint.speed.filter(|s| *s > 0.0).unwrap_or(setup.speed);
-        let settings = Settings {
-            step: checkpoint.step.or(setup.settings.step),
-            tolerance: checkpoint.tolerance.or(setup.settings.tolerance),
-        };
-        let wanted = checkpoint.method.as_ref().unwrap_or(&setup.method).clone();
-        let changed = wanted != self.setup.method || settings != self.setup.settings;
-        // a method that is refused leaves the current one and its settings in place
-        self.setup =
-            Setup { method: self.setup.method.clone(), settings: self.setup.settings, ..setup };
-        if changed {
-            self.take_method(&wanted, settings);
-        }
-        lost
-    }
-
-    /// Restores the state: bit by bit if the system has the same state, otherwise as far as the names match.
-    fn restore_state(&mut self, present: &MotionState) -> Result<(), MotionError> {
-        let exact = present.fits(&self.model, self.system()) && self.restore_exactly(present);
-        if !exact {
-            let state = self.state_of(present)?;
-            self.motion.begin(&state, &self.setup.parameters)?;
-        }
-        self.fault = None;
-        self.motion.set_steps(present.steps);
-        self.recorder.restart(present.time);
-        self.gauge(Gauges::refer);
-        if exact {
-            self.gauge(|gauges, now| gauges.restore(&present.references, now));
-            let model = std::sync::Arc::clone(&self.model);
-            let same = |name: &&String| model.events.iter().any(|e| e.name == **name);
-            self.ended = present.ended.as_ref().filter(same).cloned();
-        }
-        self.record();
-        Ok(())
-    }
-
-    /// Restores the exact state. Returns `false` if this system cannot be in that state.
-    fn restore_exactly(&mut self, present: &MotionState) -> bool {
-        let released: Vec<usize> =
-            present.released.iter().filter_map(|name| self.constraint(name)).collect();
-        let Setup { parameters, start, .. } = &self.setup;
-        let taken = self.motion.restore(&present.exact(), parameters, *start, &released);
-        let satisfied = |(k, residual): (usize, &[f64; 2])| {
-            released.contains(&k) || residual.iter().all(|r| *r <= RESIDUAL_LIMIT)
-        };
-        taken.is_ok() && self.motion.residuals().iter().enumerate().all(satisfied)
-    }
-
-    fn constraint(&self, name: &str) -> Option<usize> {
-        self.model.constraints.iter().position(|c| c.name == name)
-    }
-
-    /// The state with the same coordinates and velocities (momenta for a Hamiltonian), if there is one.
-    fn state_of(&self, present: &MotionState) -> Result<State, MotionError> {
-        let poisson = self.model.is_poisson();
-        let fits = |given: &InitialOverride| match given {
-            InitialOverride::Position(..) => true,
-            InitialOverride::Velocity(..) => self.model.is_lagrangian(),
-            InitialOverride::Momentum(..) => !self.model.is_lagrangian() && !poisson,
-        };
-        let given: Vec<InitialOverride> = present
-            .seen
-            .iter()
-            .filter_map(|named| given(&self.model, named))
-            .filter(fits)
-            .collect();
-        let system = self.motion.whole();
-        let mut state = system.initial(present.time, &self.setup.parameters, &given)?;
-        // the action goes on from what it was, whichever law it follows from now on
-        if let (Some(place), Some([value, carry])) = (system.action_place(), present.action) {
-            (state.values[place], state.carry[place]) = (value, carry);
-        }
-        Ok(state)
-    }
 }

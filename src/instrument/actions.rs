@@ -244,7 +244,7 @@ impl Instrument for ActionsPlot {
 impl ComputedActions {
     /// Whether it is still what is to be seen in a state of the motion.
     fn holds_at(&self, now: &CoordinateState) -> bool {
-        let HeldCourse { state, past, .. } = &self.course;
+        let HeldCourse { state, .. } = &self.course;
         if !self.course.is_of_this_law() {
             return false;
         }
@@ -253,12 +253,17 @@ impl ComputedActions {
             let height = self.found.as_ref().map_or(f64::INFINITY, |found| found.height);
             return now.has_energy_of(state, (ANOTHER_ENERGY, height));
         }
-        let time = now.time;
+        state.time <= now.time && !self.is_behind(now.time)
+    }
+
+    /// Whether the motion has come so much further that it has to be computed again.
+    fn is_behind(&self, time: f64) -> bool {
+        let HeldCourse { state, past, .. } = &self.course;
         let period = self.found.as_ref().ok().and_then(|found| found.own.row.as_ref().ok());
         let period = period.map(|row| row.period).filter(|period| period.is_finite());
         let since = past.first().map_or(0.0, |first| (time - first.time).abs());
         let later = (LATER * since).max(OF_A_PERIOD * period.unwrap_or(0.0));
-        state.time <= time && time - state.time <= later
+        time - state.time > later
     }
 
     /// By which part the action, and the height of the energy, have changed since the first instant.
@@ -408,8 +413,11 @@ fn sentences(present: &Present<'_>, answer: Option<&Answer>) -> Vec<String> {
     }
     if let Some([action, height]) = changes {
         let since = computed.course.past.first().map_or(present.time, |first| first.time);
+        // what is behind a fast motion is of its own time
+        let late = Some(computed.course.state.time).filter(|_| computed.is_behind(present.time));
+        let at = late.map_or_else(String::new, |time| format!(" at t = {}", short(time)));
         // a low plot has room for the first lines only
-        lines.insert(0, format!("{}: ΔJ/J = {}", verdict([action, height]), signed(action)));
+        lines.insert(0, format!("{}{at}: ΔJ/J = {}", verdict([action, height]), signed(action)));
         lines.push(format!("since t = {}: ΔE/(E − V₀) = {}", short(since), signed(height)));
     }
     if let Some(last) = computed.replaced.last()

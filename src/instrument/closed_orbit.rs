@@ -47,7 +47,7 @@ pub(super) fn closed_orbit(
     look: &dyn Fn(u64, u64),
 ) -> Result<ClosedOrbit, DynamicsError> {
     let (space, state) = beginning(physics, (start, conditions))?;
-    let fixed = if space.is_hamiltonian() && space.is_conservative() {
+    let fixed = if space.has_energy_levels() {
         Fixed::Energy(physics.system.energy(&state, &start.parameters)?)
     } else {
         Fixed::Nothing

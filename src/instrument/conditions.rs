@@ -56,6 +56,16 @@ impl PlotConditions {
         self != other && alike == *other
     }
 
+    /// Whether they differ in parameters, and in nothing that does not follow from these.
+    pub(super) fn differ_in_parameters_alone(&self, other: &Self) -> bool {
+        let alike = Self {
+            parameters: other.parameters.clone(),
+            initial: other.initial.clone(),
+            ..self.clone()
+        };
+        self.parameters != other.parameters && alike == *other
+    }
+
     /// Whether the law was changed last at the same state, or never.
     pub(super) fn are_of_one_motion(&self, other: &Self) -> bool {
         self.changed == other.changed

@@ -3,7 +3,7 @@
 //! a known rate under friction that takes the same part of every momentum.
 //!
 //! The cloud is that of the moment at which it was begun: when the picture is first shown, and anew when a parameter or
-//! the initial values change; another method carries it on from where it is. Its job carries it some time ahead, in parts, so that it is there when the motion
+//! the initial values change, of the same size after a parameter; another method carries it on from where it is. Its job carries it some time ahead, in parts, so that it is there when the motion
 //! is.
 
 mod cloud;
@@ -178,7 +178,13 @@ impl Instrument for Ensemble {
         let origin = match known.or(other) {
             Some(known) => known.origin.clone(),
             None => match CloudOrigin::of(&starts, present, conditions.seeds.last().copied()) {
-                Some(origin) => origin,
+                // an ensemble that a parameter has changed the law of keeps its size
+                Some(origin) => match before {
+                    Some(known) if known.conditions.differ_in_parameters_alone(&conditions) => {
+                        origin.laid_again(&known.origin)
+                    }
+                    _ => origin,
+                },
                 None => return Need::Nothing,
             },
         };
@@ -279,8 +285,9 @@ fn since(present: &Present<'_>, answer: Option<&Answer>) -> Option<String> {
     let run = &present.physics.model.run;
     let (begun, second) = (cloud(answer)?.origin.time, run.speed.abs());
     let second = if second.is_finite() { second } else { 0.0 };
+    let again = if cloud(answer)?.origin.again { ", as large as before" } else { "" };
     (begun - run.start > second)
-        .then(|| format!("since t = {}", significant(begun, 4, 1e-3..1e5).replace('-', "−")))
+        .then(|| format!("since t = {}{again}", significant(begun, 4, 1e-3..1e5).replace('-', "−")))
 }
 
 /// The frame that is shown: the last that is not later than the motion, and than what is known of clouds beside this one.

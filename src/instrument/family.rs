@@ -7,6 +7,7 @@
 
 mod members;
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::conditions::PlotConditions;
@@ -110,7 +111,9 @@ impl Instrument for FamilyPlot {
                 Across::Channel(energy, shown.or(range))
             }
             (Some(&over), _) => {
-                let range = range.or_else(|| varied::range(plot, present, 0));
+                let now = varied::now(present, over);
+                let shown = followed(answer).zip(now).and_then(|(found, now)| width(found, now));
+                let range = shown.or(range).or_else(|| varied::range(plot, present, 0));
                 let name = varied::with_unit(present.physics, over);
                 range.map_or(Across::Nothing, |range| Across::Named(name, range))
             }
@@ -325,7 +328,7 @@ fn now(plot: &Plot, present: &Present<'_>) -> Option<f64> {
     }
 }
 
-/// The energies of its orbits and of the motion, with a margin: it may end long before its range does.
+/// What changes along it, from its orbits to the motion, with a margin: it may end long before its range does.
 fn width(found: &FollowedFamily, now: f64) -> Option<[f64; 2]> {
     let all = found.members.iter().map(|member| member.value).filter(|x| x.is_finite());
     let (low, high) = all.fold((now, now), |(lo, hi), x| (lo.min(x), hi.max(x)));
@@ -339,7 +342,11 @@ fn heights(members: &[FamilyMember]) -> Option<[f64; 2]> {
     let (low, high) =
         finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), x| (lo.min(x), hi.max(x)));
     // one orbit alone is in the middle
-    let margin = if low < high { MARGIN * (high - low) } else { 1.0 };
+    let margin = match (high - low, high.abs()) {
+        (extent, _) if extent > 0.0 => MARGIN * extent,
+        (_, size) if size > 0.0 => size / 2.0,
+        _ => 1.0,
+    };
     (low <= high).then_some([low - margin, high + margin])
 }
 
@@ -395,8 +402,11 @@ fn legend(plot: &Plot, physics: Physics<'_>, answer: Option<&Answer>) -> Vec<Str
         (_, false, false) => vec!["neither stable nor unstable to first order".to_owned()],
     };
     let all = members.iter().filter_map(|member| Some((member.bifurcation?, member.value)));
-    let all: Vec<String> =
+    let mut all: Vec<String> =
         all.map(|(what, value)| format!("{} at {along} = {}", what.word(), short(value))).collect();
+    // a family that closes is followed to the same places from both sides
+    let mut seen = BTreeSet::new();
+    all.retain(|one| seen.insert(one.clone()));
     lines.extend(all.iter().take(LISTED).cloned());
     if all.len() > LISTED {
         lines.push(format!("and {} more", all.len() - LISTED));

@@ -14,7 +14,7 @@ use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
     Need, NoStart, Offer, PeriodicOrbits, Physics, Picture, Plot, Present, Seed, Upwards,
 };
-use crate::dynamics::{DynamicsError, Orbit as Closed, OrbitStability, Removed, explained};
+use crate::dynamics::{DynamicsError, Orbit as Closed, OrbitStability, explained};
 use crate::ensemble::{Start, SystemFlow};
 use crate::integrate::{Method, Settings, method_named};
 use crate::job::{Job, Progress};
@@ -333,6 +333,9 @@ fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
         lines.push(format!("closes only to {:.0e} of its size", orbit.closure).replace('-', "−"));
     }
     let how = match orbit.stability() {
+        OrbitStability::Neutral if orbit.levels.len() > 1 => {
+            "neutral: one of a family in E and the Casimirs".to_owned()
+        }
         OrbitStability::Neutral => "neutral: one of a family in E".to_owned(),
         OrbitStability::Parabolic => "parabolic: all multipliers are 1".to_owned(),
         other => other.word().to_owned(),
@@ -354,12 +357,9 @@ fn legend(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
         (false, false) => multiplier(z),
     };
     let own: Vec<String> = orbit.multipliers.iter().map(shown).collect();
-    let trivial = match orbit.trivial {
-        Removed::Nothing => "",
-        Removed::Flow => "1 (flow)",
-        Removed::FlowAndEnergy => "1 (flow), 1 (energy)",
-    };
-    let all = [own.join(", "), trivial.to_owned()];
+    let trivial: Vec<String> =
+        orbit.trivial_names().iter().map(|name| format!("1 ({name})")).collect();
+    let all = [own.join(", "), trivial.join(", ")];
     let all: Vec<String> = all.into_iter().filter(|part| !part.is_empty()).collect();
     lines.push(format!("multipliers {}", all.join(", ")));
     if let Some(error) = orbit.rounding.filter(|error| *error > crate::dynamics::NOTICED_ROUNDING) {

@@ -171,7 +171,8 @@ impl Instrument for SpectrumPlot {
                 let most = (MOST, fundamentals);
                 let lines = driven_spectrum(&straight, spacing, most, drive, &mut look);
                 let lines = lines.ok_or_else(|| "the motion has no finite values".to_owned())?;
-                let drift = frequency_drift(&straight, spacing, &lines.lines);
+                let still = lines.without_trend(&straight);
+                let drift = frequency_drift(&still, spacing, &lines.lines);
                 Ok(Analysis { lines, rate, drift })
             });
             Answer::new(ComputedSpectrum { conditions: conditions.clone(), drive, outcome })
@@ -290,6 +291,9 @@ fn sentences(physics: Physics<'_>, answer: Option<&Answer>) -> Vec<String> {
     } else if lines.lines.is_empty() {
         all.push("no line stands out".to_owned());
     }
+    all.extend(
+        lines.change_of_mean().map(|change| format!("the mean changes by {}", brief(change))),
+    );
     let advances = mean(answer).filter(|rate| rate.rate.abs() > rate.error);
     all.extend(advances.map(|rate| {
         let error = significant(rate.error, 1, 1.0..10.0);

@@ -174,7 +174,7 @@ fn verdict(
     let caution = if unproved { " (not all of them proved)" } else { "" };
     let nothing = match invariants.none_up_to {
         Some(n) if invariants.found.is_empty() => {
-            format!("; nothing else up to degree {n} (proved)")
+            format!("; nothing else of the form searched, up to degree {n} (proved)")
         }
         _ => String::new(),
     };

@@ -47,7 +47,7 @@ pub enum NoFunction {
     Dependent(String),
     /// There is one wherever these variables are independent; no solution in closed form of the equations of Legendre's
     /// transformation was found.
-    #[error("exists where {0} are independent; no closed form was found")]
+    #[error("exists where {0} are independent; no closed form of it was found")]
     NotWritten(String),
 }
 

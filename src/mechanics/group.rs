@@ -12,7 +12,9 @@ use std::collections::HashMap;
 use super::canonical::PhaseMap;
 use super::equations::{Equations, ImplicitMap, NoClosedForm};
 use super::isolate::Solution;
+use super::sampling::{FAR_POINTS, POINTS};
 use super::structure_error::StructureError;
+use super::valuation::Valuation;
 use crate::expr::{Expr, Symbol};
 use crate::model::{GeneratingType, Model, Transformation, TransformationLaw};
 
@@ -24,9 +26,10 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
         let before = equations.supplements.transformation_laws.clone();
         let law = resolved(model, equations, given, &before, &all);
         let forwards = law.as_ref().ok().and_then(|law| {
-            let given = Transformation { law: law.clone(), ..given.clone() };
-            let map = PhaseMap::relations(&mut equations.pool, model, &given);
-            let mut found = map.find_forwards(model, equations)?;
+            let written = Transformation { law: law.clone(), ..given.clone() };
+            let map = PhaseMap::relations(&mut equations.pool, model, &written);
+            let own = written_inverse(model, equations, (given, &map), &all);
+            let mut found = own.or_else(|| map.find_forwards(model, equations))?;
             found.sort_by_key(|(symbol, _)| map.implicit.new.iter().position(|s| s == symbol));
             Some(found)
         });
@@ -162,6 +165,61 @@ fn inverse(
     }
     let momenta = all.split_off(old.len() / 2);
     Ok(TransformationLaw::Explicit { positions: all, momenta })
+}
+
+/// The new variables of an inverse as functions of the old ones where those of the transformation that it is the inverse of are
+/// written down: a generating function leaves open which of its branches undoes that one.
+fn written_inverse(
+    model: &Model,
+    equations: &mut Equations,
+    (given, map): (&Transformation, &PhaseMap),
+    forwards: &[Option<Solution>],
+) -> Option<Solution> {
+    let TransformationLaw::Inverse(k) = given.law else { return None };
+    let of = &model.transformations[k];
+    let known = forwards[k].as_ref()?;
+    let (old, theirs, own) = (old_variables(model), in_order(&of.new), in_order(&given.new));
+    let value = |symbol: &Symbol| known.iter().find(|(s, _)| s == symbol).map(|&(_, e)| e);
+    let mut positions: Vec<Expr> = theirs.iter().map(value).collect::<Option<_>>()?;
+    let momenta = positions.split_off(old.len() / 2);
+    let law = TransformationLaw::Explicit { positions, momenta };
+    let explicit = Transformation { law, ..of.clone() };
+    let back = PhaseMap::relations(&mut equations.pool, model, &explicit);
+    let back = back.backwards(model, equations)?;
+    // it leads back wherever the transformation has an image
+    let near = (0..POINTS as u64).map(|n| Valuation::near_start(model, equations, n));
+    let far = (0..FAR_POINTS).map(|n| Valuation::far_from_start(model, equations, n));
+    let points: Vec<Valuation> = near.chain(far).collect();
+    let pool = &mut equations.pool;
+    let leads_back = |point: &Valuation| {
+        let image = known.iter().map(|&(s, e)| (s, point.value(pool, e)));
+        let at = point.clone().with(image.collect::<Vec<_>>());
+        back.iter().all(|&(symbol, e)| {
+            let (value, was) = (at.value(pool, e), point.at(symbol));
+            value.is_nan() || (value - was).abs() <= 1e-7 * (1.0 + was.abs())
+        })
+    };
+    if !points.iter().all(leads_back) {
+        return None;
+    }
+    let mut exchanged: HashMap<Symbol, Expr> = HashMap::new();
+    for i in 0..old.len() {
+        exchanged.insert(theirs[i], pool.variable(old[i]));
+    }
+    let mut found = Solution::new();
+    for (&symbol, &new) in old.iter().zip(&own) {
+        let &(_, e) = back.iter().find(|(s, _)| *s == symbol)?;
+        found.push((new, pool.substitute(e, &exchanged)));
+    }
+    let holds = |point: &Valuation| {
+        let image = found.iter().map(|&(s, e)| (s, point.value(pool, e)));
+        map.implicit.holds(pool, &point.clone().with(image.collect::<Vec<_>>()))
+    };
+    let (mut right, mut wrong) = (0, 0);
+    for held in points.iter().filter_map(holds) {
+        if held { right += 1 } else { wrong += 1 }
+    }
+    (right > 0 && wrong == 0).then_some(found)
 }
 
 /// The parts one after the other, the first one first.

@@ -1,6 +1,7 @@
 //! What the derivatives of a motion tell, against closed forms and published numbers.
 
 mod action;
+mod bracket_orbits;
 mod constrained;
 mod equilibria;
 mod event_orbits;

@@ -305,7 +305,9 @@ fn the_lab_carries_a_cloud_with_the_motion_and_begins_it_anew_where_it_must() {
     // another parameter: a new cloud around where the motion is now
     experiment.execute(Command::Parameter { index: 0, value: 0.5 });
     see(&mut app, &mut experiment, 3.01);
-    assert_eq!(since(&app).as_deref(), Some("since t = 3.01"));
+    assert_eq!(since(&app).as_deref(), Some("since t = 3.01, as large as before"));
+    let again = measure(&app, "action").unwrap();
+    assert!((again - begun).abs() < 1e-3 * begun, "{again} {begun}");
     assert!((measure(&app, "rate").unwrap() + 0.5).abs() < 1e-14);
     assert!(measure(&app, "off").unwrap() < 1e-9);
     // the motion begins again, and so does the cloud

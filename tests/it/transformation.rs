@@ -402,6 +402,19 @@ fn units_break_no_generating_function_down() {
     }
 }
 
+/// Q = q², P = p has no generating function at all, and none breaks down.
+#[test]
+fn a_map_that_is_not_canonical_has_no_functions_that_break_down() {
+    let text = "title = \"bad\"\n[coordinates]\nq = { initial = 1.0, momentum = 0.5 }\n[hamiltonian]\n\
+                H = \"p_q^2/2 + q^2/2\"\n[[transformations]]\nname = \"bad\"\nkind = \"explicit\"\n\
+                Q = { Q = \"q^2\" }\nP = { P = \"p_q\" }\n[[views]]\nkind = \"transformation\"\nx = \"Q\"\ny = \"P\"\n";
+    let mut course = Course::with(text);
+    course.go(1.0);
+    let (_, words) = shown(&course.app, &plots(&course.app)[0]);
+    assert!(words.iter().any(|line| line.contains("not canonical")), "{words:?}");
+    assert!(!words.iter().any(|line| line.contains("break")), "{words:?}");
+}
+
 /// F2 = q P²/2: p = P²/2 and Q = q P, so that P = ±√(2p): both roots are drawn, and where P alone solves there is but one.
 #[test]
 fn both_square_roots_are_drawn() {

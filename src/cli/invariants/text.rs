@@ -105,7 +105,7 @@ pub(super) fn write(answer: &InvariantsReport<'_>, script: MathScript) -> String
         } else {
             "these and their products"
         };
-        text.push_str(&format!("  up to degree {n}: nothing but {but} (proved)\n"));
+        text.push_str(&format!("  of this form, up to degree {n}: nothing but {but} (proved)\n"));
     }
     if let Some(why) = &invariants.ended {
         text.push_str(&format!("  ended: {why}\n"));

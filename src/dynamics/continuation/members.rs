@@ -2,6 +2,9 @@
 //!
 //! In: two points, one step apart. Out: the members between them, in their order. Never here: the step.
 
+use nalgebra::DVector;
+
+use super::super::direction::FlowDirection;
 use super::super::error::DynamicsError;
 use super::super::family::{Bifurcation, Member};
 use super::{Continuation, FamilyPoint};
@@ -10,19 +13,25 @@ use super::{Continuation, FamilyPoint};
 const LOCATED: f64 = 1e-9;
 const MOST: usize = 40;
 
+/// An orbit on which nothing moves faster than this part of what does on one beside it is an equilibrium.
+const SLOW: f64 = 0.1;
+
 impl Continuation<'_> {
-    /// Collects the members between two points, in their order.
+    /// Collects the members between two points, in their order. Returns the point at which the family ends between them, if it
+    /// shrinks to an equilibrium there: beyond it come the same orbits, half a period later.
     pub(super) fn between(
         &self,
         from: &FamilyPoint,
         to: &FamilyPoint,
         step: f64,
         members: &mut Vec<Member>,
-    ) -> Result<(), DynamicsError> {
+    ) -> Result<Option<FamilyPoint>, DynamicsError> {
         let (low, high) = self.range();
+        let equilibrium = self.equilibrium(from, to, step)?;
+        let until = equilibrium.as_ref().map_or(f64::INFINITY, |(part, _)| *part);
         let mut found: Vec<(f64, Member)> = Vec::new();
         let [before, after] = [self.slope(from)?, self.slope(to)?];
-        let folds = (before < 0.0) != (after < 0.0);
+        let folds = equilibrium.is_none() && (before < 0.0) != (after < 0.0);
         let mut specials: Vec<(
             Bifurcation,
             Box<dyn Fn(&FamilyPoint) -> Result<f64, DynamicsError> + '_>,
@@ -68,9 +77,40 @@ impl Continuation<'_> {
             let orbit = self.member(from, point)?;
             found.push((part, Member { value, orbit, bifurcation: None }));
         }
+        found.retain(|(part, _)| *part < until);
         found.sort_by(|x, y| x.0.total_cmp(&y.0));
         members.extend(found.into_iter().map(|(_, member)| member));
-        Ok(())
+        Ok(equilibrium.map(|(_, point)| point))
+    }
+
+    /// Where between two points, a step apart, the orbits shrink to an equilibrium: there the direction in which they begin is
+    /// reversed.
+    fn equilibrium(
+        &self,
+        from: &FamilyPoint,
+        to: &FamilyPoint,
+        step: f64,
+    ) -> Result<Option<(f64, FamilyPoint)>, DynamicsError> {
+        if !self.space.is_autonomous() {
+            return Ok(None);
+        }
+        let rate = |point: &FamilyPoint| -> Result<DVector<f64>, DynamicsError> {
+            Ok(FlowDirection::new(&self.space_at(point.parameter)).at(&point.state)?)
+        };
+        let along = rate(from)?;
+        let speed = |point: &FamilyPoint| Ok(rate(point)?.dot(&along));
+        if speed(to)? >= 0.0 {
+            return Ok(None);
+        }
+        let close = |_: &FamilyPoint, moved: f64| moved <= LOCATED * step;
+        let found = self.located((from, to, step), &speed, &close)?;
+        let is_slow = |point: &FamilyPoint| {
+            Ok::<_, DynamicsError>(rate(point)?.norm() <= SLOW * along.norm())
+        };
+        match found {
+            Some((part, point)) if is_slow(&point)? => Ok(Some((part, point))),
+            _ => Ok(None),
+        }
     }
 
     /// Where between two points, a step apart, a function changes its sign, by the rule of false position with the weight of

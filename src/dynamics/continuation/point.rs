@@ -24,6 +24,8 @@ pub(in super::super) struct FamilyPoint {
     pub(in super::super) tangent: DVector<f64>,
     pub(in super::super) value: f64,
     pub(in super::super) orbit: Orbit,
+    /// How often each variable with a period goes round in one: the same on all of the family.
+    pub(super) rounds: Vec<i64>,
 }
 
 impl FamilyPoint {

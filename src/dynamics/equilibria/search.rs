@@ -70,6 +70,8 @@ pub(super) struct EquilibriumSearch<'a> {
     pub(super) degrees: usize,
     /// The unit of each variable.
     pub(super) units: Vec<f64>,
+    /// The values of the Casimirs, which are those of the start.
+    pub(super) casimirs: Vec<f64>,
 }
 
 impl<'a> EquilibriumSearch<'a> {
@@ -87,14 +89,26 @@ impl<'a> EquilibriumSearch<'a> {
             let mut units = coordinate_units(space, &middle[..degrees]);
             units.extend(middle[degrees..].iter().map(|v| if *v == 0.0 { 1.0 } else { v.abs() }));
             let law = LawAtRest::Constrained(Box::new(balance));
-            return Ok(Self { space, start, law, middle, unknowns, cyclic, degrees, units });
+            let casimirs = Vec::new();
+            return Ok(Self {
+                space,
+                start,
+                law,
+                middle,
+                unknowns,
+                cyclic,
+                degrees,
+                units,
+                casimirs,
+            });
         }
         let unknowns =
             (0..space.dimension()).filter(|i| !cyclic.contains(&(i % degrees))).collect();
         let mut field = space.vector_field();
         let units = units(space, start, &mut field);
         let (law, middle) = (LawAtRest::Free(Box::new(field)), space.variables(start).to_vec());
-        Ok(Self { space, start, law, middle, unknowns, cyclic, degrees, units })
+        let casimirs = space.casimirs(start)?;
+        Ok(Self { space, start, law, middle, unknowns, cyclic, degrees, units, casimirs })
     }
 
     /// How far around its centre a coordinate is searched.
@@ -145,7 +159,38 @@ impl<'a> EquilibriumSearch<'a> {
                 df[(i, j)] *= unit(j) / unit(i);
             }
         }
-        Some((f, df))
+        if self.casimirs.is_empty() {
+            return Some((f, df));
+        }
+        self.with_casimirs(variables, (f, df))
+    }
+
+    /// The same with what the Casimirs lack of their values, as large as the rates are by their derivatives.
+    fn with_casimirs(
+        &self,
+        variables: &[f64],
+        (mut f, mut df): (DVector<f64>, DMatrix<f64>),
+    ) -> Option<(DVector<f64>, DMatrix<f64>)> {
+        let levels = self.space.levels()?;
+        let state = self.space.state_at(self.start, variables);
+        let all = levels.at(&state, self.space.parameters()).ok()?;
+        let (rows, scale) = (f.len(), df.amax());
+        f = f.resize_vertically(rows + self.casimirs.len(), 0.0);
+        df = df.resize_vertically(rows + self.casimirs.len(), 0.0);
+        let casimirs = all.iter().skip(usize::from(levels.has_energy()));
+        for (k, (level, wanted)) in casimirs.zip(&self.casimirs).enumerate() {
+            let slope = |j: usize| {
+                let i = self.unknowns[j];
+                level.gradient[i] * self.units[i]
+            };
+            let norm = (0..self.unknowns.len()).fold(0.0_f64, |most, j| most.max(slope(j).abs()));
+            let norm = if norm > 0.0 { norm / scale } else { 1.0 };
+            f[rows + k] = (level.value - wanted) / norm;
+            for j in 0..self.unknowns.len() {
+                df[(rows + k, j)] = slope(j) / norm;
+            }
+        }
+        f.iter().chain(df.iter()).all(|x| x.is_finite()).then_some((f, df))
     }
 
     /// ∂f/∂z of the variables that rest, with 0 where it is smaller than its change over the rounding error of the place: it vanishes

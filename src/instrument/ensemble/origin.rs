@@ -28,6 +28,8 @@ pub(super) struct CloudOrigin {
     pub(super) centre: [f64; 2],
     radii: [f64; 2],
     shape: CloudShape,
+    /// Whether it is laid about the motion once more, after a parameter was changed.
+    pub(super) again: bool,
 }
 
 /// What a cloud fills.
@@ -54,6 +56,7 @@ impl CloudOrigin {
             base,
             centre: own,
             radii: [1.0; 2],
+            again: false,
             shape: match seed {
                 Some(Seed::Spread(_) | Seed::Fill(_)) => CloudShape::Box,
                 Some(Seed::Shell) => shell(present)?,
@@ -72,6 +75,16 @@ impl CloudOrigin {
             Some(Seed::Shell) => origin,
             None => Self { radii: radii(&origin, plot, present, channels), ..origin },
         })
+    }
+
+    /// The same about the motion as it is now, of the size that `before` has.
+    pub(super) fn laid_again(self, before: &CloudOrigin) -> Self {
+        // a shell is as large as the motion
+        let is_alike = matches!(
+            (&self.shape, &before.shape),
+            (CloudShape::Disc, CloudShape::Disc) | (CloudShape::Box, CloudShape::Box)
+        );
+        if is_alike { Self { radii: before.radii, again: true, ..self } } else { self }
     }
 
     /// The state of the motion with two of its values replaced.

@@ -35,7 +35,10 @@ impl MapVerdict {
     ) -> Self {
         let lines = |report: &TransformationReport| {
             let mut lines = lines(&equations.pool, report);
-            let broken = break_down(&report.map.broken_down(model, equations));
+            // a map that is not canonical has no generating functions
+            let may_have = report.verdict.canonical || is_unknown(&report.verdict);
+            let broken = may_have.then(|| break_down(&report.map.broken_down(model, equations)));
+            let broken = broken.flatten();
             match (lines.first_mut(), broken) {
                 // where the function of the file breaks down itself, that is why no map is known
                 (Some(first), Some(broken)) if is_unknown(&report.verdict) => *first = broken,

@@ -53,6 +53,37 @@ fn an_inverse_undoes() {
     assert!(found.iter().all(|one| one["canonical"] == true), "{found:?}");
 }
 
+/// F1 = ½ q² cot Q leaves open which of ±√(2P) (sin Q, cos Q) undoes it; its inverse is the one that does, all around the circle.
+#[test]
+fn the_inverse_of_a_generating_function_is_on_its_branch() {
+    let angle = "[[transformations]]\nname = \"angle\"\nkind = \"F1\"\nF = \"q^2/2/tan(A)\"\nnew = [\"A\", \"B\"]";
+    let back = made("back", "inverse", "\"angle\"", "\"X\", \"Y\"");
+    let found = derived(&[angle, &back]);
+    let root = "sqrt(2)*sqrt(p_q)";
+    let expected = json!({ "X": format!("{root}*sin(q)"), "Y": format!("{root}*cos(q)") });
+    assert_eq!(found[1]["new"], expected);
+    assert_eq!((&found[1]["canonical"], &found[1]["proved"]), (&json!(true), &json!(true)));
+}
+
+/// A function is said not to exist only where its variables are not independent: det ∂(x, y)/∂(a, b) of this one is −a (3a + 10)²/250.
+#[test]
+fn a_function_is_denied_only_where_its_variables_depend_on_each_other() {
+    let text = "title = \"mixed\"\n[coordinates]\nx = { initial = 0.7, momentum = 0.4 }\n\
+                y = { initial = 0.3, momentum = -0.2 }\n[hamiltonian]\nH = \"p_x^2/2 + p_y^2/2 + x*y\"\n";
+    let law = "[[transformations]]\nname = \"mixed\"\ntypes = [\"F3\", \"F4\"]\n\
+               F = \"-p_x*a - 0.2*p_x^2*a + p_y*d*(1 + 0.3*a)\"\nnew = [\"a\", \"b\", \"c\", \"d\"]\n";
+    let arguments = ["derive", "system.toml", "--format", "json"];
+    let found = with_file(&format!("{text}{law}"), &arguments).json();
+    let functions = &found["transformations"][0]["generating_functions"];
+    for name in ["F1", "F2", "F1, F4", "F4, F3"] {
+        assert!(functions[name]["F"].is_string(), "{name}: {functions}");
+    }
+    // neither c nor d is there to replace y
+    for name in ["F3", "F4"] {
+        assert_eq!(functions[name]["exists"], json!(false), "{name}: {functions}");
+    }
+}
+
 /// A boost, Q = q − ct, P = p − mc, and its inverse by the function of the third kind.
 #[test]
 fn with_the_time() {
@@ -263,7 +294,7 @@ fn a_function_without_a_closed_form_is_not_said_to_be_none() {
     assert!(functions["F4"]["F"].is_string() && functions["F2"]["F"].is_string(), "{functions}");
     let third = &functions["F3"];
     assert_eq!((&third["F"], &third["exists"]), (&json!(null), &json!(true)), "{functions}");
-    let why = "exists where p and Q are independent; no closed form was found";
+    let why = "exists where p and Q are independent; no closed form of it was found";
     assert_eq!(third["why"], why);
     // the identity has none of this type
     let text = "[[transformations]]\nname = \"a\"\nkind = \"F2\"\nF = \"q*P\"";

@@ -85,11 +85,10 @@ fn equal_frequencies_have_two_modes() {
     let [first, second] = &found[0].modes[..] else { panic!("{:?}", found[0]) };
     close(first.frequency, 1.0, 1e-12);
     close(second.frequency, 1.0, 1e-12);
-    for (mode, own) in [first, second].into_iter().zip([[1.0, 0.0], [0.0, 1.0]]) {
-        assert_eq!(mode.quadrature, [0.0, 0.0]);
-        close(mode.in_phase[0], own[0], 1e-12);
-        close(mode.in_phase[1], own[1], 1e-12);
-    }
+    let (a, b) = (&first.in_phase, &second.in_phase);
+    // one along each coordinate, as both swing by themselves
+    assert_eq!((&a[..], &b[..]), (&[1.0, 0.0][..], &[0.0, 1.0][..]));
+    assert!([first, second].iter().all(|mode| mode.quadrature == [0.0, 0.0]));
     for saddle in &found[1..] {
         assert_eq!(saddle.kind, Some(Kind::Saddle));
         close(saddle.energy, 1.0 / 6.0, 1e-14);
@@ -215,6 +214,33 @@ fn two_wells_of_an_atom_are_two() {
         found.iter().map(|one| one.stable).collect::<Vec<_>>(),
         [Some(true), Some(false), Some(true)]
     );
+}
+
+/// V = ω² T(q̇ → q): every displacement is a mode, and the three that are given are real and orthogonal by the kinetic energy.
+#[test]
+fn modes_of_one_frequency_are_orthogonal_by_the_kinetic_energy() {
+    let kinetic = |x: &str, y: &str, z: &str| {
+        format!("({x}^2 + 3/2*{y}^2 + {z}^2 + 1/2*{x}*{y} - 1/3*{y}*{z})")
+    };
+    let text = format!(
+        "title = \"three\"\n[coordinates]\nx = 0.1\ny = 0.2\nz = 0.1\n[lagrangian]\nL = \"{} - 4*{}\"\n",
+        kinetic("x'", "y'", "z'"),
+        kinetic("x", "y", "z")
+    );
+    let found = of(&file(&text, &[]));
+    let [one] = &found[..] else { panic!("{found:?}") };
+    assert_eq!(one.modes.len(), 3);
+    let mass = [[2.0, 0.5, 0.0], [0.5, 3.0, -1.0 / 3.0], [0.0, -1.0 / 3.0, 2.0]];
+    let product = |a: &[f64], b: &[f64]| -> f64 {
+        (0..3).map(|i| (0..3).map(|j| a[i] * mass[i][j] * b[j]).sum::<f64>()).sum()
+    };
+    for (k, mode) in one.modes.iter().enumerate() {
+        close(mode.frequency, 2.0, 1e-12);
+        assert!(mode.quadrature.iter().all(|x| *x == 0.0), "{mode:?}");
+        for other in &one.modes[..k] {
+            close(product(&mode.in_phase, &other.in_phase), 0.0, 1e-9);
+        }
+    }
 }
 
 /// Two equal oscillators are two modes, each of which moves by itself.
@@ -620,6 +646,23 @@ fn a_free_body_rotates_about_its_axes() {
     let found = of(&preset("t-handle", &[], &[]));
     let rotates = found.iter().filter(|one| one.variables.iter().any(|x| x.abs() > 0.1)).count();
     assert!(rotates >= 2, "{found:?}");
+}
+
+/// On the sphere |L| of its start a body rotates about its three axes, either way round, and about the middle one not for long
+/// (L. Euler).
+#[test]
+fn the_equilibria_of_brackets_are_those_on_their_casimirs() {
+    let case = file(crate::poisson::BODY, &[]);
+    let square: f64 = case.start.values[..3].iter().map(|x| x * x).sum();
+    let found = of(&case);
+    assert_eq!(found.len(), 6, "{found:?}");
+    for one in &found {
+        let largest = one.variables.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        close(largest, square.sqrt(), 1e-12);
+        let axis = one.variables.iter().position(|x| x.abs() == largest);
+        close(one.energy, square / (2.0 * (axis.unwrap() + 1) as f64), 1e-12);
+        assert_eq!(one.stable, Some(axis != Some(1)), "{one:?}");
+    }
 }
 
 /// L₄ and L₅ have one energy: which comes first is no matter of where the search begins.

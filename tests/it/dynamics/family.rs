@@ -37,6 +37,42 @@ fn the_swings_of_a_pendulum_have_their_closed_form_periods() {
     assert!((energies[0] - 0.5).abs() < 1e-9 && (energies[1] - 1.5).abs() < 1e-9, "{energies:?}");
 }
 
+/// Swings shrink to rest: there their family ends with the period of small oscillations, and each of them is there once. Nothing
+/// turns back.
+#[test]
+fn a_family_ends_at_an_equilibrium() {
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 0.6, momentum = 0 }\n\
+                [hamiltonian]\nH = \"1/2*p_x^2 + 3 - 4*cos(x)\"\n";
+    let case = file(text, &[]);
+    // ω = 2, and E = −1 at rest
+    let values = [-1.5, -0.9, -0.5, 0.5];
+    let energy = 3.0 - 4.0 * 0.6_f64.cos();
+    let found = of(&case, None, (Along::Energy, Fixed::Energy(energy)), &values);
+    let seen: Vec<f64> = found.members.iter().map(|member| member.value).collect();
+    assert_eq!(seen, [-0.9, -0.5, 0.5], "{:?}", found.ended);
+    let said = "the family ends at -1, at an equilibrium, where its period is 3.14159";
+    assert_eq!(found.ended, [said]);
+}
+
+/// The swings of a pendulum end at its separatrix from wherever on one of them they are followed: rotations, of which several turns
+/// last as long, are another family, and nothing turns back.
+#[test]
+fn a_family_does_not_cross_a_separatrix() {
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 0.6, momentum = 0, period = \"2*pi\" }\n\
+                [hamiltonian]\nH = \"1/2*p_x^2 - 9.81*cos(x)\"\n";
+    for (x, p) in [(-0.35_f64, 5.157062493233964), (-1.31, 3.6364568705466476), (1.9, 0.0)] {
+        let case = file(text, &[x, p]);
+        let energy = 0.5 * p * p - 9.81 * x.cos();
+        let along = (Along::Energy, Fixed::Energy(energy));
+        let found = of(&case, None, along, &[5.0, 9.0, 11.0, 13.0]);
+        let seen: Vec<(f64, Option<Bifurcation>)> =
+            found.members.iter().map(|member| (member.value, member.bifurcation)).collect();
+        assert_eq!(seen, [(5.0, None), (9.0, None)], "{x}: {:?}", found.ended);
+        let [why] = &found.ended[..] else { panic!("{:?}", found.ended) };
+        assert!(why.contains("its period grows"), "{why}");
+    }
+}
+
 /// All of Kepler's ellipses close: their multipliers are 1, and rounding changes no sign. So do, but for less and less, the
 /// orbits of Hénon and Heiles's family below its period doubling (tr M⊥ − 2 = −1.9e-4 at E = 0.09, −8e-11 at 0.07).
 #[test]

@@ -109,6 +109,26 @@ fn the_lines_of_jupiters_perihelion_are_found_to_rounding() {
     }
 }
 
+/// Lines are found beside a mean that grows, as evenly or as a parabola, and is much larger than they are.
+#[test]
+fn lines_are_found_beside_a_mean_that_changes() {
+    for slow in [|t: f64| 0.3 * t, |t: f64| 40.0 - 0.05 * t + 2e-3 * t * t] {
+        let signal = |t: f64| slow(t) + 0.5 * (1.3 * t + 0.2).cos() + 1e-3 * (2.1 * t).cos();
+        let found = lines(&signal, 0.25, 2);
+        let frequencies: Vec<f64> = found.lines.iter().map(|line| line.frequency).collect();
+        let [one, two] = frequencies[..] else { panic!("{found:?}") };
+        assert!((one - 1.3).abs() < 1e-11 && (two - 2.1).abs() < 1e-8, "{frequencies:?}");
+        assert!((found.lines[0].amplitude - 0.5).abs() < 1e-10, "{:?}", found.lines[0]);
+        let change = slow(0.25 * 1023.0) - slow(0.0);
+        assert!((found.change_of_mean().unwrap() - change).abs() < 1e-9 * change.abs());
+        assert!(found.left < 1e-9 && found.turns.is_none());
+    }
+    // a line alone has none, and what escapes has no lines
+    assert_eq!(lines(&known, 0.25, 3).change_of_mean(), None);
+    let escapes = lines(&|t: f64| (1.0 + 0.04 * t * t).sqrt(), 0.25, 2);
+    assert!(escapes.lines.is_empty() && escapes.turns.is_some(), "{escapes:?}");
+}
+
 #[test]
 fn what_is_no_combination_is_not_named_one() {
     let found = lines(&known, 0.25, 2);

@@ -375,6 +375,85 @@ fn a_motion_that_goes_back_is_restored_going_back() {
     assert!(pairs.filter(|(a, _)| a.is_finite()).all(|(a, b)| (a - b).abs() < 1e-13));
 }
 
+/// A session keeps no past, and the motion is run once more: the picture of a resumed motion is the same as before, and it goes on as
+/// if it had never been left, also where a parameter was changed on the way.
+#[test]
+fn the_past_of_a_resumed_motion_is_computed_once_more() {
+    for (name, change) in [("pendulum", None), ("henon-heiles", None), ("duffing", Some(0.2))] {
+        let mut left = shipped(name);
+        run(&mut left, 4.0);
+        if let Some(value) = change {
+            left.execute(Command::Parameter { index: 0, value });
+        }
+        left.execute(Command::Pause);
+        run(&mut left, 7.3);
+        let mut taken = shipped(name);
+        taken.execute(Command::Restore(Box::new(kept(&left))));
+        assert_eq!(present(&taken), present(&left), "{name}");
+        let since = if change.is_some() { 4.0 } else { 0.0 };
+        let rows = |experiment: &Experiment| -> Vec<Vec<f64>> {
+            let trail = experiment.snapshot().trail;
+            trail.rows().filter(|row| row[0] > since).map(<[f64]>::to_vec).collect()
+        };
+        let (found, expected) = (rows(&taken), rows(&left));
+        assert!(found.len() > 50 && taken.snapshot().notices.is_empty(), "{name}");
+        assert_eq!(found.len(), expected.len(), "{name}");
+        // times count from where the law was changed, or from the start
+        let within = if change.is_some() { 1e-12 } else { 0.0 };
+        for (x, y) in found.iter().flatten().zip(expected.iter().flatten()) {
+            assert!((x - y).abs() <= within || x.is_nan() && y.is_nan(), "{name}: {x} {y}");
+        }
+        for experiment in [&mut left, &mut taken] {
+            run(experiment, 9.1);
+        }
+        assert_eq!(present(&taken), present(&left), "{name}");
+    }
+}
+
+/// Where the motion was led by hand, or its past is too long to be computed at once, the state alone is there, and that is said.
+#[test]
+fn a_past_that_is_not_found_again_is_said_to_be_lost() {
+    let mut left = shipped("pendulum");
+    run(&mut left, 4.0);
+    let mut saved = kept(&left);
+    let state = &mut saved.present.as_mut().unwrap().state;
+    state[0][0] += 0.25;
+    let mut taken = shipped("pendulum");
+    taken.execute(Command::Restore(Box::new(saved)));
+    assert_eq!(taken.snapshot().trail.len(), 1);
+    let notices = taken.snapshot().notices;
+    assert!(
+        notices.iter().any(|one| one.contains("past of this motion was not kept")),
+        "{notices:?}"
+    );
+    // a little beside it the past is that of the same motion
+    let mut saved = kept(&left);
+    saved.present.as_mut().unwrap().state[0][1] += 1e-18;
+    let mut taken = shipped("pendulum");
+    taken.execute(Command::Restore(Box::new(saved)));
+    assert!(taken.snapshot().trail.len() > 50 && taken.snapshot().notices.is_empty());
+}
+
+/// A motion that goes back comes home with its return error.
+#[test]
+fn a_resumed_motion_that_goes_back_is_held_against_the_run_before() {
+    let mut left = shipped("henon-heiles");
+    run(&mut left, 5.0);
+    left.execute(Command::Reverse);
+    left.advance(-3.0, super::PLENTY);
+    let mut taken = shipped("henon-heiles");
+    taken.execute(Command::Restore(Box::new(kept(&left))));
+    for experiment in [&mut left, &mut taken] {
+        experiment.advance(0.0, super::PLENTY);
+    }
+    let [one, other] = [&left, &taken].map(|experiment| experiment.snapshot().returned.unwrap());
+    assert!(one.error.is_some_and(|error| error < 1e-12));
+    assert_eq!(
+        (one.error, one.step_error, one.turned),
+        (other.error, other.step_error, other.turned)
+    );
+}
+
 /// Another law with another auxiliary number, here the work that a ramp does, takes the action up where it was: S goes on
 /// through the change, and is ∫ L dt over both parts of the motion.
 #[test]
