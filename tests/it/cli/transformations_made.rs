@@ -314,7 +314,8 @@ fn a_determinant_too_long_to_be_written_does_not_vanish() {
     let found = with_file(text, &["derive", "system.toml", "--format", "json"]).json();
     let functions = &found["transformations"][0]["generating_functions"];
     for name in ["F4", "F2, F4", "F3, F4", "F1, F3"] {
-        assert_eq!(functions[name]["exists"], true, "{name}: {functions}");
+        assert!(functions[name].is_object(), "{functions}");
+        assert_ne!(functions[name]["exists"], false, "{name}: {functions}");
     }
     assert_eq!(functions["F1"]["exists"], false, "{functions}");
 }
