@@ -69,6 +69,7 @@ fn object(study: &Study, found: &Equilibria) -> Map<String, Value> {
             "multipliers": multipliers(study, one),
             "virtual_work": one.work.iter().map(|work| balance(names, work)).collect::<Vec<_>>(),
             "kind": one.kind.map(word),
+            "family": one.family.iter().map(|along| study.named(along)).collect::<Vec<_>>(),
             "eigenvalues": one.eigenvalues,
             "frequencies": frequencies,
             "modes": modes,
@@ -122,11 +123,21 @@ fn text(study: &Study, found: &Equilibria) -> String {
             energy if energy.is_finite() => format!("energy {}", shown(energy)),
             _ => "where the energy has no value".to_owned(),
         };
-        text.push_str(&format!("{name}{kind}, {stable}, {energy}\n"));
+        let family = match one.family.len() {
+            0 => String::new(),
+            dimension => format!("family of equilibria of dimension {dimension}, "),
+        };
+        text.push_str(&format!("{name}{family}{kind}, {stable}, {energy}\n"));
         let places = names.iter().zip(&one.variables);
         let places: Vec<String> =
             places.map(|(name, &x)| format!("{name} = {}", shown(x))).collect();
         text.push_str(&format!("  {}\n", places.join(", ")));
+        for along in &one.family {
+            let parts = names.iter().zip(along).filter(|(_, x)| **x != 0.0);
+            let parts: Vec<String> =
+                parts.map(|(name, &x)| format!("{name} {}", shown(x))).collect();
+            text.push_str(&format!("  along the family {}\n", parts.join("  ")));
+        }
         for &(i, rate) in &one.rates {
             text.push_str(&format!("  {}' = {}\n", names[i], shown(rate)));
         }
@@ -141,7 +152,11 @@ fn text(study: &Study, found: &Equilibria) -> String {
             }
         };
         let values: Vec<String> = one.eigenvalues.iter().map(complex).collect();
-        text.push_str(&format!("  eigenvalues {}\n", values.join(", ")));
+        let zeros = match one.family.is_empty() {
+            true => "",
+            false => " (0 along the family)",
+        };
+        text.push_str(&format!("  eigenvalues {}{zeros}\n", values.join(", ")));
         let degrees = study.space.system().degrees();
         let rows: Vec<Vec<String>> = one
             .modes
