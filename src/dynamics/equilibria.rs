@@ -94,9 +94,6 @@ pub fn equilibria_watched(
         if found.iter().any(|known| search.alike(&known.variables, &variables)) {
             continue;
         }
-        if found.iter().any(|known| search.is_lost_between(&known.variables, &variables)) {
-            continue;
-        }
         let is_degenerate = search.is_degenerate(&variables);
         if is_degenerate && families.iter_mut().any(|one| search.belongs(one, &variables)) {
             continue;
@@ -104,6 +101,12 @@ pub fn equilibria_watched(
         let family = if is_degenerate { search.family(&variables) } else { None };
         let Some(one) = search.described(&variables, family.as_ref())? else { continue };
         let known = found.iter().any(|known| match family {
+            // a minimum and a maximum are two, however near
+            None if known.kind == one.kind
+                && search.is_lost_between(&known.variables, &variables) =>
+            {
+                true
+            }
             // its parts may meet where no walk leads through, and have one nearest member all the same
             Some(_) => search.alike(&known.variables, &one.variables),
             None => search.is_flat_between(known, &one),
