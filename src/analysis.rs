@@ -16,4 +16,4 @@ pub use history::{History, Stretch};
 pub use inquiry::{Inquiry, InquiryAnswer};
 pub use landscape::{Curve, Grid, Landscape, Plane};
 pub use separation::{DistanceHistory, Slope, distance};
-pub use verdict::{Errors, Growth, LEFT, LOST, Verdict, rounding_floor};
+pub use verdict::{Errors, Growth, LEFT, LOST, Unseen, Verdict, rounding_floor};

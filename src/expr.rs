@@ -31,6 +31,7 @@ mod plain;
 mod pool;
 mod print;
 mod product;
+mod range;
 mod rewrite;
 mod sample;
 mod simplify;
@@ -57,6 +58,7 @@ pub use notation::{
 pub use parse::{parse, parse_all};
 pub use plain::EULER;
 pub use pool::{NODE_LIMIT, Pool};
+pub use range::is_never_negative;
 pub use symbol::{Rank, Symbol, SymbolInfo};
 pub use syntax::{BinaryOperator, Resolve, Span, Syntax, SyntaxError, SyntaxKind};
 pub use zero_test::Zero;

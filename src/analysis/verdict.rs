@@ -14,8 +14,8 @@ pub enum Verdict {
     /// The motion is too short for a verdict: for any, for one on a function of the state that has
     /// not yet returned, or for one on an error that has changed but a few times and may add up.
     Open,
-    /// Not known: its terms underflow, so that no drift of it can be seen.
-    Unknown,
+    /// Not known, since no drift of it can be seen.
+    Unknown(Unseen),
     /// At the rounding floor; contains how the error grows.
     Exact(Growth),
     /// Oscillates without trend, as the energy of a symplectic method does.
@@ -27,6 +27,15 @@ pub enum Verdict {
     Lost,
     /// Not conserved by the physics. Contains the law for its change, in Unicode mathematics.
     Broken(String),
+}
+
+/// Why no drift of a quantity can be seen.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Unseen {
+    /// Its terms underflow.
+    Underflow,
+    /// What moves is less than the rounding error of its terms, which are larger by this factor.
+    Unresolved(f64),
 }
 
 /// How the errors of a method depend on the past.
@@ -59,7 +68,7 @@ impl Verdict {
     pub fn word(&self) -> &'static str {
         match self {
             Verdict::Open => "open",
-            Verdict::Unknown => "unknown",
+            Verdict::Unknown(_) => "unknown",
             Verdict::Exact(_) => "exact",
             Verdict::Bounded => "bounded",
             Verdict::Secular(_) => "secular",

@@ -69,6 +69,7 @@ fn object(study: &Study, found: &Equilibria) -> Map<String, Value> {
             "multipliers": multipliers(study, one),
             "virtual_work": one.work.iter().map(|work| balance(names, work)).collect::<Vec<_>>(),
             "kind": one.kind.map(word),
+            "family": one.family.iter().map(|along| study.named(along)).collect::<Vec<_>>(),
             "eigenvalues": one.eigenvalues,
             "frequencies": frequencies,
             "modes": modes,
@@ -118,11 +119,21 @@ fn text(study: &Study, found: &Equilibria) -> String {
             energy if energy.is_finite() => format!("energy {}", shown(energy)),
             _ => "where the energy has no value".to_owned(),
         };
-        text.push_str(&format!("{name}{kind}, {stable}, {energy}\n"));
+        let family = match one.family.len() {
+            0 => String::new(),
+            dimension => format!("family of equilibria of dimension {dimension}, "),
+        };
+        text.push_str(&format!("{name}{family}{kind}, {stable}, {energy}\n"));
         let places = names.iter().zip(&one.variables);
         let places: Vec<String> =
             places.map(|(name, &x)| format!("{name} = {}", shown(x))).collect();
         text.push_str(&format!("  {}\n", places.join(", ")));
+        for along in &one.family {
+            let parts = names.iter().zip(along).filter(|(_, x)| **x != 0.0);
+            let parts: Vec<String> =
+                parts.map(|(name, &x)| format!("{name} {}", shown(x))).collect();
+            text.push_str(&format!("  along the family {}\n", parts.join("  ")));
+        }
         for &(i, rate) in &one.rates {
             text.push_str(&format!("  {}' = {}\n", names[i], shown(rate)));
         }
@@ -138,7 +149,8 @@ fn text(study: &Study, found: &Equilibria) -> String {
         };
         let values: Vec<String> = one.eigenvalues.iter().map(complex).collect();
         let values = if values.is_empty() { "not found".to_owned() } else { values.join(", ") };
-        text.push_str(&format!("  eigenvalues {values}\n"));
+        let zeros = if one.family.is_empty() { "" } else { " (0 along the family)" };
+        text.push_str(&format!("  eigenvalues {values}{zeros}\n"));
         let degrees = study.space.system().degrees();
         let rows: Vec<Vec<String>> = one
             .modes

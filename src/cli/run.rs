@@ -7,6 +7,7 @@ mod execution;
 mod flow_of;
 mod invariants;
 mod outlook;
+mod overstepped;
 pub(super) mod progress;
 mod ramp;
 mod times;
@@ -210,6 +211,10 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
     let steps = STEPS_PER_LOOK;
     let cannot_start = || claims::undefined_start(&model, &equations, &system, &begun);
     let cannot_start = &cannot_start;
+    let asked = experiment.snapshot().setup.clone();
+    let ends_before = || overstepped::end_of_motion((&model, &equations, &system), &asked);
+    let ends_before: Option<&dyn Fn() -> Option<String>> =
+        if method.stepping == Stepping::Fixed { Some(&ends_before) } else { None };
     let run = Run {
         experiment,
         times,
@@ -220,6 +225,7 @@ pub(super) fn perform(arguments: &Arguments, interrupt: &Interrupt) -> Result<()
         gives_up,
         adiabatic,
         cannot_start,
+        ends_before,
     };
     match (run.write(arguments.format, out, &header), interrupt.signal()) {
         // a signal takes precedence over any other failure

@@ -29,6 +29,8 @@ pub struct Carrier {
     stepper: Box<dyn Stepper>,
     /// The motion where impulses act or constraints hold, in place of the stepper.
     jumping: Option<Jumping>,
+    /// Where the motion began that the stepper follows: its vectors may have been renewed since.
+    begun: Option<State>,
     steps: u64,
 }
 
@@ -91,7 +93,8 @@ impl Carrier {
                 determinant: 1.0,
             });
         }
-        Ok(Carrier { space: space.clone(), system, method, settings, stepper, jumping, steps: 0 })
+        let (space, begun, steps) = (space.clone(), None, 0);
+        Ok(Carrier { space, system, method, settings, stepper, jumping, begun, steps })
     }
 
     /// Starts at a state of the space, with the columns of `vectors`.
@@ -113,7 +116,12 @@ impl Carrier {
             self.stepper = (self.method.make)(&self.system, &self.settings)?;
         }
         let Some(jumping) = &mut self.jumping else {
-            return Ok(self.stepper.start(&full, self.space.parameters())?);
+            let goes_on = self.begun.is_some() && full.time == self.stepper.time();
+            self.stepper.start(&full, self.space.parameters())?;
+            if !goes_on {
+                self.begun = Some(full);
+            }
+            return Ok(());
         };
         if jumping.begun && full.time == jumping.span.1 {
             // the events of before stay known, and the impulses keep their times
@@ -178,9 +186,9 @@ impl Carrier {
             method: self.method,
             stepper: self.stepper.as_ref(),
             parameters: self.space.parameters(),
-            begun: None,
+            begun: self.begun.as_ref(),
         };
-        stopped.blow_up(&fault).unwrap_or(fault)
+        stopped.blow_up(&fault).or_else(|| stopped.beyond_the_clock(&fault)).unwrap_or(fault)
     }
 
     /// The product of the determinants of the derivatives of all impulses since the start.

@@ -10,11 +10,13 @@
 //! kind is that of the effective potential: the least energy at fixed coordinates, whose second
 //! derivative is H_qq − H_qp H_pp⁻¹ H_pq.
 
+mod family;
+mod likeness;
 mod search;
 
 use nalgebra::DMatrix;
 
-use super::equilibrium::{Equilibria, Equilibrium, in_a_family, in_order};
+use super::equilibrium::{Equilibria, Equilibrium, in_order};
 use super::error::DynamicsError;
 use super::linear;
 use super::phase_space::PhaseSpace;
@@ -23,6 +25,7 @@ use super::virtual_work::virtual_work;
 use crate::mechanics::Equations;
 use crate::model::Model;
 use crate::system::{Form, MotionErrorKind, State};
+use family::EquilibriumFamily;
 use search::{EquilibriumSearch, LawAtRest};
 
 /// The number of beginnings of the search.
@@ -72,16 +75,17 @@ pub fn equilibria_watched(
     }
     let mut search = EquilibriumSearch::new(space, start)?;
     let mut found: Vec<Equilibrium> = Vec::new();
+    let mut families: Vec<EquilibriumFamily> = Vec::new();
     let mut cancelled = false;
     let mut beginning = 0;
-    // laws are often the same in a mirror, and so are their equilibria
-    let mut images: Vec<Vec<f64>> = Vec::new();
+    // laws are often the same in a mirror, and so are their equilibria; others may lie close by
+    let mut further: Vec<Vec<f64>> = Vec::new();
     while beginning < BEGINNINGS {
         if space.system().cancel().is_cancelled() {
             cancelled = true;
             break;
         }
-        let place = images.pop().unwrap_or_else(|| {
+        let place = further.pop().unwrap_or_else(|| {
             look(beginning, BEGINNINGS);
             beginning += 1;
             search.beginning(beginning - 1)
@@ -90,13 +94,33 @@ pub fn equilibria_watched(
         if found.iter().any(|known| search.alike(&known.variables, &variables)) {
             continue;
         }
-        let Some(one) = search.described(&variables)? else { continue };
-        // of a family of equilibria one is enough
-        let constrained = space.is_constrained();
-        if !found.iter().any(|known| in_a_family(known, &one, constrained)) {
-            found.push(one);
-            images.extend(search.images(&variables));
+        let is_degenerate = search.is_degenerate(&variables);
+        if is_degenerate && families.iter_mut().any(|one| search.belongs(one, &variables)) {
+            continue;
         }
+        let family = if is_degenerate { search.family(&variables) } else { None };
+        let Some(one) = search.described(&variables, family.as_ref())? else { continue };
+        let known = found.iter().any(|known| match family {
+            // a minimum and a maximum are two, however near
+            None if known.kind == one.kind
+                && search.is_lost_between(&known.variables, &variables) =>
+            {
+                true
+            }
+            // its parts may meet where no walk leads through, and have one nearest member all the same
+            Some(_) => search.alike(&known.variables, &one.variables),
+            None => search.is_flat_between(known, &one),
+        });
+        if known {
+            families.extend(family);
+            continue;
+        }
+        further.extend(search.images(&variables));
+        if family.is_none() {
+            further.extend(search.beside(&variables));
+        }
+        families.extend(family);
+        found.push(one);
         if found.len() == MOST {
             break;
         }
@@ -107,7 +131,15 @@ pub fn equilibria_watched(
 }
 
 impl EquilibriumSearch<'_> {
-    fn described(&mut self, variables: &[f64]) -> Result<Option<Equilibrium>, DynamicsError> {
+    /// The equilibrium at these variables, or of a family the one nearest to the start.
+    fn described(
+        &mut self,
+        variables: &[f64],
+        family: Option<&EquilibriumFamily>,
+    ) -> Result<Option<Equilibrium>, DynamicsError> {
+        let nearest = family.and_then(|family| self.representative(family));
+        let variables = nearest.as_deref().unwrap_or(variables);
+        let tangents = family.map_or(Vec::new(), |family| self.tangents(family, variables));
         let state = match &self.law {
             LawAtRest::Free(_) => self.space.state_at(self.start, variables),
             LawAtRest::Constrained(balance) => match balance.state(variables) {
@@ -121,8 +153,8 @@ impl EquilibriumSearch<'_> {
             Err(_) => return Ok(None),
         };
         let found = match &mut self.law {
-            LawAtRest::Free(_) => self.around(variables),
-            LawAtRest::Constrained(_) => self.around_on_surface(variables),
+            LawAtRest::Free(_) => self.around(variables, tangents.len()),
+            LawAtRest::Constrained(_) => self.around_on_surface(variables, tangents.len()),
         };
         let Some((kind, eigenvalues, stable, modes)) = found else { return Ok(None) };
         let rates = match &self.law {
@@ -141,6 +173,7 @@ impl EquilibriumSearch<'_> {
             variables,
             energy,
             kind,
+            family: tangents,
             eigenvalues,
             modes,
             stable,
@@ -155,13 +188,17 @@ impl EquilibriumSearch<'_> {
         &eigenvalues[..eigenvalues.len().saturating_sub(self.casimirs.len())]
     }
 
-    /// The kind, the eigenvalues and the modes at a place, of variables that are independent.
-    fn around(&mut self, variables: &[f64]) -> Option<Around> {
+    /// The kind, the eigenvalues and the modes at a place, of variables that are independent, on a family of this dimension.
+    fn around(&mut self, variables: &[f64], family: usize) -> Option<Around> {
         let df = self.slopes(variables)?;
-        let eigenvalues = linear::rates(&df);
         let count = self.unknowns.len();
         let unit = |k: usize| self.units[self.unknowns[k]];
         let in_units = DMatrix::from_fn(count, count, |i, j| df[(i, j)] * unit(j) / unit(i));
+        let eigenvalues = if family > 0 {
+            linear::rates_beside_kernel(&in_units, family)?
+        } else {
+            linear::rates(&df)
+        };
         let stable = stable(&in_units, self.within_levels(&eigenvalues));
         if self.space.form() != Form::Momentum {
             return Some((None, eigenvalues, stable, Vec::new()));
@@ -180,10 +217,10 @@ impl EquilibriumSearch<'_> {
     }
 
     /// The same of displacements along the surface of constraints.
-    fn around_on_surface(&mut self, variables: &[f64]) -> Option<Around> {
+    fn around_on_surface(&mut self, variables: &[f64], family: usize) -> Option<Around> {
         let LawAtRest::Constrained(balance) = &mut self.law else { return None };
         let around = balance.around(variables, &self.units)?;
-        let eigenvalues = linear::rates(&around.matrix);
+        let eigenvalues = linear::rates_beside_kernel(&around.matrix, family)?;
         let positive = |mass: &DMatrix<f64>| {
             let symmetric = (mass + mass.transpose()) * 0.5;
             symmetric.cholesky().is_some()

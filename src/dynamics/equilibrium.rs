@@ -1,4 +1,4 @@
-//! An equilibrium, and when two are of one family.
+//! An equilibrium, and the order of several.
 //!
 //! In: what a search finds of it. Out: its numbers. Never here: how it is found.
 
@@ -6,9 +6,6 @@ use std::cmp::Ordering;
 
 use super::small_oscillation::{Kind, Mode, rests};
 use super::virtual_work::VirtualWork;
-
-/// Two energies are the same up to this distance relative to their size plus 1, and eigenvalues up to its root.
-const SAME: f64 = 1e-7;
 
 /// An equilibrium.
 #[derive(Clone, Debug)]
@@ -21,6 +18,9 @@ pub struct Equilibrium {
     pub energy: f64,
     /// What the effective potential does there; `None` for brackets.
     pub kind: Option<Kind>,
+    /// Where it is one of a family, a curve or a surface of equilibria: directions along it, as many as its dimension, each with a
+    /// part for every variable. It is the member nearest to the start.
+    pub family: Vec<Vec<f64>>,
     /// The eigenvalues of the linearised motion, of the coordinates that are not cyclic.
     pub eigenvalues: Vec<[f64; 2]>,
     /// The small oscillations, the slowest first.
@@ -58,24 +58,6 @@ pub struct Equilibria {
     pub periods: Vec<(usize, f64)>,
     /// Whether the search was cancelled.
     pub cancelled: bool,
-}
-
-/// Whether two equilibria belong to one family, of which nothing tells one from another: those of one energy between which
-/// the potential does not change, and those under a constraint on the velocities with the same motion around them.
-pub(super) fn in_a_family(known: &Equilibrium, one: &Equilibrium, constrained: bool) -> bool {
-    match (known.kind, one.kind) {
-        (Some(Kind::Degenerate), Some(Kind::Degenerate)) => {
-            (known.energy - one.energy).abs() <= SAME * (known.energy.abs() + 1.0)
-        }
-        (None, None) if constrained => {
-            let size =
-                known.eigenvalues.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
-            let pairs = known.eigenvalues.iter().flatten().zip(one.eigenvalues.iter().flatten());
-            one.stable != Some(true)
-                && pairs.into_iter().all(|(a, b)| (a - b).abs() <= SAME.sqrt() * size)
-        }
-        _ => false,
-    }
 }
 
 /// Energies and places count as the same up to this part of the largest.

@@ -11,6 +11,9 @@ const SWEEPS: usize = 10_000;
 /// What is less than this part of the largest eigenvalue is rounding of a small matrix.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
+/// Singular values up to this part of the largest entry are rounding of a matrix in balanced units.
+const KERNEL: f64 = 1e-12;
+
 /// The eigenvalues of a matrix as real and imaginary parts, by falling modulus, of a pair the
 /// positive imaginary part first; empty if they cannot be found.
 pub(super) fn eigenvalues(matrix: &DMatrix<f64>) -> Vec<[f64; 2]> {
@@ -37,15 +40,28 @@ pub(super) fn rates(matrix: &DMatrix<f64>) -> Vec<[f64; 2]> {
     values.into_iter().map(|z| z.map(known)).collect()
 }
 
-/// The unit vector along which a matrix changes a vector least, if that is by no more than this part of the most.
-pub(super) fn least_direction(a: &DMatrix<f64>, cut: f64) -> Option<DVector<f64>> {
-    if a.iter().any(|x| !x.is_finite()) {
-        return None;
+/// The same of a matrix with a kernel of at least this dimension that is known to be one but for rounding: without its vectors, which
+/// others of a Jordan block lead to, no zero eigenvalue is the root of a rounding error.
+pub(super) fn rates_beside_kernel(matrix: &DMatrix<f64>, kernel: usize) -> Option<Vec<[f64; 2]>> {
+    if kernel == 0 {
+        return Some(rates(matrix));
     }
-    let svd = a.clone().try_svd(false, true, f64::EPSILON, SWEEPS)?;
-    let (least, value) = svd.singular_values.argmin();
-    let right = svd.v_t?;
-    (value <= cut * svd.singular_values.max()).then(|| right.row(least).transpose())
+    let (mut rest, mut known, mut zeros) = (matrix.clone(), kernel, 0);
+    while rest.nrows() > 0 {
+        let SingularValues { sizes, right, .. } = singular_values(&rest)?;
+        let count = sizes.len();
+        let rounding = KERNEL * matrix.amax();
+        let null = sizes.iter().filter(|size| **size <= rounding).count().max(known).min(count);
+        if null == 0 {
+            break;
+        }
+        let others = right.columns(0, count - null);
+        rest = others.transpose() * &rest * others;
+        (zeros, known) = (zeros + null, 0);
+    }
+    let mut values = if rest.nrows() > 0 { rates(&rest) } else { Vec::new() };
+    values.resize(values.len() + zeros, [0.0, 0.0]);
+    Some(values)
 }
 
 /// The solution of A x = b of least norm in the sense of least squares; singular values up to

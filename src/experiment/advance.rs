@@ -105,6 +105,9 @@ impl Experiment {
         if let Some(sentence) = self.singular_passages() {
             self.report_once("singular configuration".to_owned(), sentence);
         }
+        if let Some(sentence) = self.passed_event() {
+            self.report_once(sentence.clone(), sentence);
+        }
         if let Some(sentence) = self.unstable() {
             self.report_once(sentence.clone(), sentence);
         }

@@ -22,6 +22,7 @@ use crate::cancel::Cancel;
 use crate::mechanics::{Equations, Valuation};
 use crate::model::Model;
 use crate::num::short;
+use crate::printable;
 use crate::system::{self, State, System};
 
 /// A system in motion, with its gauges and its recorded past.
@@ -197,6 +198,16 @@ impl Experiment {
         Some(format!(
             "passed a singular configuration of the constraints at t = {time}{again}: motions branch \
              there, and this one continued smoothly"
+        ))
+    }
+
+    /// A sentence about the first event whose impulse slows the motion and lets it go on to the other side.
+    pub fn passed_event(&self) -> Option<String> {
+        let (name, time) = self.motion.passed_event()?;
+        Some(format!(
+            "the impulse of `{}` at t = {} does not turn the motion back, which goes on through where it happens",
+            printable::quoted(name),
+            short(self.motion.sign() * time)
         ))
     }
 

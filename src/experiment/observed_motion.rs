@@ -330,6 +330,11 @@ impl ObservedMotion {
         self.inner.singular_passages()
     }
 
+    /// The first event whose impulse did not turn the motion back, and when.
+    pub(super) fn passed_event(&self) -> Option<(&str, f64)> {
+        self.inner.passed_event()
+    }
+
     pub(super) fn step_size(&self) -> f64 {
         self.inner.step_size()
     }

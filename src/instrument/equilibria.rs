@@ -192,7 +192,14 @@ pub fn described(physics: Physics<'_>, one: &Equilibrium) -> (String, String) {
         if modes.is_empty() { String::new() } else { format!(", ω = {}", modes.join(", ")) };
     let energy = short(one.energy);
     let name = if one.name.is_empty() { String::new() } else { format!("{}: ", one.name) };
-    (format!("{name}{}: {stable} {kind}", places.join(", ")), format!("E = {energy}{modes}"))
+    let family = match one.family.len() {
+        0 => String::new(),
+        dimension => format!(", one of a family of dimension {dimension}"),
+    };
+    (
+        format!("{name}{}: {stable} {kind}{family}", places.join(", ")),
+        format!("E = {energy}{modes}"),
+    )
 }
 
 /// The layers that mark equilibria at their points: a sign by their stability, with the name, or where there are several and this

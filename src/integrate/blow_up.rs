@@ -7,7 +7,7 @@
 //! collision β < 1. From speed v, its rate v̇ and the rate of that, v̈, follow β/(β + 1) = v̇²/(v v̈) and τ = β v/v̇. These
 //! are taken from the law at the place where the motion stopped.
 
-use super::{Method, Settings, Stepper, Stepping, method_named};
+use super::{Method, Settings, Stepper, Stepping, method_named, spacing};
 use crate::num::{Analytic, DoubleDouble, math};
 use crate::system::{ExactRates, Form, MotionError, MotionErrorKind, State, System};
 
@@ -32,6 +32,9 @@ const STEPS_LEFT: f64 = 1e6;
 
 /// The most steps of the trial that finds out when a motion with fixed steps should have stopped.
 const MOST_STEPS: u32 = 4000;
+
+/// A step below this part of the spacing of times is that of a motion at a singular place.
+const VANISHING: f64 = 1e-9;
 
 /// The digits of the time that are not shown, of those that the tolerance stands for.
 const UNCERTAIN: f64 = 2.0;
@@ -83,6 +86,20 @@ impl StoppedMotion<'_> {
         };
         let kind = MotionErrorKind::BlowsUp(name);
         Some(MotionError { time: rounded(found.time.high, digits), kind, place: Vec::new() })
+    }
+
+    /// The error of a motion that begins at a time with too few digits for its first step, in place of the one that a singular place
+    /// gives, towards which steps vanish.
+    pub fn beyond_the_clock(&self, fault: &MotionError) -> Option<MotionError> {
+        let MotionErrorKind::StepUnderflow(step) = fault.kind else { return None };
+        let digits = spacing(fault.time);
+        let begins = self.begun.is_some_and(|begun| begun.time == fault.time);
+        let ordinary = step.abs() > VANISHING * digits;
+        (begins && ordinary).then(|| MotionError {
+            kind: MotionErrorKind::ClockStands(digits),
+            place: Vec::new(),
+            time: fault.time,
+        })
     }
 
     /// Follows the motion from its beginning by series to near a time that fixed steps have come to.

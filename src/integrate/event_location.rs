@@ -118,6 +118,11 @@ impl EventLocator {
         self.simple = None;
     }
 
+    /// The value of a function at a state; `None` if it has none there.
+    pub(super) fn value(&mut self, event: usize, state: &State) -> Option<f64> {
+        self.probe.of(state).ok().map(|values| values[event]).filter(|value| !value.is_nan())
+    }
+
     /// Records an impulse from one state to another, caused by the given event or by none.
     /// The sides of functions that jumped with it become unknown, as they did not cross zero.
     pub(super) fn after_impulse(

@@ -7,6 +7,7 @@
 mod advance;
 mod constraint_watch;
 mod occurrence;
+mod passed_event;
 mod singular_mass;
 mod singularity_record;
 
@@ -18,6 +19,7 @@ use super::{Method, MethodError, Settings, Stepper, Stepping, Unstable};
 use crate::num::DoubleDouble;
 use crate::system::{Branch, ConstraintProjector, Form, Logarithms, MotionError, State, System};
 pub use occurrence::{Occurrence, OccurrenceKind};
+use passed_event::PassedEvents;
 use singularity_record::SingularityRecord;
 
 /// How far a motion came.
@@ -63,6 +65,7 @@ pub struct Propagator {
     /// The accumulation detector of each event.
     accumulation: Vec<AccumulationDetector>,
     watch: SingularityRecord,
+    passed: PassedEvents,
     /// The branch of the velocities, if several belong to the momenta.
     branch: Option<Branch>,
     /// The logarithms of the energy, if it has any.
@@ -107,6 +110,7 @@ impl Propagator {
             stalled: 0,
             accumulation: vec![AccumulationDetector::NONE; system.discontinuities().events.len()],
             watch: SingularityRecord::default(),
+            passed: PassedEvents::default(),
             branch: None,
             logarithms: None,
             holdings: 0,
@@ -137,6 +141,7 @@ impl Propagator {
         self.start = state.time;
         self.ended = false;
         self.forget_passages();
+        self.passed = PassedEvents::default();
         self.impulse_schedule.begin(state.time);
         self.accumulation.fill(AccumulationDetector::NONE);
         self.parameters = parameters.to_vec();

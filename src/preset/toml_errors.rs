@@ -29,6 +29,14 @@ pub(super) fn parse<'f>(text: &'f str, diagnostics: &mut Diagnostics) -> Spanned
         .collect();
     slips.extend(others.into_iter().map(|place| beyond_grammar(text, place)));
     slips.sort_by_key(|slip| slip.place.start);
+    // what follows on a line behind a decimal comma follows from it
+    for slip in &mut slips {
+        if let Some(comma) = comma_in_number_before(text, slip.place.start) {
+            let place = comma..comma + 1;
+            let decimal = Slip::new(place, "a number has no comma", Loses::Track);
+            *slip = Slip { help: decimal_comma(text, comma), ..decimal };
+        }
+    }
     for Slip { place, message, help, loses } in slips {
         // once the parser has lost track, the errors that follow are mostly consequences
         if diagnostics.lost_track() {
@@ -45,6 +53,19 @@ pub(super) fn parse<'f>(text: &'f str, diagnostics: &mut Diagnostics) -> Spanned
     }
     steering(table.get_ref(), diagnostics);
     table
+}
+
+/// The comma of a value such as `1,5` that stands on a line before a place.
+fn comma_in_number_before(text: &str, place: usize) -> Option<usize> {
+    let before = text.get(..place)?;
+    let line = before.rfind('\n').map_or(0, |end| end + 1);
+    let commas = before[line..].match_indices(',').map(|(at, _)| line + at);
+    let mut decimal = commas.filter(|&comma| {
+        let value =
+            before[line..comma].trim_end_matches(|c: char| c.is_ascii_digit() || "+-".contains(c));
+        value.trim_end().ends_with('=') && decimal_comma(text, comma).is_some()
+    });
+    decimal.next()
 }
 
 /// Reports every name and text that contains a terminal control character; no further errors are reported for it.

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::compiled::System;
 use super::consistent_initial::KnownVelocity;
 use super::error::{MotionError, MotionErrorKind};
-use super::legendre::Legendre;
+use super::legendre::{Legendre, LegendreError};
 use super::value::Evaluator;
 use super::{Form, InitialOverride, State};
 use crate::num::DoubleDouble;
@@ -115,6 +115,10 @@ impl System {
                 .map_err(|why| self.unsolved(why, time.high, &state))?;
             // p is linear in the velocities of an L that is quadratic in them
             if self.form() != Form::Velocity || !self.discontinuities().is_quadratic() {
+                if legendre.is_rough(time, &state, &targets) {
+                    let why = LegendreError::NotConverging;
+                    return Err(self.unsolved(why, time.high, &state));
+                }
                 let solutions = legendre.solutions(time, &state, &targets);
                 if solutions.len() > 1 {
                     return Err(self.several(time.high, &solutions, &targets));

@@ -14,7 +14,7 @@ use super::sparkline::Sparkline;
 use super::theme::Role;
 use super::values::window;
 use super::wrap::{shortened, shortened_within, words};
-use crate::analysis::{Growth, Verdict};
+use crate::analysis::{Growth, Unseen, Verdict};
 use crate::app::{HitTarget, Lab};
 use crate::experiment::{Gauge, Snapshot};
 
@@ -173,7 +173,7 @@ pub(super) fn in_full(verdict: &Verdict) -> (&'static str, Role) {
 pub(super) fn word(verdict: &Verdict) -> (&'static str, Role) {
     match verdict {
         Verdict::Open => ("…", Role::Dim),
-        Verdict::Unknown => ("unknown", Role::Warn),
+        Verdict::Unknown(_) => ("unknown", Role::Warn),
         Verdict::Exact(Growth::Level | Growth::Root) => ("exact", Role::Good),
         Verdict::Exact(Growth::Faster) => ("grows", Role::Warn),
         Verdict::Bounded => ("bounded", Role::Good),
@@ -200,9 +200,13 @@ pub(super) fn departed(snapshot: &Snapshot, glyphs: Glyphs) -> Option<(Role, Str
 fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
     match verdict {
         Verdict::Open => "the motion is too short for a verdict".to_owned(),
-        Verdict::Unknown => {
+        Verdict::Unknown(Unseen::Underflow) => {
             "its terms are too small for numbers with all their digits (underflow)".to_owned()
         }
+        Verdict::Unknown(Unseen::Unresolved(factor)) => format!(
+            "it cannot resolve the motion: its terms are larger than what moves by {}",
+            number::drift(*factor, glyphs)
+        ),
         Verdict::Exact(Growth::Level) => "at the rounding floor, and it stays there".to_owned(),
         Verdict::Exact(Growth::Root) => {
             "at the rounding floor, growing like √t: as good as rounding allows".to_owned()
@@ -253,7 +257,8 @@ fn name_and_reason(
     let reason = canvas.text(&number::with_minus_signs(&gauge.reason, canvas.look.glyphs));
     let in_a_word = match (residual, gauge.proved) {
         (true, _) => "residual",
-        _ if gauge.verdict == Verdict::Unknown => "underflow",
+        _ if gauge.verdict == Verdict::Unknown(Unseen::Underflow) => "underflow",
+        _ if matches!(gauge.verdict, Verdict::Unknown(_)) => "not resolved",
         (false, true) => "proved",
         (false, false) => "",
     };

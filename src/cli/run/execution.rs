@@ -18,6 +18,7 @@ use super::outlook::Outlook;
 use super::progress::Bar;
 use super::times::Times;
 use super::{cautions, invariants};
+use crate::analysis::Verdict;
 use crate::experiment::{self, AdvanceOutcome, Experiment};
 use crate::printable;
 use crate::system::{State, System};
@@ -43,6 +44,8 @@ pub(super) struct Run<'i> {
     pub(super) adiabatic: Option<(Adiabatic, Arc<State>, System)>,
     /// Why the motion cannot start, as a check of the file says it.
     pub(super) cannot_start: &'i dyn Fn() -> Option<String>,
+    /// Where steps are all alike, why the motion ends before the run does, if it does.
+    pub(super) ends_before: Option<&'i dyn Fn() -> Option<String>>,
 }
 
 /// Why a run ended early.
@@ -124,12 +127,26 @@ impl Run<'_> {
         if let Some(passed) = self.experiment.singular_passages() {
             stderr::tell(&passed);
         }
+        if let Some(passed) = self.experiment.passed_event() {
+            stderr::tell(&passed);
+        }
         let snapshot = self.experiment.snapshot();
-        stderr::tell(&invariants::unknown(&snapshot.gauges));
+        invariants::unknown(&snapshot.gauges).iter().for_each(|line| stderr::tell(line));
         let departure = Departure::of(&snapshot.gauges, &snapshot.method);
         let refused = self.strict && departure.as_ref().is_some_and(|departure| departure.proved);
         let line = departure.map(|departure| departure.line).unwrap_or_default();
         let cut_short = matches!(end, Some(EarlyEnd::Fault(_) | EarlyEnd::Signal(_)));
+        let is_lost = snapshot.gauges.iter().any(|g| g.proved && g.verdict == Verdict::Lost);
+        if is_lost
+            && end.is_none()
+            && let Some(why) = self.ends_before.and_then(|ends_before| ends_before())
+        {
+            stderr::tell(&line);
+            let method = self.experiment.snapshot().method.name;
+            return Err(CommandError::CouldNot(format!(
+                "{method} has stepped over the end of the motion, and what follows is none: {why}"
+            )));
+        }
         if refused && !cut_short {
             return Err(CommandError::CouldNot(line));
         }

@@ -1,6 +1,6 @@
 //! The report of the gauges at the end of a run.
 
-use crate::analysis::Verdict;
+use crate::analysis::{Unseen, Verdict};
 use crate::cli::advice::{advice, size};
 use crate::cli::report::Invariant;
 use crate::experiment::{Gauge, MethodFact};
@@ -51,19 +51,32 @@ impl Departure {
     }
 }
 
-/// A line on the conserved quantities whose drift cannot be known; empty if there are none.
-pub(super) fn unknown(gauges: &[Gauge]) -> String {
-    let unknown = gauges.iter().filter(|gauge| gauge.verdict == Verdict::Unknown);
-    let names: Vec<String> = unknown.map(|gauge| format!("`{}`", gauge.name)).collect();
+/// Lines on the conserved quantities whose drift cannot be known; none if there are none.
+pub(super) fn unknown(gauges: &[Gauge]) -> Vec<String> {
+    let unresolved = gauges.iter().filter_map(|gauge| match gauge.verdict {
+        Verdict::Unknown(Unseen::Unresolved(factor)) => Some(format!(
+            "`{}` cannot resolve the motion: its terms are larger than what moves by a factor {factor:.0e}, and no drift can be seen",
+            gauge.name
+        )),
+        _ => None,
+    });
+    unresolved.chain(underflowing(gauges)).collect()
+}
+
+/// The line on those whose terms underflow.
+fn underflowing(gauges: &[Gauge]) -> Option<String> {
+    let underflows = |gauge: &&Gauge| gauge.verdict == Verdict::Unknown(Unseen::Underflow);
+    let names: Vec<String> =
+        gauges.iter().filter(underflows).map(|gauge| format!("`{}`", gauge.name)).collect();
     if names.is_empty() {
-        return String::new();
+        return None;
     }
-    format!(
+    Some(format!(
         "it is not known whether {} is conserved: its terms underflow (below {:.1e} numbers lose their digits); other units \
          make them larger",
         names.join(", "),
         f64::MIN_POSITIVE
-    )
+    ))
 }
 
 /// A description of the drift.

@@ -32,15 +32,14 @@ const ROUNDED: f64 = 64.0 * f64::EPSILON;
 /// Half a turn itself is not taken for its opposite by rounding.
 const HALF_A_TURN: f64 = 0.5 + 1e-9;
 
-/// Two places are the same up to this distance relative to their size plus their unit.
-const SAME: f64 = 1e-7;
-
 /// Singular values up to this part of the largest are not divided by in a step of Newton's.
 const VANISHES: f64 = 1e-8;
 
-/// How far along a family its rates are looked at, in the size of the place, and by how much they may grow there.
-const ALONG: [f64; 4] = [-1.0, -0.6, 0.6, 1.0];
-const AS_SMALL: f64 = 100.0;
+/// How far beside an equilibrium others are searched for, in units: nearer than most beginnings are to each other.
+const BESIDE: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
+
+/// Next to a zero of the rates they grow over this distance, in the size of the place; next to a pole they fall.
+const BEYOND_ROUNDING: f64 = 1e-12;
 
 /// The number of steps in which a zero of higher order is approached further.
 const FURTHER_STEPS: usize = 60;
@@ -226,6 +225,36 @@ impl<'a> EquilibriumSearch<'a> {
         resting.iter().map(|&i| image(&[i])).chain([image(&resting)]).collect()
     }
 
+    /// Places close to one, along each coordinate.
+    pub(super) fn beside(&self, variables: &[f64]) -> Vec<Vec<f64>> {
+        let resting = self.unknowns.iter().copied().filter(|&i| i < self.degrees);
+        let beside = |i: usize, distance: f64| {
+            let mut place = variables.to_vec();
+            place[i] += distance * (self.units[i] + variables[i].abs());
+            place
+        };
+        let sides = |distance: f64| [distance, -distance];
+        let distances: Vec<f64> = BESIDE.into_iter().flat_map(sides).collect();
+        resting.flat_map(|i| distances.iter().map(move |&by| beside(i, by))).collect()
+    }
+
+    /// Whether the rates fall away from a place in the direction in which they change most, as they do next to a pole, where they are
+    /// as small a part of their derivative as at a zero.
+    fn is_pole(&mut self, variables: &[f64]) -> bool {
+        let Some((f, df)) = self.look_in_units(variables) else { return true };
+        let size = self.in_units(variables).iter().fold(1.0, |most: f64, x| most.max(x.abs()));
+        let steepest = (0..df.ncols())
+            .max_by(|&a, &b| df.column(a).amax().total_cmp(&df.column(b).amax()))
+            .unwrap_or(0);
+        let beside = [1.0, -1.0].map(|side| {
+            let mut there = variables.to_vec();
+            let i = self.unknowns[steepest];
+            there[i] += side * BEYOND_ROUNDING * size * self.units[i];
+            self.look_in_units(&there).map_or(f64::INFINITY, |(g, _)| g.amax())
+        });
+        beside.into_iter().all(|g| g < f.amax())
+    }
+
     /// Newton's method from a beginning.
     pub(super) fn from(&mut self, beginning: Vec<f64>) -> Option<Vec<f64>> {
         let mut variables = beginning;
@@ -267,28 +296,8 @@ impl<'a> EquilibriumSearch<'a> {
         if settled > 0 { self.accepted(variables) } else { None }
     }
 
-    /// Whether the rates are as small along the whole direction in which they change least, as those of Euler's equations along
-    /// a principal axis: they are quadratic across it, and Newton's method would lead to where all of them vanish.
-    fn is_in_a_straight_family(
-        &mut self,
-        variables: &[f64],
-        (f, df): (&DVector<f64>, &DMatrix<f64>),
-    ) -> bool {
-        let Some(direction) = linear::least_direction(df, VANISHES) else { return false };
-        let place = self.in_units(variables).iter().fold(1.0, |most: f64, x| most.max(x.abs()));
-        ALONG.into_iter().all(|part| {
-            let mut there = variables.to_vec();
-            for (k, &i) in self.unknowns.iter().enumerate() {
-                there[i] += part * place * direction[k] * self.units[i];
-            }
-            // the direction itself is known to rounding
-            let small = AS_SMALL * f.amax() + ROUNDED * place * df.amax();
-            self.look_in_units(&there).is_some_and(|(g, _)| g.amax() <= small)
-        })
-    }
-
     /// The variables of the search in their units.
-    fn in_units(&self, variables: &[f64]) -> Vec<f64> {
+    pub(super) fn in_units(&self, variables: &[f64]) -> Vec<f64> {
         self.unknowns.iter().map(|&i| variables[i] / self.units[i]).collect()
     }
 
@@ -297,10 +306,11 @@ impl<'a> EquilibriumSearch<'a> {
     /// at once (E. Schröder, Math. Ann. 2, 317 (1870)). Returns `None` where the rates go on shrinking without a zero, as in the
     /// tail of V = exp(−x²).
     fn approached(&mut self, mut variables: Vec<f64>) -> Option<Vec<f64>> {
-        let (mut f, mut df) = self.look_in_units(&variables)?;
-        if self.is_in_a_straight_family(&variables, (&f, &df)) {
-            return Some(variables);
+        // on a family of equilibria Newton's method is taken across it
+        if let Some(there) = self.across(&variables) {
+            return Some(there);
         }
+        let (mut f, mut df) = self.look_in_units(&variables)?;
         let mut before: Option<DVector<f64>> = None;
         for _ in 0..FURTHER_STEPS {
             if is_rounding(&f, &df, &self.in_units(&variables)) {
@@ -332,11 +342,10 @@ impl<'a> EquilibriumSearch<'a> {
         None
     }
 
-    /// The variables nearest to the start among their periods, if they are in reach; angles within half a turn of zero,
-    /// however often the motion has gone round.
-    fn accepted(&mut self, variables: Vec<f64>) -> Option<Vec<f64>> {
-        let mut variables = self.approached(variables)?;
+    /// Takes the place nearest to the start among its periods, with angles within half a turn of zero. Returns whether it is in reach.
+    pub(super) fn within_periods(&self, variables: &mut [f64]) -> bool {
         let start = &self.middle;
+        let mut in_reach = true;
         for &i in &self.unknowns {
             if let Some(period) = self.space.turns()[i] {
                 let turns = ((variables[i] - start[i]) / period).round();
@@ -344,7 +353,7 @@ impl<'a> EquilibriumSearch<'a> {
             }
             let far = self.radii()[self.radii().len() - 1] * (self.units[i] + start[i].abs());
             if i < self.degrees && (variables[i] - start[i]).abs() > far {
-                return None;
+                in_reach = false;
             }
             if let Some(period) = self.space.periods()[i] {
                 variables[i] -= period * (variables[i] / period - HALF_A_TURN).ceil();
@@ -353,6 +362,19 @@ impl<'a> EquilibriumSearch<'a> {
             if variables[i].abs() < 1e-14 * self.units[i] {
                 variables[i] = 0.0;
             }
+        }
+        in_reach
+    }
+
+    /// The variables nearest to the start among their periods, if they are in reach; angles within half a turn of zero,
+    /// however often the motion has gone round.
+    fn accepted(&mut self, variables: Vec<f64>) -> Option<Vec<f64>> {
+        let mut variables = self.approached(variables)?;
+        if self.is_pole(&variables) {
+            return None;
+        }
+        if !self.within_periods(&mut variables) {
+            return None;
         }
         match &mut self.law {
             LawAtRest::Constrained(balance) => (!balance.drives(&variables)).then_some(variables),
@@ -370,19 +392,6 @@ impl<'a> EquilibriumSearch<'a> {
                 (!self.cyclic.iter().any(pushed)).then_some(variables)
             }
         }
-    }
-
-    pub(super) fn alike(&self, a: &[f64], b: &[f64]) -> bool {
-        // velocities follow from the coordinates
-        let places = matches!(self.law, LawAtRest::Constrained(_));
-        let mut unknowns = self.unknowns.iter().filter(|&&i| !places || i < self.degrees);
-        unknowns.all(|&i| {
-            let mut apart = a[i] - b[i];
-            if let Some(period) = self.space.turns()[i] {
-                apart -= (apart / period).round() * period;
-            }
-            apart.abs() <= SAME * (self.units[i] + a[i].abs())
-        })
     }
 }
 

@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use super::mean::Mean;
-use crate::analysis::{Errors, History, LEFT, LOST, Stretch, Verdict};
+use crate::analysis::{Errors, History, LEFT, LOST, Stretch, Unseen, Verdict, rounding_floor};
 use crate::experiment::{Gauge, Reference};
 use crate::expr::Expr;
 use crate::system::{BatchTerms, TermSums, TermWatch};
@@ -15,6 +15,10 @@ pub(super) const ENERGY_BALANCE: &str = "energy balance";
 
 /// What is said beside the reason of a gauge whose drift cannot be known.
 const UNDERFLOW: &str = "its terms underflow";
+const UNRESOLVED: &str = "it cannot resolve the motion";
+
+/// The energy among the quantities of a [`TermWatch`].
+const ENERGY: usize = 0;
 
 /// Constant terms are large from this multiple of the others on: the value, in `f64`, has three digits fewer then than
 /// the sum of the others has.
@@ -299,10 +303,18 @@ impl InvariantMonitor {
         }
     }
 
-    /// Whether all its terms have always been below the numbers that have all their digits, and not because they are 0: a
-    /// drift would not be seen.
-    fn is_unknown(&self) -> bool {
-        self.underflows && self.rounding < f64::MIN_POSITIVE
+    /// Why a drift would not be seen, if it would not: all its terms have always been below the numbers that have all their digits,
+    /// and not because they are 0; or a motion whose energy is all but constant terms could be lost within their rounding error.
+    fn unseen(&self) -> Option<Unseen> {
+        let moving = self.moving.value();
+        if self.underflows && self.rounding < f64::MIN_POSITIVE {
+            return Some(Unseen::Underflow);
+        }
+        let is_lost = rounding_floor(0) * self.rounding > LOST * moving;
+        let within_rounding = self.farthest <= self.explained;
+        // the terms of others may all be constant, so that what moves of them is rounding
+        (self.quantity == Some(ENERGY) && moving > 0.0 && is_lost && within_rounding)
+            .then(|| Unseen::Unresolved(self.rounding / moving))
     }
 
     fn drift_of(&self, distance: f64, moving: f64) -> f64 {
@@ -351,12 +363,13 @@ impl InvariantMonitor {
         let left = beyond && max_drift > LEFT;
         // what is only supposed to be conserved may change with the motion
         let errors = if self.proved { errors } else { Errors::Accumulated };
-        let is_unknown = self.is_unknown();
-        let verdict = match &self.broken {
-            Some(law) => Verdict::Broken(law.clone()),
-            None if is_unknown => Verdict::Unknown,
-            None if beyond && max_drift > LOST => Verdict::Lost,
-            None => match Verdict::of(&self.distances, self.farthest, rounding, errors) {
+        let unseen = self.unseen();
+        let is_unknown = unseen.is_some();
+        let verdict = match (&self.broken, unseen) {
+            (Some(law), _) => Verdict::Broken(law.clone()),
+            (None, Some(unseen)) => Verdict::Unknown(unseen),
+            (None, None) if beyond && max_drift > LOST => Verdict::Lost,
+            (None, None) => match Verdict::of(&self.distances, self.farthest, rounding, errors) {
                 Verdict::Secular(slope) => Verdict::Secular(slope / scale),
                 other => other,
             },
@@ -365,10 +378,10 @@ impl InvariantMonitor {
         Gauge {
             name: self.name.clone(),
             shown: self.shown.clone(),
-            reason: if is_unknown {
-                format!("{}; {UNDERFLOW}", self.reason)
-            } else {
-                self.reason.clone()
+            reason: match unseen {
+                Some(Unseen::Underflow) => format!("{}; {UNDERFLOW}", self.reason),
+                Some(Unseen::Unresolved(_)) => format!("{}; {UNRESOLVED}", self.reason),
+                None => self.reason.clone(),
             },
             proved: self.proved && self.broken.is_none(),
             value,

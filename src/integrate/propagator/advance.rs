@@ -151,6 +151,7 @@ impl Propagator {
             return Err(no_digits_left(before.high));
         }
         self.steps += 1;
+        self.note_side();
         self.check_branch()?;
         if self.projector.is_some() || self.system.attitude_place().is_some() {
             self.before.copy_from(self.stepper.state());

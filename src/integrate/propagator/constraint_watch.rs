@@ -143,8 +143,8 @@ impl Propagator {
             parameters: &self.parameters,
             begun: self.watch.begun.as_ref(),
         };
-        if let Some(blow_up) = stopped.blow_up(&fault) {
-            return blow_up;
+        if let Some(known) = stopped.blow_up(&fault).or_else(|| stopped.beyond_the_clock(&fault)) {
+            return known;
         }
         if let Some(kind) = self.out_of_range(&fault) {
             return MotionError { kind, place: Vec::new(), ..fault };

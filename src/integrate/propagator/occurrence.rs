@@ -71,6 +71,9 @@ impl Propagator {
         if let Some(crossings) = &mut self.crossings {
             crossings.after_impulse(&before, &after_impulse.after, event)?;
         }
+        if let Some(event) = event {
+            self.note_impulse(event, &before, &after_impulse.after);
+        }
         self.before.copy_from(&before);
         self.impulse = Some((impulse, event));
         self.resume(&after_impulse.after)?;

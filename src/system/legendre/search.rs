@@ -19,6 +19,12 @@ const PARTS: [u32; 3] = [4, 16, 64];
 /// Two solutions whose numbers differ by less than this part of their size are equal.
 const ALIKE: f64 = 1e-8;
 
+/// Momenta that differ by more than this part are others: those of a second solution, …
+const OTHER: f64 = 0.5;
+
+/// … and those of the first, where the velocity has too few digits for them.
+const ROUGH: f64 = 1e-6;
+
 /// The starting points of the search for other solutions: the first one with one of its numbers
 /// multiplied by these factors.
 const ELSEWHERE: [f64; 10] = [-1.0, 0.5, -0.5, 2.0, -2.0, 0.1, -0.1, 10.0, -10.0, 0.0];
@@ -161,6 +167,41 @@ impl Legendre {
         outcome
     }
 
+    /// Whether a solution that was found has the momenta asked for in so few digits that they are others.
+    pub(in crate::system) fn is_rough(
+        &mut self,
+        time: DoubleDouble,
+        state: &[DoubleDouble],
+        targets: &[Option<DoubleDouble>],
+    ) -> bool {
+        let n = self.degrees;
+        let unknown: Vec<usize> = (0..n).filter(|&i| targets[i].is_some()).collect();
+        self.state.copy_from_slice(&state[..2 * n]);
+        self.misses(time, targets, &unknown, ROUGH)
+    }
+
+    /// Whether what the iteration came to has momenta that differ by more than this part: next to a pole of p(v), as at the velocity of
+    /// light, the terms are so large that any difference counts as rounding.
+    fn misses(
+        &mut self,
+        time: DoubleDouble,
+        targets: &[Option<DoubleDouble>],
+        unknown: &[usize],
+        part: f64,
+    ) -> bool {
+        let mut missed = vec![DoubleDouble::ZERO; unknown.len()];
+        let mut scales = vec![0.0; unknown.len()];
+        if self.missing(time, targets, unknown, &mut scales, &mut missed).is_err() {
+            return true;
+        }
+        let target = |i: usize| targets[i].map_or(0.0, |p| p.high.abs());
+        // beside others a small momentum has the digits of these
+        let largest = unknown.iter().map(|&i| target(i)).fold(0.0, f64::max);
+        let allowed = |i: usize| part * target(i).max(f64::EPSILON * largest);
+        let mut pairs = unknown.iter().zip(&missed);
+        pairs.any(|(&i, missed)| target(i) > 0.0 && missed.high.abs() > allowed(i))
+    }
+
     /// Returns all solutions that can be found if one is known, which is in `state` and comes
     /// first. The search starts far from it along one of the unknown numbers, and with the signs of
     /// all of them changed.
@@ -193,7 +234,9 @@ impl Legendre {
         let mut found = vec![first];
         for start in starts {
             self.state.copy_from_slice(&start);
-            if self.iterate(time, targets, &unknown).is_err() {
+            if self.iterate(time, targets, &unknown).is_err()
+                || self.misses(time, targets, &unknown, OTHER)
+            {
                 continue;
             }
             let alike = |known: &Vec<DoubleDouble>| {

@@ -366,3 +366,20 @@ fn a_coordinate_without_mass_is_named_as_that() {
     let s: f64 = last.split(',').nth(3).unwrap().parse().unwrap();
     assert!((s - std::f64::consts::PI).abs() < 1e-12, "{rows}");
 }
+
+/// ẍ = 2x³ has the solution x = 1/(1 − t). That it reaches infinity is said whatever the method and whatever follows the motion.
+#[test]
+fn a_motion_to_infinity_is_called_so_by_every_command() {
+    let text = "title = 'it'\n[coordinates]\nx = { initial = 1, velocity = 1 }\n\
+                [lagrangian]\nL = \"1/2*x'^2 + 1/2*x^4\"\n";
+    for (method, step) in [("rk4", "0.01"), ("gauss4", "0.01"), ("leapfrog", "0.01")] {
+        for command in ["flow", "lyapunov"] {
+            let words =
+                [command, "./system.toml", "--until", "5", "--method", method, "--step", step];
+            let done = with_file(text, &words);
+            assert_eq!(done.code, 1);
+            let said = "the motion grows without bound: x reaches infinity at t = 1\n";
+            assert!(done.stderr.ends_with(said), "{command} {method}: {}", done.stderr);
+        }
+    }
+}

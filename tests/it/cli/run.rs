@@ -392,6 +392,11 @@ fn a_clock_that_cannot_tell_rows_or_steps_apart_is_refused_before_the_first_row(
     ] {
         run(arguments).fails(2, &["phaselab: ", why]);
     }
+    // a first step that is shorter than the digits of the time is no collision
+    let late = run(&["--init", "t=1e17", "--until", "1.0000000001e17"]);
+    assert_eq!(late.code, 1);
+    let why = "the clock cannot continue from t = 1e17: its digits are 16 apart there";
+    assert!(late.stderr.contains(why), "{}", late.stderr);
     // the other side of each
     assert_eq!(csv(&run(&["--until", "2.1e-278"]).success()).len(), 201);
     assert_eq!(csv(&run(&["--until", "1.1e-280", "--every", "1"]).success()).len(), 1);
@@ -489,6 +494,60 @@ fn a_symplectic_swing_is_reported_as_what_it_is() {
 fn a_run_by_the_default_method_is_strict() {
     run(&["--strict", "--until", "50"]).success();
     phaselab(&["run", "damped-pendulum", "--strict"]).success();
+}
+
+/// Friction −1/v brings a body from v = 1 to rest at t = ½, v² = 1 − 2t, where it has no value: what equal steps compute behind it is no
+/// motion.
+#[test]
+fn equal_steps_over_the_end_of_a_motion_are_an_error() {
+    let file = "title = 'pole'\n[coordinates]\nx = { initial = 1, velocity = 1 }\n\
+                [lagrangian]\nL = \"1/2*x'^2\"\nforces = { x = \"-1/x'\" }\n";
+    let with = |until: &str| {
+        let fixed = ["--method", "rk4", "--step", "0.01", "--until", until];
+        with_file(file, &[&["run", "system.toml"][..], &fixed].concat())
+    };
+    let past = with("2");
+    assert_eq!(past.code, 1, "{}", past.stderr);
+    assert!(past.stderr.contains("rk4 has stepped over the end of the motion"), "{}", past.stderr);
+    assert!(past.stderr.contains("t = 0.5"), "{}", past.stderr);
+    assert_eq!(csv(&past.stdout).len(), 201);
+    assert_eq!((with("0.4").code, with("0.4").stderr.as_str()), (0, ""));
+}
+
+/// A ball whose bounce leaves it at rest on the floor, or lets it through, falls on: that is said. One that bounces, a push on the way
+/// and a ball that a ceiling stops are nothing to speak of.
+#[test]
+fn an_impulse_that_turns_nothing_back_is_reported() {
+    let file = |start: f64, velocity: f64, direction: &str, change: &str| {
+        format!(
+            "title = 'ball'\n[coordinates]\ny = {{ initial = {start}, velocity = {velocity} }}\n\
+             [lagrangian]\nL = \"1/2*y'^2 - 9.81*y\"\n[[impulses]]\nname = \"bounce\"\n\
+             change = {{ p_y = \"{change}\" }}\n[[events]]\nname = \"floor\"\nwhen = \"y\"\n\
+             direction = \"{direction}\"\naction = \"impulse:bounce\"\n"
+        )
+    };
+    let told = |text: &str, method: &str| {
+        let done = with_file(text, &["run", "system.toml", "--until", "0.6", "--method", method]);
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        done.stderr
+    };
+    // √(2/9.81) = 0.4515236
+    let words = "the impulse of `floor` at t = 0.4515 ";
+    for change in ["-y'", "-0.5*y'"] {
+        for method in ["taylor", "rk4"] {
+            let said = told(&file(1.0, 0.0, "falling", change), method);
+            assert!(said.contains(words) && said.contains("not turn the motion back"), "{said}");
+        }
+    }
+    let quiet = [
+        file(1.0, 0.0, "falling", "-1.5*y'"),
+        file(1.0, 0.0, "falling", "-2*y'"),
+        file(1.0, 0.0, "falling", "y'"),
+        file(-0.1, 3.0, "rising", "-y'"),
+    ];
+    for text in &quiet {
+        assert_eq!(told(text, "taylor"), "");
+    }
 }
 
 #[test]
@@ -800,4 +859,23 @@ fn a_parameter_with_the_name_of_a_unit_is_pointed_out() {
     let done = with_file(&text, &["run", "system.toml", "--init", "theta=0.5 m", "--until", "1"]);
     let said = "--init theta=0.5 m: `m` is the parameter and no unit, so that this is 1.0";
     assert!(done.code == 0 && done.stderr.contains(said), "{}", done.stderr);
+}
+
+/// A large momentum belongs to one velocity, which differs from that of light by p⁻²/2: for 1e12 m c that is more than the digits tell,
+/// and the start is refused as that; its opposite has not that momentum.
+#[test]
+fn a_start_near_the_velocity_of_light_is_one() {
+    let file = "title = 'p'\n[coordinates]\nx = { initial = 0, velocity = 0.5 }\n[lagrangian]\n\
+                L = \"-sqrt(1 - x'^2) - 1/2*x^2\"\n";
+    let with = |momentum: &str| {
+        let words = ["run", "system.toml", "--init", momentum, "--until", "1", "--every", "1"];
+        with_file(file, &words)
+    };
+    for momentum in ["p_x=1e3", "p_x=-1e6"] {
+        let done = with(momentum);
+        assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{momentum}");
+    }
+    let done = with("p_x=1e12");
+    assert_eq!(done.code, 1);
+    assert!(done.stderr.contains("no velocities were found"), "{}", done.stderr);
 }

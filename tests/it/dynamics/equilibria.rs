@@ -665,6 +665,107 @@ fn the_equilibria_of_brackets_are_those_on_their_casimirs() {
     }
 }
 
+/// A family of equilibria has one member listed, the one nearest to the start, with the directions along it; what is no family
+/// is not called so.
+#[test]
+fn a_curve_of_equilibria_is_a_family() {
+    let plane = |potential: &str| {
+        held(
+            &format!(
+                "title = \"t\"\n[coordinates]\nx = {{ initial = 1.3, velocity = 0 }}\ny = {{ initial = 0.4, velocity = 0 }}\n\
+                 [lagrangian]\nL = \"1/2*(x'^2 + y'^2) - ({potential})\"\n"
+            ),
+            &[],
+        )
+    };
+    let zeros = |one: &Equilibrium| one.eigenvalues.iter().filter(|z| **z == [0.0, 0.0]).count();
+    // the circle of minima, and the maximum in its middle
+    let found = plane("(x^2 + y^2 - 1)^2");
+    assert_eq!(found.iter().map(|one| one.family.len()).collect::<Vec<_>>(), [1, 0]);
+    let radius = 1.3_f64.hypot(0.4);
+    let circle = &found[0];
+    close(circle.variables[0], 1.3 / radius, 1e-7);
+    close(circle.variables[1], 0.4 / radius, 1e-7);
+    close(circle.variables[0].hypot(circle.variables[1]), 1.0, 1e-14);
+    let along = &circle.family[0];
+    close(along[0] * circle.variables[0] + along[1] * circle.variables[1], 0.0, 1e-12);
+    assert_eq!(zeros(circle), 2);
+    close(frequencies(circle)[0], 8.0_f64.sqrt(), 1e-12);
+    assert_eq!(found[1].kind, Some(Kind::Maximum));
+    // two circles of one energy are two, a valley is one, and so is a line
+    let circles = plane("(x^2 + y^2 - 1)^2*(x^2 + y^2 - 4)^2");
+    assert_eq!(circles.iter().filter(|one| one.family.len() == 1).count(), 3, "{circles:?}");
+    let radii = |one: &Equilibrium| one.variables[0].hypot(one.variables[1]);
+    let bottoms = circles.iter().filter(|one| one.energy < 1e-9).map(radii);
+    let mut bottoms: Vec<f64> = bottoms.collect();
+    bottoms.sort_by(f64::total_cmp);
+    close(bottoms[0], 1.0, 1e-13);
+    close(bottoms[1], 2.0, 1e-13);
+    for potential in ["(y - x^2)^2", "1/2*(x - y)^2", "(y - sin(3*x))^2"] {
+        let found = plane(potential);
+        let families: Vec<usize> = found.iter().map(|one| one.family.len()).collect();
+        assert_eq!(families, [1], "{potential}: {found:?}");
+        assert_eq!(zeros(&found[0]), 2, "{potential}");
+    }
+    // V that grows like a fourth power has no family, and two zeros of one energy are two
+    let found = plane("x^4 + y^2/2");
+    assert_eq!(found.iter().map(|one| one.family.len()).collect::<Vec<_>>(), [0]);
+    let found = plane("x^4*(x - 1)^4 + y^2");
+    let mut places: Vec<f64> = found.iter().map(|one| one.variables[0]).collect();
+    places.sort_by(f64::total_cmp);
+    assert_eq!(places.len(), 3, "{places:?}");
+    for (place, x) in places.iter().zip([0.0, 0.5, 1.0]) {
+        close(*place, x, 1e-4);
+    }
+}
+
+/// A bead on a circle rests everywhere, and on a sphere its equilibria are a surface.
+#[test]
+fn a_bead_that_nothing_pulls_rests_everywhere() {
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 0.6, velocity = 0 }\ny = { initial = 0.8, velocity = 0 }\n\
+                z = { initial = 0, velocity = 0 }\n[lagrangian]\nL = \"1/2*(x'^2 + y'^2 + z'^2) - V\"\n\
+                [[constraints]]\nname = \"wire\"\nexpression = \"x^2 + y^2 + c*z^2 - 1\"\n[parameters]\nc = C\n";
+    for (potential, c, dimension) in [("z^2", "0", 1), ("0", "1", 2)] {
+        let found = held(&text.replace('V', potential).replace('C', c), &[]);
+        let [one] = &found[..] else { panic!("{found:?}") };
+        assert_eq!(one.family.len(), dimension);
+        close(one.variables[0], 0.6, 1e-12);
+        close(one.variables[1], 0.8, 1e-12);
+    }
+}
+
+/// Two wells 1e-5 apart are two, with the maximum between them; next to the pole of a centrifugal force nothing rests.
+#[test]
+fn equilibria_close_to_each_other_are_told_apart_and_poles_are_none() {
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 0.5, velocity = 0 }\n[lagrangian]\n\
+                L = \"1/2*x'^2 - (x^2 - 0.25e-10)^2*(x^2 + 1)\"\n";
+    let found = held(text, &[]);
+    assert_eq!(kinds(&found), [MINIMUM, MINIMUM, MAXIMUM]);
+    let mut places: Vec<f64> = found.iter().map(|one| one.variables[0]).collect();
+    places.sort_by(f64::total_cmp);
+    for (place, x) in places.iter().zip([-5e-6, 0.0, 5e-6]) {
+        close(*place, x, 1e-15);
+    }
+    // about x = ½ the force has an error of 1e-16, which leaves the wells uncertain by 1e-6, and they are listed once each
+    let text = "title = \"t\"\n[coordinates]\nx = { initial = 0.5, velocity = 0 }\n[lagrangian]\n\
+                L = \"1/2*x'^2 - ((x - 1/2)^2 - 0.25e-10)^2\"\n";
+    let found = held(text, &[]);
+    let mut places: Vec<f64> = found.iter().map(|one| one.variables[0]).collect();
+    places.sort_by(f64::total_cmp);
+    assert_eq!(places.len(), 3, "{places:?}");
+    for (place, x) in places.iter().zip([-5e-6, 0.0, 5e-6]) {
+        close(*place, 0.5 + x, 2e-6);
+    }
+    let half = std::f64::consts::FRAC_PI_2;
+    let case = preset("spherical-pendulum", &[], &[half]);
+    let found = of(&case);
+    assert_eq!(found.len(), 2, "{found:?}");
+    for one in &found {
+        let (_, turning) = one.rates[0];
+        close(one.variables[0].cos() * turning * turning, 9.81, 1e-11);
+    }
+}
+
 /// L₄ and L₅ have one energy: which comes first is no matter of where the search begins.
 #[test]
 fn equilibria_of_one_energy_have_an_order_of_their_own() {

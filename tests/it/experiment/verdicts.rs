@@ -105,6 +105,21 @@ fn an_oscillator_with_a_constant_in_its_potential() {
     assert_eq!(runs, 60);
 }
 
+/// A pendulum that swings by so little that its energy, whose terms are 1, cannot tell whether it moves: E − E₀ may be ε = 2e-16, and
+/// what moves is θ₀²/2. Nothing is known then, and from amplitudes on that are large enough E is exact.
+#[test]
+fn an_energy_that_cannot_resolve_the_motion_is_not_exact() {
+    for (from, word) in [(1e-9, "unknown"), (1e-7, "unknown"), (1e-5, "exact"), (1e-3, "exact")] {
+        let text = format!(
+            "title = \"Pendulum\"\n[coordinates]\ntheta = {{ initial = {from} }}\n\
+             [lagrangian]\nL = \"1/2*theta'^2 + cos(theta)\"\n"
+        );
+        let snapshot = carried(&text, "taylor", None, 50.0).snapshot();
+        let energy = gauge(&snapshot, "energy");
+        assert_eq!(energy.verdict.word(), word, "{from}: {energy:?}");
+    }
+}
+
 /// The period of L = θ'²/2 + cos θ from rest at θ₀: 2π over the arithmetic-geometric mean of 1 and cos θ₀/2.
 fn period_of_pendulum(from: f64) -> f64 {
     let (mut a, mut b) = (1.0, (from / 2.0).cos());

@@ -206,6 +206,22 @@ fn an_impulse_that_is_not_after_the_start_is_a_warning() {
     assert!(checked(&file).warnings.is_empty());
 }
 
+/// What is negative nowhere, or positive nowhere, crosses zero nowhere.
+#[test]
+fn an_event_that_only_touches_zero_is_a_warning() {
+    let warned = |when: &str| {
+        let file = with(&format!("[[events]]\nname = \"e\"\nwhen = \"{when}\""));
+        let warnings = checked(&file).warnings;
+        warnings.iter().any(|one| one.message.contains("never changes its sign"))
+    };
+    for when in ["abs(x - 2)", "(x - 2)^2", "x^2 - 4*x + 4", "-abs(x)", "sqrt(x^2)", "x^2 + 1"] {
+        assert!(warned(when), "{when}");
+    }
+    for when in ["x - 2", "x^3", "abs(x) - 2", "x^2 - 1", "x*abs(x)", "sin(t)"] {
+        assert!(!warned(when), "{when}");
+    }
+}
+
 /// A free rigid body.
 const BODY: &str = r#"title = "Body"
 

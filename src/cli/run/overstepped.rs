@@ -1,0 +1,38 @@
+//! Whether equal steps have passed over a place where the motion ends, such as a pole of a force.
+//!
+//! In: the setup of a run in which a conserved quantity was lost. Out: why the motion by series ends before the run does. Never here:
+//! rows.
+
+use std::sync::Arc;
+
+use crate::experiment::{AdvanceOutcome, Experiment, Setup, Status};
+use crate::integrate::Settings;
+use crate::mechanics::Equations;
+use crate::model::Model;
+use crate::system::System;
+
+/// The method that finds where a motion ends.
+const BY_SERIES: &str = "taylor";
+
+/// It is followed for at most so many steps.
+const MOST_STEPS: u64 = 20_000;
+
+/// Why the motion ends before the time that the setup asks for; `None` if it does not, or not within some number of steps.
+pub(super) fn end_of_motion(
+    (model, equations, system): (&Arc<Model>, &Arc<Equations>, &System),
+    setup: &Setup,
+) -> Option<String> {
+    let end = setup.end?;
+    let settings = Settings { step: None, tolerance: None };
+    let by_series = Setup { method: BY_SERIES.to_owned(), settings, ..setup.clone() };
+    let mut motion = Experiment::new(model, equations, system, by_series).ok()?;
+    motion.forget_past();
+    motion.only_count_occurrences();
+    if motion.advance(end, MOST_STEPS) != AdvanceOutcome::Stuck {
+        return None;
+    }
+    match motion.status() {
+        Status::Failed(fault) if fault.time < end => Some(fault.message),
+        _ => None,
+    }
+}

@@ -1,0 +1,84 @@
+//! When two places that a search finds are one equilibrium.
+//!
+//! In: two places at which the rates vanish. Out: whether rounding alone tells them apart. Never here: families, whose members are
+//! equilibria each.
+
+use nalgebra::DVector;
+
+use super::search::{EquilibriumSearch, LawAtRest};
+use crate::dynamics::equilibrium::Equilibrium;
+use crate::dynamics::linear;
+use crate::dynamics::small_oscillation::Kind;
+
+/// Two energies are the same up to this part of their size plus 1.
+const SAME_ENERGY: f64 = 1e-7;
+
+/// Places nearer to each other than this, in their size, may be told apart by rounding alone: where the rates between them are no more
+/// than this multiple of their rounding error, and the places no farther apart than it leaves them uncertain. It is seen in so many
+/// places that are the same as one.
+const NEAR: f64 = 1e-3;
+const ABOVE_NOISE: f64 = 4.0;
+const NOISE_SAMPLES: u32 = 8;
+
+/// Two places are the same up to this distance relative to their size plus their unit.
+const SAME: f64 = 1e-7;
+
+impl EquilibriumSearch<'_> {
+    /// Whether two equilibria at which V changes by less than a square are told apart by rounding alone: V is the same between them.
+    pub(super) fn is_flat_between(&self, known: &Equilibrium, one: &Equilibrium) -> bool {
+        let degenerate = |one: &Equilibrium| one.kind == Some(Kind::Degenerate);
+        let energies = [1.0, 0.75, 0.5, 0.25].map(|part| {
+            let pairs = known.variables.iter().zip(&one.variables);
+            let variables: Vec<f64> = pairs.map(|(a, b)| a + part * (b - a)).collect();
+            let state = self.space.state_at(self.start, &variables);
+            self.space.system().energy(&state, self.space.parameters()).ok()
+        });
+        let same = |energy: Option<f64>| {
+            energy.is_some_and(|energy| {
+                (energy - known.energy).abs() <= SAME_ENERGY * (known.energy.abs() + 1.0)
+            })
+        };
+        degenerate(known) && degenerate(one) && energies.into_iter().all(same)
+    }
+
+    /// Whether two places near each other, at which the rates vanish to rounding, are told apart by rounding alone: the rates between
+    /// them are no more than what rounding leaves of them.
+    pub(super) fn is_lost_between(&mut self, known: &[f64], one: &[f64]) -> bool {
+        let size = self.in_units(known).iter().fold(1.0, |most: f64, x| most.max(x.abs()));
+        let pairs = self.in_units(known).into_iter().zip(self.in_units(one));
+        let apart = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        if apart > NEAR * size {
+            return false;
+        }
+        let Some((f, df)) = self.look_in_units(known) else { return false };
+        let mut noise = 0.0_f64;
+        for step in 1..=NOISE_SAMPLES {
+            let mut there = known.to_vec();
+            let moved = SAME * size * f64::from(step) / f64::from(NOISE_SAMPLES);
+            self.unknowns.iter().for_each(|&i| there[i] += moved * self.units[i]);
+            let Some((g, _)) = self.look_in_units(&there) else { return false };
+            let linear = &f + &df * DVector::from_element(df.ncols(), moved);
+            noise = noise.max((g - linear).amax());
+        }
+        let Some(slopes) = linear::singular_values(&df) else { return false };
+        apart * slopes.sizes.min() <= ABOVE_NOISE * noise
+            && [0.25, 0.5, 0.75].into_iter().all(|part| {
+                let pairs = known.iter().zip(one);
+                let there: Vec<f64> = pairs.map(|(a, b)| a + part * (b - a)).collect();
+                self.look_in_units(&there).is_some_and(|(g, _)| g.amax() <= ABOVE_NOISE * noise)
+            })
+    }
+
+    pub(super) fn alike(&self, a: &[f64], b: &[f64]) -> bool {
+        // velocities follow from the coordinates
+        let places = matches!(self.law, LawAtRest::Constrained(_));
+        let mut unknowns = self.unknowns.iter().filter(|&&i| !places || i < self.degrees);
+        unknowns.all(|&i| {
+            let mut apart = a[i] - b[i];
+            if let Some(period) = self.space.turns()[i] {
+                apart -= (apart / period).round() * period;
+            }
+            apart.abs() <= SAME * (self.units[i] + a[i].abs())
+        })
+    }
+}
