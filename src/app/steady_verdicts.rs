@@ -69,7 +69,10 @@ impl Told {
 
     fn look(&mut self, gauge: &Gauge, moved: bool) {
         let new = &gauge.verdict;
-        if is_alike(&self.verdict, new) || changes_at_once(&self.verdict, gauge) {
+        let last = self.other.as_ref().map_or(&self.verdict, |(other, _)| other);
+        // what changes while nothing moves is judged anew, and does not flicker
+        let is_anew = !moved && !is_alike(last, new);
+        if is_alike(&self.verdict, new) || is_anew || changes_at_once(&self.verdict, gauge) {
             (self.verdict, self.other) = (new.clone(), None);
             return;
         }

@@ -86,6 +86,9 @@ pub(super) fn is_single(area: Rect) -> bool {
     area.width < 64 && area.height < 16
 }
 
+/// Rows for the reason of the selected gauge.
+const REASON: u16 = 3;
+
 /// The least rows of a list and of the law of motion, with their frames.
 const SHORTEST: u16 = 4;
 const LAW: u16 = 6;
@@ -132,12 +135,12 @@ fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     let gauges = lab.snapshot.as_ref().map_or(0, |s| s.gauges.len()) as u16;
     let parameters = lab.count(ValueId::Parameter) as u16;
     // A frame takes two rows, a gauge two and the gauges' headings one; the meaning of the selected parameter takes
-    // two; the reason of a gauge is told in the footer, so that nothing moves when it is selected. Rows to spare are the
-    // law's.
+    // two, and the reason of the selected gauge some more while there is one. Rows to spare are the law's.
+    let focused = if lab.focus == Pane::Gauges { REASON } else { 0 };
     let wants = [
         parameters + 2 + meaning(lab, area.width),
         lab.count(ValueId::Initial) as u16 + 2,
-        2 * gauges.max(1) + 3,
+        2 * gauges.max(1) + 3 + focused,
     ];
     let mut heights = wants.map(|want| want.max(SHORTEST));
     let mut total: u16 = heights.iter().sum();
@@ -149,7 +152,7 @@ fn column(area: Rect, lab: &Lab) -> Vec<(Slot, Rect)> {
     }
     // What two rows a gauge are not enough for is left to the law.
     if heights[2] < 2 * gauges + 3 {
-        heights[2] = heights[2].min((gauges + 3).max(SHORTEST));
+        heights[2] = heights[2].min((gauges + 3 + focused).max(SHORTEST));
     }
     let total: u16 = heights.iter().sum();
     let spare = area.height.saturating_sub(total);
