@@ -44,6 +44,7 @@ pub mod number;
 mod numbers;
 mod picker;
 mod picture;
+mod picture_title;
 mod plain;
 pub mod plot;
 mod prediction;

@@ -5,7 +5,7 @@
 
 use super::history::Change;
 use super::{App, Effect, Lab, Loaded, Pane, ValueId};
-use crate::experiment::{Checkpoint, Command, with_override};
+use crate::experiment::{Checkpoint, Command, Status, with_override};
 use crate::instrument::Plot;
 use crate::integrate::Settings;
 use crate::num::significant;
@@ -66,17 +66,18 @@ impl Lab {
     pub(super) fn change(&mut self, target: ValueId, to: f64) -> Vec<Effect> {
         let Some(from) = self.value(target).filter(|from| *from != to) else { return Vec::new() };
         let numbers = [from, to];
-        self.set_pending(target, to);
         match target {
             ValueId::Parameter(index) => {
-                self.history.note(Change::Parameter { index, numbers });
+                self.note(Change::Parameter { index, numbers });
+                self.set_pending(target, to);
                 vec![Effect::Tell(Command::Parameter { index, value: to })]
             }
             ValueId::Initial(index) => {
                 let before = self.given();
                 let after = with_override(&self.loaded.system, &before, index, to);
-                self.asked.given = Some(after.clone());
-                self.history.note(Change::Initial { index, numbers, given: [before, after] });
+                self.note(Change::Initial { index, numbers, given: [before, after.clone()] });
+                self.set_pending(target, to);
+                self.asked.given = Some(after);
                 vec![Effect::Tell(Command::Initial { index, value: to })]
             }
         }
@@ -86,17 +87,13 @@ impl Lab {
     pub(super) fn start(&mut self, values: &[InitialOverride]) -> Vec<Effect> {
         let before = self.given();
         let after = self.given_with(values);
-        self.history.note(Change::Start([before, after.clone()]));
+        self.note(Change::Start([before, after.clone()]));
         vec![self.begin_with(after)]
     }
 
-    /// Starts the motion where a flow has led; undone, the motion goes on from where it was carried away.
+    /// Starts the motion where a flow has led.
     pub(super) fn start_carried(&mut self, after: Vec<InitialOverride>) -> Vec<Effect> {
-        if let Some(seen) = self.seen() {
-            let Loaded { model, system, .. } = &self.loaded;
-            let before = Box::new(Checkpoint::of(model, system, seen).with_past(system, seen));
-            self.history.note(Change::Flow { before, after: after.clone() });
-        }
+        self.note(Change::Flow([self.given(), after.clone()]));
         vec![self.begin_with(after)]
     }
 
@@ -112,7 +109,7 @@ impl Lab {
     pub(super) fn full_reset(&mut self) -> Vec<Effect> {
         let parameters = (0..self.count(ValueId::Parameter)).map(ValueId::Parameter);
         let parameters = parameters.filter_map(|target| self.value(target)).collect();
-        self.history.note(Change::FullReset { parameters, given: self.given() });
+        self.note(Change::FullReset { parameters, given: self.given() });
         vec![self.give_back()]
     }
 
@@ -121,7 +118,7 @@ impl Lab {
         match self.method() {
             // Switching to the same method would only restart its statistics.
             Some(before) if before == name => return Vec::new(),
-            Some(before) => self.history.note(Change::Method([before, name])),
+            Some(before) => self.note(Change::Method([before, name])),
             None => {}
         }
         self.asked.method = Some(name);
@@ -145,7 +142,7 @@ impl Lab {
         let mut after = before;
         change(&mut after);
         if after != before {
-            self.history.note(Change::Settings([before, after]));
+            self.note(Change::Settings([before, after]));
         }
         self.asked.settings = Some(after);
     }
@@ -159,34 +156,81 @@ impl Lab {
             return;
         }
         let plots = Box::new([before, plot.clone()]);
-        self.history.note(Change::Plot { index, plots });
+        self.note(Change::Plot { index, plots });
         self.answers.stale = true;
     }
 
     /// Undoes the last change and returns its description. Returns `None` if there is none.
     pub(super) fn undo(&mut self) -> Option<(Vec<Effect>, String)> {
-        let change = self.history.undo()?;
-        let label = format!(
-            "undone: {}{}",
-            self.words(&change, ChangeSide::Before),
-            self.going_on(&change)
-        );
-        Some((self.carry_out(change, ChangeSide::Before), label))
+        let now = self.checkpoint();
+        let (change, motion) = self.history.undo(now)?;
+        Some(self.go_to_side("undone", (change, motion), ChangeSide::Before))
     }
 
     /// Redoes the change undone last and returns its description. Returns `None` if there is none.
     pub(super) fn redo(&mut self) -> Option<(Vec<Effect>, String)> {
-        let change = self.history.redo()?;
-        let label =
-            format!("redone: {}{}", self.words(&change, ChangeSide::After), self.going_on(&change));
-        Some((self.carry_out(change, ChangeSide::After), label))
+        let now = self.checkpoint();
+        let (change, motion) = self.history.redo(now)?;
+        Some(self.go_to_side("redone", (change, motion), ChangeSide::After))
     }
 
-    /// What becomes of a motion under way when a parameter is given back: it has been another one since, and goes on.
-    fn going_on(&self, change: &Change) -> &'static str {
-        let moving = self.seen().is_some_and(|seen| seen.time > 0.0);
-        let of_law = matches!(change, Change::Parameter { .. });
-        if moving && of_law { "; the motion goes on from here, r restarts it" } else { "" }
+    /// Applies one side of a change, and brings back the motion that was there then.
+    fn go_to_side(
+        &mut self,
+        verb: &str,
+        (change, motion): (Change, Option<Box<Checkpoint>>),
+        side: ChangeSide,
+    ) -> (Vec<Effect>, String) {
+        let mut label = format!("{verb}: {}", self.words(&change, side));
+        let mut effects = self.carry_out(change, side);
+        if let Some(mut motion) = motion {
+            // whether time runs, and how fast, is no part of the change
+            if let Some(seen) = self.seen() {
+                motion.running = seen.status == Status::Running
+                    || !matches!(seen.status, Status::Paused) && motion.running;
+                let of_file = self.loaded.model.run.speed;
+                motion.speed = Some(seen.speed).filter(|speed| *speed != of_file);
+            }
+            if let Some(present) =
+                motion.present.as_ref().filter(|now| now.time != self.loaded.model.run.start)
+            {
+                label += &format!(", the motion of t = {}", crate::num::short(present.time));
+            }
+            effects
+                .retain(|effect| !matches!(effect, Effect::Tell(command) if command.sets_values()));
+            // what waits for a text waits no longer
+            self.held = None;
+            (self.awaited, self.awaited_law) = (Some((*motion).clone()), None);
+            effects.push(Effect::Tell(Command::Restore(motion)));
+        }
+        (effects, label)
+    }
+
+    /// Records a change, and the motion before it if that becomes another one.
+    fn note(&mut self, change: Change) {
+        let of_motion = change.is_of_motion();
+        if self.history.note(change)
+            && of_motion
+            && let Some(before) = self.checkpoint()
+        {
+            self.history.keep_motion(before);
+        }
+    }
+
+    /// Returns the motion now, as it will be once everything requested is done.
+    fn checkpoint(&self) -> Option<Checkpoint> {
+        let Loaded { model, system, .. } = &self.loaded;
+        let seen = self.seen()?;
+        let awaited = self.held.as_ref().or(self.awaited.as_ref());
+        let of_seen = || Checkpoint::of(model, system, seen).with_past(system, seen);
+        let mut now = awaited.cloned().unwrap_or_else(of_seen);
+        let value = |index| self.value(ValueId::Parameter(index));
+        let values = (0..model.parameters.len()).map(|i| value(i).unwrap_or(seen.parameters[i]));
+        now.set_parameters(model, values);
+        if let (Some(given), None) = (&self.asked.given, awaited) {
+            now.start_with(model, given);
+        }
+        Some(now)
     }
 
     /// Describes the transition to one side of a change: `g 9.81 → 3.2`.
@@ -204,7 +248,7 @@ impl Lab {
                 went(&name, side.way(*numbers).map(short))
             }
             Change::Start(_) => "the initial values".to_owned(),
-            Change::Flow { .. } => "the flow".to_owned(),
+            Change::Flow(_) => "the flow".to_owned(),
             Change::FullReset { .. } => "the reset to the file's values".to_owned(),
             Change::Plot { index, .. } => {
                 format!("what is shown of {}", self.name_of(Pane::Plot(*index)))
@@ -239,16 +283,7 @@ impl Lab {
                 self.set_pending(ValueId::Initial(index), side.of(numbers));
                 vec![effect]
             }
-            Change::Start(given) => vec![self.begin_with(side.of(given))],
-            Change::Flow { before, after } => match side {
-                ChangeSide::After => vec![self.begin_with(after)],
-                ChangeSide::Before => {
-                    // what waits for a text waits no longer
-                    self.held = None;
-                    (self.awaited, self.awaited_law) = (Some((*before).clone()), None);
-                    vec![Effect::Tell(Command::Restore(before))]
-                }
-            },
+            Change::Start(given) | Change::Flow(given) => vec![self.begin_with(side.of(given))],
             Change::FullReset { parameters, given } => match side {
                 ChangeSide::After => vec![self.give_back()],
                 ChangeSide::Before => {

@@ -1,6 +1,7 @@
 //! Undo history: all changes of values, method and pictures, to be undone and redone in one order.
 //!
-//! In: changes as they are made. Out: the change to be undone or redone. Never here: how it is carried out.
+//! In: changes as they are made, and the motion before each. Out: the change to be undone or redone, and the motion to
+//! go back to. Never here: how it is carried out.
 //! Navigation (the focus, the page, a zoomed pane) is not a change.
 
 use std::time::Duration;
@@ -12,6 +13,9 @@ use crate::system::InitialOverride;
 
 /// Changes of one thing that follow each other within this time are undone together.
 const TOGETHER: Duration = Duration::from_millis(800);
+
+/// The most changes for which the recorded past of the motion before is kept, and not its state alone.
+const MOST_PASTS: usize = 32;
 
 /// One undoable change.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,13 +38,8 @@ pub(super) enum Change {
     },
     /// Several initial values were set at once: all overrides before and after.
     Start([Vec<InitialOverride>; 2]),
-    /// A flow has carried the state to another orbit.
-    Flow {
-        /// The motion before.
-        before: Box<Checkpoint>,
-        /// The overrides of the file's initial values after.
-        after: Vec<InitialOverride>,
-    },
+    /// A flow has carried the state to another orbit: all overrides before and after.
+    Flow([Vec<InitialOverride>; 2]),
     /// All values were reset to the file's.
     FullReset {
         /// The parameters before.
@@ -64,6 +63,19 @@ pub(super) enum Change {
 }
 
 impl Change {
+    /// Whether the motion is another one after it.
+    pub(super) fn is_of_motion(&self) -> bool {
+        match self {
+            Self::Parameter { .. }
+            | Self::Initial { .. }
+            | Self::Start(_)
+            | Self::Flow(_)
+            | Self::FullReset { .. } => true,
+            Self::Plot { .. } | Self::Method(_) | Self::Settings(_) => false,
+            Self::Together(changes) => changes.iter().any(Self::is_of_motion),
+        }
+    }
+
     /// Merges a later change of the same thing into this one. Returns whether the two belong together.
     fn join(&mut self, later: &Self) -> bool {
         match (self, later) {
@@ -90,19 +102,27 @@ impl Change {
     }
 }
 
+/// A change, and where the motion was.
+#[derive(Clone, Debug)]
+struct Entry {
+    change: Change,
+    /// The motion before the change, and the one after it at which it was undone.
+    motions: [Option<Box<Checkpoint>>; 2],
+}
+
 /// The changes made, and the changes undone.
 #[derive(Clone, Debug, Default)]
 pub(super) struct UndoHistory {
-    done: Vec<Change>,
-    undone: Vec<Change>,
+    done: Vec<Entry>,
+    undone: Vec<Entry>,
     since: Option<Duration>,
     /// The number of changes made when the mouse began to drag something.
     begin_group: Option<usize>,
 }
 
 impl UndoHistory {
-    /// Records a change made now.
-    pub(super) fn note(&mut self, change: Change) {
+    /// Records a change made now. Returns whether it begins an entry of its own.
+    pub(super) fn note(&mut self, change: Change) -> bool {
         self.undone.clear();
         let last = self.done.len().saturating_sub(1);
         let joining = match self.begin_group {
@@ -112,8 +132,22 @@ impl UndoHistory {
             None => &mut [],
         };
         self.since = Some(Duration::ZERO);
-        if !joining.iter_mut().rev().any(|earlier| earlier.join(&change)) {
-            self.done.push(change);
+        if joining.iter_mut().rev().any(|earlier| earlier.change.join(&change)) {
+            return false;
+        }
+        self.done.push(Entry { change, motions: [None, None] });
+        true
+    }
+
+    /// Keeps the motion before the last entry.
+    pub(super) fn keep_motion(&mut self, before: Checkpoint) {
+        if let Some(entry) = self.done.last_mut() {
+            entry.motions[0] = Some(Box::new(before));
+        }
+        if let Some(old) = self.done.len().checked_sub(MOST_PASTS + 1)
+            && let Some(motion) = &mut self.done[old].motions[0]
+        {
+            motion.past = None;
         }
     }
 
@@ -125,8 +159,11 @@ impl UndoHistory {
     /// Ends the group; all changes made since its start are undone as one.
     pub(super) fn end_group(&mut self) {
         if let Some(before) = self.begin_group.filter(|before| self.done.len() > before + 1) {
-            let changes = self.done.split_off(before);
-            self.done.push(Change::Together(changes));
+            let entries = self.done.split_off(before);
+            let first = entries.iter().find_map(|entry| entry.motions[0].clone());
+            let changes = entries.into_iter().map(|entry| entry.change).collect();
+            let change = Change::Together(changes);
+            self.done.push(Entry { change, motions: [first, None] });
         }
         (self.begin_group, self.since) = (None, None);
     }
@@ -136,20 +173,32 @@ impl UndoHistory {
         self.since = self.since.map(|since| since.saturating_add(elapsed));
     }
 
-    /// Returns the change to be undone.
-    pub(super) fn undo(&mut self) -> Option<Change> {
-        let change = self.done.pop()?;
+    /// Returns the change to be undone and the motion before it. The motion now is kept for when it is redone.
+    pub(super) fn undo(
+        &mut self,
+        now: Option<Checkpoint>,
+    ) -> Option<(Change, Option<Box<Checkpoint>>)> {
+        let mut entry = self.done.pop()?;
         self.since = None;
-        self.undone.push(change.clone());
-        Some(change)
+        let motion = entry.motions[0].clone();
+        entry.motions[1] = now.map(Box::new).filter(|_| motion.is_some());
+        let change = entry.change.clone();
+        self.undone.push(entry);
+        Some((change, motion))
     }
 
-    /// Returns the change to be redone.
-    pub(super) fn redo(&mut self) -> Option<Change> {
-        let change = self.undone.pop()?;
+    /// Returns the change to be redone and the motion at which it was undone. The motion now is kept for when it is undone.
+    pub(super) fn redo(
+        &mut self,
+        now: Option<Checkpoint>,
+    ) -> Option<(Change, Option<Box<Checkpoint>>)> {
+        let mut entry = self.undone.pop()?;
         self.since = None;
-        self.done.push(change.clone());
-        Some(change)
+        let motion = entry.motions[1].clone();
+        entry.motions[0] = now.map(Box::new).filter(|_| motion.is_some());
+        let change = entry.change.clone();
+        self.done.push(entry);
+        Some((change, motion))
     }
 }
 
@@ -163,7 +212,7 @@ mod tests {
         history.note(Change::Parameter { index: 0, numbers: [1.0, 2.0] });
         history.tick(Duration::from_millis(milliseconds));
         history.note(Change::Parameter { index: 0, numbers: [2.0, 3.0] });
-        std::iter::from_fn(|| history.undo()).count()
+        std::iter::from_fn(|| history.undo(None)).count()
     }
 
     #[test]

@@ -9,6 +9,7 @@ use std::time::Duration;
 use super::answers::{Answers, EquilibriaSearch, FurtherSearch, SymmetrySearch};
 use super::history::UndoHistory;
 use super::pending::PendingChanges;
+use super::steady_verdicts::SteadyVerdicts;
 use super::{DrawnPanes, InvariantSearch, LawInView, Loaded, Pane, Prediction, Selection, ValueId};
 use crate::experiment::{Checkpoint, Snapshot, Status};
 use crate::expr::Zero;
@@ -60,6 +61,8 @@ pub struct Lab {
     pub(super) speed_wish: Option<f64>,
     pub(super) equilibria: EquilibriaSearch,
     pub(super) history: UndoHistory,
+    /// The verdicts as they are told.
+    steady: SteadyVerdicts,
     /// What a person predicts on a picture.
     pub prediction: Option<Box<Prediction>>,
     /// The times that are marked, in order.
@@ -138,6 +141,7 @@ impl Lab {
             speed_wish: None,
             equilibria: EquilibriaSearch::default(),
             history: UndoHistory::default(),
+            steady: SteadyVerdicts::default(),
             prediction: None,
             marks: Vec::new(),
             awaited: None,
@@ -163,7 +167,9 @@ impl Lab {
         }
         self.speed_wish = self.speed_wish.filter(|requested| *requested != snapshot.speed);
         self.asked.see(&snapshot);
-        self.snapshot = Some(snapshot);
+        let told = self.steady.see(&snapshot);
+        let with = |gauges| Arc::new(Snapshot { gauges, ..(*snapshot).clone() });
+        self.snapshot = Some(told.map_or_else(|| Arc::clone(&snapshot), with));
         self.answers.stale = true;
         let pending = std::mem::take(&mut self.pending);
         self.pending =

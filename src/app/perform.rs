@@ -278,6 +278,8 @@ impl App {
                 return self.back();
             }
             _ => {
+                // what was said before is not said of the help
+                self.notice = None;
                 let below = self.overlay.take().map(Box::new);
                 let scroll = self.scroll;
                 self.overlay = Some(Overlay::Help { scroll, below, search: None, typing: false });

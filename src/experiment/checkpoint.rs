@@ -7,16 +7,14 @@
 //! A checkpoint holds only what differs from the file. A value that has since changed in the file therefore replaces
 //! the old one, and a value set by the user is preserved.
 
-use std::fmt;
-
 use serde::{Deserialize, Serialize};
 
 use super::last_change::SavedChange;
 use super::named::{Named, named};
 use super::reference::Reference;
-use super::{SavedCompanion, Setup, Snapshot, Status, Trail};
+use super::{Past, SavedCompanion, Setup, Snapshot, Status};
 use crate::model::Model;
-use crate::system::{Channel, ChannelKind, Form, State, System};
+use crate::system::{ChannelKind, Form, InitialOverride, State, System};
 
 /// A checkpoint of a motion.
 #[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
@@ -54,13 +52,6 @@ pub struct Checkpoint {
     /// What of the law is another one from here on, if anything is.
     #[serde(skip)]
     pub changed: Option<String>,
-}
-
-/// Recorded rows of a motion and the names of their channels.
-#[derive(Clone, PartialEq)]
-pub struct Past {
-    names: Vec<String>,
-    pub(super) trail: Trail,
 }
 
 /// A changed parameter.
@@ -112,12 +103,8 @@ impl Checkpoint {
         let changed = snapshot.recorded.changed.as_deref();
         let begun = changed.map_or(setup.start, |change| change.state.time);
         let of_file = Setup::of(model);
-        let parameters = model.parameters.iter().zip(&setup.parameters);
-        let parameters = parameters
-            .filter(|(p, value)| p.value.to_bits() != value.to_bits())
-            .map(|(p, &value)| Changed { name: p.name.clone(), value, of_file: p.value });
-        Checkpoint {
-            parameters: parameters.collect(),
+        let mut checkpoint = Checkpoint {
+            parameters: Vec::new(),
             initial: setup.overrides.iter().filter_map(|given| named(model, *given)).collect(),
             method: (setup.method != of_file.method).then(|| setup.method.clone()),
             step: setup.settings.step.filter(|_| setup.settings.step != of_file.settings.step),
@@ -141,51 +128,36 @@ impl Checkpoint {
                 .collect(),
             past: None,
             changed: None,
-        }
+        };
+        checkpoint.set_parameters(model, setup.parameters.iter().copied());
+        checkpoint
     }
 
     /// Adds the trail that a snapshot of the same system has recorded.
     #[must_use]
     pub fn with_past(self, system: &System, snapshot: &Snapshot) -> Checkpoint {
-        let names = system.channels().iter().map(|channel| channel.name.clone()).collect();
-        let trail = snapshot.trail.clone();
-        Checkpoint { past: Some(Past { names, trail }), ..self }
+        Checkpoint { past: Some(Past::of(system, snapshot)), ..self }
+    }
+
+    /// Replaces the parameters by these, in the model's order.
+    pub fn set_parameters(&mut self, model: &Model, values: impl Iterator<Item = f64>) {
+        let parameters = model.parameters.iter().zip(values);
+        let changed = parameters.filter(|(p, value)| p.value.to_bits() != value.to_bits());
+        let changed =
+            changed.map(|(p, value)| Changed { name: p.name.clone(), value, of_file: p.value });
+        self.parameters = changed.collect();
+    }
+
+    /// Replaces the motion by one that is about to begin with these in place of the file's initial values.
+    pub fn start_with(&mut self, model: &Model, given: &[InitialOverride]) {
+        self.initial = given.iter().filter_map(|given| named(model, *given)).collect();
+        (self.present, self.past) = (None, None);
     }
 
     /// Lets the law be another one from here on, because this was changed.
     #[must_use]
     pub fn with_another_law(self, what: &str) -> Checkpoint {
         Checkpoint { changed: Some(what.to_owned()), ..self }
-    }
-}
-
-/// A past is long, and commands that carry one are logged on one line.
-impl fmt::Debug for Past {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "Past of {} rows", self.trail.len())
-    }
-}
-
-impl Past {
-    /// Converts this past's rows before `time` to rows of the given channels. A channel that was not recorded becomes
-    /// NaN.
-    pub(super) fn row(
-        &self,
-        channels: &[Channel],
-        time: f64,
-    ) -> impl Fn(&[f64]) -> Option<Vec<f64>> {
-        // channels that share a name are matched in order
-        let place = |(at, channel): (usize, &Channel)| {
-            let earlier = channels[..at].iter().filter(|other| other.name == channel.name).count();
-            let mut places = (0..self.names.len()).filter(|&i| self.names[i] == channel.name);
-            places.nth(earlier)
-        };
-        let places: Vec<Option<usize>> = channels.iter().enumerate().map(place).collect();
-        move |row| {
-            let value = |place: &Option<usize>| place.and_then(|i| row.get(i + 1).copied());
-            let values = places.iter().map(|place| value(place).unwrap_or(f64::NAN));
-            (row[0] < time).then(|| std::iter::once(row[0]).chain(values).collect())
-        }
     }
 }
 

@@ -73,6 +73,11 @@ pub enum Command {
 }
 
 impl Command {
+    /// Whether it sets values of the system or the place of its motion.
+    pub fn sets_values(&self) -> bool {
+        matches!(self, Self::Parameter { .. } | Self::Restore(_)) || self.begins_another_motion()
+    }
+
     /// Whether it begins another motion, so that what was said about the previous one no longer holds.
     pub fn begins_another_motion(&self) -> bool {
         matches!(self, Self::Initial { .. } | Self::Start(_) | Self::Reset | Self::FullReset)

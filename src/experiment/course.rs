@@ -277,7 +277,7 @@ impl Experiment {
         let from = self.motion.known_from().unwrap_or(self.clock());
         let from = self.motion.sign() * from.max(self.began);
         let (scrubbed, changed) = (self.scrubbed.is_some(), self.changed.clone());
-        Recorded { from, to: self.time(), scrubbed, changed }
+        Recorded { from, to: self.time(), scrubbed, changed, run: self.motion.log.run() }
     }
 
     /// Restarts from the initial values.

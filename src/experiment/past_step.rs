@@ -3,6 +3,7 @@
 //! In: times on the way. Out: the motion there. Never here: which time is looked at.
 
 use super::observed_motion::{EQUAL_STEPS, ObservedMotion};
+use super::run_token::RunToken;
 use super::step_log::LoggedState;
 use crate::integrate::{OccurrenceKind, Reached};
 use crate::system::{MotionError, State};
@@ -41,6 +42,25 @@ impl ObservedMotion {
         }
         self.look()?;
         Ok(None)
+    }
+
+    /// Takes up a run again at a time on its way, where the motion now is. Returns whether the run is still known;
+    /// otherwise the motion stays as it is.
+    pub(super) fn take_up(&mut self, run: &RunToken, times: (f64, f64), start: f64) -> bool {
+        let here = self.inner.state().clone();
+        if !self.log.take_up(run) {
+            return false;
+        }
+        let steps = self.inner.steps();
+        let taken = matches!(self.back_to(times, start), Ok(None));
+        if !taken {
+            let released = self.released();
+            self.log.clear();
+            let _ = self.inner.go_back(&here, start, &released);
+            self.inner.set_steps(steps);
+            self.log.push(&here, steps);
+        }
+        taken
     }
 
     /// The indices of the released constraints.

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use super::Experiment;
-use super::checkpoint::{Checkpoint, MotionState, Past};
+use super::checkpoint::{Checkpoint, MotionState};
 use super::gauges::Gauges;
 use super::named::given;
 use super::rerun::Rerun;
@@ -78,8 +78,8 @@ impl Experiment {
         self.restore_change(checkpoint.changed.clone(), present);
         if checkpoint.backwards {
             self.go_on_backwards();
-        } else {
-            self.restore_past(checkpoint.past.as_ref(), present);
+        } else if let Some(past) = &checkpoint.past {
+            self.restore_past(past, present.time, &present.coordinates);
         }
         match past {
             Some(Rerun::Near(known)) => {
@@ -89,17 +89,6 @@ impl Experiment {
             }
             Some(_) => self.tell("the past of this motion was not kept".to_owned()),
             None => {}
-        }
-    }
-
-    /// Prepends the recorded past, if the coordinates are the same.
-    fn restore_past(&mut self, past: Option<&Past>, present: &MotionState) {
-        let own = self.model.coordinates.iter();
-        let same = own.len() == present.coordinates.len()
-            && own.clone().all(|c| present.coordinates.contains(&c.name));
-        if let Some(past) = past.filter(|_| same) {
-            let row = past.row(self.motion.system().channels(), present.time);
-            self.recorder.precede(&past.trail, row);
         }
     }
 

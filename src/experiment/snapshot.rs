@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Companion, EventLog, Hull, LastChange, Return, Setup, Trail};
+use super::{Companion, EventLog, Hull, LastChange, Return, RunToken, Setup, Trail};
 use crate::analysis::{CrossingLog, DistanceHistory, Verdict};
 use crate::system::{Form, State};
 
@@ -102,6 +102,8 @@ pub struct Recorded {
     pub scrubbed: bool,
     /// Where the law was changed last, if it was since the start.
     pub changed: Option<Arc<LastChange>>,
+    /// What tells this run from others.
+    pub run: RunToken,
 }
 
 /// Whether time runs.

@@ -8,6 +8,7 @@
 
 use std::collections::VecDeque;
 
+use super::run_token::{ReleasedToken, RunToken};
 use crate::system::State;
 
 /// The most numbers that are stored (32 MB), and the most states.
@@ -23,20 +24,61 @@ pub(super) struct LoggedState {
     pub(super) impulses: u64,
 }
 
+/// The numbers of a logged state.
+fn size(logged: &LoggedState) -> usize {
+    2 * logged.state.values.len()
+}
+
 /// The states so far, the oldest first.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(super) struct StepLog {
     known: VecDeque<LoggedState>,
     /// Whether nobody will take the motion back.
     off: bool,
     /// The number of impulses so far.
     impulses: u64,
+    /// The run to which the states belong.
+    run: RunToken,
+    /// The states of runs before that may be taken up again, the oldest first.
+    earlier: VecDeque<(ReleasedToken, VecDeque<LoggedState>)>,
 }
 
 impl StepLog {
-    /// Forgets everything: what comes has another law or other constraints.
+    /// Begins anew: what comes has another law or other constraints. The states so far are kept while somebody holds
+    /// the token of their run.
     pub(super) fn clear(&mut self) {
-        self.known.clear();
+        let known = std::mem::take(&mut self.known);
+        let run = std::mem::take(&mut self.run).release();
+        if !known.is_empty() {
+            self.earlier.push_back((run, known));
+        }
+        self.earlier.retain(|(run, _)| run.held().is_some());
+        let mut numbers = 0;
+        let sizes =
+            self.earlier.iter().rev().map(|(_, known)| known.iter().map(size).sum::<usize>());
+        let fitting = sizes.take_while(|size| {
+            numbers += size;
+            numbers <= NUMBERS
+        });
+        let excess = self.earlier.len() - fitting.count();
+        self.earlier.drain(..excess);
+    }
+
+    /// The token of the run.
+    pub(super) fn run(&self) -> RunToken {
+        self.run.clone()
+    }
+
+    /// Takes up a run before again. Returns whether it is still known.
+    pub(super) fn take_up(&mut self, run: &RunToken) -> bool {
+        let is_wanted = |released: &ReleasedToken| released.held().as_ref() == Some(run);
+        let Some(at) = self.earlier.iter().position(|(released, _)| is_wanted(released)) else {
+            return false;
+        };
+        let Some((_, known)) = self.earlier.remove(at) else { return false };
+        self.clear();
+        (self.known, self.run) = (known, run.clone());
+        true
     }
 
     /// Forgets everything, and what comes as well.

@@ -95,7 +95,10 @@ impl Instrument for SectionPlot {
             1 => "1 crossing".to_owned(),
             _ => format!("{count} crossings"),
         };
-        let entries = rotation.into_iter().chain(on.map(str::to_owned)).chain([counted]);
+        let is_portrait = present.physics.equations.energy_rate == Expr::ZERO && !by_chaos(plot);
+        let coloured = is_portrait.then(|| "each colour one orbit".to_owned());
+        let on = on.map(str::to_owned);
+        let entries = rotation.into_iter().chain(on).chain(coloured).chain([counted]);
         let mut entries: Vec<Entry> = entries.map(Entry::Words).collect();
         if by_chaos(plot) {
             let keys = [(Some(true), "regular"), (Some(false), "chaotic"), (None, "undecided")];

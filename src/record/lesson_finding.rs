@@ -25,11 +25,17 @@ pub(super) fn in_words(claim: &Assert, app: &App) -> Option<String> {
         AssertedNumber::Count => format!("the count of {name}"),
         AssertedNumber::Time => format!("the time of {name}"),
     };
+    // a quantity that moves has its value at a time
+    let now = app.snapshot().map(|snapshot| significant(snapshot.time, 3, 1e-3..1e4));
+    let when = match measure {
+        AssertedNumber::Value => now.map_or_else(String::new, |now| format!(" at t = {now}")),
+        _ => String::new(),
+    };
     Some(match relation {
-        Comparator::Equal if left == right => format!("{what} is {}", short(left)),
+        Comparator::Equal if left == right => format!("{what} is {}{when}", short(left)),
         Comparator::Equal => {
             let off = significant((left - right).abs(), 2, 1e-3..1e4);
-            format!("{what} is {}, to within {off}", short(right))
+            format!("{what} is {}, to within {off}{when}", short(right))
         }
         Comparator::Less => format!("{what} is {}, below {}", short(left), short(right)),
         Comparator::More => format!("{what} is {}, above {}", short(left), short(right)),

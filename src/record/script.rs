@@ -125,6 +125,8 @@ pub enum ScriptStep {
     Speed(LineText),
     /// Look at a time of the recorded past.
     Look(LineText),
+    /// Focuses a pane, and brings it into view.
+    Focus(LineText),
     /// Sets the line below the screen; an empty text clears it.
     Caption(String),
     /// Begins a chapter.

@@ -252,6 +252,13 @@ impl ScriptRunner {
                 self.lab.tell(Command::LookAt(time));
                 done("look", format!("{time}"))
             }
+            ScriptStep::Focus(name) => {
+                if !self.lab.app.focus_on(&name.text) {
+                    let names = self.lab.app.names_of_panes().into_iter();
+                    return Err(assertion::missing("pane", &name, names, &self.lab.called));
+                }
+                done("focus", name.text)
+            }
             ScriptStep::Caption(text) => {
                 self.caption.clone_from(&text);
                 done("caption", text)

@@ -30,6 +30,8 @@ pub(super) struct Canvas<'a> {
     pub(super) cursor: Option<Position>,
     /// The coordinates of the cursor of the focused plot.
     pub(super) reading: Option<[f64; 2]>,
+    /// Whether the list with the focus says what its selected value means.
+    pub(super) explained: bool,
     /// What is kept from the last frame.
     pub(super) kept: Kept,
     /// Whether what is drawn stands beside what has the keys: no pane of it looks focused.
@@ -48,6 +50,7 @@ impl<'a> Canvas<'a> {
             regions: None,
             cursor: None,
             reading: None,
+            explained: false,
             kept: Kept::default(),
             beside: false,
         }
@@ -271,19 +274,23 @@ fn copy_symbol(from: &ScreenCell, to: &mut ScreenCell, style: Style) {
 pub(super) fn groups(groups: Vec<Vec<Span>>, room: usize) -> Vec<Span> {
     let mut spans: Vec<Span> = Vec::new();
     for group in groups {
-        let ends = [spans.as_slice(), &group].concat();
-        if !spans.is_empty() && wide(&ends) > room {
+        let before = spans.len();
+        spans.extend(group);
+        if before > 0 && wide(&spans) > room {
+            spans.truncate(before);
             break;
         }
-        spans = ends;
     }
     spans
 }
 
 /// The width of spans in columns, without trailing blanks.
 pub(super) fn wide(spans: &[Span]) -> usize {
-    let text: String = spans.iter().map(|(text, _)| text.as_str()).collect();
-    text.trim_end().width()
+    let mut from_end = spans.iter().rev().map(|(text, _)| text.as_str());
+    let last = from_end.find(|text| !text.trim_end().is_empty());
+    last.map_or(0, |last| {
+        last.trim_end().width() + from_end.map(|text| text.width()).sum::<usize>()
+    })
 }
 
 /// The row `index` rows below the top of an area; empty if it is outside.

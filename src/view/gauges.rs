@@ -161,7 +161,7 @@ fn heads(canvas: &mut Canvas<'_>, area: Rect, single: Option<SingleRow>) {
 pub(super) fn in_full(verdict: &Verdict) -> (&'static str, Role) {
     let (word, role) = word(verdict);
     let words = match verdict {
-        Verdict::Exact(Growth::Faster) => "exact, but grows",
+        Verdict::Exact(Growth::Faster) => "grows (rounding)",
         Verdict::Exact(_) => "conserved (exact)",
         Verdict::Broken(_) => "not conserved",
         _ => word,
@@ -207,12 +207,12 @@ fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
             "it cannot resolve the motion: its terms are larger than what moves by {}",
             number::drift(*factor, glyphs)
         ),
-        Verdict::Exact(Growth::Level) => "at the rounding floor, and it stays there".to_owned(),
+        Verdict::Exact(Growth::Level) => "exact to rounding, and it stays so".to_owned(),
         Verdict::Exact(Growth::Root) => {
-            "at the rounding floor, growing like √t: as good as rounding allows".to_owned()
+            "exact to rounding; the error grows like √t, the least that rounding allows".to_owned()
         }
         Verdict::Exact(Growth::Faster) => {
-            "at the rounding floor, but growing faster than √t".to_owned()
+            "exact to rounding, but the error grows faster than √t".to_owned()
         }
         Verdict::Bounded => "swings without trend, as under a symplectic method".to_owned(),
         Verdict::Secular(slope) => {
@@ -283,11 +283,13 @@ fn numbers_and_history(canvas: &mut Canvas<'_>, area: Rect, (gauge, residual): (
     let sparkline = columns(area, area.width.saturating_sub(room.min(HISTORY)), HISTORY);
     let values: Vec<f64> = gauge.history.iter().map(|v| f64::from(*v).abs()).collect();
     let shown = || values.iter().copied().filter(|drift| *drift >= FLOOR && drift.is_finite());
-    let most = shown().fold(FLOOR * LEAST_RATIO, f64::max);
+    // what rounding leaves is flat, however little it is
+    let is_rounding = matches!(gauge.verdict, Verdict::Exact(_));
+    let most = shown().fold(if is_rounding { ROUNDING } else { FLOOR * LEAST_RATIO }, f64::max);
     let least = shown().fold(most / LEAST_RATIO, f64::min);
     let history = Sparkline {
         values: &values,
-        scale: Scale::log(least, most),
+        scale: Scale::log(if is_rounding { FLOOR } else { least }, most),
         style: canvas.style(drift_role(gauge)),
         glyphs: canvas.look.glyphs,
     };

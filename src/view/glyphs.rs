@@ -105,8 +105,12 @@ impl Glyphs {
     /// The width of a text in columns if [`Self::text`] leaves it as it is and each of its characters fills one cell; `None`
     /// where that takes more than a look at each character.
     pub fn columns(self, text: &str) -> Option<usize> {
+        // without an early end, so that many bytes are looked at together
+        if text.bytes().fold(true, |all, byte| all & matches!(byte, b' '..=b'~')) {
+            return Some(text.len());
+        }
         if self.is_ascii() {
-            return text.bytes().all(|byte| matches!(byte, b' '..=b'~')).then_some(text.len());
+            return None;
         }
         let mut count = 0;
         for c in text.chars() {

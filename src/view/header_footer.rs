@@ -232,17 +232,17 @@ pub(super) fn footer(canvas: &mut Canvas<'_>, area: Rect, app: &App) {
         KeyHints::Lab | KeyHints::LabInLesson => hints(canvas, app),
     };
     let long = |hint: &Hint| hint.spans.iter().map(|(text, _)| text.width()).sum::<usize>();
-    let wide = |hints: &[Hint]| hints.iter().map(long).sum::<usize>() + 3 * hints.len();
+    let mut wide = hints.iter().map(long).sum::<usize>() + 3 * hints.len();
     // The last two hints, help and quit, are always shown; the others are dropped to make room for the meaning.
     let room = usize::from(area.width);
     // If its pane is small, a gauge's reason appears in full nowhere else.
     let gauge = app.lab.as_ref().is_some_and(|lab| lab.focus == Pane::Gauges);
     let most = if gauge { room } else { room * 2 / 3 };
     let meant = if meaning.is_empty() { 0 } else { meaning.width().min(most) + 2 };
-    while hints.len() > 2 && meant + wide(&hints) > room + 3 {
-        hints.remove(hints.len() - 3);
+    while hints.len() > 2 && meant + wide > room + 3 {
+        wide -= long(&hints.remove(hints.len() - 3)) + 3;
     }
-    let all = (wide(&hints) as u16).saturating_sub(3).min(area.width);
+    let all = (wide as u16).saturating_sub(3).min(area.width);
     canvas.left(columns(area, 0, area.width.saturating_sub(all + 2)), role, &meaning);
     let mut start = if meaning.is_empty() { 0 } else { area.width - all };
     for hint in hints {
@@ -352,7 +352,12 @@ fn meaning(canvas: &Canvas<'_>, lab: &Lab) -> String {
         return String::new();
     };
     let name = glyphs.pick(&facts.shown, &facts.name);
-    let about = if facts.about.is_empty() { String::new() } else { format!(": {}", facts.about) };
+    // the keys have precedence over what the list itself says
+    let about = if facts.about.is_empty() || canvas.explained {
+        String::new()
+    } else {
+        format!(": {}", facts.about)
+    };
     let unit = if facts.unit.is_empty() { String::new() } else { format!(" [{}]", facts.unit) };
     let range = facts.range.map_or_else(String::new, |(min, max, _)| {
         format!(", {} to {}", brief(min, 4, glyphs), brief(max, 4, glyphs))

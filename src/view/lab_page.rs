@@ -15,7 +15,7 @@ use super::text_page::draw_rows;
 use super::theme::Role;
 use super::values::{ValueList, window};
 use super::wrap::{capitalised, words};
-use super::{equations, gauges, picture, tabs};
+use super::{equations, gauges, picture, picture_title, tabs};
 use crate::app::{
     App, DrawnPanes, HitTarget, InputField, Lab, LawInView, Overlay, Pane, PlotsInView, UnderWay,
     ValueId,
@@ -178,10 +178,11 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize
         .and_then(UnderWay::status)
         .map_or(0, |status| format!("{}    {status}", tabs::label(&q, plot)).width());
     let tabs = tabs::of(canvas, &q, (index, sharing), room.saturating_sub(status));
-    let mut title = match tabs {
+    let pictures = tabs.as_ref().map_or(Vec::new(), |tabs| tabs.pictures.clone());
+    let mut title = match tabs.map(|tabs| tabs.spans) {
         Some(tabs) => {
             let used = wide(&tabs) + 1;
-            let own = picture::title(canvas, &q, plot, room.saturating_sub(used));
+            let own = picture_title::title(canvas, &q, plot, room.saturating_sub(used));
             let label = tabs::label(&q, plot);
             let rest = own.into_iter().filter(|(text, _)| text.trim() != label);
             let gap = canvas.span(Role::Dim, "  ");
@@ -189,19 +190,20 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize
             // Values are shown beside tabs where all of them fit.
             if wide(&whole) <= room { whole } else { tabs }
         }
-        None => picture::title(canvas, &q, plot, room),
+        None => picture_title::title(canvas, &q, plot, room),
     };
-    if let Some((role, _)) = gauges::departed(q.snapshot, canvas.look.glyphs) {
-        title.insert(0, canvas.span(role, "! "));
-    }
+    let mark = gauges::departed(q.snapshot, canvas.look.glyphs).map(|(role, _)| role);
+    let tabs_from = if mark.is_some() { 2 } else { 0 };
+    title.splice(0..0, mark.map(|role| canvas.span(role, "! ")));
     let inner = canvas.pane(area, &title, focused);
     canvas.target(area, HitTarget::Pane(Pane::Plot(index)));
-    if sharing.len() > 1 {
-        let panes: Vec<Pane> = sharing.iter().copied().map(Pane::Plot).collect();
-        add_targets(canvas, area, &title, &panes);
+    if !pictures.is_empty() {
+        let panes: Vec<Pane> = pictures.into_iter().map(Pane::Plot).collect();
+        let own = &title[usize::from(mark.is_some())..];
+        add_targets(canvas, columns(area, tabs_from, area.width), own, &panes);
     }
     // What the frame has no room for is written above the axes.
-    let keys = picture::keys_beyond(canvas, &q, plot, &title);
+    let keys = picture_title::keys_beyond(canvas, &q, plot, &title);
     match picture::draw(canvas, inner, (&q, plot), &keys) {
         Some(frame) => canvas.region(frame.area, ScreenRegion::Plot(index, frame)),
         None if plot.kind.is_scene() => canvas.region(inner, ScreenRegion::Space(index)),

@@ -93,6 +93,9 @@ enum ListLine<'a> {
     System(usize, &'a CatalogEntry, &'a FuzzyMatch),
 }
 
+/// A list with fewer rows has no blank one.
+const FEW_ROWS: u16 = 8;
+
 fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
     let shown = picker.found();
     let all = picker.entries.len();
@@ -108,7 +111,8 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
         columns(row(inner, 0), 1, inner.width.saturating_sub(2)),
         picker.search.as_ref(),
     );
-    let (_, body) = split_rows(inner, 2);
+    // where there are few rows, none is blank
+    let (_, body) = split_rows(inner, if inner.height < FEW_ROWS { 1 } else { 2 });
     let mut lines: Vec<ListLine<'_>> = Vec::new();
     let mut topic = None;
     let mut here = 0;
@@ -131,7 +135,8 @@ fn list(canvas: &mut Canvas<'_>, area: Rect, picker: &Picker) {
         lines.push(ListLine::System(place, entry, fit));
     }
     let rows = usize::from(body.height);
-    let first = window(here, lines.len(), rows);
+    // what stands above the systems is in sight at the start
+    let first = if here < rows { 0 } else { window(here, lines.len(), rows) };
     let ends = ends_of_titles(canvas, picker, usize::from(body.width.saturating_sub(4)));
     for (index, line) in lines.iter().skip(first).take(rows).enumerate() {
         let area = row(body, index);

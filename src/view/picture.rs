@@ -5,148 +5,20 @@
 
 use ratatui::layout::Rect;
 
-use super::canvas::{Canvas, Span, columns, groups, row, wide};
+use super::canvas::{Canvas, Span, columns, row, wide};
 use super::colour::ColourDepth;
 use super::ink::pen;
 use super::kept::{self, Track, TrailKey};
-use super::marks::{self, Marks};
+use super::marks::Marks;
 use super::names;
-use super::number::{readable, with_powers};
+use super::number::with_powers;
 use super::plot::ticks::nice_range;
 use super::plot::{Ages, Axes, DrawnAxis, Marker, Pen, PlotFrame, Raster, Scale};
 use super::quantity::{Quantities, through};
 use super::theme::Role;
 use super::time_window::time_window;
 use super::{companions, cursor, field, legend, level_curves, prediction, space};
-use crate::instrument::{
-    Across, Entry, Heading, Ink, Layer, Level, MarkerShape, Picture, Plot, Upwards, Viewport,
-};
-
-/// Builds the heading: what is shown, as many current values as fit, and what is being computed.
-pub(super) fn title(
-    canvas: &Canvas<'_>,
-    q: &Quantities<'_>,
-    plot: &Plot,
-    room: usize,
-) -> Vec<Span> {
-    let Some(heading) = plot.kind.heading(plot, &q.present()) else { return Vec::new() };
-    let mut pieces = vec![vec![canvas.span(Role::Title, &heading.title)]];
-    let curves = curves(&heading);
-    if curves.is_empty() {
-        pieces.extend(heading.entries.iter().map(|entry| piece(canvas, q, entry)));
-    } else {
-        pieces = keys(canvas, q, &heading, &curves, room);
-    }
-    if let Some(eye) = plot.eye().filter(|eye| eye.zoom != 1.0) {
-        let zoom = super::number::brief(eye.zoom, 2, canvas.look.glyphs);
-        pieces.push(vec![canvas.span(Role::Dim, format!("  ×{zoom}"))]);
-    }
-    if let Some(status) = q.lab.under_way(plot).and_then(crate::app::UnderWay::status) {
-        pieces.insert(1, vec![canvas.span(Role::Dim, format!("  {status}"))]);
-    }
-    groups(pieces, room)
-}
-
-/// An entry of a heading other than a curve.
-fn piece(canvas: &Canvas<'_>, q: &Quantities<'_>, entry: &Entry) -> Vec<Span> {
-    let valued = |name: &str, value: f64| {
-        let value = readable(value, 4, canvas.look.glyphs);
-        vec![
-            canvas.span(Role::Dim, format!("  {name}")),
-            canvas.span(Role::Accent, format!(" {value:<8}")),
-        ]
-    };
-    match entry {
-        Entry::Channel(channel) => valued(&q.name(*channel), q.value(*channel)),
-        Entry::Number(name, value) => valued(name, *value),
-        Entry::Words(words) => {
-            let words = with_powers(words, canvas.look.glyphs);
-            vec![canvas.span(Role::Dim, format!("  {words}"))]
-        }
-        Entry::Key(ink, words) => {
-            let glyphs = canvas.look.glyphs;
-            let (mark, style) = match (colourless_mark(canvas, *ink), ink) {
-                (Some(shape), _) => (marker(shape).symbol(glyphs), canvas.style(Role::Text)),
-                (None, Ink::Level) if is_colourless(canvas) => {
-                    (glyphs.pick('·', '.'), canvas.style(Role::Text))
-                }
-                _ => (glyphs.pick('●', 'o'), pen(canvas, *ink, 0).style),
-            };
-            vec![(format!("  {mark} "), style), canvas.span(Role::Dim, words)]
-        }
-        Entry::Occurrences => marks::legend(canvas, q),
-        Entry::Curve(index, channel) => key(canvas, q, *index, *channel),
-    }
-}
-
-/// The curves of a heading: their indices and channels.
-fn curves(heading: &Heading) -> Vec<(usize, usize)> {
-    let curve = |entry: &Entry| match entry {
-        Entry::Curve(index, channel) => Some((*index, *channel)),
-        _ => None,
-    };
-    heading.entries.iter().filter_map(curve).collect()
-}
-
-/// Each curve in its colour with its current value; without values if they do not all fit.
-fn keys(
-    canvas: &Canvas<'_>,
-    q: &Quantities<'_>,
-    heading: &Heading,
-    curves: &[(usize, usize)],
-    room: usize,
-) -> Vec<Vec<Span>> {
-    let head = vec![canvas.span(Role::Title, &heading.title)];
-    let named = || curves.iter().map(|(index, channel)| key(canvas, q, *index, *channel));
-    let valued = named().zip(curves).map(|(mut key, (_, channel))| {
-        let value = readable(q.value(*channel), 4, canvas.look.glyphs);
-        key.push(canvas.span(Role::Accent, format!(" {value:<8}")));
-        key
-    });
-    let (valued, mut named): (Vec<_>, Vec<_>) = (valued.collect(), named().collect());
-    if wide(&[head.clone(), valued.concat()].concat()) <= room {
-        let others = heading.entries.iter().filter(|entry| !matches!(entry, Entry::Curve(..)));
-        let others = others.map(|entry| piece(canvas, q, entry)).collect();
-        [vec![head], valued, others].concat()
-    } else if heading.given || wide(&[head.clone(), named.concat()].concat()) <= room {
-        [vec![head], named].concat()
-    } else {
-        // The names of the curves have priority over the name of the picture.
-        if let Some((first, _)) = named.first_mut().and_then(|key| key.first_mut()) {
-            *first = first.trim_start().to_owned();
-        }
-        named
-    }
-}
-
-/// A sample of a curve's line, and its name.
-fn key(canvas: &Canvas<'_>, q: &Quantities<'_>, index: usize, channel: usize) -> Vec<Span> {
-    let theme = &canvas.look.theme;
-    let [unicode, ascii] = theme.series(index).dash.sample();
-    let sample = canvas.look.glyphs.pick(unicode, ascii);
-    // A colour is visible on one character; a pattern needs three.
-    let plain = theme.depth() != ColourDepth::None;
-    let mark = if plain { canvas.look.glyphs.pick("━", "-") } else { sample };
-    vec![(format!("  {mark} "), theme.curve(index)), canvas.span(Role::Dim, q.name(channel))]
-}
-
-/// The keys of curves and of kinds of points that the title has no room for, if the picture has several.
-pub(super) fn keys_beyond(
-    canvas: &Canvas<'_>,
-    q: &Quantities<'_>,
-    plot: &Plot,
-    title: &[Span],
-) -> Vec<Span> {
-    let Some(heading) = plot.kind.heading(plot, &q.present()) else { return Vec::new() };
-    let is_key = |entry: &&Entry| matches!(entry, Entry::Curve(..) | Entry::Key(..));
-    let keys: Vec<Vec<Span>> =
-        heading.entries.iter().filter(is_key).map(|entry| piece(canvas, q, entry)).collect();
-    let in_title = |key: &Vec<Span>| title.windows(2).any(|pair| pair[1] == key[1]);
-    if keys.len() < 2 {
-        return Vec::new();
-    }
-    keys.into_iter().filter(|key| !in_title(key)).flatten().collect()
-}
+use crate::instrument::{Across, Ink, Layer, Level, MarkerShape, Picture, Plot, Upwards, Viewport};
 
 /// Writes the keys of curves above the axes, to the right of their title.
 fn keys_above(canvas: &mut Canvas<'_>, area: Rect, keys: &[Span]) {
@@ -400,7 +272,7 @@ fn draw_layer(
     }
 }
 
-fn marker(shape: MarkerShape) -> Marker {
+pub(super) fn marker(shape: MarkerShape) -> Marker {
     match shape {
         MarkerShape::Disc => Marker::Disc,
         MarkerShape::Ring => Marker::Ring,
@@ -410,7 +282,7 @@ fn marker(shape: MarkerShape) -> Marker {
 
 /// The marker that tells points of a verdict from others where there is no colour: crosses for what calls for attention, rings
 /// for what is plain, and dots for the rest.
-fn colourless_mark(canvas: &Canvas<'_>, ink: Ink) -> Option<MarkerShape> {
+pub(super) fn colourless_mark(canvas: &Canvas<'_>, ink: Ink) -> Option<MarkerShape> {
     match ink {
         _ if !is_colourless(canvas) => None,
         Ink::Warn => Some(MarkerShape::Cross),
@@ -419,7 +291,7 @@ fn colourless_mark(canvas: &Canvas<'_>, ink: Ink) -> Option<MarkerShape> {
     }
 }
 
-fn is_colourless(canvas: &Canvas<'_>) -> bool {
+pub(super) fn is_colourless(canvas: &Canvas<'_>) -> bool {
     canvas.look.theme.depth() == ColourDepth::None
 }
 

@@ -1,8 +1,10 @@
 //! The tabs of a frame in which several pictures take turns.
 //!
-//! In: the plots of a frame, which of them is shown. Out: spans of a title. Never here: the pictures themselves.
+//! In: the plots of a frame, which of them is shown. Out: spans of a title, and where each leads. Never here: the pictures themselves.
 
-use super::canvas::{Canvas, Span, wide};
+use unicode_width::UnicodeWidthStr;
+
+use super::canvas::{Canvas, Span};
 use super::quantity::Quantities;
 use super::theme::Role;
 use crate::instrument::Plot;
@@ -43,32 +45,60 @@ fn distinct(q: &Quantities<'_>, plots: &[(usize, &Plot)]) -> Vec<String> {
     labels
 }
 
-/// The names of the pictures that take turns in a frame, with a line between neighbours; names that occur twice are
-/// followed by their quantities. If they do not fit, the place of the shown one among all; `None` if it is alone.
+/// A row of tabs.
+pub(super) struct Tabs {
+    /// The names, with a line between neighbours.
+    pub(super) spans: Vec<Span>,
+    /// The picture to which each name leads.
+    pub(super) pictures: Vec<usize>,
+}
+
+/// The names of the pictures that take turns in a frame; names that occur twice are followed by their quantities. If they do
+/// not fit, as many as do, the shown one among them, and the number of the others. `None` if it is alone.
 pub(super) fn of(
     canvas: &Canvas<'_>,
     q: &Quantities<'_>,
     (shown, sharing): (usize, &[usize]),
     room: usize,
-) -> Option<Vec<Span>> {
+) -> Option<Tabs> {
     if sharing.len() < 2 {
         return None;
     }
-    let plots = || sharing.iter().filter_map(|index| Some((*index, q.lab.plots.get(*index)?)));
-    let mut spans = Vec::new();
-    let all: Vec<_> = plots().collect();
-    for ((index, _), label) in all.iter().zip(distinct(q, &all)) {
-        let index = *index;
-        if !spans.is_empty() {
-            spans.push(canvas.span(Role::Border, canvas.look.glyphs.pick(" │ ", " | ")));
+    let all: Vec<_> =
+        sharing.iter().filter_map(|index| Some((*index, q.lab.plots.get(*index)?))).collect();
+    let labels = distinct(q, &all);
+    let place = all.iter().position(|(index, _)| *index == shown)?;
+    let line = canvas.look.glyphs.pick(" │ ", " | ");
+    let fitting = |from: usize| {
+        let mut used = 0;
+        let fits = |(count, label): &(usize, &String)| {
+            used += label.width() + line.width();
+            let others = labels.len() - count - 1;
+            let rest = if others == 0 { 0 } else { others.to_string().len() + 1 + line.width() };
+            used + rest <= room + line.width()
+        };
+        labels[from..].iter().enumerate().take_while(fits).count()
+    };
+    let (mut from, mut count) = (0, fitting(0));
+    if place >= count {
+        // as many as fit before it
+        from = (0..=place).find(|from| fitting(*from) > place - from).unwrap_or(place);
+        count = fitting(from).max(1);
+    }
+    let mut tabs = Tabs { spans: Vec::new(), pictures: Vec::new() };
+    for ((index, _), label) in all.iter().zip(&labels).skip(from).take(count) {
+        if !tabs.spans.is_empty() {
+            tabs.spans.push(canvas.span(Role::Border, line));
         }
-        spans.push(canvas.span(if index == shown { Role::Title } else { Role::Dim }, label));
+        let role = if *index == shown { Role::Title } else { Role::Dim };
+        tabs.spans.push(canvas.span(role, label.clone()));
+        tabs.pictures.push(*index);
     }
-    if wide(&spans) <= room {
-        return Some(spans);
+    let others = labels.len() - count;
+    if others > 0 {
+        tabs.spans.push(canvas.span(Role::Border, line));
+        tabs.spans.push(canvas.span(Role::Dim, format!("+{others}")));
+        tabs.pictures.push(all[(from + count) % all.len()].0);
     }
-    let place = sharing.iter().position(|index| *index == shown)? + 1;
-    let own = label(q, q.lab.plots.get(shown)?);
-    let counted = canvas.span(Role::Dim, format!(" {place}/{}", sharing.len()));
-    Some(vec![canvas.span(Role::Title, own), counted])
+    Some(tabs)
 }

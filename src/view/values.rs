@@ -52,6 +52,7 @@ impl ValueList<'_> {
             return;
         }
         let about = self.about(area, count);
+        canvas.explained |= self.focused && !about.is_empty();
         let grid = self.columns(canvas, count, area.width);
         let rows = usize::from(area.height).saturating_sub(about.len());
         let first = window(self.selected, count, rows);
@@ -75,8 +76,9 @@ impl ValueList<'_> {
             _ => facts.about,
         });
         let width = usize::from(area.width.saturating_sub(3));
-        let all = words(&text, width).len();
-        let mut lines = words_in(&text, width, spare.saturating_sub(usize::from(spare > all)));
+        let all = words(&text, width);
+        let rows = spare.saturating_sub(usize::from(spare > all.len()));
+        let mut lines = if all.len() <= rows { all } else { words_in(&text, width, rows) };
         lines.retain(|line| !line.is_empty());
         lines
     }

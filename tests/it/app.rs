@@ -17,5 +17,6 @@ mod scripts;
 mod search;
 mod surface;
 mod typed_axis;
+mod undo;
 mod values;
 mod workbench;

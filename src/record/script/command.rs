@@ -54,6 +54,7 @@ pub const COMMANDS: &[CommandRow] = &[
     row("Sweep", "Sweep NAME [from EXPR] to EXPR [and NAME …] in 3s", "change parameters or initial values linearly to other values while time passes; together they are undone as one change", sweep),
     row("Speed", "Speed EXPR", "simulated seconds in a second", speed),
     row("Look", "Look at EXPR", "pause and look at a time of the recorded past; what acts on the motion continues it from there", look),
+    row("Focus", "Focus PANE", "focus a pane and bring it into view: a picture by its kind, as `phase`, or `parameters`, `initial`, `gauges`, `law`", focus),
     row("Caption", "Caption \"TEXT\"", "write a line below the screen; without a text, remove it", caption),
     row("Marker", "Marker \"NAME\"", "begin a chapter: players can jump to it, and stills can be taken of it", marker),
     row("Assert", "Assert CLAIM", "claim something about this moment; a false claim is an error", assert),
@@ -233,6 +234,10 @@ fn speed(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
 fn look(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
     expect(line, "at")?;
     Ok(Said::Step(ScriptStep::Look(line.until(&[], "a time")?)))
+}
+
+fn focus(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {
+    Ok(Said::Step(ScriptStep::Focus(line.until(&[], "a pane")?)))
 }
 
 fn caption(line: &mut ScriptLine<'_>) -> Result<Said, Diagnostic> {

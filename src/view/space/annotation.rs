@@ -36,12 +36,30 @@ pub(super) fn compass(canvas: &mut Canvas<'_>, area: Rect, camera: &Camera) {
         arms.line(&frame, [0.0; 2], tip.map(|v| 0.7 * v), &pen);
     }
     arms.draw(canvas.buffer);
+    // the longest arm first: a short one, which points at who looks, has its name beside the others
+    let mut tips = tips;
+    let length = |[right, up]: [f64; 2]| right * right + up * up;
+    tips.sort_by(|(_, one), (_, other)| length(*other).total_cmp(&length(*one)));
+    let mut written: Vec<Position> = Vec::new();
     for (name, tip) in tips {
-        if let Some(at) = frame.cell(tip) {
+        let Some(tip) = frame.cell(tip) else { continue };
+        let around = BESIDE.map(|(right, down)| {
+            let at = (i32::from(tip.x) + right, i32::from(tip.y) + down);
+            Position::new(at.0.max(0) as u16, at.1.max(0) as u16)
+        });
+        let is_free = |at: &Position| {
+            let apart = |other: &Position| other.y != at.y || other.x.abs_diff(at.x) > 1;
+            corner.contains(*at) && written.iter().all(apart)
+        };
+        if let Some(at) = around.into_iter().find(is_free) {
             canvas.write(at, 1, name, canvas.style(Role::Dim));
+            written.push(at);
         }
     }
 }
+
+/// Where the name of an arm may stand, from its tip in columns to the right and rows down, best first.
+const BESIDE: [(i32, i32); 7] = [(0, 0), (2, 0), (0, 1), (0, -1), (-2, 0), (2, 1), (2, -1)];
 
 /// A name beside a point.
 pub(super) struct Label {

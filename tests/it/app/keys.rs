@@ -10,7 +10,7 @@ use phaselab::app::{
     App, Choice, Drawn, DrawnPanes, Effect, Event, LawInView, LoadError, Menu, Overlay, Page, Pane,
     ValueId,
 };
-use phaselab::experiment::Status;
+use phaselab::experiment::{Command, Status};
 use phaselab::instrument::Sight;
 
 use super::scripts::with_impulses;
@@ -200,6 +200,7 @@ fn outcome(app: &mut App, act: impl FnOnce(&mut App) -> Vec<Effect>) -> String {
     let before = facts(app);
     let effects = act(app);
     let asked = effects.iter().map(|effect| match effect {
+        Effect::Tell(Command::Restore(_)) => "Restore".to_owned(),
         Effect::Tell(command) => format!("{command:?}"),
         other => format!("{other:?}"),
     });

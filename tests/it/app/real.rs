@@ -105,8 +105,9 @@ impl Real {
         self.experiment.execute(Command::Follow(Vec::new()));
         self.press("r");
         self.run(60);
-        // `auto` chose this method; it is the same one under its own name.
-        format!("{:?}", self.seen()).replace("method: \"auto\"", "method: \"taylor\"")
+        // `auto` chose this method; it is the same one under its own name. What was undone has resumed the motion.
+        let seen = format!("{:?}", self.seen()).replace("method: \"auto\"", "method: \"taylor\"");
+        seen.replace("restored: true", "restored: false")
     }
 }
 
@@ -226,11 +227,13 @@ fn undo_and_redo_tell_what_went_where() {
         assert_eq!(told(&real), redone, "{keys}");
     };
     check("Right", "undone: m 1.02 → 1", "redone: m 1 → 1.02");
-    // a motion under way has been another one meanwhile, and is not brought back
+    // a motion under way has been another one meanwhile, and is brought back
     let mut real = Real::of("pendulum");
     real.run(60);
-    real.press("Right u");
-    let whole = "undone: m 1.02 → 1; the motion goes on from here, r restarts it";
+    real.press("Right");
+    real.run(60);
+    real.press("u");
+    let whole = "undone: m 1.02 → 1, the motion of t = 1";
     assert_eq!(told(&real), whole);
     check("Tab Right", "undone: initial θ 2.01 → 2", "redone: initial θ 2 → 2.01");
     check("m Down Enter", "undone: method leapfrog → taylor", "redone: method taylor → leapfrog");

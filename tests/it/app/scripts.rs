@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use phaselab::app::{App, Effect, Event, LoadError, Overlay, Page, Pane};
-use phaselab::experiment::Command;
+use phaselab::experiment::{Checkpoint, Command};
 
 use crate::hand::{at_picker, catalog, in_lab, loaded, lowered, pendulum, press, snapshot};
 
@@ -49,8 +49,14 @@ fn place(app: &App) -> String {
     page + &over
 }
 
+/// The changed parameters of a motion that is brought back.
+fn values(motion: &Checkpoint) -> Vec<(&str, f64)> {
+    motion.parameters.iter().map(|changed| (changed.name.as_str(), changed.value)).collect()
+}
+
 fn asked(effects: &[Effect]) -> String {
     let word = |effect: &Effect| match effect {
+        Effect::Tell(Command::Restore(motion)) => format!("Restore({:?})", values(motion)),
         Effect::Tell(command) => format!("{command:?}"),
         other => format!("{other:?}"),
     };
@@ -110,8 +116,8 @@ fn scripts_in_the_lab() {
         ("L", "lab parameter 0", "Parameter { index: 0, value: 1.2 }"),
         ("Shift-Left", "lab parameter 0", "Parameter { index: 0, value: 0.8 }"),
         ("Right Right Right", "lab parameter 0", "Parameter { index: 0, value: 1.06 }"),
-        ("Right u", "lab parameter 0", "Parameter { index: 0, value: 1.0 }"),
-        ("Right u U", "lab parameter 0", "Parameter { index: 0, value: 1.02 }"),
+        ("Right u", "lab parameter 0", "Restore([])"),
+        ("Right u U", "lab parameter 0", "Restore([(\"m\", 1.02)])"),
         ("Right Backspace", "lab parameter 0", "Parameter { index: 0, value: 1.0 }"),
         ("Tab Right", "lab initial 0", "Initial { index: 0, value: 2.01 }"),
         ("Tab Down Down Left", "lab initial 1", "Initial { index: 1, value: -0.005 }"),

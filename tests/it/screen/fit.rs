@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use phaselab::app::{App, Event};
+use phaselab::app::{App, Event, Guide, GuideKind};
 use phaselab::experiment::{Growth, Verdict};
 use phaselab::instrument::Sight;
 use phaselab::view::number::rounded;
@@ -230,4 +230,32 @@ fn an_axis_is_named_as_its_quantity() {
     let shown = rows(&screen(&real.app, &rich(), (120, 40))).concat();
     assert!(shown.contains("P₁") && shown.contains("P₂"), "{shown}");
     assert!(!["P1", "P2", "F1,"].iter().any(|name| shown.contains(name)), "{shown}");
+}
+
+/// What stands above the systems in the list is in sight when it opens, however few rows there are.
+#[test]
+fn the_list_of_systems_begins_with_its_first_rows() {
+    let (mut app, _) = App::new(catalog(), None);
+    app.picker.guides = vec![Guide {
+        kind: GuideKind::Demo,
+        name: "tour".to_owned(),
+        title: "The pendulum".to_owned(),
+        system: "Simple pendulum".to_owned(),
+    }];
+    for size in [(40, 10), (60, 15), (80, 24), (120, 40)] {
+        let text = rows(&screen(&app, &rich(), size)).join("\n");
+        assert!(text.contains("Lessons and demos"), "{text}");
+        assert!(text.contains('›'), "{text}");
+    }
+}
+
+/// Where a list says what its selected value means, the footer leaves the room to the keys.
+#[test]
+fn the_meaning_of_a_value_does_not_push_the_keys_out() {
+    let app = lab("planet", 1.0);
+    let drawn = rows(&screen(&app, &rich(), (80, 24)));
+    let (footer, above) = drawn.split_last().unwrap();
+    assert!(above.join(" ").contains("mass of the planet"), "{drawn:#?}");
+    assert!(!footer.contains("mass of the planet") && footer.contains("choose"), "{footer}");
+    assert!(footer.contains("0.1 to 10"), "{footer}");
 }

@@ -381,3 +381,34 @@ fn the_axis_of_a_diagram_names_its_quantity_and_time() {
     let text = rows(&screen(&app, &rich(), (120, 40)));
     assert!(text.iter().any(|row| row.contains("log₂ size where t = 40·2ⁿ")), "{text:#?}");
 }
+
+/// The names of the axes in the corner of a picture in space stand apart, from wherever it is seen.
+#[test]
+fn the_names_of_the_axes_are_not_written_over_each_other() {
+    for name in ["toda", "solar-system", "charge-in-fields", "heavy-top"] {
+        let mut real = Real::of(name);
+        for _ in 0..6 {
+            let index = real.lab().motion().unwrap();
+            real.app.lab.as_mut().unwrap().focus = index;
+            real.press("z");
+            let corner = rows(&screen(&real.app, &rich(), (80, 24)));
+            let corner: Vec<String> =
+                corner[15..22].iter().map(|row| row.chars().take(16).collect()).collect();
+            let text = corner.join("\n");
+            let letters: Vec<(usize, usize)> = corner
+                .iter()
+                .enumerate()
+                .flat_map(|(y, row)| {
+                    let is_axis = |(_, c): &(usize, char)| "xyz".contains(*c);
+                    row.chars().enumerate().filter(is_axis).map(move |(x, _)| (x, y))
+                })
+                .collect();
+            assert_eq!(letters.len(), 3, "{name}:\n{text}");
+            for (k, (x, y)) in letters.iter().enumerate() {
+                let apart = |other: &(usize, usize)| other.1 != *y || other.0.abs_diff(*x) > 1;
+                assert!(letters[..k].iter().all(apart), "{name}:\n{text}");
+            }
+            real.press("z Left Left Left Up");
+        }
+    }
+}

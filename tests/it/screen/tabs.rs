@@ -78,6 +78,39 @@ fn a_tab_stays_while_another_picture_has_the_focus() {
     }
 }
 
+/// Where the names of all pictures do not fit, as many as do are there, the shown one among them, and the number of the
+/// others; each is clicked where it stands, and the number leads to the next one.
+#[test]
+fn pictures_that_share_a_frame_are_named_as_far_as_there_is_room() {
+    let size = (80, 24);
+    let mut real = Real::of("planet");
+    real.run(30);
+    let count = real.lab().plots.len();
+    let named = |real: &Real| {
+        let top = rows(&screen(&real.app, &rich(), size))[1].clone();
+        let frame = top.rsplit('╮').nth(1).unwrap().to_owned();
+        let tabs = frame.trim_matches(|c: char| "╭─┏━ ".contains(c)).to_owned();
+        tabs.split(" │ ").map(str::to_owned).collect::<Vec<String>>()
+    };
+    let first = named(&real);
+    let others = first.last().and_then(|last| last.strip_prefix('+')).map(str::parse::<usize>);
+    assert!(first.len() > 2, "{first:?}");
+    // the other frame holds one picture
+    assert_eq!(others, Some(Ok(count - 1 - (first.len() - 1))), "{first:?}");
+    let buffer = screen(&real.app, &rich(), size);
+    let (x, y) = find(&buffer, first.last().unwrap()).unwrap();
+    let area = Rect::new(0, 0, size.0, size.1);
+    let next = hit_test(&real.app, &rich(), area, x, y);
+    let Some(HitTarget::Pane(Pane::Plot(index))) = next else { panic!("{next:?}") };
+    real.app.lab.as_mut().unwrap().focus = Pane::Plot(index);
+    real.app.update(Event::Tick(std::time::Duration::ZERO));
+    let middle = hit_test(&real.app, &rich(), area, 60, 8);
+    let is_shown = matches!(middle, Some(HitTarget::Plot { index: shown, .. }) if shown == index);
+    assert!(is_shown, "{middle:?}");
+    let second = named(&real);
+    assert!(second.iter().all(|name| !name.contains('/')) && second.len() > 1, "{second:?}");
+}
+
 /// A verdict is told in one way in a list: what varies is not called `varies` in one row and `not conserved` in the next.
 #[test]
 fn one_verdict_has_the_same_words_throughout_a_list() {
