@@ -190,7 +190,7 @@ impl System {
         };
         let motion = MotionPrograms {
             native: builder.native_rates()?,
-            code: CodeCache::default(),
+            code: CodeCache::new(),
             canonical: builder.canonical_rates()?,
             split,
         };

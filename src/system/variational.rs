@@ -46,7 +46,7 @@ impl System {
             count,
             motion: MotionPrograms {
                 native: of(&motion.native, moving),
-                code: CodeCache::default(),
+                code: CodeCache::new(),
                 canonical: (of(canonical, moving), *direct),
                 split,
             },

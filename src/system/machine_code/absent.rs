@@ -1,11 +1,24 @@
 //! What stands for machine code where the program was built without it: nothing is ever computed by it.
 
+#![expect(
+    clippy::unused_self,
+    clippy::unnecessary_wraps,
+    reason = "has the form of what it stands for"
+)]
+
 use crate::system::growth::{SeriesBuilder, SeriesClock};
 use crate::system::program::Singular;
 
 /// No functions.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(in crate::system) struct CodeCache;
+
+impl CodeCache {
+    /// An empty one.
+    pub(in crate::system) fn new() -> CodeCache {
+        CodeCache
+    }
+}
 
 /// No growth.
 #[derive(Clone, Debug)]

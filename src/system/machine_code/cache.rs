@@ -18,6 +18,11 @@ pub(in crate::system) struct CodeCache {
 type Entry = (usize, Extent, Option<Arc<CompiledFunction>>);
 
 impl CodeCache {
+    /// An empty one.
+    pub(in crate::system) fn new() -> CodeCache {
+        CodeCache::default()
+    }
+
     /// The function for a jet of this program; `None` if there is none.
     pub(super) fn function(
         &self,

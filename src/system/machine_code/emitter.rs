@@ -343,7 +343,7 @@ impl<'a> Emitter<'a> {
         if k == 1 {
             return number;
         }
-        let order = self.load(self.layout.order(k));
+        let order = self.load(Layout::order(k));
         self.builder.ins().fmul(number, order)
     }
 
@@ -351,7 +351,7 @@ impl<'a> Emitter<'a> {
         if k == 1 {
             return number;
         }
-        let order = self.load(self.layout.order(k));
+        let order = self.load(Layout::order(k));
         self.builder.ins().fdiv(number, order)
     }
 

@@ -144,7 +144,7 @@ impl Layout {
     }
 
     /// Where the integer of an order lies.
-    pub(super) fn order(&self, k: usize) -> Address {
+    pub(super) fn order(k: usize) -> Address {
         Address { area: Area::Work, offset: k }
     }
 
