@@ -20,8 +20,9 @@
 //!   Evaluator (value)                             │  │     schedule: inner products first,
 //!     f64, double-double, batches of orbits       │  │     finishing_pass: then the rest, sorted by kind
 //!        ▼                                        │  │     jet: order k of all registers, f64 … batches
-//!   rates, exact       motion of every method     │  │                                       ▼
-//!   observe            channels of a state        │  │     growth, series, batch_series
+//!   rates, exact       motion of every method     │  │          machine_code (feature `jit`): all orders of one f64 orbit
+//!   observe            channels of a state        │  │                                       ▼
+//!                                                 │  │     growth, series, batch_series
 //!   term_watch, batch_terms   conserved terms     │  │     expansion: events along a step
 //!   event_functions    signs of events            │  │     resolution: how far a series tells
 //!        └────────────────────────────────────────┘  └───────────────────────────────────────┘
@@ -67,6 +68,7 @@ mod lane_series;
 mod legendre;
 mod logarithms;
 mod lower;
+mod machine_code;
 mod mass_determinant;
 mod native_states;
 mod node;

@@ -8,6 +8,7 @@ use super::error::{MotionError, MotionErrorKind};
 use super::inertia::Inertia;
 use super::kkt::ConstraintSystem;
 use super::legendre::{self, Legendre};
+use super::machine_code::CodeCache;
 use super::observables::{ObservableList, Observables};
 use super::program::Program;
 use super::rhs::{MotionPrograms, ProgramBuilder, Quadratures, Tangents};
@@ -31,6 +32,8 @@ pub struct System {
     tangents: Option<Arc<Tangents>>,
     /// Whether events that only mark their times are left out.
     pub(super) unmarked: bool,
+    /// Whether its series are never computed by machine code.
+    pub(super) interpreted: bool,
 }
 
 #[derive(Debug)]
@@ -153,13 +156,19 @@ impl System {
         let holding = holding.unwrap_or_default();
         let cancel = equations.pool.cancel().clone();
         let shared = Arc::new(Shared { inertia, extra: extra.to_vec(), ..shared });
-        Ok(System { shared, holding, cancel, tangents: None, unmarked: false })
+        Ok(System { shared, holding, cancel, tangents: None, unmarked: false, interpreted: false })
     }
 
     /// The same system, whose work another token cancels.
     #[must_use]
     pub fn with_cancel(&self, cancel: Cancel) -> System {
         System { cancel, ..self.clone() }
+    }
+
+    /// The same system, whose series are never computed by machine code (cargo feature `jit`). They have the same bits.
+    #[must_use]
+    pub fn interpreted(&self) -> System {
+        System { interpreted: true, ..self.clone() }
     }
 
     /// The token that cancels work with this system. It is the token of the pool the system was
@@ -181,6 +190,7 @@ impl System {
         };
         let motion = MotionPrograms {
             native: builder.native_rates()?,
+            code: CodeCache::new(),
             canonical: builder.canonical_rates()?,
             split,
         };

@@ -77,7 +77,20 @@ impl<R: Coefficient> SeriesBuilder<R> {
         &self.series(i)[..=self.order - unknown]
     }
 
-    fn len(&self) -> usize {
+    /// The registers, and the series of the state one after another.
+    #[cfg(feature = "jit")]
+    pub(super) fn parts(&mut self) -> (&mut Jet<R>, &mut [R]) {
+        (&mut self.jet, &mut self.state)
+    }
+
+    /// Evaluates all registers at order 0.
+    #[cfg(feature = "jit")]
+    pub(super) fn evaluate(&mut self, clock: SeriesClock<R>) -> Result<(), Singular> {
+        self.jet.take_in(&self.state, self.inputs, 0);
+        self.jet.advance(0, clock.time, clock.scale)
+    }
+
+    pub(super) fn len(&self) -> usize {
         self.state.len() / (self.order + 1)
     }
 

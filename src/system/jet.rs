@@ -9,6 +9,8 @@
 
 mod batch;
 mod operands;
+#[cfg(feature = "jit")]
+mod outline;
 mod series_index;
 mod side;
 mod tables;
@@ -20,6 +22,8 @@ use super::program::{Op, Program, Register, Singular};
 use super::schedule::Schedule;
 use crate::expr::FunctionId;
 use crate::num::{Analytic, Batch, DoubleDouble, Kernel, Real, vectorized};
+#[cfg(feature = "jit")]
+pub(super) use outline::JetPlan;
 use series_index::SeriesIndex;
 pub use side::Side;
 pub(super) use tables::Coefficient;

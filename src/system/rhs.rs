@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::kkt::ConstraintSystem;
 use super::lower::Lowering;
+use super::machine_code::CodeCache;
 use super::program::{Program, Register};
 use super::separability::NotSeparable;
 use super::state::Form;
@@ -39,6 +40,8 @@ pub(super) struct SplitHamiltonian {
 pub(super) struct MotionPrograms {
     /// The rates as functions of a state in the native form.
     pub(super) native: Arc<Program>,
+    /// The series of these rates as machine code.
+    pub(super) code: CodeCache,
     /// The rates as functions of (q, p) or, if the flag is false, of (q, q̇).
     pub(super) canonical: (Arc<Program>, bool),
     /// The two parts of a separable system, or the reason why it is not separable.

@@ -11,6 +11,7 @@ use super::compiled::System;
 use super::error::{MotionError, MotionErrorKind};
 use super::growth::{Halt, SeriesBuilder, SeriesClock};
 use super::jet::{Jet, Side};
+use super::machine_code::CompiledGrowth;
 use super::program::{Program, Register};
 use super::state::State;
 use super::step_series::StepSeries;
@@ -28,6 +29,8 @@ pub struct Series {
     /// The lowest orders, if they are built in double-double.
     low: Option<SeriesBuilder<DoubleDouble>>,
     high: SeriesBuilder<f64>,
+    /// The machine code that computes its orders, if there is any.
+    code: CompiledGrowth,
     /// All orders in a wider range, once they were needed.
     wide: Option<Box<SeriesBuilder<ExtendedRange>>>,
     /// Whether all orders are copies of those.
@@ -55,6 +58,7 @@ impl System {
             system: self.clone(),
             low,
             high: SeriesBuilder::new(high, inputs, len),
+            code: CompiledGrowth::new((!self.interpreted).then_some(&self.motion().code)),
             wide: None,
             has_left_range: false,
             parameters: Vec::new(),
@@ -85,6 +89,11 @@ impl Series {
     /// The highest order.
     pub fn order(&self) -> usize {
         self.high.order
+    }
+
+    /// Whether the last series was computed by machine code.
+    pub fn is_compiled(&self) -> bool {
+        self.code.has_grown()
     }
 
     /// The length of a state.
@@ -223,6 +232,9 @@ impl Series {
             self.high.take_over(low)?;
         } else {
             self.high.begin(&self.origin, &self.sides);
+        }
+        if self.high.kept.is_empty() && self.code.grow(&mut self.high, first, clock)? {
+            return Ok(());
         }
         self.high.grow(first, clock, cancel)?;
         if !self.sides.is_empty() {

@@ -93,6 +93,18 @@ impl<R: Real> Factored<R> {
         true
     }
 
+    /// The number of unknowns.
+    #[cfg(feature = "jit")]
+    pub(super) fn size(&self) -> usize {
+        self.size
+    }
+
+    /// The factored rows in the order of the pivots, each with its place in the matrix.
+    #[cfg(feature = "jit")]
+    pub(super) fn rows(&self) -> impl Iterator<Item = (usize, &[R])> {
+        self.rows.iter().map(|&row| (row, &self.entries[row * self.size..][..self.size]))
+    }
+
     /// Solves for a right-hand side, in place.
     pub(super) fn solve(&mut self, right: &mut [R]) {
         self.solve_with::<false>(right);

@@ -11,6 +11,7 @@
 use std::sync::Arc;
 
 use super::compiled::System;
+use super::machine_code::CodeCache;
 use super::program::Program;
 use super::rhs::{MotionPrograms, SplitHamiltonian, Tangents};
 use super::separability::NotSeparable;
@@ -45,6 +46,7 @@ impl System {
             count,
             motion: MotionPrograms {
                 native: of(&motion.native, moving),
+                code: CodeCache::new(),
                 canonical: (of(canonical, moving), *direct),
                 split,
             },

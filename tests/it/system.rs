@@ -2,6 +2,8 @@
 
 mod channels;
 mod images;
+#[cfg(feature = "jit")]
+mod machine_code;
 mod program;
 mod rates;
 mod series;

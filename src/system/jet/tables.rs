@@ -75,7 +75,7 @@ pub struct Tables<R: Coefficient> {
     operands: Operands<R>,
     /// The terms of the program's sums.
     terms: Vec<(Register, R)>,
-    blocks: Vec<R::Factored>,
+    pub(super) blocks: Vec<R::Factored>,
     /// The right-hand side of a system of linear equations, then its solution.
     vector: Vec<R>,
     pub(super) sides: Vec<Side>,

@@ -1,0 +1,49 @@
+//! A jet whose orders above the lowest are computed by something else.
+//!
+//! In: a jet. Out: what it would do, and its numbers at order 0. Never here: how orders are computed.
+
+use super::Jet;
+use crate::system::program::{Program, Register};
+use crate::system::schedule::Schedule;
+use crate::system::solve::Factored;
+
+/// What is known of a jet before any number.
+#[derive(Clone, Copy)]
+pub(in crate::system) struct JetPlan<'a> {
+    pub(in crate::system) program: &'a Program,
+    pub(in crate::system) schedule: &'a Schedule,
+    /// The registers that are read as whole series, each with its place among these.
+    pub(in crate::system) copies: &'a [(Register, u32)],
+    /// The number of orders.
+    pub(in crate::system) stride: usize,
+    /// The length of all such series together.
+    pub(in crate::system) series: usize,
+}
+
+impl Jet<f64> {
+    pub(in crate::system) fn plan(&self) -> JetPlan<'_> {
+        JetPlan {
+            program: &self.program,
+            schedule: &self.schedule,
+            copies: &self.tables.index.copies,
+            stride: self.tables.stride,
+            series: self.tables.series.len(),
+        }
+    }
+
+    /// The registers and slopes at one order.
+    pub(in crate::system) fn row(&self, k: usize) -> &[f64] {
+        &self.tables.rows[k * self.tables.width..][..self.tables.width]
+    }
+
+    /// The matrices that were factored at order 0.
+    pub(in crate::system) fn factored(&self) -> &[Factored<f64>] {
+        &self.tables.blocks
+    }
+
+    /// The registers and slopes at order 0, and all series that are read whole.
+    pub(in crate::system) fn values_and_series(&mut self) -> (&[f64], &mut [f64]) {
+        let tables = &mut self.tables;
+        (&tables.rows[..tables.width], &mut tables.series)
+    }
+}

@@ -1,0 +1,47 @@
+//! What stands for machine code where the program was built without it: nothing is ever computed by it.
+
+#![expect(
+    clippy::unused_self,
+    clippy::unnecessary_wraps,
+    reason = "has the form of what it stands for"
+)]
+
+use crate::system::growth::{SeriesBuilder, SeriesClock};
+use crate::system::program::Singular;
+
+/// No functions.
+#[derive(Clone, Debug)]
+pub(in crate::system) struct CodeCache;
+
+impl CodeCache {
+    /// An empty one.
+    pub(in crate::system) fn new() -> CodeCache {
+        CodeCache
+    }
+}
+
+/// No growth.
+#[derive(Clone, Debug)]
+pub(in crate::system) struct CompiledGrowth;
+
+impl CompiledGrowth {
+    /// Nothing, for a system.
+    pub(in crate::system) fn new(_: Option<&CodeCache>) -> CompiledGrowth {
+        CompiledGrowth
+    }
+
+    /// False.
+    pub(in crate::system) fn has_grown(&self) -> bool {
+        false
+    }
+
+    /// False: no order is computed.
+    pub(in crate::system) fn grow(
+        &mut self,
+        _: &mut SeriesBuilder<f64>,
+        _: usize,
+        _: SeriesClock<f64>,
+    ) -> Result<bool, Singular> {
+        Ok(false)
+    }
+}
