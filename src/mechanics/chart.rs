@@ -121,7 +121,7 @@ fn written(
     let (mut f, mut g) = (f?, g?);
     if [f, g].iter().any(|&e| equations.pool.depends_on_any(e, &map.old)) {
         let Some(backwards) = map.backwards(model, equations) else {
-            let why = "the old variables cannot be written in terms of the new ones";
+            let why = "no expression of the old variables in terms of the new ones was found";
             return Err(NoClosedForm(why.to_owned()));
         };
         let pool = &mut equations.pool;

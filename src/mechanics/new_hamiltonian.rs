@@ -54,7 +54,7 @@ impl PhaseMap {
         let e = match backwards {
             Some(backwards) => free_of(pool, e, backwards, &self.old)
                 .ok_or("the old variables cannot be eliminated"),
-            None => Err("the old variables cannot be written in terms of the new ones"),
+            None => Err("no expression of the old variables in terms of the new ones was found"),
         };
         let e = match e {
             Ok(e) => e,
