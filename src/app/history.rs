@@ -14,8 +14,8 @@ use crate::system::InitialOverride;
 /// Changes of one thing that follow each other within this time are undone together.
 const TOGETHER: Duration = Duration::from_millis(800);
 
-/// The most changes for which the recorded past of the motion before is kept, and not its state alone.
-const MOST_PASTS: usize = 32;
+/// The most motions whose recorded past is kept, and not their state alone.
+const MOST_PASTS: usize = 8;
 
 /// One undoable change.
 #[derive(Clone, Debug, PartialEq)]
@@ -144,11 +144,21 @@ impl UndoHistory {
         if let Some(entry) = self.done.last_mut() {
             entry.motions[0] = Some(Box::new(before));
         }
-        if let Some(old) = self.done.len().checked_sub(MOST_PASTS + 1)
-            && let Some(motion) = &mut self.done[old].motions[0]
-        {
-            motion.past = None;
-        }
+        self.forget_old_pasts();
+    }
+
+    /// Keeps the recorded pasts of the last changes alone; of those before the states are left.
+    fn forget_old_pasts(&mut self) {
+        let entries = self.undone.iter_mut().chain(self.done.iter_mut().rev());
+        let motions = entries.flat_map(|entry| entry.motions.iter_mut().flatten());
+        let pasts = motions.filter(|motion| motion.past.is_some());
+        pasts.skip(MOST_PASTS).for_each(|motion| motion.past = None);
+    }
+
+    /// Forgets the motions before and after the changes, as they follow another law than that of now.
+    pub(super) fn forget_motions(&mut self) {
+        let entries = self.done.iter_mut().chain(&mut self.undone);
+        entries.for_each(|entry| entry.motions = [None, None]);
     }
 
     /// Begins a group: the mouse begins to drag something, or values begin to move.
@@ -184,6 +194,7 @@ impl UndoHistory {
         entry.motions[1] = now.map(Box::new).filter(|_| motion.is_some());
         let change = entry.change.clone();
         self.undone.push(entry);
+        self.forget_old_pasts();
         Some((change, motion))
     }
 
@@ -198,6 +209,7 @@ impl UndoHistory {
         entry.motions[0] = now.map(Box::new).filter(|_| motion.is_some());
         let change = entry.change.clone();
         self.done.push(entry);
+        self.forget_old_pasts();
         Some((change, motion))
     }
 }

@@ -167,6 +167,10 @@ impl App {
         };
         if places(&old) == places(&lab) {
             lab.history = old.history;
+            let law = |lab: &Lab| law_digest(&lab.loaded.document.text);
+            if law(&lab) != saved.as_ref().and_then(|saved| saved.law.clone()) {
+                lab.history.forget_motions();
+            }
         }
         // An open list or field refers to indices of the old system.
         if matches!(self.overlay, Some(Overlay::Menu(_) | Overlay::Field(_))) {

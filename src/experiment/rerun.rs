@@ -17,8 +17,8 @@ use crate::analysis::CrossingLog;
 use crate::system::State;
 
 /// The most steps and rows, and the number of them times the square of the number of variables.
-const STEPS: u64 = 60_000;
-const WORK: u64 = 20_000_000;
+const STEPS: u64 = 20_000;
+const WORK: u64 = 5_000_000;
 
 /// The end of a rerun within this part of the size of the motion is that of the same motion.
 const SAME: f64 = 1e-6;

@@ -8,6 +8,7 @@ mod advance;
 mod constraint_watch;
 mod occurrence;
 mod passed_event;
+mod passed_event_watch;
 mod singular_mass;
 mod singularity_record;
 

@@ -138,6 +138,24 @@ fn with_the_same_law() -> String {
     )
 }
 
+/// A change can be undone in a text that was rebuilt; the motion before it comes back if it follows the same law.
+#[test]
+fn a_motion_of_another_law_is_not_brought_back() {
+    let other_words = FILE.replace("Two masses", "A pair");
+    let other_law = FILE.replace("1/2*k", "1/3*k");
+    for (text, comes_back) in [(other_words, true), (other_law, false)] {
+        let mut app = opened(FILE);
+        press(&mut app, "Right");
+        let loaded = lowered(&text);
+        app.update(Event::Rebuilt(loaded.clone()));
+        app.update(Event::Snapshot(Arc::new(snapshot(&loaded, 2.0))));
+        let effects = press(&mut app, "u");
+        let restores = |effect: &Effect| matches!(effect, Effect::Tell(Command::Restore(_)));
+        assert_eq!(effects.iter().any(restores), comes_back, "{effects:?}");
+        assert!(!effects.is_empty());
+    }
+}
+
 /// A flow map, an action since the last change begin where the law became another one, and nowhere else.
 #[test]
 fn only_a_change_of_the_law_is_one() {

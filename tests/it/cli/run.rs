@@ -514,8 +514,8 @@ fn equal_steps_over_the_end_of_a_motion_are_an_error() {
     assert_eq!((with("0.4").code, with("0.4").stderr.as_str()), (0, ""));
 }
 
-/// A ball whose bounce leaves it at rest on the floor, or lets it through, falls on: that is said. One that bounces, a push on the way
-/// and a ball that a ceiling stops are nothing to speak of.
+/// A ball whose bounce leaves it at rest on the floor falls on: that is said. One that bounces, a push or a brake on the way and a
+/// ball that a ceiling stops are nothing to speak of.
 #[test]
 fn an_impulse_that_turns_nothing_back_is_reported() {
     let file = |start: f64, velocity: f64, direction: &str, change: &str| {
@@ -533,13 +533,12 @@ fn an_impulse_that_turns_nothing_back_is_reported() {
     };
     // √(2/9.81) = 0.4515236
     let words = "the impulse of `floor` at t = 0.4515 ";
-    for change in ["-y'", "-0.5*y'"] {
-        for method in ["taylor", "rk4"] {
-            let said = told(&file(1.0, 0.0, "falling", change), method);
-            assert!(said.contains(words) && said.contains("not turn the motion back"), "{said}");
-        }
+    for method in ["taylor", "rk4"] {
+        let said = told(&file(1.0, 0.0, "falling", "-y'"), method);
+        assert!(said.contains(words) && said.contains("not turn the motion back"), "{said}");
     }
     let quiet = [
+        file(1.0, 0.0, "falling", "-0.5*y'"),
         file(1.0, 0.0, "falling", "-1.5*y'"),
         file(1.0, 0.0, "falling", "-2*y'"),
         file(1.0, 0.0, "falling", "y'"),
