@@ -46,6 +46,7 @@ mod principle;
 mod resonance;
 mod return_growth;
 mod rotation;
+mod sampled_motion;
 mod search_budget;
 mod singular_orbit;
 mod small_oscillation;
@@ -88,6 +89,7 @@ pub use phase_space::{PhaseSpace, VectorField};
 pub use principle::{Hamiltonian, abbreviated_action, action_at_energy};
 pub use return_growth::{ReturnGrowth, growth_after, return_growth};
 pub use rotation::{NoRotation, Rotation, Turning, angle_rotation, rotation};
+pub use sampled_motion::MotionSpan;
 pub use small_oscillation::{Kind, Mode};
 pub use spectral_line::SpectralLine;
 pub use spectrum::{
