@@ -36,6 +36,7 @@ mod loop_action;
 mod lyapunov;
 mod megno;
 mod method_step;
+mod module_basis;
 mod newton;
 mod orbit;
 mod orbit_multipliers;
