@@ -22,11 +22,10 @@ pub(super) fn halved(
 ) {
     for line in 0..lines.len() {
         let (frequency, error) = lines[line];
-        if names[line].is_some() || error > KNOWN * turn {
-            continue;
+        if names[line].is_none() {
+            names[line] = combination(known, (frequency, error), least);
         }
-        if let Some(name) = combination(known, (frequency, error), least) {
-            names[line] = Some(name);
+        if names[line].is_some() || error > KNOWN * turn {
             continue;
         }
         let Some(twice) = combination(known, (2.0 * frequency, 2.0 * error), 2.0 * least) else {
@@ -60,5 +59,11 @@ pub(super) fn halved(
         // half of 2ω, which is even in all entries by the new basis
         names[line] = Some(changed(&twice).into_iter().map(|k| k / 2).collect());
         known[at] = new;
+    }
+    // those before the last change
+    for (name, &line) in names.iter_mut().zip(lines) {
+        if name.is_none() {
+            *name = combination(known, line, least);
+        }
     }
 }
