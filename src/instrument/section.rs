@@ -95,7 +95,8 @@ impl Instrument for SectionPlot {
             1 => "1 crossing".to_owned(),
             _ => format!("{count} crossings"),
         };
-        let entries = rotation.into_iter().chain(on.map(str::to_owned)).chain([counted]);
+        // where there is little room the first are shown
+        let entries = [counted].into_iter().chain(rotation).chain(on.map(str::to_owned));
         let mut entries: Vec<Entry> = entries.map(Entry::Words).collect();
         if by_chaos(plot) {
             let keys = [(Some(true), "regular"), (Some(false), "chaotic"), (None, "undecided")];
