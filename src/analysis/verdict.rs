@@ -27,6 +27,8 @@ pub enum Verdict {
     Lost,
     /// Not conserved by the physics. Contains the law for its change, in Unicode mathematics.
     Broken(String),
+    /// Conserved on one branch of the function that it is made of; the motion is on another, where another number is conserved.
+    OtherBranch,
 }
 
 /// Why no drift of a quantity can be seen.
@@ -64,7 +66,7 @@ pub enum Growth {
 
 impl Verdict {
     /// The verdict in one to four words, for reports: `exact`, `bounded`, `secular`, `lost`,
-    /// `not conserved`, `open`, `unknown`.
+    /// `not conserved`, `open`, `unknown`, `other branch`.
     pub fn word(&self) -> &'static str {
         match self {
             Verdict::Open => "open",
@@ -74,6 +76,7 @@ impl Verdict {
             Verdict::Secular(_) => "secular",
             Verdict::Lost => "lost",
             Verdict::Broken(_) => "not conserved",
+            Verdict::OtherBranch => "other branch",
         }
     }
 

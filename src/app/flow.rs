@@ -10,7 +10,7 @@ use std::sync::Arc;
 use super::computation::Asker;
 use super::field::{InputField, number};
 use super::menu::{Choice, Choosing, Item, Menu};
-use super::{App, Effect, Loaded, Notification, Overlay};
+use super::{App, Effect, Lab, Loaded, Notification, Overlay};
 use crate::experiment::{Derived, Experiment, Setup, Status};
 use crate::expr::{Expr, Pool};
 use crate::instrument::Answer;
@@ -206,12 +206,34 @@ impl FlowEnd {
 }
 
 impl App {
-    /// Lists the constants of the motion that have a flow, and the way to the symmetries.
+    /// Lists the constants of the motion that have a flow, and the way to the symmetries. Constants that are not known yet are
+    /// searched for, and join the list.
     pub(super) fn open_flows(&mut self) -> Vec<Effect> {
         if let Some(why) = self.lack(super::Action::ApplyFlow) {
             return self.notify(format!("There is nothing to apply: {why}."));
         }
-        let Some(lab) = &self.lab else { return Vec::new() };
+        let Some(lab) = &mut self.lab else { return Vec::new() };
+        let search = lab.wants_search(&mut self.jobs, self.aside).map(Effect::Compute);
+        let menu = Menu::new(FLOWS, Choosing::Flow, lab.flow_lines());
+        self.overlay = Some(Overlay::Menu(menu));
+        search.into_iter().collect()
+    }
+
+    /// Lists constants that a search has found meanwhile, if they are being chosen from.
+    pub(super) fn renew_flows(&mut self) {
+        let (Some(lab), Some(Overlay::Menu(menu))) = (&self.lab, &mut self.overlay) else { return };
+        if menu.title == FLOWS {
+            menu.replace_items(lab.flow_lines());
+        }
+    }
+}
+
+/// The title of that list.
+const FLOWS: &str = "Carry the state along the flow of a constant of the motion, or of a symmetry";
+
+impl Lab {
+    fn flow_lines(&self) -> Vec<Item> {
+        let lab = self;
         let mut items = Vec::new();
         if let Some(Ok(findings)) = lab.findings() {
             let pool = &findings.equations.pool;
@@ -237,11 +259,16 @@ impl App {
             let about = "changes of time and coordinates that take motions to motions";
             items.push(Item::plain("symmetries …", about, Choice::Symmetries));
         }
-        let title = "Carry the state along the flow of a constant of the motion, or of a symmetry";
-        self.overlay = Some(Overlay::Menu(Menu::new(title, Choosing::Flow, items)));
-        Vec::new()
+        if lab.search.under_way.is_some() {
+            let unavailable = Some("they join this list in a moment".to_owned());
+            let label = "searching for constants of the motion …";
+            items.push(Item { unavailable, ..Item::plain(label, "", Choice::Symmetries) });
+        }
+        items
     }
+}
 
+impl App {
     /// Follows the flow of a constant from the current state.
     pub(super) fn follow_flow(&mut self, index: usize, epsilon: f64) -> Vec<Effect> {
         let Some(lab) = &self.lab else { return Vec::new() };

@@ -336,7 +336,7 @@ pub const KEYS: &[Binding] = &[
     row(Place::Values, &[SHIFT_RIGHT, c('L'), c('+'), c('=')], change(1, true), "", "more, by a coarse step"),
     row(Place::Values, &[ENTER], Action::TypeValue, "type", "type the value: a number or an expression, such as pi, sqrt(2) or 2*l"),
     row(Place::Values, &[c('v')], Action::Diagram, "", "show what becomes of the motion over a range of this parameter or initial value: a bifurcation diagram where the file has a surface of section, otherwise the Lyapunov exponent; the frequency where a single coordinate keeps its energy"),
-    row(Place::Values, &[c('c')], Action::Ramp, "", "ramp this parameter from now on, to another value in a given time; shows the action variable J, which a slow ramp conserves"),
+    row(Place::Values, &[c('c')], Action::Ramp, "", "ramp this parameter from now on, to another value in a given time; a slow ramp conserves J, which is shown"),
     row(Place::Values, &[BACKSPACE, DELETE], Action::Restore, "", "the value of the file"),
 
     row(Place::Gauges, &[UP, c('k')], Action::Move(ArrowDirection::Up), "", "the gauge above"),

@@ -183,6 +183,14 @@ impl Menu {
         }
     }
 
+    /// Replaces the lines; the line that was moved to stays selected.
+    pub(super) fn replace_items(&mut self, items: Vec<Item>) {
+        let chosen = self.current().map(|(_, item)| item.choice).filter(|_| self.selected > 0);
+        self.items = items;
+        let available = |item: &Item| Some(item.choice) == chosen && item.unavailable.is_none();
+        self.selected = self.items.iter().position(available).unwrap_or(0);
+    }
+
     /// Returns the indices of the lines that match the search, best first, and how each matches.
     pub fn found(&self) -> Vec<(usize, FuzzyMatch)> {
         let text = self.filter.as_ref().map_or("", Input::value);

@@ -109,6 +109,9 @@ impl App {
                     "no constants of the motion with a flow are known yet; page 2 searches for them",
                 )
             }
+            Action::Ramp if lab.loaded.model.parameters.is_empty() => {
+                Some("this system has no parameters")
+            }
             Action::ClearCompanions if lab.seen().is_some_and(|s| s.companions.is_empty()) => {
                 Some("there are no motions beside the main one")
             }

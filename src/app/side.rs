@@ -154,6 +154,7 @@ impl App {
     /// Handles the outcome of a job. An outcome that is no longer wanted is dropped.
     pub(super) fn computed(&mut self, ticket: u64, outcome: Outcome<Answer>) -> Vec<Effect> {
         if let Some(found) = self.lab.as_mut().and_then(|lab| lab.take_search(ticket, &outcome)) {
+            self.renew_flows();
             return match outcome {
                 Outcome::Failed(sentence) => self.notify(sentence),
                 _ => found.into_iter().map(|found| Effect::Tell(Command::Follow(found))).collect(),

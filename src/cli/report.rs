@@ -49,7 +49,7 @@ pub(super) struct Invariant {
     /// Its greatest distance from the initial value over all steps, relative to the moving part of its terms. The
     /// jumps of impulses do not count. Not a number (`null`) where the terms underflow.
     pub(super) max_drift: f64,
-    /// `exact`, `bounded`, `secular`, `lost`, `not conserved`, `open`, `unknown`, `adiabatic`.
+    /// `exact`, `bounded`, `secular`, `lost`, `not conserved`, `open`, `unknown`, `other branch`, `adiabatic`.
     pub(super) verdict: &'static str,
 }
 

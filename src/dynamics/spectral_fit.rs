@@ -11,6 +11,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 use rustfft::FftPlanner;
 
 use super::linear::least_squares;
+use super::module_basis::halved;
 use super::spectral_line::{SpectralLine, combination};
 use crate::num::math;
 
@@ -249,33 +250,37 @@ impl<'a> SpectralFit<'a> {
         let mut known: Vec<(f64, f64)> = drive.iter().map(|&frequency| (frequency, 0.0)).collect();
         let first = known.len();
         let most = most + first;
-        let mut lines: Vec<SpectralLine> = Vec::new();
-        let turn = TAU / self.length();
-        let middle = -self.time(0);
-        for (line, &error) in self.lines.iter().zip(errors) {
-            let mut combination = combination(&known, (line.frequency, error), FITS * turn);
-            if combination.is_none() && known.len() < most {
-                known.push((line.frequency, error));
+        let (turn, middle) = (TAU / self.length(), -self.time(0));
+        let frequencies = self.lines.iter().map(|line| line.frequency);
+        let frequencies: Vec<(f64, f64)> = frequencies.zip(errors.iter().copied()).collect();
+        let mut names = Vec::new();
+        for &line in &frequencies {
+            let mut name = combination(&known, line, FITS * turn);
+            if name.is_none() && known.len() < most {
+                known.push(line);
                 let mut own = vec![0; known.len()];
                 own[known.len() - 1] = 1;
-                combination = Some(own);
+                name = Some(own);
+            }
+            names.push(name);
+        }
+        halved(&mut known, first, &frequencies, &mut names, (FITS * turn, turn));
+        let lines = self.lines.iter().zip(errors).zip(names).map(|((line, &error), mut name)| {
+            if let Some(name) = &mut name {
+                name.resize(known.len(), 0);
             }
             // from the middle to the beginning
             let phase = math::atan2(-line.sine, line.cosine) - line.frequency * middle;
-            lines.push(SpectralLine {
+            SpectralLine {
                 frequency: line.frequency,
                 error,
                 amplitude: line.amplitude(),
                 phase: phase - TAU * (phase / TAU).round(),
-                drive: combination.as_ref().filter(|_| first > 0).map_or(0, |k| k[0]),
-                combination: combination.map(|k| k[first..].to_vec()),
-            });
-        }
-        let count = known.len() - first;
-        lines
-            .iter_mut()
-            .filter_map(|line| line.combination.as_mut())
-            .for_each(|k| k.resize(count, 0));
+                drive: name.as_ref().filter(|_| first > 0).map_or(0, |k| k[0]),
+                combination: name.map(|k| k[first..].to_vec()),
+            }
+        });
+        let lines = lines.collect();
         (lines, known.into_iter().skip(first).map(|(frequency, _)| frequency).collect())
     }
 }

@@ -16,7 +16,8 @@ const SIGMAS: f64 = 10.0;
 pub struct SpectralLine {
     /// ω.
     pub frequency: f64,
-    /// The standard deviation of ω, as if what is left of the signal were noise.
+    /// How far ω is known: its standard deviation, as if what is left of the signal were noise, or what an unresolved line beside it
+    /// may have moved it by, if that is more.
     pub error: f64,
     /// Its amplitude.
     pub amplitude: f64,

@@ -24,6 +24,9 @@ const FAINTEST: f64 = 1e-12;
 /// Lines closer than this many turns in the whole time are one that is not a line.
 const APART: f64 = 1.5;
 
+/// Where what is left beside a line is looked at, as parts of that.
+const BESIDE: [f64; 6] = [-1.0, -0.67, -0.33, 0.33, 0.67, 1.0];
+
 /// The steps of Gauss's and Newton's method after each line, and at last.
 const STEPS: usize = 3;
 const LAST_STEPS: usize = 8;
@@ -186,12 +189,16 @@ fn fitted(
         }
     }
     let errors = fit.polish(LAST_STEPS);
-    let (lines, fundamentals) = fit.named(&errors, fundamentals, drive);
+    let (mut lines, fundamentals) = fit.named(&errors, fundamentals, drive);
     let root_mean_square = |numbers: &[f64]| {
         let squares: f64 = numbers.iter().map(|x| x * x).sum();
         (squares / numbers.len() as f64).sqrt()
     };
-    let left = root_mean_square(&fit.left());
+    let left = fit.left();
+    for line in &mut lines {
+        line.error = line.error.max(unresolved(&fit, &left, line));
+    }
+    let left = root_mean_square(&left);
     let mean = signal.iter().sum::<f64>() / signal.len() as f64;
     let trend = if degree > 0 { fit.slow() } else { Vec::new() };
     let slow = |k: usize| trend.get(k).copied().unwrap_or(0.0);
@@ -200,6 +207,15 @@ fn fitted(
     let mean = fit.mean;
     let spectrum = Spectrum { mean, trend, lines, fundamentals, curve, left, size, turns };
     Fitted { spectrum, fewest: slowest }
+}
+
+/// How far a frequency may be off because of what is left so close to it that the time does not tell them apart: a line beside
+/// it pulls it by no more than their distance, in the ratio of their amplitudes.
+fn unresolved(fit: &SpectralFit<'_>, left: &[f64], line: &SpectralLine) -> f64 {
+    let turn = TAU / fit.length();
+    let beside = BESIDE.map(|part| fit.amplitude(left, line.frequency + part * APART * turn));
+    let amplitude = beside.into_iter().fold(0.0, f64::max);
+    if line.amplitude > 0.0 { APART * turn * amplitude / line.amplitude } else { 0.0 }
 }
 
 /// An angle that goes round less its mean advance, so that what is left has lines.

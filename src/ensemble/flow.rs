@@ -60,6 +60,19 @@ impl SystemFlow {
         self
     }
 
+    /// The times within a duration at which the equal steps of a fixed method end, from a state on, counted from it: its dense
+    /// output has corners there. None for another method. At most so many.
+    pub fn step_ends(&self, from: &State, duration: f64, most: usize) -> Vec<f64> {
+        let (method, settings) = self.clone().settled(from).method;
+        match settings.step {
+            Some(step) if method.stepping == Stepping::Fixed => {
+                let ends = (1..=most).map(|k| k as f64 * step);
+                ends.take_while(|&end| end < duration).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
     /// The same flow in plain `f64` where no other tolerance is asked for: orbits are then carried side
     /// by side, and a picture of many does not show the difference.
     #[must_use]

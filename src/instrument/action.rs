@@ -7,25 +7,23 @@
 //! kinetic focus, and its action is no longer least. Never here: the integrals (`dynamics`).
 //! Source: *The Principles of Dynamics*, §§ 0, 1.4.1, 3.1.3.
 
+mod beside;
 mod ends;
 mod in_phase_space;
+mod principle;
 
+use self::beside::{Actions, Beside, beside};
 use self::ends::by_its_ends;
 use self::in_phase_space::{beside_by, nature};
+pub(super) use self::principle::Principle;
 use super::conditions::PlotConditions;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
     Need, Offer, Physics, Picture, Plot, Present, Upwards,
 };
-use crate::dynamics::{
-    Hamiltonian, Lagrangian, PhaseSpace, VARIATIONS, VariedAction, conjugate_points,
-    conjugate_points_at_energy, varied_abbreviated_action, varied_action, varied_phase_action,
-};
-use crate::ensemble::SystemFlow;
-use crate::integrate::{Method, method_named};
+use crate::dynamics::{PhaseSpace, VARIATIONS, VariedAction};
+use crate::integrate::method_named;
 use crate::job::{Job, Progress};
-use crate::mechanics::Equations;
-use crate::model::Model;
 use crate::num::significant;
 use crate::system::ChannelKind;
 
@@ -41,60 +39,6 @@ const MOST: f64 = 240.0;
 /// The row of a principle.
 pub(super) struct ActionPlot(pub(super) Principle);
 
-/// What is stationary on a motion, and among what.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Principle {
-    /// ∫ L dt among the paths of the same time.
-    Hamilton,
-    /// ∫ Σ p dq among the ways of the same energy.
-    Maupertuis,
-    /// ∫ (Σ p q̇ − H) dt among the curves in phase space.
-    PhaseSpace,
-}
-
-impl Principle {
-    /// The name of the action.
-    fn action(self) -> &'static str {
-        match self {
-            Principle::Hamilton => "action",
-            Principle::Maupertuis => "abbreviated action",
-            Principle::PhaseSpace => "action in phase space",
-        }
-    }
-
-    fn about(self) -> &'static str {
-        match self {
-            Principle::Hamilton => {
-                "Hamilton's principle: the action of paths beside the motion, with its ends"
-            }
-            Principle::Maupertuis => {
-                "the principle of Maupertuis: ∫ p dq of the ways beside the motion, with its ends and energy"
-            }
-            Principle::PhaseSpace => {
-                "the principle in phase space: q and p are varied apart, the ends of p are free"
-            }
-        }
-    }
-
-    /// The letter of the action.
-    fn letter(self) -> &'static str {
-        match self {
-            Principle::Hamilton => "S",
-            Principle::Maupertuis => "W",
-            Principle::PhaseSpace => "A",
-        }
-    }
-
-    /// What the letter stands for.
-    fn integral(self) -> &'static str {
-        match self {
-            Principle::Hamilton => "∫ L dt",
-            Principle::Maupertuis => "∫ Σ p dq",
-            Principle::PhaseSpace => "∫ (Σ p q̇ − H) dt",
-        }
-    }
-}
-
 /// What was found, and of which motion.
 struct ComputedAction {
     principle: Principle,
@@ -103,16 +47,6 @@ struct ComputedAction {
     begin: f64,
     duration: f64,
     outcome: Result<Beside, String>,
-}
-
-/// The action beside a motion.
-struct Beside {
-    varied: VariedAction,
-    /// The times from its beginning at which it passes a kinetic focus of the principle; none are searched for where forces
-    /// act that have no potential, so that the motion does not make the action stationary.
-    foci: Option<Vec<f64>>,
-    /// The number of coordinates.
-    degrees: usize,
 }
 
 impl Instrument for ActionPlot {
@@ -286,75 +220,6 @@ impl Instrument for ActionPlot {
     }
 }
 
-/// The functions whose integral is the action of a principle.
-struct Actions {
-    lagrangian: Lagrangian,
-    principle: Principle,
-    /// Of the principle in phase space.
-    hamiltonian: Option<Hamiltonian>,
-}
-
-impl Actions {
-    fn of(
-        (model, equations): (&Model, &mut Equations),
-        parameters: &[f64],
-        (principle, begin): (Principle, f64),
-    ) -> Result<Actions, String> {
-        let lagrangian = Lagrangian::of(model, equations, parameters);
-        let lagrangian = lagrangian.map_err(|why| why.to_string())?.beginning_at(begin);
-        let hamiltonian = (principle == Principle::PhaseSpace)
-            .then(|| Hamiltonian::of(model, equations, parameters).map_err(|why| why.to_string()));
-        let hamiltonian = hamiltonian.transpose()?.map(|h| h.beginning_at(begin));
-        Ok(Actions { lagrangian, principle, hamiltonian })
-    }
-}
-
-/// The action beside a motion up to a duration.
-fn beside(
-    space: &PhaseSpace,
-    mut actions: Actions,
-    (method, conditions, (begin, start)): (&'static Method, &PlotConditions, (f64, f64)),
-    coordinate: usize,
-    duration: f64,
-) -> Result<Beside, String> {
-    let system = space.system();
-    let first = conditions.state(system, begin).map_err(|fault| fault.to_string())?;
-    let (parameters, method) = (conditions.parameters.clone(), (method, conditions.settings));
-    let flow = SystemFlow { system: system.clone(), method, parameters, start, effort: None };
-    let channel = |kind: ChannelKind| system.channels().iter().position(|c| c.kind == kind);
-    let n = system.degrees();
-    let kinds = (0..n).map(ChannelKind::Position).chain((0..n).map(ChannelKind::Velocity));
-    let channels: Option<Vec<usize>> = kinds.map(channel).collect();
-    let channels = channels.ok_or("the motion has no velocities")?;
-    let mut motion = |times: &[f64]| {
-        let times: Vec<f64> = times.iter().map(|time| begin + time).collect();
-        let carried = flow.carry(&first, &times, &channels);
-        carried.end.map(|_| carried.seen)
-    };
-    let (lagrangian, principle) = (&mut actions.lagrangian, actions.principle);
-    let varied = match (principle, &mut actions.hamiltonian) {
-        (Principle::Maupertuis, _) => {
-            varied_abbreviated_action(lagrangian, &mut motion, coordinate, duration)
-        }
-        (Principle::PhaseSpace, Some(hamiltonian)) => {
-            varied_phase_action((hamiltonian, lagrangian), &mut motion, coordinate, duration)
-        }
-        _ => varied_action(lagrangian, &mut motion, coordinate, duration),
-    };
-    let varied = varied.map_err(|why| why.to_string())?;
-    let foci = if space.is_hamiltonian() {
-        let state = space.state(&first).map_err(|fault| fault.to_string())?;
-        let foci = match principle {
-            Principle::Maupertuis => conjugate_points_at_energy(space, method, &state, duration),
-            _ => conjugate_points(space, method, &state, duration),
-        };
-        Some(foci.map_err(|why| why.to_string())?)
-    } else {
-        None
-    };
-    Ok(Beside { varied, foci, degrees: n })
-}
-
 /// How long the path is: up to now, while the motion runs on a grid; `None` where it is paused before there is any.
 pub(super) fn duration(present: &Present<'_>) -> Option<f64> {
     let run = &present.physics.model.run;
@@ -437,7 +302,9 @@ fn sentences(answer: Option<&Answer>, coordinate: Option<&str>) -> Vec<String> {
     let action = format!("{letter} = {integral}{value} up to {}", at(&computed.duration));
     // of a motion that does not make the action stationary these slopes say nothing
     let ends = found.varied.ends.filter(|_| found.foci.is_some());
-    let ends = ends.map_or_else(Vec::new, |ends| by_its_ends(&ends, coordinate.unwrap_or("q")));
+    let ends = ends.map_or_else(Vec::new, |ends| {
+        by_its_ends(&ends, found.method_errors, coordinate.unwrap_or("q"))
+    });
     let since = computed.conditions.since().into_iter().collect();
     [vec![action], rest, ends, since].concat()
 }

@@ -5,6 +5,7 @@
 //! the action stationary. Never here: how such a path is found (`dynamics`), nor that there are no others.
 //! Source: *The Principles of Dynamics*, §§ 1.4.1, 3.5.
 
+use super::accurate::accurate;
 use super::action::{duration, nothing_yet};
 use super::conditions::PlotConditions;
 use super::{
@@ -32,6 +33,11 @@ const POINTS: usize = 161;
 
 /// Two paths are the same if they differ by less than this part of their reach everywhere.
 const SAME: f64 = 1e-6;
+
+/// The motion is the nearest of the paths, if it is no farther than so many times what its method is wrong by, and the next is
+/// farther by this factor at least.
+const OF_METHOD: f64 = 4.0;
+const FARTHER: f64 = 8.0;
 
 /// The most paths that are named in the corner.
 const NAMED: usize = 5;
@@ -164,8 +170,10 @@ impl Instrument for PathsPlot {
                 let lagrangian = lagrangian.beginning_at(begin);
                 let mut lagrangian = lagrangian.with_cancel(progress.token().clone());
                 let start = (begin, model.run.start);
-                let motion = motion(space.system(), (method, &conditions, start), duration)?;
-                Ok(Way { motion, coordinate, reach, begin, duration }.paths(&mut lagrangian))
+                let of = (method, &conditions, start);
+                let (motion, method_error) = motion(space.system(), of, duration)?;
+                let way = Way { motion, method_error, coordinate, reach, begin, duration };
+                Ok(way.paths(&mut lagrangian))
             });
             let conditions = conditions.clone();
             Answer::new(ComputedPaths { conditions, coordinate, begin, duration, outcome })
@@ -200,6 +208,8 @@ impl Instrument for PathsPlot {
 struct Way {
     /// The coordinates at evenly spaced times.
     motion: Vec<Vec<f64>>,
+    /// How far they are from those of a motion without the errors of the method.
+    method_error: f64,
     coordinate: usize,
     reach: f64,
     begin: f64,
@@ -230,7 +240,9 @@ impl Way {
             let found = stationary_path(lagrangian, &guess, self.duration).ok();
             known.extend(found.filter(|path| known.iter().all(|other| !self.same(path, other))));
         }
-        let mut all: Vec<TruePath> = known.iter().map(|path| self.seen(path)).collect();
+        let own = self.own(&known);
+        let seen = known.iter().enumerate().map(|(i, path)| self.seen(path, Some(i) == own));
+        let mut all: Vec<TruePath> = seen.collect();
         all.sort_by(|a, b| a.action.total_cmp(&b.action));
         all
     }
@@ -245,23 +257,41 @@ impl Way {
     }
 
     fn near(&self, a: &[f64], b: &[f64]) -> bool {
-        a.iter().zip(b).all(|(a, b)| (a - b).abs() <= SAME * self.reach)
+        distance(a, b) <= SAME * self.reach
     }
 
-    fn seen(&self, path: &StationaryPath) -> TruePath {
+    /// Which of the paths the motion takes, up to what its method is wrong by.
+    fn own(&self, known: &[StationaryPath]) -> Option<usize> {
         let n = self.motion[0].len();
-        let own = self.times().zip(&self.motion).all(|(t, at)| self.near(&path.at(t)[..n], at));
+        let away = |path: &StationaryPath| {
+            let along = self.times().zip(&self.motion);
+            along.map(|(t, at)| distance(&path.at(t)[..n], at)).fold(0.0, f64::max)
+        };
+        let mut nearest: Vec<(f64, usize)> = known.iter().map(away).zip(0..).collect();
+        nearest.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let &(away, index) = nearest.first()?;
+        let next = nearest.get(1).map_or(f64::INFINITY, |next| next.0);
+        let of_method = away <= OF_METHOD * self.method_error && FARTHER * away <= next;
+        (away <= SAME * self.reach || of_method).then_some(index)
+    }
+
+    fn seen(&self, path: &StationaryPath, own: bool) -> TruePath {
         let points = self.times().map(|t| [self.begin + t, path.at(t)[self.coordinate]]).collect();
         TruePath { action: path.action, index: path.index, kind: path.kind, own, points }
     }
 }
 
-/// The coordinates of the motion at evenly spaced times up to a duration.
+/// The greatest difference of two places in a coordinate.
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// The coordinates of the motion at evenly spaced times up to a duration, and how far its method leads it away.
 fn motion(
     system: &System,
     (method, conditions, (begin, start)): (&'static Method, &PlotConditions, (f64, f64)),
     duration: f64,
-) -> Result<Vec<Vec<f64>>, String> {
+) -> Result<(Vec<Vec<f64>>, f64), String> {
     let first = conditions.state(system, begin).map_err(|fault| fault.to_string())?;
     let (parameters, method) = (conditions.parameters.clone(), (method, conditions.settings));
     let flow = SystemFlow { system: system.clone(), method, parameters, start, effort: None };
@@ -270,9 +300,14 @@ fn motion(
     let channels = channels.ok_or("the motion has no coordinates")?;
     let time = |k: usize| begin + duration * k as f64 / (POINTS - 1) as f64;
     let times: Vec<f64> = (0..POINTS).map(time).collect();
-    let carried = flow.carry(&first, &times, &channels);
-    let whole = carried.end.map(|_| carried.seen);
-    whole.ok_or_else(|| "the motion cannot be followed up to now".to_owned())
+    let followed = |flow: &SystemFlow| {
+        let carried = flow.carry(&first, &times, &channels);
+        carried.end.map(|_| carried.seen)
+    };
+    let seen = followed(&flow).ok_or("the motion cannot be followed up to now")?;
+    let exact = accurate(&flow).and_then(|exact| followed(&exact)).unwrap_or_default();
+    let away = exact.iter().zip(&seen).map(|(a, b)| distance(a, b)).fold(0.0, f64::max);
+    Ok((seen, away))
 }
 
 /// How far a coordinate may be thought to go: a quarter turn, or what the motion has reached.

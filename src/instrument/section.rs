@@ -98,7 +98,8 @@ impl Instrument for SectionPlot {
         let is_portrait = present.physics.equations.energy_rate == Expr::ZERO && !by_chaos(plot);
         let coloured = is_portrait.then(|| "each colour one orbit".to_owned());
         let on = on.map(str::to_owned);
-        let entries = rotation.into_iter().chain(on).chain(coloured).chain([counted]);
+        // where there is little room the first are shown
+        let entries = [counted].into_iter().chain(rotation).chain(on).chain(coloured);
         let mut entries: Vec<Entry> = entries.map(Entry::Words).collect();
         if by_chaos(plot) {
             let keys = [(Some(true), "regular"), (Some(false), "chaotic"), (None, "undecided")];

@@ -10,20 +10,24 @@ mod grid;
 mod image;
 mod judged;
 mod point;
+mod relations;
+mod window;
 
 use std::sync::Arc;
 
-use self::branches::Branches;
+use self::branches::{Branches, OtherImages};
 use self::grid::old_variables;
-use self::image::{ImageOrigin, of_branches};
+use self::image::{ImageOrigin, beyond, of_branches, outside};
 use self::judged::MapVerdict;
+use self::relations::{depends_on_time, implicit};
+use self::window::Along;
 use super::{
     Across, Answer, Axis, Entry, Heading, Ink, Instrument, Layer, Level, MarkerShape, Measure,
     Need, Offer, Physics, Picture, Plot, Present, Stroke, Upwards,
 };
 use crate::expr::Symbol;
 use crate::job::Job;
-use crate::mechanics::{Equations, ImplicitMap, TransformationReport, Valuation, relations_of};
+use crate::mechanics::{TransformationReport, Valuation, relations_of};
 use crate::model::Transformation as Law;
 use crate::system::ChannelKind;
 
@@ -37,9 +41,6 @@ const MARGIN: f64 = 0.15;
 
 /// The share of the dots of a grid of another branch that is drawn.
 const DIM: f64 = 0.35;
-
-/// One of so many points of the grid may be out of the picture at each end of an axis.
-const OUTER: usize = 40;
 
 /// The grid of a map that depends on the time is found anew after so many seconds of the wall clock at the file's own speed.
 const STALE: f64 = 0.1;
@@ -121,11 +122,14 @@ impl Instrument for TransformationPlot {
 
     fn heading(&self, plot: &Plot, present: &Present<'_>) -> Option<Heading> {
         let name = shown(plot, present.physics).map(|shown| shown.law.name.clone());
-        let entries = vec![
-            Entry::Words(name.unwrap_or_default()),
-            Entry::Channel(plot.column(0)?),
-            Entry::Channel(plot.column(1)?),
-        ];
+        let columns = [plot.column(0)?, plot.column(1)?];
+        // without an image the variables have no numbers
+        let entry = |channel: usize| match present.value(channel) {
+            value if value.is_finite() => Entry::Channel(channel),
+            _ => Entry::Words(present.physics.shown(channel).to_owned()),
+        };
+        let mut entries = vec![Entry::Words(name.unwrap_or_default())];
+        entries.extend(columns.map(entry));
         let moved = moved(plot, present.physics).is_some();
         let kind = if moved { "Transformation, active" } else { "Transformation" };
         Some(plot.heading(present.physics, kind, entries))
@@ -135,7 +139,8 @@ impl Instrument for TransformationPlot {
         if let Some([q, _]) = moved(plot, present.physics) {
             return Across::Channel(q, both(plot, present, q, 0));
         }
-        let range = range(plot, present, answer, 0);
+        let images = images(plot, present, answer).all();
+        let range = range(plot, present, (answer, &images), 0);
         plot.column(0).map_or(Across::Nothing, |x| Across::Channel(x, range))
     }
 
@@ -152,24 +157,24 @@ impl Instrument for TransformationPlot {
             return Some(active(plot, present, (old, [x, y]), answer));
         }
         let stroke = Stroke::from(Ink::Level);
+        let now = [x, y].map(|k| present.value(k));
         let grid = mapped.into_iter().flat_map(|mapped| mapped.grid.iter());
         let mut layers: Vec<(Level, Layer)> =
             grid.map(|line| (GRID, Layer::Line(line.clone(), stroke))).collect();
         let branches = mapped.and_then(|mapped| mapped.branches.as_deref());
-        let at = branches.map(|_| with_image(plot, present));
-        let mut rings = [0, 0];
-        if let (Some(branches), Some(at)) = (branches, &at) {
+        let images = images(plot, present, answer);
+        let rings = [images.on_grids.len(), images.beside.len()];
+        let images = images.all();
+        if let Some(branches) = branches {
             let dim = Stroke { ink: Ink::Level, covering: Some(DIM) };
             layers.extend(branches.lines.iter().map(|line| (GRID, Layer::Line(line.clone(), dim))));
-            let images = branches.images(at);
-            rings = [images.on_grids.len(), images.beside.len()];
             let ring = |&image| (NOW, Layer::Point(image, MarkerShape::Ring, Ink::Level));
-            layers.extend(images.on_grids.iter().chain(&images.beside).map(ring));
+            layers.extend(images.iter().map(ring));
         }
         layers.extend([
             (TRAIL, Layer::Companions([x, y])),
             (TRAIL, Layer::RecentTrail([x, y], present.changed_at())),
-            (NOW, Layer::Point([x, y].map(|k| present.value(k)), MarkerShape::Disc, Ink::Accent)),
+            (NOW, Layer::Point(now, MarkerShape::Disc, Ink::Accent)),
         ]);
         let mut lines = match mapped {
             _ if shown(plot, present.physics).is_none() => {
@@ -179,8 +184,14 @@ impl Instrument for TransformationPlot {
         };
         lines.extend(of_image(plot, present).map(str::to_owned));
         lines.extend(of_branches(branches.map_or(0, Branches::others), rings[0], rings[1]));
+        let ranges = [0, 1].map(|axis| range(plot, present, (answer, &images), axis));
+        lines.extend(outside(&images, &ranges));
+        for (channel, range) in [x, y].into_iter().zip(ranges) {
+            let reached = present.bounds.get(channel).map(|&(lo, hi)| [lo, hi]);
+            lines.extend(beyond(present.physics.shown(channel), range, reached));
+        }
         layers.push((NOW, Layer::Legend(lines)));
-        let upwards = Upwards::Channel(y, range(plot, present, answer, 1));
+        let upwards = Upwards::Channel(y, ranges[1]);
         Some(Picture::Axes { upwards, layers, occurrences: None })
     }
 
@@ -321,12 +332,6 @@ fn of_image(plot: &Plot, present: &Present<'_>) -> Option<&'static str> {
     ImageOrigin { solved, exists: image.iter().all(|x| x.is_finite()) }.line(law)
 }
 
-/// The map of two new variables, if it is known by relations only.
-fn implicit(equations: &Equations, new: [Symbol; 2]) -> Option<&ImplicitMap> {
-    let maps = equations.supplements.implicit_maps.iter();
-    maps.map(|(map, _)| map).find(|map| map.new.contains(&new[0]))
-}
-
 /// The channels of the old variables of the pair that is shown, where the point is moved and not its coordinates.
 fn moved(plot: &Plot, physics: Physics<'_>) -> Option<[usize; 2]> {
     let shown = shown(plot, physics).filter(|_| plot.viewport().is_some_and(|v| v.active))?;
@@ -386,23 +391,24 @@ fn judged(answer: Option<&Answer>) -> Option<&MapVerdict> {
     mapped(answer)?.verdict.as_ref()
 }
 
-/// The range of an axis: a turn, or the grid but for its ends, which may be far away, and the motion.
+/// The range of an axis: a turn, or what is shown of the grid, of the motion, and of other images.
 fn range(
     plot: &Plot,
     present: &Present<'_>,
-    answer: Option<&Answer>,
+    (answer, images): (Option<&Answer>, &[[f64; 2]]),
     axis: usize,
 ) -> Option<[f64; 2]> {
     let turns = present.physics.system.period(plot.column(axis)?, present.parameters).is_some();
     let mapped = mapped(answer).filter(|_| !turns)?;
-    let others = mapped.branches.iter().flat_map(|branches| &branches.lines);
-    let lines = mapped.grid.iter().chain(others);
-    let mut all: Vec<f64> = lines.flatten().map(|point| point[axis]).collect();
-    all.sort_by(f64::total_cmp);
-    let cut = all.len() / OUTER;
-    let (least, greatest) = (*all.get(cut)?, *all.get(all.len().checked_sub(cut + 1)?)?);
     let (lo, hi) = *present.bounds.get(plot.column(axis)?)?;
-    Some([least.min(lo), greatest.max(hi)])
+    let others = mapped.branches.as_deref().map_or(&[][..], |branches| &branches.lines);
+    Along { own: &mapped.grid, others, images, reached: [lo, hi] }.range(axis)
+}
+
+/// The images of the moving point on other branches: to which their grids lead, and the others.
+fn images(plot: &Plot, present: &Present<'_>, answer: Option<&Answer>) -> OtherImages {
+    let branches = mapped(answer).and_then(|mapped| mapped.branches.as_deref());
+    branches.map_or_else(OtherImages::default, |b| b.images(&with_image(plot, present)))
 }
 
 impl Mapped {
@@ -430,18 +436,4 @@ fn shown<'a>(plot: &Plot, physics: Physics<'a>) -> Option<Shown<'a>> {
         };
         Some(Shown { law, new: [of(x)?, of(y)?] })
     })
-}
-
-/// Whether two new variables of a transformation are others at another time.
-fn depends_on_time(
-    equations: &Equations,
-    model: &crate::model::Model,
-    (place, new): (Option<usize>, [Symbol; 2]),
-) -> bool {
-    let known = place.and_then(|place| equations.supplements.transformations.get(place));
-    let forwards = known.and_then(Option::as_ref).into_iter().flatten();
-    let written = forwards.filter(|(s, _)| new.contains(s)).map(|(_, e)| *e);
-    let relations = implicit(equations, new).into_iter().flat_map(|map| &map.relations);
-    let mut all = written.chain(relations.copied());
-    all.any(|e| equations.pool.depends(e, model.symbols.time))
 }

@@ -33,12 +33,23 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
             found.sort_by_key(|(symbol, _)| map.implicit.new.iter().position(|s| s == symbol));
             Some(found)
         });
-        if let (Ok(law), None) = (&law, &forwards)
+        // a root that is 0/0 at the start is no value, though the relations have one there
+        let has_value = forwards.as_ref().is_some_and(|forwards| {
+            let start = Valuation::at_start(model, equations);
+            forwards.iter().all(|&(_, e)| start.value(&equations.pool, e).is_finite())
+        });
+        if let (Ok(law), false) = (&law, has_value)
             && given.new.iter().flatten().all(|symbol| shared.contains(symbol))
         {
             let given = Transformation { law: law.clone(), ..given.clone() };
             let map = PhaseMap::relations(&mut equations.pool, model, &given);
-            if let Some(at) = map.images(model, equations, 1).pop() {
+            let at = if forwards.is_some() {
+                let start = Valuation::at_start(model, equations);
+                map.image(&equations.pool, &start)
+            } else {
+                map.images(model, equations, 1).pop()
+            };
+            if let Some(at) = at {
                 let image = map.implicit.new.iter().map(|&s| at.at(s)).collect();
                 equations.supplements.implicit_maps.push((map.implicit, image));
             }
@@ -46,9 +57,11 @@ pub(super) fn find(equations: &mut Equations, model: &Model) {
         equations.supplements.transformation_laws.push(law);
         all.push(forwards);
     }
+    let maps = equations.supplements.implicit_maps.iter();
+    let solved: Vec<Symbol> = maps.flat_map(|(map, _)| map.new.clone()).collect();
     let known = all.iter().flatten().flatten().copied();
     equations.supplements.new_variables =
-        known.filter(|(symbol, _)| shared.contains(symbol)).collect();
+        known.filter(|(symbol, _)| shared.contains(symbol) && !solved.contains(symbol)).collect();
     equations.supplements.transformations = all;
 }
 

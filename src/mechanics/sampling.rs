@@ -43,6 +43,11 @@ impl Valuation {
         Valuation::around_start(model, equations, n, (n, width))
     }
 
+    /// The start itself.
+    pub(super) fn at_start(model: &Model, equations: &Equations) -> Valuation {
+        Valuation::around_start(model, equations, 0, (0, 0.0))
+    }
+
     /// The n-th point far from the start, where an identity may fail that holds near it, as that of max(0, x − 30) or
     /// exp(−(x − 50)²) does. A function may have no value there.
     pub(super) fn far_from_start(model: &Model, equations: &Equations, n: u64) -> Valuation {
@@ -73,7 +78,8 @@ impl Valuation {
             .map(|c| (initial(&point, c.initial), initial(&point, c.initial_rate)))
             .collect();
         let span = model.run.until.map_or(1.0, |until| (until - model.run.start).abs().max(1.0));
-        let time = model.run.start + span * draws.next();
+        let later = span * draws.next();
+        let time = model.run.start + if width > 0.0 { later } else { 0.0 };
         point.set(model.symbols.time, time);
         let largest = |of: fn(&(f64, f64)) -> f64| {
             let size = starts.iter().map(|start| of(start).abs()).fold(0.0, f64::max);

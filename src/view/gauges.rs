@@ -164,6 +164,7 @@ pub(super) fn in_full(verdict: &Verdict) -> (&'static str, Role) {
         Verdict::Exact(Growth::Faster) => "grows (rounding)",
         Verdict::Exact(_) => "conserved (exact)",
         Verdict::Broken(_) => "not conserved",
+        Verdict::OtherBranch => "other branch",
         _ => word,
     };
     (words, role)
@@ -180,6 +181,7 @@ pub(super) fn word(verdict: &Verdict) -> (&'static str, Role) {
         Verdict::Secular(_) => ("drifting", Role::Bad),
         Verdict::Lost => ("lost", Role::Bad),
         Verdict::Broken(_) => ("varies", Role::Warn),
+        Verdict::OtherBranch => ("branch", Role::Dim),
     }
 }
 
@@ -223,6 +225,9 @@ fn sentence(verdict: &Verdict, glyphs: Glyphs) -> String {
         }
         Verdict::Lost => "has left its value by more than a tenth of what moves".to_owned(),
         Verdict::Broken(law) => format!("by the physics: {law}"),
+        Verdict::OtherBranch => {
+            "p is that of the other root of S, where another number is conserved".to_owned()
+        }
     }
 }
 

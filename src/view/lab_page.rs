@@ -181,9 +181,12 @@ fn plot(canvas: &mut Canvas<'_>, area: Rect, lab: &Lab, (index, sharing): (usize
     let pictures = tabs.as_ref().map_or(Vec::new(), |tabs| tabs.pictures.clone());
     let mut title = match tabs.map(|tabs| tabs.spans) {
         Some(tabs) => {
-            let used = wide(&tabs) + 1;
-            let own = picture_title::title(canvas, &q, plot, room.saturating_sub(used));
             let label = tabs::label(&q, plot);
+            // its name is among the tabs already
+            let left = room.saturating_sub(wide(&tabs) + 2);
+            let named = picture_title::title(canvas, &q, plot, left + label.width());
+            let is_named = named.first().is_some_and(|(text, _)| text.trim() == label);
+            let own = if is_named { named } else { picture_title::title(canvas, &q, plot, left) };
             let rest = own.into_iter().filter(|(text, _)| text.trim() != label);
             let gap = canvas.span(Role::Dim, "  ");
             let whole: Vec<Span> = tabs.iter().cloned().chain([gap]).chain(rest).collect();

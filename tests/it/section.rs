@@ -241,10 +241,10 @@ fn the_running_motion_has_its_rotation_number_in_the_title() {
     let number = measure(&app, &app.lab.as_ref().unwrap().plots[index], "own_rotation");
     assert!((number - (2.0_f64.sqrt() - 1.0)).abs() < 1e-6, "{number}");
     let said = words(&app, index);
-    assert!(said[0].starts_with("rotation 0.41421"), "{said:?}");
+    assert!(said[0].ends_with(" crossings") && said[1].starts_with("rotation 0.41421"), "{said:?}");
     // too few crossings have none, and what the title of the view says is not said again
     let (app, index) = opened(shipped("henon-heiles"), 30.0);
-    assert_eq!(words(&app, index), ["rising", "4 crossings"]);
+    assert_eq!(words(&app, index), ["4 crossings", "rising"]);
     let lab = app.lab.as_ref().unwrap();
     let own = lab.plots[index].kind.measures().iter().find(|m| m.word == "own_rotation").unwrap();
     assert_eq!((own.value)(&lab.plots[index], &lab.present().unwrap(), None), None);

@@ -143,9 +143,8 @@ impl IntegrationConstants {
                 return gauge;
             }
             Gauge {
-                reason: "other branch".to_owned(),
                 proved: false,
-                verdict: Verdict::Broken("p is that of another branch of S".to_owned()),
+                verdict: Verdict::OtherBranch,
                 left: None,
                 drift: f64::NAN,
                 max_drift: f64::NAN,

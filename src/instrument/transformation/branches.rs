@@ -46,6 +46,13 @@ pub(super) struct OtherImages {
     pub(super) beside: Vec<[f64; 2]>,
 }
 
+impl OtherImages {
+    /// All of them.
+    pub(super) fn all(&self) -> Vec<[f64; 2]> {
+        self.on_grids.iter().chain(&self.beside).copied().collect()
+    }
+}
+
 impl Branches {
     /// The lines of the branch of the image in `at`, and the branches around it; `None` if no image is found.
     pub(super) fn around(

@@ -267,7 +267,7 @@ pub const CLAIMS: [(&str, &str); 10] = [
     ("time NAME = EXPR within EPS", "when it last happened"),
     (
         "verdict NAME WORD",
-        "the verdict on a gauge: `exact`, `bounded`, `secular`, `lost`, `not conserved`, `open`, `unknown`",
+        "the verdict on a gauge: `exact`, `bounded`, `secular`, `lost`, `not conserved`, `open`, `unknown`, `other branch`",
     ),
     ("status WORD", "`running`, `paused`, `ended` or `stopped`"),
     ("screen \"TEXT\"", "the text stands on the screen"),
@@ -298,6 +298,10 @@ fn verdict(line: &mut ScriptLine<'_>) -> Result<Word, Diagnostic> {
     if line.take("not") {
         line.one_of("the rest of `not conserved`", &["conserved"])?;
         return Ok("not conserved");
+    }
+    if line.take("other") {
+        line.one_of("the rest of `other branch`", &["branch"])?;
+        return Ok("other branch");
     }
     if let Some((old, new)) = OTHER_WORDS.iter().find(|(old, _)| line.take(old)) {
         let message = format!("`{old}` is not {what} of a script");

@@ -35,6 +35,17 @@ fn value(real: &Real, name: &str) -> f64 {
     real.seen().values[channels.iter().position(|c| c.name == name).expect("a channel")]
 }
 
+/// What is conserved is offered by the first `J`, without a look at the page of the equations.
+#[test]
+fn constants_are_offered_at_once() {
+    let mut real = planet();
+    real.press("J");
+    let Some(Overlay::Menu(menu)) = &real.app.overlay else { panic!("no list") };
+    let labels: Vec<&str> = menu.items.iter().map(|item| item.label.as_str()).collect();
+    assert!(labels.len() > 4 && labels[0] == "E", "{labels:?}");
+    assert!(menu.items.iter().all(|item| item.unavailable.is_none()), "{labels:?}");
+}
+
 #[test]
 fn angular_momentum_turns_the_orbit_and_back() {
     let mut real = planet();

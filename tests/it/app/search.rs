@@ -102,6 +102,7 @@ fn the_palette_knows_other_words() {
         ("chaos", "measure the Lyapunov exponent"),
         ("drag", "use the mouse here"),
         ("zoom in", "look closer"),
+        ("action variable", "show actions: action variable"),
     ] {
         let found = lines(&lab, query);
         assert!(found.first().is_some_and(|line| line.starts_with(first)), "{query}: {found:?}");

@@ -283,3 +283,41 @@ fn the_drift_follows_the_strongest_line_past_a_fainter_one() {
     let drift = frequency_drift(&signal, 0.1, &lines).unwrap();
     assert!(drift.error > 3.0 * turn, "{drift:?}");
 }
+
+/// Of the frequencies a and b the two strongest lines 2a + b and b span every second combination alone: a is half of their
+/// difference. All lines have integers by a changed basis.
+#[test]
+fn a_basis_is_changed_where_a_line_is_half_of_a_combination() {
+    let (a, b) = (1.0, 0.5_f64.sqrt());
+    let integers = [(2, 1), (0, 1), (1, 0), (3, 2), (1, 2), (4, -1), (6, -1)];
+    let of = |(m, n): (i32, i32)| f64::from(m) * a + f64::from(n) * b;
+    let signal = |t: f64| {
+        let terms = integers.iter().zip(0..);
+        terms.map(|(&k, i)| 0.5_f64.powi(i) * (of(k) * t + f64::from(i)).cos()).sum::<f64>()
+    };
+    let found = lines(&signal, 0.25, 2);
+    assert_eq!((found.lines.len(), found.fundamentals.len()), (7, 2), "{:#?}", found.lines);
+    for (line, k) in found.lines.iter().zip(integers) {
+        assert!((line.frequency - of(k)).abs() < 1e-10, "{line:?} {k:?}");
+        let name = line.combination.as_ref().unwrap_or_else(|| panic!("{line:?} has no name"));
+        let named: f64 = name.iter().zip(&found.fundamentals).map(|(&k, w)| f64::from(k) * w).sum();
+        assert!((named - line.frequency).abs() < 1e-9, "{line:?} {:?}", found.fundamentals);
+    }
+}
+
+/// Two lines that the time does not tell apart are not known better than that, and all the digits come with a longer time.
+#[test]
+fn lines_that_are_not_resolved_have_wide_errors() {
+    let pair = [(0.997_926_783, 0.8601), (1.011_999_079, 0.1801)];
+    for (length, resolved) in [(100.0, false), (150.0, false), (200.0, false), (1000.0, true)] {
+        let signal = |t: f64| pair.iter().map(|(w, a)| a * (w * t).cos()).sum::<f64>();
+        let found = lines(&signal, length / 1024.0, 2);
+        assert!(!found.lines.is_empty());
+        for line in &found.lines {
+            let off = |w: f64| (line.frequency - w).abs();
+            let off = off(pair[0].0).min(off(pair[1].0));
+            assert!(off < 3.0 * line.error + 1e-13, "{length}: {off:e} {line:?}");
+            assert!(!resolved || line.error < 1e-9, "{length}: {line:?}");
+        }
+    }
+}

@@ -87,6 +87,20 @@ fn a_branch_is_followed_to_its_caustic_and_another_beyond() {
     }
 }
 
+/// p = P + t P² has P = (√(4 t p + 1) − 1)/(2 t), which is 0/0 at the start t = 0, where P = p.
+#[test]
+fn where_a_solved_form_is_not_defined_at_the_start_the_relations_are_solved() {
+    let points = [[0.4, 0.3], [0.7, 0.5], [-0.2, 0.1]];
+    let found = images("kind = \"F2\"\nF = \"q*P + t*q*P^2\"", &points, 0.1);
+    for ((t, [q, p]), image) in [0.0, 1.0, 2.0].into_iter().zip(points).zip(found) {
+        // by t = 0 without division
+        let new = 2.0 * p / (1.0 + (4.0 * t * p + 1.0_f64).sqrt());
+        let expected = [q + 2.0 * t * q * new, new];
+        let off = (image[0] - expected[0]).abs().max((image[1] - expected[1]).abs());
+        assert!(off <= 1e-15, "{image:?} is not {expected:?}");
+    }
+}
+
 /// What has no image at all stays what it was: an error, not a column without values.
 #[test]
 fn a_function_that_gives_no_map_is_refused() {

@@ -1,7 +1,7 @@
 //! Branches of a map that has several images: where they lead, and what is said where they do not.
 
 use phaselab::app::App;
-use phaselab::instrument::{Layer, MarkerShape, Picture};
+use phaselab::instrument::{Layer, MarkerShape, Picture, Upwards};
 
 use super::{Course, plots, shown};
 use crate::hand::{lab, press};
@@ -91,7 +91,7 @@ fn no_image_that_exists_is_denied() {
 /// that a generating function makes, also if it can be written down; before and after it there is an image.
 #[test]
 fn a_caustic_is_told_and_stepped_over() {
-    let said = "no image: a caustic, det ∂²F/∂old∂new = 0";
+    let said = "no image: beyond a caustic, det ∂²F/∂old∂new = 0";
     let mut course = Course::with(&crate::hand::catalog().find("two-roots").unwrap().text);
     for (time, beyond) in [(3.0, false), (3.3, true), (3.5, false), (7.3, true)] {
         course.go(time);
@@ -102,4 +102,49 @@ fn a_caustic_is_told_and_stepped_over() {
             assert_eq!(words.iter().any(|line| line == said), beyond, "at {time}: {words:?}");
         }
     }
+}
+
+/// What is drawn of the first view at a time: the range upwards, the rings, and the words.
+fn drawn(course: &mut Course, time: f64) -> ([f64; 2], Vec<[f64; 2]>, Vec<String>) {
+    course.go(time);
+    let plot = plots(&course.app)[0].clone();
+    let lab = course.app.lab.as_ref().expect("a lab");
+    let present = lab.present().expect("a motion");
+    let picture = plot.kind.picture(&plot, &present, [0.0, 1.0], lab.answer(&plot));
+    let Some(Picture::Axes { upwards: Upwards::Channel(_, range), layers, .. }) = picture else {
+        panic!("it has axes")
+    };
+    let (mut rings, mut words) = (Vec::new(), Vec::new());
+    for (_, layer) in layers {
+        match layer {
+            Layer::Point(at, MarkerShape::Ring, _) => rings.push(at),
+            Layer::Legend(said) => words = said,
+            _ => {}
+        }
+    }
+    (range.expect("a range"), rings, words)
+}
+
+/// Q = ±√(2p), P = −q Q + 1/3: both images are in the picture, and where p < 0 there are none.
+/// P = p/q² has a pole at q = 0: the orbit is not drawn flat once it has passed there, and how far it was is told.
+#[test]
+fn the_picture_holds_the_other_root_and_not_a_pole() {
+    let file = |law: &str| {
+        format!(
+            "title = 't'\n[coordinates]\nq = {{ initial = 0.9, momentum = 0.4 }}\n[hamiltonian]\n\
+             H = 'p_q^2/2 + q^2/2'\n[[transformations]]\nname = 'm'\n{law}\n\
+             [[views]]\nkind = 'transformation'\nx = 'Q'\ny = 'P'\n"
+        )
+    };
+    let mut roots = Course::with(&file("kind = 'F1'\nF = 'q*Q^2/2 - Q/3'"));
+    for (time, exists) in [(0.1, true), (1.0, false), (4.5, true)] {
+        let ([lo, hi], rings, words) = drawn(&mut roots, time);
+        assert_eq!(rings.len(), usize::from(exists), "{time}: {words:?}");
+        assert!(rings.iter().all(|ring| lo <= ring[1] && ring[1] <= hi), "{rings:?} {lo} {hi}");
+    }
+    let mut pole =
+        Course::with(&file("kind = 'explicit'\nQ = { Q = 'q^3/3' }\nP = { P = 'p_q/q^2' }"));
+    let ([lo, hi], _, words) = drawn(&mut pole, 9.0);
+    assert!(hi - lo < 100.0 && lo < -1.0 && hi > 0.5, "{lo} {hi}");
+    assert!(words.iter().any(|line| line.starts_with("outside of the picture: P")), "{words:?}");
 }
