@@ -10,6 +10,7 @@
 //! kind is that of the effective potential: the least energy at fixed coordinates, whose second
 //! derivative is H_qq − H_qp H_pp⁻¹ H_pq.
 
+mod beginnings;
 mod family;
 mod likeness;
 mod search;
@@ -28,9 +29,6 @@ use crate::system::{Form, MotionErrorKind, State};
 use family::EquilibriumFamily;
 use search::{EquilibriumSearch, LawAtRest};
 
-/// The number of beginnings of the search.
-const BEGINNINGS: usize = 600;
-
 /// The largest number of equilibria.
 const MOST: usize = 100;
 
@@ -41,7 +39,8 @@ pub fn with_virtual_work(
     parameters: &[f64],
     found: &mut Vec<Equilibrium>,
 ) {
-    let places: Vec<_> = found.iter().map(|one| (&one.variables[..], &one.rates[..])).collect();
+    let places: Vec<_> =
+        found.iter().map(|one| (&one.variables[..], &one.units[..], &one.rates[..])).collect();
     let balances = virtual_work(law, parameters, &places);
     let mut hold = vec![true; found.len()];
     for ((one, hold), balance) in found.iter_mut().zip(&mut hold).zip(balances) {
@@ -80,13 +79,14 @@ pub fn equilibria_watched(
     let mut beginning = 0;
     // laws are often the same in a mirror, and so are their equilibria; others may lie close by
     let mut further: Vec<Vec<f64>> = Vec::new();
-    while beginning < BEGINNINGS {
+    let beginnings = search.beginnings();
+    while beginning < beginnings {
         if space.system().cancel().is_cancelled() {
             cancelled = true;
             break;
         }
         let place = further.pop().unwrap_or_else(|| {
-            look(beginning, BEGINNINGS);
+            look(beginning, beginnings);
             beginning += 1;
             search.beginning(beginning - 1)
         });
@@ -159,8 +159,20 @@ impl EquilibriumSearch<'_> {
         let Some((kind, eigenvalues, stable, modes)) = found else { return Ok(None) };
         let rates = match &self.law {
             LawAtRest::Free(field) => {
-                let rate = field.rate();
-                self.cyclic.iter().map(|&i| (i, rate[i])).collect()
+                let (rate, derivative) = (field.rate(), field.derivative());
+                // what the place leaves uncertain of a rate that vanishes, as that of a charge at p = A(q)
+                let uncertain = |i: usize| {
+                    let sizes = variables.iter().zip(&self.units).map(|(x, unit)| x.abs() + unit);
+                    sizes
+                        .enumerate()
+                        .map(|(j, size)| (derivative[(i, j)] * size).abs())
+                        .sum::<f64>()
+                };
+                let known = |i: usize| {
+                    let vanishes = rate[i].abs() <= search::ROUNDED * uncertain(i);
+                    if vanishes { 0.0 } else { rate[i] }
+                };
+                self.cyclic.iter().map(|&i| (i, known(i))).collect()
             }
             LawAtRest::Constrained(_) => {
                 self.cyclic.iter().map(|&i| (i, variables[self.degrees + i])).collect()
@@ -171,6 +183,7 @@ impl EquilibriumSearch<'_> {
         Ok(Some(Equilibrium {
             name: String::new(),
             variables,
+            units: self.units[..self.degrees].to_vec(),
             energy,
             kind,
             family: tangents,

@@ -14,6 +14,8 @@ pub struct Equilibrium {
     pub name: String,
     /// The variables.
     pub variables: Vec<f64>,
+    /// The unit of each coordinate in which it was searched for.
+    pub(super) units: Vec<f64>,
     /// The energy.
     pub energy: f64,
     /// What the effective potential does there; `None` for brackets.

@@ -19,8 +19,8 @@ use crate::num::significant;
 /// A sum of forces below this part of the largest is zero.
 const SUMS_TO_ZERO: f64 = 1e-9;
 
-/// Forces whose sum is more than this part of the largest of them, and of what they change by over the size of a coordinate, do not
-/// balance.
+/// Forces whose sum is more than this part of the largest of them, and of what they change by over the size of a coordinate or its
+/// unit, do not balance.
 const OUT_OF_BALANCE: f64 = 1e-3;
 
 /// A term that has more parts than this is shown as a whole.
@@ -99,10 +99,11 @@ impl ForceTerm {
             && pool.underflows(self.expression, &|symbol| known.at(symbol))
     }
 
-    /// By how much it changes over the size of each coordinate, or over a unit.
-    fn change(&self, pool: &Pool, known: &Valuation, place: &[f64]) -> f64 {
-        let change =
-            |&(i, slope): &(usize, Expr)| known.value(pool, slope).abs() * place[i].abs().max(1.0);
+    /// By how much it changes over the size of each coordinate, or over its unit.
+    fn change(&self, pool: &Pool, known: &Valuation, (place, units): (&[f64], &[f64])) -> f64 {
+        let change = |&(i, slope): &(usize, Expr)| {
+            known.value(pool, slope).abs() * place[i].abs().max(units[i])
+        };
         self.slopes.iter().map(change).sum()
     }
 
@@ -115,12 +116,14 @@ impl ForceTerm {
     }
 }
 
-/// The forces at each place on the coordinates that rest, by its variables and the rates of the cyclic coordinates; none
-/// where the law is a bracket.
+/// A place: its variables, the units of the coordinates, the rates of the cyclic ones by index.
+type Place<'a> = (&'a [f64], &'a [f64], &'a [(usize, f64)]);
+
+/// The forces at each place on the coordinates that rest; none where the law is a bracket.
 pub(super) fn virtual_work(
     (model, equations): (&Model, &Equations),
     parameters: &[f64],
-    places: &[(&[f64], &[(usize, f64)])],
+    places: &[Place],
 ) -> Vec<Balance> {
     let (Flow::Lagrange { momentum_rates, .. } | Flow::Hamilton { momentum_rates, .. }) =
         &equations.flow
@@ -129,7 +132,7 @@ pub(super) fn virtual_work(
     };
     let mut pool = equations.pool.clone();
     let n = equations.coordinates.len();
-    let Some((_, going)) = places.first() else { return Vec::new() };
+    let Some((_, _, going)) = places.first() else { return Vec::new() };
     // the coordinates that are cyclic go on at every place
     let rests = |i: usize| going.iter().all(|&(cyclic, _)| cyclic != i);
     let resting: Vec<usize> = (0..n).filter(|&i| rests(i)).collect();
@@ -154,7 +157,7 @@ pub(super) fn virtual_work(
         }
         forces.push((i, force));
     }
-    let at = |(variables, rates): &(&[f64], &[(usize, f64)])| {
+    let at = |&(variables, units, rates): &Place| {
         let mut known = Valuation::of_parameters(model, parameters);
         known.set(equations.symbols.time, 0.0);
         for (i, symbols) in equations.coordinates.iter().enumerate() {
@@ -162,7 +165,7 @@ pub(super) fn virtual_work(
             known.set(symbols.momentum, variables[n + i]);
             known.set(symbols.velocity, 0.0);
         }
-        for &(i, rate) in *rates {
+        for &(i, rate) in rates {
             known.set(equations.coordinates[i].velocity, rate);
         }
         let multipliers = multipliers(&pool, equations, &resting, &mut known, momentum_rates);
@@ -186,7 +189,7 @@ pub(super) fn virtual_work(
                 let value = known.value(&pool, term.expression);
                 sum += value;
                 largest = largest.max(value.abs());
-                change += term.change(&pool, &known, variables);
+                change += term.change(&pool, &known, (variables, units));
             }
             let nothing = largest.max(change) < f64::MIN_POSITIVE;
             let lost = nothing && force.iter().any(|(term, _)| term.underflows(&pool, &known));

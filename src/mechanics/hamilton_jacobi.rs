@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use super::equations::{Equations, NoClosedForm};
 use super::isolate::{self, Solution, tidy};
 use super::linear;
-use super::sampling::POINTS;
+use super::sampling::{FAR_POINTS, POINTS};
 use super::slope::{self, tidy_derivative};
 use super::valuation::Valuation;
 use crate::expr::{Expr, Pool, Symbol, Zero};
@@ -18,13 +18,16 @@ use crate::model::{CompleteIntegral, Model};
 /// What is left of the equation counts as zero below this, relative to its terms.
 const SOLVES: f64 = 1e-10;
 
+/// The same far from the start.
+const SOLVES_FAR: f64 = 1e-6;
+
 /// The numbers tried for the constants, relative to the energy at the point.
 const TRIED: [f64; 6] = [1.0, 0.7, 1.6, 2.9, -0.8, 0.3];
 
 /// A complete integral with what follows from it.
 #[derive(Clone, Debug)]
 pub struct HamiltonJacobi {
-    /// The largest value of |H(q, ∂S/∂q, t) + ∂S/∂t| at points near the start, 0 if that is
+    /// The largest value of |H(q, ∂S/∂q, t) + ∂S/∂t| at points near the start and far from it, 0 if that is
     /// proved; `None` if it has no value at any of them, or H has no closed form.
     pub residual: Option<f64>,
     /// Whether S solves the equation and det ∂²S/∂q∂α does not vanish.
@@ -172,8 +175,17 @@ fn remainder(
     let constants: Vec<Symbol> = constants.map(|c| c.symbol).collect();
     let known = equations.supplements.new_variables.clone();
     let (mut largest, mut relative, mut seen) = (0.0_f64, 0.0_f64, 0);
-    for n in 0..200_u64 {
-        let point = Valuation::near_start(model, equations, n);
+    // what solves the equation near the start may not do so far from it, beyond a kink
+    let near = (0..200).map(|n| (false, n));
+    for (is_far, n) in near.chain((0..FAR_POINTS).map(|n| (true, n))) {
+        if !is_far && seen >= POINTS {
+            continue;
+        }
+        let point = if is_far {
+            Valuation::far_from_start(model, equations, n)
+        } else {
+            Valuation::near_start(model, equations, n)
+        };
         let scale = point.value(&equations.pool, hamiltonian).abs().max(0.1);
         let tried = (0..TRIED.len()).map(|k| {
             let values = constants.iter().enumerate().map(|(i, &c)| {
@@ -186,14 +198,15 @@ fn remainder(
         for at in tried {
             let (value, size) = equations.pool.evaluate_with_size(left, &|s| at.at(s));
             if value.is_finite() {
-                largest = largest.max(value.abs());
-                relative = relative.max(value.abs() / size.max(f64::MIN_POSITIVE));
+                let part = value.abs() / size.max(f64::MIN_POSITIVE);
+                // far away what cancels within the terms is left of it
+                if !is_far || part > SOLVES_FAR {
+                    largest = largest.max(value.abs());
+                    relative = relative.max(part);
+                }
                 seen += 1;
                 break;
             }
-        }
-        if seen == POINTS {
-            break;
         }
     }
     let value = (seen > 0).then_some(largest);

@@ -7,27 +7,21 @@ use nalgebra::{DMatrix, DVector};
 use crate::dynamics::constrained_balance::ConstrainedBalance;
 use crate::dynamics::equilibrium_units::{coordinate_units, units};
 use crate::dynamics::error::DynamicsError;
-use crate::dynamics::halton::halton;
 use crate::dynamics::linear;
 use crate::dynamics::phase_space::{NOTHING_MOVES, PhaseSpace, VectorField};
 use crate::system::{Form, State};
 
-/// The number of steps from each.
+/// The number of steps from each beginning.
 const STEPS: usize = 60;
-
-/// How far around its centre a coordinate without period is searched, in its size there plus its
-/// unit.
-const RADII: [f64; 5] = [0.5, 1.5, 4.0, 12.0, 40.0];
-
-/// How many of these are searched where the units are ordinary. In other units a start says how large a coordinate is there,
-/// which may be a small part of what the forces reach over.
-const ORDINARY_RADII: usize = 3;
 
 /// A rate counts as zero up to this part of what the variables can cause.
 const ZERO: f64 = 1e-12;
 
+/// Velocities are linear in the momenta if their derivatives differ by no more than this part.
+const LINEAR_IN_MOMENTA: f64 = 1e-9;
+
 /// A place is known up to this part of its size plus its unit.
-const ROUNDED: f64 = 64.0 * f64::EPSILON;
+pub(super) const ROUNDED: f64 = 64.0 * f64::EPSILON;
 
 /// Half a turn itself is not taken for its opposite by rounding.
 const HALF_A_TURN: f64 = 0.5 + 1e-9;
@@ -35,14 +29,15 @@ const HALF_A_TURN: f64 = 0.5 + 1e-9;
 /// Singular values up to this part of the largest are not divided by in a step of Newton's.
 const VANISHES: f64 = 1e-8;
 
-/// How far beside an equilibrium others are searched for, in units: nearer than most beginnings are to each other.
-const BESIDE: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
-
 /// Next to a zero of the rates they grow over this distance, in the size of the place; next to a pole they fall.
 const BEYOND_ROUNDING: f64 = 1e-12;
 
 /// The number of steps in which a zero of higher order is approached further.
 const FURTHER_STEPS: usize = 60;
+
+/// Where no step makes the rates smaller there is a zero only if the last one is no more than this part of the place: in the tails of
+/// forces, as x⁻⁷, it is a seventh.
+const NEAR_ITS_ZERO: f64 = 1e-3;
 
 /// A step of Newton's is a part of the one before it where it converges linearly: that of a zero of order m is 1 − 1/m.
 const LINEAR: std::ops::Range<f64> = 0.4..0.999;
@@ -71,6 +66,8 @@ pub(super) struct EquilibriumSearch<'a> {
     pub(super) units: Vec<f64>,
     /// The values of the Casimirs, which are those of the start.
     pub(super) casimirs: Vec<f64>,
+    /// Whether equilibria may differ by their momenta alone, as those of H = p⁴ − p² do.
+    pub(super) has_many_momenta: bool,
 }
 
 impl<'a> EquilibriumSearch<'a> {
@@ -99,46 +96,30 @@ impl<'a> EquilibriumSearch<'a> {
                 degrees,
                 units,
                 casimirs,
+                has_many_momenta: false,
             });
         }
         let unknowns =
             (0..space.dimension()).filter(|i| !cyclic.contains(&(i % degrees))).collect();
         let mut field = space.vector_field();
         let units = units(space, start, &mut field);
-        let (law, middle) = (LawAtRest::Free(Box::new(field)), space.variables(start).to_vec());
+        let middle = space.variables(start).to_vec();
         let casimirs = space.casimirs(start)?;
-        Ok(Self { space, start, law, middle, unknowns, cyclic, degrees, units, casimirs })
-    }
-
-    /// How far around its centre a coordinate is searched.
-    fn radii(&self) -> &'static [f64] {
-        let mut lengths = (0..self.degrees).filter(|&i| self.space.turns()[i].is_none());
-        let ordinary = lengths.all(|i| self.units[i] == 1.0);
-        if ordinary { &RADII[..ORDINARY_RADII] } else { &RADII }
-    }
-
-    /// The variables at which a search begins: the start itself, then places around it.
-    pub(super) fn beginning(&self, index: usize) -> Vec<f64> {
-        let mut variables = self.middle.clone();
-        let canonical = self.space.form() == Form::Momentum;
-        let radii = self.radii();
-        let radius = radii[index % radii.len()];
-        for (k, &i) in self.unknowns.iter().enumerate() {
-            if canonical && i >= self.degrees {
-                // velocities of cyclic coordinates are those of the start
-                if matches!(self.law, LawAtRest::Free(_)) {
-                    variables[i] = 0.0;
-                }
-            } else if index > 0 {
-                let part = halton(index, k);
-                let centre = variables[i];
-                variables[i] += match self.space.turns()[i] {
-                    Some(period) => (part - 0.5) * period,
-                    None => (2.0 * part - 1.0) * radius * (self.units[i] + centre.abs()),
-                };
-            }
-        }
-        variables
+        let has_many_momenta =
+            canonical && has_many_momenta(&mut field, start.time, &middle, &units);
+        let law = LawAtRest::Free(Box::new(field));
+        Ok(Self {
+            space,
+            start,
+            law,
+            middle,
+            unknowns,
+            cyclic,
+            degrees,
+            units,
+            casimirs,
+            has_many_momenta,
+        })
     }
 
     /// What must vanish and its derivatives, in the units of the variables.
@@ -211,38 +192,11 @@ impl<'a> EquilibriumSearch<'a> {
         ))
     }
 
-    /// The images of a place in each coordinate that rests, and in all of them.
-    pub(super) fn images(&self, variables: &[f64]) -> Vec<Vec<f64>> {
-        let resting = self.unknowns.iter().copied().filter(|&i| i < self.degrees);
-        let resting: Vec<usize> = resting.filter(|&i| variables[i] != 0.0).collect();
-        let image = |coordinates: &[usize]| {
-            let mut image = variables.to_vec();
-            for &i in coordinates {
-                image[i] = -image[i];
-            }
-            image
-        };
-        resting.iter().map(|&i| image(&[i])).chain([image(&resting)]).collect()
-    }
-
-    /// Places close to one, along each coordinate.
-    pub(super) fn beside(&self, variables: &[f64]) -> Vec<Vec<f64>> {
-        let resting = self.unknowns.iter().copied().filter(|&i| i < self.degrees);
-        let beside = |i: usize, distance: f64| {
-            let mut place = variables.to_vec();
-            place[i] += distance * (self.units[i] + variables[i].abs());
-            place
-        };
-        let sides = |distance: f64| [distance, -distance];
-        let distances: Vec<f64> = BESIDE.into_iter().flat_map(sides).collect();
-        resting.flat_map(|i| distances.iter().map(move |&by| beside(i, by))).collect()
-    }
-
     /// Whether the rates fall away from a place in the direction in which they change most, as they do next to a pole, where they are
     /// as small a part of their derivative as at a zero.
     fn is_pole(&mut self, variables: &[f64]) -> bool {
         let Some((f, df)) = self.look_in_units(variables) else { return true };
-        let size = self.in_units(variables).iter().fold(1.0, |most: f64, x| most.max(x.abs()));
+        let size = size_of(&self.in_units(variables));
         let steepest = (0..df.ncols())
             .max_by(|&a, &b| df.column(a).amax().total_cmp(&df.column(b).amax()))
             .unwrap_or(0);
@@ -267,8 +221,7 @@ impl<'a> EquilibriumSearch<'a> {
             if self.space.system().cancel().is_cancelled() {
                 return None;
             }
-            let sizes = self.unknowns.iter().map(|&i| (variables[i] / self.units[i]).abs());
-            let size = sizes.fold(1.0, f64::max);
+            let size = size_of(&self.in_units(&variables));
             if f.amax() <= ZERO * size * df.amax() {
                 settled += 1;
                 if settled > 2 {
@@ -318,8 +271,7 @@ impl<'a> EquilibriumSearch<'a> {
             }
             // in a direction in which nothing changes there is a family of equilibria
             let Some(step) = newton_step(&df, &f) else { return Some(variables) };
-            let sizes = self.unknowns.iter().map(|&i| (variables[i] / self.units[i]).abs());
-            if step.amax() <= f64::EPSILON * sizes.fold(1.0, f64::max) {
+            if step.amax() <= f64::EPSILON * size_of(&self.in_units(&variables)) {
                 return Some(variables);
             }
             let ratio = before.as_ref().map_or(0.0, |last| step.dot(last) / last.norm_squared());
@@ -334,8 +286,11 @@ impl<'a> EquilibriumSearch<'a> {
                 let shrinks = newton_step(&dg, &g).is_none_or(|s| s.norm() < 0.97 * step.norm());
                 (shrinks || g.amax() < 0.9 * f.amax()).then_some((there, g, dg, multiple))
             });
-            // what is left is rounding
-            let Some((there, g, dg, multiple)) = next else { return Some(variables) };
+            let Some((there, g, dg, multiple)) = next else {
+                // what is left is rounding, unless a zero is far away
+                let is_near = step.amax() <= NEAR_ITS_ZERO * size_of(&self.in_units(&variables));
+                return is_near.then_some(variables);
+            };
             (variables, f, df) = (there, g, dg);
             before = (multiple == 1.0).then_some(step);
         }
@@ -393,6 +348,24 @@ impl<'a> EquilibriumSearch<'a> {
             }
         }
     }
+}
+
+/// Whether the velocities are not linear in the momenta: then several momenta may belong to rest.
+fn has_many_momenta(field: &mut VectorField, time: f64, start: &[f64], units: &[f64]) -> bool {
+    let degrees = start.len() / 2;
+    let mut mobility = |part: f64| {
+        let mut there = start.to_vec();
+        (degrees..2 * degrees).for_each(|i| there[i] = part * units[i]);
+        field.evaluate(time, &there).ok()?;
+        Some(field.derivative().view((0, degrees), (degrees, degrees)).into_owned())
+    };
+    let (Some(at_rest), Some(moving)) = (mobility(0.0), mobility(1.0)) else { return true };
+    (&at_rest - &moving).amax() > LINEAR_IN_MOMENTA * at_rest.amax().max(moving.amax())
+}
+
+/// The size of a place in units.
+fn size_of(place: &[f64]) -> f64 {
+    place.iter().fold(1.0, |most, x| most.max(x.abs()))
 }
 
 /// Whether f is no more than the rounding of the place leaves of it.

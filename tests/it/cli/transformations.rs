@@ -303,6 +303,20 @@ fn generators_are_conserved_where_they_commute_with_h() {
     run(PLANE, rest, &["--flow-of", "rotatoin"]).fails(2, &["rotatoin"]);
 }
 
+/// x² max(0, x − 3) and (|x| − x) x are 0 near the start and not farther away.
+#[test]
+fn a_complete_integral_solves_its_equation_far_from_the_start_too() {
+    for potential in ["x^2*max(0, x - 3)", "(sqrt(x^2) - x)*x"] {
+        let law = format!(
+            "title = \"t\"\n[coordinates]\nx = {{ initial = 0.5, momentum = 0.3 }}\n[hamiltonian]\nH = \"1/2*p_x^2 + {potential}\"\n"
+        );
+        let integral = "[hamilton_jacobi]\nS = \"a*x - a^2*t/2\"\nconstants = [\"a\"]\n";
+        let found = &derived(&law, integral)["hamilton_jacobi"];
+        assert_eq!(found["complete"], false, "{found}");
+        assert!(found["why"].as_str().unwrap().contains("does not solve"), "{found}");
+    }
+}
+
 #[test]
 fn a_complete_integral_is_checked() {
     let oscillator = "[hamilton_jacobi]\nconstants = [\"alpha\"]\nS = \"alpha/omega*asin(q*omega*sqrt(m/(2*alpha))) \

@@ -775,3 +775,113 @@ fn equilibria_of_one_energy_have_an_order_of_their_own() {
         assert_eq!(above, [true, false], "{x0}");
     }
 }
+
+/// Laws of SI units, with the places of their equilibria in the length a: two softened charges from half-way between them, where the forces'
+/// own derivatives vanish; three atoms of Lennard-Jones; a cosine; a double well from its top; a tail that underflows.
+#[test]
+fn a_law_of_si_units_has_the_equilibria_of_its_numbers() {
+    let one = "x = { initial = S }";
+    let two = "x = { initial = S }\ny = { initial = T }";
+    // three in a line: d⁶ = 2 (2 + 2⁻¹²)/(2 + 2⁻⁶)
+    let line = (2.0 * (2.0 + 2.0_f64.powi(-12)) / (2.0 + 2.0_f64.powi(-6))).powf(1.0 / 6.0);
+    let laws: [(&str, &str, [f64; 2], &[f64]); 5] = [
+        (
+            two,
+            "k/sqrt(x^2 + y^2 + 0.1*a^2) - k/sqrt((x - 2*a)^2 + y^2 + 0.1*a^2)",
+            [1.0, 0.5],
+            &[-0.007569475, 2.007569475],
+        ),
+        (
+            two,
+            "-4*k/a*((a/x)^12 - (a/x)^6) - 8*k/a*(a^12/(x^2/4 + y^2)^6 - a^6/(x^2/4 + y^2)^3)",
+            [1.1, 0.9],
+            &[-2.0 * line, -1.122462048, -1.122462048, 1.122462048, 1.122462048, 2.0 * line],
+        ),
+        (one, "k/a*cos(x/a)", [2.5, 0.0], &[0.0, std::f64::consts::PI]),
+        (one, "-k/a*((x/a)^2 - 1)^2", [0.0, 0.0], &[-1.0, 0.0, 1.0]),
+        (
+            one,
+            "-k/a*(x/a)^4*exp(-(x/a)^2)",
+            [1.5, 0.0],
+            &[-std::f64::consts::SQRT_2, 0.0, std::f64::consts::SQRT_2],
+        ),
+    ];
+    for (coordinates, potential, start, places) in laws {
+        for [mass, length, time] in [UNITS[0], UNITS[2], UNITS[3]] {
+            let energy = mass * length * length / (time * time);
+            let [s, t] = start.map(|x| format!("{:e}", x * length));
+            let coordinates = coordinates.replace('S', &s).replace('T', &t);
+            let kinetic = if start[1] > 0.0 { "(x'^2 + y'^2)" } else { "x'^2" };
+            let text = format!(
+                "title = \"t\"\n[coordinates]\n{coordinates}\n[parameters]\nm = {mass:e}\na = {length:e}\n\
+                 k = {:e}\n[lagrangian]\nL = \"1/2*m*{kinetic} + {potential}\"\n",
+                energy * length
+            );
+            let loaded = lowered(&text);
+            let case = case_in(&loaded, &[], &[], PhaseSpace::without_impulses);
+            let mut found = of(&case);
+            let law = (&*loaded.model, &*loaded.equations);
+            with_virtual_work(law, case.space.parameters(), &mut found);
+            let mut there: Vec<f64> = found.iter().map(|one| one.variables[0] / length).collect();
+            there.sort_by(f64::total_cmp);
+            assert_eq!(there.len(), places.len(), "{potential} in {length:e}: {there:?}");
+            for (x, place) in there.iter().zip(places) {
+                close(*x, *place, 1e-8);
+            }
+        }
+    }
+}
+
+/// A charge on a plane in a uniform field B, with p_φ = q B r²/2: it rests where the velocity that belongs to the momentum vanishes.
+#[test]
+fn a_cyclic_coordinate_may_rest() {
+    let text = "title = \"t\"\n[coordinates]\nr = { initial = 1.0 }\nphi = { initial = 0, velocity = 0.5 }\n\
+                [lagrangian]\nL = \"1/2*r'^2 + 1/2*r^2*phi'^2 + 0.35*r^2*phi'\"\n";
+    let loaded = lowered(text);
+    let case = case_in(&loaded, &[], &[], PhaseSpace::without_impulses);
+    let mut found = of(&case);
+    with_virtual_work((&loaded.model, &loaded.equations), case.space.parameters(), &mut found);
+    let radius = (0.85_f64 / 0.35).sqrt();
+    assert_eq!(found.len(), 2);
+    for (one, r) in found.iter().zip([radius, -radius]) {
+        close(one.variables[0], r, 1e-13);
+        assert_eq!((one.kind, one.rates[0]), (Some(Kind::Minimum), (1, 0.0)));
+        // the frequency of a cyclotron
+        close(one.modes[0].frequency, 0.7, 1e-12);
+    }
+}
+
+/// H = p⁴ − p² + x²/2 has minima at p = ±1/√2; H = cosh p_x + cos p_y + … rests with sin p_y = 0 as well as with p_y = 0.
+#[test]
+fn equilibria_differ_by_their_momenta() {
+    let found = held(
+        "title = \"t\"\n[coordinates]\nx = { initial = 0.5, momentum = 0.9 }\n[hamiltonian]\nH = \"p_x^4 - p_x^2 + 1/2*x^2\"\n",
+        &[],
+    );
+    assert_eq!(found.len(), 3, "{found:?}");
+    for (one, (p, energy)) in found.iter().zip([(1.0, -0.25), (-1.0, -0.25), (0.0, 0.0)]) {
+        close(one.variables[0], 0.0, 1e-12);
+        close(one.variables[1], p * std::f64::consts::FRAC_1_SQRT_2, 1e-12);
+        close(one.energy, energy, 1e-12);
+    }
+}
+
+/// A rotating bar: the narrow minimum at its centre, far from the start, and the places of corotation but (0, −y), which is out of reach.
+#[test]
+fn a_narrow_well_at_the_origin_is_found() {
+    let found = held(
+        "title = \"t\"\n[coordinates]\nx = { initial = 3.0, velocity = 20 }\ny = { initial = 0.5, velocity = 180 }\n\
+         [lagrangian]\nL = \"1/2*((x' - 39*y)^2 + (y' + 39*x)^2) - 1/2*220^2*ln(0.2^2 + x^2 + y^2/0.8^2)\"\n",
+        &[],
+    );
+    assert_eq!(found.len(), 4, "{found:?}");
+    // Ω² (r_c² + x²) = v₀², and Ω² (q² r_c² + y²) = v₀²
+    let squared = (220.0_f64 / 39.0).powi(2);
+    let (x, y) = ((squared - 0.04).sqrt(), (squared - 0.64 * 0.04).sqrt());
+    for place in [[0.0, 0.0], [x, 0.0], [-x, 0.0], [0.0, y]] {
+        let is_there = |one: &&Equilibrium| {
+            place.iter().zip(&one.variables).all(|(a, b)| (a - b).abs() < 1e-10)
+        };
+        assert_eq!(found.iter().filter(is_there).count(), 1, "{place:?} {found:?}");
+    }
+}

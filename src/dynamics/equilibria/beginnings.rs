@@ -1,0 +1,101 @@
+//! Where the search for equilibria begins.
+//!
+//! In: a search, the number of a beginning, or an equilibrium. Out: variables near which there may be another. Never here: the search.
+
+use super::search::{EquilibriumSearch, LawAtRest};
+use crate::dynamics::halton::halton;
+use crate::system::Form;
+
+/// The number of beginnings of the search in each radius.
+const BEGINNINGS: usize = 200;
+
+/// The number of the beginning at the origin.
+const ORIGIN: usize = 1;
+
+/// How far around its centre a coordinate without period is searched, in its size there plus its
+/// unit.
+const RADII: [f64; 5] = [0.5, 1.5, 4.0, 12.0, 40.0];
+
+/// How many of these are searched where the units are ordinary. In other units a start says how large a coordinate is there,
+/// which may be a small part of what the forces reach over.
+const ORDINARY_RADII: usize = 3;
+
+/// How far beside an equilibrium others are searched for, in units: nearer than most beginnings are to each other.
+const BESIDE: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
+
+impl EquilibriumSearch<'_> {
+    /// How far around its centre a coordinate is searched.
+    pub(super) fn radii(&self) -> &'static [f64] {
+        let mut lengths = (0..self.degrees).filter(|&i| self.space.turns()[i].is_none());
+        let ordinary = lengths.all(|i| self.units[i] == 1.0);
+        if ordinary { &RADII[..ORDINARY_RADII] } else { &RADII }
+    }
+
+    /// The number of its beginnings.
+    pub(super) fn beginnings(&self) -> usize {
+        BEGINNINGS * self.radii().len()
+    }
+
+    /// The variables at which a search begins: the start itself, the origin, in which many laws are symmetric, then places around the start.
+    pub(super) fn beginning(&self, index: usize) -> Vec<f64> {
+        let mut variables = self.middle.clone();
+        let canonical = self.space.form() == Form::Momentum;
+        // all radii have the whole sequence of places
+        let radii = self.radii();
+        let (place, radius) = (index.div_ceil(radii.len()), radii[index % radii.len()]);
+        for (k, &i) in self.unknowns.iter().enumerate() {
+            if canonical && i >= self.degrees {
+                // velocities of cyclic coordinates are those of the start
+                if matches!(self.law, LawAtRest::Free(_)) {
+                    let many = self.has_many_momenta && place % 2 == 1;
+                    let part = if many { 2.0 * halton(place, k) - 1.0 } else { 0.0 };
+                    variables[i] = part * radius * self.units[i];
+                }
+            } else if index == ORIGIN {
+                variables[i] = 0.0;
+            } else if index > 0 {
+                let part = halton(place, k);
+                let centre = variables[i];
+                variables[i] += match self.space.turns()[i] {
+                    Some(period) => (part - 0.5) * period,
+                    None => (2.0 * part - 1.0) * radius * (self.units[i] + centre.abs()),
+                };
+            }
+        }
+        variables
+    }
+
+    /// The images of a place in each coordinate and momentum that rests, in all coordinates, and in all of both.
+    pub(super) fn images(&self, variables: &[f64]) -> Vec<Vec<f64>> {
+        let moved = self.unknowns.iter().copied().filter(|&i| variables[i] != 0.0);
+        let (coordinates, momenta): (Vec<usize>, Vec<usize>) =
+            moved.partition(|&i| i < self.degrees);
+        let image = |mirrored: &[usize]| {
+            let mut image = variables.to_vec();
+            for &i in mirrored {
+                image[i] = -image[i];
+            }
+            image
+        };
+        let mut images: Vec<Vec<f64>> = coordinates.iter().map(|&i| image(&[i])).collect();
+        images.push(image(&coordinates));
+        if matches!(self.law, LawAtRest::Free(_)) && !momenta.is_empty() {
+            images.extend(momenta.iter().map(|&i| image(&[i])));
+            images.push(image(&[coordinates, momenta].concat()));
+        }
+        images
+    }
+
+    /// Places close to one, along each coordinate.
+    pub(super) fn beside(&self, variables: &[f64]) -> Vec<Vec<f64>> {
+        let resting = self.unknowns.iter().copied().filter(|&i| i < self.degrees);
+        let beside = |i: usize, distance: f64| {
+            let mut place = variables.to_vec();
+            place[i] += distance * (self.units[i] + variables[i].abs());
+            place
+        };
+        let sides = |distance: f64| [distance, -distance];
+        let distances: Vec<f64> = BESIDE.into_iter().flat_map(sides).collect();
+        resting.flat_map(|i| distances.iter().map(move |&by| beside(i, by))).collect()
+    }
+}
