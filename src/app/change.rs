@@ -5,7 +5,7 @@
 
 use super::history::Change;
 use super::{App, Effect, Lab, Loaded, Pane, ValueId};
-use crate::experiment::{Checkpoint, Command, Status, with_override};
+use crate::experiment::{Checkpoint, Command, Snapshot, Status, with_override};
 use crate::instrument::Plot;
 use crate::integrate::Settings;
 use crate::num::significant;
@@ -183,7 +183,9 @@ impl Lab {
     ) -> (Vec<Effect>, String) {
         let mut label = format!("{verb}: {}", self.words(&change, side));
         let mut effects = self.carry_out(change, side);
-        if let Some(mut motion) = motion {
+        // motions beside this one, and a run that is gone back over, belong to the motion of now
+        let is_alone = |seen: &Snapshot| seen.companions.is_empty() && !seen.backwards;
+        if let Some(mut motion) = motion.filter(|_| self.seen().is_some_and(is_alone)) {
             // whether time runs, and how fast, is no part of the change
             if let Some(seen) = self.seen() {
                 motion.running = seen.status == Status::Running

@@ -149,7 +149,7 @@ impl UndoHistory {
 
     /// Keeps the recorded pasts of the last changes alone; of those before the states are left.
     fn forget_old_pasts(&mut self) {
-        let entries = self.undone.iter_mut().chain(self.done.iter_mut().rev());
+        let entries = self.undone.iter_mut().rev().chain(self.done.iter_mut().rev());
         let motions = entries.flat_map(|entry| entry.motions.iter_mut().flatten());
         let pasts = motions.filter(|motion| motion.past.is_some());
         pasts.skip(MOST_PASTS).for_each(|motion| motion.past = None);

@@ -88,6 +88,26 @@ fn an_initial_value_undone_brings_back_the_motion() {
     assert_eq!(bits(&real.experiment), bits(&undisturbed("pendulum", &[90, 60])));
 }
 
+/// A motion that was added beside this one, and a run that is gone back over, are of now: a value is undone, and they stay.
+#[test]
+fn what_was_added_since_stays() {
+    for (command, is_reversed) in [(Command::AddNeighbour, false), (Command::Reverse, true)] {
+        let mut real = Real::of("pendulum");
+        real.run(90);
+        let before = real.seen().parameters.clone();
+        real.press("Right");
+        real.run(60);
+        real.experiment.execute(command);
+        real.run(30);
+        let time = real.seen().time;
+        real.press("u");
+        assert_eq!(real.seen().parameters, before);
+        assert_eq!(real.seen().time, time);
+        assert_eq!(real.seen().companions.len(), usize::from(!is_reversed));
+        assert_eq!(real.seen().backwards, is_reversed);
+    }
+}
+
 #[test]
 fn undo_leaves_time_running_or_paused_as_it_is() {
     let mut real = Real::of("pendulum");
