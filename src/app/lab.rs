@@ -151,7 +151,7 @@ impl Lab {
     }
 
     /// Takes in a new snapshot. Returns whether it belongs to this system.
-    pub(super) fn see(&mut self, snapshot: Arc<Snapshot>) -> bool {
+    pub(super) fn see(&mut self, snapshot: &Arc<Snapshot>) -> bool {
         if snapshot.epoch != self.loaded.epoch {
             return false;
         }
@@ -166,10 +166,10 @@ impl Lab {
             (self.awaited, self.awaited_law) = (None, None);
         }
         self.speed_wish = self.speed_wish.filter(|requested| *requested != snapshot.speed);
-        self.asked.see(&snapshot);
-        let told = self.steady.see(&snapshot);
-        let with = |gauges| Arc::new(Snapshot { gauges, ..(*snapshot).clone() });
-        self.snapshot = Some(told.map_or_else(|| Arc::clone(&snapshot), with));
+        self.asked.see(snapshot);
+        let told = self.steady.see(snapshot);
+        let with = |gauges| Arc::new(Snapshot { gauges, ..Snapshot::clone(snapshot) });
+        self.snapshot = Some(told.map_or_else(|| Arc::clone(snapshot), with));
         self.answers.stale = true;
         let pending = std::mem::take(&mut self.pending);
         self.pending =

@@ -218,7 +218,7 @@ impl App {
         let Some(lab) = &mut self.lab else { return Vec::new() };
         let before = lab.snapshot.as_ref().map(|s| Arc::clone(&s.notices)).unwrap_or_default();
         let steps = snapshot.method.steps;
-        if lab.see(Arc::clone(snapshot)) {
+        if lab.see(snapshot) {
             self.meter.count(steps);
             self.reading.see(snapshot);
             for sentence in notifications(&before, &snapshot.notices) {

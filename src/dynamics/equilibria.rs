@@ -221,7 +221,7 @@ impl EquilibriumSearch<'_> {
         let mass = df.view((0, half), (half, half)).into_owned().try_inverse();
         let mass = mass.map(|mass| {
             DMatrix::from_fn(half, half, |i, j| {
-                (mass[(i, j)] + mass[(j, i)]) / 2.0 * (unit(i) * unit(j))
+                f64::midpoint(mass[(i, j)], mass[(j, i)]) * (unit(i) * unit(j))
             })
         });
         let mass = mass.filter(|mass| mass.clone().cholesky().is_some());

@@ -236,7 +236,7 @@ impl Newton<'_> {
     }
 
     /// What is missing: closure, and the level sets, in units of length.
-    pub(super) fn residual(&self, circuit: &Circuit) -> f64 {
+    pub(super) fn residual(circuit: &Circuit) -> f64 {
         let beyond = circuit.surfaces.iter().map(|surface| surface.excess);
         beyond.fold(circuit.miss.norm(), math::hypot)
     }
@@ -272,7 +272,7 @@ impl Newton<'_> {
         period: f64,
     ) -> Result<NewtonIterate, DynamicsError> {
         let circuit = self.circuit(&state, period)?;
-        let residual = self.residual(&circuit);
+        let residual = Self::residual(&circuit);
         Ok(NewtonIterate { state, period, circuit, residual })
     }
 

@@ -89,7 +89,7 @@ pub(super) fn stable(matrix: &DMatrix<f64>, eigenvalues: &[[f64; 2]]) -> Option<
     }
     let known = !eigenvalues.is_empty();
     let whole = || {
-        frequencies(eigenvalues).chunk_by(equal).all(|equal| {
+        frequencies(eigenvalues).chunk_by(|&one, &other| equal(one, other)).all(|equal| {
             equal.len() == 1 || linear::null_vectors(matrix, equal[0]).len() >= equal.len()
         })
     };
@@ -113,7 +113,7 @@ fn frequencies(eigenvalues: &[[f64; 2]]) -> Vec<f64> {
 }
 
 /// Whether two frequencies are equal but for rounding.
-fn equal(one: &f64, other: &f64) -> bool {
+fn equal(one: f64, other: f64) -> bool {
     (one - other).abs() <= EQUAL * other
 }
 
@@ -127,7 +127,7 @@ pub(super) fn modes(
 ) -> Vec<Mode> {
     let complex = displacements.map(|x| Complex::new(x, 0.0));
     let mut modes: Vec<Mode> = Vec::new();
-    for equal in frequencies(eigenvalues).chunk_by(equal) {
+    for equal in frequencies(eigenvalues).chunk_by(|&one, &other| equal(one, other)) {
         let vectors = linear::null_vectors(matrix, equal[0]);
         let vectors = vectors.iter().take(equal.len()).map(|vector| &complex * vector);
         let mut moved: Vec<DVector<Complex<f64>>> = vectors.collect();

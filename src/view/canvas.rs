@@ -288,9 +288,7 @@ pub(super) fn groups(groups: Vec<Vec<Span>>, room: usize) -> Vec<Span> {
 pub(super) fn wide(spans: &[Span]) -> usize {
     let mut from_end = spans.iter().rev().map(|(text, _)| text.as_str());
     let last = from_end.find(|text| !text.trim_end().is_empty());
-    last.map_or(0, |last| {
-        last.trim_end().width() + from_end.map(|text| text.width()).sum::<usize>()
-    })
+    last.map_or(0, |last| last.trim_end().width() + from_end.map(TextWidth::width).sum::<usize>())
 }
 
 /// The row `index` rows below the top of an area; empty if it is outside.

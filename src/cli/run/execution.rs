@@ -131,7 +131,9 @@ impl Run<'_> {
             stderr::tell(&passed);
         }
         let snapshot = self.experiment.snapshot();
-        invariants::unknown(&snapshot.gauges).iter().for_each(|line| stderr::tell(line));
+        for line in invariants::unknown(&snapshot.gauges) {
+            stderr::tell(&line);
+        }
         let departure = Departure::of(&snapshot.gauges, &snapshot.method);
         let refused = self.strict && departure.as_ref().is_some_and(|departure| departure.proved);
         let line = departure.map(|departure| departure.line).unwrap_or_default();

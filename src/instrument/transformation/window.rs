@@ -71,13 +71,13 @@ mod tests {
     fn a_pole_does_not_make_the_picture_flat() {
         let own = [line(|x| 1.0 / (x * x + 1e-12))];
         let along = Along { own: &own, others: &[], images: &[], reached: [1.0, 8e10] };
-        let [lo, hi] = along.range(1).unwrap();
+        let [lo, hi] = along.range(1).expect("a range");
         assert!(lo > -100.0 && (10.0..100.0).contains(&hi), "{lo} {hi}");
         // nor is anything cut that is spread evenly
         let own = [line(|x| x)];
         let along = Along { own: &own, others: &[], images: &[], reached: [-1.2, 0.5] };
-        assert_eq!(along.range(0).unwrap()[0], -1.2);
-        assert!(along.range(0).unwrap()[1] > 0.9);
+        assert_eq!(along.range(0).expect("a range")[0], -1.2);
+        assert!(along.range(0).expect("a range")[1] > 0.9);
     }
 
     /// The other image is in the picture, but for one that is far away.
@@ -87,7 +87,7 @@ mod tests {
         for (image, shown) in [(-2.5, true), (-33.0, false)] {
             let images = [[0.0, image]];
             let along = Along { own: &own, others: &[], images: &images, reached: [-1.0, 1.0] };
-            assert_eq!(along.range(1).unwrap()[0] <= image, shown);
+            assert_eq!(along.range(1).expect("a range")[0] <= image, shown);
         }
     }
 }
