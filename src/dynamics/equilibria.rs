@@ -32,6 +32,9 @@ use search::{EquilibriumSearch, LawAtRest};
 /// The largest number of equilibria.
 const MOST: usize = 100;
 
+/// Gradients of Casimirs depend on each other up to this part of the largest.
+const DEPENDENT: f64 = 1e-8;
+
 /// Writes into each equilibrium the forces that balance there, and removes the places at which they do not balance: next to a
 /// singularity, and where they are zero only because their values are below the smallest number.
 pub fn with_virtual_work(
@@ -196,14 +199,23 @@ impl EquilibriumSearch<'_> {
         }))
     }
 
-    /// The eigenvalues without those across the level sets of Casimirs, which are zero.
-    fn within_levels<'e>(&self, eigenvalues: &'e [[f64; 2]]) -> &'e [[f64; 2]] {
-        &eigenvalues[..eigenvalues.len().saturating_sub(self.casimirs.len())]
+    /// How many Casimirs have gradients at a place that do not depend on each other.
+    fn independent_casimirs(&mut self, variables: &[f64]) -> usize {
+        let count = self.casimirs.len();
+        if count == 0 {
+            return 0;
+        }
+        let Some((_, slopes)) = self.look_in_units(variables) else { return 0 };
+        let gradients = slopes.rows(slopes.nrows() - count, count).into_owned();
+        let sizes = gradients.singular_values();
+        sizes.iter().filter(|size| **size > DEPENDENT * sizes.max()).count()
     }
 
     /// The kind, the eigenvalues and the modes at a place, of variables that are independent, on a family of this dimension.
     fn around(&mut self, variables: &[f64], family: usize) -> Option<Around> {
         let df = self.slopes(variables)?;
+        // across their level sets eigenvalues are zero
+        let across = self.independent_casimirs(variables);
         let count = self.unknowns.len();
         let unit = |k: usize| self.units[self.unknowns[k]];
         let in_units = DMatrix::from_fn(count, count, |i, j| df[(i, j)] * unit(j) / unit(i));
@@ -212,7 +224,8 @@ impl EquilibriumSearch<'_> {
         } else {
             linear::rates(&df)
         };
-        let stable = stable(&in_units, self.within_levels(&eigenvalues));
+        let within = &eigenvalues[..eigenvalues.len().saturating_sub(across)];
+        let stable = stable(&in_units, within);
         if self.space.form() != Form::Momentum {
             return Some((None, eigenvalues, stable, Vec::new()));
         }

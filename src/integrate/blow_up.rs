@@ -94,7 +94,7 @@ impl StoppedMotion<'_> {
         let MotionErrorKind::StepUnderflow(step) = fault.kind else { return None };
         let digits = spacing(fault.time);
         let begins = self.begun.is_some_and(|begun| begun.time == fault.time);
-        let ordinary = step.abs() > VANISHING * digits;
+        let ordinary = step.abs() > VANISHING * digits && step.abs() <= digits;
         (begins && ordinary).then(|| MotionError {
             kind: MotionErrorKind::ClockStands(digits),
             place: Vec::new(),

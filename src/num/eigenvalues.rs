@@ -117,7 +117,7 @@ mod tests {
     fn equal_blocks_have_their_eigenvalues() {
         let mut grown = 0;
         for step in 0..200 {
-            let (g, k) = (0.1 + 0.013 * f64::from(step), 0.7 - 0.017 * f64::from(step));
+            let (g, k) = (0.1 + 0.013 * f64::from(step), 0.7 - 0.03 * f64::from(step));
             let coupled = [[k, 0.3, 0.0, 0.0], [0.3, k, 0.0, 0.0]];
             let mut matrix = DMatrix::zeros(8, 8);
             for i in 0..4 {

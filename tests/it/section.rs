@@ -244,7 +244,7 @@ fn the_running_motion_has_its_rotation_number_in_the_title() {
     assert!(said[0].ends_with(" crossings") && said[1].starts_with("rotation 0.41421"), "{said:?}");
     // too few crossings have none, and what the title of the view says is not said again
     let (app, index) = opened(shipped("henon-heiles"), 30.0);
-    assert_eq!(words(&app, index), ["4 crossings", "rising"]);
+    assert_eq!(words(&app, index), ["4 crossings", "rising", "each colour one orbit"]);
     let lab = app.lab.as_ref().unwrap();
     let own = lab.plots[index].kind.measures().iter().find(|m| m.word == "own_rotation").unwrap();
     assert_eq!((own.value)(&lab.plots[index], &lab.present().unwrap(), None), None);

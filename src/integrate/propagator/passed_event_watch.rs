@@ -47,6 +47,9 @@ impl Propagator {
 
     /// The rate of an event's function along the velocities of a state.
     fn event_rate(&mut self, event: usize, state: &State) -> Option<f64> {
+        if state.form == Form::Variables {
+            return None;
+        }
         let state = self.system.convert(state, Form::Velocity, &self.parameters).ok()?;
         let n = self.system.degrees();
         let (places, speeds) = state.values.get(..2 * n)?.split_at(n);

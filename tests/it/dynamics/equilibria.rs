@@ -665,6 +665,23 @@ fn the_equilibria_of_brackets_are_those_on_their_casimirs() {
     }
 }
 
+/// A Casimir given three times is one: u runs away with any v, whatever is declared.
+#[test]
+fn casimirs_that_depend_on_each_other_are_one() {
+    let stable = |casimirs: &str| {
+        let text = format!(
+            "title = \"t\"\n[variables]\nx = 0.7\ny = 0.0\nu = 0.2\nv = 0.1\nC1 = 1.0\n[poisson]\n\
+             H = \"y^2/2 + C1*x^2/2 + v^2/2\"\nbrackets = [[\"x\", \"y\", \"1\"], [\"u\", \"v\", \"1\"]]\n\
+             casimirs = {{ {casimirs} }}\n"
+        );
+        of(&file(&text, &[])).iter().map(|one| one.stable).collect::<Vec<_>>()
+    };
+    for casimirs in ["S = \"C1\"", "S = \"C1\", S2 = \"C1^2\", S3 = \"C1^3\""] {
+        let found = stable(casimirs);
+        assert!(!found.is_empty() && found.iter().all(|one| one.is_none()), "{found:?}");
+    }
+}
+
 /// A family of equilibria has one member listed, the one nearest to the start, with the directions along it; what is no family
 /// is not called so.
 #[test]

@@ -1025,7 +1025,8 @@ fn where_a_heading_has_no_room_for_values_all_curves_are_named() {
     app.update(Event::Snapshot(Arc::new(seen)));
     let plain = RenderStyle { theme: Theme::dark(ColourDepth::None), glyphs: Glyphs::Ascii };
     let text = rows(&screen(&app, &plain, (80, 24))).join("\n");
-    assert!(text.contains("--- x1  +++ x2  ... x3"), "{text}");
+    // those for which the title has no room stand above the axes
+    assert!(["--- x1", "+++ x2", "... x3"].iter().all(|curve| text.contains(curve)), "{text}");
 }
 
 #[test]
