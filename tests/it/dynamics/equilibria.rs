@@ -678,7 +678,7 @@ fn casimirs_that_depend_on_each_other_are_one() {
     };
     for casimirs in ["S = \"C1\"", "S = \"C1\", S2 = \"C1^2\", S3 = \"C1^3\""] {
         let found = stable(casimirs);
-        assert!(!found.is_empty() && found.iter().all(|one| one.is_none()), "{found:?}");
+        assert!(!found.is_empty() && found.iter().all(Option::is_none), "{found:?}");
     }
 }
 
